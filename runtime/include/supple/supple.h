@@ -1,0 +1,328 @@
+/*
+ * supple.h - animated control cages to smooth surfaces, on Vulkan compute. C99.
+ *
+ * What it does: loads a character (glTF/GLB or arrays), poses N instances of it, deforms the control cage, builds the
+ * patches of a smooth surface from it and evaluates them, all recorded into the host's command buffer; hands out
+ * surface vertices, shared grid indices and indirect draw arguments; measures every pass.
+ *
+ * What it does not: create a Vulkan instance or device, submit, wait, draw, decode images, open windows, link a loader.
+ *
+ * Rules
+ *   - Structs start with structSize (= sizeof the struct); zero in every other field means the default.
+ *   - A context and everything made from it is externally synchronised: one thread at a time per context.
+ *   - Handles carry an index and a generation; a stale or foreign handle gives SUPPLE_ERROR_ARGUMENT, never a crash.
+ *   - Functions return SUPPLE_OK or an error; the reason goes to the log callback in one line.
+ *   - Matrices are column-major float[16] for column vectors, right-handed, +Y up as glTF; angles radians, time seconds.
+ *   - Recording creates no Vulkan object and allocates no memory. It binds the compute pipeline, descriptor sets and push
+ *     constants of the given command buffer; the host rebinds its own compute state afterwards.
+ */
+#ifndef SUPPLE_H
+#define SUPPLE_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <vulkan/vulkan_core.h>
+
+#if defined(_WIN32) && defined(SUPPLE_SHARED)
+#ifdef SUPPLE_BUILDING
+#define SUPPLE_API __declspec(dllexport)
+#else
+#define SUPPLE_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define SUPPLE_API __attribute__((visibility("default")))
+#else
+#define SUPPLE_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SUPPLE_VERSION_MAJOR 0
+#define SUPPLE_VERSION_MINOR 1
+#define SUPPLE_VERSION_PATCH 0
+
+#define SUPPLE_BIND_POSE 0xFFFFFFFFu /* clip index that means: the cage as modelled */
+#define SUPPLE_NO_MATERIAL 0xFFFFFFFFu
+#define SUPPLE_MAX_RATE 64u
+
+/* A context borrows the host's device; assets and groups belong to one context. */
+typedef struct SuppleContext_T* SuppleContext;
+typedef struct SuppleAsset {
+    uint64_t id; /* 0 is never a valid handle */
+} SuppleAsset;
+typedef struct SuppleGroup {
+    uint64_t id;
+} SuppleGroup;
+
+typedef enum SuppleResult {
+    SUPPLE_OK = 0,
+    SUPPLE_NOT_READY = 1,           /* no finished frame to report yet */
+    SUPPLE_INCOMPLETE = 2,          /* the array was too small; it was filled as far as it went */
+    SUPPLE_ERROR_ARGUMENT = -1,     /* a rule of this header was broken */
+    SUPPLE_ERROR_ASSET = -2,        /* malformed file or cage, or the scheme cannot take it */
+    SUPPLE_ERROR_UNSUPPORTED = -3,  /* the device lacks something listed by suppleQueryRequirements */
+    SUPPLE_ERROR_LIMIT = -4,        /* a limit of the device or of this header is exceeded */
+    SUPPLE_ERROR_HOST_MEMORY = -5,
+    SUPPLE_ERROR_DEVICE_MEMORY = -6,
+    SUPPLE_ERROR_DEVICE_LOST = -7,
+    SUPPLE_ERROR_VULKAN = -8
+} SuppleResult;
+
+/* The name of a result, static storage. */
+SUPPLE_API const char* suppleResultString(SuppleResult result);
+
+typedef enum SuppleSeverity { SUPPLE_SEVERITY_INFO, SUPPLE_SEVERITY_WARNING, SUPPLE_SEVERITY_ERROR } SuppleSeverity;
+
+/* Called on the thread that called into Supple. text is valid during the call. */
+typedef void (*SuppleLogFunction)(SuppleSeverity severity, const char* text, void* user);
+
+/* ---------------------------------------------------------------------------------------------------- device */
+
+/* What a device must have. Feature structs have their sType set and pNext null, so that a host can chain them into
+ * VkDeviceCreateInfo as they are; only what Supple needs is VK_TRUE. No device extensions are needed. */
+typedef struct SuppleRequirements {
+    uint32_t structSize;
+    uint32_t apiVersion; /* lowest VkPhysicalDeviceProperties::apiVersion */
+    VkPhysicalDeviceVulkan12Features features12;
+    VkPhysicalDeviceVulkan13Features features13;
+    char reason[256]; /* empty when the device has it all, else the first thing missing */
+} SuppleRequirements;
+
+/* Fills out. SUPPLE_OK: the device will do. SUPPLE_ERROR_UNSUPPORTED: out->reason says what is missing. */
+SUPPLE_API SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physicalDevice,
+                                                PFN_vkGetInstanceProcAddr getInstanceProcAddr, SuppleRequirements* out);
+
+/* How work is laid on the device. AUTO: NARROW on CPU devices (one lane a patch, texel-buffer loads), WIDE on GPUs (many
+ * lanes a patch, coefficients in shared memory). Positions agree bit for bit. */
+typedef enum SuppleMapping { SUPPLE_MAPPING_AUTO = 0, SUPPLE_MAPPING_NARROW = 1, SUPPLE_MAPPING_WIDE = 2 } SuppleMapping;
+
+typedef enum SuppleContextFlags {
+    SUPPLE_CONTEXT_DEBUG_UTILS = 1 /* the host enabled VK_EXT_debug_utils: label passes, name objects */
+} SuppleContextFlags;
+
+typedef struct SuppleContextDesc {
+    uint32_t structSize;
+    uint32_t flags; /* SuppleContextFlags */
+    /* Borrowed: must outlive the context. The device was created with what suppleQueryRequirements asks for. */
+    VkInstance instance;
+    VkPhysicalDevice physicalDevice;
+    VkDevice device;
+    uint32_t queueFamily; /* of the command buffers handed to suppleRecord; must support compute */
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr;
+    VkPipelineCache pipelineCache;          /* optional */
+    const VkAllocationCallbacks* allocator; /* optional; used for every object, must outlive the context */
+    uint32_t framesInFlight;                /* 1..4, 0 = 2 */
+    SuppleMapping mapping;
+    SuppleLogFunction log; /* optional */
+    void* logUser;
+} SuppleContextDesc;
+
+/* Creates every pipeline now, so that recording never does. */
+SUPPLE_API SuppleResult suppleCreateContext(const SuppleContextDesc* desc, SuppleContext* out);
+/* Frees all assets and groups too. No command buffer that uses them may be pending. Null is allowed. */
+SUPPLE_API void suppleDestroyContext(SuppleContext context);
+
+/* ---------------------------------------------------------------------------------------------------- assets */
+
+/* A control cage given as arrays (copied). Polygons are oriented counter-clockwise seen from outside. */
+typedef struct SuppleCageDesc {
+    uint32_t structSize;
+    uint32_t vertexCount;
+    uint32_t faceCount;
+    const float* positions;            /* 3 * vertexCount */
+    const uint32_t* faceVertexCounts;  /* faceCount */
+    const uint32_t* faceVertexIndices; /* sum of faceVertexCounts */
+    const float* cornerUvs;            /* optional: 2 per entry of faceVertexIndices */
+} SuppleCageDesc;
+
+typedef enum SuppleAssetFlags {
+    SUPPLE_ASSET_PAIR_QUADS = 1 /* plain triangles: merge consecutive pairs into quads */
+} SuppleAssetFlags;
+
+/* Either a file in memory (bytes) or a cage as arrays. Everything is copied before the call returns. */
+typedef struct SuppleAssetDesc {
+    uint32_t structSize;
+    uint32_t flags;   /* SuppleAssetFlags */
+    const char* name; /* begins every message about the asset; optional */
+    const void* bytes; /* .glb or .gltf */
+    size_t byteCount;
+    const char* baseDirectory; /* where the .gltf's external files lie; null allows none */
+    const SuppleCageDesc* cage;
+} SuppleAssetDesc;
+
+typedef struct SuppleAssetInfo {
+    uint32_t structSize;
+    uint32_t cageVertexCount;
+    uint32_t faceCount;
+    uint32_t jointCount;
+    uint32_t clipCount;
+    uint32_t materialCount;
+    float boundsMin[3]; /* of the rest cage */
+    float boundsMax[3];
+} SuppleAssetInfo;
+
+typedef struct SuppleClipInfo {
+    uint32_t structSize;
+    const char* name; /* lives as long as the asset */
+    double duration;  /* seconds */
+} SuppleClipInfo;
+
+SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
+/* The asset's groups keep what they need; the handle is dead at once. */
+SUPPLE_API SuppleResult suppleDestroyAsset(SuppleContext context, SuppleAsset asset);
+SUPPLE_API SuppleResult suppleGetAssetInfo(SuppleContext context, SuppleAsset asset, SuppleAssetInfo* out);
+SUPPLE_API SuppleResult suppleGetClipInfo(SuppleContext context, SuppleAsset asset, uint32_t clip, SuppleClipInfo* out);
+
+/* ---------------------------------------------------------------------------------------------------- groups */
+
+typedef enum SuppleScheme {
+    SUPPLE_SCHEME_AUTO = 0, /* the best scheme that takes the cage; today p-rep */
+    SUPPLE_SCHEME_PREP = 1  /* p-rep: quads, G1 at any valence, one patch a face */
+} SuppleScheme;
+
+typedef enum SuppleVertexFormat {
+    SUPPLE_VERTEX_16 = 0, /* float3 position, octahedral normal in 2 x snorm16 (x in the low half) */
+    SUPPLE_VERTEX_24 = 1  /* float3 position, float3 normal */
+} SuppleVertexFormat;
+
+typedef enum SuppleTangentMode { SUPPLE_TANGENTS_DEFAULT = 0, SUPPLE_TANGENTS_PRINTED = 1 } SuppleTangentMode;
+typedef enum SuppleCornerRule { SUPPLE_CORNERS_SHARP = 0, SUPPLE_CORNERS_SMOOTH = 1 } SuppleCornerRule;
+
+typedef enum SuppleGroupFlags {
+    SUPPLE_GROUP_PATCHES = 1,   /* also write the patch coefficients (for inspection) */
+    SUPPLE_GROUP_ATTRIBUTES = 2 /* also write the static surface attributes: UV, colour, patch */
+} SuppleGroupFlags;
+
+/* N instances of one asset, evaluated together. */
+typedef struct SuppleGroupDesc {
+    uint32_t structSize;
+    uint32_t flags; /* SuppleGroupFlags */
+    SuppleAsset asset;
+    uint32_t instanceCount; /* 1 or more */
+    SuppleScheme scheme;
+    uint32_t rate; /* segments along a patch edge, 1..64; 0 = 8 */
+    SuppleVertexFormat vertexFormat;
+    SuppleTangentMode tangentMode;
+    SuppleCornerRule cornerRule;
+} SuppleGroupDesc;
+
+/* Instances start in the bind pose with the identity transform. */
+SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGroupDesc* desc, SuppleGroup* out);
+/* The handle is dead at once; memory is freed once the frames that used the group are completed (suppleBeginFrame). */
+SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
+
+/* Poses an instance from a clip at a time (clamped to the clip), or SUPPLE_BIND_POSE. */
+SUPPLE_API SuppleResult suppleSetClipPose(SuppleContext context, SuppleGroup group, uint32_t instance, uint32_t clip,
+                                          double time);
+/* Poses an instance from the host's own animation: jointCount model-space joint matrices (float[16] each), in the order
+ * of the skin's joints; Supple applies the inverse bind matrices. */
+SUPPLE_API SuppleResult suppleSetMatrixPose(SuppleContext context, SuppleGroup group, uint32_t instance,
+                                            const float* jointMatrices, uint32_t jointCount);
+/* Places an instance: applied after the pose, so surface vertices come out in the space this maps to. */
+SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleGroup group, uint32_t instance,
+                                           const float* transform);
+
+/* ---------------------------------------------------------------------------------------------------- frame */
+
+/* Starts a frame. frame rises by at least one each call; completedFrame is the last frame whose command buffers have
+ * all finished, 0 before the first. frame - completedFrame must not exceed framesInFlight. */
+SUPPLE_API SuppleResult suppleBeginFrame(SuppleContext context, uint64_t frame, uint64_t completedFrame);
+
+typedef struct SuppleSyncScope {
+    VkPipelineStageFlags2 stages;
+    VkAccessFlags2 access;
+} SuppleSyncScope;
+
+typedef enum SuppleRecordFlags {
+    SUPPLE_RECORD_TIMINGS = 1 /* write GPU timestamps round every pass */
+} SuppleRecordFlags;
+
+typedef struct SuppleRecordDesc {
+    uint32_t structSize;
+    uint32_t flags; /* SuppleRecordFlags */
+    const SuppleGroup* groups;
+    uint32_t groupCount;
+    SuppleSyncScope before; /* earlier uses of the groups' outputs, e.g. the last frame's vertex shader reads */
+    SuppleSyncScope after;  /* the coming uses of the outputs; all of Supple's writes are made visible to it */
+} SuppleRecordDesc;
+
+/* Records the passes of the groups, outside a render pass. Between suppleBeginFrame calls each group once. */
+SUPPLE_API SuppleResult suppleRecord(SuppleContext context, VkCommandBuffer commandBuffer, const SuppleRecordDesc* desc);
+
+/* ---------------------------------------------------------------------------------------------------- output */
+
+typedef struct SuppleBufferView {
+    VkBuffer buffer; /* null when the group was made without it */
+    VkDeviceSize offset;
+    VkDeviceSize size;
+    uint32_t stride; /* bytes an element */
+} SuppleBufferView;
+
+/* A run of patches of one material. Draw instance i (0 .. patchCount * instanceCount - 1) is patch
+ * firstPatch + i % patchCount of character instance i / patchCount. */
+typedef struct SuppleDrawRange {
+    uint32_t firstPatch;
+    uint32_t patchCount;
+    uint32_t material; /* index in the file's used materials, or SUPPLE_NO_MATERIAL */
+} SuppleDrawRange;
+
+/* Valid until the group is destroyed. Buffers have usage STORAGE, UNIFORM_TEXEL, TRANSFER_SRC and, where it makes
+ * sense, VERTEX, INDEX or INDIRECT. */
+typedef struct SuppleGroupOutput {
+    uint32_t structSize;
+    uint32_t instanceCount;
+    uint32_t rate;
+    SuppleVertexFormat vertexFormat;
+    uint32_t patchCount;          /* per instance */
+    uint32_t samplesPerPatch;     /* (rate + 1)^2, u fastest */
+    uint32_t verticesPerInstance; /* >= patchCount * samplesPerPatch: instance k starts at vertex k * this */
+    uint32_t cageVertexCount;
+    SuppleBufferView surfaceVertices; /* vertex of (instance, patch, sample): instance * verticesPerInstance
+                                       * + patch * samplesPerPatch + sample */
+    SuppleBufferView attributes;  /* per (patch, sample), shared by all instances: float2 uv, RGBA8 unorm colour, patch */
+    SuppleBufferView deformedCage; /* float4 (x, y, z, 1) per cage vertex, instance-major */
+    SuppleBufferView patchCoefficients; /* float4 per coefficient, 32 per patch (16 g, then 16 h), instance-major */
+    SuppleBufferView gridIndices; /* uint16, two triangles a grid cell, shared by all patches: indexCount entries */
+    uint32_t indexCount;
+    SuppleBufferView indirect; /* VkDrawIndexedIndirectCommand per draw range */
+    const SuppleDrawRange* drawRanges;
+    uint32_t drawRangeCount;
+    VkDeviceSize deviceBytes; /* device memory held by this group, its share of the asset's tables not counted */
+} SuppleGroupOutput;
+
+SUPPLE_API SuppleResult suppleGetGroupOutput(SuppleContext context, SuppleGroup group, SuppleGroupOutput* out);
+
+typedef enum SupplePatchClass { SUPPLE_PATCH_REGULAR = 0, SUPPLE_PATCH_PERTURBED = 1 } SupplePatchClass;
+
+typedef struct SupplePatchInfo {
+    uint32_t face; /* source face of the cage */
+    SupplePatchClass patchClass;
+    uint32_t corners[4]; /* cage vertices; the patch runs u from corner 0 to 1, v from 0 to 3 */
+} SupplePatchInfo;
+
+/* Fills out with up to *count patches in device order and sets *count to the number of patches. out may be null. */
+SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup group, SupplePatchInfo* out, uint32_t* count);
+
+/* ---------------------------------------------------------------------------------------------------- timings */
+
+typedef struct SuppleTiming {
+    const char* pass;     /* static: upload, deform, vertex, edge, patch, evaluate, attributes */
+    uint32_t group;       /* index of the group in suppleRecord's array */
+    uint64_t frame;
+    double gpuBegin;      /* nanoseconds on the device's clock */
+    double gpuEnd;
+    double cpuRecord;     /* nanoseconds the host spent recording the pass */
+    uint64_t points;      /* elements the pass wrote */
+    uint64_t bytes;       /* bytes the pass wrote */
+} SuppleTiming;
+
+/* The passes of the newest completed frame recorded with SUPPLE_RECORD_TIMINGS. Never blocks: SUPPLE_NOT_READY when there
+ * is none. Fills up to *count entries and sets *count to their number. */
+SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, SuppleTiming* out, uint32_t* count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
