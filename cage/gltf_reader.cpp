@@ -1,0 +1,1 @@
+#include "cage/gltf_reader.h"
