@@ -1,0 +1,187 @@
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace supple::gpu {
+
+namespace {
+
+struct NamedFeature12 {
+    const char* name;
+    VkBool32 VkPhysicalDeviceVulkan12Features::*member;
+};
+struct NamedFeature13 {
+    const char* name;
+    VkBool32 VkPhysicalDeviceVulkan13Features::*member;
+};
+
+// The 24-byte surface vertex is stored as tightly packed vec3.
+constexpr NamedFeature12 kFeatures12[] = {{"scalarBlockLayout", &VkPhysicalDeviceVulkan12Features::scalarBlockLayout}};
+// maintenance4: workgroup sizes by specialization constant alone.
+constexpr NamedFeature13 kFeatures13[] = {{"synchronization2", &VkPhysicalDeviceVulkan13Features::synchronization2},
+                                          {"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4}};
+
+// The widest pass binds this many storage buffers and texel buffers.
+constexpr uint32_t kStorageBuffers = 7;
+constexpr uint32_t kTexelBuffers = 4;
+constexpr uint32_t kPushConstantBytes = 64;
+
+const char* resultName(VkResult result) {
+    switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    case VK_ERROR_INITIALIZATION_FAILED: return "VK_ERROR_INITIALIZATION_FAILED";
+    case VK_ERROR_DEVICE_LOST: return "VK_ERROR_DEVICE_LOST";
+    case VK_ERROR_MEMORY_MAP_FAILED: return "VK_ERROR_MEMORY_MAP_FAILED";
+    case VK_ERROR_TOO_MANY_OBJECTS: return "VK_ERROR_TOO_MANY_OBJECTS";
+    case VK_ERROR_OUT_OF_POOL_MEMORY: return "VK_ERROR_OUT_OF_POOL_MEMORY";
+    case VK_ERROR_FRAGMENTED_POOL: return "VK_ERROR_FRAGMENTED_POOL";
+    case VK_ERROR_INVALID_SHADER_NV: return "VK_ERROR_INVALID_SHADER_NV";
+    default: return "VkResult";
+    }
+}
+
+} // namespace
+
+Error vulkanError(VkResult result, const std::string& what) {
+    ErrorCode code = ErrorCode::vulkan;
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        code = ErrorCode::hostMemory;
+    else if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+        code = ErrorCode::deviceMemory;
+    else if (result == VK_ERROR_DEVICE_LOST)
+        code = ErrorCode::deviceLost;
+    return {code, what + ": " + resultName(result) + " (" + std::to_string(static_cast<int>(result)) + ")"};
+}
+
+Requirements requirements() {
+    Requirements r;
+    for (const NamedFeature12& feature : kFeatures12)
+        r.features12.*feature.member = VK_TRUE;
+    for (const NamedFeature13& feature : kFeatures13)
+        r.features13.*feature.member = VK_TRUE;
+    return r;
+}
+
+std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDevice,
+                               PFN_vkGetInstanceProcAddr getInstanceProcAddr) {
+    Functions vk;
+    if (const char* missing = vk.loadInstance(instance, getInstanceProcAddr))
+        return std::string("entry point ") + missing + " (is the instance Vulkan 1.1 or later?)";
+
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    vk.GetPhysicalDeviceProperties2(physicalDevice, &properties);
+    const std::string name = std::string(properties.properties.deviceName) + ": ";
+    if (properties.properties.apiVersion < VK_API_VERSION_1_3)
+        return name + "Vulkan 1.3 (it offers " + std::to_string(VK_API_VERSION_MAJOR(properties.properties.apiVersion)) +
+               "." + std::to_string(VK_API_VERSION_MINOR(properties.properties.apiVersion)) + ")";
+
+    VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    features12.pNext = &features13;
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    features.pNext = &features12;
+    vk.GetPhysicalDeviceFeatures2(physicalDevice, &features);
+    for (const NamedFeature12& feature : kFeatures12)
+        if (features12.*feature.member == VK_FALSE)
+            return name + "feature " + feature.name;
+    for (const NamedFeature13& feature : kFeatures13)
+        if (features13.*feature.member == VK_FALSE)
+            return name + "feature " + feature.name;
+
+    const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+    if (std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers) < kStorageBuffers)
+        return name + "limit maxPerStageDescriptorStorageBuffers of " + std::to_string(kStorageBuffers);
+    if (limits.maxPerStageDescriptorSampledImages < kTexelBuffers)
+        return name + "limit maxPerStageDescriptorSampledImages of " + std::to_string(kTexelBuffers);
+    if (limits.maxPushConstantsSize < kPushConstantBytes)
+        return name + "limit maxPushConstantsSize of " + std::to_string(kPushConstantBytes);
+
+    for (VkFormat format : {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32_UINT}) {
+        VkFormatProperties formatProperties;
+        vk.GetPhysicalDeviceFormatProperties(physicalDevice, format, &formatProperties);
+        if ((formatProperties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) == 0)
+            return name + "uniform texel buffers of 32-bit formats";
+    }
+    return {};
+}
+
+Result<Device> Device::create(const DeviceDesc& desc) {
+    const std::string missing = missingRequirement(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr);
+    if (!missing.empty())
+        return Error{ErrorCode::unsupported, "device lacks " + missing};
+
+    Device d;
+    d.physicalDevice = desc.physicalDevice;
+    d.handle = desc.device;
+    d.pipelineCache = desc.pipelineCache;
+    d.allocator = desc.allocator;
+    d.debugUtils = desc.debugUtils;
+    d.vk.loadInstance(desc.instance, desc.getInstanceProcAddr);
+    if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils))
+        return Error{ErrorCode::unsupported, std::string("device lacks entry point ") + name};
+
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    properties.pNext = &driver;
+    d.vk.GetPhysicalDeviceProperties2(desc.physicalDevice, &properties);
+    d.limits = properties.properties.limits;
+    d.mapping = chooseMapping(properties.properties.deviceType, driver.driverID, desc.mapping);
+    d.vk.GetPhysicalDeviceMemoryProperties(desc.physicalDevice, &d.memory);
+
+    uint32_t familyCount = 0;
+    d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, nullptr);
+    if (desc.queueFamily >= familyCount)
+        return Error{ErrorCode::argument, "queue family " + std::to_string(desc.queueFamily) + ": the device has " +
+                                              std::to_string(familyCount)};
+    std::vector<VkQueueFamilyProperties> families(familyCount);
+    d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, families.data());
+    if ((families[desc.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
+        return Error{ErrorCode::argument, "queue family " + std::to_string(desc.queueFamily) + ": no compute"};
+    d.timestampValidBits = families[desc.queueFamily].timestampValidBits;
+    return d;
+}
+
+void Device::setName(VkObjectType type, uint64_t object, const char* name) const {
+    if (!debugUtils)
+        return;
+    VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+    info.objectType = type;
+    info.objectHandle = object;
+    info.pObjectName = name;
+    vk.SetDebugUtilsObjectNameEXT(handle, &info);
+}
+
+void Device::beginLabel(VkCommandBuffer commandBuffer, const char* name) const {
+    if (!debugUtils)
+        return;
+    VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+    label.pLabelName = name;
+    vk.CmdBeginDebugUtilsLabelEXT(commandBuffer, &label);
+}
+
+void Device::endLabel(VkCommandBuffer commandBuffer) const {
+    if (debugUtils)
+        vk.CmdEndDebugUtilsLabelEXT(commandBuffer);
+}
+
+VkDeviceSize Device::bufferWindow(uint32_t texelBytes) const {
+    const VkDeviceSize texels = static_cast<VkDeviceSize>(limits.maxTexelBufferElements) * texelBytes;
+    // The wide mapping reads no texels: its views may be shorter than the buffer.
+    return mapping.wide ? limits.maxStorageBufferRange : std::min<VkDeviceSize>(limits.maxStorageBufferRange, texels);
+}
+
+void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScope before, SyncScope after) {
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = before.stages;
+    barrier.srcAccessMask = before.access;
+    barrier.dstStageMask = after.stages;
+    barrier.dstAccessMask = after.access;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    device.vk.CmdPipelineBarrier2(commandBuffer, &dependency);
+}
+
+} // namespace supple::gpu

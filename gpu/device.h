@@ -1,0 +1,71 @@
+// The borrowed device: handles, limits, the mapping, and the few helpers every pass needs. Owns nothing of the host's.
+#pragma once
+
+#include "base/result.h"
+#include "gpu/functions.h"
+#include "gpu/mapping.h"
+
+#include <cstdint>
+#include <string>
+#include <vulkan/vulkan_core.h>
+
+namespace supple::gpu {
+
+struct DeviceDesc {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    uint32_t queueFamily = 0;
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+    const VkAllocationCallbacks* allocator = nullptr;
+    bool debugUtils = false;
+    MappingChoice mapping = MappingChoice::automatic;
+};
+
+/// Everything here is constant after create(); usable from any thread.
+struct Device {
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    VkDevice handle = VK_NULL_HANDLE;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+    const VkAllocationCallbacks* allocator = nullptr;
+    bool debugUtils = false;
+    Functions vk;
+    Mapping mapping;
+    VkPhysicalDeviceLimits limits{};
+    VkPhysicalDeviceMemoryProperties memory{};
+    uint32_t timestampValidBits = 0;
+
+    [[nodiscard]] static Result<Device> create(const DeviceDesc& desc);
+
+    /// Names an object for debuggers; nothing when debug utils are off.
+    void setName(VkObjectType type, uint64_t object, const char* name) const;
+    void beginLabel(VkCommandBuffer commandBuffer, const char* name) const;
+    void endLabel(VkCommandBuffer commandBuffer) const;
+
+    /// Device memory a storage-buffer descriptor and a texel view of `texelBytes` can both see.
+    [[nodiscard]] VkDeviceSize bufferWindow(uint32_t texelBytes) const;
+};
+
+/// What a device must offer. The structs come back with only the needed features set and pNext null.
+struct Requirements {
+    uint32_t apiVersion = VK_API_VERSION_1_3;
+    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+};
+[[nodiscard]] Requirements requirements();
+/// The first thing `physicalDevice` lacks, or empty.
+[[nodiscard]] std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDevice,
+                                             PFN_vkGetInstanceProcAddr getInstanceProcAddr);
+
+/// An error from a VkResult: "what: VK_ERROR_...".
+[[nodiscard]] Error vulkanError(VkResult result, const std::string& what);
+
+/// Makes the writes in `before` visible to `after`; a global barrier, so no buffer is named.
+struct SyncScope {
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 access = 0;
+};
+void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScope before, SyncScope after);
+
+} // namespace supple::gpu

@@ -1,0 +1,73 @@
+// The Vulkan entry points Supple uses, looked up through the host's vkGetInstanceProcAddr. Core 1.3 names only; the library
+// links no loader.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+namespace supple::gpu {
+
+#define SUPPLE_INSTANCE_FUNCTIONS(X)                                                                                   \
+    X(GetPhysicalDeviceProperties2)                                                                                    \
+    X(GetPhysicalDeviceFeatures2)                                                                                      \
+    X(GetPhysicalDeviceMemoryProperties)                                                                               \
+    X(GetPhysicalDeviceQueueFamilyProperties)                                                                          \
+    X(GetPhysicalDeviceFormatProperties)                                                                               \
+    X(GetDeviceProcAddr)
+
+#define SUPPLE_DEVICE_FUNCTIONS(X)                                                                                     \
+    X(CreateBuffer)                                                                                                    \
+    X(DestroyBuffer)                                                                                                   \
+    X(GetBufferMemoryRequirements)                                                                                     \
+    X(AllocateMemory)                                                                                                  \
+    X(FreeMemory)                                                                                                      \
+    X(BindBufferMemory)                                                                                                \
+    X(MapMemory)                                                                                                       \
+    X(UnmapMemory)                                                                                                     \
+    X(FlushMappedMemoryRanges)                                                                                         \
+    X(CreateBufferView)                                                                                                \
+    X(DestroyBufferView)                                                                                               \
+    X(CreateShaderModule)                                                                                              \
+    X(DestroyShaderModule)                                                                                             \
+    X(CreateDescriptorSetLayout)                                                                                       \
+    X(DestroyDescriptorSetLayout)                                                                                      \
+    X(CreatePipelineLayout)                                                                                            \
+    X(DestroyPipelineLayout)                                                                                           \
+    X(CreateComputePipelines)                                                                                          \
+    X(DestroyPipeline)                                                                                                 \
+    X(CreateDescriptorPool)                                                                                            \
+    X(DestroyDescriptorPool)                                                                                           \
+    X(AllocateDescriptorSets)                                                                                          \
+    X(UpdateDescriptorSets)                                                                                            \
+    X(CreateQueryPool)                                                                                                 \
+    X(DestroyQueryPool)                                                                                                \
+    X(GetQueryPoolResults)                                                                                             \
+    X(CmdResetQueryPool)                                                                                               \
+    X(CmdWriteTimestamp2)                                                                                              \
+    X(CmdPipelineBarrier2)                                                                                             \
+    X(CmdBindPipeline)                                                                                                 \
+    X(CmdBindDescriptorSets)                                                                                           \
+    X(CmdPushConstants)                                                                                                \
+    X(CmdDispatch)                                                                                                     \
+    X(CmdCopyBuffer)                                                                                                   \
+    X(CmdFillBuffer)
+
+/// VK_EXT_debug_utils, loaded only when the host says it enabled the extension.
+#define SUPPLE_DEBUG_FUNCTIONS(X)                                                                                      \
+    X(SetDebugUtilsObjectNameEXT)                                                                                      \
+    X(CmdBeginDebugUtilsLabelEXT)                                                                                      \
+    X(CmdEndDebugUtilsLabelEXT)
+
+struct Functions {
+#define SUPPLE_DECLARE(name) PFN_vk##name name = nullptr;
+    SUPPLE_INSTANCE_FUNCTIONS(SUPPLE_DECLARE)
+    SUPPLE_DEVICE_FUNCTIONS(SUPPLE_DECLARE)
+    SUPPLE_DEBUG_FUNCTIONS(SUPPLE_DECLARE)
+#undef SUPPLE_DECLARE
+
+    /// Both return the name of the first entry point that is missing, or null.
+    const char* loadInstance(VkInstance instance, PFN_vkGetInstanceProcAddr getInstanceProcAddr);
+    const char* loadDevice(VkInstance instance, VkDevice device, PFN_vkGetInstanceProcAddr getInstanceProcAddr,
+                           bool debugUtils);
+};
+
+} // namespace supple::gpu

@@ -1,0 +1,25 @@
+// How compute work is laid on a device: the one place where device properties become specialization constants.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vulkan/vulkan_core.h>
+
+namespace supple::gpu {
+
+/// Specialization constants every compute shader shares (shaders/shared/mapping.glsl); passes add their own from
+/// kFirstPassConstant on.
+enum MappingConstant : uint32_t { kLocalSizeConstant = 0, kWideConstant = 1, kExactDivisionConstant = 2, kFirstPassConstant = 3 };
+
+struct Mapping {
+    bool wide = false;          ///< many lanes a patch and storage-buffer loads, else one lane a patch and texel loads
+    bool exactDivision = false; ///< the device rounds float division correctly, so k / rate needs no table
+    uint32_t localSize = 32;
+};
+
+enum class MappingChoice { automatic, narrow, wide };
+
+/// Narrow on CPU devices, wide on everything else, unless the caller chooses.
+[[nodiscard]] Mapping chooseMapping(VkPhysicalDeviceType type, VkDriverId driver, MappingChoice choice);
+
+} // namespace supple::gpu

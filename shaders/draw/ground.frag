@@ -1,0 +1,25 @@
+// The floor has the backdrop's color, so that it has no edge; only the light that the figure keeps from it shows.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/draw/frame.glsl"
+#include "shaders/draw/studio.glsl"
+
+layout(location = 0) in vec3 inPosition;
+layout(location = 0) out vec4 outColor;
+
+void main() {
+    vec3 lit = vec3(0.0), all = vec3(0.0);
+    vec3 receiver = inPosition + vec3(0.0, frame.shadowTexel, 0.0);
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        vec4 color = frame.lights[i].color;
+        // The rim would throw a long shadow towards the viewer that tells nothing of the figure.
+        float weight = max(frame.lights[i].direction.y, 0.0) * (uint(color.w) == kLightRim ? 0.15 : 1.0);
+        if (weight <= 0.0)
+            continue;
+        all += color.rgb * weight;
+        lit += color.rgb * weight * lightVisibility(i, receiver);
+    }
+    float away = length(inPosition.xz - frame.target.xz) / frame.target.w;
+    vec3 shade = mix(lit / max(all, vec3(1e-4)), vec3(1.0), smoothstep(1.6, 3.6, away));
+    outColor = vec4(dither(backdrop(gl_FragCoord.xy) * mix(vec3(1.0), shade, 0.86), gl_FragCoord.xy), 1.0);
+}

@@ -1,0 +1,82 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/draw/frame.glsl"
+#include "shaders/draw/studio.glsl"
+#include "shaders/draw/lines.glsl"
+
+layout(set = 1, binding = kPatchClassBinding, std430) readonly buffer PatchClasses { uint patchClasses[]; };
+layout(set = 2, binding = kBaseColorBinding) uniform sampler2D baseColorTexture;
+
+layout(location = 0) in vec3 inPosition;
+layout(location = 1) in vec3 inNormal;
+layout(location = 2) in vec2 inUv;
+layout(location = 3) in vec4 inColor;
+layout(location = 4) in vec2 inGrid;
+layout(location = 5) flat in uint inPatch;
+
+layout(location = 0) out vec4 outColor;
+
+const vec3 kClay = vec3(0.50, 0.47, 0.44);
+
+float patchHash(uint x) {
+    x = (x ^ 61u) ^ (x >> 16);
+    x *= 9u;
+    x ^= x >> 4;
+    x *= 0x27d4eb2du;
+    return float((x ^ (x >> 15)) & 0xffffu) / 65535.0;
+}
+
+/// Light tubes all round the viewer: a kink in a stripe is a kink in the surface's normals.
+vec3 zebra(vec3 n, vec3 v) {
+    vec3 r = mat3(frame.view) * reflect(-v, n);
+    float at = acos(clamp(dot(r, normalize(vec3(0.35, 0.93, 0.1))), -1.0, 1.0)) * (14.0 / kPi);
+    float width = max(fwidth(at), 1e-4);
+    float stripe = smoothstep(-width, width, abs(fract(at) - 0.5) - 0.25);
+    stripe = mix(stripe, 0.5, smoothstep(0.35, 0.9, width));
+    float form = 0.72 + 0.28 * clamp(dot(n, v), 0.0, 1.0);
+    return mix(vec3(0.012, 0.014, 0.02), vec3(0.82, 0.83, 0.84), stripe) * form;
+}
+
+void main() {
+    vec3 v = normalize(frame.eye.xyz - inPosition);
+    // A vanishing normal (a collapsed pole) takes the triangle's own.
+    vec3 n = dot(inNormal, inNormal) > 1e-6 ? normalize(inNormal) : normalize(cross(dFdx(inPosition), dFdy(inPosition)));
+    bool back = !gl_FrontFacing;
+    if (back)
+        n = -n;
+
+    vec4 base = push.baseColor * inColor * texture(baseColorTexture, inUv);
+    if ((push.flags & kDrawMask) != 0u && base.a < push.alphaCutoff)
+        discard;
+    float alpha = (push.flags & kDrawTranslucent) != 0u ? base.a : 1.0;
+
+    vec2 segments = fwidth(inGrid);
+    vec3 color;
+    if (push.view == kViewNormals) {
+        color = fromSrgb((back ? -n : n) * 0.5 + 0.5);
+    } else if (push.view == kViewZebra) {
+        color = zebra(n, v);
+    } else {
+        Material material = Material(base.rgb, 0.42);
+        if (push.view == kViewWire) {
+            material = Material(kClay, 0.55);
+        } else if (push.view == kViewPatches) {
+            float vary = patchHash(inPatch) - 0.5;
+            vec3 regular = vec3(0.36, 0.43, 0.50), perturbed = vec3(0.78, 0.33, 0.11);
+            material.albedo = (patchClasses[inPatch] == 0u ? regular : perturbed) * (1.0 + 0.34 * vary);
+            material.roughness = 0.5;
+        }
+        // The inside of a skin that is not meant to be seen: still there, but plainly inside.
+        if (back && (push.flags & kDrawDoubleSided) == 0u)
+            material.albedo *= 0.35;
+        color = toneMap(studioShade(material, inPosition, n, v));
+    }
+
+    if (push.view == kViewWire)
+        color = mix(color, vec3(0.012, 0.016, 0.025), 0.72 * gridLines(inGrid, segments, 0.9 * frame.pixelScale));
+    if (push.view == kViewWire)
+        color = mix(color, vec3(0.78, 0.22, 0.035), borderLine(inGrid, segments, float(push.rate), 1.5 * frame.pixelScale));
+    else if (push.view == kViewPatches)
+        color = mix(color, vec3(0.01, 0.012, 0.018), 0.85 * borderLine(inGrid, segments, float(push.rate), 0.9 * frame.pixelScale));
+    outColor = vec4(color, alpha);
+}

@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/draw/frame.glsl"
+#include "shaders/draw/surface_input.glsl"
+
+layout(set = 1, binding = kSurfaceAttributeBinding, std430) readonly buffer Attributes { uvec4 attributes[]; };
+
+layout(location = 0) out vec3 outPosition;
+layout(location = 1) out vec3 outNormal;
+layout(location = 2) out vec2 outUv;
+layout(location = 3) out vec4 outColor;
+layout(location = 4) out vec2 outGrid; // in segments: 0..rate
+layout(location = 5) flat out uint outPatch;
+
+void main() {
+    uint word = surfaceWord();
+    vec3 position = surfacePosition(word);
+    outPosition = position;
+    outNormal = surfaceNormal(word);
+    outPatch = drawnPatch();
+    uint side = push.rate + 1u;
+    outGrid = vec2(gl_VertexIndex % side, gl_VertexIndex / side);
+    outUv = vec2(0.0);
+    outColor = vec4(1.0);
+    if ((push.flags & kDrawAttributes) != 0u) {
+        uvec4 attribute = attributes[outPatch * push.samplesPerPatch + gl_VertexIndex];
+        outUv = uintBitsToFloat(attribute.xy);
+        outColor = unpackUnorm4x8(attribute.z);
+    }
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
+}

@@ -1,0 +1,20 @@
+// Bindings and loads the p-rep passes share. Loads go through one function each: storage buffers on GPUs, texel buffers on
+// CPU devices, whose drivers gather texels without a loop over the lanes.
+#include "shaders/shared/mapping.glsl"
+#include "shaders/shared/prep.h"
+
+layout(set = 0, binding = kTableBinding, std430) readonly buffer Table4 { uvec4 tableElements[]; };
+layout(set = 0, binding = kTableBinding, std430) readonly buffer Table1 { uint tableWords[]; };
+layout(set = 0, binding = kTable4TexelBinding) uniform usamplerBuffer tableElementTexels;
+layout(set = 0, binding = kTable1TexelBinding) uniform usamplerBuffer tableWordTexels;
+
+layout(push_constant) uniform Push { PrepPush push; };
+
+uvec4 tableElement(uint i) {
+    if (kWide) return tableElements[i];
+    return texelFetch(tableElementTexels, int(i));
+}
+uint tableWord(uint i) {
+    if (kWide) return tableWords[i];
+    return texelFetch(tableWordTexels, int(i)).x;
+}

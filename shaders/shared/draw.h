@@ -1,0 +1,101 @@
+// Drawing in tools and samples: bindings, the frame's uniforms and the push constants of shaders/draw.
+#ifndef SUPPLE_SHARED_DRAW_H
+#define SUPPLE_SHARED_DRAW_H
+
+#include "shaders/shared/portable.h"
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+#endif
+
+SUPPLE_SHARED_BEGIN
+
+#ifdef __cplusplus
+using vec4 = glm::vec4;
+using mat4 = glm::mat4;
+#endif
+
+// Set 0, the frame.
+SUPPLE_SHARED_CONST kFrameBinding = 0u;
+SUPPLE_SHARED_CONST kShadowBinding = 1u;
+// Set 1, the figure: what Supple hands out, and two tables the host makes of the cage.
+SUPPLE_SHARED_CONST kSurfaceVertexBinding = 0u;
+SUPPLE_SHARED_CONST kSurfaceAttributeBinding = 1u;
+SUPPLE_SHARED_CONST kPatchClassBinding = 2u;
+SUPPLE_SHARED_CONST kDeformedCageBinding = 3u;
+SUPPLE_SHARED_CONST kCageCornerBinding = 4u;
+SUPPLE_SHARED_CONST kCageEdgeBinding = 5u;
+// Set 2, the material.
+SUPPLE_SHARED_CONST kBaseColorBinding = 0u;
+
+SUPPLE_SHARED_CONST kMaxLights = 40u;
+
+// What is painted on the surface.
+SUPPLE_SHARED_CONST kViewShaded = 0u;
+SUPPLE_SHARED_CONST kViewWire = 1u;
+SUPPLE_SHARED_CONST kViewPatches = 2u;
+SUPPLE_SHARED_CONST kViewNormals = 3u;
+SUPPLE_SHARED_CONST kViewZebra = 4u;
+
+// DrawPush::flags
+SUPPLE_SHARED_CONST kDrawVertex24 = 1u;     // surface vertices of 24 bytes
+SUPPLE_SHARED_CONST kDrawDoubleSided = 2u;  // back faces are meant to be seen
+SUPPLE_SHARED_CONST kDrawMask = 4u;         // alpha below the cutoff is a hole
+SUPPLE_SHARED_CONST kDrawTranslucent = 8u;  // alpha is coverage
+SUPPLE_SHARED_CONST kDrawAttributes = 16u;  // the group has UV and color
+
+// Which part of the rig a light belongs to; in Light::color.w.
+SUPPLE_SHARED_CONST kLightKey = 0u;
+SUPPLE_SHARED_CONST kLightRim = 1u;
+SUPPLE_SHARED_CONST kLightSky = 2u;
+
+struct Light {
+    vec4 direction; // towards the light
+    vec4 color;     // irradiance on a surface that faces it
+    mat4 shadow;    // world to the light's shadow map
+};
+
+struct FrameUniforms {
+    mat4 viewProjection;
+    mat4 view;
+    vec4 eye;
+    vec4 target;    // what the camera looks at; w: radius of the scene
+    vec4 ground;    // x: height, y: 1 where there is one
+    vec4 viewport;  // width, height, 1 / width, 1 / height
+    vec4 bounce;    // light from below
+    uint lightCount;
+    uint shadowSize; // texels a side
+    float shadowTexel; // its width in the world
+    float pixelScale;  // line widths are multiplied by it
+    Light lights[kMaxLights];
+};
+
+struct DrawPush {
+    vec4 baseColor;
+    uint firstPatch;
+    uint patchCount; // of the draw range
+    uint rate;
+    uint samplesPerPatch;
+    uint verticesPerInstance;
+    uint cageVertexCount;
+    uint view;
+    uint flags;
+    float alphaCutoff;
+    uint light;     // whose shadow map is being drawn
+    uint primitive; // first cage corner or edge of the draw
+    uint primitiveCount;
+};
+
+// One corner of a triangle of a cage face; three in a row make the triangle.
+struct CageCorner {
+    uint vertex;    // cage vertex
+    uint faceStart; // the face's vertices in the list behind the corners' buffer: see cage_face.vert
+    uint faceSides;
+    uint color; // RGBA8
+    float u;
+    float v;
+};
+
+SUPPLE_SHARED_END
+
+#endif
