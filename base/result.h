@@ -59,6 +59,8 @@ private:
 };
 
 using Status = Result<std::monostate>;
-inline Status success() { return std::monostate{}; }
+inline Status success() {
+    return std::monostate{};
+}
 
 } // namespace supple

@@ -1,5 +1,5 @@
-// The Vulkan entry points Supple uses, looked up through the host's vkGetInstanceProcAddr. Core 1.3 names only; the library
-// links no loader.
+// The Vulkan entry points Supple uses, looked up through the host's vkGetInstanceProcAddr. Core 1.3 names only; the
+// library links no loader.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

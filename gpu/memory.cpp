@@ -32,8 +32,8 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
             VkBuffer buffer = VK_NULL_HANDLE;
             const VkResult result = device.vk.CreateBuffer(device.handle, &info, device.allocator, &buffer);
             if (result != VK_SUCCESS)
-                return vulkanError(result, std::string("buffer ") + request.name + " of " + std::to_string(request.size) +
-                                               " bytes");
+                return vulkanError(result, std::string("buffer ") + request.name + " of " +
+                                               std::to_string(request.size) + " bytes");
             entry.handle = BufferHandle(device, buffer);
             device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer), request.name);
             VkMemoryRequirements needs;
@@ -53,7 +53,8 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
     const char* name = requests.front().name;
     uint32_t type = kNoType;
     if (kind == MemoryKind::upload) {
-        type = findMemoryType(device, typeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+        type = findMemoryType(device, typeBits,
+                              VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
         if (type == kNoType)
             type = findMemoryType(device, typeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT);
     } else {

@@ -75,7 +75,8 @@ Result<PipelineHandle> createComputePipeline(const Device& device, const Compute
     info.stage.pSpecializationInfo = &specialization;
     info.layout = layout.pipelineLayout.get();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    result = device.vk.CreateComputePipelines(device.handle, device.pipelineCache, 1, &info, device.allocator, &pipeline);
+    result =
+        device.vk.CreateComputePipelines(device.handle, device.pipelineCache, 1, &info, device.allocator, &pipeline);
     if (result != VK_SUCCESS)
         return vulkanError(result, std::string("pipeline ") + name);
     device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), name);

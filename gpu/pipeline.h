@@ -38,8 +38,8 @@ struct Constant {
 /// A pool for `setCount` sets of `layout` and nothing else.
 [[nodiscard]] Result<DescriptorPoolHandle> createDescriptorPool(const Device& device, const ComputeLayout& layout,
                                                                 uint32_t setCount, const char* name);
-[[nodiscard]] Result<VkDescriptorSet> allocateSet(const Device& device, const ComputeLayout& layout, VkDescriptorPool pool,
-                                                  const char* name);
+[[nodiscard]] Result<VkDescriptorSet> allocateSet(const Device& device, const ComputeLayout& layout,
+                                                  VkDescriptorPool pool, const char* name);
 
 /// What one binding of a set sees: a buffer range or a texel view.
 struct BoundResource {

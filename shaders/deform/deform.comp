@@ -34,7 +34,8 @@ void main() {
     // Clamped, not returned early: a divergent return makes every later load slow on CPU devices.
     uint id = min(invocationIndex(), push.vertexCount * push.instanceCount - 1u);
     uint instance = id / push.vertexCount;
-    uvec4 vertex = table(id - instance * push.vertexCount);
+    uint index = id - instance * push.vertexCount;
+    uvec4 vertex = table(index);
     vec3 rest = uintBitsToFloat(vertex.xyz);
     uint joints = instance * push.jointCount;
 
@@ -47,5 +48,5 @@ void main() {
         precise vec3 second = transformed(joints + (pair.z & ~kLastInfluence), uintBitsToFloat(pair.w), rest);
         p = p + (first + second);
     } while ((pair.z & kLastInfluence) == 0u);
-    deformedCage[id] = vec4(p, 1.0);
+    deformedCage[instance * push.cageStride + index] = vec4(p, 1.0);
 }

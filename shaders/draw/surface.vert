@@ -23,9 +23,9 @@ void main() {
     outUv = vec2(0.0);
     outColor = vec4(1.0);
     if ((push.flags & kDrawAttributes) != 0u) {
-        uvec4 attribute = attributes[outPatch * push.samplesPerPatch + gl_VertexIndex];
-        outUv = uintBitsToFloat(attribute.xy);
-        outColor = unpackUnorm4x8(attribute.z);
+        uvec4 packed = attributes[outPatch * push.samplesPerPatch + gl_VertexIndex];
+        outUv = uintBitsToFloat(packed.xy);
+        outColor = unpackUnorm4x8(packed.z);
     }
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 }

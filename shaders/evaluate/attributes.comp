@@ -1,5 +1,6 @@
 // Surface attributes that no pose changes: UV and color, bilinear over each patch. Run once a group. One invocation a patch
-// sample; output per sample (u, v, RGBA8 color, patch).
+// sample; output per sample (u, v, linear color as RG and BA in 16-bit unorm: 8 bits would band in
+// the dark).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/prep/tables.glsl"
@@ -20,7 +21,7 @@ void main() {
     for (uint k = 0u; k < 4u; ++k) {
         uvec4 corner = tableElement(push.table + 4u * patchIndex + k);
         uv += w[k] * uintBitsToFloat(corner.xy);
-        color += w[k] * unpackUnorm4x8(corner.z);
+        color += w[k] * vec4(unpackUnorm2x16(corner.z), unpackUnorm2x16(corner.w));
     }
-    attributes[id] = uvec4(floatBitsToUint(uv), packUnorm4x8(color), patchIndex);
+    attributes[id] = uvec4(floatBitsToUint(uv), packUnorm2x16(color.xy), packUnorm2x16(color.zw));
 }

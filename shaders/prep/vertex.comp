@@ -5,6 +5,7 @@
 #define POOL_WRITE_ONLY
 #include "shaders/prep/tables.glsl"
 #include "shaders/prep/pool.glsl"
+#include "shaders/prep/store.glsl"
 
 layout(constant_id = 3) const bool kRegular = false;
 
@@ -14,12 +15,6 @@ layout(set = 0, binding = kCageTexelBinding) uniform samplerBuffer cageTexels;
 vec3 cageVertex(uint i) {
     if (kWide) return cage[i].xyz;
     return texelFetch(cageTexels, int(i)).xyz;
-}
-
-// Adding +0 turns -0 into +0, so that a border sample has the same bits whether or not a zero perturbation is added to it.
-void store(uint i, vec3 v) {
-    precise vec3 canonical = v + 0.0;
-    pool[i] = vec4(canonical, 0.0);
 }
 
 vec3 faceCoefficient(vec3 p0, vec3 spoke, vec3 nextSpoke, vec3 diagonal) { // eq. (4)
@@ -41,13 +36,13 @@ void regularVertex(uint base, uint slot, uint words, uint cageBase, uint vertex)
     precise vec3 x = (16.0 * p0 + (4.0 * edges + faces)) * (1.0 / 36.0);
     precise vec3 e1 = (4.0 * (e[0] - e[2]) + ((d[0] - d[2]) + (d[3] - d[1]))) * (1.0 / 36.0);
     precise vec3 e2 = (4.0 * (e[1] - e[3]) + ((d[0] - d[2]) + (d[1] - d[3]))) * (1.0 / 36.0);
-    store(base + vertex, x);
+    storePool(base + vertex, x);
     uint tangent = base + push.tangents + slot, face = base + push.faces + slot;
-    store(tangent, x + e1);
-    store(tangent + 1u, x + e2);
-    store(tangent + 2u, x - e1);
-    store(tangent + 3u, x - e2);
-    for (uint k = 0u; k < 4u; ++k) store(face + k, faceCoefficient(p0, e[k], e[(k + 1u) & 3u], d[k]));
+    storePool(tangent, x + e1);
+    storePool(tangent + 1u, x + e2);
+    storePool(tangent + 2u, x - e1);
+    storePool(tangent + 3u, x - e2);
+    for (uint k = 0u; k < 4u; ++k) storePool(face + k, faceCoefficient(p0, e[k], e[(k + 1u) & 3u], d[k]));
 }
 
 void anyVertex(uint base, uint slot, uint words, uint cageBase, uint vertex, uint weights) {
@@ -71,25 +66,25 @@ void anyVertex(uint base, uint slot, uint words, uint cageBase, uint vertex, uin
         e1 = e1 + (a.z * spoke + a.w * diagonal);
         e2 = e2 + (b.x * spoke + b.y * diagonal);
         if (k == 0u) firstSpoke = spoke;
-        else store(face + k - 1u, faceCoefficient(p0, lastSpoke, spoke, lastDiagonal));
+        else storePool(face + k - 1u, faceCoefficient(p0, lastSpoke, spoke, lastDiagonal));
         lastSpoke = spoke;
         lastDiagonal = diagonal;
     }
-    store(base + vertex, x);
+    storePool(base + vertex, x);
     for (uint k = 0u; k < spokes; ++k) {
         vec4 b = uintBitsToFloat(tableElement(weights + 2u + 2u * k));
         precise vec3 t = x + (e1 * b.z + e2 * b.w);
-        store(tangent + k, t);
+        storePool(tangent + k, t);
     }
     if (boundary) {
         // The boundary curve is the cubic B-spline of the boundary polygon, whatever the interior does.
         precise vec3 first = (2.0 * p0 + firstSpoke) * (1.0 / 3.0);
         precise vec3 last = (2.0 * p0 + lastSpoke) * (1.0 / 3.0);
-        store(tangent, first);
-        store(tangent + sectors, last);
-        store(face + sectors, cross(e1, e2));
+        storePool(tangent, first);
+        storePool(tangent + sectors, last);
+        storePool(face + sectors, cross(e1, e2));
     } else {
-        store(face + sectors - 1u, faceCoefficient(p0, lastSpoke, firstSpoke, lastDiagonal));
+        storePool(face + sectors - 1u, faceCoefficient(p0, lastSpoke, firstSpoke, lastDiagonal));
     }
 }
 
@@ -97,7 +92,7 @@ void main() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
     uint instance = id / push.count;
     uvec4 record = tableElement(push.table + (id - instance * push.count));
-    uint base = instance * push.poolStride, cageBase = instance * push.cageVertexCount;
+    uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
     uint words = push.ring + 2u * record.y;
     if (kRegular) regularVertex(base, record.y, words, cageBase, record.x);
     else anyVertex(base, record.y, words, cageBase, record.x, record.z);

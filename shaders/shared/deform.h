@@ -24,6 +24,7 @@ struct DeformPush {
     uint vertexCount;
     uint instanceCount; // of this window
     uint jointCount;
+    uint cageStride; // vertices an instance in the deformed cage
 };
 
 SUPPLE_SHARED_END

@@ -10,10 +10,11 @@
 //   ring             two words a spoke slot: the spoke's vertex, the diagonal of its sector
 //   classes          (sectors | kBoundaryClass, limitCenter, e2Center, 0), then two elements a spoke:
 //                    (limitEdge, limitFace, e1Edge, e1Face), (e2Edge, e2Face, cosine, sine)
-//   edge records     three elements: pool indices (A, tA, tB, B), (SA1, SA2, SB1, SB2), (cA, cB, H index, flags)
+//   edge records     three elements: pool indices (A, tA, tB, B), (SA1, SA2, SB1, SB2), (H index, edge class element, 0, 0)
+//   edge classes     six elements, for A, tA, tB, B, SA, SB: their weights in (h20, h30, h21, h31)
 //   patch records    pool indices: regular 16 g (i + 4 j), perturbed 16 g + 16 h in evaluation order (kPatchElements...);
 //                    then one element: for each corner the pool index of its normal, or kNoNormal
-//   attributes       four elements a patch, one a corner: (u, v, RGBA8 color, 0)
+//   attributes       four elements a patch, one a corner: (u, v, color as RG and BA in 16-bit unorm)
 #ifndef SUPPLE_SHARED_PREP_H
 #define SUPPLE_SHARED_PREP_H
 
@@ -34,8 +35,6 @@ SUPPLE_SHARED_CONST kAttributeBinding = 9u;
 SUPPLE_SHARED_CONST kPairBinding = 10u;
 
 SUPPLE_SHARED_CONST kBoundaryClass = 0x80000000u;
-SUPPLE_SHARED_CONST kMixedEdge = 1u;    // edge flag: A extraordinary, B regular; else both extraordinary
-SUPPLE_SHARED_CONST kReversedEdge = 2u; // edge flag: the record runs against the edge's own direction
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
 
 SUPPLE_SHARED_CONST kRegularElements = 5u;   // table elements of a regular patch record
@@ -47,7 +46,7 @@ struct PrepPush {
     uint instanceCount; // of this window
     uint table;         // first table element of the pass's records
     uint ring;          // first table word of the ring
-    uint cageVertexCount;
+    uint cageStride; // cage vertices an instance in the deformed cage
     uint poolStride;
     uint tangents; // first TG in the pool
     uint faces;    // first FC in the pool

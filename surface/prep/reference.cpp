@@ -1,1 +1,311 @@
+// Equation numbers are those of "GPU Smoothing of Quad Meshes"; docs/prep.md says where we depart from the print.
+// Arithmetic here must round as written (no contraction, no reassociation): the bits of shared borders depend on it.
 #include "surface/prep/reference.h"
+
+#include <cassert>
+#include <map>
+#include <utility>
+
+namespace supple::surface::prep {
+namespace {
+
+using cage::Cage;
+using cage::kNone;
+using cage::Topology;
+
+template <class T>
+using Vec3 = glm::vec<3, T>;
+
+template <class T>
+Vec3<T> unitOrZero(const Vec3<T>& v) {
+    const T length = glm::length(v);
+    return length > T(0) ? v / length : Vec3<T>(T(0));
+}
+
+/// A valence class with its weights rounded once to the arithmetic's type, as the GPU's weight table is. The centre's
+/// weights are not among them: every sum below runs over differences from the centre.
+template <class T>
+struct RoundedClass {
+    explicit RoundedClass(const ValenceClass& k)
+        : boundary(k.boundary), sectors(k.sectors), limitEdge(rounded(k.limitEdge)), limitFace(rounded(k.limitFace)),
+          e1Edge(rounded(k.e1Edge)), e1Face(rounded(k.e1Face)), e2Edge(rounded(k.e2Edge)), e2Face(rounded(k.e2Face)),
+          cosines(rounded(k.cosines)), sines(rounded(k.sines)) {}
+
+    bool boundary;
+    uint32_t sectors;
+    std::vector<T> limitEdge, limitFace, e1Edge, e1Face, e2Edge, e2Face, cosines, sines;
+
+private:
+    static std::vector<T> rounded(const std::vector<double>& weights) { return {weights.begin(), weights.end()}; }
+};
+
+/// The vertex stage for one vertex: `spokes` and `diagonals` are its one-ring as differences from p0. A character is
+/// large beside its patches; differences keep the rounding of a float at the size of the ring, which the normals depend
+/// on.
+template <class T>
+void vertexStage(const RoundedClass<T>& k, const Vec3<T>& p0, std::span<const Vec3<T>> spokes,
+                 std::span<const Vec3<T>> diagonals, uint32_t vertex, uint32_t base, Coefficients<T>& out) {
+    Vec3<T> x(T(0));  // X - p0, eq. (2)
+    Vec3<T> e1(T(0)); // eq. (3)
+    Vec3<T> e2(T(0));
+    for (size_t i = 0; i < spokes.size(); ++i) {
+        x += k.limitEdge[i] * spokes[i];
+        e1 += k.e1Edge[i] * spokes[i];
+        e2 += k.e2Edge[i] * spokes[i];
+        if (i < diagonals.size()) {
+            x += k.limitFace[i] * diagonals[i];
+            e1 += k.e1Face[i] * diagonals[i];
+            e2 += k.e2Face[i] * diagonals[i];
+        }
+    }
+    out.limitPoints[vertex] = p0 + x;
+    out.limitNormals[vertex] = unitOrZero(glm::cross(e1, e2));
+    for (size_t i = 0; i < spokes.size(); ++i) {
+        const bool onBoundary = k.boundary && (i == 0 || i == k.sectors);
+        // On the boundary: the inner coefficient of the boundary's cubic B-spline (or of the sharp corner's straight
+        // end), (2 p0 + p_k) / 3.
+        out.tangents[base + i] =
+            p0 + (onBoundary ? spokes[i] * T(1.0 / 3.0) : x + (e1 * k.cosines[i] + e2 * k.sines[i]));
+    }
+    for (size_t i = 0; i < diagonals.size(); ++i) { // eq. (4): (4 p0 + 2 (p_k + p_k+1) + d_k) / 9
+        const Vec3<T>& next = spokes[(i + 1) % spokes.size()];
+        out.faceCoefficients[base + i] = p0 + (T(2) * (spokes[i] + next) + diagonals[i]) * T(1.0 / 9.0);
+    }
+}
+
+/// A pair (t, 1 - t) and its Bernstein weights. Every weight's mirror image is the same expression with s and t
+/// exchanged, so that the reversed pair gives the reversed weights bit for bit.
+template <class T>
+struct Weights {
+    explicit Weights(glm::vec<2, T> pair) {
+        const T s = pair.x;
+        const T t = pair.y;
+        const T ss = s * s;
+        const T tt = t * t;
+        const T ts = t * s;
+        const T sss = ss * s;
+        const T ttt = tt * t;
+        cubic = {ttt, T(3) * (tt * s), T(3) * (ss * t), sss};
+        cubicSlope = {T(-3) * tt, T(3) * tt - T(6) * ts, T(6) * ts - T(3) * ss, T(3) * ss};
+        quintic0 = tt * ttt;
+        quintic1 = T(5) * (s * (tt * tt));
+        quintic2 = T(10) * (ss * ttt);
+        quintic3 = T(10) * (sss * tt);
+        quinticSlope0 = T(-5) * (tt * tt);
+        quinticSlope1 = T(5) * (ttt * (t - T(4) * s));
+        quinticSlope2 = T(10) * ((s * tt) * (T(2) * t - T(3) * s));
+        quinticSlope3 = T(10) * ((ss * t) * (T(3) * t - T(2) * s));
+    }
+    std::array<T, 4> cubic, cubicSlope;
+    T quintic0, quintic1, quintic2, quintic3;
+    T quinticSlope0, quinticSlope1, quinticSlope2, quinticSlope3;
+};
+
+/// Outer pair first: reversing weights and points reverses nothing but the order of each commutative sum.
+template <class T>
+Vec3<T> sum4(const std::array<T, 4>& w, const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c, const Vec3<T>& d) {
+    return (w[0] * a + w[3] * d) + (w[1] * b + w[2] * c);
+}
+
+} // namespace
+
+bool isPerturbed(const Cage& cage, const Topology& topology, uint32_t edge) {
+    const Topology::Edge& e = topology.edges[edge];
+    if (e.twin == kNone) {
+        return false;
+    }
+    return topology.effectiveValence(cage.faceVertices[e.corner]) != 4 ||
+           topology.effectiveValence(cage.faceVertices[e.twin]) != 4;
+}
+
+template <class T>
+Coefficients<T> construct(const Cage& cage, const Topology& topology, std::span<const Vec3<T>> positions,
+                          const Options& options) {
+    assert(positions.size() == cage.vertexCount());
+    const uint32_t vertexCount = cage.vertexCount();
+    Coefficients<T> out;
+    const Vec3<T> zero(T(0));
+    out.limitPoints.assign(vertexCount, zero);
+    out.limitNormals.assign(vertexCount, zero);
+    out.tangents.assign(topology.spokeVertices.size(), zero);
+    out.faceCoefficients.assign(topology.spokeVertices.size(), zero);
+    out.edgeCoefficients.assign(topology.edges.size(), {zero, zero, zero, zero});
+
+    const auto classKey = [&](uint32_t v) { return std::pair{topology.boundary[v] != 0, topology.sectorCount(v)}; };
+    std::map<std::pair<bool, uint32_t>, ValenceClass> classes;
+    std::map<std::pair<bool, uint32_t>, RoundedClass<T>> rounded;
+    std::vector<Vec3<T>> spokes;
+    std::vector<Vec3<T>> diagonals;
+    for (uint32_t v = 0; v < vertexCount; ++v) {
+        const auto key = classKey(v);
+        if (!classes.contains(key)) {
+            const ValenceClass& added = classes[key] = makeValenceClass(key.second, key.first, options);
+            rounded.emplace(key, added);
+        }
+        const uint32_t base = topology.spokeStarts[v];
+        spokes.clear();
+        diagonals.clear();
+        for (uint32_t k = 0; k < topology.spokeCount(v); ++k) {
+            spokes.push_back(positions[topology.spokeVertices[base + k]] - positions[v]);
+            const uint32_t corner = topology.sectorCorners[base + k];
+            if (corner != kNone) {
+                const uint32_t face = topology.cornerFaces[corner];
+                assert(cage.sides(face) == 4);
+                diagonals.push_back(
+                    positions[cage.faceVertices[nextCorner(cage, face, nextCorner(cage, face, corner))]] -
+                    positions[v]);
+            }
+        }
+        vertexStage<T>(rounded.at(key), positions[v], spokes, diagonals, v, base, out);
+    }
+
+    std::map<std::pair<double, double>, EdgeWeights> edgeWeights;
+    for (uint32_t e = 0; e < topology.edges.size(); ++e) {
+        if (!isPerturbed(cage, topology, e)) {
+            continue;
+        }
+        // The edge A -> B: `corner` is the corner at A of the face on its left, `twin` the corner at B of the other
+        // face.
+        const auto [corner, twin] = topology.edges[e];
+        const uint32_t a = cage.faceVertices[corner];
+        const uint32_t b = cage.faceVertices[twin];
+        const uint32_t cornerAtB = nextCorner(cage, topology.cornerFaces[corner], corner);
+        const uint32_t twinAtA = nextCorner(cage, topology.cornerFaces[twin], twin);
+        // All relative to A, as every row of the weights allows.
+        const Vec3<T>& origin = out.limitPoints[a];
+        const auto faceCoefficient = [&](uint32_t c) {
+            return out.faceCoefficients[topology.cornerSpokes[c]] - origin;
+        };
+        const Vec3<T> points[5] = {out.tangents[topology.cornerSpokes[corner]] - origin,
+                                   out.tangents[topology.cornerSpokes[twin]] - origin, out.limitPoints[b] - origin,
+                                   faceCoefficient(corner) + faceCoefficient(twinAtA),
+                                   faceCoefficient(cornerAtB) + faceCoefficient(twin)};
+        const std::pair ends{classes.at(classKey(a)).c, classes.at(classKey(b)).c};
+        if (!edgeWeights.contains(ends)) {
+            edgeWeights[ends] = makeEdgeWeights(ends.first, ends.second);
+        }
+        const EdgeWeights& weights = edgeWeights[ends];
+        for (size_t row = 0; row < 4; ++row) {
+            Vec3<T> h = T(weights[row][1]) * points[0];
+            for (size_t i = 1; i < 5; ++i) {
+                h += T(weights[row][i + 1]) * points[i];
+            }
+            out.edgeCoefficients[e][row] = h;
+        }
+    }
+    return out;
+}
+
+template <class T>
+Patch<T> gatherPatch(const Cage& cage, const Topology& topology, const Coefficients<T>& c, uint32_t face,
+                     const Options& options) {
+    assert(cage.sides(face) == 4);
+    Patch<T> patch;
+    for (uint32_t j = 0; j < 4; ++j) {
+        const uint32_t corner = cage.faceStarts[face] + j;
+        const uint32_t vertex = cage.faceVertices[corner];
+        // Corner-local (a, b): a along edge j -> j+1, b along j -> j-1.
+        const auto slot = [j](uint32_t a, uint32_t b) {
+            switch (j) {
+            case 0:
+                return a + 4 * b;
+            case 1:
+                return (3 - b) + 4 * a;
+            case 2:
+                return (3 - a) + 4 * (3 - b);
+            default:
+                return b + 4 * (3 - a);
+            }
+        };
+        patch.g[slot(0, 0)] = c.limitPoints[vertex];
+        patch.g[slot(1, 0)] = c.tangents[topology.cornerSpokes[corner]];
+        patch.g[slot(0, 1)] = c.tangents[topology.cornerSpokesBack[corner]];
+        patch.g[slot(1, 1)] = c.faceCoefficients[topology.cornerSpokes[corner]];
+
+        const uint32_t edge = topology.cornerEdges[corner];
+        const uint32_t swap = topology.edges[edge].corner == corner ? 0 : 1; // h20 <-> h30, h21 <-> h31
+        for (uint32_t s = 0; s < 4; ++s) {
+            patch.h[4 * j + s] = c.edgeCoefficients[edge][s ^ swap];
+        }
+        patch.perturbed = patch.perturbed || isPerturbed(cage, topology, edge);
+        patch.cornerNormals[j] = c.limitNormals[vertex];
+        patch.useCornerNormal[j] = options.cornerRule == CornerRule::smooth && topology.boundary[vertex] != 0 &&
+                                   topology.sectorCount(vertex) == 1;
+    }
+    return patch;
+}
+
+template <class T>
+Sample<T> evaluate(const Patch<T>& patch, glm::vec<2, T> u, glm::vec<2, T> v) {
+    using Vec = Vec3<T>;
+    const Weights<T> wu(u);
+    const Weights<T> wv(v);
+    const auto& g = patch.g;
+    // Row collapse: along v for each column, then along u. At an end the weights are exactly 0 and 1, so the tensor sum
+    // becomes the border's own sum exactly.
+    // The derivatives come from the coefficients' differences from one of them: their weights sum to zero, so nothing
+    // changes but the rounding, which would otherwise be that of the coefficients' own size.
+    Vec column[4];
+    Vec relativeColumn[4];
+    Vec columnSlope[4];
+    for (size_t i = 0; i < 4; ++i) {
+        const Vec r[4] = {g[i] - g[0], g[i + 4] - g[0], g[i + 8] - g[0], g[i + 12] - g[0]};
+        column[i] = sum4(wv.cubic, g[i], g[i + 4], g[i + 8], g[i + 12]);
+        relativeColumn[i] = sum4(wv.cubic, r[0], r[1], r[2], r[3]);
+        columnSlope[i] = sum4(wv.cubicSlope, r[0], r[1], r[2], r[3]);
+    }
+    Sample<T> sample;
+    sample.position = sum4(wu.cubic, column[0], column[1], column[2], column[3]);
+    sample.du = sum4(wu.cubicSlope, relativeColumn[0], relativeColumn[1], relativeColumn[2], relativeColumn[3]);
+    sample.dv = sum4(wu.cubic, columnSlope[0], columnSlope[1], columnSlope[2], columnSlope[3]);
+
+    Vec h(T(0));
+    Vec hu(T(0));
+    Vec hv(T(0));
+    if (patch.perturbed) {
+        const Weights<T> mu({u.y, u.x}); // the pairs run backwards: edge e's own (a, b) of (u, v)
+        const Weights<T> mv({v.y, v.x});
+        const Weights<T>* const along[4] = {&wu, &wv, &mu, &mv};
+        const Weights<T>* const inward[4] = {&wv, &mu, &mv, &wu};
+        for (size_t e = 0; e < 4; ++e) {
+            const Weights<T>& a = *along[e];
+            const Weights<T>& b = *inward[e];
+            const Vec* const he = &patch.h[4 * e]; // h20, h30, h21, h31
+            const Vec outer = a.quintic2 * he[0] + a.quintic3 * he[1];
+            const Vec inner = a.quintic2 * he[2] + a.quintic3 * he[3];
+            const Vec outerSlope = a.quinticSlope2 * he[0] + a.quinticSlope3 * he[1];
+            const Vec innerSlope = a.quinticSlope2 * he[2] + a.quinticSlope3 * he[3];
+            const Vec ha = b.quintic0 * outerSlope + b.quintic1 * innerSlope;
+            const Vec hb = b.quinticSlope0 * outer + b.quinticSlope1 * inner;
+            h += b.quintic0 * outer + b.quintic1 * inner;
+            // d(a, b)/d(u, v) of edge e's frame.
+            hu += e == 0 ? ha : e == 1 ? -hb : e == 2 ? -ha : hb;
+            hv += e == 0 ? hb : e == 1 ? ha : e == 2 ? -hb : -ha;
+        }
+    }
+    // The perturbation's total comes last; it is added even where it is zero, which turns a -0 of the first sum into
+    // the +0 that a perturbed neighbour gets.
+    sample.position += h;
+    sample.du += hu;
+    sample.dv += hv;
+    sample.normal = unitOrZero(glm::cross(sample.du, sample.dv));
+    const glm::vec<2, T> corners[4] = {{T(0), T(0)}, {T(1), T(0)}, {T(1), T(1)}, {T(0), T(1)}};
+    for (size_t j = 0; j < 4; ++j) {
+        if (patch.useCornerNormal[j] && u.x == corners[j].x && v.x == corners[j].y) {
+            sample.normal = patch.cornerNormals[j];
+        }
+    }
+    return sample;
+}
+
+template Coefficients<float> construct<float>(const Cage&, const Topology&, std::span<const glm::vec3>, const Options&);
+template Coefficients<double> construct<double>(const Cage&, const Topology&, std::span<const glm::dvec3>,
+                                                const Options&);
+template Patch<float> gatherPatch<float>(const Cage&, const Topology&, const Coefficients<float>&, uint32_t,
+                                         const Options&);
+template Patch<double> gatherPatch<double>(const Cage&, const Topology&, const Coefficients<double>&, uint32_t,
+                                           const Options&);
+template Sample<float> evaluate<float>(const Patch<float>&, glm::vec2, glm::vec2);
+template Sample<double> evaluate<double>(const Patch<double>&, glm::dvec2, glm::dvec2);
+
+} // namespace supple::surface::prep

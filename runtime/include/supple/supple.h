@@ -192,7 +192,7 @@ typedef enum SuppleCornerRule { SUPPLE_CORNERS_SHARP = 0, SUPPLE_CORNERS_SMOOTH 
 
 typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,   /* also write the patch coefficients (for inspection) */
-    SUPPLE_GROUP_ATTRIBUTES = 2 /* also write the static surface attributes: UV, colour, patch */
+    SUPPLE_GROUP_ATTRIBUTES = 2 /* also write the static surface attributes: UV and color */
 } SuppleGroupFlags;
 
 /* N instances of one asset, evaluated together. */
@@ -265,7 +265,7 @@ typedef struct SuppleBufferView {
 typedef struct SuppleDrawRange {
     uint32_t firstPatch;
     uint32_t patchCount;
-    uint32_t material; /* index in the file's used materials, or SUPPLE_NO_MATERIAL */
+    uint32_t material; /* index among the file's materials, or SUPPLE_NO_MATERIAL */
 } SuppleDrawRange;
 
 /* Valid until the group is destroyed. Buffers have usage STORAGE, UNIFORM_TEXEL, TRANSFER_SRC and, where it makes
@@ -279,10 +279,12 @@ typedef struct SuppleGroupOutput {
     uint32_t samplesPerPatch;     /* (rate + 1)^2, u fastest */
     uint32_t verticesPerInstance; /* >= patchCount * samplesPerPatch: instance k starts at vertex k * this */
     uint32_t cageVertexCount;
+    uint32_t cageVerticesPerInstance; /* >= cageVertexCount: the stride of deformedCage between instances */
     SuppleBufferView surfaceVertices; /* vertex of (instance, patch, sample): instance * verticesPerInstance
                                        * + patch * samplesPerPatch + sample */
-    SuppleBufferView attributes;  /* per (patch, sample), shared by all instances: float2 uv, RGBA8 unorm colour, patch */
-    SuppleBufferView deformedCage; /* float4 (x, y, z, 1) per cage vertex, instance-major */
+    SuppleBufferView attributes;  /* per (patch, sample), shared by all instances: float2 uv, linear RGBA in
+                                  * 4 x unorm16 */
+    SuppleBufferView deformedCage; /* float4 (x, y, z, 1) per cage vertex: instance * cageVerticesPerInstance + vertex */
     SuppleBufferView patchCoefficients; /* float4 per coefficient, 32 per patch (16 g, then 16 h), instance-major */
     SuppleBufferView gridIndices; /* uint16, two triangles a grid cell, shared by all patches: indexCount entries */
     uint32_t indexCount;

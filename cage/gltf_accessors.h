@@ -1,0 +1,39 @@
+// Checked reads of glTF accessors: ranges, strides, sparse substitution, dequantisation. Private to cage/.
+#pragma once
+
+#include "cage/gltf_document.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace supple::cage {
+
+/// An accessor without a bufferView is all zeros whatever the file's size; a longer one is refused.
+inline constexpr uint64_t kMaxZeroElements = 1u << 24;
+
+/// Component types a use allows, as bits.
+enum ComponentTypes : uint32_t {
+    kFloat = 1u << 0,
+    kNormalizedU8 = 1u << 1,
+    kNormalizedU16 = 1u << 2,
+    kNormalizedS8 = 1u << 3,
+    kNormalizedS16 = 1u << 4,
+    kU8 = 1u << 5,
+    kU16 = 1u << 6,
+    kU32 = 1u << 7,
+};
+
+/// Elements of `type` (TINYGLTF_TYPE_*) as floats, element after element; normalized integers are dequantised. Throws
+/// Refusal that names `element` when type or component type are not allowed there or the data is out of range.
+[[nodiscard]] std::vector<float> readFloats(const GltfDocument& document, int accessor, int type, uint32_t allowed,
+                                            const std::string& element);
+
+/// Elements of `type` as unsigned integers.
+[[nodiscard]] std::vector<uint32_t> readIntegers(const GltfDocument& document, int accessor, int type, uint32_t allowed,
+                                                 const std::string& element);
+
+/// Number of elements.
+[[nodiscard]] size_t accessorCount(const GltfDocument& document, int accessor);
+
+} // namespace supple::cage

@@ -1,0 +1,31 @@
+// A glTF or GLB in memory: container, JSON and buffers, checked before anything is built from them. Private to cage/.
+#pragma once
+
+#include "cage/character.h"
+#include "cage/tinygltf.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace supple::cage {
+
+/// JSON nested deeper than this is refused before it is parsed: parsers and writers recurse.
+inline constexpr int kMaxJsonDepth = 64;
+
+struct GltfDocument {
+    /// Everything but buffers, images, cameras and top-level extensions, which tinygltf never sees. Every index in it
+    /// is in range, every number array has its right length and finite members.
+    supple_tinygltf::Model model;
+    std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each
+    std::vector<Image> images;                       ///< same indices as the file's; bytes empty where missing
+    std::vector<std::string> warnings;
+
+    std::vector<std::vector<std::byte>> owned; ///< behind the buffers that are not in the caller's bytes
+};
+
+/// Throws Refusal. The document refers to `bytes`.
+[[nodiscard]] GltfDocument loadGltfDocument(std::span<const std::byte> bytes, const std::string& baseDirectory);
+
+} // namespace supple::cage

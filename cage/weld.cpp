@@ -1,0 +1,233 @@
+#include "cage/weld.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace supple::cage {
+namespace {
+
+/// Union-find whose representative is the smallest member.
+class Sets {
+public:
+    explicit Sets(size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
+
+    uint32_t find(uint32_t v) {
+        while (parents_[v] != v) {
+            parents_[v] = parents_[parents_[v]];
+            v = parents_[v];
+        }
+        return v;
+    }
+    bool unite(uint32_t a, uint32_t b) {
+        a = find(a);
+        b = find(b);
+        if (a == b)
+            return false;
+        parents_[std::max(a, b)] = std::min(a, b);
+        return true;
+    }
+
+private:
+    std::vector<uint32_t> parents_;
+};
+
+struct HalfEdge {
+    uint32_t low = 0; ///< candidate sets at the ends, low < high
+    uint32_t high = 0;
+    uint32_t lowVertex = 0;
+    uint32_t highVertex = 0;
+    uint32_t triangle = 0;
+    bool forward = false; ///< low -> high
+};
+
+std::vector<HalfEdge> halfEdges(std::span<const uint32_t> candidates, std::span<const uint32_t> triangles) {
+    std::vector<HalfEdge> edges;
+    edges.reserve(triangles.size());
+    for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
+        for (size_t j = 0; j < 3; ++j) {
+            const uint32_t from = triangles[t + j];
+            const uint32_t to = triangles[t + (j + 1) % 3];
+            const uint32_t a = candidates[from];
+            const uint32_t b = candidates[to];
+            if (a == b)
+                continue;
+            edges.push_back(a < b ? HalfEdge{a, b, from, to, static_cast<uint32_t>(t / 3), true}
+                                  : HalfEdge{b, a, to, from, static_cast<uint32_t>(t / 3), false});
+        }
+    }
+    std::sort(edges.begin(), edges.end(),
+              [](const HalfEdge& x, const HalfEdge& y) { return std::pair(x.low, x.high) < std::pair(y.low, y.high); });
+    return edges;
+}
+
+/// Sews two half-edges when they are all of their group.
+bool sewOnlyPair(std::span<const HalfEdge> group, Sets& sets) {
+    if (group.size() != 2 || group[0].forward == group[1].forward || group[0].triangle == group[1].triangle)
+        return false;
+    const bool low = sets.unite(group[0].lowVertex, group[1].lowVertex);
+    const bool high = sets.unite(group[0].highVertex, group[1].highVertex);
+    return low || high;
+}
+
+/// Sews what is unambiguous among the half-edges between two candidate sets: first those the file joins already are set
+/// aside; of the rest a lone pair, or a lone pair among those that share one end.
+bool sewGroup(std::span<const HalfEdge> group, Sets& sets, std::vector<HalfEdge>& open, std::vector<HalfEdge>& part) {
+    open.clear();
+    const auto key = [&](const HalfEdge& e) { return std::pair(sets.find(e.lowVertex), sets.find(e.highVertex)); };
+    open.assign(group.begin(), group.end());
+    std::sort(open.begin(), open.end(), [&](const HalfEdge& x, const HalfEdge& y) { return key(x) < key(y); });
+    part.clear();
+    for (size_t begin = 0; begin < open.size();) {
+        size_t end = begin;
+        size_t forward = 0;
+        for (; end < open.size() && key(open[end]) == key(open[begin]); ++end)
+            forward += open[end].forward ? 1 : 0;
+        // As many each way: joined. Otherwise all of them stay in play.
+        if (2 * forward != end - begin)
+            part.insert(part.end(), open.begin() + static_cast<ptrdiff_t>(begin),
+                        open.begin() + static_cast<ptrdiff_t>(end));
+        begin = end;
+    }
+    open.swap(part);
+    if (open.size() < 2)
+        return false;
+    if (open.size() == 2)
+        return sewOnlyPair(open, sets);
+    for (const bool byLow : {true, false}) {
+        const auto end = [&](const HalfEdge& e) { return sets.find(byLow ? e.lowVertex : e.highVertex); };
+        std::sort(open.begin(), open.end(), [&](const HalfEdge& x, const HalfEdge& y) { return end(x) < end(y); });
+        for (size_t first = 0; first < open.size();) {
+            size_t last = first;
+            const uint32_t root = end(open[first]);
+            while (last < open.size() && end(open[last]) == root)
+                ++last;
+            part.assign(open.begin() + static_cast<ptrdiff_t>(first), open.begin() + static_cast<ptrdiff_t>(last));
+            first = last;
+            if (sewOnlyPair(part, sets))
+                return true; // roots moved: the caller looks again
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+Welding weld(std::span<const uint32_t> candidates, std::span<const uint32_t> triangles) {
+    Sets sets(candidates.size());
+    const std::vector<HalfEdge> edges = halfEdges(candidates, triangles);
+    std::vector<HalfEdge> open;
+    std::vector<HalfEdge> part;
+
+    // Lone pairs first, then whatever they disambiguate, until nothing moves. Every further round needs a merge that
+    // the round before made, and rounds are bounded so that no file can make this quadratic.
+    constexpr int kMaxRounds = 64;
+    std::vector<std::span<const HalfEdge>> groups;
+    for (size_t begin = 0; begin < edges.size();) {
+        size_t end = begin;
+        while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high)
+            ++end;
+        const auto group = std::span(edges).subspan(begin, end - begin);
+        begin = end;
+        if (group.size() == 2)
+            sewOnlyPair(group, sets);
+        else if (group.size() > 2)
+            groups.push_back(group);
+    }
+    bool moved = !groups.empty();
+    for (int round = 0; round < kMaxRounds && moved; ++round) {
+        moved = false;
+        for (const auto group : groups)
+            moved = sewGroup(group, sets, open, part) || moved;
+    }
+
+    Welding welding;
+    welding.roots.resize(candidates.size());
+    for (uint32_t v = 0; v < candidates.size(); ++v)
+        welding.roots[v] = sets.find(v);
+    return welding;
+}
+
+uint32_t unweldDefects(const Polygons& polygons, Welding& welding) {
+    auto& roots = welding.roots;
+    std::vector<uint8_t> merged(roots.size(), 0);
+    for (uint32_t v = 0; v < roots.size(); ++v)
+        if (roots[v] != v)
+            merged[roots[v]] = 1;
+
+    struct Edge {
+        uint32_t from, to;             ///< cage vertices
+        uint32_t fromVertex, toVertex; ///< the file's
+    };
+    std::vector<Edge> edges;
+    std::vector<uint8_t> bad(roots.size(), 0);
+    std::vector<uint32_t> scratch;
+    uint32_t takenApart = 0;
+    constexpr int kMaxRounds = 16; // each takes apart at least one cage vertex, in practice all of them at once
+    for (int round = 0; round < kMaxRounds; ++round) {
+        edges.clear();
+        std::fill(bad.begin(), bad.end(), uint8_t{0});
+        bool any = false;
+        const auto blame = [&](uint32_t vertex) {
+            if (merged[vertex] != 0) {
+                bad[vertex] = 1;
+                any = true;
+            }
+        };
+        // Per cage vertex: its corners, and for the first two of them the neighbors before and after.
+        std::vector<uint32_t> corners(roots.size(), 0);
+        std::vector<std::array<uint32_t, 4>> around(roots.size());
+        for (size_t f = 0; f < polygons.faceCount(); ++f) {
+            const auto face =
+                std::span(polygons.vertices).subspan(polygons.starts[f], polygons.starts[f + 1] - polygons.starts[f]);
+            for (size_t j = 0; j < face.size(); ++j) {
+                const uint32_t vertex = face[j];
+                const uint32_t next = face[(j + 1) % face.size()];
+                const uint32_t previous = face[(j + face.size() - 1) % face.size()];
+                edges.push_back({roots[vertex], roots[next], vertex, next});
+                const uint32_t seen = corners[roots[vertex]]++;
+                if (seen < 2) {
+                    around[roots[vertex]][2 * seen] = roots[previous];
+                    around[roots[vertex]][2 * seen + 1] = roots[next];
+                }
+            }
+            scratch.clear();
+            for (const uint32_t vertex : face)
+                scratch.push_back(roots[vertex]);
+            std::sort(scratch.begin(), scratch.end());
+            for (size_t j = 1; j < scratch.size(); ++j)
+                if (scratch[j] == scratch[j - 1])
+                    blame(scratch[j]);
+        }
+        std::sort(edges.begin(), edges.end(),
+                  [](const Edge& x, const Edge& y) { return std::pair(x.from, x.to) < std::pair(y.from, y.to); });
+        for (size_t i = 1; i < edges.size(); ++i) {
+            const Edge& x = edges[i - 1];
+            const Edge& y = edges[i];
+            if (x.from == y.from && x.to == y.to && (x.fromVertex != y.fromVertex || x.toVertex != y.toVertex)) {
+                if (x.fromVertex != y.fromVertex)
+                    blame(x.from);
+                if (x.toVertex != y.toVertex)
+                    blame(x.to);
+            }
+        }
+        for (uint32_t v = 0; v < roots.size(); ++v)
+            if (corners[v] == 2 && around[v][0] == around[v][3] && around[v][1] == around[v][2])
+                blame(v);
+        if (!any)
+            break;
+        for (uint32_t v = 0; v < roots.size(); ++v) {
+            const uint32_t root = roots[v];
+            if (bad[root] != 0) {
+                takenApart += v == root ? 1 : 0;
+                roots[v] = v;
+                if (v == root)
+                    merged[v] = 0;
+            }
+        }
+        // A root is the smallest member and comes first, so `bad[root]` was still read by the others above.
+    }
+    return takenApart;
+}
+
+} // namespace supple::cage

@@ -1,0 +1,41 @@
+// Device-local buffers filled once: created from bytes on the CPU, uploaded by the first command buffer that needs
+// them.
+#pragma once
+
+#include "gpu/memory.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace supple::gpu {
+
+struct StaticRequest {
+    const char* name = "";
+    VkBufferUsageFlags usage = 0;     ///< TRANSFER_DST is added
+    std::span<const std::byte> bytes; ///< copied to staging memory at once
+};
+
+class StaticBuffers {
+public:
+    [[nodiscard]] static Result<StaticBuffers> create(const Device& device, std::span<const StaticRequest> requests);
+
+    [[nodiscard]] VkBuffer buffer(size_t index) const { return device_.buffer(index); }
+    [[nodiscard]] VkDeviceSize size(size_t index) const { return device_.size(index); }
+    [[nodiscard]] VkDeviceSize deviceBytes() const { return device_.allocatedBytes(); }
+
+    /// Records the copies if that has not been done; returns the bytes copied. The caller puts the barrier after it.
+    VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
+    /// Frees the staging memory once the frame that uploaded is complete.
+    void releaseStaging(uint64_t completedFrame);
+
+private:
+    const Device* owner_ = nullptr;
+    BufferSet device_, staging_;
+    size_t count_ = 0;
+    bool recorded_ = false;
+    bool released_ = false;
+    uint64_t recordedFrame_ = 0;
+};
+
+} // namespace supple::gpu

@@ -1,0 +1,38 @@
+// A loaded character and what the device holds of it: the deform table, and one set of tables a scheme in use.
+#pragma once
+
+#include "base/result.h"
+#include "cage/character.h"
+#include "cage/topology.h"
+#include "gpu/static_buffers.h"
+#include "supple/supple.h"
+#include "surface/prep/scheme.h"
+
+#include <memory>
+#include <vector>
+
+namespace supple::runtime {
+
+/// Static tables of p-rep for one asset and one set of options, shared by the groups that use them.
+struct SchemeTables {
+    surface::prep::Options options;
+    surface::prep::Tables tables; ///< `words` is emptied once it lies in the staging memory
+    gpu::StaticBuffers buffers;   ///< 0: the tables
+};
+
+struct Asset {
+    cage::Character character;
+    cage::Topology topology;
+    gpu::StaticBuffers buffers; ///< 0: the deform table
+    std::vector<std::shared_ptr<SchemeTables>> schemes;
+
+    [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device, cage::Character character);
+    /// Finds or builds the tables for `options`.
+    [[nodiscard]] Result<std::shared_ptr<SchemeTables>> tablesFor(const gpu::Device& device,
+                                                                  const surface::prep::Options& options);
+};
+
+/// A character without skeleton or clips from the host's arrays: one joint, every vertex bound to it.
+[[nodiscard]] Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const std::string& name);
+
+} // namespace supple::runtime

@@ -1,0 +1,58 @@
+// The context: the borrowed device, the pipelines, the handles, and what is in flight.
+#pragma once
+
+#include "gpu/device.h"
+#include "gpu/static_buffers.h"
+#include "runtime/asset.h"
+#include "runtime/group.h"
+#include "runtime/slot_map.h"
+#include "runtime/timings.h"
+#include "skinning/deform_pass.h"
+#include "supple/supple.h"
+#include "surface/prep/passes.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace supple::runtime {
+
+class Context {
+public:
+    [[nodiscard]] static Result<std::unique_ptr<Context>> create(const SuppleContextDesc& desc);
+
+    void log(SuppleSeverity severity, const std::string& text) const;
+
+    [[nodiscard]] Status beginFrame(uint64_t frame, uint64_t completedFrame);
+    /// The frame's passes in order; see frame.cpp.
+    [[nodiscard]] Status record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc);
+
+    [[nodiscard]] Result<uint64_t> createAsset(cage::Character character);
+    [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
+    bool destroyGroup(uint64_t id);
+
+    SlotMap<Asset> assets;
+    SlotMap<Group> groups;
+    Timings timings;
+
+private:
+    void retire(uint64_t completedFrame);
+
+    std::unique_ptr<gpu::Device> device_; ///< first: everything below holds its address
+    SuppleLogFunction log_ = nullptr;
+    void* logUser_ = nullptr;
+    uint32_t framesInFlight_ = 2;
+    uint64_t frame_ = 0; ///< 0: no frame begun
+    skinning::DeformPass deform_;
+    surface::prep::Passes prep_;
+    gpu::StaticBuffers pairs_;
+    std::vector<std::shared_ptr<Group>> retired_; ///< destroyed by the host, perhaps still in flight
+
+public:
+    ~Context();
+    Context() = default;
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+};
+
+} // namespace supple::runtime

@@ -1,0 +1,408 @@
+#include "runtime/group.h"
+
+#include "surface/grid.h"
+
+#include <algorithm>
+#include <cstring>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace supple::runtime {
+
+namespace {
+
+using namespace supple::shared;
+
+enum BufferIndex : size_t { kPalettes, kDeformedCage, kPool, kSurface, kPatchCoefficients, kAttributes, kBufferCount };
+enum StaticIndex : size_t { kGridIndices, kIndirect };
+
+constexpr VkDeviceSize kVec4Bytes = 16;
+constexpr VkDeviceSize kAffineBytes = sizeof(skinning::Affine);
+static_assert(kAffineBytes == 48);
+
+// Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits): instances of the pool, the deformed cage
+// and the surface vertices (16 or 24 bytes each) start on such multiples.
+constexpr uint32_t kCagePadding = 16;
+constexpr uint32_t kVertexPadding = 32;
+// Palettes are packed: sixteen of them end on a multiple of 256 bytes whatever the joint count.
+constexpr uint32_t kDeformWindowMultiple = 16;
+
+uint32_t roundUp(uint32_t value, uint32_t multiple) {
+    return (value + multiple - 1) / multiple * multiple;
+}
+
+VkDescriptorBufferInfo range(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
+    return {buffer, offset, size};
+}
+
+/// transform * palette, both affine.
+skinning::Affine placed(const glm::mat4& transform, const skinning::Affine& joint) {
+    skinning::Affine result;
+    for (int row = 0; row < 3; ++row) {
+        result.rows[row] =
+            transform[0][row] * joint.rows[0] + transform[1][row] * joint.rows[1] + transform[2][row] * joint.rows[2];
+        result.rows[row].w += transform[3][row];
+    }
+    return result;
+}
+
+} // namespace
+
+Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::shared_ptr<Asset> asset,
+                                             const SuppleGroupDesc& desc) {
+    auto group = std::make_shared<Group>();
+    group->shared_ = shared;
+    surface::prep::Options options;
+    options.tangentMode = desc.tangentMode == SUPPLE_TANGENTS_PRINTED ? surface::prep::TangentMode::printed
+                                                                      : surface::prep::TangentMode::standard;
+    options.cornerRule =
+        desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth : surface::prep::CornerRule::sharp;
+    Result<std::shared_ptr<SchemeTables>> scheme = asset->tablesFor(*shared.device, options);
+    if (!scheme)
+        return scheme.error();
+    group->scheme_ = *scheme;
+    group->asset_ = std::move(asset);
+    group->instanceCount_ = desc.instanceCount;
+    group->jointCount_ = static_cast<uint32_t>(group->asset_->character.skin.joints.size());
+
+    const uint32_t rate = desc.rate == 0 ? 8 : desc.rate;
+    const uint64_t samples = uint64_t{rate + 1} * (rate + 1);
+    const uint64_t vertices = samples * group->scheme_->tables.patches.size();
+    // Vertex indices are 32 bits on the device.
+    if ((vertices + kVertexPadding) * desc.instanceCount > 0xFFFFFFFFull ||
+        uint64_t{group->scheme_->tables.poolStride} * desc.instanceCount > 0xFFFFFFFFull)
+        return Error{ErrorCode::limit, group->asset_->character.name + ": " + std::to_string(desc.instanceCount) +
+                                           " instances at rate " + std::to_string(rate) +
+                                           " need more than 2^32 surface vertices"};
+    group->evaluation_.rate = rate;
+    group->evaluation_.vertex24 = desc.vertexFormat == SUPPLE_VERTEX_24;
+    group->evaluation_.verticesPerInstance = roundUp(static_cast<uint32_t>(vertices), kVertexPadding);
+    group->evaluation_.cageStride = roundUp(group->asset_->character.cage.vertexCount(), kCagePadding);
+
+    group->transforms_.assign(desc.instanceCount, glm::mat4(1.0f));
+    group->palettes_.resize(size_t{desc.instanceCount} * group->jointCount_);
+    group->scratch_.resize(group->asset_->character.skeleton.nodes.size());
+    for (uint32_t instance = 0; instance < desc.instanceCount; ++instance)
+        group->setBindPose(instance);
+
+    Status status = group->createBuffers(desc);
+    if (status)
+        status = group->createSets();
+    if (!status)
+        return Error{status.error().code, group->asset_->character.name + ": " + status.error().message};
+    group->fillOutput(desc);
+    return group;
+}
+
+Status Group::createBuffers(const SuppleGroupDesc& desc) {
+    const gpu::Device& device = *shared_.device;
+    const surface::prep::Tables& tables = scheme_->tables;
+    const VkDeviceSize n = instanceCount_;
+    const VkDeviceSize vertexBytes = evaluation_.vertex24 ? 24 : 16;
+    const VkDeviceSize patches = tables.patches.size();
+    const VkDeviceSize samples = VkDeviceSize{evaluation_.rate + 1} * (evaluation_.rate + 1);
+    constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    constexpr VkBufferUsageFlags kTexels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    constexpr VkBufferUsageFlags kOutput = kStorage | kTexels | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+
+    std::vector<gpu::BufferRequest> requests(kBufferCount);
+    requests[kPalettes] = {"supple joint palettes", n * jointCount_ * kAffineBytes,
+                           kStorage | kTexels | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    requests[kDeformedCage] = {"supple deformed cage", n * evaluation_.cageStride * kVec4Bytes,
+                               kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
+    requests[kPool] = {"supple coefficient pool", n * tables.poolStride * kVec4Bytes,
+                       kStorage | kTexels | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    requests[kSurface] = {"supple surface vertices", n * evaluation_.verticesPerInstance * vertexBytes,
+                          kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
+    requests[kPatchCoefficients] = {"supple patch coefficients",
+                                    (desc.flags & SUPPLE_GROUP_PATCHES) != 0 ? n * patches * 32 * kVec4Bytes : 0,
+                                    kOutput};
+    requests[kAttributes] = {"supple surface attributes",
+                             (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0 ? patches * samples * 16 : 0,
+                             kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
+    attributesPending_ = requests[kAttributes].size > 0;
+    if (requests[kAttributes].size > device.limits.maxStorageBufferRange)
+        return Error{ErrorCode::limit, "surface attributes exceed the device's storage-buffer range"};
+    Result<gpu::BufferSet> buffers = gpu::BufferSet::create(device, requests, gpu::MemoryKind::deviceLocal);
+    if (!buffers)
+        return buffers.error();
+    buffers_ = std::move(*buffers);
+
+    const gpu::BufferRequest staging{"supple palette staging", requests[kPalettes].size * shared_.framesInFlight,
+                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+    Result<gpu::BufferSet> stagingSet = gpu::BufferSet::create(device, {&staging, 1}, gpu::MemoryKind::upload);
+    if (!stagingSet)
+        return stagingSet.error();
+    staging_ = std::move(*stagingSet);
+
+    const std::vector<uint16_t> indices = surface::quadGridIndices(evaluation_.rate);
+    std::vector<VkDrawIndexedIndirectCommand> indirect;
+    for (const surface::prep::DrawRange& drawRange : tables.drawRanges)
+        indirect.push_back({static_cast<uint32_t>(indices.size()), drawRange.patchCount * instanceCount_, 0, 0, 0});
+    const gpu::StaticRequest staticRequests[] = {
+        {"supple grid indices", kOutput | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(std::span(indices))},
+        {"supple indirect arguments", kOutput | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+         std::as_bytes(std::span(indirect))}};
+    Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(device, staticRequests);
+    if (!statics)
+        return statics.error();
+    static_ = std::move(*statics);
+    return success();
+}
+
+Status Group::createSets() {
+    const gpu::Device& device = *shared_.device;
+    const surface::prep::Tables& tables = scheme_->tables;
+    const VkDeviceSize vertexBytes = evaluation_.vertex24 ? 24 : 16;
+    const VkDeviceSize paletteBytes = jointCount_ * kAffineBytes;
+    const VkDeviceSize cageBytes = evaluation_.cageStride * kVec4Bytes;
+    const VkDeviceSize poolBytes = tables.poolStride * kVec4Bytes;
+    const VkDeviceSize surfaceBytes = evaluation_.verticesPerInstance * vertexBytes;
+    const VkDeviceSize patchBytes =
+        writesPatches() || buffers_.size(kPatchCoefficients) > 0 ? tables.patches.size() * 32 * kVec4Bytes : 0;
+
+    // As many instances a window as every bound range can hold.
+    const VkDeviceSize texelLimit = device.bufferWindow(16), storageLimit = device.limits.maxStorageBufferRange;
+    VkDeviceSize deformFit = texelLimit / std::max(paletteBytes, cageBytes);
+    if (deformFit < instanceCount_)
+        deformFit = deformFit / kDeformWindowMultiple * kDeformWindowMultiple;
+    const VkDeviceSize prepFit = std::min({texelLimit / std::max(cageBytes, poolBytes), storageLimit / surfaceBytes,
+                                           patchBytes > 0 ? storageLimit / patchBytes : VkDeviceSize{instanceCount_}});
+    if (deformFit == 0 || prepFit == 0)
+        return Error{ErrorCode::limit, "one instance exceeds the device's storage-buffer range of " +
+                                           std::to_string(storageLimit) + " bytes"};
+    const auto deformWindow = static_cast<uint32_t>(std::min<VkDeviceSize>(deformFit, instanceCount_));
+    const auto prepWindow = static_cast<uint32_t>(std::min<VkDeviceSize>(prepFit, instanceCount_));
+    const uint32_t deformCount = (instanceCount_ + deformWindow - 1) / deformWindow;
+    const uint32_t prepCount = (instanceCount_ + prepWindow - 1) / prepWindow;
+
+    Status failed = success();
+    const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size,
+                          const char* name) -> VkBufferView {
+        Result<gpu::BufferViewHandle> result = gpu::createTexelView(device, buffer, format, offset, size, name);
+        if (!result) {
+            failed = result.error();
+            return VK_NULL_HANDLE;
+        }
+        views_.push_back(std::move(*result));
+        return views_.back().get();
+    };
+    constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kUint4 = VK_FORMAT_R32G32B32A32_UINT;
+
+    Result<gpu::DescriptorPoolHandle> pool =
+        gpu::createDescriptorPool(device, shared_.deform->layout(), deformCount, "supple deform");
+    if (!pool)
+        return pool.error();
+    deformPool_ = std::move(*pool);
+    const VkBuffer deformTable = asset_->buffers.buffer(0);
+    const VkDeviceSize deformTableBytes = asset_->buffers.size(0);
+    const VkBufferView deformTableView = view(deformTable, kUint4, 0, deformTableBytes, "supple deform table");
+    for (uint32_t w = 0; w < deformCount && failed.ok(); ++w) {
+        const uint32_t first = w * deformWindow, count = std::min(deformWindow, instanceCount_ - first);
+        Result<VkDescriptorSet> set =
+            gpu::allocateSet(device, shared_.deform->layout(), deformPool_.get(), "supple deform");
+        if (!set)
+            return set.error();
+        const VkBuffer palettes = buffers_.buffer(kPalettes), deformed = buffers_.buffer(kDeformedCage);
+        const gpu::BoundResource resources[] = {
+            {kDeformTableBinding, range(deformTable, 0, deformTableBytes), VK_NULL_HANDLE},
+            {kDeformTableTexelBinding, {}, deformTableView},
+            {kPaletteBinding, range(palettes, first * paletteBytes, count * paletteBytes), VK_NULL_HANDLE},
+            {kPaletteTexelBinding,
+             {},
+             view(palettes, kFloat4, first * paletteBytes, count * paletteBytes, "supple palette")},
+            {kDeformedCageBinding, range(deformed, first * cageBytes, count * cageBytes), VK_NULL_HANDLE},
+        };
+        if (!failed)
+            return failed;
+        gpu::writeSet(device, *set, resources);
+        deformWindows_.push_back({*set, count});
+    }
+
+    pool = gpu::createDescriptorPool(device, shared_.prep->layout(), prepCount, "supple p-rep");
+    if (!pool)
+        return pool.error();
+    prepPool_ = std::move(*pool);
+    const VkBuffer table = scheme_->buffers.buffer(0);
+    const VkDeviceSize tableBytes = scheme_->buffers.size(0);
+    const VkBufferView table4 = view(table, kUint4, 0, tableBytes, "supple p-rep tables");
+    const VkBufferView table1 = view(table, VK_FORMAT_R32_UINT, 0, tableBytes, "supple p-rep table words");
+    for (uint32_t w = 0; w < prepCount && failed.ok(); ++w) {
+        const uint32_t first = w * prepWindow, count = std::min(prepWindow, instanceCount_ - first);
+        Result<VkDescriptorSet> set = gpu::allocateSet(device, shared_.prep->layout(), prepPool_.get(), "supple p-rep");
+        if (!set)
+            return set.error();
+        const VkBuffer cage = buffers_.buffer(kDeformedCage), coefficients = buffers_.buffer(kPool);
+        // Bindings a group does without point at the pool: every binding of the layout must be valid.
+        const VkDescriptorBufferInfo unused = range(coefficients, first * poolBytes, kVec4Bytes);
+        const bool patches = patchBytes > 0, attributes = buffers_.size(kAttributes) > 0;
+        const gpu::BoundResource resources[] = {
+            {kTableBinding, range(table, 0, tableBytes), VK_NULL_HANDLE},
+            {kTable4TexelBinding, {}, table4},
+            {kTable1TexelBinding, {}, table1},
+            {kCageBinding, range(cage, first * cageBytes, count * cageBytes), VK_NULL_HANDLE},
+            {kCageTexelBinding, {}, view(cage, kFloat4, first * cageBytes, count * cageBytes, "supple deformed cage")},
+            {kPoolBinding, range(coefficients, first * poolBytes, count * poolBytes), VK_NULL_HANDLE},
+            {kPoolTexelBinding, {}, view(coefficients, kFloat4, first * poolBytes, count * poolBytes, "supple pool")},
+            {kSurfaceBinding, range(buffers_.buffer(kSurface), first * surfaceBytes, count * surfaceBytes),
+             VK_NULL_HANDLE},
+            {kPatchCoefficientBinding,
+             patches ? range(buffers_.buffer(kPatchCoefficients), first * patchBytes, count * patchBytes) : unused,
+             VK_NULL_HANDLE},
+            {kAttributeBinding, attributes ? range(buffers_.buffer(kAttributes), 0, VK_WHOLE_SIZE) : unused,
+             VK_NULL_HANDLE},
+            {kPairBinding, range(shared_.pairs, 0, shared_.pairBytes), VK_NULL_HANDLE},
+        };
+        if (!failed)
+            return failed;
+        gpu::writeSet(device, *set, resources);
+        prepWindows_.push_back({*set, count});
+    }
+    return failed;
+}
+
+void Group::fillOutput(const SuppleGroupDesc& desc) {
+    const surface::prep::Tables& tables = scheme_->tables;
+    const auto whole = [&](BufferIndex index, uint32_t stride) {
+        return SuppleBufferView{buffers_.buffer(index), 0, buffers_.size(index), stride};
+    };
+    SuppleGroupOutput& o = output_;
+    o.structSize = sizeof(o);
+    o.instanceCount = instanceCount_;
+    o.rate = evaluation_.rate;
+    o.vertexFormat = desc.vertexFormat;
+    o.patchCount = static_cast<uint32_t>(tables.patches.size());
+    o.samplesPerPatch = (o.rate + 1) * (o.rate + 1);
+    o.verticesPerInstance = evaluation_.verticesPerInstance;
+    o.cageVertexCount = asset_->character.cage.vertexCount();
+    o.cageVerticesPerInstance = evaluation_.cageStride;
+    o.surfaceVertices = whole(kSurface, evaluation_.vertex24 ? 24 : 16);
+    o.attributes = whole(kAttributes, 16);
+    o.deformedCage = whole(kDeformedCage, 16);
+    o.patchCoefficients = whole(kPatchCoefficients, 16);
+    o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
+    o.indexCount = static_cast<uint32_t>(static_.size(kGridIndices) / 2);
+    o.indirect = {static_.buffer(kIndirect), 0, static_.size(kIndirect), sizeof(VkDrawIndexedIndirectCommand)};
+    static_assert(sizeof(SuppleDrawRange) == sizeof(surface::prep::DrawRange));
+    o.drawRanges = reinterpret_cast<const SuppleDrawRange*>(tables.drawRanges.data());
+    o.drawRangeCount = static_cast<uint32_t>(tables.drawRanges.size());
+    o.deviceBytes = buffers_.allocatedBytes() + static_.deviceBytes();
+}
+
+void Group::setBindPose(uint32_t instance) {
+    const skinning::Affine identity = skinning::toAffine(glm::mat4(1.0f));
+    std::fill_n(palettes_.begin() + static_cast<ptrdiff_t>(size_t{instance} * jointCount_), jointCount_, identity);
+}
+
+void Group::setClipPose(uint32_t instance, uint32_t clip, double time) {
+    const cage::Character& character = asset_->character;
+    skinning::sampleClip(character.skeleton, character.clips[clip], time, scratch_);
+    skinning::globalTransforms(character.skeleton, scratch_, scratch_);
+    skinning::jointPalette(character.skin, scratch_, glm::mat4(1.0f),
+                           std::span(palettes_).subspan(size_t{instance} * jointCount_, jointCount_));
+}
+
+void Group::setMatrixPose(uint32_t instance, const float* jointMatrices) {
+    for (uint32_t j = 0; j < jointCount_; ++j) {
+        const glm::mat4 joint = glm::make_mat4(jointMatrices + 16 * size_t{j});
+        palettes_[size_t{instance} * jointCount_ + j] =
+            skinning::toAffine(joint * asset_->character.skin.inverseBinds[j]);
+    }
+}
+
+void Group::setTransform(uint32_t instance, const glm::mat4& transform) {
+    transforms_[instance] = transform;
+}
+
+Result<Group::PassCost> Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
+    const gpu::Device& device = *shared_.device;
+    lastRecordedFrame_ = frame;
+    PassCost cost;
+    cost.bytes += asset_->buffers.recordUpload(commandBuffer, frame);
+    cost.bytes += scheme_->buffers.recordUpload(commandBuffer, frame);
+    cost.bytes += static_.recordUpload(commandBuffer, frame);
+    if (!cleared_) {
+        // The zero coefficient and the slots no stage writes.
+        device.vk.CmdFillBuffer(commandBuffer, buffers_.buffer(kPool), 0, VK_WHOLE_SIZE, 0);
+        cleared_ = true;
+    }
+    const VkDeviceSize bytes = palettes_.size() * kAffineBytes;
+    const VkDeviceSize offset = frame % shared_.framesInFlight * bytes;
+    std::byte* target = staging_.mapped(0) + offset;
+    for (uint32_t instance = 0; instance < instanceCount_; ++instance) {
+        const glm::mat4& transform = transforms_[instance];
+        const skinning::Affine* source = palettes_.data() + size_t{instance} * jointCount_;
+        if (transform == glm::mat4(1.0f)) {
+            std::memcpy(target, source, jointCount_ * kAffineBytes);
+            target += jointCount_ * kAffineBytes;
+            continue;
+        }
+        for (uint32_t j = 0; j < jointCount_; ++j) {
+            const skinning::Affine joint = placed(transform, source[j]);
+            std::memcpy(target, &joint, kAffineBytes);
+            target += kAffineBytes;
+        }
+    }
+    const Status flushed = staging_.flush(0, offset, bytes);
+    if (!flushed)
+        return flushed.error();
+    const VkBufferCopy copy{offset, 0, bytes};
+    device.vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kPalettes), 1, &copy);
+    cost.points = palettes_.size();
+    cost.bytes += bytes;
+    return cost;
+}
+
+Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
+    if (!attributesPending_)
+        return {};
+    attributesPending_ = false;
+    shared_.prep->recordAttributes(commandBuffer, scheme_->tables, prepWindows_.front(), evaluation_);
+    const uint64_t points = uint64_t{output_.patchCount} * output_.samplesPerPatch;
+    return {points, points * 16};
+}
+
+Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
+    for (const DeformWindow& window : deformWindows_)
+        shared_.deform->record(commandBuffer, window.set,
+                               {output_.cageVertexCount, window.instanceCount, jointCount_, evaluation_.cageStride});
+    const uint64_t points = uint64_t{output_.cageVertexCount} * instanceCount_;
+    return {points, points * kVec4Bytes};
+}
+
+Group::PassCost Group::recordVertex(VkCommandBuffer commandBuffer) const {
+    for (const surface::prep::Window& window : prepWindows_)
+        shared_.prep->recordVertex(commandBuffer, scheme_->tables, window, evaluation_);
+    const surface::prep::Tables& t = scheme_->tables;
+    const uint64_t edgeCoefficients = uint64_t{t.faces} + (t.faces - t.tangents);
+    const uint64_t points = uint64_t{output_.cageVertexCount} * instanceCount_;
+    return {points, edgeCoefficients * instanceCount_ * kVec4Bytes};
+}
+
+Group::PassCost Group::recordEdge(VkCommandBuffer commandBuffer) const {
+    for (const surface::prep::Window& window : prepWindows_)
+        shared_.prep->recordEdge(commandBuffer, scheme_->tables, window, evaluation_);
+    const uint64_t points = uint64_t{scheme_->tables.edges.count} * instanceCount_;
+    return {points, points * 4 * kVec4Bytes};
+}
+
+Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
+    for (const surface::prep::Window& window : prepWindows_)
+        shared_.prep->recordPatch(commandBuffer, scheme_->tables, window, evaluation_);
+    const uint64_t points = uint64_t{output_.patchCount} * instanceCount_;
+    return {points, points * 32 * kVec4Bytes};
+}
+
+Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
+    for (const surface::prep::Window& window : prepWindows_)
+        shared_.prep->recordEvaluate(commandBuffer, scheme_->tables, window, evaluation_);
+    const uint64_t points = uint64_t{output_.patchCount} * output_.samplesPerPatch * instanceCount_;
+    return {points, points * output_.surfaceVertices.stride};
+}
+
+void Group::releaseStaging(uint64_t completedFrame) {
+    asset_->buffers.releaseStaging(completedFrame);
+    scheme_->buffers.releaseStaging(completedFrame);
+    static_.releaseStaging(completedFrame);
+}
+
+} // namespace supple::runtime

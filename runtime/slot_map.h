@@ -1,0 +1,64 @@
+// Generation-checked handles: an id is (generation << 32 | index + 1), so that 0 is never valid and a stale id is
+// caught.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace supple::runtime {
+
+template <class T>
+class SlotMap {
+public:
+    uint64_t insert(std::shared_ptr<T> value) {
+        uint32_t index = 0;
+        if (free_.empty()) {
+            index = static_cast<uint32_t>(slots_.size());
+            slots_.emplace_back();
+        } else {
+            index = free_.back();
+            free_.pop_back();
+        }
+        slots_[index].value = std::move(value);
+        return (static_cast<uint64_t>(slots_[index].generation) << 32) | (index + 1u);
+    }
+    /// Null for a stale or foreign id.
+    [[nodiscard]] const std::shared_ptr<T>& find(uint64_t id) const {
+        static const std::shared_ptr<T> none;
+        const uint64_t index = (id & 0xFFFFFFFFu) - 1u;
+        if (index >= slots_.size() || slots_[index].generation != id >> 32)
+            return none;
+        return slots_[index].value;
+    }
+    std::shared_ptr<T> remove(uint64_t id) {
+        if (find(id) == nullptr)
+            return nullptr;
+        const auto index = static_cast<uint32_t>((id & 0xFFFFFFFFu) - 1u);
+        std::shared_ptr<T> value = std::move(slots_[index].value);
+        slots_[index].value = nullptr;
+        ++slots_[index].generation;
+        free_.push_back(index);
+        return value;
+    }
+    template <class F>
+    void forEach(F&& visit) const {
+        for (const Slot& slot : slots_)
+            if (slot.value != nullptr)
+                visit(*slot.value);
+    }
+    void clear() {
+        slots_.clear();
+        free_.clear();
+    }
+
+private:
+    struct Slot {
+        std::shared_ptr<T> value;
+        uint32_t generation = 1;
+    };
+    std::vector<Slot> slots_;
+    std::vector<uint32_t> free_;
+};
+
+} // namespace supple::runtime

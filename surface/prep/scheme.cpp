@@ -1,0 +1,259 @@
+#include "surface/prep/scheme.h"
+
+#include "shaders/shared/prep.h"
+
+#include <algorithm>
+#include <bit>
+#include <glm/glm.hpp>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace supple::surface::prep {
+
+namespace {
+
+uint32_t floatBits(double value) {
+    return std::bit_cast<uint32_t>(static_cast<float>(value));
+}
+
+bool regular(const cage::Topology& topology, uint32_t vertex) {
+    return topology.effectiveValence(vertex) == 4;
+}
+
+bool perturbedEdge(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge) {
+    const cage::Topology::Edge& e = topology.edges[edge];
+    if (e.twin == cage::kNone)
+        return false;
+    return !regular(topology, cage.faceVertices[e.corner]) || !regular(topology, cage.faceVertices[e.twin]);
+}
+
+/// Appends table sections and keeps them on element boundaries.
+class Writer {
+public:
+    explicit Writer(std::vector<uint32_t>& words) : words_(words) {}
+    [[nodiscard]] uint32_t element() {
+        while (words_.size() % 4 != 0)
+            words_.push_back(0);
+        return static_cast<uint32_t>(words_.size() / 4);
+    }
+    void put(std::initializer_list<uint32_t> values) { words_.insert(words_.end(), values); }
+
+private:
+    std::vector<uint32_t>& words_;
+};
+
+/// Valence classes in use, each written once.
+class ClassTable {
+public:
+    ClassTable(const cage::Topology& topology, const Options& options) : topology_(topology), options_(options) {}
+
+    void write(Writer& writer, uint32_t vertexCount) {
+        for (uint32_t v = 0; v < vertexCount; ++v) {
+            const auto key = keyOf(v);
+            if (elements_.contains(key))
+                continue;
+            const ValenceClass c = makeValenceClass(key.first, key.second, options_);
+            elements_[key] = writer.element();
+            cosines_[key] = c.c;
+            writer.put({c.sectors | (c.boundary ? shared::kBoundaryClass : 0u), floatBits(c.limitCenter),
+                        floatBits(c.e2Center), 0u});
+            const uint32_t spokes = c.sectors + (c.boundary ? 1u : 0u);
+            for (uint32_t k = 0; k < spokes; ++k) {
+                // The last spoke of a boundary fan has no sector: its diagonal counts nothing.
+                const bool sector = k < c.sectors;
+                writer.put({floatBits(c.limitEdge[k]), floatBits(sector ? c.limitFace[k] : 0.0), floatBits(c.e1Edge[k]),
+                            floatBits(sector ? c.e1Face[k] : 0.0), floatBits(c.e2Edge[k]),
+                            floatBits(sector ? c.e2Face[k] : 0.0), floatBits(c.cosines[k]), floatBits(c.sines[k])});
+            }
+        }
+    }
+    [[nodiscard]] uint32_t element(uint32_t vertex) const { return elements_.at(keyOf(vertex)); }
+    [[nodiscard]] double c(uint32_t vertex) const { return cosines_.at(keyOf(vertex)); }
+
+private:
+    [[nodiscard]] std::pair<uint32_t, bool> keyOf(uint32_t v) const {
+        return {topology_.sectorCount(v), topology_.boundary[v] != 0};
+    }
+    const cage::Topology& topology_;
+    Options options_;
+    std::map<std::pair<uint32_t, bool>, uint32_t> elements_;
+    std::map<std::pair<uint32_t, bool>, double> cosines_;
+};
+
+} // namespace
+
+Status accepts(const cage::Cage& cage, const cage::Topology&) {
+    for (uint32_t face = 0; face < cage.faceCount(); ++face)
+        if (cage.sides(face) != 4)
+            return Error{ErrorCode::asset, "face " + std::to_string(face) + " has " + std::to_string(cage.sides(face)) +
+                                               " sides: p-rep takes quads only"};
+    return success();
+}
+
+Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const Options& options) {
+    Tables t;
+    Writer writer(t.words);
+    const uint32_t vertexCount = cage.vertexCount(), faceCount = cage.faceCount();
+    const auto spokeCount = static_cast<uint32_t>(topology.spokeVertices.size());
+
+    // Pool: X, TG, FC, H of the perturbed edges, one zero.
+    t.tangents = vertexCount;
+    t.faces = t.tangents + spokeCount;
+    const uint32_t edgeCoefficients = t.faces + spokeCount;
+    std::vector<uint32_t> perturbedEdges, edgeSlots(topology.edges.size(), cage::kNone);
+    for (uint32_t e = 0; e < topology.edges.size(); ++e)
+        if (perturbedEdge(cage, topology, e)) {
+            edgeSlots[e] = edgeCoefficients + 4 * static_cast<uint32_t>(perturbedEdges.size());
+            perturbedEdges.push_back(e);
+        }
+    const uint32_t zero = edgeCoefficients + 4 * static_cast<uint32_t>(perturbedEdges.size());
+    t.poolStride = (zero + 1 + 15) / 16 * 16;
+
+    // Ring, parallel to the spokes.
+    t.ring = 4 * writer.element();
+    for (uint32_t v = 0; v < vertexCount; ++v)
+        for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
+            const uint32_t corner = topology.sectorCorners[s];
+            uint32_t diagonal = v;
+            if (corner != cage::kNone) {
+                const uint32_t first = cage.faceStarts[topology.cornerFaces[corner]];
+                diagonal = cage.faceVertices[first + (corner - first + 2) % 4];
+            }
+            writer.put({topology.spokeVertices[s], diagonal});
+        }
+
+    ClassTable classes(topology, options);
+    classes.write(writer, vertexCount);
+
+    // Vertices: regular interior ones first; the others by class, so that neighbouring lanes loop equally long.
+    std::vector<uint32_t> order(vertexCount);
+    for (uint32_t v = 0; v < vertexCount; ++v)
+        order[v] = v;
+    const auto rank = [&](uint32_t v) {
+        const bool interiorRegular = topology.boundary[v] == 0 && topology.sectorCount(v) == 4;
+        return std::tuple(!interiorRegular, topology.spokeCount(v), topology.boundary[v]);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
+    t.regularVertices.table = writer.element();
+    for (uint32_t v : order) {
+        writer.put({v, topology.spokeStarts[v], classes.element(v), 0u});
+        (std::get<0>(rank(v)) ? t.otherVertices : t.regularVertices).count += 1;
+    }
+    t.otherVertices.table = t.regularVertices.table + t.regularVertices.count;
+
+    // Edge classes, then edges.
+    std::map<std::pair<double, double>, uint32_t> edgeClasses;
+    for (uint32_t e : perturbedEdges) {
+        const cage::Topology::Edge& edge = topology.edges[e];
+        const std::pair key(classes.c(cage.faceVertices[edge.corner]), classes.c(cage.faceVertices[edge.twin]));
+        if (edgeClasses.contains(key))
+            continue;
+        edgeClasses[key] = writer.element();
+        const EdgeWeights weights = makeEdgeWeights(key.first, key.second);
+        for (size_t vector = 0; vector < 6; ++vector)
+            writer.put({floatBits(weights[0][vector]), floatBits(weights[1][vector]), floatBits(weights[2][vector]),
+                        floatBits(weights[3][vector])});
+    }
+    const auto corner = [&](uint32_t c, uint32_t steps) {
+        const uint32_t first = cage.faceStarts[topology.cornerFaces[c]];
+        return first + (c - first + steps) % 4;
+    };
+    t.edges.table = writer.element();
+    t.edges.count = static_cast<uint32_t>(perturbedEdges.size());
+    for (uint32_t e : perturbedEdges) {
+        const uint32_t f = topology.edges[e].corner, o = topology.edges[e].twin; // faces left and right of A -> B
+        const uint32_t a = cage.faceVertices[f], b = cage.faceVertices[o];
+        writer.put({a, t.tangents + topology.cornerSpokes[f], t.tangents + topology.cornerSpokes[o], b});
+        writer.put({t.faces + topology.cornerSpokes[f], t.faces + topology.cornerSpokes[corner(o, 1)],
+                    t.faces + topology.cornerSpokes[corner(f, 1)], t.faces + topology.cornerSpokes[o]});
+        writer.put({edgeSlots[e], edgeClasses.at({classes.c(a), classes.c(b)}), 0u, 0u});
+    }
+
+    // Patches.
+    std::vector<PatchInfo> patches(faceCount);
+    for (uint32_t face = 0; face < faceCount; ++face) {
+        PatchInfo& patch = patches[face];
+        patch.face = face;
+        for (uint32_t j = 0; j < 4; ++j) {
+            const uint32_t c = cage.faceStarts[face] + j;
+            patch.corners[j] = cage.faceVertices[c];
+            if (edgeSlots[topology.cornerEdges[c]] != cage::kNone)
+                patch.patchClass = PatchClass::perturbed;
+        }
+    }
+    const auto material = [&](const PatchInfo& p) {
+        return cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[p.face];
+    };
+    std::stable_sort(patches.begin(), patches.end(), [&](const PatchInfo& a, const PatchInfo& b) {
+        return std::pair(a.patchClass, material(a)) < std::pair(b.patchClass, material(b));
+    });
+
+    // Corner-local coefficient (a along the edge j -> j+1, b along j -> j-1) to patch index i + 4 j, docs/prep.md.
+    const auto patchIndex = [](uint32_t j, uint32_t a, uint32_t b) {
+        const uint32_t i[4] = {a, 3 - b, 3 - a, b}, k[4] = {b, a, 3 - b, 3 - a};
+        return i[j] + 4 * k[j];
+    };
+    constexpr std::array<uint32_t, 16> kFaceEdgeOrder = {SUPPLE_PREP_FACE_EDGE_ORDER};
+    for (const PatchClass patchClass : {PatchClass::regular, PatchClass::perturbed}) {
+        Section& section = patchClass == PatchClass::regular ? t.regularPatches : t.perturbedPatches;
+        section.table = writer.element();
+        for (const PatchInfo& patch : patches) {
+            if (patch.patchClass != patchClass)
+                continue;
+            ++section.count;
+            std::array<uint32_t, 16> g{}, h{};
+            std::array<uint32_t, 4> normals{};
+            for (uint32_t j = 0; j < 4; ++j) {
+                const uint32_t c = cage.faceStarts[patch.face] + j;
+                const uint32_t v = patch.corners[j];
+                g[patchIndex(j, 0, 0)] = v;
+                g[patchIndex(j, 1, 0)] = t.tangents + topology.cornerSpokes[c];
+                g[patchIndex(j, 0, 1)] = t.tangents + topology.cornerSpokesBack[c];
+                g[patchIndex(j, 1, 1)] = t.faces + topology.cornerSpokes[c];
+                const uint32_t edge = topology.cornerEdges[c];
+                const uint32_t slot = edgeSlots[edge];
+                // A half-edge that runs against the edge's own direction swaps h20 <-> h30 and h21 <-> h31.
+                const uint32_t swap = topology.edges[edge].corner == c ? 0u : 1u;
+                for (uint32_t s = 0; s < 4; ++s)
+                    h[4 * j + s] = slot == cage::kNone ? zero : slot + (s ^ swap);
+                const bool smoothCorner = options.cornerRule == CornerRule::smooth && topology.boundary[v] != 0 &&
+                                          topology.sectorCount(v) == 1;
+                normals[j] = smoothCorner ? t.faces + topology.spokeStarts[v] + 1 : shared::kNoNormal;
+                t.cornerNormals = t.cornerNormals || smoothCorner;
+            }
+            for (uint32_t index : g)
+                writer.put({index});
+            if (patchClass == PatchClass::perturbed)
+                for (uint32_t k = 0; k < 16; ++k)
+                    writer.put({h[kFaceEdgeOrder[k]]});
+            for (uint32_t normal : normals)
+                writer.put({normal});
+        }
+    }
+
+    t.attributes = writer.element();
+    for (const PatchInfo& patch : patches)
+        for (uint32_t j = 0; j < 4; ++j) {
+            const uint32_t c = cage.faceStarts[patch.face] + j;
+            const glm::vec2 uv = cage.cornerUvs.empty() ? glm::vec2(0.0f) : cage.cornerUvs[c];
+            const glm::vec4 color = cage.cornerColors.empty() ? glm::vec4(1.0f) : cage.cornerColors[c];
+            const auto unorm16 = [&](int channel) {
+                return static_cast<uint32_t>(std::clamp(color[channel], 0.0f, 1.0f) * 65535.0f + 0.5f);
+            };
+            writer.put({std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y), unorm16(0) | unorm16(1) << 16,
+                        unorm16(2) | unorm16(3) << 16});
+        }
+    (void)writer.element();
+
+    for (uint32_t p = 0; p < faceCount; ++p) {
+        if (t.drawRanges.empty() || t.drawRanges.back().material != material(patches[p]))
+            t.drawRanges.push_back({p, 0, material(patches[p])});
+        ++t.drawRanges.back().patchCount;
+    }
+    t.patches = std::move(patches);
+    return t;
+}
+
+} // namespace supple::surface::prep

@@ -1,0 +1,332 @@
+#include "tests/support/meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace supple::test {
+
+cage::Cage makeCage(std::vector<glm::vec3> positions, const Polygons& polygons) {
+    cage::Cage cage;
+    cage.positions = std::move(positions);
+    cage.faceStarts.push_back(0);
+    for (const std::vector<uint32_t>& polygon : polygons) {
+        cage.faceVertices.insert(cage.faceVertices.end(), polygon.begin(), polygon.end());
+        cage.faceStarts.push_back(cage.cornerCount());
+    }
+    for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
+        cage.sourceVertices.push_back(v);
+    }
+    return cage;
+}
+
+cage::Cage cube() {
+    std::vector<glm::vec3> positions;
+    for (int i = 0; i < 8; ++i) {
+        positions.push_back({i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f});
+    }
+    return makeCage(std::move(positions),
+                    {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}});
+}
+
+cage::Cage grid(uint32_t columns, uint32_t rows) {
+    std::vector<glm::vec3> positions;
+    Polygons polygons;
+    for (uint32_t y = 0; y <= rows; ++y) {
+        for (uint32_t x = 0; x <= columns; ++x) {
+            positions.push_back({static_cast<float>(x), static_cast<float>(y), 0.0f});
+        }
+    }
+    for (uint32_t y = 0; y < rows; ++y) {
+        for (uint32_t x = 0; x < columns; ++x) {
+            const uint32_t a = y * (columns + 1) + x;
+            const uint32_t d = a + columns + 1;
+            polygons.push_back({a, a + 1, d + 1, d});
+        }
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage torus(uint32_t around, uint32_t across) {
+    std::vector<glm::vec3> positions;
+    Polygons polygons;
+    for (uint32_t i = 0; i < around; ++i) {
+        for (uint32_t j = 0; j < across; ++j) {
+            const double a = 2.0 * std::numbers::pi * i / around;
+            const double b = 2.0 * std::numbers::pi * j / across;
+            const double reach = 2.0 + 0.8 * std::cos(b);
+            positions.push_back(glm::vec3(reach * std::cos(a), reach * std::sin(a), 0.8 * std::sin(b)));
+            const uint32_t i1 = (i + 1) % around;
+            const uint32_t j1 = (j + 1) % across;
+            polygons.push_back({i * across + j, i1 * across + j, i1 * across + j1, i * across + j1});
+        }
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage trapezohedron(uint32_t n) {
+    std::vector<glm::vec3> positions{{0.0f, 0.0f, -1.3f}, {0.0f, 0.0f, 1.3f}};
+    Polygons polygons;
+    const uint32_t belt = 2 * n;
+    for (uint32_t i = 0; i < belt; ++i) {
+        const double angle = std::numbers::pi * i / n;
+        positions.push_back(glm::vec3(std::cos(angle), std::sin(angle), i % 2 == 0 ? 0.15 : -0.15));
+    }
+    const auto onBelt = [&](uint32_t i) { return 2 + i % belt; };
+    for (uint32_t i = 0; i < belt; i += 2) {
+        polygons.push_back({1, onBelt(i), onBelt(i + 1), onBelt(i + 2)});
+        polygons.push_back({0, onBelt(i + 1), onBelt(i), onBelt(i + belt - 1)});
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage fan(uint32_t sectors, uint32_t rings, double angle, bool closed) {
+    std::vector<glm::vec3> positions;
+    std::map<std::pair<uint64_t, uint64_t>, uint32_t> known;
+    Polygons polygons;
+    const uint32_t spokes = closed ? sectors : sectors + 1;
+    const auto direction = [&](uint32_t k) {
+        const double a = angle * k / sectors;
+        return glm::dvec2(std::cos(a), std::sin(a));
+    };
+    // Point (i, j) of sector k: i steps along spoke k, j along spoke k + 1. Points on spokes are shared.
+    const auto vertex = [&](uint32_t k, uint32_t i, uint32_t j) {
+        std::pair<uint64_t, uint64_t> key;
+        if (i == 0 && j == 0) {
+            key = {0, 0};
+        } else if (j == 0) {
+            key = {1 + k, i};
+        } else if (i == 0) {
+            key = {1 + (k + 1) % spokes, j};
+        } else {
+            key = {1000 + k, uint64_t{1000} * i + j};
+        }
+        const auto [entry, isNew] = known.try_emplace(key, static_cast<uint32_t>(positions.size()));
+        if (isNew) {
+            const glm::dvec2 p = double(i) * direction(k) + double(j) * direction(k + 1);
+            positions.push_back(glm::vec3(p.x, p.y, 0.1 * glm::dot(p, p)));
+        }
+        return entry->second;
+    };
+    vertex(0, 0, 0); // the apex is vertex 0
+    for (uint32_t k = 0; k < sectors; ++k) {
+        for (uint32_t j = 0; j < rings; ++j) {
+            for (uint32_t i = 0; i < rings; ++i) {
+                const uint32_t a = vertex(k, i, j);
+                const uint32_t b = vertex(k, i + 1, j);
+                const uint32_t c = vertex(k, i + 1, j + 1);
+                const uint32_t d = vertex(k, i, j + 1);
+                polygons.push_back({a, b, c, d});
+            }
+        }
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage prism(uint32_t n) {
+    std::vector<glm::vec3> positions;
+    Polygons polygons;
+    std::vector<uint32_t> bottom;
+    std::vector<uint32_t> top;
+    for (const float z : {-1.0f, 1.0f}) {
+        for (uint32_t i = 0; i < n; ++i) {
+            const double a = 2.0 * std::numbers::pi * i / n;
+            positions.push_back(glm::vec3(std::cos(a), std::sin(a), z));
+        }
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        polygons.push_back({i, (i + 1) % n, n + (i + 1) % n, n + i});
+        bottom.push_back(n - 1 - i);
+        top.push_back(n + i);
+    }
+    polygons.push_back(bottom);
+    polygons.push_back(top);
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage withoutFaces(const cage::Cage& cage, const std::vector<uint32_t>& faces) {
+    std::vector<glm::vec3> positions;
+    Polygons polygons;
+    std::vector<uint32_t> renumbered(cage.vertexCount(), cage::kNone);
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        if (std::find(faces.begin(), faces.end(), f) != faces.end()) {
+            continue;
+        }
+        std::vector<uint32_t>& polygon = polygons.emplace_back();
+        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
+            uint32_t& v = renumbered[cage.faceVertices[c]];
+            if (v == cage::kNone) {
+                v = static_cast<uint32_t>(positions.size());
+                positions.push_back(cage.positions[cage.faceVertices[c]]);
+            }
+            polygon.push_back(v);
+        }
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage perturbed(cage::Cage cage, float amount, uint32_t seed) {
+    std::mt19937 random(seed); // the engine is specified bit for bit; the standard's distributions are not
+    for (glm::vec3& p : cage.positions) {
+        for (int i = 0; i < 3; ++i) {
+            const double unit = static_cast<double>(random()) / 4294967295.0;
+            p[i] += amount * static_cast<float>(2.0 * unit - 1.0);
+        }
+    }
+    return cage;
+}
+
+cage::Cage rotatedFaces(cage::Cage cage) {
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        const auto first = cage.faceVertices.begin() + cage.faceStarts[f];
+        std::rotate(first, first + f % cage.sides(f), cage.faceVertices.begin() + cage.faceStarts[f + 1]);
+    }
+    return cage;
+}
+
+RefinedCage refineCatmullClark(const cage::Cage& cage, const std::vector<glm::dvec3>& positions, bool sharpCorners) {
+    // Written from the subdivision rules alone, on maps: independent of cage/topology.
+    struct EdgeData {
+        std::vector<uint32_t> faces;
+        uint32_t point = 0;
+    };
+    const uint32_t vertexCount = cage.vertexCount();
+    std::vector<glm::dvec3> facePoints;
+    std::map<std::pair<uint32_t, uint32_t>, EdgeData> edges;
+    const auto key = [](uint32_t a, uint32_t b) { return std::pair{std::min(a, b), std::max(a, b)}; };
+    std::vector<std::vector<uint32_t>> vertexFaces(vertexCount);
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        glm::dvec3 sum(0.0);
+        const uint32_t sides = cage.sides(f);
+        for (uint32_t j = 0; j < sides; ++j) {
+            const uint32_t a = cage.faceVertices[cage.faceStarts[f] + j];
+            const uint32_t b = cage.faceVertices[cage.faceStarts[f] + (j + 1) % sides];
+            sum += positions[a];
+            edges[key(a, b)].faces.push_back(f);
+            vertexFaces[a].push_back(f);
+        }
+        facePoints.push_back(sum / double(sides));
+    }
+    RefinedCage refined;
+    refined.positions.resize(vertexCount);
+    std::vector<glm::dvec3> edgeSums(vertexCount, glm::dvec3(0.0));
+    std::vector<std::vector<uint32_t>> boundaryNeighbours(vertexCount);
+    for (auto& [ends, edge] : edges) {
+        const auto [a, b] = ends;
+        edge.point = static_cast<uint32_t>(refined.positions.size());
+        if (edge.faces.size() == 2) {
+            refined.positions.push_back(
+                (positions[a] + positions[b] + facePoints[edge.faces[0]] + facePoints[edge.faces[1]]) / 4.0);
+        } else {
+            refined.positions.push_back((positions[a] + positions[b]) / 2.0);
+            boundaryNeighbours[a].push_back(b);
+            boundaryNeighbours[b].push_back(a);
+        }
+        edgeSums[a] += (positions[a] + positions[b]) / 2.0;
+        edgeSums[b] += (positions[a] + positions[b]) / 2.0;
+    }
+    for (uint32_t v = 0; v < vertexCount; ++v) {
+        const double n = static_cast<double>(vertexFaces[v].size());
+        if (!boundaryNeighbours[v].empty()) {
+            const bool kept = n == 1.0 && sharpCorners;
+            refined.positions[v] = kept ? positions[v]
+                                        : (positions[boundaryNeighbours[v].at(0)] + 6.0 * positions[v] +
+                                           positions[boundaryNeighbours[v].at(1)]) /
+                                              8.0;
+            continue;
+        }
+        glm::dvec3 faceSum(0.0);
+        for (const uint32_t f : vertexFaces[v]) {
+            faceSum += facePoints[f];
+        }
+        refined.positions[v] = (faceSum / n + 2.0 * edgeSums[v] / n + (n - 3.0) * positions[v]) / n;
+    }
+    const auto facePoint = static_cast<uint32_t>(refined.positions.size());
+    refined.positions.insert(refined.positions.end(), facePoints.begin(), facePoints.end());
+    Polygons polygons;
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        const uint32_t sides = cage.sides(f);
+        for (uint32_t j = 0; j < sides; ++j) {
+            const uint32_t before = cage.faceVertices[cage.faceStarts[f] + (j + sides - 1) % sides];
+            const uint32_t v = cage.faceVertices[cage.faceStarts[f] + j];
+            const uint32_t after = cage.faceVertices[cage.faceStarts[f] + (j + 1) % sides];
+            polygons.push_back({v, edges[key(v, after)].point, facePoint + f, edges[key(before, v)].point});
+        }
+    }
+    refined.cage = makeCage({refined.positions.begin(), refined.positions.end()}, polygons);
+    return refined;
+}
+
+std::vector<glm::dvec3> doublePositions(const cage::Cage& cage) {
+    return {cage.positions.begin(), cage.positions.end()};
+}
+
+bool allQuads(const cage::Cage& cage) {
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        if (cage.sides(f) != 4) {
+            return false;
+        }
+    }
+    return cage.faceCount() > 0;
+}
+
+double extent(const std::vector<glm::dvec3>& positions) {
+    if (positions.empty()) {
+        return 0.0;
+    }
+    glm::dvec3 low = positions.front();
+    glm::dvec3 high = low;
+    for (const glm::dvec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return glm::distance(low, high);
+}
+
+std::optional<cage::Cage> readObj(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) {
+        return std::nullopt;
+    }
+    std::vector<glm::vec3> positions;
+    Polygons polygons;
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        words >> kind;
+        if (kind == "v") {
+            glm::vec3 p(0.0f);
+            words >> p.x >> p.y >> p.z;
+            if (!words) {
+                return std::nullopt;
+            }
+            positions.push_back(p);
+        } else if (kind == "f") {
+            std::vector<uint32_t>& polygon = polygons.emplace_back();
+            for (std::string corner; words >> corner;) {
+                const long index = std::strtol(corner.c_str(), nullptr, 10); // "7", "7/2" and "7//3" alike
+                const long vertex = index < 0 ? static_cast<long>(positions.size()) + index : index - 1;
+                if (vertex < 0) {
+                    return std::nullopt;
+                }
+                polygon.push_back(static_cast<uint32_t>(vertex));
+            }
+        }
+    }
+    for (const std::vector<uint32_t>& polygon : polygons) {
+        for (const uint32_t v : polygon) {
+            if (v >= positions.size()) {
+                return std::nullopt;
+            }
+        }
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+} // namespace supple::test

@@ -1,0 +1,397 @@
+// Runs the built supple command as a user would: exit codes, the one line on stderr, and what it writes.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int exitCode = -1;
+    std::string out;
+    std::string err;
+};
+
+std::string readText(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void writeText(const fs::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+bool validationWanted() {
+    const char* value = std::getenv("SUPPLE_VALIDATION");
+    return value != nullptr && std::string(value) != "0";
+}
+
+/// A cube of edge 2 as glTF, its six quads as FB_ngon_encoding or as plain triangles, with a clip "Rise" that lifts it
+/// by 3 in 2 seconds.
+std::string cubeGltf(const std::string& binaryName, bool polygons) {
+    Json gltf = Json::parse(R"({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "cube", "mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 4}, "indices": 1}]}],
+        "animations": [{"name": "Rise", "samplers": [{"input": 2, "output": 3}],
+                        "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],
+        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 96}, {"buffer": 0, "byteOffset": 96, "byteLength": 72},
+                        {"buffer": 0, "byteOffset": 168, "byteLength": 8}, {"buffer": 0, "byteOffset": 176, "byteLength": 24},
+                        {"buffer": 0, "byteOffset": 200, "byteLength": 64}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3", "min": [-1, -1, -1], "max": [1, 1, 1]},
+            {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"},
+            {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [2]},
+            {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"},
+            {"bufferView": 4, "componentType": 5126, "count": 8, "type": "VEC2"}]})");
+    gltf["buffers"] = {{{"uri", binaryName}, {"byteLength", 264}}};
+    if (polygons) {
+        gltf["extensionsUsed"] = {"FB_ngon_encoding"};
+        gltf["meshes"][0]["primitives"][0]["extensions"]["FB_ngon_encoding"] = Json::object();
+    }
+    return gltf.dump();
+}
+
+template <class T>
+void append(std::string& bytes, const std::vector<T>& values) {
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+std::string cubeBinary() {
+    const uint16_t quads[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 4, 7, 3}, {1, 2, 6, 5}};
+    std::vector<uint16_t> indices;
+    uint16_t anchor = 0xFFFF;
+    for (const auto& quad : quads) { // a fan each, and no two in a row with the same anchor
+        const int start = quad[0] == anchor ? 1 : 0;
+        anchor = quad[start];
+        for (int i = start + 1; i < start + 3; ++i) {
+            indices.insert(indices.end(), {anchor, quad[i % 4], quad[(i + 1) % 4]});
+        }
+    }
+    std::string bytes;
+    append<float>(bytes, {-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1});
+    append(bytes, indices);
+    append<float>(bytes, {0, 2});
+    append<float>(bytes, {0, 0, 0, 0, 3, 0});
+    append<float>(bytes, {0, 0, 1, 0, 1, 1, 0, 1, 0, 0, 1, 0, 1, 1, 0, 1});
+    return bytes;
+}
+
+struct Obj {
+    std::vector<glm::vec3> v, vn;
+    std::vector<glm::vec2> vt;
+    std::vector<std::vector<uint32_t>> faces; ///< vertices, from 0
+    std::vector<std::string> groups;
+    std::vector<size_t> groupVertices, groupFaces; ///< how many came before each group
+    std::vector<std::string> vLines;
+};
+
+Obj readObj(const fs::path& path) {
+    Obj obj;
+    std::ifstream stream(path);
+    for (std::string line; std::getline(stream, line);) {
+        std::istringstream words(line);
+        std::string keyword;
+        words >> keyword;
+        glm::vec3 value{};
+        if (keyword == "v") {
+            words >> value.x >> value.y >> value.z;
+            obj.v.push_back(value);
+            obj.vLines.push_back(line);
+        } else if (keyword == "vn") {
+            words >> value.x >> value.y >> value.z;
+            obj.vn.push_back(value);
+        } else if (keyword == "vt") {
+            words >> value.x >> value.y;
+            obj.vt.emplace_back(value.x, value.y);
+        } else if (keyword == "g") {
+            obj.groups.emplace_back();
+            words >> obj.groups.back();
+            obj.groupVertices.push_back(obj.v.size());
+            obj.groupFaces.push_back(obj.faces.size());
+        } else if (keyword == "f") {
+            obj.faces.emplace_back();
+            for (std::string corner; words >> corner;) {
+                obj.faces.back().push_back(static_cast<uint32_t>(std::stoul(corner)) - 1);
+            }
+        } else {
+            EXPECT_EQ(keyword, "#") << line;
+        }
+        EXPECT_FALSE(words.bad()) << line;
+    }
+    return obj;
+}
+
+class Cli : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ =
+            fs::temp_directory_path() / ("supple_cli_" + std::string(test->name()) + "_" + std::to_string(getpid()));
+        fs::create_directories(folder_);
+        writeText(folder_ / "cube.bin", cubeBinary());
+        writeText(folder_ / "cube.gltf", cubeGltf("cube.bin", true));
+        writeText(folder_ / "triangles.gltf", cubeGltf("cube.bin", false));
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    /// Runs "supple arguments" in the test's own folder.
+    Outcome run(const std::string& arguments) {
+        const std::string command = "cd '" + folder_.string() + "' && '" + SUPPLE_COMMAND + "' " + arguments +
+                                    " >stdout.txt 2>stderr.txt </dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(folder_ / "stdout.txt"),
+                readText(folder_ / "stderr.txt")};
+    }
+    /// The same with the validation layer where the environment asks for it.
+    Outcome runOnDevice(const std::string& arguments) {
+        return run(arguments + (validationWanted() ? " --validate" : ""));
+    }
+    static void expectFailure(const Outcome& outcome, int exitCode, const std::string& said) {
+        EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+    }
+    fs::path file(const std::string& name) const { return folder_ / name; }
+
+private:
+    fs::path folder_;
+};
+
+TEST_F(Cli, HelpAndVersionSucceed) {
+    for (const char* arguments : {"--help", "bake --help", "inspect -h", "profile --help", "--version"}) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << arguments;
+        EXPECT_NE(outcome.out, "") << arguments;
+        EXPECT_EQ(outcome.err, "") << arguments;
+    }
+}
+
+TEST_F(Cli, BadUsageIsTwo) {
+    expectFailure(run(""), 2, "subcommand");
+    expectFailure(run("polish cube.gltf"), 2, "supple --help");
+    expectFailure(run("inspect"), 2, "FILE");
+    expectFailure(run("inspect cube.gltf --colour"), 2, "--colour");
+    expectFailure(run("bake cube.gltf"), 2, "--output");
+    expectFailure(run("bake cube.gltf -o out.obj --scheme bezier"), 2, "bezier");
+    expectFailure(run("bake cube.gltf -o out.obj --rate 0"), 2, "--rate");
+    expectFailure(run("bake cube.gltf -o out.obj --rate 65"), 2, "--rate");
+    expectFailure(run("bake cube.gltf -o out.obj --rate -3"), 2, "--rate");
+    expectFailure(run("bake cube.gltf -o out.obj --time nan"), 2, "--time");
+    expectFailure(run("bake cube.gltf -o out.obj --mapping sideways"), 2, "--mapping");
+    expectFailure(run("bake cube.gltf -o out.obj --scheme cage --patches p.json"), 2, "--patches");
+    expectFailure(run("profile cube.gltf --frames 0"), 2, "--frames");
+    expectFailure(run("profile cube.gltf --instances 0"), 2, "--instances");
+}
+
+TEST_F(Cli, BadInputIsOneAndNamesTheFile) {
+    writeText(file("truncated.gltf"), cubeGltf("cube.bin", true).substr(0, 300));
+    writeText(file("truncated.glb"), std::string("glTF\x02\x00\x00\x00\x00\x10\x00\x00", 12));
+    writeText(file("empty.glb"), "");
+    fs::create_directory(file("folder.glb"));
+    for (const std::string name : {"missing.glb", "truncated.gltf", "truncated.glb", "empty.glb", "folder.glb"}) {
+        expectFailure(run("inspect " + name), 1, name);
+        expectFailure(run("bake " + name + " -o out.obj"), 1, name);
+    }
+    expectFailure(run("profile missing.glb"), 1, "missing.glb");
+    fs::remove(file("cube.bin"));
+    expectFailure(run("inspect cube.gltf"), 1, "cube.bin");
+}
+
+TEST_F(Cli, UnknownDeviceIsThree) {
+    expectFailure(run("bake cube.gltf -o out.obj --device \"no such device\""), 3, "no such device");
+    expectFailure(run("profile cube.gltf --device 99"), 3, "99");
+}
+
+TEST_F(Cli, UnwritableOutputIsOne) {
+    expectFailure(run("bake cube.gltf -o nowhere/out.obj"), 1, "nowhere/out.obj");
+}
+
+TEST_F(Cli, InspectCountsACube) {
+    const Outcome outcome = run("inspect cube.gltf --json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Json json = Json::parse(outcome.out);
+    EXPECT_EQ(json["polygonSource"], "FB_ngon_encoding");
+    EXPECT_EQ(json["vertices"], 8);
+    EXPECT_EQ(json["faces"], 6);
+    EXPECT_EQ(json["edges"], 12);
+    EXPECT_EQ(json["boundaryEdges"], 0);
+    EXPECT_EQ(json["sides"], Json({{"4", 6}}));
+    EXPECT_EQ(json["valences"]["interior"], Json({{"3", 8}}));
+    EXPECT_EQ(json["valences"]["boundary"], Json::object());
+    EXPECT_EQ(json["seamVertices"], 0);
+    EXPECT_EQ(json["uvs"], true);
+    EXPECT_EQ(json["joints"], 1);
+    ASSERT_EQ(json["clips"].size(), 1u);
+    EXPECT_EQ(json["clips"][0]["name"], "Rise");
+    EXPECT_DOUBLE_EQ(json["clips"][0]["duration"], 2.0);
+    EXPECT_EQ(json["schemes"]["prep"]["accepted"], true);
+
+    const Outcome text = run("inspect cube.gltf");
+    EXPECT_EQ(text.exitCode, 0);
+    EXPECT_NE(text.out.find("Rise"), std::string::npos);
+    EXPECT_NE(text.out.find("accepted"), std::string::npos);
+}
+
+TEST_F(Cli, InspectSaysWhyASchemeRefuses) {
+    const Json triangles = Json::parse(run("inspect triangles.gltf --json").out);
+    EXPECT_EQ(triangles["faces"], 12);
+    EXPECT_EQ(triangles["schemes"]["prep"]["accepted"], false);
+    EXPECT_NE(triangles["schemes"]["prep"]["reason"].get<std::string>().find("face 0 has 3 sides"), std::string::npos);
+    const Json paired = Json::parse(run("inspect triangles.gltf --pair-quads --json").out);
+    EXPECT_EQ(paired["sides"], Json({{"4", 6}}));
+    EXPECT_EQ(paired["schemes"]["prep"]["accepted"], true);
+    expectFailure(run("bake triangles.gltf -o out.obj"), 1, "3 sides");
+}
+
+TEST_F(Cli, BakeWritesOneGroupAPatch) {
+    const Outcome outcome = runOnDevice("bake cube.gltf -o out.obj");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Obj obj = readObj(file("out.obj"));
+    ASSERT_EQ(obj.groups.size(), 6u);
+    ASSERT_EQ(obj.v.size(), 6u * 81u);
+    ASSERT_EQ(obj.vn.size(), obj.v.size());
+    ASSERT_EQ(obj.vt.size(), obj.v.size());
+    ASSERT_EQ(obj.faces.size(), 6u * 64u);
+    for (size_t g = 0; g < obj.groups.size(); ++g) {
+        EXPECT_EQ(obj.groups[g], "patch_" + std::to_string(g));
+        EXPECT_EQ(obj.groupVertices[g], g * 81) << "v and vn of a patch stand inside its group";
+        EXPECT_EQ(obj.groupFaces[g], g * 64);
+    }
+    for (size_t f = 0; f < obj.faces.size(); ++f) {
+        const auto& face = obj.faces[f];
+        ASSERT_EQ(face.size(), 4u);
+        for (const uint32_t vertex : face) {
+            EXPECT_EQ(vertex / 81, f / 64) << "a face uses the samples of its own patch";
+        }
+        const glm::vec3 normal = glm::cross(obj.v[face[1]] - obj.v[face[0]], obj.v[face[3]] - obj.v[face[0]]);
+        EXPECT_GT(glm::dot(normal, obj.v[face[0]]), 0.0f) << "face " << f << " is wound inwards";
+    }
+    for (size_t i = 0; i < obj.v.size(); ++i) {
+        EXPECT_NEAR(glm::length(obj.vn[i]), 1.0f, 1e-5f);
+        EXPECT_GT(glm::dot(obj.vn[i], obj.v[i]), 0.0f);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(std::abs(obj.v[0][axis]), 0.5f, 1e-6f) << "the limit point of a cube's corner";
+    }
+}
+
+TEST_F(Cli, BakePosesByClipNameAndIndex) {
+    ASSERT_EQ(runOnDevice("bake cube.gltf -o rest.obj --rate 3").exitCode, 0);
+    ASSERT_EQ(runOnDevice("bake cube.gltf -o name.obj --rate 3 --clip Rise --time 1").exitCode, 0);
+    ASSERT_EQ(runOnDevice("bake cube.gltf -o index.obj --rate 3 --clip 0 --time 99").exitCode, 0);
+    const Obj rest = readObj(file("rest.obj"));
+    const Obj half = readObj(file("name.obj"));
+    const Obj end = readObj(file("index.obj"));
+    ASSERT_EQ(rest.v.size(), 6u * 16u);
+    ASSERT_EQ(half.v.size(), rest.v.size());
+    ASSERT_EQ(end.v.size(), rest.v.size());
+    for (size_t i = 0; i < rest.v.size(); ++i) {
+        EXPECT_NEAR(half.v[i].y, rest.v[i].y + 1.5f, 1e-5f);
+        EXPECT_NEAR(end.v[i].y, rest.v[i].y + 3.0f, 1e-5f) << "times are clamped to the clip";
+        EXPECT_NEAR(half.v[i].x, rest.v[i].x, 1e-5f);
+    }
+    expectFailure(run("bake cube.gltf -o out.obj --clip Fall"), 1, "Rise");
+    expectFailure(run("bake cube.gltf -o out.obj --clip 1"), 1, "cube.gltf");
+}
+
+TEST_F(Cli, BakeCageKeepsThePolygons) {
+    const Outcome outcome = runOnDevice("bake cube.gltf -o cage.obj --scheme cage --clip Rise --time 2");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Obj obj = readObj(file("cage.obj"));
+    ASSERT_EQ(obj.v.size(), 8u);
+    ASSERT_EQ(obj.faces.size(), 6u);
+    EXPECT_TRUE(obj.groups.empty());
+    EXPECT_EQ(obj.v[0], glm::vec3(-1, 2, -1));
+    EXPECT_EQ(obj.v[6], glm::vec3(1, 4, 1));
+    for (const auto& face : obj.faces) {
+        EXPECT_EQ(face.size(), 4u);
+    }
+}
+
+TEST_F(Cli, BakePatchesMatchTheSurface) {
+    const Outcome outcome = runOnDevice("bake cube.gltf -o out.obj --rate 5 --patches patches.json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Obj obj = readObj(file("out.obj"));
+    const Json json = Json::parse(readText(file("patches.json")));
+    EXPECT_EQ(json["scheme"], "prep");
+    EXPECT_EQ(json["rate"], 5);
+    ASSERT_EQ(json["patches"].size(), 6u);
+    std::vector<int> faces;
+    for (size_t p = 0; p < 6; ++p) {
+        const Json& patch = json["patches"][p];
+        faces.push_back(patch["face"]);
+        EXPECT_EQ(patch["class"], "perturbed");
+        ASSERT_EQ(patch["corners"].size(), 4u);
+        ASSERT_EQ(patch["coefficients"].size(), 32u);
+        // Corner coefficients are corner samples, to the bit: g(0,0), g(3,0), g(0,3), g(3,3).
+        const std::pair<size_t, size_t> corners[] = {{0, 0}, {3, 5}, {12, 30}, {15, 35}};
+        for (const auto& [coefficient, sample] : corners) {
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_EQ(patch["coefficients"][coefficient][static_cast<size_t>(axis)].get<float>(),
+                          obj.v[p * 36 + sample][axis]);
+            }
+        }
+    }
+    std::sort(faces.begin(), faces.end());
+    EXPECT_EQ(faces, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST_F(Cli, MappingsAgreeBitForBit) {
+    ASSERT_EQ(runOnDevice("bake cube.gltf -o narrow.obj --rate 7 --mapping narrow").exitCode, 0);
+    ASSERT_EQ(runOnDevice("bake cube.gltf -o wide.obj --rate 7 --mapping wide").exitCode, 0);
+    const Obj narrow = readObj(file("narrow.obj"));
+    ASSERT_EQ(narrow.v.size(), 6u * 64u);
+    EXPECT_EQ(narrow.vLines, readObj(file("wide.obj")).vLines);
+}
+
+TEST_F(Cli, ProfileWritesTableJsonCsvAndTrace) {
+    const Outcome outcome =
+        runOnDevice("profile cube.gltf cube.gltf --instances 3 --frames 7 --json p.json --csv p.csv "
+                    "--trace t.json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("evaluate"), std::string::npos) << outcome.out;
+
+    const Json json = Json::parse(readText(file("p.json")));
+    EXPECT_NE(json["machine"]["device"], "");
+    ASSERT_EQ(json["runs"].size(), 2u);
+    for (const Json& run : json["runs"]) {
+        EXPECT_EQ(run["scheme"], "prep");
+        EXPECT_EQ(run["instances"], 3);
+        EXPECT_EQ(run["frames"], 7) << "no frame's timings were skipped";
+        EXPECT_EQ(run["frame"]["points"], 3 * 6 * 81);
+        bool evaluated = false;
+        for (const Json& pass : run["passes"]) {
+            EXPECT_LE(pass["gpuMs"]["median"], pass["gpuMs"]["max"]);
+            evaluated = evaluated || pass["pass"] == "evaluate";
+        }
+        EXPECT_TRUE(evaluated);
+    }
+    const std::string csv = readText(file("p.csv"));
+    EXPECT_EQ(csv.rfind("file,scheme,rate,", 0), 0u);
+    EXPECT_NE(csv.find(",evaluate,"), std::string::npos);
+
+    const Json trace = Json::parse(readText(file("t.json")));
+    int slices = 0;
+    for (const Json& event : trace["traceEvents"]) {
+        if (event["ph"] == "X") {
+            ++slices;
+            EXPECT_GE(event["dur"].get<double>(), 0.0);
+        }
+    }
+    EXPECT_GT(slices, 2 * 7);
+}
+
+} // namespace

@@ -1,0 +1,19 @@
+// What the character does.
+#pragma once
+
+#include "pose.h"
+
+#include <string>
+#include <vector>
+
+namespace supple::creature {
+
+struct Clip {
+    std::string name;
+    double framesPerSecond = 30;
+    std::vector<Pose> frames; // one more than the clip has intervals
+};
+
+std::vector<Clip> makeClips(const Skeleton& skeleton);
+
+} // namespace supple::creature

@@ -1,0 +1,51 @@
+// Poses of the skeleton, curves to drive them, and leg placement.
+#pragma once
+
+#include "skeleton.h"
+
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace supple::creature {
+
+struct Pose {
+    explicit Pose(const Skeleton& skeleton);
+
+    // Turns a joint, in degrees about model axes, after what turned it before.
+    void turn(const std::string& joint, double x, double y, double z);
+    // The same for both sides: y and z are reflected on the right.
+    void turnPair(const std::string& joint, double x, double y, double z);
+    void move(const std::string& joint, const Vec3& by);
+
+    // Where a joint is and how it is turned in the model.
+    struct Placed {
+        Vec3 position;
+        Quat rotation;
+    };
+    Placed placed(int joint) const;
+
+    // Bends hip and knee so that the ball of the foot is at `ball`, the foot turned by `foot`, the toes flat but for
+    // `toes` degrees. `side` is ".L" or ".R".
+    void plant(const std::string& side, const Vec3& ball, const Quat& foot, double toes);
+
+    const Skeleton& skeleton;
+    std::vector<Quat> rotations;
+    std::vector<Vec3> moves; // added to the joint's rest offset
+};
+
+Quat eulerDegrees(double x, double y, double z);
+
+// A smooth curve through keys that never overshoots them.
+class Curve {
+public:
+    Curve(std::initializer_list<std::pair<double, double>> keys);
+    double operator()(double time) const;
+
+private:
+    std::vector<std::pair<double, double>> keys;
+    std::vector<double> slopes;
+};
+
+} // namespace supple::creature

@@ -1,0 +1,53 @@
+// A Supple context on a host device, freed when it goes, whose failures come back as Status with Supple's own words.
+#pragma once
+
+#include "base/result.h"
+#include "tools/host/device.h"
+
+#include <supple/supple.h>
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace supple::host {
+
+struct ContextOptions {
+    SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
+    uint32_t framesInFlight = 2;
+    /// Print Supple's warnings on stderr.
+    bool printWarnings = true;
+};
+
+class Context {
+public:
+    /// The device must outlive the context.
+    [[nodiscard]] static Result<std::unique_ptr<Context>> create(Device& device, const ContextOptions& options = {});
+    /// Nothing that uses the context may be pending on the device.
+    ~Context();
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    [[nodiscard]] SuppleContext handle() const { return context_; }
+    [[nodiscard]] Device& device() const { return device_; }
+
+    /// Success for SUPPLE_OK; otherwise the error with the line Supple logged about it.
+    [[nodiscard]] Status check(SuppleResult result, const char* call);
+
+    /// A frame number not used before; every frame of the context takes its number here.
+    [[nodiscard]] uint64_t nextFrame() { return ++frame_; }
+    /// One whole frame: records the groups as they are posed, submits and waits. For hosts that do not overlap frames.
+    [[nodiscard]] Status evaluate(std::span<const SuppleGroup> groups, uint32_t recordFlags = 0);
+
+private:
+    explicit Context(Device& device) : device_(device) {}
+    static void log(SuppleSeverity severity, const char* text, void* user);
+
+    Device& device_;
+    SuppleContext context_ = nullptr;
+    uint64_t frame_ = 0;
+    bool printWarnings_ = true;
+    std::string lastError_;
+};
+
+} // namespace supple::host

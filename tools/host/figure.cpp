@@ -1,0 +1,187 @@
+#include "tools/host/figure.h"
+
+#include "cage/gltf_reader.h"
+#include "shaders/shared/draw.h"
+#include "tools/host/texture.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <glm/gtc/packing.hpp>
+
+namespace supple::host {
+
+namespace {
+
+constexpr size_t kCornerWords = sizeof(shared::CageCorner) / sizeof(uint32_t);
+
+Result<std::vector<std::byte>> readFile(const std::string& path) {
+    std::error_code code;
+    const auto size = std::filesystem::file_size(path, code);
+    std::ifstream file(path, std::ios::binary);
+    if (code || !file)
+        return Error{ErrorCode::io, path + ": " + (code ? code.message() : std::strerror(errno))};
+    std::vector<std::byte> bytes(size);
+    if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
+        return Error{ErrorCode::io, path + ": cannot be read to its end"};
+    return bytes;
+}
+
+} // namespace
+
+Result<std::unique_ptr<Figure>> Figure::open(Context& context, const std::string& path, bool pairQuads) {
+    Result<std::vector<std::byte>> bytes = readFile(path);
+    if (!bytes)
+        return bytes.error();
+    std::unique_ptr<Figure> figure(new Figure(context));
+    figure->path_ = path;
+    std::string directory = std::filesystem::path(path).parent_path().string();
+    if (directory.empty())
+        directory = ".";
+    // Twice over: Supple keeps what it computes with; materials, pictures and the cage's faces are the host's to draw.
+    Result<cage::Character> character = cage::readGltf(*bytes, path, directory, {.pairQuads = pairQuads});
+    if (!character)
+        return character.error();
+    figure->character_ = std::move(*character);
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof desc;
+    if (pairQuads)
+        desc.flags |= SUPPLE_ASSET_PAIR_QUADS;
+    desc.name = path.c_str();
+    desc.bytes = bytes->data();
+    desc.byteCount = bytes->size();
+    desc.baseDirectory = directory.c_str();
+    if (const Status status =
+            context.check(suppleCreateAsset(context.handle(), &desc, &figure->asset_), "suppleCreateAsset");
+        !status)
+        return status.error();
+    if (const Status status = figure->uploadCage(); !status)
+        return status.error();
+    if (const Status status = figure->uploadBaseColors(); !status)
+        return status.error();
+    return figure;
+}
+
+Figure::~Figure() {
+    if (asset_.id != 0)
+        suppleDestroyAsset(context_.handle(), asset_);
+}
+
+Result<uint32_t> Figure::findClip(const std::string& nameOrIndex) const {
+    if (nameOrIndex.empty())
+        return SUPPLE_BIND_POSE;
+    const std::vector<cage::Clip>& clips = character_.clips;
+    for (uint32_t i = 0; i < clips.size(); ++i) {
+        if (clips[i].name == nameOrIndex)
+            return i;
+    }
+    uint32_t index = 0;
+    const char* end = nameOrIndex.data() + nameOrIndex.size();
+    const auto [parsed, code] = std::from_chars(nameOrIndex.data(), end, index);
+    if (code == std::errc() && parsed == end && index < clips.size())
+        return index;
+    std::string have;
+    for (uint32_t i = 0; i < clips.size(); ++i)
+        have += (i > 0 ? ", " : "") + std::to_string(i) + " " + clips[i].name;
+    return Error{ErrorCode::argument,
+                 path_ + ": no clip " + nameOrIndex + (have.empty() ? " (it has none)" : " (have: " + have + ")")};
+}
+
+double Figure::clipDuration(uint32_t clip) const {
+    return clip < character_.clips.size() ? character_.clips[clip].duration : 0.0;
+}
+
+Status Figure::uploadCage() {
+    const cage::Cage& cage = character_.cage;
+    const auto materialOf = [&](uint32_t face) {
+        return cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[face];
+    };
+    std::vector<uint32_t> faces(cage.faceCount());
+    for (uint32_t face = 0; face < faces.size(); ++face)
+        faces[face] = face;
+    std::stable_sort(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return materialOf(a) < materialOf(b); });
+
+    // The corners first, then each face's vertices: faceStart counts words from the beginning of the buffer.
+    size_t cornerCount = 0;
+    for (uint32_t face = 0; face < cage.faceCount(); ++face)
+        cornerCount += size_t{3} * (cage.sides(face) - 2);
+    std::vector<shared::CageCorner> corners;
+    corners.reserve(cornerCount);
+    const auto lists = static_cast<uint32_t>(cornerCount * kCornerWords);
+    for (const uint32_t face : faces) {
+        if (cageRanges_.empty() || cageRanges_.back().material != materialOf(face))
+            cageRanges_.push_back({static_cast<uint32_t>(corners.size()), 0, materialOf(face)});
+        const uint32_t start = cage.faceStarts[face];
+        for (uint32_t i = 1; i + 1 < cage.sides(face); ++i) {
+            for (const uint32_t corner : {start, start + i, start + i + 1}) {
+                const glm::vec4 color = cage.cornerColors.empty() ? glm::vec4(1.0f) : cage.cornerColors[corner];
+                const glm::vec2 uv = cage.cornerUvs.empty() ? glm::vec2(0.0f) : cage.cornerUvs[corner];
+                corners.push_back(
+                    {cage.faceVertices[corner], lists + start, cage.sides(face), glm::packUnorm4x8(color), uv.x, uv.y});
+            }
+        }
+        cageRanges_.back().cornerCount = static_cast<uint32_t>(corners.size()) - cageRanges_.back().firstCorner;
+    }
+    std::vector<uint32_t> words(lists + cage.faceVertices.size());
+    std::memcpy(words.data(), corners.data(), corners.size() * sizeof(shared::CageCorner));
+    std::copy(cage.faceVertices.begin(), cage.faceVertices.end(), words.begin() + lists);
+
+    std::vector<std::pair<uint32_t, uint32_t>> edges;
+    edges.reserve(cage.faceVertices.size());
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
+            const uint32_t next = corner + 1 < cage.faceStarts[face + 1] ? corner + 1 : cage.faceStarts[face];
+            edges.emplace_back(std::minmax(cage.faceVertices[corner], cage.faceVertices[next]));
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    cageEdgeCount_ = static_cast<uint32_t>(edges.size());
+    std::vector<uint32_t> edgeWords;
+    edgeWords.reserve(edges.size() * 2);
+    for (const auto& [from, to] : edges) {
+        edgeWords.push_back(from);
+        edgeWords.push_back(to);
+    }
+
+    Device& device = context_.device();
+    Result<Buffer> cornerBuffer =
+        device.uploadBuffer(words.data(), words.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    if (!cornerBuffer)
+        return cornerBuffer.error();
+    cageCorners_ = std::move(*cornerBuffer);
+    Result<Buffer> edgeBuffer =
+        device.uploadBuffer(edgeWords.data(), edgeWords.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    if (!edgeBuffer)
+        return edgeBuffer.error();
+    cageEdges_ = std::move(*edgeBuffer);
+    return success();
+}
+
+Status Figure::uploadBaseColors() {
+    Picture white = Picture::blank(1, 1);
+    std::fill(white.rgba.begin(), white.rgba.end(), uint8_t{255});
+    for (size_t i = 0; i <= character_.materials.size(); ++i) {
+        Result<Picture> picture = white;
+        if (i < character_.materials.size() && character_.materials[i].baseColorImage < character_.images.size()) {
+            const cage::Image& image = character_.images[character_.materials[i].baseColorImage];
+            picture = decodePicture(image.bytes, path_ + ": image " + image.name);
+            if (!picture) {
+                // A picture that cannot be read takes nothing from the shape: draw without it, but say so.
+                std::fprintf(stderr, "warning: %s\n", picture.error().message.c_str());
+                picture = white;
+            }
+        }
+        Result<Image> texture = uploadTexture(context_.device(), *picture);
+        if (!texture)
+            return texture.error();
+        baseColors_.push_back(std::move(*texture));
+    }
+    return success();
+}
+
+} // namespace supple::host

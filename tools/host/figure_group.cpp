@@ -1,0 +1,140 @@
+#include "tools/host/figure.h"
+
+#include <cstring>
+
+namespace supple::host {
+
+namespace {
+
+/// Triangles a shadow map may cost before its grid is made coarser.
+constexpr uint64_t kShadowTrianglesCpu = 40'000;
+constexpr uint64_t kShadowTrianglesGpu = 1'500'000;
+
+/// Two triangles a cell of a grid of `segments` a side, laid over a patch of `rate` segments.
+std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
+    const auto sample = [&](uint32_t i, uint32_t j) {
+        const uint32_t column = (i * rate + segments / 2) / segments;
+        const uint32_t row = (j * rate + segments / 2) / segments;
+        return static_cast<uint16_t>(row * (rate + 1) + column);
+    };
+    std::vector<uint16_t> indices;
+    indices.reserve(size_t{6} * segments * segments);
+    for (uint32_t j = 0; j < segments; ++j) {
+        for (uint32_t i = 0; i < segments; ++i) {
+            const uint16_t corners[] = {sample(i, j), sample(i + 1, j), sample(i + 1, j + 1), sample(i, j + 1)};
+            for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
+                indices.push_back(corners[corner]);
+        }
+    }
+    return indices;
+}
+
+std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t stride) {
+    std::vector<glm::vec3> positions(bytes.size() / stride);
+    for (size_t i = 0; i < positions.size(); ++i)
+        std::memcpy(&positions[i], bytes.data() + i * stride, sizeof positions[i]);
+    return positions;
+}
+
+} // namespace
+
+Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const GroupOptions& options) {
+    Context& context = figure.context();
+    std::unique_ptr<FigureGroup> group(new FigureGroup(figure));
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.flags = SUPPLE_GROUP_ATTRIBUTES;
+    desc.asset = figure.asset();
+    desc.instanceCount = options.instances;
+    desc.scheme = options.scheme;
+    desc.rate = options.rate;
+    desc.vertexFormat = options.vertexFormat;
+    if (const Status status =
+            context.check(suppleCreateGroup(context.handle(), &desc, &group->group_), "suppleCreateGroup");
+        !status)
+        return status.error();
+    group->output_.structSize = sizeof group->output_;
+    if (const Status status = context.check(suppleGetGroupOutput(context.handle(), group->group_, &group->output_),
+                                            "suppleGetGroupOutput");
+        !status)
+        return status.error();
+    // The renderer binds each output whole; a crowd larger than that would be drawn in windows of instances.
+    const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;
+    for (const SuppleBufferView& view : {group->output_.surfaceVertices, group->output_.deformedCage}) {
+        if (view.size > limit)
+            return Error{ErrorCode::limit, figure.path() + ": " + std::to_string(view.size) +
+                                               " bytes to draw at once; a storage buffer of this device holds " +
+                                               std::to_string(limit) + ": lower the rate or the instances"};
+    }
+    if (const Status status = group->uploadTables(); !status)
+        return status.error();
+    return group;
+}
+
+FigureGroup::~FigureGroup() {
+    if (group_.id != 0)
+        suppleDestroyGroup(figure_.context().handle(), group_);
+}
+
+Status FigureGroup::uploadTables() {
+    Context& context = figure_.context();
+    Device& device = context.device();
+    std::vector<SupplePatchInfo> patches(output_.patchCount);
+    uint32_t count = output_.patchCount;
+    if (const Status status =
+            context.check(suppleGetPatches(context.handle(), group_, patches.data(), &count), "suppleGetPatches");
+        !status)
+        return status.error();
+    std::vector<uint32_t> classes(std::max<size_t>(count, 1));
+    for (uint32_t i = 0; i < count; ++i)
+        classes[i] = static_cast<uint32_t>(patches[i].patchClass);
+    Result<Buffer> classBuffer =
+        device.uploadBuffer(classes.data(), classes.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    if (!classBuffer)
+        return classBuffer.error();
+    patchClasses_ = std::move(*classBuffer);
+
+    const uint64_t budget = device.isCpu() ? kShadowTrianglesCpu : kShadowTrianglesGpu;
+    const uint64_t shown = uint64_t{output_.patchCount} * output_.instanceCount;
+    uint32_t segments = output_.rate;
+    while (segments > 2 && shown * 2 * segments * segments > budget)
+        segments = (segments + 1) / 2;
+    const std::vector<uint16_t> indices = coarseGrid(output_.rate, segments);
+    shadowIndexCount_ = static_cast<uint32_t>(indices.size());
+    Result<Buffer> indexBuffer =
+        device.uploadBuffer(indices.data(), indices.size() * sizeof(uint16_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    if (!indexBuffer)
+        return indexBuffer.error();
+    shadowIndices_ = std::move(*indexBuffer);
+    return success();
+}
+
+Status FigureGroup::pose(uint32_t instance, uint32_t clip, double time) {
+    Context& context = figure_.context();
+    return context.check(suppleSetClipPose(context.handle(), group_, instance, clip, time), "suppleSetClipPose");
+}
+
+Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {
+    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.surfaceVertices);
+    if (!bytes)
+        return bytes.error();
+    std::vector<glm::vec3> positions = positionsOf(*bytes, output_.surfaceVertices.stride);
+    // Between the instances there may be room that no patch fills.
+    const size_t used = size_t{output_.patchCount} * output_.samplesPerPatch;
+    std::vector<glm::vec3> packed;
+    packed.reserve(used * output_.instanceCount);
+    for (size_t instance = 0; instance < output_.instanceCount; ++instance) {
+        const auto first = positions.begin() + static_cast<std::ptrdiff_t>(instance * output_.verticesPerInstance);
+        packed.insert(packed.end(), first, first + static_cast<std::ptrdiff_t>(used));
+    }
+    return packed;
+}
+
+Result<std::vector<glm::vec3>> FigureGroup::readCage() const {
+    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.deformedCage);
+    if (!bytes)
+        return bytes.error();
+    return positionsOf(*bytes, output_.deformedCage.stride);
+}
+
+} // namespace supple::host

@@ -1,0 +1,460 @@
+#include "tools/host/surface_renderer.h"
+
+#include "tools/host/vk_struct.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace supple::host {
+
+namespace {
+
+constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
+
+/// The cage's lines over shaded faces, and over the smooth surface.
+constexpr glm::vec4 kCageEdgeColor(0.010f, 0.014f, 0.022f, 0.85f);
+constexpr glm::vec4 kOverlayEdgeColor(0.95f, 0.42f, 0.06f, 0.9f);
+
+/// Push constants that fit any draw of the group; ranges and materials are filled in draw by draw.
+shared::DrawPush basePush(const Scene& scene, std::optional<uint32_t> light) {
+    const SuppleGroupOutput& output = scene.group->output();
+    shared::DrawPush push{};
+    push.baseColor = glm::vec4(1.0f);
+    push.rate = output.rate;
+    push.samplesPerPatch = output.samplesPerPatch;
+    push.verticesPerInstance = output.verticesPerInstance;
+    push.cageVertexCount = output.cageVertexCount;
+    push.view = scene.view;
+    push.light = light.value_or(0);
+    if (output.vertexFormat == SUPPLE_VERTEX_24)
+        push.flags |= shared::kDrawVertex24;
+    if (output.attributes.buffer != VK_NULL_HANDLE)
+        push.flags |= shared::kDrawAttributes;
+    return push;
+}
+
+void applyMaterial(const cage::Character& character, uint32_t index, shared::DrawPush& push) {
+    push.flags &= shared::kDrawVertex24 | shared::kDrawAttributes;
+    push.baseColor = glm::vec4(1.0f);
+    if (index >= character.materials.size())
+        return;
+    const cage::Material& material = character.materials[index];
+    push.baseColor = material.baseColorFactor;
+    push.alphaCutoff = material.alphaCutoff;
+    if (material.doubleSided)
+        push.flags |= shared::kDrawDoubleSided;
+    if (material.alphaMode == cage::AlphaMode::mask)
+        push.flags |= shared::kDrawMask;
+    if (material.alphaMode == cage::AlphaMode::blend)
+        push.flags |= shared::kDrawTranslucent;
+}
+
+bool castsShadow(const cage::Character& character, uint32_t material) {
+    return material >= character.materials.size() || character.materials[material].alphaMode == cage::AlphaMode::opaque;
+}
+
+size_t materialSet(const cage::Character& character, uint32_t material) {
+    return std::min<size_t>(material, character.materials.size());
+}
+
+void setViewport(VkCommandBuffer commands, VkExtent2D extent, bool flipped) {
+    const auto width = static_cast<float>(extent.width);
+    const auto height = static_cast<float>(extent.height);
+    const VkViewport viewport = flipped ? VkViewport{0.0f, height, width, -height, 0.0f, 1.0f}
+                                        : VkViewport{0.0f, 0.0f, width, height, 0.0f, 1.0f};
+    const VkRect2D scissor{{0, 0}, extent};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout) {
+    auto info = vkStruct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+    info.imageView = view;
+    info.imageLayout = layout;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    return info;
+}
+
+VkSamplerAddressMode addressMode(cage::Wrap wrap) {
+    switch (wrap) {
+    case cage::Wrap::clampToEdge:
+        return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    case cage::Wrap::mirroredRepeat:
+        return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    default:
+        return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    }
+}
+
+} // namespace
+
+FigureBinding& FigureBinding::operator=(FigureBinding&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(pool_, other.pool_);
+    std::swap(figure_, other.figure_);
+    std::swap(materials_, other.materials_);
+    std::swap(samplers_, other.samplers_);
+    return *this;
+}
+
+FigureBinding::~FigureBinding() {
+    if (device_ == VK_NULL_HANDLE)
+        return;
+    vkDestroyDescriptorPool(device_, pool_, nullptr);
+    for (const VkSampler sampler : samplers_)
+        vkDestroySampler(device_, sampler, nullptr);
+}
+
+Result<std::unique_ptr<SurfaceRenderer>> SurfaceRenderer::create(Device& device, const RendererOptions& options) {
+    std::unique_ptr<SurfaceRenderer> renderer(new SurfaceRenderer(device));
+    renderer->quality_ = options.quality;
+    Result<std::unique_ptr<DrawPipelines>> pipelines =
+        DrawPipelines::create(device, {options.colorFormat, kDepthFormat, kShadowFormat, pictureSamples(device)});
+    if (!pipelines)
+        return pipelines.error();
+    renderer->pipelines_ = std::move(*pipelines);
+    if (const Status status = renderer->createShadowMaps(); !status)
+        return status.error();
+    if (const Status status = renderer->createSlots(options.framesInFlight); !status)
+        return status.error();
+    return renderer;
+}
+
+SurfaceRenderer::~SurfaceRenderer() {
+    for (const VkImageView view : shadowLayers_)
+        vkDestroyImageView(device_.handle(), view, nullptr);
+    vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
+}
+
+Status SurfaceRenderer::createShadowMaps() {
+    const uint32_t count = quality_.lightCount();
+    if (count == 0 || count > shared::kMaxLights)
+        return Error{ErrorCode::argument, "the studio takes 1 to " + std::to_string(shared::kMaxLights) + " lights"};
+    Result<Image> maps =
+        device_.createImage({.format = kShadowFormat,
+                             .extent = {quality_.shadowSize, quality_.shadowSize},
+                             .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                             .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                             .layers = std::max(count, 2u)}); // two at least: the shaders read an array
+    if (!maps)
+        return maps.error();
+    shadowMaps_ = std::move(*maps);
+    for (uint32_t layer = 0; layer < count; ++layer) {
+        auto info = vkStruct<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+        info.image = shadowMaps_.handle();
+        info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+        info.format = kShadowFormat;
+        info.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, layer, 1};
+        VkImageView view = VK_NULL_HANDLE;
+        if (const VkResult result = vkCreateImageView(device_.handle(), &info, nullptr, &view); result != VK_SUCCESS)
+            return vulkanError(result, "vkCreateImageView");
+        shadowLayers_.push_back(view);
+    }
+    return success();
+}
+
+Status SurfaceRenderer::createSlots(uint32_t count) {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count}};
+    auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    poolInfo.maxSets = count;
+    poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
+    poolInfo.pPoolSizes = sizes;
+    if (const VkResult result = vkCreateDescriptorPool(device_.handle(), &poolInfo, nullptr, &pool_);
+        result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateDescriptorPool");
+    for (uint32_t i = 0; i < count; ++i) {
+        Slot slot;
+        Result<Buffer> uniforms =
+            device_.createBuffer(sizeof(shared::FrameUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryKind::upload);
+        if (!uniforms)
+            return uniforms.error();
+        slot.uniforms = std::move(*uniforms);
+        auto info = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+        info.descriptorPool = pool_;
+        info.descriptorSetCount = 1;
+        info.pSetLayouts = &pipelines_->frameSet;
+        if (const VkResult result = vkAllocateDescriptorSets(device_.handle(), &info, &slot.set); result != VK_SUCCESS)
+            return vulkanError(result, "vkAllocateDescriptorSets");
+        const VkDescriptorBufferInfo buffer{slot.uniforms.handle(), 0, VK_WHOLE_SIZE};
+        const VkDescriptorImageInfo image{pipelines_->shadowSampler, shadowMaps_.view(),
+                                          VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
+        VkWriteDescriptorSet writes[2];
+        writes[0] = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        writes[0].dstSet = slot.set;
+        writes[0].dstBinding = shared::kFrameBinding;
+        writes[0].descriptorCount = 1;
+        writes[0].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        writes[0].pBufferInfo = &buffer;
+        writes[1] = writes[0];
+        writes[1].dstBinding = shared::kShadowBinding;
+        writes[1].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[1].pBufferInfo = nullptr;
+        writes[1].pImageInfo = &image;
+        vkUpdateDescriptorSets(device_.handle(), 2, writes, 0, nullptr);
+        slots_.push_back(std::move(slot));
+    }
+    return success();
+}
+
+Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
+    const Figure& figure = group.figure();
+    const auto materialCount = static_cast<uint32_t>(figure.baseColors().size());
+    constexpr uint32_t kFigureBuffers = 6;
+    FigureBinding binding;
+    binding.device_ = device_.handle();
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, materialCount}};
+    auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    poolInfo.maxSets = 1 + materialCount;
+    poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
+    poolInfo.pPoolSizes = sizes;
+    if (const VkResult result = vkCreateDescriptorPool(device_.handle(), &poolInfo, nullptr, &binding.pool_);
+        result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateDescriptorPool");
+    std::vector<VkDescriptorSetLayout> layouts(1 + materialCount, pipelines_->materialSet);
+    layouts[0] = pipelines_->figureSet;
+    std::vector<VkDescriptorSet> sets(layouts.size());
+    auto setInfo = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+    setInfo.descriptorPool = binding.pool_;
+    setInfo.descriptorSetCount = static_cast<uint32_t>(layouts.size());
+    setInfo.pSetLayouts = layouts.data();
+    if (const VkResult result = vkAllocateDescriptorSets(device_.handle(), &setInfo, sets.data()); result != VK_SUCCESS)
+        return vulkanError(result, "vkAllocateDescriptorSets");
+    binding.figure_ = sets[0];
+    binding.materials_.assign(sets.begin() + 1, sets.end());
+
+    const SuppleGroupOutput& output = group.output();
+    const auto viewInfo = [](const SuppleBufferView& view) {
+        return VkDescriptorBufferInfo{view.buffer, view.offset, view.size};
+    };
+    const auto wholeInfo = [](const Buffer& buffer) {
+        return VkDescriptorBufferInfo{buffer.handle(), 0, VK_WHOLE_SIZE};
+    };
+    // Without attributes the shader does not look at them; something valid has to be bound all the same.
+    const SuppleBufferView& attributes =
+        output.attributes.buffer != VK_NULL_HANDLE ? output.attributes : output.surfaceVertices;
+    const std::pair<uint32_t, VkDescriptorBufferInfo> buffers[kFigureBuffers] = {
+        {shared::kSurfaceVertexBinding, viewInfo(output.surfaceVertices)},
+        {shared::kSurfaceAttributeBinding, viewInfo(attributes)},
+        {shared::kPatchClassBinding, wholeInfo(group.patchClasses())},
+        {shared::kDeformedCageBinding, viewInfo(output.deformedCage)},
+        {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
+        {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
+    };
+    std::vector<VkDescriptorImageInfo> images(materialCount);
+    std::vector<VkWriteDescriptorSet> writes;
+    for (const auto& [slot, info] : buffers) {
+        auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.dstSet = binding.figure_;
+        write.dstBinding = slot;
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        write.pBufferInfo = &info;
+        writes.push_back(write);
+    }
+    const cage::Character& character = figure.character();
+    for (uint32_t i = 0; i < materialCount; ++i) {
+        auto info = vkStruct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+        info.magFilter = VK_FILTER_LINEAR;
+        info.minFilter = VK_FILTER_LINEAR;
+        info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+        info.maxLod = VK_LOD_CLAMP_NONE;
+        info.anisotropyEnable = device_.hasAnisotropy() ? VK_TRUE : VK_FALSE;
+        info.maxAnisotropy = std::min(8.0f, device_.properties().limits.maxSamplerAnisotropy);
+        if (i < character.materials.size()) {
+            info.addressModeU = addressMode(character.materials[i].wrapU);
+            info.addressModeV = addressMode(character.materials[i].wrapV);
+        }
+        VkSampler sampler = VK_NULL_HANDLE;
+        if (const VkResult result = vkCreateSampler(device_.handle(), &info, nullptr, &sampler); result != VK_SUCCESS)
+            return vulkanError(result, "vkCreateSampler");
+        binding.samplers_.push_back(sampler);
+        images[i] = {sampler, figure.baseColors()[i].view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.dstSet = binding.materials_[i];
+        write.dstBinding = shared::kBaseColorBinding;
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        write.pImageInfo = &images[i];
+        writes.push_back(write);
+    }
+    vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+    return binding;
+}
+
+void SurfaceRenderer::record(VkCommandBuffer commands, uint32_t slot, const DrawTarget& target, const Scene& scene) {
+    writeUniforms(slots_[slot], target.extent(), scene);
+    const VkDescriptorSet sets[] = {slots_[slot].set, scene.binding->figure_};
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 0, 2, sets, 0, nullptr);
+    recordShadows(commands, scene);
+    recordPicture(commands, target, scene);
+}
+
+void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const {
+    const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+    const glm::vec3 center = scene.bounds.center();
+    const float radius = scene.bounds.radius() * 1.02f;
+    const auto width = static_cast<float>(extent.width);
+    const auto height = static_cast<float>(extent.height);
+    shared::FrameUniforms frame{};
+    frame.view = scene.camera.view();
+    const float reach = radius + glm::length(scene.camera.target - center);
+    frame.viewProjection = scene.camera.projection(aspect, reach) * frame.view;
+    const glm::vec3 eye = scene.camera.eye();
+    frame.eye = glm::vec4(eye, 1.0f);
+    frame.target = glm::vec4(center, radius);
+    const bool groundSeen = scene.ground.has_value() && eye.y > *scene.ground;
+    frame.ground = glm::vec4(scene.ground.value_or(0.0f), groundSeen ? 1.0f : 0.0f, 0.0f, 0.0f);
+    frame.viewport = glm::vec4(width, height, 1.0f / width, 1.0f / height);
+    frame.bounce = glm::vec4(0.20f, 0.19f, 0.18f, 0.0f);
+    frame.lightCount = quality_.lightCount();
+    frame.shadowSize = quality_.shadowSize;
+    frame.shadowTexel = 2.0f * radius / static_cast<float>(quality_.shadowSize);
+    frame.pixelScale = scene.pixelScale;
+    const std::vector<shared::Light> lights = studioLights(quality_, scene.lightYaw, center, radius);
+    std::copy(lights.begin(), lights.end(), frame.lights);
+    std::memcpy(slot.uniforms.mapped(), &frame, sizeof frame);
+}
+
+void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene) const {
+    constexpr VkPipelineStageFlags2 kDepthStages =
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+    const ImageUse drawn{
+        VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+        {kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT}};
+    const SuppleSyncScope read{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+    imageBarrier(commands, shadowMaps_, {VK_IMAGE_LAYOUT_UNDEFINED, read}, drawn);
+    const VkExtent2D extent{quality_.shadowSize, quality_.shadowSize};
+    for (uint32_t light = 0; light < quality_.lightCount(); ++light) {
+        VkRenderingAttachmentInfo depth = attachment(shadowLayers_[light], VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+        depth.clearValue.depthStencil = {1.0f, 0};
+        auto info = vkStruct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+        info.renderArea = {{0, 0}, extent};
+        info.layerCount = 1;
+        info.pDepthAttachment = &depth;
+        vkCmdBeginRendering(commands, &info);
+        setViewport(commands, extent, false);
+        if (scene.cageFaces)
+            drawCageFaces(commands, scene, light);
+        else
+            drawSurface(commands, scene, light);
+        vkCmdEndRendering(commands);
+    }
+    imageBarrier(commands, shadowMaps_, drawn, {VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, read});
+}
+
+void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const {
+    constexpr SuppleSyncScope kColor{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+    constexpr SuppleSyncScope kDepth{
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+    constexpr SuppleSyncScope kCopy{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+    const bool multisampled = target.samples() != VK_SAMPLE_COUNT_1_BIT;
+    const ImageUse colorUse{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColor};
+    // The last picture may still be in the copy that fetches it, and its depth in use.
+    imageBarrier(commands, target.color(), {VK_IMAGE_LAYOUT_UNDEFINED, kCopy}, colorUse);
+    imageBarrier(commands, target.depth(), {VK_IMAGE_LAYOUT_UNDEFINED, kDepth},
+                 {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepth});
+    if (multisampled)
+        imageBarrier(commands, target.multisampled(), {VK_IMAGE_LAYOUT_UNDEFINED, kColor}, colorUse);
+
+    const Image& drawn = multisampled ? target.multisampled() : target.color();
+    VkRenderingAttachmentInfo color = attachment(drawn.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    if (multisampled) {
+        color.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+        color.resolveImageView = target.color().view();
+        color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    }
+    color.clearValue.color = {{0.0f, 0.0f, 0.0f, 1.0f}};
+    VkRenderingAttachmentInfo depth = attachment(target.depth().view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    depth.clearValue.depthStencil = {1.0f, 0};
+    auto info = vkStruct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+    info.renderArea = {{0, 0}, target.extent()};
+    info.layerCount = 1;
+    info.colorAttachmentCount = 1;
+    info.pColorAttachments = &color;
+    info.pDepthAttachment = &depth;
+    vkCmdBeginRendering(commands, &info);
+    setViewport(commands, target.extent(), true);
+    if (scene.cageFaces)
+        drawCageFaces(commands, scene, std::nullopt);
+    else
+        drawSurface(commands, scene, std::nullopt);
+    if (scene.ground.has_value() && scene.camera.eye().y > *scene.ground) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->ground);
+        vkCmdDraw(commands, 4, 1, 0, 0);
+    }
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->backdrop);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+    if (scene.cageEdges)
+        drawCageEdges(commands, scene);
+    vkCmdEndRendering(commands);
+    imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
+}
+
+void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const {
+    const SuppleGroupOutput& output = scene.group->output();
+    const cage::Character& character = scene.group->figure().character();
+    shared::DrawPush push = basePush(scene, light);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                      light ? pipelines_->surfaceShadow : pipelines_->surface);
+    if (light)
+        vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
+    else
+        vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
+    for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
+        const SuppleDrawRange& range = output.drawRanges[i];
+        if (light && !castsShadow(character, range.material))
+            continue;
+        applyMaterial(character, range.material, push);
+        push.firstPatch = range.firstPatch;
+        push.patchCount = range.patchCount;
+        vkCmdPushConstants(commands, pipelines_->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                           sizeof push, &push);
+        if (light) {
+            vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), range.patchCount * output.instanceCount, 0, 0,
+                             0);
+            continue;
+        }
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
+                                &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);
+        vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
+                                 output.indirect.offset + VkDeviceSize{i} * output.indirect.stride, 1,
+                                 output.indirect.stride);
+    }
+}
+
+void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const {
+    const cage::Character& character = scene.group->figure().character();
+    shared::DrawPush push = basePush(scene, light);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, light ? pipelines_->cageShadow : pipelines_->cageFace);
+    for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
+        if (light && !castsShadow(character, range.material))
+            continue;
+        applyMaterial(character, range.material, push);
+        push.primitive = range.firstCorner;
+        vkCmdPushConstants(commands, pipelines_->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                           sizeof push, &push);
+        if (!light)
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
+                                    &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);
+        vkCmdDraw(commands, range.cornerCount, scene.group->output().instanceCount, 0, 0);
+    }
+}
+
+void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene) const {
+    shared::DrawPush push = basePush(scene, std::nullopt);
+    push.baseColor = scene.cageFaces ? kCageEdgeColor : kOverlayEdgeColor;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
+    vkCmdPushConstants(commands, pipelines_->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                       sizeof push, &push);
+    vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->output().instanceCount, 0, 0);
+}
+
+} // namespace supple::host

@@ -1,0 +1,44 @@
+# shellcheck shell=bash disable=SC2034
+# What Supple needs of Debian 12 (bookworm) or a relative of it. The one list; sourced by demo.sh and test.sh.
+
+# To build and run.
+supple_packages=(
+    g++ cmake ninja-build
+    libvulkan-dev mesa-vulkan-drivers
+    glslang-tools
+    libglm-dev libtinygltf-dev nlohmann-json3-dev libstb-dev libcli11-dev
+    libglfw3-dev libimgui-dev
+)
+# To test as well.
+supple_test_packages=(
+    libgtest-dev glslang-dev spirv-tools vulkan-validationlayers
+    xvfb xauth
+)
+
+# install_missing PACKAGE...: installs those that are not there yet; asks nothing and does nothing when all are.
+install_missing() {
+    local missing=() package
+    if ! command -v apt-get >/dev/null; then
+        echo "Not a Debian system: make sure that the counterparts of these are installed: $*" >&2
+        return 0
+    fi
+    for package in "$@"; do
+        if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
+            missing+=("$package")
+        fi
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+
+    local as_root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            echo "These packages are missing; install them as root: apt-get install ${missing[*]}" >&2
+            return 1
+        fi
+        as_root=(sudo)
+    fi
+    echo "Installing ${missing[*]}"
+    "${as_root[@]}" apt-get update -qq
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}

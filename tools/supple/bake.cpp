@@ -1,0 +1,288 @@
+// supple bake: the evaluated surface exactly as the device wrote it, as an OBJ; the patches behind it as JSON.
+#include "tools/supple/character_file.h"
+#include "tools/supple/command.h"
+#include "tools/supple/session.h"
+#include "tools/supple/text_file.h"
+
+#include <CLI/CLI.hpp>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <memory>
+
+namespace supple::tools {
+namespace {
+
+constexpr const char* kCageScheme = "cage"; ///< not a surface: the deformed cage itself
+
+struct BakeOptions {
+    std::string file;
+    std::string output;
+    std::string patches;
+    SurfaceFlags surface;
+    std::string clip; ///< name or index; empty: the bind pose
+    double time = 0.0;
+    DeviceFlags device;
+};
+
+/// What came back from the device.
+struct Baked {
+    SuppleGroupOutput output{};
+    std::vector<SupplePatchInfo> patches;
+    std::vector<std::byte> surfaceVertices;
+    std::vector<std::byte> attributes;
+    std::vector<std::byte> coefficients;
+    std::vector<std::byte> deformedCage;
+};
+
+/// The first floats of element `index` of a buffer that was read back.
+template <class Vec>
+Vec element(const std::vector<std::byte>& bytes, const SuppleBufferView& view, size_t index, size_t byteOffset = 0) {
+    Vec value;
+    std::memcpy(&value, bytes.data() + index * view.stride + byteOffset, sizeof value);
+    return value;
+}
+
+template <class Vec>
+void writeVector(TextFile& file, std::string_view keyword, const Vec& value) {
+    file.text(keyword);
+    for (int i = 0; i < Vec::length(); ++i) {
+        file.text(" ").number(value[i]);
+    }
+    file.text("\n");
+}
+
+Status writeSurface(const std::string& path, const Baked& baked, const std::string& scheme) {
+    const SuppleGroupOutput& output = baked.output;
+    const bool uvs = !baked.attributes.empty();
+    const uint64_t samples = output.samplesPerPatch;
+    const uint64_t row = output.rate + 1;
+    TextFile file(path);
+    file.text("# supple bake: scheme ").text(scheme).text(", rate ").number(uint64_t{output.rate});
+    file.text(", ").number(uint64_t{output.patchCount}).text(" patches\n");
+    for (uint64_t patch = 0; patch < output.patchCount; ++patch) {
+        const uint64_t first = patch * samples;
+        file.text("g patch_").number(patch).text("\n");
+        for (uint64_t i = first; i < first + samples; ++i) {
+            writeVector(file, "v", element<glm::vec3>(baked.surfaceVertices, output.surfaceVertices, i));
+        }
+        for (uint64_t i = first; i < first + samples; ++i) {
+            writeVector(file, "vn",
+                        element<glm::vec3>(baked.surfaceVertices, output.surfaceVertices, i, sizeof(glm::vec3)));
+        }
+        for (uint64_t i = first; uvs && i < first + samples; ++i) {
+            writeVector(file, "vt", element<glm::vec2>(baked.attributes, output.attributes, i));
+        }
+        const auto corner = [&](uint64_t sample) { // OBJ counts from 1, through all groups
+            const uint64_t index = first + sample + 1;
+            file.text(" ").number(index).text("/");
+            if (uvs) {
+                file.number(index);
+            }
+            file.text("/").number(index);
+        };
+        for (uint64_t v = 0; v < output.rate; ++v) {
+            for (uint64_t u = 0; u < output.rate; ++u) {
+                file.text("f");
+                corner(v * row + u);
+                corner(v * row + u + 1);
+                corner((v + 1) * row + u + 1);
+                corner((v + 1) * row + u);
+                file.text("\n");
+            }
+        }
+    }
+    return file.close();
+}
+
+Status writeCage(const std::string& path, const Baked& baked, const cage::Cage& cage) {
+    TextFile file(path);
+    file.text("# supple bake: deformed cage\n");
+    for (uint32_t vertex = 0; vertex < cage.vertexCount(); ++vertex) {
+        writeVector(file, "v", element<glm::vec3>(baked.deformedCage, baked.output.deformedCage, vertex));
+    }
+    for (const glm::vec2& uv : cage.cornerUvs) {
+        writeVector(file, "vt", uv);
+    }
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        file.text("f");
+        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
+            file.text(" ").number(uint64_t{cage.faceVertices[corner]} + 1);
+            if (!cage.cornerUvs.empty()) {
+                file.text("/").number(uint64_t{corner} + 1);
+            }
+        }
+        file.text("\n");
+    }
+    return file.close();
+}
+
+const char* className(SupplePatchClass patchClass) {
+    return patchClass == SUPPLE_PATCH_REGULAR ? "regular" : "perturbed";
+}
+
+Status writePatches(const std::string& path, const Baked& baked, const std::string& scheme) {
+    const SuppleBufferView& view = baked.output.patchCoefficients;
+    const uint64_t coefficients = baked.coefficients.size() / view.stride / baked.output.patchCount;
+    TextFile file(path);
+    file.text("{\"scheme\":\"").text(scheme).text("\",\"rate\":").number(uint64_t{baked.output.rate});
+    file.text(",\"patches\":[");
+    for (uint64_t patch = 0; patch < baked.output.patchCount; ++patch) {
+        const SupplePatchInfo& info = baked.patches[patch];
+        file.text(patch == 0 ? "\n" : ",\n").text("{\"face\":").number(uint64_t{info.face});
+        file.text(",\"class\":\"").text(className(info.patchClass)).text("\",\"corners\":[");
+        for (int i = 0; i < 4; ++i) {
+            file.text(i == 0 ? "" : ",").number(uint64_t{info.corners[i]});
+        }
+        file.text("],\"coefficients\":[");
+        for (uint64_t i = 0; i < coefficients; ++i) {
+            const auto value = element<glm::vec3>(baked.coefficients, view, patch * coefficients + i);
+            file.text(i == 0 ? "[" : ",[").number(value.x).text(",").number(value.y).text(",").number(value.z);
+            file.text("]");
+        }
+        file.text("]}");
+    }
+    file.text("\n]}\n");
+    return file.close();
+}
+
+/// Reads a buffer of the group's output; one that the group was made without stays empty.
+Status readBack(host::Device& device, const SuppleBufferView& view, std::vector<std::byte>& bytes) {
+    if (view.buffer == VK_NULL_HANDLE) {
+        return success();
+    }
+    Result<std::vector<std::byte>> read = device.readBuffer(view);
+    if (!read) {
+        return read.error();
+    }
+    bytes = std::move(*read);
+    return success();
+}
+
+/// Poses one instance, runs one frame and reads its results back.
+Result<Baked> evaluate(Session& session, const BakeOptions& options, const CharacterFile& file, uint32_t clip,
+                       uint32_t groupFlags) {
+    host::Context& context = *session.context;
+    const Result<SuppleAsset> asset = createAsset(context, file);
+    if (!asset) {
+        return asset.error();
+    }
+
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.flags = groupFlags;
+    desc.asset = *asset;
+    desc.instanceCount = 1;
+    desc.scheme = schemeOf(options.surface.scheme);
+    desc.rate = options.surface.rate;
+    desc.vertexFormat = SUPPLE_VERTEX_24;
+    desc.tangentMode = tangentsOf(options.surface);
+    desc.cornerRule = cornersOf(options.surface);
+    SuppleGroup group{};
+    Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
+    if (status) {
+        status = context.check(suppleSetClipPose(context.handle(), group, 0, clip, options.time), "suppleSetClipPose");
+    }
+    if (status) {
+        status = context.check(suppleBeginFrame(context.handle(), 1, 0), "suppleBeginFrame");
+    }
+    if (!status) {
+        return status.error();
+    }
+
+    Status recorded = success();
+    status = session.device->submitAndWait([&](VkCommandBuffer commands) {
+        SuppleRecordDesc record{};
+        record.structSize = sizeof record;
+        record.groups = &group;
+        record.groupCount = 1;
+        record.after = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+        recorded = context.check(suppleRecord(context.handle(), commands, &record), "suppleRecord");
+    });
+    if (!recorded || !status) {
+        return recorded ? status.error() : recorded.error();
+    }
+
+    Baked baked;
+    baked.output.structSize = sizeof baked.output;
+    status = context.check(suppleGetGroupOutput(context.handle(), group, &baked.output), "suppleGetGroupOutput");
+    if (status) {
+        uint32_t count = baked.output.patchCount;
+        baked.patches.resize(count);
+        status =
+            context.check(suppleGetPatches(context.handle(), group, baked.patches.data(), &count), "suppleGetPatches");
+    }
+    const std::pair<const SuppleBufferView*, std::vector<std::byte>*> buffers[] = {
+        {&baked.output.surfaceVertices, &baked.surfaceVertices},
+        {&baked.output.attributes, &baked.attributes},
+        {&baked.output.patchCoefficients, &baked.coefficients},
+        {&baked.output.deformedCage, &baked.deformedCage},
+    };
+    for (const auto& [view, bytes] : buffers) {
+        if (status) {
+            status = readBack(*session.device, *view, *bytes);
+        }
+    }
+    if (!status) {
+        return status.error();
+    }
+    return baked;
+}
+
+int runBake(const BakeOptions& options) {
+    const Result<CharacterFile> file = readCharacterFile(options.file, options.surface.pairQuads);
+    if (!file) {
+        return fail(kExitBadInput, file.error().message);
+    }
+    const Result<uint32_t> clip = findClip(*file, options.clip);
+    if (!clip) {
+        return fail(kExitBadInput, clip.error().message);
+    }
+    const cage::Cage& cage = file->character.cage;
+    const bool cageOnly = options.surface.scheme == kCageScheme;
+    const bool uvs = !cageOnly && !cage.cornerUvs.empty();
+    uint32_t groupFlags = 0;
+    if (uvs) {
+        groupFlags |= SUPPLE_GROUP_ATTRIBUTES;
+    }
+    if (!options.patches.empty()) {
+        groupFlags |= SUPPLE_GROUP_PATCHES;
+    }
+
+    return withSession(options.device, [&](Session& session) -> Status {
+        const Result<Baked> baked = evaluate(session, options, *file, *clip, groupFlags);
+        if (!baked) {
+            return baked.error();
+        }
+        if (cageOnly) {
+            return writeCage(options.output, *baked, cage);
+        }
+        const std::string scheme = resolvedScheme(options.surface.scheme);
+        Status status = writeSurface(options.output, *baked, scheme);
+        if (status && !options.patches.empty()) {
+            status = writePatches(options.patches, *baked, scheme);
+        }
+        return status;
+    });
+}
+
+} // namespace
+
+void bindBake(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<BakeOptions>();
+    CLI::App* command = app.add_subcommand("bake", "The evaluated surface exactly as the device wrote it, as an OBJ");
+    command->add_option("FILE", options->file, "glTF or GLB")->required();
+    command->add_option("-o,--output", options->output, "OBJ to write")->required()->type_name("OUT.obj");
+    command->add_option("--patches", options->patches, "JSON of the patches and their coefficients")
+        ->type_name("OUT.json");
+    bindSurface(*command, options->surface, {kCageScheme});
+    bindPose(*command, options->clip, options->time);
+    bindDevice(*command, options->device);
+    command->callback([options, &exitCode] {
+        if (options->surface.scheme == kCageScheme && !options->patches.empty()) {
+            throw CLI::ValidationError("--patches", "a cage has no patches");
+        }
+        exitCode = runBake(*options);
+    });
+}
+
+} // namespace supple::tools

@@ -1,0 +1,28 @@
+#include "tools/supple/command.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace supple::tools {
+
+std::string printable(std::string_view text) {
+    std::string line(text);
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+    return line;
+}
+
+int fail(ExitCode code, std::string_view reason) {
+    std::fprintf(stderr, "supple: %s\n", printable(reason).c_str());
+    return code;
+}
+
+int fail(const Error& error) {
+    return fail(error.code == ErrorCode::unsupported ? kExitNoDevice : kExitBadInput, error.message);
+}
+
+void warn(std::string_view text) {
+    std::fprintf(stderr, "supple: warning: %s\n", printable(text).c_str());
+}
+
+} // namespace supple::tools

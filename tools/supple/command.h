@@ -1,0 +1,43 @@
+// What the subcommands share: exit codes and the one way to report a failure.
+#pragma once
+
+#include "base/result.h"
+
+#include <string>
+#include <string_view>
+
+namespace CLI {
+class App;
+}
+
+namespace supple::tools {
+
+enum ExitCode : int {
+    kExitOk = 0,
+    kExitBadInput = 1, ///< a file, a character or a value inside one; also everything that fails while running
+    kExitUsage = 2,    ///< the command line itself
+    kExitNoDevice = 3, ///< no device, none of that name, or it lacks something Supple needs
+};
+
+/// Prints "supple: reason" as one line on stderr and returns `code`.
+int fail(ExitCode code, std::string_view reason);
+
+/// The same for an Error; ErrorCode::unsupported becomes kExitNoDevice.
+int fail(const Error& error);
+
+/// Prints "supple: warning: text" as one line on stderr.
+void warn(std::string_view text);
+
+/// `text` with control characters replaced, so that names from files cannot break a line or drive a terminal.
+std::string printable(std::string_view text);
+
+// One function a subcommand: adds it to the command line. When it is chosen it runs during parsing and leaves its exit
+// code in `exitCode`.
+void bindInspect(CLI::App& app, int& exitCode);
+void bindBake(CLI::App& app, int& exitCode);
+void bindRender(CLI::App& app, int& exitCode);
+void bindSheet(CLI::App& app, int& exitCode);
+void bindProfile(CLI::App& app, int& exitCode);
+void bindView(CLI::App& app, int& exitCode);
+
+} // namespace supple::tools

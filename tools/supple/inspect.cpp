@@ -1,0 +1,219 @@
+// supple inspect: what a character file holds, and which schemes take it. Needs no device.
+#include "cage/gltf_reader.h"
+#include "cage/topology.h"
+#include "surface/prep/scheme.h"
+#include "tools/supple/command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace supple::tools {
+namespace {
+
+struct InspectOptions {
+    std::string file;
+    bool json = false;
+    bool pairQuads = false;
+};
+
+using Histogram = std::map<uint32_t, uint32_t>; ///< value -> how many
+
+struct Scheme {
+    const char* name;
+    Status (*accepts)(const cage::Cage&, const cage::Topology&);
+};
+constexpr Scheme kSchemes[] = {{"prep", surface::prep::accepts}};
+
+struct SchemeVerdict {
+    const char* scheme;
+    std::string refusal; ///< empty: accepted
+};
+
+/// What is not stored in the character itself but counted from it.
+struct Findings {
+    Histogram sides;
+    std::optional<cage::Topology> topology;
+    std::string topologyFault;
+    Histogram interiorValences;
+    Histogram boundaryValences; ///< faces round a boundary vertex
+    uint32_t boundaryEdges = 0;
+    uint32_t mostInfluences = 0;
+    std::vector<SchemeVerdict> schemes;
+};
+
+Findings examine(const cage::Character& character) {
+    const cage::Cage& cage = character.cage;
+    Findings findings;
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        ++findings.sides[cage.sides(face)];
+    }
+    for (size_t v = 0; v + 1 < character.weights.starts.size(); ++v) {
+        findings.mostInfluences =
+            std::max(findings.mostInfluences, character.weights.starts[v + 1] - character.weights.starts[v]);
+    }
+    Result<cage::Topology> topology = cage::buildTopology(cage);
+    if (topology) {
+        for (uint32_t vertex = 0; vertex < cage.vertexCount(); ++vertex) {
+            Histogram& valences =
+                topology->boundary[vertex] != 0 ? findings.boundaryValences : findings.interiorValences;
+            ++valences[topology->sectorCount(vertex)];
+        }
+        for (const cage::Topology::Edge& edge : topology->edges) {
+            findings.boundaryEdges += edge.twin == cage::kNone ? 1 : 0;
+        }
+        findings.topology = std::move(*topology);
+    } else {
+        findings.topologyFault = topology.error().message;
+    }
+    for (const Scheme& scheme : kSchemes) {
+        const Status status = findings.topology ? scheme.accepts(cage, *findings.topology) : topology.error();
+        findings.schemes.push_back({scheme.name, status ? "" : status.error().message});
+    }
+    return findings;
+}
+
+nlohmann::ordered_json toJson(const Histogram& histogram) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const auto& [value, count] : histogram) {
+        json[std::to_string(value)] = count;
+    }
+    return json;
+}
+
+void printJson(const InspectOptions& options, const cage::Character& character, const Findings& findings) {
+    using Json = nlohmann::ordered_json;
+    const cage::Cage& cage = character.cage;
+    Json json;
+    json["file"] = options.file;
+    json["polygonSource"] = cage::polygonSourceName(character.polygonSource);
+    json["vertices"] = cage.vertexCount();
+    json["faces"] = cage.faceCount();
+    json["corners"] = cage.cornerCount();
+    json["sides"] = toJson(findings.sides);
+    if (findings.topology) {
+        json["edges"] = findings.topology->edges.size();
+        json["boundaryEdges"] = findings.boundaryEdges;
+        json["valences"] = {{"interior", toJson(findings.interiorValences)},
+                            {"boundary", toJson(findings.boundaryValences)}};
+    } else {
+        json["topologyFault"] = findings.topologyFault;
+    }
+    json["sourceVertices"] = character.sourceVertexCount;
+    json["seamVertices"] = character.seamVertexCount;
+    json["uvs"] = !cage.cornerUvs.empty();
+    json["colors"] = !cage.cornerColors.empty();
+    json["joints"] = character.skin.joints.size();
+    json["mostInfluences"] = findings.mostInfluences;
+    json["clips"] = Json::array();
+    for (const cage::Clip& clip : character.clips) {
+        json["clips"].push_back({{"name", clip.name}, {"duration", clip.duration}});
+    }
+    json["materials"] = Json::array();
+    for (const cage::Material& material : character.materials) {
+        Json entry = {{"name", material.name}};
+        if (material.baseColorImage != cage::kNone) {
+            entry["baseColorImage"] = material.baseColorImage;
+        }
+        json["materials"].push_back(std::move(entry));
+    }
+    json["images"] = Json::array();
+    for (const cage::Image& image : character.images) {
+        json["images"].push_back({{"name", image.name}, {"mimeType", image.mimeType}, {"bytes", image.bytes.size()}});
+    }
+    json["warnings"] = character.warnings;
+    json["schemes"] = Json::object();
+    for (const SchemeVerdict& verdict : findings.schemes) {
+        Json& entry = json["schemes"][verdict.scheme];
+        entry["accepted"] = verdict.refusal.empty();
+        if (!verdict.refusal.empty()) {
+            entry["reason"] = verdict.refusal;
+        }
+    }
+    // Names come from the file as they are: replace what is not UTF-8 rather than refuse to print it.
+    std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+std::string toText(const Histogram& histogram) {
+    std::string text;
+    for (const auto& [value, count] : histogram) {
+        text += (text.empty() ? "" : ", ") + std::to_string(value) + ": " + std::to_string(count);
+    }
+    return text.empty() ? "none" : text;
+}
+
+void printLine(const char* label, const std::string& text) {
+    std::printf("%-18s %s\n", label, printable(text).c_str());
+}
+
+void printText(const InspectOptions& options, const cage::Character& character, const Findings& findings) {
+    const cage::Cage& cage = character.cage;
+    printLine("file", options.file);
+    printLine("polygons from", cage::polygonSourceName(character.polygonSource));
+    printLine("vertices", std::to_string(cage.vertexCount()) + " (" + std::to_string(character.sourceVertexCount) +
+                              " in the file, " + std::to_string(character.seamVertexCount) + " merged at seams)");
+    printLine("faces", std::to_string(cage.faceCount()));
+    printLine("  by sides", toText(findings.sides));
+    if (findings.topology) {
+        printLine("edges", std::to_string(findings.topology->edges.size()) + ", " +
+                               std::to_string(findings.boundaryEdges) + " on the boundary");
+        printLine("interior valences", toText(findings.interiorValences));
+        printLine("boundary valences", toText(findings.boundaryValences));
+    } else {
+        printLine("topology", "not a manifold: " + findings.topologyFault);
+    }
+    printLine("joints", std::to_string(character.skin.joints.size()) + ", at most " +
+                            std::to_string(findings.mostInfluences) + " a vertex");
+    printLine("clips", std::to_string(character.clips.size()));
+    for (size_t i = 0; i < character.clips.size(); ++i) {
+        char duration[32];
+        std::snprintf(duration, sizeof duration, "  %.3f s", character.clips[i].duration);
+        printLine("", std::to_string(i) + "  " + character.clips[i].name + duration);
+    }
+    printLine("materials", std::to_string(character.materials.size()));
+    for (const cage::Material& material : character.materials) {
+        printLine("", material.name);
+    }
+    printLine("images", std::to_string(character.images.size()));
+    for (const cage::Image& image : character.images) {
+        printLine("", image.name + "  " + image.mimeType + "  " + std::to_string(image.bytes.size()) + " bytes");
+    }
+    for (const std::string& warning : character.warnings) {
+        printLine("warning", warning);
+    }
+    for (const SchemeVerdict& verdict : findings.schemes) {
+        printLine((std::string("scheme ") + verdict.scheme).c_str(),
+                  verdict.refusal.empty() ? "accepted" : "refused: " + verdict.refusal);
+    }
+}
+
+int runInspect(const InspectOptions& options) {
+    const Result<cage::Character> character = cage::readGltfFile(options.file, {.pairQuads = options.pairQuads});
+    if (!character) {
+        return fail(kExitBadInput, character.error().message);
+    }
+    const Findings findings = examine(*character);
+    if (options.json) {
+        printJson(options, *character, findings);
+    } else {
+        printText(options, *character, findings);
+    }
+    return kExitOk;
+}
+
+} // namespace
+
+void bindInspect(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<InspectOptions>();
+    CLI::App* command = app.add_subcommand("inspect", "What a character file holds, and which schemes take it");
+    command->add_option("FILE", options->file, "glTF or GLB")->required();
+    command->add_flag("--json", options->json, "Print JSON");
+    command->add_flag("--pair-quads", options->pairQuads,
+                      "Merge consecutive triangle pairs of plain triangles to quads");
+    command->callback([options, &exitCode] { exitCode = runInspect(*options); });
+}
+
+} // namespace supple::tools

@@ -1,0 +1,55 @@
+// The supple command: binds the subcommands and turns every way out into one of the documented exit codes.
+#include "tools/supple/command.h"
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <supple/supple.h>
+
+namespace {
+
+/// The deepest subcommand that was named, for "see supple bake --help".
+std::string helpCommand(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    return chosen.empty() ? "supple --help" : "supple " + chosen.front()->get_name() + " --help";
+}
+
+int run(int argc, char** argv) {
+    using namespace supple::tools;
+    CLI::App app{"Animated control cages to smooth surfaces on Vulkan compute.", "supple"};
+    app.require_subcommand(1);
+    app.set_version_flag("--version", std::to_string(SUPPLE_VERSION_MAJOR) + "." +
+                                          std::to_string(SUPPLE_VERSION_MINOR) + "." +
+                                          std::to_string(SUPPLE_VERSION_PATCH));
+    app.footer("Exit codes: 0 ok, 1 bad input, 2 bad usage, 3 no suitable device.");
+
+    int exitCode = kExitOk;
+    bindInspect(app, exitCode);
+    bindBake(app, exitCode);
+    bindRender(app, exitCode);
+    bindSheet(app, exitCode);
+    bindProfile(app, exitCode);
+    bindView(app, exitCode);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+            app.exit(error); // --help and --version end this way
+            return kExitOk;
+        }
+        return fail(kExitUsage, std::string(error.what()) + " (see " + helpCommand(app) + ")");
+    }
+    return exitCode;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return supple::tools::fail(supple::tools::kExitBadInput, "out of memory");
+    } catch (const std::exception& error) {
+        return supple::tools::fail(supple::tools::kExitBadInput, error.what());
+    }
+}

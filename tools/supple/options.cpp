@@ -1,0 +1,84 @@
+#include "tools/supple/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+namespace supple::tools {
+namespace {
+
+std::string finiteNumber(const std::string& text) {
+    double value = 0.0;
+    return CLI::detail::lexical_cast(text, value) && std::isfinite(value) ? "" : text + " is not a finite number";
+}
+
+} // namespace
+
+void bindDevice(CLI::App& command, std::string& device, std::string& mapping, bool& validate) {
+    command.add_option("--device", device, "Device by name or index")->type_name("NAME|INDEX");
+    command.add_option("--mapping", mapping, "How work is laid on the device")
+        ->check(CLI::IsMember({"auto", "narrow", "wide"}))
+        ->capture_default_str();
+    command.add_flag("--validate", validate, "Vulkan validation layer on; any message fails the command");
+}
+
+void bindDevice(CLI::App& command, DeviceFlags& flags) {
+    bindDevice(command, flags.device, flags.mapping, flags.validate);
+}
+
+SuppleMapping mappingOf(const DeviceFlags& flags) {
+    return flags.mapping == "narrow" ? SUPPLE_MAPPING_NARROW
+           : flags.mapping == "wide" ? SUPPLE_MAPPING_WIDE
+                                     : SUPPLE_MAPPING_AUTO;
+}
+
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, bool& pairQuads,
+                const std::vector<std::string>& extraSchemes) {
+    std::vector<std::string> schemes{"auto"};
+    schemes.insert(schemes.end(), schemeNames().begin(), schemeNames().end());
+    schemes.insert(schemes.end(), extraSchemes.begin(), extraSchemes.end());
+    command.add_option("--scheme", scheme, "Surface scheme")->check(CLI::IsMember(schemes))->capture_default_str();
+    command.add_option("--rate", rate, "Segments along a patch edge")
+        ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
+        ->capture_default_str();
+    command.add_flag("--pair-quads", pairQuads, "Merge consecutive triangle pairs of plain triangles to quads");
+}
+
+void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes) {
+    bindScheme(command, flags.scheme, flags.rate, flags.pairQuads, extraSchemes);
+    command.add_option("--tangents", flags.tangents, "Tangent length at extraordinary vertices")
+        ->check(CLI::IsMember({"default", "printed"}))
+        ->capture_default_str();
+    command.add_option("--corners", flags.corners, "Boundary vertices of one face")
+        ->check(CLI::IsMember({"sharp", "smooth"}))
+        ->capture_default_str();
+}
+
+SuppleTangentMode tangentsOf(const SurfaceFlags& flags) {
+    return flags.tangents == "printed" ? SUPPLE_TANGENTS_PRINTED : SUPPLE_TANGENTS_DEFAULT;
+}
+
+SuppleCornerRule cornersOf(const SurfaceFlags& flags) {
+    return flags.corners == "smooth" ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP;
+}
+
+void bindPose(CLI::App& command, std::string& clip, double& time) {
+    command.add_option("--clip", clip, "Clip by name or index; without it the bind pose")->type_name("NAME|INDEX");
+    command.add_option("--time", time, "Seconds into the clip, clamped to it")
+        ->check(CLI::Validator(finiteNumber, "SECONDS"))
+        ->capture_default_str();
+}
+
+const std::vector<std::string>& schemeNames() {
+    static const std::vector<std::string> names{"prep"};
+    return names;
+}
+
+SuppleScheme schemeOf(const std::string& name) {
+    return name == "prep" ? SUPPLE_SCHEME_PREP : SUPPLE_SCHEME_AUTO;
+}
+
+std::string resolvedScheme(const std::string& name) {
+    return name == "auto" ? "prep" : name;
+}
+
+} // namespace supple::tools

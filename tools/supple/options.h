@@ -1,0 +1,50 @@
+// Flags that several subcommands share, and what their values mean.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <supple/supple.h>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace supple::tools {
+
+/// --device, --mapping, --validate: wherever a device is used.
+struct DeviceFlags {
+    std::string device; ///< name or index; empty: the best
+    std::string mapping = "auto";
+    bool validate = false;
+};
+void bindDevice(CLI::App& command, std::string& device, std::string& mapping, bool& validate);
+void bindDevice(CLI::App& command, DeviceFlags& flags);
+[[nodiscard]] SuppleMapping mappingOf(const DeviceFlags& flags);
+
+/// --scheme, --rate and how the surface is built.
+struct SurfaceFlags {
+    std::string scheme = "auto";
+    uint32_t rate = 8;
+    std::string tangents = "default";
+    std::string corners = "sharp";
+    bool pairQuads = false;
+};
+/// `extraSchemes`: what --scheme also takes here, such as "cage".
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, bool& pairQuads,
+                const std::vector<std::string>& extraSchemes = {});
+void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
+[[nodiscard]] SuppleTangentMode tangentsOf(const SurfaceFlags& flags);
+[[nodiscard]] SuppleCornerRule cornersOf(const SurfaceFlags& flags);
+
+/// --clip, a name or index, empty for the bind pose; --time in seconds.
+void bindPose(CLI::App& command, std::string& clip, double& time);
+
+/// The schemes there are, without "auto".
+[[nodiscard]] const std::vector<std::string>& schemeNames();
+/// "auto" and the names above; anything else is auto.
+[[nodiscard]] SuppleScheme schemeOf(const std::string& name);
+/// The scheme behind a name: "auto" becomes the one it chooses.
+[[nodiscard]] std::string resolvedScheme(const std::string& name);
+
+} // namespace supple::tools

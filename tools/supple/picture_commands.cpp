@@ -1,0 +1,89 @@
+// The command lines of supple render, sheet and view. What they do stands in render.h, contact_sheet.h and view.h.
+#include "tools/supple/command.h"
+#include "tools/supple/contact_sheet.h"
+#include "tools/supple/options.h"
+#include "tools/supple/render.h"
+#include "tools/supple/view.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+namespace supple::tools {
+namespace {
+
+std::string size(const std::string& text) {
+    unsigned width = 0;
+    unsigned height = 0;
+    int read = 0;
+    const int values = std::sscanf(text.c_str(), "%ux%u%n", &width, &height, &read);
+    const bool whole = values == 2 && static_cast<size_t>(read) == text.size();
+    return whole && width > 0 && height > 0 && width <= 16384 && height <= 16384 ? "" : text + " is not WxH in pixels";
+}
+
+CLI::Validator sizeValidator() {
+    return {size, "WxH"};
+}
+
+void bindDraw(CLI::App& command, DrawOptions& draw) {
+    bindScheme(command, draw.scheme, draw.rate, draw.pairQuads, {"cage"});
+    command.add_option("--view", draw.view, "What is shown")
+        ->check(CLI::IsMember({"shaded", "wire", "patches", "normals", "zebra"}))
+        ->capture_default_str();
+    command.add_flag("--cage,!--no-cage", draw.cageOverlay, "Draw the cage's edges over the surface");
+    command.add_flag("--ground,!--no-ground", draw.ground, "A floor that takes shadows (on unless --no-ground)");
+    command.add_option("--yaw", draw.yaw, "Degrees; 0 looks at the front")
+        ->check(CLI::Range(-360.0, 360.0))
+        ->capture_default_str();
+    command.add_option("--pitch", draw.pitch, "Degrees; positive looks down")
+        ->check(CLI::Range(-89.0, 89.0))
+        ->capture_default_str();
+    bindDevice(command, draw.device, draw.mapping, draw.validate);
+}
+
+} // namespace
+
+void bindRender(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "One picture of a character");
+    command->add_option("FILE", options->file, "glTF or GLB")->required();
+    command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
+    command->add_option("--size", options->size, "Of the picture")->check(sizeValidator())->capture_default_str();
+    bindPose(*command, options->clip, options->time);
+    bindDraw(*command, options->draw);
+    command->callback([options, &exitCode] { exitCode = runRender(*options); });
+}
+
+void bindSheet(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<ContactSheetOptions>();
+    CLI::App* command = app.add_subcommand(
+        "sheet", "A sheet of pictures: a row a clip, a column a time, the deformed cage beside the surface");
+    command->add_option("FILE", options->file, "glTF or GLB")->required();
+    command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
+    command->add_option("--clip", options->clips, "Clips by name or index; all without it")->type_name("NAME|INDEX");
+    command->add_option("--columns", options->columns, "Times a clip")
+        ->check(CLI::Range(1u, 32u))
+        ->capture_default_str();
+    command->add_option("--cell", options->cell, "Of one picture; a column holds two")
+        ->check(sizeValidator())
+        ->capture_default_str();
+    command->add_flag("--labels,!--no-labels", options->labels, "Write clip and time (on unless --no-labels)");
+    bindDraw(*command, options->draw);
+    command->callback([options, &exitCode] { exitCode = runContactSheet(*options); });
+}
+
+void bindView(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<ViewOptions>();
+    CLI::App* command = app.add_subcommand("view", "Characters in a window, playing");
+    command->add_option("FILE", options->files, "glTF or GLB; one is shown at a time")->required();
+    command->add_option("--clip", options->clip, "Clip by name or index to begin with")->type_name("NAME|INDEX");
+    command->add_option("--size", options->size, "Of the window")->check(sizeValidator())->capture_default_str();
+    CLI::Option* frames = command->add_option("--frames", options->frames, "Close after so many; 0 stays open");
+    command->add_option("--screenshot", options->screenshot, "Write the last frame, window and all")
+        ->needs(frames)
+        ->type_name("OUT.png");
+    bindDraw(*command, options->draw);
+    command->callback([options, &exitCode] { exitCode = runView(*options); });
+}
+
+} // namespace supple::tools

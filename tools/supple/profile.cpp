@@ -1,0 +1,387 @@
+// supple profile: runs the frame loop of a host without a window and reports what every pass took.
+#include "tools/supple/character_file.h"
+#include "tools/supple/command.h"
+#include "tools/supple/profile_report.h"
+#include "tools/supple/session.h"
+#include "tools/supple/text_file.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+
+namespace supple::tools {
+namespace {
+
+constexpr uint32_t kFramesInFlight = 2;
+constexpr uint32_t kWarmUpFrames = 3; ///< drivers finish compiling, caches fill
+constexpr double kFrameTime = 1.0 / 60.0;
+
+struct ProfileOptions {
+    std::vector<std::string> files;
+    SurfaceFlags surface;
+    DeviceFlags device;
+    uint32_t instances = 1;
+    uint32_t frames = 60;
+    std::string json, csv, trace;
+};
+
+/// Command buffers and fences of the frames in flight.
+class FrameRing {
+public:
+    explicit FrameRing(host::Device& device) : device_(device) {}
+    FrameRing(const FrameRing&) = delete;
+    FrameRing& operator=(const FrameRing&) = delete;
+    ~FrameRing() {
+        vkDeviceWaitIdle(device_.handle());
+        for (const VkFence fence : fences_) {
+            vkDestroyFence(device_.handle(), fence, nullptr);
+        }
+        if (commands_[0] != VK_NULL_HANDLE) {
+            vkFreeCommandBuffers(device_.handle(), device_.commandPool(), kFramesInFlight, commands_.data());
+        }
+    }
+
+    Status create() {
+        VkCommandBufferAllocateInfo allocate{};
+        allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+        allocate.commandPool = device_.commandPool();
+        allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+        allocate.commandBufferCount = kFramesInFlight;
+        VkResult result = vkAllocateCommandBuffers(device_.handle(), &allocate, commands_.data());
+        if (result != VK_SUCCESS) {
+            return host::vulkanError(result, "vkAllocateCommandBuffers");
+        }
+        VkFenceCreateInfo fence{};
+        fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+        fence.flags = VK_FENCE_CREATE_SIGNALED_BIT; // the first wait of each slot passes at once
+        for (VkFence& slot : fences_) {
+            result = vkCreateFence(device_.handle(), &fence, nullptr, &slot);
+            if (result != VK_SUCCESS) {
+                return host::vulkanError(result, "vkCreateFence");
+            }
+        }
+        return success();
+    }
+
+    /// Waits until the frame that used this one's slot before has finished.
+    Status wait(uint64_t frame) {
+        const VkResult result = vkWaitForFences(device_.handle(), 1, &fences_[slot(frame)], VK_TRUE, UINT64_MAX);
+        return result == VK_SUCCESS ? success() : Status(host::vulkanError(result, "vkWaitForFences"));
+    }
+
+    Result<VkCommandBuffer> begin(uint64_t frame) {
+        VkCommandBufferBeginInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        const VkResult result = vkBeginCommandBuffer(commands_[slot(frame)], &info);
+        if (result != VK_SUCCESS) {
+            return host::vulkanError(result, "vkBeginCommandBuffer");
+        }
+        return commands_[slot(frame)];
+    }
+
+    Status submit(uint64_t frame) {
+        const uint32_t s = slot(frame);
+        VkSubmitInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+        info.commandBufferCount = 1;
+        info.pCommandBuffers = &commands_[s];
+        VkResult result = vkEndCommandBuffer(commands_[s]);
+        if (result == VK_SUCCESS) {
+            result = vkResetFences(device_.handle(), 1, &fences_[s]);
+        }
+        if (result == VK_SUCCESS) {
+            result = vkQueueSubmit(device_.queue(), 1, &info, fences_[s]);
+        }
+        return result == VK_SUCCESS ? success() : Status(host::vulkanError(result, "vkQueueSubmit"));
+    }
+
+private:
+    static uint32_t slot(uint64_t frame) { return static_cast<uint32_t>(frame % kFramesInFlight); }
+
+    host::Device& device_;
+    std::array<VkCommandBuffer, kFramesInFlight> commands_{};
+    std::array<VkFence, kFramesInFlight> fences_{};
+};
+
+/// Runs one file under one scheme. Frame numbers must rise over the life of the context, so runs share them.
+class Profiler {
+public:
+    Profiler(Session& session, const ProfileOptions& options) : session_(session), options_(options) {}
+
+    Result<ProfileRun> run(const CharacterFile& file, const std::string& scheme) {
+        ProfileRun result;
+        result.file = file.path;
+        result.scheme = resolvedScheme(scheme);
+        result.rate = options_.surface.rate;
+        result.instances = options_.instances;
+        Status status = createGroup(file, scheme, result);
+        FrameRing ring(*session_.device);
+        if (status) {
+            status = ring.create();
+        }
+        for (uint32_t i = 0; status && i < kWarmUpFrames + options_.frames; ++i) {
+            status = frame(ring, i, result);
+        }
+        // The last frames' timings come in once the library is told that they have finished.
+        for (uint32_t i = 0; status && i < kFramesInFlight; ++i) {
+            status = ring.wait(++frame_);
+            if (status) {
+                status = check(suppleBeginFrame(context(), frame_, frame_ - kFramesInFlight), "suppleBeginFrame");
+            }
+            if (status) {
+                status = collect(result);
+            }
+        }
+        if (status) {
+            status = check(suppleDestroyGroup(context(), group_), "suppleDestroyGroup");
+        }
+        if (status) {
+            status = check(suppleDestroyAsset(context(), asset_), "suppleDestroyAsset");
+        }
+        if (!status) {
+            return status.error();
+        }
+        std::erase_if(result.frames, [](const FrameSample& f) { return f.passes.empty(); });
+        if (result.frames.empty()) {
+            return Error{ErrorCode::vulkan, file.path + ": the device reported no timings"};
+        }
+        return result;
+    }
+
+private:
+    [[nodiscard]] SuppleContext context() const { return session_.context->handle(); }
+    Status check(SuppleResult result, const char* call) { return session_.context->check(result, call); }
+    [[nodiscard]] double now() const {
+        return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+    Status createGroup(const CharacterFile& file, const std::string& scheme, ProfileRun& run) {
+        const Result<SuppleAsset> asset = createAsset(*session_.context, file);
+        if (!asset) {
+            return asset.error();
+        }
+        asset_ = *asset;
+        const std::vector<cage::Clip>& clips = file.character.clips;
+        clip_ = clips.empty() ? SUPPLE_BIND_POSE : 0;
+        clipDuration_ = clips.empty() ? 0.0 : clips[0].duration;
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof desc;
+        desc.asset = asset_;
+        desc.instanceCount = options_.instances;
+        desc.scheme = schemeOf(scheme);
+        desc.rate = options_.surface.rate;
+        desc.tangentMode = tangentsOf(options_.surface);
+        desc.cornerRule = cornersOf(options_.surface);
+        Status status = check(suppleCreateGroup(context(), &desc, &group_), "suppleCreateGroup");
+        if (status) {
+            SuppleGroupOutput output{};
+            output.structSize = sizeof output;
+            status = check(suppleGetGroupOutput(context(), group_, &output), "suppleGetGroupOutput");
+            run.patches = output.patchCount;
+            run.deviceBytes = output.deviceBytes;
+        }
+        return status;
+    }
+
+    /// All instances play clip 0 in a loop, spread evenly over its length.
+    Status setPoses(uint32_t index) {
+        Status status = success();
+        for (uint32_t i = 0; status && clip_ != SUPPLE_BIND_POSE && i < options_.instances; ++i) {
+            const double phase = clipDuration_ * i / options_.instances;
+            const double time = clipDuration_ > 0.0 ? std::fmod(index * kFrameTime + phase, clipDuration_) : 0.0;
+            status = check(suppleSetClipPose(context(), group_, i, clip_, time), "suppleSetClipPose");
+        }
+        return status;
+    }
+
+    Status frame(FrameRing& ring, uint32_t index, ProfileRun& run) {
+        Status status = ring.wait(++frame_);
+        if (!status) {
+            return status;
+        }
+        // Told one frame at a time what has finished, so that no frame's timings are skipped over.
+        const uint64_t completed = frame_ > kFramesInFlight ? frame_ - kFramesInFlight : 0;
+        FrameSample sample;
+        sample.frame = frame_;
+        status = check(suppleBeginFrame(context(), frame_, completed), "suppleBeginFrame");
+        if (status) {
+            status = collect(run);
+        }
+        sample.poseBegin = now();
+        if (status) {
+            status = setPoses(index);
+        }
+        sample.poseTime = now() - sample.poseBegin;
+        if (!status) {
+            return status;
+        }
+        const Result<VkCommandBuffer> commands = ring.begin(frame_);
+        if (!commands) {
+            return commands.error();
+        }
+        SuppleRecordDesc record{};
+        record.structSize = sizeof record;
+        record.flags = SUPPLE_RECORD_TIMINGS;
+        record.groups = &group_;
+        record.groupCount = 1;
+        // As a host that draws would ask.
+        record.before = {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
+        record.after = {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
+        sample.recordBegin = now();
+        status = check(suppleRecord(context(), *commands, &record), "suppleRecord");
+        sample.recordTime = now() - sample.recordBegin;
+        if (status) {
+            status = ring.submit(frame_);
+        }
+        sample.submitted = now();
+        if (index >= kWarmUpFrames) {
+            run.frames.push_back(std::move(sample));
+        }
+        return status;
+    }
+
+    /// Adds the timings of the newest finished frame to its sample, if it is one of this run's measured frames.
+    Status collect(ProfileRun& run) {
+        uint32_t count = static_cast<uint32_t>(timings_.size());
+        const SuppleResult result = suppleGetTimings(context(), timings_.data(), &count);
+        if (result == SUPPLE_NOT_READY) {
+            return success();
+        }
+        if (Status status = check(result, "suppleGetTimings"); !status) {
+            return status;
+        }
+        if (count == 0 || timings_[0].frame == collected_) {
+            return success();
+        }
+        collected_ = timings_[0].frame;
+        for (const SuppleTiming& timing : std::span(timings_).first(count)) {
+            for (auto sample = run.frames.rbegin(); sample != run.frames.rend(); ++sample) {
+                if (sample->frame == timing.frame) {
+                    sample->passes.push_back(
+                        {timing.pass, timing.gpuBegin, timing.gpuEnd, timing.cpuRecord, timing.points, timing.bytes});
+                    break;
+                }
+            }
+        }
+        return success();
+    }
+
+    Session& session_;
+    const ProfileOptions& options_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    uint64_t frame_ = 0;
+    uint64_t collected_ = 0; ///< whose timings came in last
+    SuppleAsset asset_{};
+    SuppleGroup group_{};
+    uint32_t clip_ = SUPPLE_BIND_POSE;
+    double clipDuration_ = 0.0;
+    std::array<SuppleTiming, 64> timings_{};
+};
+
+std::string cpuName() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);) {
+        const size_t colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown";
+}
+
+Machine describe(const host::Device& device, const DeviceFlags& flags) {
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &driver;
+    vkGetPhysicalDeviceProperties2(device.physicalDevice(), &properties);
+    return {device.name(), driver.driverName, driver.driverInfo, flags.mapping, cpuName()};
+}
+
+Status writeText(const std::string& path, const std::string& text) {
+    return path.empty() ? success() : TextFile(path).text(text).close();
+}
+
+std::string dump(const nlohmann::ordered_json& json, int indent) {
+    return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+Status profile(Session& session, const ProfileOptions& options, const std::vector<CharacterFile>& files) {
+    const Machine machine = describe(*session.device, options.device);
+    std::printf("%s (%s %s), %s mapping, CPU %s\n", machine.device.c_str(), machine.driver.c_str(),
+                machine.driverInfo.c_str(), machine.mapping.c_str(), machine.cpu.c_str());
+    const bool all = options.surface.scheme == "all";
+    const std::vector<std::string> schemes = all ? schemeNames() : std::vector<std::string>{options.surface.scheme};
+    std::vector<ProfileRun> runs;
+    Profiler profiler(session, options);
+    for (const CharacterFile& file : files) {
+        for (const std::string& scheme : schemes) {
+            Result<ProfileRun> run = profiler.run(file, scheme);
+            if (!run && all && run.error().code == ErrorCode::asset) { // not every scheme takes every cage
+                warn(run.error().message);
+                continue;
+            }
+            if (!run) {
+                return run.error();
+            }
+            std::printf("\n%s", toTable(*run, summarizeRun(*run)).c_str());
+            std::fflush(stdout);
+            runs.push_back(std::move(*run));
+        }
+    }
+    Status status = success();
+    if (!options.json.empty()) {
+        status = writeText(options.json, dump(toJson(machine, runs), 2));
+    }
+    if (status && !options.csv.empty()) {
+        status = writeText(options.csv, toCsv(runs));
+    }
+    if (status && !options.trace.empty()) {
+        status = writeText(options.trace, dump(toTrace(machine, runs), -1));
+    }
+    return status;
+}
+
+int runProfile(const ProfileOptions& options) {
+    std::vector<CharacterFile> files;
+    for (const std::string& path : options.files) {
+        Result<CharacterFile> file = readCharacterFile(path, options.surface.pairQuads);
+        if (!file) {
+            return fail(kExitBadInput, file.error().message);
+        }
+        files.push_back(std::move(*file));
+    }
+    return withSession(options.device, [&](Session& session) { return profile(session, options, files); });
+}
+
+} // namespace
+
+void bindProfile(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<ProfileOptions>();
+    CLI::App* command = app.add_subcommand("profile", "What every pass of a frame takes, over many frames");
+    command->add_option("FILE", options->files, "glTF or GLB, one run each")->required();
+    command->add_option("--instances", options->instances, "Instances evaluated together")
+        ->check(CLI::Range(1u, 1000000u))
+        ->capture_default_str();
+    command->add_option("--frames", options->frames, "Frames to measure, after a few to warm up")
+        ->check(CLI::Range(1u, 1000000u))
+        ->capture_default_str();
+    command->add_option("--json", options->json, "Write the figures as JSON")->type_name("OUT.json");
+    command->add_option("--csv", options->csv, "Write the figures as CSV, a row a pass")->type_name("OUT.csv");
+    command->add_option("--trace", options->trace, "Write every frame as a Chrome trace, for Perfetto")
+        ->type_name("OUT.json");
+    bindSurface(*command, options->surface, {"all"});
+    bindDevice(*command, options->device);
+    command->callback([options, &exitCode] { exitCode = runProfile(*options); });
+}
+
+} // namespace supple::tools

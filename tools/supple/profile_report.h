@@ -1,0 +1,73 @@
+// What supple profile measured, and its four forms: table, JSON, CSV, Chrome trace.
+#pragma once
+
+#include "tools/supple/statistics.h"
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace supple::tools {
+
+/// One pass of one frame.
+struct PassSample {
+    std::string pass;
+    double gpuBegin = 0.0; ///< nanoseconds on the device's clock
+    double gpuEnd = 0.0;
+    double cpuRecord = 0.0; ///< nanoseconds
+    uint64_t points = 0;
+    uint64_t bytes = 0;
+};
+
+/// One frame. CPU times are nanoseconds; begins count from the start of the run.
+struct FrameSample {
+    uint64_t frame = 0;
+    std::vector<PassSample> passes;
+    double poseBegin = 0.0, poseTime = 0.0;     ///< setting the poses of all instances
+    double recordBegin = 0.0, recordTime = 0.0; ///< suppleRecord
+    double submitted = 0.0;                     ///< when the frame was handed to the device
+};
+
+/// One file under one scheme.
+struct ProfileRun {
+    std::string file;
+    std::string scheme;
+    uint32_t rate = 0;
+    uint32_t instances = 0;
+    uint32_t patches = 0;     ///< an instance
+    uint64_t deviceBytes = 0; ///< of the group
+    std::vector<FrameSample> frames;
+};
+
+struct Machine {
+    std::string device, driver, driverInfo, mapping, cpu;
+};
+
+/// One pass over all frames of a run; times in milliseconds.
+struct PassSummary {
+    std::string pass;
+    Summary gpu;
+    Summary cpuRecord;
+    uint64_t points = 0; ///< a frame
+    uint64_t bytes = 0;
+    [[nodiscard]] double megapointsPerSecond() const; ///< at the median; 0 when the clock showed no time
+};
+
+struct RunSummary {
+    std::vector<PassSummary> passes; ///< in the order of the frame
+    PassSummary total;               ///< GPU: first begin to last end of a frame; CPU, points, bytes: the sums
+    Summary pose;                    ///< CPU: setting the poses
+    Summary record;                  ///< CPU: suppleRecord
+};
+[[nodiscard]] RunSummary summarizeRun(const ProfileRun& run);
+
+[[nodiscard]] std::string toTable(const ProfileRun& run, const RunSummary& summary);
+[[nodiscard]] nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun> runs);
+[[nodiscard]] std::string toCsv(std::span<const ProfileRun> runs);
+/// Chrome trace events, for Perfetto and chrome://tracing: a process a run, in it a track for the device and one for
+/// the CPU. The two clocks are laid together at the first frame: its work begins when it was submitted.
+[[nodiscard]] nlohmann::ordered_json toTrace(const Machine& machine, std::span<const ProfileRun> runs);
+
+} // namespace supple::tools

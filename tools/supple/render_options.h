@@ -1,0 +1,24 @@
+// What render, view and the contact sheet share of their command lines. Values are kept as typed; the run functions
+// check them and answer kExitUsage.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace supple::tools {
+
+struct DrawOptions {
+    std::string scheme = "auto"; ///< auto | prep | cage (the deformed cage itself)
+    uint32_t rate = 8;           ///< segments along a patch edge, 1..64
+    std::string view = "shaded"; ///< shaded | wire | patches | normals | zebra
+    bool cageOverlay = false;    ///< the cage's edges drawn over the surface
+    bool ground = true;          ///< a floor that takes shadows
+    double yaw = 35.0;      ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
+    double pitch = 12.0;    ///< degrees; positive looks down
+    bool pairQuads = false; ///< SUPPLE_ASSET_PAIR_QUADS
+    std::string device;     ///< name part or index; empty takes the best
+    std::string mapping = "auto"; ///< auto | narrow | wide
+    bool validate = false;        ///< run under the validation layer; its messages make the command fail
+};
+
+} // namespace supple::tools

@@ -1,0 +1,33 @@
+// A text file written piece by piece, for outputs too large to hold in memory. Independent of the locale.
+#pragma once
+
+#include "base/result.h"
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace supple::tools {
+
+class TextFile {
+public:
+    explicit TextFile(std::string path);
+
+    TextFile& text(std::string_view piece);
+    /// As printf's %.9g: enough digits to read the same float back.
+    TextFile& number(float value);
+    TextFile& number(uint64_t value);
+
+    /// Writes what is left. Anything that went wrong on the way is reported here.
+    [[nodiscard]] Status close();
+
+private:
+    void flush();
+
+    std::string path_;
+    std::ofstream stream_;
+    std::string pending_;
+};
+
+} // namespace supple::tools
