@@ -501,7 +501,7 @@ void checkAnimations(json& root) {
                 channel["target"] = {{"node", 0}, {"path", "pointer"}};
                 continue;
             }
-            checkIndexMember(*target, "node", place, "node", nodeCount, true);
+            checkIndexMember(*target, "node", place + " target", "node", nodeCount, true);
             if (stringMember(*target, "path", place).empty())
                 refuse(place, "path is missing");
         }

@@ -125,10 +125,10 @@ UriBytes decodeDataUri(std::string_view uri) {
 UriBytes readRegularFile(const std::string& path) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
-    if (code)
-        return problem(code.message(), false);
     if (status.type() == std::filesystem::file_type::not_found)
         return problem("no such file", false);
+    if (code)
+        return problem(code.message(), false);
     if (status.type() != std::filesystem::file_type::regular)
         return problem("not a regular file", false);
     const uintmax_t size = std::filesystem::file_size(path, code);
@@ -175,7 +175,7 @@ UriBytes readBelow(const std::string& baseDirectory, std::string_view uri) {
         return problem("asset folder: " + code.message(), false);
     const auto path = std::filesystem::canonical(base / relative, code);
     if (code)
-        return problem(code.message(), false);
+        return problem(code == std::errc::no_such_file_or_directory ? "no such file" : code.message(), false);
     const auto [baseEnd, pathMiddle] = std::mismatch(base.begin(), base.end(), path.begin(), path.end());
     if (baseEnd != base.end())
         return problem("path leaves the asset's folder");

@@ -53,12 +53,6 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc) 
     return context;
 }
 
-Context::~Context() {
-    groups.clear();
-    retired_.clear();
-    assets.clear();
-}
-
 void Context::log(SuppleSeverity severity, const std::string& text) const {
     if (log_ != nullptr)
         log_(severity, text.c_str(), logUser_);

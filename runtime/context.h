@@ -18,7 +18,12 @@
 namespace supple::runtime {
 
 class Context {
+    std::unique_ptr<gpu::Device> device_; ///< first, so that it goes last: everything below holds its address
+
 public:
+    Context() = default;
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
     [[nodiscard]] static Result<std::unique_ptr<Context>> create(const SuppleContextDesc& desc);
 
     void log(SuppleSeverity severity, const std::string& text) const;
@@ -31,14 +36,13 @@ public:
     [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
     bool destroyGroup(uint64_t id);
 
+    Timings timings;
     SlotMap<Asset> assets;
     SlotMap<Group> groups;
-    Timings timings;
 
 private:
     void retire(uint64_t completedFrame);
 
-    std::unique_ptr<gpu::Device> device_; ///< first: everything below holds its address
     SuppleLogFunction log_ = nullptr;
     void* logUser_ = nullptr;
     uint32_t framesInFlight_ = 2;
@@ -47,12 +51,6 @@ private:
     surface::prep::Passes prep_;
     gpu::StaticBuffers pairs_;
     std::vector<std::shared_ptr<Group>> retired_; ///< destroyed by the host, perhaps still in flight
-
-public:
-    ~Context();
-    Context() = default;
-    Context(const Context&) = delete;
-    Context& operator=(const Context&) = delete;
 };
 
 } // namespace supple::runtime

@@ -47,10 +47,6 @@ public:
             if (slot.value != nullptr)
                 visit(*slot.value);
     }
-    void clear() {
-        slots_.clear();
-        free_.clear();
-    }
 
 private:
     struct Slot {

@@ -128,9 +128,9 @@ TEST(GltfRefusals, Extensions) {
               "export the mesh uncompressed");
     EXPECT_EQ(required("ACME_thing"), "t.glb: extensionsRequired: ACME_thing is not supported");
     EXPECT_EQ(withJson(R"("scene":0)", R"("scene":0,"extensionsUsed":[1])"), "t.glb: extensionsUsed: not all strings");
-    EXPECT_EQ(withJson(R"("indices":3,"mode":4)",
-                       R"("indices":9,"mode":4,"extensions":{"KHR_draco_mesh_compression":{}})"),
-              "t.glb: mesh 0 primitive 0 indices: accessor 9 is out of range: the file has 9");
+    EXPECT_EQ(
+        withJson(R"("indices":3,"mode":4)", R"("indices":9,"mode":4,"extensions":{"KHR_draco_mesh_compression":{}})"),
+        "t.glb: mesh 0 primitive 0 indices: accessor 9 is out of range: the file has 9");
     EXPECT_EQ(withJson(R"({"bufferView":3,"componentType":5123,"count":6,"type":"SCALAR"})",
                        R"({"componentType":5123,"count":6,"type":"SCALAR"})"),
               "t.glb: mesh 0 primitive 0 indices: accessor 3 has no bufferView");
@@ -163,8 +163,7 @@ TEST(GltfRefusals, Buffers) {
               "t.glb: buffer 0: truncated: byteLength is " + length + ", 3 bytes present");
     const std::string meshopt = replaced(b.json(), R"({"byteLength":)" + length,
                                          R"({"extensions":{"EXT_meshopt_compression":{}},"byteLength":)" + length);
-    EXPECT_EQ(messageOf(packGlb(meshopt, {})),
-              "t.glb: buffer 0: is meshopt-compressed; export the mesh uncompressed");
+    EXPECT_EQ(messageOf(packGlb(meshopt, {})), "t.glb: buffer 0: is meshopt-compressed; export the mesh uncompressed");
 }
 
 TEST(GltfRefusals, ExternalFiles) {
@@ -209,7 +208,7 @@ TEST(GltfRefusals, ExternalFiles) {
     EXPECT_EQ(with("C%3A/a.bin"), refused("C%3A/a.bin", "only relative paths and data: URIs are allowed"));
     EXPECT_EQ(with("a%00b"), refused("a%00b", "path contains a NUL character"));
     EXPECT_EQ(with("sub", ErrorCode::io), refused("sub", "not a regular file"));
-    EXPECT_EQ(with("none.bin", ErrorCode::io), refused("none.bin", "No such file or directory"));
+    EXPECT_EQ(with("none.bin", ErrorCode::io), refused("none.bin", "no such file"));
 
     const std::string missing = (folder / "missing.glb").string();
     const Result<Character> result = readGltfFile(missing);
@@ -241,7 +240,9 @@ TEST(GltfRefusals, BufferViews) {
 
 TEST(GltfRefusals, Accessors) {
     const std::string first = R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})";
-    const auto with = [&](const std::string& to, ErrorCode code = ErrorCode::asset) { return withJson(first, to, code); };
+    const auto with = [&](const std::string& to, ErrorCode code = ErrorCode::asset) {
+        return withJson(first, to, code);
+    };
     EXPECT_EQ(with(R"({"bufferView":9,"componentType":5126,"count":4,"type":"VEC3"})"),
               "t.glb: accessor 0 bufferView: bufferView 9 is out of range: the file has 9");
     EXPECT_EQ(with(R"({"bufferView":4294967296,"componentType":5126,"count":4,"type":"VEC3"})"),
@@ -259,15 +260,16 @@ TEST(GltfRefusals, Accessors) {
               "t.glb: mesh 0 primitive 0 POSITION: 5 elements at byte 0 are out of range: bufferView 0 has 48 bytes");
     EXPECT_EQ(with(R"({"bufferView":0,"byteOffset":4,"componentType":5126,"count":4,"type":"VEC3"})"),
               "t.glb: mesh 0 primitive 0 POSITION: 4 elements at byte 4 are out of range: bufferView 0 has 48 bytes");
-    EXPECT_EQ(with(R"({"bufferView":0,"componentType":5126,"count":1537228672809129302,"type":"VEC3"})",
-                   ErrorCode::limit),
-              "t.glb: mesh 0 primitive 0: more than 16777216 vertices");
+    EXPECT_EQ(
+        with(R"({"bufferView":0,"componentType":5126,"count":1537228672809129302,"type":"VEC3"})", ErrorCode::limit),
+        "t.glb: mesh 0 primitive 0: more than 16777216 vertices");
     EXPECT_EQ(with(R"({"componentType":5126,"count":16777217,"type":"VEC3"})", ErrorCode::limit),
               "t.glb: mesh 0 primitive 0: more than 16777216 vertices");
-    EXPECT_EQ(withJson(R"({"bufferView":5,"componentType":5126,"count":3,"type":"SCALAR"})",
-                       R"({"componentType":5126,"count":16777217,"type":"SCALAR"})", ErrorCode::limit),
-              "t.glb: animation 0 channel 0 input: accessor without bufferView: 16777217 elements, at most 16777216 are "
-              "read");
+    EXPECT_EQ(
+        withJson(R"({"bufferView":5,"componentType":5126,"count":3,"type":"SCALAR"})",
+                 R"({"componentType":5126,"count":16777217,"type":"SCALAR"})", ErrorCode::limit),
+        "t.glb: animation 0 channel 0 input: accessor without bufferView: 16777217 elements, at most 16777216 are "
+        "read");
     EXPECT_EQ(with(R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC2"})"),
               "t.glb: mesh 0 primitive 0 POSITION: VEC2 instead of VEC3");
     EXPECT_EQ(with(R"({"bufferView":0,"componentType":5122,"count":4,"type":"VEC3"})"),
@@ -279,7 +281,8 @@ TEST(GltfRefusals, Accessors) {
 TEST(GltfRefusals, SparseAccessors) {
     const std::string first = R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})";
     const auto with = [&](const std::string& sparse) {
-        return withJson(first, R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":)" + sparse + "}");
+        return withJson(first,
+                        R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":)" + sparse + "}");
     };
     EXPECT_EQ(with("7"), "t.glb: accessor 0 sparse: not an object");
     EXPECT_EQ(with(R"({"count":0})"), "t.glb: accessor 0 sparse count: 0 is not in 1..4");
@@ -355,7 +358,8 @@ TEST(GltfRefusals, Skins) {
     const std::string joints = R"({"joints":[1,2],"inverseBindMatrices":4})";
     EXPECT_EQ(withJson(joints, "{}"), "t.glb: skin 0: no joints");
     EXPECT_EQ(withJson(joints, R"({"joints":[]})"), "t.glb: skin 0: no joints");
-    EXPECT_EQ(withJson(joints, R"({"joints":[1,3]})"), "t.glb: skin 0 joints[1]: node 3 is out of range: the file has 3");
+    EXPECT_EQ(withJson(joints, R"({"joints":[1,3]})"),
+              "t.glb: skin 0 joints[1]: node 3 is out of range: the file has 3");
     EXPECT_EQ(withJson(joints, R"({"joints":[1,2],"skeleton":3})"),
               "t.glb: skin 0 skeleton: node 3 is out of range: the file has 3");
     EXPECT_EQ(withJson(joints, R"({"joints":[1,2,0],"inverseBindMatrices":4})"),
@@ -368,7 +372,8 @@ TEST(GltfRefusals, Skins) {
 
 TEST(GltfRefusals, JointsAndWeights) {
     const std::string sets = R"("JOINTS_0":1,"WEIGHTS_0":2)";
-    EXPECT_EQ(withJson(sets + ",", ""), "t.glb: mesh 0 primitive 0: no JOINTS_0 and WEIGHTS_0, but its node has a skin");
+    EXPECT_EQ(withJson(sets + ",", ""),
+              "t.glb: mesh 0 primitive 0: no JOINTS_0 and WEIGHTS_0, but its node has a skin");
     EXPECT_EQ(withJson(sets, R"("JOINTS_0":1)"), "t.glb: mesh 0 primitive 0: JOINTS_0 without WEIGHTS_0");
     EXPECT_EQ(withJson(sets, sets + R"(,"WEIGHTS_1":2)"), "t.glb: mesh 0 primitive 0: WEIGHTS_1 without JOINTS_1");
     EXPECT_EQ(withJson(sets, sets + R"(,"JOINTS_2":1,"WEIGHTS_2":2)"),
@@ -385,8 +390,7 @@ TEST(GltfRefusals, JointsAndWeights) {
     EXPECT_EQ(withFloat(kWeights, 9, -0.25f), "t.glb: mesh 0 primitive 0 WEIGHTS_0[2]: negative");
     GltfBuilder b = skinnedQuad();
     b.setByte(kJoints, 5, 2);
-    EXPECT_EQ(messageOf(b.glb()),
-              "t.glb: mesh 0 primitive 0 JOINTS_0[1]: joint 2 is out of range: the skin has 2");
+    EXPECT_EQ(messageOf(b.glb()), "t.glb: mesh 0 primitive 0 JOINTS_0[1]: joint 2 is out of range: the skin has 2");
     std::string many;
     for (int n = 1; n <= 16; ++n)
         many += ",\"JOINTS_" + std::to_string(n) + "\":1,\"WEIGHTS_" + std::to_string(n) + "\":2";
@@ -462,7 +466,8 @@ TEST(GltfRefusals, Animations) {
               "t.glb: animation 0 channel 0: animates node 2, which has a matrix");
     EXPECT_EQ(withJson(R"({"input":5,"output":6})", R"({"input":5,"output":6,"interpolation":"SMOOTH"})"),
               "t.glb: animation 0 sampler 0 interpolation: \"SMOOTH\" is not allowed");
-    EXPECT_EQ(withJson(R"({"input":5,"output":6})", R"({"input":5})"), "t.glb: animation 0 sampler 0: output is missing");
+    EXPECT_EQ(withJson(R"({"input":5,"output":6})", R"({"input":5})"),
+              "t.glb: animation 0 sampler 0: output is missing");
     EXPECT_EQ(withJson(R"({"input":5,"output":6})", R"({"input":9,"output":6})"),
               "t.glb: animation 0 sampler 0 input: accessor 9 is out of range: the file has 9");
     EXPECT_EQ(withJson(R"({"input":5,"output":6})", R"({"input":5,"output":2})"),
@@ -470,11 +475,11 @@ TEST(GltfRefusals, Animations) {
     EXPECT_EQ(withJson(R"({"input":5,"output":6})", R"({"input":5,"output":6,"interpolation":"CUBICSPLINE"})"),
               "t.glb: animation 0 channel 0 output: 3 elements for 3 keys of CUBICSPLINE");
     const GltfBuilder b = skinnedQuad();
-    const std::string cubic = replaced(b.json(), R"({"input":5,"output":6})",
-                                       R"({"input":5,"output":6,"interpolation":"CUBICSPLINE"})");
-    EXPECT_EQ(messageOf(packGlb(replaced(cubic, R"("count":3,"type":"SCALAR")", R"("count":1,"type":"SCALAR")"),
-                                b.binary())),
-              "t.glb: animation 0 channel 0 input: CUBICSPLINE needs at least two keys");
+    const std::string cubic =
+        replaced(b.json(), R"({"input":5,"output":6})", R"({"input":5,"output":6,"interpolation":"CUBICSPLINE"})");
+    EXPECT_EQ(
+        messageOf(packGlb(replaced(cubic, R"("count":3,"type":"SCALAR")", R"("count":1,"type":"SCALAR")"), b.binary())),
+        "t.glb: animation 0 channel 0 input: CUBICSPLINE needs at least two keys");
     EXPECT_EQ(withFloat(kTimes, 1, kNan), "t.glb: animation 0 channel 0 input[1]: not finite");
     EXPECT_EQ(withFloat(kTimes, 0, -1.0f), "t.glb: animation 0 channel 0 input[0]: negative time");
     EXPECT_EQ(withFloat(kTimes, 1, 0.0f), "t.glb: animation 0 channel 0 input[1]: not later than the key before it");

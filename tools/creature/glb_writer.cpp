@@ -21,7 +21,9 @@ constexpr int kU8 = 5121;
 constexpr int kU16 = 5123;
 
 // To a fixed grid, so that the last bits of a maths library cannot show in the file. Adding zero drops minus zero.
-float rounded(double value) { return static_cast<float>(std::round(value * 1e5) / 1e5 + 0.0); }
+float rounded(double value) {
+    return static_cast<float>(std::round(value * 1e5) / 1e5 + 0.0);
+}
 
 class Writer {
 public:
@@ -34,8 +36,8 @@ public:
             }
         }
         const size_t count = values.size() / static_cast<size_t>(components);
-        Json accessor = {{"bufferView", view(bytes, target)}, {"componentType", kFloat}, {"count", count},
-                         {"type", type}};
+        Json accessor = {
+            {"bufferView", view(bytes, target)}, {"componentType", kFloat}, {"count", count}, {"type", type}};
         if (bounds) {
             std::vector<double> low(static_cast<size_t>(components), 1e30);
             std::vector<double> high(static_cast<size_t>(components), -1e30);
@@ -126,8 +128,7 @@ Json meshPrimitive(Writer& writer, const Cage& cage, const std::vector<Influence
     std::vector<uint16_t> indices;
     const auto vertex = [&](size_t q, size_t corner) {
         const int point = cage.quads[q].points[corner];
-        const auto [it, fresh] =
-            written.insert({{point, atlas.chart[q]}, static_cast<int>(positions.size() / 3)});
+        const auto [it, fresh] = written.insert({{point, atlas.chart[q]}, static_cast<int>(positions.size() / 3)});
         if (fresh) {
             const size_t p = static_cast<size_t>(point);
             for (int i = 0; i < 3; ++i) {
@@ -182,8 +183,9 @@ Json animation(Writer& writer, const Skeleton& skeleton, const Clip& clip) {
     Json samplers = Json::array();
     const auto add = [&](size_t joint, const char* path, const std::vector<float>& values, const char* type,
                          int components) {
-        samplers.push_back(
-            {{"input", input}, {"interpolation", "LINEAR"}, {"output", writer.floats(values, type, components, false, 0)}});
+        samplers.push_back({{"input", input},
+                            {"interpolation", "LINEAR"},
+                            {"output", writer.floats(values, type, components, false, 0)}});
         channels.push_back({{"sampler", samplers.size() - 1}, {"target", {{"node", joint}, {"path", path}}}});
     };
     for (size_t joint = 0; joint < skeleton.joints.size(); ++joint) {
@@ -224,7 +226,8 @@ bool writeGlb(const std::string& path, const Cage& cage, const Skeleton& skeleto
               const std::vector<Clip>& clips) {
     Writer writer;
     Json document;
-    document["asset"] = {{"version", "2.0"}, {"generator", "supple_creature"}, {"copyright", "The Supple authors, MIT"}};
+    document["asset"] = {
+        {"version", "2.0"}, {"generator", "supple_creature"}, {"copyright", "The Supple authors, MIT"}};
     document["extensionsUsed"] = Json::array({"FB_ngon_encoding"});
     document["materials"] = Json::array(
         {{{"name", "skin"},
@@ -239,8 +242,7 @@ bool writeGlb(const std::string& path, const Cage& cage, const Skeleton& skeleto
     for (size_t j = 0; j < skeleton.joints.size(); ++j) {
         const Joint& joint = skeleton.joints[j];
         const Vec3 offset = skeleton.offset(static_cast<int>(j));
-        Json node = {{"name", joint.name},
-                     {"translation", {rounded(offset.x), rounded(offset.y), rounded(offset.z)}}};
+        Json node = {{"name", joint.name}, {"translation", {rounded(offset.x), rounded(offset.y), rounded(offset.z)}}};
         Json children = Json::array();
         for (size_t k = 0; k < skeleton.joints.size(); ++k) {
             if (skeleton.joints[k].parent == static_cast<int>(j)) {

@@ -19,7 +19,9 @@ namespace {
     std::exit(1);
 }
 
-bool onMirrorPlane(const Point& point) { return point.position.x == 0.0; }
+bool onMirrorPlane(const Point& point) {
+    return point.position.x == 0.0;
+}
 
 } // namespace
 
@@ -41,7 +43,9 @@ int Cage::addPoint(const Vec3& position) {
     return static_cast<int>(points.size()) - 1;
 }
 
-void Cage::addQuad(int a, int b, int c, int d) { quads.push_back({{a, b, c, d}, part}); }
+void Cage::addQuad(int a, int b, int c, int d) {
+    quads.push_back({{a, b, c, d}, part});
+}
 
 Patch Cage::seed(int columns, int rows, bool half, Patch& underside) {
     Patch top{columns, rows, half, {}};
@@ -82,8 +86,8 @@ Patch Cage::seed(int columns, int rows, bool half, Patch& underside) {
         }
     }
     for (const auto& [a, b] : directed) {
-        const bool inPlane = half && onMirrorPlane(points[static_cast<size_t>(a)]) &&
-                             onMirrorPlane(points[static_cast<size_t>(b)]);
+        const bool inPlane =
+            half && onMirrorPlane(points[static_cast<size_t>(a)]) && onMirrorPlane(points[static_cast<size_t>(b)]);
         if (!directed.count({b, a}) && !inPlane) {
             addQuad(a, b, renamed[b], renamed[a]);
         }
@@ -117,9 +121,9 @@ Patch Cage::patch(int columns, int rows, bool half, const std::vector<int>& grid
 }
 
 Patch Cage::cell(const Patch& from, int column, int row) const {
-    return patch(1, 1, false,
-                 {from.at(column, row), from.at(column + 1, row), from.at(column, row + 1),
-                  from.at(column + 1, row + 1)});
+    return patch(
+        1, 1, false,
+        {from.at(column, row), from.at(column + 1, row), from.at(column, row + 1), from.at(column + 1, row + 1)});
 }
 
 Patch Cage::extrude(const Patch& from) {
@@ -149,8 +153,8 @@ Patch Cage::extrude(const Patch& from) {
         }
     }
     for (const auto& [a, b] : edges) {
-        const bool inPlane = from.half && onMirrorPlane(points[static_cast<size_t>(a)]) &&
-                             onMirrorPlane(points[static_cast<size_t>(b)]);
+        const bool inPlane =
+            from.half && onMirrorPlane(points[static_cast<size_t>(a)]) && onMirrorPlane(points[static_cast<size_t>(b)]);
         if (!directed.count({b, a}) && !inPlane) {
             addQuad(a, b, renamed[b], renamed[a]);
         }

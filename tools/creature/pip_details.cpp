@@ -33,7 +33,8 @@ void stub(Cage& cage, Part part, const Frame& frame, const std::vector<Ring>& ri
         at.origin = frame.origin + frame.out * rings[i].along + rings[i].shift;
         cage.placeDisk(top, at, rings[i].across, rings[i].deep);
         for (int point : top.points) {
-            cage.points[static_cast<size_t>(point)].along = static_cast<double>(i) / static_cast<double>(rings.size() - 1);
+            cage.points[static_cast<size_t>(point)].along =
+                static_cast<double>(i) / static_cast<double>(rings.size() - 1);
         }
     }
     cage.endShell();
@@ -86,7 +87,7 @@ void eyeball(Cage& cage) {
     cage.part = Part::Eye;
     const Frame frame = frameFrom(kEye, kEyeOut, {1, 0, 0});
     // Angles from the axis: pupil, its edge, iris, its edge, the white, and round the back.
-    const double angles[] = {125, 75, 49, 46, 39, 30, 27, 15};
+    const double angles[] = {100, 53, 50, 42, 34, 31, 18};
     Patch top;
     for (size_t i = 0; i < std::size(angles); ++i) {
         const double angle = angles[i] * kPi / 180;
@@ -114,7 +115,6 @@ void eyeball(Cage& cage) {
     const int shell = cage.shell;
     cage.endShell();
     fitToSphere(cage, shell, kEye, kEyeRadius);
-
 }
 
 // Modelled highlights that stay whatever the light does; on both eyes they are on the same side.
@@ -150,12 +150,13 @@ void addPairedDetails(Cage& cage) {
           {0.21, 0.016, 0.016, {0.004, 0, -0.072}}});
 
     // Nostrils.
-    stub(cage, Part::Nostril, frameFrom(castToBody(whole, {0.062, 1.32, 0.80}, {0, -0.5, -1}), {0.25, 0.5, 0.9}, {1, 0, 0}),
-         {{-0.012, 0.026, 0.018}, {0.010, 0.026, 0.018}});
+    stub(cage, Part::Nostril,
+         frameFrom(castToBody(whole, {0.062, 1.32, 0.80}, {0, -0.5, -1}), {0.25, 0.5, 0.9}, {1, 0, 0}),
+         {{-0.010, 0.030, 0.020}, {0.018, 0.028, 0.018}});
 
     // One small fang each side, out over the lower lip.
     stub(cage, Part::Tooth, frameFrom({0.150, 1.085, 0.400}, {0.08, -1, 0.10}, {1, 0, 0}),
-         {{-0.014, 0.022, 0.018}, {0.016, 0.020, 0.016}, {0.044, 0.006, 0.006}});
+         {{-0.020, 0.030, 0.024}, {0.050, 0.012, 0.010}});
 
     // Claws on the toes.
     for (int toe = 0; toe < 3; ++toe) {
@@ -170,8 +171,8 @@ void addMiddleDetails(Cage& cage) {
     glints(cage);
 
     // A tongue, its root in the throat.
-    stub(cage, Part::Tongue, frameFrom({0, 1.030, 0.12}, {0, -0.02, 1}, {1, 0, 0}),
-         {{0.0, 0.085, 0.020}, {0.07, 0.105, 0.022, {0, 0.004, 0}}, {0.15, 0.105, 0.020}, {0.21, 0.075, 0.014}});
+    stub(cage, Part::Tongue, frameFrom({0, 1.052, 0.13}, {0, 0, 1}, {1, 0, 0}),
+         {{0.0, 0.095, 0.024}, {0.08, 0.125, 0.026, {0, 0.006, 0}}, {0.17, 0.120, 0.024}, {0.245, 0.080, 0.016}});
 
     // A crest from the crown down the back to the tail.
     struct Plate {
@@ -180,11 +181,11 @@ void addMiddleDetails(Cage& cage) {
         double size;
     };
     const Plate plates[] = {
-        {{0, 1.570, -0.02}, {0, 1, -0.15}, 0.105},   {{0, 1.495, -0.22}, {0, 0.8, -0.7}, 0.125},
+        {{0, 1.570, -0.02}, {0, 1, -0.15}, 0.105},    {{0, 1.495, -0.22}, {0, 0.8, -0.7}, 0.125},
         {{0, 1.310, -0.335}, {0, 0.3, -0.95}, 0.115}, {{0, 0.80, -0.172}, {0, 0.25, -1}, 0.085},
         {{0, 0.655, -0.205}, {0, 0.35, -1}, 0.100},   {{0, 0.515, -0.295}, {0, 0.8, -0.7}, 0.100},
         {{0, 0.405, -0.445}, {0, 0.85, -0.6}, 0.088}, {{0, 0.305, -0.605}, {0, 0.95, -0.35}, 0.076},
-        {{0, 0.262, -0.775}, {0, 1, 0}, 0.062},
+
     };
     const Cage whole = cage;
     for (const Plate& plate : plates) {
@@ -193,7 +194,8 @@ void addMiddleDetails(Cage& cage) {
         // The tip leans back along the spine.
         const Vec3 lean = -at.along * (at.along.z > 0 ? 1.0 : -1.0);
         stub(cage, Part::Spike, at,
-             {{-0.45 * s, 0.42 * s, 0.85 * s}, {0.20 * s, 0.36 * s, 0.80 * s},
+             {{-0.45 * s, 0.42 * s, 0.85 * s},
+              {0.20 * s, 0.36 * s, 0.80 * s},
               {1.05 * s, 0.10 * s, 0.20 * s, lean * (0.45 * s)}});
     }
 }

@@ -132,6 +132,7 @@ void Builder::torsoAndHead() {
             top = cage.extrude(top);
         }
         placeSlice(cage, top, torso[i], 0);
+        setAlong(cage, top, static_cast<double>(i));
         body.push_back(halfRim(top));
     }
     cage.part = Part::Head;
@@ -143,6 +144,7 @@ void Builder::torsoAndHead() {
     for (size_t i = 0; i < std::size(skull); ++i) {
         top = cage.extrude(top);
         placeSlice(cage, top, skull[i], i + 1 == std::size(skull) ? 0.065 : 0);
+        setAlong(cage, top, static_cast<double>(i));
         head.push_back(halfRim(top));
     }
 }
@@ -186,7 +188,7 @@ void Builder::mouth() {
     for (int column = 0; column <= 5; ++column) {
         Vec3& low = cage.position(slit.at(column, 0));
         Vec3& high = cage.position(slit.at(column, 1));
-        const double middle = 1.062 + 0.055 * column * column / 25.0;
+        const double middle = 1.052 + 0.085 * column * column / 25.0;
         const double gap = column == 5 ? 0.010 : 0.016;
         low.y = middle - gap;
         high.y = middle + gap;
@@ -195,8 +197,7 @@ void Builder::mouth() {
     const double inwards[] = {0.955, 0.80, 0.55};
     const double heights[] = {0.010, 0.035, 0.055};
     for (int step = 0; step < 3; ++step) {
-        cage.part = step == 0 ? Part::Head : Part::Mouth;
-        const Patch from = slit;
+        cage.part = Part::Mouth;
         slit = cage.extrude(slit);
         for (int column = 0; column <= 5; ++column) {
             for (int row = 0; row <= 1; ++row) {
@@ -231,9 +232,10 @@ void Builder::eye() {
         double out;
         double lid; // how far this ring follows the lids
     };
-    // Brow, middle of the lids, their edge, their inner side, and the wall behind the eyeball. The lid rings lie just
-    // outside the eyeball so that they slide over it.
-    const Ring rings[] = {{1.22, 0.42, 0.0}, {1.07, 0.62, 0.45}, {0.93, 0.72, 1.0}, {0.86, 0.60, 1.0}, {0.70, -0.2, 0}};
+    // Brow, two loops in the lids, their edge, their inner side, and the wall behind the eyeball. The lid rings lie
+    // just outside the eyeball so that they slide over it.
+    const Ring rings[] = {{1.24, 0.38, 0.0}, {1.16, 0.58, 0.36}, {1.06, 0.72, 0.72},
+                          {0.95, 0.78, 1.0}, {0.87, 0.62, 1.0},  {0.70, -0.2, 0}};
     const Patch orbit = patch;
     for (int row = 0; row <= 2; ++row) {
         for (int column = 0; column <= 2; ++column) {
@@ -243,7 +245,7 @@ void Builder::eye() {
                 const Vec3 d = p - frame.origin;
                 Vec3 flat{glm::dot(d, frame.across), glm::dot(d, frame.along), 0};
                 const double length = glm::length(flat);
-                const double wanted = 1.42 * r;
+                const double wanted = 1.46 * r;
                 p += (frame.across * flat.x + frame.along * flat.y) * (0.6 * (wanted / length - 1));
             }
         }
@@ -257,7 +259,8 @@ void Builder::eye() {
         for (int row = 0; row <= 2; ++row) {
             for (int column = 0; column <= 2; ++column) {
                 Point& point = cage.points[static_cast<size_t>(patch.at(column, row))];
-                point.upper = row == 2 ? ring.lid : (row == 1 && column != 1 ? 0.0 : 0.0);
+                // Less at the corners of the eye, where the lids have a shorter way to meet.
+                point.upper = row == 2 ? ring.lid * (column == 1 ? 1.0 : 0.75) : 0.0;
                 point.lower = row == 0 ? ring.lid : 0.0;
             }
         }
@@ -336,8 +339,7 @@ void Builder::arm() {
     ring(kWrist + palm * 1.0, palm, 0.094, 0.050);
     const Patch knuckles = patch;
 
-    const Patch side =
-        cage.patch(1, 1, false, {heel.at(0, 1), heel.at(0, 0), knuckles.at(0, 1), knuckles.at(0, 0)});
+    const Patch side = cage.patch(1, 1, false, {heel.at(0, 1), heel.at(0, 0), knuckles.at(0, 1), knuckles.at(0, 0)});
     const std::array<FingerLine, 4> lines = fingerLines();
     for (int i = 0; i < 3; ++i) {
         finger(cage.cell(knuckles, i, 0), lines[static_cast<size_t>(i)], 0.043);
@@ -423,21 +425,23 @@ void Builder::tail() {
         grid.push_back(body[static_cast<size_t>(level)][7]);
     }
     Patch patch = cage.patch(1, 2, true, grid);
+    int ring = 0;
     const double radii[] = {0.150, 0.128, 0.108, 0.090, 0.073, 0.055, 0.040};
     for (int i = 0; i < kTailJoints; ++i) {
-        // Two rings a joint: at it and half way to the next.
+        // One ring a joint, and one more where the tail leaves the body.
         const Vec3 before = i == 0 ? kTail[1] - kTail[0] : kTail[i] - kTail[i - 1];
         const Vec3 after = kTail[i + 1] - kTail[i];
         if (i > 0) {
             patch = cage.extrude(patch);
             cage.placeDisk(patch, frameFrom(kTail[i], glm::normalize(before) + glm::normalize(after), {1, 0, 0}),
                            radii[i], radii[i]);
+            setAlong(cage, patch, ring++);
         }
-        if (i == 0 || i == 1) {
+        if (i == 0) {
             patch = cage.extrude(patch);
-            const double radius = (radii[i] + radii[i + 1]) / 2;
-            cage.placeDisk(patch, frameFrom(kTail[i] + after * (i == 0 ? 0.62 : 0.5), after, {1, 0, 0}), radius,
-                           radius);
+            const double radius = (radii[0] + radii[1]) / 2;
+            cage.placeDisk(patch, frameFrom(kTail[0] + after * 0.62, after, {1, 0, 0}), radius, radius);
+            setAlong(cage, patch, ring++);
         }
     }
     // A leaf of a fin stands up and down from the tip.
@@ -472,9 +476,14 @@ void Builder::wing() {
         const Vec3 low = (cage.position(step.at(0, 0)) + cage.position(step.at(1, 0))) * 0.5;
         const Vec3 high = (cage.position(step.at(0, 1)) + cage.position(step.at(1, 1))) * 0.5;
         const Vec3 middle = (low + high) * 0.5;
-        step = cage.extrude(step);
-        setAlong(cage, step, 1.0);
-        placeSheet(cage, step, {tips[row] + (low - middle) * 0.16, tips[row] + (high - middle) * 0.16}, normal, 0.018);
+        for (double t : {0.45, 1.0}) {
+            step = cage.extrude(step);
+            setAlong(cage, step, 0.7 + 0.3 * t);
+            const double width = t < 0.6 ? 0.60 : 0.16;
+            const Vec3 centre = middle + (tips[row] - middle) * t;
+            placeSheet(cage, step, {centre + (low - middle) * width, centre + (high - middle) * width}, normal,
+                       0.034 - 0.014 * t);
+        }
     }
 }
 
@@ -487,8 +496,8 @@ void Builder::rigJaw() {
     for (Point& point : cage.points) {
         if (point.part == Part::Head && point.shell == 0 && point.jaw == 0) {
             const Vec3& p = point.position;
-            const double line = 1.062 + 0.055 * ramp(0.0, 0.42, p.x);
-            point.jaw = ramp(line - 0.002, line - 0.03, p.y) * ramp(0.0, 0.20, p.z) * ramp(0.93, 1.0, p.y);
+            const double line = 1.052 + 0.085 * ramp(0.0, 0.42, p.x);
+            point.jaw = ramp(line - 0.002, line - 0.03, p.y) * ramp(0.0, 0.20, p.z) * ramp(0.90, 0.965, p.y);
         }
     }
 }
@@ -514,6 +523,8 @@ Cage Builder::build() {
 
 } // namespace
 
-Cage modelPip() { return Builder().build(); }
+Cage modelPip() {
+    return Builder().build();
+}
 
 } // namespace supple::creature

@@ -28,8 +28,7 @@ Quat eulerDegrees(double x, double y, double z) {
 }
 
 Pose::Pose(const Skeleton& skeleton)
-    : skeleton(skeleton), rotations(skeleton.joints.size(), Quat(1, 0, 0, 0)), moves(skeleton.joints.size(), Vec3(0)) {
-}
+    : skeleton(skeleton), rotations(skeleton.joints.size(), Quat(1, 0, 0, 0)), moves(skeleton.joints.size(), Vec3(0)) {}
 
 void Pose::turn(const std::string& joint, double x, double y, double z) {
     Quat& rotation = rotations[static_cast<size_t>(skeleton.index(joint))];
@@ -41,7 +40,9 @@ void Pose::turnPair(const std::string& joint, double x, double y, double z) {
     turn(joint + ".R", x, -y, -z);
 }
 
-void Pose::move(const std::string& joint, const Vec3& by) { moves[static_cast<size_t>(skeleton.index(joint))] += by; }
+void Pose::move(const std::string& joint, const Vec3& by) {
+    moves[static_cast<size_t>(skeleton.index(joint))] += by;
+}
 
 Pose::Placed Pose::placed(int joint) const {
     const Joint& it = skeleton.joints[static_cast<size_t>(joint)];
@@ -53,7 +54,10 @@ Pose::Placed Pose::placed(int joint) const {
     return {parent.position + parent.rotation * local, parent.rotation * rotations[static_cast<size_t>(joint)]};
 }
 
-void Pose::plant(const std::string& side, const Vec3& ball, const Quat& foot, double toes) {
+void Pose::plant(const std::string& side, const Vec3& ballInRoot, const Quat& footInRoot, double toes) {
+    const Placed root = placed(0);
+    const Vec3 ball = root.position + root.rotation * ballInRoot;
+    const Quat foot = root.rotation * footInRoot;
     const int thigh = skeleton.index("thigh" + side);
     const int shin = skeleton.index("shin" + side);
     const int ankle = skeleton.index("foot" + side);
@@ -66,7 +70,7 @@ void Pose::plant(const std::string& side, const Vec3& ball, const Quat& foot, do
 
     const Placed hips = placed(skeleton.joints[static_cast<size_t>(thigh)].parent);
     const Vec3 hip = hips.position + hips.rotation * skeleton.offset(thigh);
-    Vec3 target = ball - foot * skeleton.offset(toe);
+    const Vec3 target = ball - foot * skeleton.offset(toe);
     Vec3 line = target - hip;
     const double reach = std::min(glm::length(line), (upper + lower) * 0.9995);
     line = glm::normalize(line);

@@ -26,8 +26,8 @@ struct Pose {
     };
     Placed placed(int joint) const;
 
-    // Bends hip and knee so that the ball of the foot is at `ball`, the foot turned by `foot`, the toes flat but for
-    // `toes` degrees. `side` is ".L" or ".R".
+    // Bends hip and knee so that the ball of the foot is at `ball` and the foot turned by `foot`, both as the root sees
+    // them, and bends the toes by `toes` degrees. `side` is ".L" or ".R".
     void plant(const std::string& side, const Vec3& ball, const Quat& foot, double toes);
 
     const Skeleton& skeleton;

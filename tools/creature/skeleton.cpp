@@ -11,7 +11,9 @@ namespace {
 
 using namespace landmark;
 
-Vec3 flipped(const Vec3& p) { return {-p.x, p.y, p.z}; }
+Vec3 flipped(const Vec3& p) {
+    return {-p.x, p.y, p.z};
+}
 
 } // namespace
 

@@ -40,44 +40,134 @@ struct Flat {
     Vec2 size{0};
 };
 
-Flat flatten(const Cage& cage, const std::vector<size_t>& quads) {
-    Vec3 normal{0};
-    for (size_t q : quads) {
-        const auto& p = cage.quads[q].points;
-        normal += glm::cross(cage.position(p[2]) - cage.position(p[0]), cage.position(p[3]) - cage.position(p[1]));
-    }
-    if (glm::length(normal) < 1e-9) {
-        normal = {0, 0, 1};
-    }
-    const Vec3 hint = std::abs(glm::normalize(normal).y) > 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Frame frame = frameFrom({0, 0, 0}, normal, glm::cross(hint, normal));
+struct Spring {
+    int a, b;
+    double length;
+};
 
-    // Springs along edges and diagonals pull the shadow of the chart out to its true lengths.
-    struct Spring {
-        int a, b;
-        double length;
-    };
-    std::vector<Spring> springs;
-    Flat flat;
+// The longest loop of edges that only one of the quads has, in their winding.
+std::vector<int> rim(const Cage& cage, const std::vector<size_t>& quads) {
+    std::map<std::pair<int, int>, bool> edges;
     for (size_t q : quads) {
         const auto& p = cage.quads[q].points;
         for (size_t i = 0; i < 4; ++i) {
-            const Vec3& at = cage.position(p[i]);
-            flat.at[p[i]] = {glm::dot(at, frame.across), glm::dot(at, frame.along)};
-            springs.push_back({p[i], p[(i + 1) % 4], glm::length(cage.position(p[(i + 1) % 4]) - at)});
+            edges[{p[i], p[(i + 1) % 4]}] = true;
         }
-        springs.push_back({p[0], p[2], glm::length(cage.position(p[2]) - cage.position(p[0]))});
-        springs.push_back({p[1], p[3], glm::length(cage.position(p[3]) - cage.position(p[1]))});
     }
-    for (int round = 0; round < 400; ++round) {
+    std::map<int, int> next;
+    for (const auto& [edge, used] : edges) {
+        if (!edges.count({edge.second, edge.first})) {
+            next[edge.first] = edge.second;
+        }
+    }
+    std::vector<int> longest;
+    while (!next.empty()) {
+        std::vector<int> loop{next.begin()->first};
+        for (auto it = next.begin(); it != next.end(); it = next.find(loop.back())) {
+            loop.push_back(it->second);
+            next.erase(it);
+        }
+        loop.pop_back();
+        if (loop.size() > longest.size()) {
+            longest = loop;
+        }
+    }
+    return longest;
+}
+
+size_t folds(const Cage& cage, const std::vector<size_t>& quads, const std::map<int, Vec2>& at) {
+    size_t count = 0;
+    for (size_t q : quads) {
+        const auto& p = cage.quads[q].points;
+        for (size_t i = 0; i < 4; ++i) {
+            const Vec2 u = at.at(p[(i + 1) % 4]) - at.at(p[i]);
+            const Vec2 v = at.at(p[(i + 3) % 4]) - at.at(p[i]);
+            count += u.x * v.y - u.y * v.x <= 0;
+        }
+    }
+    return count;
+}
+
+Flat flatten(const Cage& cage, const std::vector<size_t>& quads) {
+    std::vector<Spring> springs;
+    std::map<int, std::vector<int>> around;
+    double area = 0;
+    for (size_t q : quads) {
+        const auto& p = cage.quads[q].points;
+        for (size_t i = 0; i < 4; ++i) {
+            springs.push_back({p[i], p[(i + 1) % 4], glm::length(cage.position(p[(i + 1) % 4]) - cage.position(p[i]))});
+            around[p[i]].push_back(p[(i + 1) % 4]);
+            around[p[(i + 1) % 4]].push_back(p[i]);
+        }
+        for (size_t i = 0; i < 2; ++i) {
+            springs.push_back({p[i], p[i + 2], glm::length(cage.position(p[i + 2]) - cage.position(p[i]))});
+        }
+        area += 0.5 * glm::length(glm::cross(cage.position(p[2]) - cage.position(p[0]),
+                                             cage.position(p[3]) - cage.position(p[1])));
+    }
+
+    // First stretched in a round hoop, which cannot fold.
+    Flat flat;
+    const std::vector<int> hoop = rim(cage, quads);
+    double round = 0;
+    for (size_t i = 0; i < hoop.size(); ++i) {
+        round += glm::length(cage.position(hoop[(i + 1) % hoop.size()]) - cage.position(hoop[i]));
+    }
+    for (const auto& [point, list] : around) {
+        flat.at[point] = {0, 0};
+    }
+    double travelled = 0;
+    const double radius = std::sqrt(area / kPi);
+    for (size_t i = 0; i < hoop.size(); ++i) {
+        const double angle = 2 * kPi * travelled / round;
+        flat.at[hoop[i]] = Vec2{std::cos(angle), std::sin(angle)} * radius;
+        travelled += glm::length(cage.position(hoop[(i + 1) % hoop.size()]) - cage.position(hoop[i]));
+    }
+    for (int pass = 0; pass < 300; ++pass) {
+        for (auto& [point, at] : flat.at) {
+            if (std::find(hoop.begin(), hoop.end(), point) == hoop.end()) {
+                const std::vector<int>& list = around.at(point);
+                at = {0, 0};
+                for (int other : list) {
+                    at += flat.at.at(other) / static_cast<double>(list.size());
+                }
+            }
+        }
+    }
+
+    // Then springs along edges and diagonals pull it to its true lengths, as far as that folds nothing.
+    size_t leastFolds = folds(cage, quads, flat.at);
+    std::map<int, Vec2> best = flat.at;
+    for (int pass = 1; pass <= 400; ++pass) {
         for (const Spring& spring : springs) {
             Vec2& a = flat.at[spring.a];
             Vec2& b = flat.at[spring.b];
             const Vec2 d = b - a;
             const double length = std::max(glm::length(d), 1e-6);
-            const Vec2 move = d * (0.2 * (length - spring.length) / length);
+            const Vec2 move = d * (0.1 * (length - spring.length) / length);
             a += move;
             b -= move;
+        }
+        if (pass % 10 == 0) {
+            const size_t now = folds(cage, quads, flat.at);
+            if (now <= leastFolds) {
+                leastFolds = now;
+                best = flat.at;
+            }
+        }
+    }
+    flat.at = best;
+
+    // Upright for the eye: turned so that up in the model is up in the picture, as well as it can be.
+    Vec2 up{0};
+    for (const Spring& spring : springs) {
+        up += (flat.at[spring.b] - flat.at[spring.a]) * (cage.position(spring.b).y - cage.position(spring.a).y);
+    }
+    const double length = glm::length(up);
+    if (length > 1e-9) {
+        up /= length;
+        for (auto& [point, at] : flat.at) {
+            at = {at.x * up.y - at.y * up.x, at.x * up.x + at.y * up.y};
         }
     }
     Vec2 low{1e30};

@@ -9,7 +9,7 @@
 namespace supple::creature {
 
 struct Atlas {
-    std::vector<int> chart;                  // of each quad
+    std::vector<int> chart;                   // of each quad
     std::vector<std::array<Vec2, 4>> corners; // of each quad, in [0, 1]
 };
 

@@ -18,7 +18,6 @@ double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
     return glm::length(p - (a + ab * t));
 }
 
-
 // The joints a point may start from. Only these compete, so an arm hanging beside the belly never takes hold of it.
 std::vector<std::string> candidates(Part part) {
     switch (part) {
@@ -114,6 +113,7 @@ Influences strongest(const std::vector<double>& weights) {
 const char* rigidJoint(Part part) {
     switch (part) {
     case Part::Eye:
+    case Part::EyeShine:
         return "eye";
     case Part::Tongue:
         return "tongue";
@@ -248,7 +248,7 @@ std::vector<Influences> skinWeights(const Cage& cage, const Skeleton& skeleton) 
             shared = strongest(mean);
         } else {
             const std::string name = rigidJoint(part);
-            shared.joints[0] = skeleton.index(part == Part::Eye ? name + suffix : name);
+            shared.joints[0] = skeleton.index(part == Part::Eye || part == Part::EyeShine ? name + suffix : name);
         }
         for (size_t i : members) {
             result[i] = shared;

@@ -1,0 +1,130 @@
+#include "cage/polygons.h"
+
+#include <gtest/gtest.h>
+#include <numeric>
+#include <random>
+
+namespace supple::cage {
+namespace {
+
+using Indices = std::vector<uint32_t>;
+using Faces = std::vector<Indices>;
+
+Indices identity(size_t count) {
+    Indices map(count);
+    std::iota(map.begin(), map.end(), 0u);
+    return map;
+}
+
+Faces facesOf(const Polygons& polygons) {
+    Faces faces;
+    for (size_t f = 0; f < polygons.faceCount(); ++f)
+        faces.emplace_back(polygons.vertices.begin() + polygons.starts[f],
+                           polygons.vertices.begin() + polygons.starts[f + 1]);
+    return faces;
+}
+
+/// The draft's writer: a fan anchored where the polygon before was not.
+Indices encode(const Faces& faces) {
+    Indices triangles;
+    uint32_t anchor = 0xFFFFFFFFu;
+    for (const Indices& face : faces) {
+        const size_t n = face.size();
+        const size_t start = face[0] == anchor ? 1 : 0;
+        anchor = face[start];
+        for (size_t k = 1; k + 1 < n; ++k)
+            triangles.insert(triangles.end(), {anchor, face[(start + k) % n], face[(start + k + 1) % n]});
+    }
+    return triangles;
+}
+
+/// Rotated to begin with its smallest vertex.
+Faces rotated(Faces faces) {
+    for (Indices& face : faces)
+        std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    return faces;
+}
+
+TEST(Polygons, EncodingRoundTrips) {
+    std::mt19937 random(7);
+    for (int round = 0; round < 200; ++round) {
+        Faces faces;
+        for (int f = 0; f < 30; ++f) {
+            Indices vertices = identity(40);
+            std::shuffle(vertices.begin(), vertices.end(), random);
+            vertices.resize(3 + random() % 8);
+            // Every so often the next face begins where this one did, so that the writer has to turn it.
+            if (!faces.empty() && random() % 3 == 0 &&
+                std::find(vertices.begin(), vertices.end(), faces.back()[0]) == vertices.end())
+                vertices[0] = faces.back()[0];
+            faces.push_back(vertices);
+        }
+        const Polygons polygons = decodeNgons(encode(faces), identity(40));
+        EXPECT_EQ(rotated(facesOf(polygons)), rotated(faces));
+        EXPECT_EQ(polygons.recutRuns, 0u);
+    }
+}
+
+TEST(Polygons, RunsEndWhereTheChainBreaks) {
+    // Same first index, but the second triangle does not go on where the first ended.
+    EXPECT_EQ(facesOf(decodeNgons(Indices{0, 1, 2, 0, 3, 4}, identity(5))), (Faces{{0, 1, 2}, {0, 3, 4}}));
+    EXPECT_EQ(facesOf(decodeNgons(Indices{0, 1, 2, 0, 2, 3}, identity(5))), (Faces{{0, 1, 2, 3}}));
+    EXPECT_EQ(facesOf(decodeNgons(Indices{0, 1, 2, 3, 2, 1}, identity(5))), (Faces{{0, 1, 2}, {3, 2, 1}}));
+}
+
+TEST(Polygons, DegenerateTrianglesBreakRunsAndGo) {
+    const Polygons polygons = decodeNgons(Indices{0, 1, 2, 0, 2, 2, 0, 2, 3}, identity(4));
+    EXPECT_EQ(facesOf(polygons), (Faces{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(polygons.degenerateTriangles, 1u);
+    const Indices welded = {0, 1, 1, 3};
+    EXPECT_EQ(facesOf(keepTriangles(Indices{0, 1, 2, 0, 2, 3}, welded)), (Faces{{0, 2, 3}}));
+}
+
+TEST(Polygons, RunThatClosesOnItselfIsCutAgain) {
+    // Four quads round vertex 0, written by an exporter that anchors them all there: one run of eight triangles.
+    Indices triangles;
+    for (uint32_t k = 0; k < 8; ++k)
+        triangles.insert(triangles.end(), {0u, 1 + k, 1 + (k + 1) % 8});
+    const Polygons polygons = decodeNgons(triangles, identity(9));
+    EXPECT_EQ(facesOf(polygons), (Faces{{0, 1, 2, 3}, {0, 3, 4, 5}, {0, 5, 6, 7}, {0, 7, 8, 1}}));
+    EXPECT_EQ(polygons.recutRuns, 1u);
+    // An odd number of triangles leaves one over.
+    triangles.resize(3 * 7);
+    triangles.back() = 1;
+    EXPECT_EQ(facesOf(decodeNgons(triangles, identity(9))),
+              (Faces{{0, 1, 2, 3}, {0, 3, 4, 5}, {0, 5, 6, 7}, {0, 7, 1}}));
+}
+
+TEST(Polygons, RepetitionCountsAfterWelding) {
+    // Glued at a seam: 1 and 9 are one vertex.
+    Indices triangles;
+    for (uint32_t k = 0; k < 8; ++k)
+        triangles.insert(triangles.end(), {0u, 1 + k, 2 + k});
+    Indices welded = identity(10);
+    EXPECT_EQ(decodeNgons(triangles, welded).faceCount(), 1u);
+    welded[9] = 1;
+    EXPECT_EQ(facesOf(decodeNgons(triangles, welded)), (Faces{{0, 1, 2, 3}, {0, 3, 4, 5}, {0, 5, 6, 7}, {0, 7, 8, 9}}));
+    // A quad of the new cut that repeats a vertex itself stays two triangles.
+    EXPECT_EQ(facesOf(decodeNgons(Indices{0, 1, 2, 0, 2, 3}, Indices{0, 1, 2, 1})), (Faces{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(Polygons, PairingTakesConsecutiveTrianglesOnly) {
+    const auto yes = [](uint32_t, uint32_t) { return true; };
+    const auto flat = [](const uint32_t*, const uint32_t*) { return true; };
+    const auto pair = [&](const Indices& triangles, size_t count) {
+        return facesOf(pairTriangles(triangles, identity(count), yes, flat));
+    };
+    EXPECT_EQ(pair({0, 1, 2, 0, 2, 3}, 4), (Faces{{0, 1, 2, 3}}));
+    EXPECT_EQ(pair({4, 0, 1, 1, 2, 3, 1, 3, 4}, 5), (Faces{{4, 0, 1}, {1, 2, 3, 4}}));
+    EXPECT_EQ(pair({1, 2, 0, 2, 3, 0}, 4), (Faces{{1, 2, 3, 0}})) << "any shared edge";
+    EXPECT_EQ(pair({0, 1, 2, 0, 3, 2}, 4), (Faces{{0, 1, 2}, {0, 3, 2}})) << "same direction: flipped";
+    EXPECT_EQ(pair({0, 1, 2, 2, 1, 0}, 3), (Faces{{0, 1, 2}, {2, 1, 0}})) << "two sides of one triangle";
+    EXPECT_EQ(pair({0, 1, 2, 4, 5, 6, 0, 2, 3}, 7).size(), 3u);
+    EXPECT_EQ(pairTriangles(Indices{0, 1, 2, 0, 2, 3}, identity(4), yes,
+                            [](const uint32_t*, const uint32_t*) { return false; })
+                  .faceCount(),
+              2u);
+}
+
+} // namespace
+} // namespace supple::cage

@@ -1,0 +1,237 @@
+// The characters and Khronos samples beside the repository: what each of them must read as.
+#include "cage/gltf_reader.h"
+#include "cage/topology.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+
+namespace supple::cage {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Expected {
+    const char* file;
+    uint32_t sourceVertices, vertices, faces, quads;
+    size_t joints, clips;
+    const char* polygons; ///< name of the polygon source
+    const char* topology; ///< "" or the beginning of why the cage is no manifold
+    std::vector<std::string> warnings;
+};
+
+const char* const kNgons = "FB_ngon_encoding";
+const char* const kTriangles = "triangles";
+
+const std::vector<Expected>& expectations() {
+    static const std::string morph = "mesh 0: morph targets are ignored";
+    static const auto weights = [](int animation) {
+        return "animation " + std::to_string(animation) + ": 1 channel of weights ignored";
+    };
+    static const std::vector<Expected> list = {
+        {"characters/dragon.glb", 554, 554, 614, 462, 27, 3, kNgons, "", {}},
+        {"characters/eagle.glb", 768, 768, 784, 728, 24, 2, kNgons, "", {}},
+        {"characters/horse.glb", 347, 347, 375, 287, 28, 3, kNgons, "", {}},
+        {"characters/knight.glb", 480, 480, 551, 391, 31, 4, kNgons, "", {}},
+        {"characters/llama_nonmanifold.glb", 332, 332, 352, 306, 24, 1, kNgons, "edge (303, 304): four faces", {}},
+        {"characters/man_casual_quads.glb", 3980, 3980, 3966, 3966, 31, 3, kNgons, "", {}},
+        {"characters/mh_body_13k_infl8.glb", 13380, 13380, 13378, 13378, 163, 2, kNgons, "", {}},
+        {"characters/mh_female1605.glb", 1605, 1605, 1584, 1584, 53, 3, kNgons, "", {}},
+        {"characters/mh_female1605_morph.glb", 1605, 1605, 1584, 1584, 53, 1, kNgons, "", {morph, weights(0)}},
+        {"characters/mh_proxy741.glb", 741, 741, 730, 730, 163, 2, kNgons, "", {}},
+        {"characters/pawn_creased.glb", 601, 601, 588, 588, 5, 1, kNgons, "", {}},
+        {"characters/rook_creased.glb", 768, 768, 777, 733, 5, 1, kNgons, "", {}},
+        {"characters/shark.glb", 324, 324, 328, 284, 8, 1, kNgons, "", {}},
+        {"characters/snake.glb", 815, 815, 822, 788, 15, 2, kNgons, "", {}},
+        {"characters/spot.glb", 188, 188, 180, 160, 12, 2, kNgons, "", {}},
+        {"characters/spot_uvsplit.glb", 267, 188, 180, 160, 12, 2, kNgons, "", {}},
+        {"characters/suzanne.glb",
+         507,
+         507,
+         500,
+         468,
+         6,
+         1,
+         kNgons,
+         "vertex 137: interior valence 2",
+         {"mesh 0: 2 vertices agree with another in position but not in skin (first: vertices 15 and 114); kept "
+          "apart"}},
+        {"characters/trex_ngons.glb", 912, 912, 838, 626, 29, 2, kNgons, "", {}},
+        {"characters/velociraptor.glb", 626, 626, 664, 576, 29, 4, kNgons, "", {}},
+        {"khronos/CesiumMan.glb", 3273, 2338, 4672, 0, 19, 1, kTriangles, "", {}},
+        {"khronos/Fox.glb", 1728, 290, 576, 0, 24, 3, kTriangles, "", {}},
+        {"khronos/RiggedFigure_2017_unnormalised_weights.glb",
+         370,
+         130,
+         256,
+         0,
+         19,
+         1,
+         kTriangles,
+         "",
+         {"mesh 0 WEIGHTS: normalised: they do not sum to 1 at 31 vertices, largest deviation 0.8"}},
+        {"khronos/RiggedSimple.glb", 96, 96, 188, 0, 2, 1, kTriangles, "", {}},
+        {"khronos/SimpleSkin.gltf", 10, 10, 8, 0, 2, 1, kTriangles, "", {}},
+        {"khronos/BoxAnimated.gltf",
+         224,
+         178,
+         192,
+         0,
+         1,
+         1,
+         kTriangles,
+         "edge (1, 2): flipped orientation",
+         {"node 3: the mesh of this node is read; 1 other node with a mesh is left out"}},
+        {"khronos/InterpolationTest.gltf",
+         24,
+         8,
+         12,
+         0,
+         1,
+         9,
+         kTriangles,
+         "",
+         {"node 0: the mesh of this node is read; 9 other nodes with meshes are left out"}},
+        {"khronos/MorphStressTest.gltf",
+         1528,
+         1224,
+         2412,
+         0,
+         1,
+         3,
+         kTriangles,
+         "",
+         {morph, weights(0), weights(1), weights(2)}},
+        {"khronos/SimpleMorph/SimpleMorph.gltf", 3, 3, 1, 0, 1, 1, kTriangles, "", {morph, weights(0)}},
+        {"khronos/AnimatedMorphCube/AnimatedMorphCube.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {morph, weights(0)}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_00.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_01.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_02.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_03.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_04.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_05.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_00.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_01.gltf", 6, 6, 4, 0, 2, 1, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_02.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_03.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_04.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_07.gltf", 10, 10, 8, 0, 5, 0, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_09.gltf",
+         13,
+         13,
+         10,
+         0,
+         4,
+         0,
+         kTriangles,
+         "vertex 2: several separate fans",
+         {}},
+        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_00.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_01.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
+        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_03.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
+    };
+    return list;
+}
+
+const std::string& assets() {
+    static const std::string folder = std::string(SUPPLE_SHARED_DIR) + "/assets/";
+    return folder;
+}
+
+TEST(SharedAssets, ReadAsExpected) {
+    if (!fs::exists(assets() + "characters")) {
+        std::printf("%zu shared-asset cases left out: ../shared not present\n", expectations().size());
+        GTEST_SKIP();
+    }
+    for (const Expected& expected : expectations()) {
+        SCOPED_TRACE(expected.file);
+        const Result<Character> result = readGltfFile(assets() + expected.file);
+        ASSERT_TRUE(result.ok()) << result.error().message;
+        const Character& c = *result;
+        EXPECT_EQ(c.sourceVertexCount, expected.sourceVertices);
+        EXPECT_EQ(c.cage.vertexCount(), expected.vertices);
+        EXPECT_EQ(c.seamVertexCount, expected.sourceVertices - expected.vertices);
+        EXPECT_EQ(c.cage.faceCount(), expected.faces);
+        uint32_t quads = 0;
+        for (uint32_t f = 0; f < c.cage.faceCount(); ++f)
+            quads += c.cage.sides(f) == 4 ? 1 : 0;
+        EXPECT_EQ(quads, expected.quads);
+        EXPECT_EQ(c.skin.joints.size(), expected.joints);
+        EXPECT_EQ(c.clips.size(), expected.clips);
+        EXPECT_STREQ(polygonSourceName(c.polygonSource), expected.polygons);
+        std::vector<std::string> warnings;
+        for (const std::string& warning : expected.warnings)
+            warnings.push_back(c.name + ": " + warning);
+        EXPECT_EQ(c.warnings, warnings);
+        for (const Image& image : c.images)
+            EXPECT_FALSE(image.bytes.empty());
+
+        const Result<Topology> topology = buildTopology(c.cage);
+        const std::string fault = topology.ok() ? "" : topology.error().message;
+        if (*expected.topology == '\0')
+            EXPECT_EQ(fault, "");
+        else
+            EXPECT_EQ(fault.rfind(expected.topology, 0), 0u) << fault;
+    }
+}
+
+TEST(SharedAssets, NoneIsForgotten) {
+    if (!fs::exists(assets() + "characters"))
+        GTEST_SKIP();
+    std::set<std::string> found;
+    for (const char* folder : {"characters", "khronos"})
+        for (const auto& entry : fs::recursive_directory_iterator(assets() + folder))
+            if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
+                found.insert(fs::relative(entry.path(), assets()).generic_string());
+    std::set<std::string> expected;
+    for (const Expected& e : expectations())
+        expected.insert(e.file);
+    EXPECT_EQ(found, expected);
+}
+
+TEST(SharedAssets, UvSplitSpotIsTheSameCage) {
+    const Result<Character> whole = readGltfFile(assets() + "characters/spot.glb");
+    const Result<Character> split = readGltfFile(assets() + "characters/spot_uvsplit.glb");
+    if (!whole.ok())
+        GTEST_SKIP();
+    ASSERT_TRUE(split.ok());
+    // Splitting may have reordered the vertices: compare by position.
+    std::map<std::tuple<float, float, float>, uint32_t> byPosition;
+    for (uint32_t v = 0; v < whole->cage.vertexCount(); ++v) {
+        const glm::vec3 p = whole->cage.positions[v];
+        byPosition[{p.x, p.y, p.z}] = v;
+    }
+    std::vector<uint32_t> map;
+    for (const glm::vec3 p : split->cage.positions) {
+        const auto found = byPosition.find({p.x, p.y, p.z});
+        ASSERT_NE(found, byPosition.end());
+        map.push_back(found->second);
+    }
+    const auto faces = [](const Cage& cage, auto vertexOf) {
+        std::set<std::vector<uint32_t>> set;
+        for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+            std::vector<uint32_t> face;
+            for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c)
+                face.push_back(vertexOf(cage.faceVertices[c]));
+            std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+            set.insert(face);
+        }
+        return set;
+    };
+    EXPECT_EQ(faces(whole->cage, [](uint32_t v) { return v; }), faces(split->cage, [&](uint32_t v) { return map[v]; }));
+}
+
+TEST(SharedAssets, PairingFindsQuadsWhereTheFileHasNone) {
+    const Result<Character> cube = readGltfFile(assets() + "khronos/InterpolationTest.gltf", {.pairQuads = true});
+    if (!cube.ok())
+        GTEST_SKIP();
+    EXPECT_EQ(cube->cage.faceCount(), 6u);
+    EXPECT_EQ(cube->polygonSource, PolygonSource::pairedTriangles);
+    EXPECT_TRUE(buildTopology(cube->cage).ok());
+}
+
+} // namespace
+} // namespace supple::cage

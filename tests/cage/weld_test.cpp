@@ -1,0 +1,152 @@
+#include "cage/weld.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace supple::cage {
+namespace {
+
+using Indices = std::vector<uint32_t>;
+
+/// Triangle soup over `vertices`: every corner its own vertex, candidates by number.
+struct Soup {
+    Indices candidates;
+    Indices triangles;
+};
+Soup soupOf(const Indices& shared) {
+    Soup soup{shared, Indices(shared.size())};
+    std::iota(soup.triangles.begin(), soup.triangles.end(), 0u);
+    return soup;
+}
+
+size_t countSets(const Indices& roots) {
+    return std::set<uint32_t>(roots.begin(), roots.end()).size();
+}
+
+Polygons asFaces(const Indices& triangles, const Indices& roots) {
+    return keepTriangles(triangles, roots);
+}
+
+const Indices kTetrahedron = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+
+Indices shifted(Indices triangles, const Indices& map) {
+    for (uint32_t& v : triangles)
+        v = map[v];
+    return triangles;
+}
+
+Indices joined(Indices a, const Indices& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+TEST(Weld, SoupOfClosedSurface) {
+    const Soup soup = soupOf(kTetrahedron);
+    Welding welding = weld(soup.candidates, soup.triangles);
+    EXPECT_EQ(countSets(welding.roots), 4u);
+    for (size_t i = 0; i < soup.candidates.size(); ++i)
+        for (size_t j = 0; j < soup.candidates.size(); ++j)
+            EXPECT_EQ(welding.roots[i] == welding.roots[j], soup.candidates[i] == soup.candidates[j]);
+    EXPECT_EQ(unweldDefects(asFaces(soup.triangles, welding.roots), welding), 0u);
+}
+
+TEST(Weld, TouchingInAVertexStaysApart) {
+    // Two tetrahedra that share vertex 0 in space.
+    const Soup soup = soupOf(joined(kTetrahedron, shifted(kTetrahedron, {0, 4, 5, 6})));
+    EXPECT_EQ(countSets(weld(soup.candidates, soup.triangles).roots), 8u);
+}
+
+TEST(Weld, TouchingAlongAnEdgeStaysApart) {
+    // Two tetrahedra that share edge 0-1 in space: four triangles meet there.
+    const Soup soup = soupOf(joined(kTetrahedron, shifted(kTetrahedron, {0, 1, 4, 5})));
+    Welding welding = weld(soup.candidates, soup.triangles);
+    EXPECT_EQ(countSets(welding.roots), 8u);
+    EXPECT_EQ(unweldDefects(asFaces(soup.triangles, welding.roots), welding), 0u);
+}
+
+TEST(Weld, TouchingAlongTwoEdgesStaysApart) {
+    // Two square prisms side by side below a ridge 0-1-2: at vertex 1 both surfaces are cut in halves by ridge edges
+    // that four triangles share; the far ends tell which halves belong together.
+    //   left strip pair: (0,1) (1,2) with 3 4 5 on one flank and 6 7 8 on the other, closed at the ends by 9 and 10
+    const auto roof = [](uint32_t base) {
+        // ridge 0 1 2; flank a: a0 a1 a2; flank b: b0 b1 b2
+        const uint32_t a0 = base, a1 = base + 1, a2 = base + 2, b0 = base + 3, b1 = base + 4, b2 = base + 5;
+        return Indices{0, 1,  a1, 0, a1, a0, 1, 2,  a2, 1, a2, a1, 1, 0,  b0,
+                       1, b0, b1, 2, 1,  b1, 2, b1, b2, 0, a0, b0, 2, b2, a2};
+    };
+    const Soup soup = soupOf(joined(roof(3), roof(9)));
+    Welding welding = weld(soup.candidates, soup.triangles);
+    EXPECT_EQ(countSets(welding.roots), 18u) << "nine vertices each";
+}
+
+TEST(Weld, SharedVerticesStayShared) {
+    // The file itself has the bow tie; welding neither makes nor mends it.
+    const Indices triangles = {0, 1, 2, 0, 3, 4};
+    Indices candidates(5);
+    std::iota(candidates.begin(), candidates.end(), 0u);
+    EXPECT_EQ(countSets(weld(candidates, triangles).roots), 5u);
+}
+
+TEST(Weld, SeamIsSewnEdgeByEdge) {
+    // Two triangles joined by a seam edge; the far corners have no partner.
+    const Indices candidates = {0, 1, 2, 1, 0, 3};
+    const Indices triangles = {0, 1, 2, 3, 4, 5};
+    EXPECT_EQ(weld(candidates, triangles).roots, (Indices{0, 1, 2, 1, 0, 5}));
+    // The same two turned against each other agree in positions, not in orientation.
+    const Indices flipped = {0, 1, 2, 4, 3, 5};
+    EXPECT_EQ(countSets(weld(candidates, flipped).roots), 6u);
+}
+
+TEST(Weld, DuplicateFacesAreNotSewn) {
+    const Soup soup = soupOf({0, 1, 2, 0, 1, 2, 1, 0, 3});
+    const Indices roots = weld(soup.candidates, soup.triangles).roots;
+    EXPECT_EQ(countSets(roots), 9u);
+}
+
+TEST(Weld, CornersOfTwoSidedSheetsAreTakenApart) {
+    // A quad and its back: sewn all round, every vertex would lie between two faces only.
+    const Soup soup = soupOf({0, 1, 2, 0, 2, 3, 2, 1, 0, 3, 2, 0});
+    Welding welding = weld(soup.candidates, soup.triangles);
+    Polygons faces;
+    for (const Indices& face : {Indices{0, 1, 2, 5}, Indices{6, 7, 8, 9}}) {
+        faces.vertices.insert(faces.vertices.end(), face.begin(), face.end());
+        faces.close();
+    }
+    ASSERT_EQ(soup.candidates[9], 3u);
+    unweldDefects(faces, welding);
+    std::set<uint32_t> roots;
+    for (const uint32_t v : faces.vertices)
+        roots.insert(welding.roots[v]);
+    EXPECT_EQ(roots.size(), 8u);
+}
+
+TEST(Weld, OrderOfTrianglesDoesNotMatter) {
+    // A closed grid of soup, shuffled: always the same number of vertices.
+    Indices torus;
+    const uint32_t n = 6;
+    for (uint32_t i = 0; i < n; ++i) {
+        for (uint32_t j = 0; j < n; ++j) {
+            const uint32_t a = i * n + j, b = (i + 1) % n * n + j, c = (i + 1) % n * n + (j + 1) % n,
+                           d = i * n + (j + 1) % n;
+            torus.insert(torus.end(), {a, b, c, a, c, d});
+        }
+    }
+    std::mt19937 random(3);
+    for (int round = 0; round < 20; ++round) {
+        std::vector<size_t> order(torus.size() / 3);
+        std::iota(order.begin(), order.end(), size_t{0});
+        std::shuffle(order.begin(), order.end(), random);
+        Indices shuffled;
+        for (const size_t t : order)
+            shuffled.insert(shuffled.end(), torus.begin() + static_cast<ptrdiff_t>(3 * t),
+                            torus.begin() + static_cast<ptrdiff_t>(3 * t + 3));
+        const Soup soup = soupOf(shuffled);
+        EXPECT_EQ(countSets(weld(soup.candidates, soup.triangles).roots), n * n);
+    }
+}
+
+} // namespace
+} // namespace supple::cage

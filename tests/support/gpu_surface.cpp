@@ -1,0 +1,206 @@
+#include "tests/support/gpu_surface.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace supple::test {
+
+namespace {
+
+struct DeviceHolder {
+    std::unique_ptr<host::Device> device;
+    std::unique_ptr<host::Context> contexts[3]; ///< by SuppleMapping
+    bool tried = false;
+};
+DeviceHolder& holder() {
+    static DeviceHolder h;
+    return h;
+}
+
+/// Destroys the device after the last test, and fails the run when its destruction is commented on.
+class DeviceEnvironment : public testing::Environment {
+public:
+    void TearDown() override {
+        if (holder().device == nullptr)
+            return;
+        const auto log = holder().device->validation();
+        for (std::unique_ptr<host::Context>& context : holder().contexts)
+            context = nullptr;
+        holder().device = nullptr;
+        EXPECT_EQ(log->messageCount(), 0u) << "the validation layer spoke";
+    }
+};
+const auto* const kEnvironment = testing::AddGlobalTestEnvironment(new DeviceEnvironment);
+
+glm::vec3 decodeOctahedral(uint32_t packed) {
+    const auto unpack = [](uint32_t half) {
+        return std::max(static_cast<float>(static_cast<int16_t>(half)) / 32767.0f, -1.0f);
+    };
+    glm::vec2 p(unpack(packed & 0xFFFFu), unpack(packed >> 16));
+    glm::vec3 n(p, 1.0f - std::abs(p.x) - std::abs(p.y));
+    if (n.z < 0.0f) {
+        const glm::vec2 folded = 1.0f - glm::abs(glm::vec2(p.y, p.x));
+        n.x = p.x >= 0.0f ? folded.x : -folded.x;
+        n.y = p.y >= 0.0f ? folded.y : -folded.y;
+    }
+    return glm::normalize(n);
+}
+
+} // namespace
+
+host::Device* testDevice() {
+    DeviceHolder& h = holder();
+    if (!h.tried) {
+        h.tried = true;
+        host::DeviceOptions options;
+        options.validation = std::getenv("SUPPLE_VALIDATION") != nullptr;
+        Result<std::unique_ptr<host::Device>> device = host::Device::create(options);
+        if (device)
+            h.device = std::move(*device);
+        else
+            ADD_FAILURE() << device.error().message;
+    }
+    EXPECT_NE(h.device, nullptr) << "no Vulkan device";
+    return h.device.get();
+}
+
+ValidationGuard::ValidationGuard() {
+    if (const host::Device* device = testDevice())
+        before_ = device->validationMessageCount();
+}
+ValidationGuard::~ValidationGuard() {
+    if (const host::Device* device = testDevice()) {
+        EXPECT_EQ(device->validationMessageCount(), before_) << "the validation layer spoke";
+    }
+}
+
+GpuSurface::GpuSurface(host::Device& device, const cage::Cage& cage, const GpuOptions& options) {
+    std::vector<uint32_t> counts;
+    for (uint32_t f = 0; f < cage.faceCount(); ++f)
+        counts.push_back(cage.sides(f));
+    SuppleCageDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.vertexCount = cage.vertexCount();
+    desc.faceCount = cage.faceCount();
+    desc.positions = &cage.positions[0].x;
+    desc.faceVertexCounts = counts.data();
+    desc.faceVertexIndices = cage.faceVertices.data();
+    SuppleAssetDesc asset{};
+    asset.structSize = sizeof(asset);
+    asset.name = "test cage";
+    asset.cage = &desc;
+    create(device, asset, options);
+}
+
+GpuSurface::GpuSurface(host::Device& device, const std::string& path, const GpuOptions& options) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    SuppleAssetDesc asset{};
+    asset.structSize = sizeof(asset);
+    asset.name = path.c_str();
+    asset.bytes = bytes.data();
+    asset.byteCount = bytes.size();
+    create(device, asset, options);
+}
+
+void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, const GpuOptions& options) {
+    device_ = &device;
+    std::unique_ptr<host::Context>& shared = holder().contexts[options.mapping];
+    if (shared == nullptr) {
+        host::ContextOptions contextOptions;
+        contextOptions.mapping = options.mapping;
+        contextOptions.printWarnings = false;
+        Result<std::unique_ptr<host::Context>> context = host::Context::create(device, contextOptions);
+        ASSERT_TRUE(context.ok()) << context.error().message;
+        shared = std::move(*context);
+    }
+    context_ = shared.get();
+    const auto check = [&](SuppleResult result, const char* call) {
+        const Status status = context_->check(result, call);
+        EXPECT_TRUE(status.ok()) << status.error().message;
+        return status.ok();
+    };
+    if (!check(suppleCreateAsset(context_->handle(), &asset, &asset_), "suppleCreateAsset"))
+        return;
+    SuppleGroupDesc group{};
+    group.structSize = sizeof(group);
+    group.flags = options.flags;
+    group.asset = asset_;
+    group.instanceCount = options.instanceCount;
+    group.rate = options.rate;
+    group.vertexFormat = options.format;
+    group.tangentMode = options.tangents;
+    group.cornerRule = options.corners;
+    if (!check(suppleCreateGroup(context_->handle(), &group, &group_), "suppleCreateGroup"))
+        return;
+    output_.structSize = sizeof(output_);
+    if (!check(suppleGetGroupOutput(context_->handle(), group_, &output_), "suppleGetGroupOutput"))
+        return;
+    uint32_t count = output_.patchCount;
+    patches_.resize(count);
+    if (!check(suppleGetPatches(context_->handle(), group_, patches_.data(), &count), "suppleGetPatches"))
+        return;
+    valid_ = true;
+}
+
+GpuSurface::~GpuSurface() {
+    if (context_ == nullptr)
+        return;
+    if (group_.id != 0)
+        EXPECT_EQ(suppleDestroyGroup(context_->handle(), group_), SUPPLE_OK);
+    if (asset_.id != 0)
+        EXPECT_EQ(suppleDestroyAsset(context_->handle(), asset_), SUPPLE_OK);
+}
+
+void GpuSurface::evaluate() {
+    ASSERT_TRUE(valid_);
+    const Status status = context_->evaluate({&group_, 1});
+    ASSERT_TRUE(status.ok()) << status.error().message;
+    const auto read = [&](const SuppleBufferView& view) {
+        Result<std::vector<std::byte>> bytes = device_->readBuffer(view);
+        EXPECT_TRUE(bytes.ok());
+        return bytes.ok() ? std::move(*bytes) : std::vector<std::byte>(view.size);
+    };
+    rawVertices_ = read(output_.surfaceVertices);
+    const size_t stride = output_.surfaceVertices.stride;
+    vertices_.resize(rawVertices_.size() / stride);
+    for (size_t i = 0; i < vertices_.size(); ++i) {
+        const std::byte* source = rawVertices_.data() + i * stride;
+        std::memcpy(&vertices_[i].position, source, 12);
+        if (stride == 24) {
+            std::memcpy(&vertices_[i].normal, source + 12, 12);
+        } else {
+            uint32_t packed = 0;
+            std::memcpy(&packed, source + 12, 4);
+            vertices_[i].normal = decodeOctahedral(packed);
+        }
+    }
+    const auto readVec4 = [&](const SuppleBufferView& view, std::vector<glm::vec3>& out) {
+        if (view.buffer == VK_NULL_HANDLE)
+            return;
+        const std::vector<std::byte> bytes = read(view);
+        out.resize(bytes.size() / 16);
+        for (size_t i = 0; i < out.size(); ++i)
+            std::memcpy(&out[i], bytes.data() + 16 * i, 12);
+    };
+    readVec4(output_.deformedCage, deformed_);
+    readVec4(output_.patchCoefficients, coefficients_);
+}
+
+glm::uvec2 edgeSample(uint32_t edge, uint32_t k, uint32_t rate) {
+    switch (edge) {
+    case 0:
+        return {k, 0};
+    case 1:
+        return {rate, k};
+    case 2:
+        return {rate - k, rate};
+    default:
+        return {0, rate - k};
+    }
+}
+
+} // namespace supple::test

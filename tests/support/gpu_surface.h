@@ -1,0 +1,99 @@
+// A group evaluated on the device and read back: what the GPU wrote, for comparison with the CPU.
+#pragma once
+
+#include "cage/character.h"
+#include "tools/host/context.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace supple::test {
+
+/// One device for a whole test program, with validation when SUPPLE_VALIDATION is set (tools/test.sh sets it). Null, with a
+/// failure recorded, when there is no device.
+[[nodiscard]] host::Device* testDevice();
+
+/// Fails the test when the validation layer has spoken since the guard was made.
+class ValidationGuard {
+public:
+    ValidationGuard();
+    ~ValidationGuard();
+    ValidationGuard(const ValidationGuard&) = delete;
+    ValidationGuard& operator=(const ValidationGuard&) = delete;
+
+private:
+    uint32_t before_ = 0;
+};
+
+struct GpuOptions {
+    SuppleMapping mapping = SUPPLE_MAPPING_NARROW;
+    uint32_t instanceCount = 1;
+    uint32_t rate = 8;
+    SuppleVertexFormat format = SUPPLE_VERTEX_24;
+    SuppleTangentMode tangents = SUPPLE_TANGENTS_DEFAULT;
+    SuppleCornerRule corners = SUPPLE_CORNERS_SHARP;
+    uint32_t flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
+};
+
+/// An asset and a group on a context that all tests of a mapping share: pipelines are created once.
+class GpuSurface {
+public:
+    /// The cage goes in as arrays. Failures are recorded in the test; check valid().
+    GpuSurface(host::Device& device, const cage::Cage& cage, const GpuOptions& options);
+    /// The file goes in as bytes.
+    GpuSurface(host::Device& device, const std::string& path, const GpuOptions& options);
+    ~GpuSurface();
+    GpuSurface(const GpuSurface&) = delete;
+    GpuSurface& operator=(const GpuSurface&) = delete;
+
+    [[nodiscard]] bool valid() const { return valid_; }
+    [[nodiscard]] host::Context& context() const { return *context_; }
+    [[nodiscard]] SuppleAsset asset() const { return asset_; }
+    [[nodiscard]] SuppleGroup group() const { return group_; }
+    [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
+    [[nodiscard]] const std::vector<SupplePatchInfo>& patches() const { return patches_; }
+
+    /// Runs a frame and reads everything back.
+    void evaluate();
+
+    struct Vertex {
+        glm::vec3 position, normal;
+    };
+    [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t sample) const {
+        return vertices_[size_t{instance} * output_.verticesPerInstance + size_t{patch} * output_.samplesPerPatch + sample];
+    }
+    [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t i, uint32_t j) const {
+        return vertex(instance, patch, j * (output_.rate + 1) + i);
+    }
+    [[nodiscard]] glm::vec3 deformed(uint32_t instance, uint32_t cageVertex) const {
+        return deformed_[size_t{instance} * output_.cageVerticesPerInstance + cageVertex];
+    }
+    /// 0..15 g[i + 4 j], 16..31 h[4 e + s].
+    [[nodiscard]] glm::vec3 coefficient(uint32_t instance, uint32_t patch, uint32_t k) const {
+        return coefficients_[(size_t{instance} * output_.patchCount + patch) * 32 + k];
+    }
+    [[nodiscard]] const std::vector<std::byte>& rawVertices() const { return rawVertices_; }
+
+private:
+    void create(host::Device& device, const SuppleAssetDesc& asset, const GpuOptions& options);
+
+    host::Device* device_ = nullptr;
+    host::Context* context_ = nullptr;
+    SuppleAsset asset_{};
+    SuppleGroup group_{};
+    SuppleGroupOutput output_{};
+    std::vector<SupplePatchInfo> patches_;
+    std::vector<std::byte> rawVertices_;
+    std::vector<Vertex> vertices_;
+    std::vector<glm::vec3> deformed_;
+    std::vector<glm::vec3> coefficients_;
+    bool valid_ = false;
+};
+
+/// Samples of a patch along one of its edges, counted from the edge's first corner: grid coordinates of sample k.
+[[nodiscard]] glm::uvec2 edgeSample(uint32_t edge, uint32_t k, uint32_t rate);
+
+} // namespace supple::test
