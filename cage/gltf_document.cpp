@@ -415,7 +415,7 @@ void checkMeshes(const json& root) {
             if (attributes == nullptr)
                 refuse(element, "no attributes");
             for (const auto& [name, value] : attributes->items())
-                checkIndex(value, element + " " + name, "accessor", accessorCount);
+                checkIndex(value, within(element, name), "accessor", accessorCount);
             checkIndexMember(primitive, "indices", element, "accessor", accessorCount);
             const json* indices = member(primitive, "indices");
             if (indices != nullptr && member(accessors[indices->get<size_t>()], "bufferView") == nullptr)
@@ -592,8 +592,10 @@ void loadImages(const json& images, const json& views, const std::string& baseDi
             const std::string uri = stringMember(images[i], "uri", element);
             UriBytes read = isDataUri(uri) ? decodeDataUri(uri) : readBelow(baseDirectory, uri);
             if (!read.problem.empty()) {
-                const std::string shown = isDataUri(uri) ? "" : listed(uri.substr(0, 100)) + ": ";
-                document.warnings.push_back(element + " uri: " + shown + read.problem + "; left out");
+                std::string warning = within(element, "uri: ");
+                if (!isDataUri(uri))
+                    warning += listed(uri.substr(0, 100)) + ": ";
+                document.warnings.push_back(warning += read.problem + "; left out");
             } else {
                 image.bytes = std::move(read.bytes);
                 if (image.mimeType.empty())

@@ -153,8 +153,7 @@ private:
         if (!model_.scenes.empty()) {
             const size_t scene = model_.defaultScene >= 0 ? static_cast<size_t>(model_.defaultScene) : 0;
             const auto& roots = model_.scenes[scene].nodes;
-            for (auto it = roots.rbegin(); it != roots.rend(); ++it)
-                stack.push_back(static_cast<uint32_t>(*it));
+            stack.assign(roots.rbegin(), roots.rend()); // the first on top
         }
         while (!stack.empty()) {
             const uint32_t node = stack.back();
@@ -164,8 +163,7 @@ private:
             seen[node] = 1;
             order.push_back(node);
             const auto& children = model_.nodes[node].children;
-            for (auto it = children.rbegin(); it != children.rend(); ++it)
-                stack.push_back(static_cast<uint32_t>(*it));
+            stack.insert(stack.end(), children.rbegin(), children.rend());
         }
         for (uint32_t i = 0; i < seen.size(); ++i)
             if (seen[i] == 0)
@@ -878,7 +876,7 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
         const GltfDocument document = loadGltfDocument(bytes, baseDirectory);
         Reader(document, options, character).read();
         for (std::string& warning : character.warnings)
-            warning = oneLine(name + ": " + warning);
+            warning = oneLine(warning.insert(0, name + ": "));
         return character;
     } catch (const Refusal& refusal) {
         return failure(refusal.code, name, refusal.message);

@@ -56,13 +56,13 @@ UriBytes problem(std::string reason, bool readable = true) {
     return result;
 }
 
-constexpr std::array<int8_t, 256> makeBase64Values() {
-    std::array<int8_t, 256> values{};
+constexpr std::array<int, 256> makeBase64Values() {
+    std::array<int, 256> values{};
     for (auto& value : values)
         value = -1;
     constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < alphabet.size(); ++i)
-        values[static_cast<unsigned char>(alphabet[i])] = static_cast<int8_t>(i);
+        values[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
     return values;
 }
 constexpr auto kBase64Values = makeBase64Values();

@@ -25,7 +25,7 @@ void main() {
     if ((push.flags & kDrawAttributes) != 0u) {
         uvec4 packed = attributes[outPatch * push.samplesPerPatch + gl_VertexIndex];
         outUv = uintBitsToFloat(packed.xy);
-        outColor = unpackUnorm4x8(packed.z);
+        outColor = vec4(unpackUnorm2x16(packed.z), unpackUnorm2x16(packed.w));
     }
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 }

@@ -77,7 +77,7 @@ struct DrawPush {
     uint rate;
     uint samplesPerPatch;
     uint verticesPerInstance;
-    uint cageVertexCount;
+    uint cageVerticesPerInstance;
     uint view;
     uint flags;
     float alphaCutoff;

@@ -148,5 +148,52 @@ TEST(Weld, OrderOfTrianglesDoesNotMatter) {
     }
 }
 
+TEST(Weld, NeverSpoilsWhatTheFileHadRight) {
+    // A closed grid, cut open along random edges, whose vertices coincide at random: whatever is merged, no edge may
+    // then run twice in one direction and no face repeat a vertex, for the file itself has neither.
+    const uint32_t n = 8;
+    std::mt19937 random(11);
+    for (int round = 0; round < 300; ++round) {
+        Indices triangles;
+        for (uint32_t i = 0; i < n; ++i) {
+            for (uint32_t j = 0; j < n; ++j) {
+                const uint32_t a = i * n + j, b = (i + 1) % n * n + j, c = (i + 1) % n * n + (j + 1) % n,
+                               d = i * n + (j + 1) % n;
+                triangles.insert(triangles.end(), {a, b, c, a, c, d});
+            }
+        }
+        Indices places(n * n); // the position of each vertex
+        const uint32_t placeCount = n * n / (1 + static_cast<uint32_t>(random() % 8));
+        for (uint32_t v = 0; v < n * n; ++v)
+            places[v] = random() % 4 == 0 ? static_cast<uint32_t>(random() % placeCount) : v;
+        const uint32_t splits = static_cast<uint32_t>(random() % 3);
+        for (uint32_t& corner : triangles) {
+            if (splits != 0 && random() % (splits == 1 ? 20 : 2) == 0) {
+                places.push_back(places[corner]);
+                corner = static_cast<uint32_t>(places.size()) - 1;
+            }
+        }
+        Welding welding = weld(places, triangles);
+        for (uint32_t v = 0; v < places.size(); ++v)
+            ASSERT_EQ(places[welding.roots[v]], places[v]);
+        const Indices own = [&] {
+            Indices map(places.size());
+            std::iota(map.begin(), map.end(), 0u);
+            return map;
+        }();
+        const Polygons faces = keepTriangles(triangles, own);
+        unweldDefects(faces, welding);
+        std::set<std::pair<uint32_t, uint32_t>> edges;
+        for (size_t t = 0; t < triangles.size(); t += 3) {
+            for (size_t j = 0; j < 3; ++j) {
+                const uint32_t from = welding.roots[triangles[t + j]];
+                const uint32_t to = welding.roots[triangles[t + (j + 1) % 3]];
+                ASSERT_NE(from, to) << "round " << round;
+                ASSERT_TRUE(edges.insert({from, to}).second) << "round " << round << " edge " << from << " " << to;
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace supple::cage

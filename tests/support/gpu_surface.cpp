@@ -149,10 +149,12 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
 GpuSurface::~GpuSurface() {
     if (context_ == nullptr)
         return;
-    if (group_.id != 0)
+    if (group_.id != 0) {
         EXPECT_EQ(suppleDestroyGroup(context_->handle(), group_), SUPPLE_OK);
-    if (asset_.id != 0)
+    }
+    if (asset_.id != 0) {
         EXPECT_EQ(suppleDestroyAsset(context_->handle(), asset_), SUPPLE_OK);
+    }
 }
 
 void GpuSurface::evaluate() {

@@ -61,7 +61,7 @@ void blink(Pose& pose, double closed) {
     for (const char* side : {".L", ".R"}) {
         // The eyeball makes room for the lids.
         const Vec3 out = glm::normalize(onSide(kEyeOut, side));
-        pose.move(std::string("eye") + side, out * (-0.18 * kEyeRadius * closed));
+        pose.move(std::string("eye") + side, out * (-0.25 * kEyeRadius * closed));
         pose.move(std::string("upperLid") + side, out * (0.10 * kEyeRadius * closed));
     }
 }
@@ -191,7 +191,7 @@ Clip walk(const Skeleton& skeleton) {
 }
 
 // A happy leap with a full turn in the air, wings wide, and a landing that shouts.
-Clip joy(const Skeleton& skeleton) {
+Clip joy(const Skeleton& skeleton, const Pose& rest) {
     Clip clip{"joy", 30, {}};
     const int frames = 90;
     // The leap itself, and how far the hips sink or stretch over the feet.
@@ -219,6 +219,8 @@ Clip joy(const Skeleton& skeleton) {
     const Curve nod{{0.0, -2},  {0.3, -4},   {0.64, 16}, {0.90, -20}, {1.3, -8}, {1.56, 6},
                     {1.70, 16}, {1.98, -12}, {2.45, -8}, {2.8, -2},   {3.0, -2}};
     const Curve tilt{{0.0, 0}, {1.7, 0}, {2.0, 9}, {2.2, -7}, {2.40, 6}, {2.6, 0}, {3.0, 0}};
+    // Out of the standing pose and back into it.
+    const Curve own{{0.0, 0}, {0.3, 1}, {2.6, 1}, {3.0, 0}};
     const Curve tuck{{0.84, 0}, {1.15, 1}, {1.5, 0}};
     for (int frame = 0; frame <= frames; ++frame) {
         const double t = 3.0 * frame / frames;
@@ -264,7 +266,7 @@ Clip joy(const Skeleton& skeleton) {
             // The feet are placed in the turning frame of the root.
             stand(pose, side, shift, 40 * k + 34 * tiptoe(t), 12);
         }
-        clip.frames.push_back(pose);
+        clip.frames.push_back(between(rest, pose, own(t)));
     }
     return clip;
 }
@@ -272,7 +274,8 @@ Clip joy(const Skeleton& skeleton) {
 } // namespace
 
 std::vector<Clip> makeClips(const Skeleton& skeleton) {
-    return {idle(skeleton), walk(skeleton), joy(skeleton)};
+    const Clip standing = idle(skeleton);
+    return {standing, walk(skeleton), joy(skeleton, standing.frames.front())};
 }
 
 } // namespace supple::creature

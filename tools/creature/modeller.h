@@ -51,6 +51,7 @@ struct Point {
     double upper = 0; // share that follows the upper lid
     double lower = 0; // share that follows the lower lid
     double along = 0; // free parameter for painting: position along a fin, angle on an eyeball
+    double rib = 0;   // share of a wing's bone in its membrane, for painting
 };
 
 struct Quad {

@@ -97,6 +97,7 @@ std::vector<Vec3> paint(const Cage& cage) {
             break;
         case Part::Wing:
             c = intoFin(skin, ramp(0.0, 0.45, point.along), ramp(0.5, 1.0, point.along));
+            c = mixed(c, kDusk, 0.85 * point.rib * ramp(1.02, 0.80, point.along));
             break;
         case Part::TailFin:
             c = intoFin(kSkin, ramp(0.0, 0.5, point.along), ramp(0.45, 1.0, point.along));

@@ -166,6 +166,9 @@ void Builder::muzzle() {
                 p.x *= narrow;
                 p.z += forward * bow[row];
                 p.y = 1.085 + (p.y - 1.085) * flat[row];
+                if (step == 1 && column == patch.columns && row < patch.rows) {
+                    p.z -= 0.018; // or the chin comes out square
+                }
             }
         }
         muzzleRings.push_back(patch.points);
@@ -259,9 +262,11 @@ void Builder::eye() {
         for (int row = 0; row <= 2; ++row) {
             for (int column = 0; column <= 2; ++column) {
                 Point& point = cage.points[static_cast<size_t>(patch.at(column, row))];
-                // Less at the corners of the eye, where the lids have a shorter way to meet.
-                point.upper = row == 2 ? ring.lid * (column == 1 ? 1.0 : 0.75) : 0.0;
-                point.lower = row == 0 ? ring.lid : 0.0;
+                // Less at the inner corner of the eye, where the lids have a shorter way to meet.
+                const double upper[] = {0.70, 1.0, 0.92};
+                const double lower[] = {0.90, 1.0, 1.0};
+                point.upper = row == 2 ? ring.lid * upper[column] : 0.0;
+                point.lower = row == 0 ? ring.lid * lower[column] : 0.0;
             }
         }
     }
@@ -461,10 +466,17 @@ void Builder::wing() {
     const Vec3 out = glm::normalize(Vec3{0.78, 0.0, -0.62});
     const Vec3 normal = glm::normalize(Vec3{0.62, 0, 0.78});
     const auto at = [&](double along, double y) { return Vec3{0.075, y, -0.145} + out * along; };
+    // The upper edge is the wing's arm.
+    const auto setRib = [&](const Patch& edge) {
+        for (int column = 0; column <= 1; ++column) {
+            cage.points[static_cast<size_t>(edge.at(column, edge.rows))].rib = 1;
+        }
+    };
     const auto sheet = [&](double along, double thickness, const std::vector<Vec3>& line) {
         patch = cage.extrude(patch);
         setAlong(cage, patch, along);
         placeSheet(cage, patch, line, normal, thickness);
+        setRib(patch);
     };
     sheet(0.05, 0.075, {at(0.03, 0.745), at(0.04, 0.790), at(0.04, 0.835), at(0.03, 0.875)});
     sheet(0.2, 0.054, {at(0.13, 0.740), at(0.14, 0.800), at(0.14, 0.860), at(0.12, 0.920)});
@@ -483,6 +495,9 @@ void Builder::wing() {
             const Vec3 centre = middle + (tips[row] - middle) * t;
             placeSheet(cage, step, {centre + (low - middle) * width, centre + (high - middle) * width}, normal,
                        0.034 - 0.014 * t);
+            if (row == 2) {
+                setRib(step);
+            }
         }
     }
 }

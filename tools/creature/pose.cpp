@@ -13,7 +13,7 @@ namespace supple::creature {
 namespace {
 
 // The rotation that takes the axes (a, n, a x n) to (b, m, b x m).
-Quat between(const Vec3& a, const Vec3& n, const Vec3& b, const Vec3& m) {
+Quat turnBetween(const Vec3& a, const Vec3& n, const Vec3& b, const Vec3& m) {
     const glm::dmat3 from(a, n, glm::cross(a, n));
     const glm::dmat3 to(b, m, glm::cross(b, m));
     return glm::normalize(glm::quat_cast(to * glm::transpose(from)));
@@ -29,6 +29,15 @@ Quat eulerDegrees(double x, double y, double z) {
 
 Pose::Pose(const Skeleton& skeleton)
     : skeleton(skeleton), rotations(skeleton.joints.size(), Quat(1, 0, 0, 0)), moves(skeleton.joints.size(), Vec3(0)) {}
+
+Pose between(const Pose& from, const Pose& to, double share) {
+    Pose pose(from.skeleton);
+    for (size_t i = 0; i < pose.rotations.size(); ++i) {
+        pose.rotations[i] = glm::slerp(from.rotations[i], to.rotations[i], share);
+        pose.moves[i] = from.moves[i] + (to.moves[i] - from.moves[i]) * share;
+    }
+    return pose;
+}
 
 void Pose::turn(const std::string& joint, double x, double y, double z) {
     Quat& rotation = rotations[static_cast<size_t>(skeleton.index(joint))];
@@ -86,8 +95,8 @@ void Pose::plant(const std::string& side, const Vec3& ballInRoot, const Quat& fo
     const Vec3 normal = glm::normalize(glm::cross(line, outward)) * -1.0;
     const Vec3 hinge = glm::dot(normal, hips.rotation * restNormal) < 0 ? -normal : normal;
 
-    const Quat thighTurn = between(glm::normalize(upperRest), restNormal, glm::normalize(knee - hip), hinge);
-    const Quat shinTurn = between(glm::normalize(lowerRest), restNormal, glm::normalize(end - knee), hinge);
+    const Quat thighTurn = turnBetween(glm::normalize(upperRest), restNormal, glm::normalize(knee - hip), hinge);
+    const Quat shinTurn = turnBetween(glm::normalize(lowerRest), restNormal, glm::normalize(end - knee), hinge);
     rotations[static_cast<size_t>(thigh)] = glm::inverse(hips.rotation) * thighTurn;
     rotations[static_cast<size_t>(shin)] = glm::inverse(thighTurn) * shinTurn;
     rotations[static_cast<size_t>(ankle)] = glm::inverse(shinTurn) * foot;

@@ -35,6 +35,9 @@ struct Pose {
     std::vector<Vec3> moves; // added to the joint's rest offset
 };
 
+// Part of the way from one pose to another.
+Pose between(const Pose& from, const Pose& to, double share);
+
 Quat eulerDegrees(double x, double y, double z);
 
 // A smooth curve through keys that never overshoots them.

@@ -24,7 +24,7 @@ shared::DrawPush basePush(const Scene& scene, std::optional<uint32_t> light) {
     push.rate = output.rate;
     push.samplesPerPatch = output.samplesPerPatch;
     push.verticesPerInstance = output.verticesPerInstance;
-    push.cageVertexCount = output.cageVertexCount;
+    push.cageVerticesPerInstance = output.cageVerticesPerInstance;
     push.view = scene.view;
     push.light = light.value_or(0);
     if (output.vertexFormat == SUPPLE_VERTEX_24)

@@ -38,6 +38,7 @@ void bindBake(CLI::App& app, int& exitCode);
 void bindRender(CLI::App& app, int& exitCode);
 void bindSheet(CLI::App& app, int& exitCode);
 void bindProfile(CLI::App& app, int& exitCode);
+void bindBench(CLI::App& app, int& exitCode);
 void bindView(CLI::App& app, int& exitCode);
 
 } // namespace supple::tools

@@ -1,8 +1,8 @@
 // supple inspect: what a character file holds, and which schemes take it. Needs no device.
 #include "cage/gltf_reader.h"
 #include "cage/topology.h"
-#include "surface/prep/scheme.h"
 #include "tools/supple/command.h"
+#include "tools/supple/options.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -21,12 +21,6 @@ struct InspectOptions {
 };
 
 using Histogram = std::map<uint32_t, uint32_t>; ///< value -> how many
-
-struct Scheme {
-    const char* name;
-    Status (*accepts)(const cage::Cage&, const cage::Topology&);
-};
-constexpr Scheme kSchemes[] = {{"prep", surface::prep::accepts}};
 
 struct SchemeVerdict {
     const char* scheme;
@@ -69,7 +63,7 @@ Findings examine(const cage::Character& character) {
     } else {
         findings.topologyFault = topology.error().message;
     }
-    for (const Scheme& scheme : kSchemes) {
+    for (const Scheme& scheme : schemes()) {
         const Status status = findings.topology ? scheme.accepts(cage, *findings.topology) : topology.error();
         findings.schemes.push_back({scheme.name, status ? "" : status.error().message});
     }

@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
     bindRender(app, exitCode);
     bindSheet(app, exitCode);
     bindProfile(app, exitCode);
+    bindBench(app, exitCode);
     bindView(app, exitCode);
 
     try {

@@ -1,5 +1,7 @@
 #include "tools/supple/options.h"
 
+#include "surface/prep/scheme.h"
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -33,10 +35,12 @@ SuppleMapping mappingOf(const DeviceFlags& flags) {
 
 void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, bool& pairQuads,
                 const std::vector<std::string>& extraSchemes) {
-    std::vector<std::string> schemes{"auto"};
-    schemes.insert(schemes.end(), schemeNames().begin(), schemeNames().end());
-    schemes.insert(schemes.end(), extraSchemes.begin(), extraSchemes.end());
-    command.add_option("--scheme", scheme, "Surface scheme")->check(CLI::IsMember(schemes))->capture_default_str();
+    std::vector<std::string> names{"auto"};
+    for (const Scheme& known : schemes()) {
+        names.emplace_back(known.name);
+    }
+    names.insert(names.end(), extraSchemes.begin(), extraSchemes.end());
+    command.add_option("--scheme", scheme, "Surface scheme")->check(CLI::IsMember(names))->capture_default_str();
     command.add_option("--rate", rate, "Segments along a patch edge")
         ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
         ->capture_default_str();
@@ -68,17 +72,22 @@ void bindPose(CLI::App& command, std::string& clip, double& time) {
         ->capture_default_str();
 }
 
-const std::vector<std::string>& schemeNames() {
-    static const std::vector<std::string> names{"prep"};
-    return names;
+std::span<const Scheme> schemes() {
+    static constexpr Scheme kSchemes[] = {{"prep", SUPPLE_SCHEME_PREP, surface::prep::accepts}};
+    return kSchemes;
 }
 
 SuppleScheme schemeOf(const std::string& name) {
-    return name == "prep" ? SUPPLE_SCHEME_PREP : SUPPLE_SCHEME_AUTO;
+    for (const Scheme& scheme : schemes()) {
+        if (name == scheme.name) {
+            return scheme.scheme;
+        }
+    }
+    return SUPPLE_SCHEME_AUTO;
 }
 
 std::string resolvedScheme(const std::string& name) {
-    return name == "auto" ? "prep" : name;
+    return name == "auto" ? schemes().front().name : name;
 }
 
 } // namespace supple::tools

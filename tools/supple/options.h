@@ -1,7 +1,11 @@
 // Flags that several subcommands share, and what their values mean.
 #pragma once
 
+#include "base/result.h"
+#include "cage/topology.h"
+
 #include <cstdint>
+#include <span>
 #include <string>
 #include <supple/supple.h>
 #include <vector>
@@ -40,8 +44,13 @@ void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::
 /// --clip, a name or index, empty for the bind pose; --time in seconds.
 void bindPose(CLI::App& command, std::string& clip, double& time);
 
-/// The schemes there are, without "auto".
-[[nodiscard]] const std::vector<std::string>& schemeNames();
+/// The list of schemes, best first: what "auto" takes where it can.
+struct Scheme {
+    const char* name;
+    SuppleScheme scheme;
+    Status (*accepts)(const cage::Cage& cage, const cage::Topology& topology);
+};
+[[nodiscard]] std::span<const Scheme> schemes();
 /// "auto" and the names above; anything else is auto.
 [[nodiscard]] SuppleScheme schemeOf(const std::string& name);
 /// The scheme behind a name: "auto" becomes the one it chooses.

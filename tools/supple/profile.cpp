@@ -307,10 +307,6 @@ Machine describe(const host::Device& device, const DeviceFlags& flags) {
     return {device.name(), driver.driverName, driver.driverInfo, flags.mapping, cpuName()};
 }
 
-Status writeText(const std::string& path, const std::string& text) {
-    return path.empty() ? success() : TextFile(path).text(text).close();
-}
-
 std::string dump(const nlohmann::ordered_json& json, int indent) {
     return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -320,11 +316,17 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
     std::printf("%s (%s %s), %s mapping, CPU %s\n", machine.device.c_str(), machine.driver.c_str(),
                 machine.driverInfo.c_str(), machine.mapping.c_str(), machine.cpu.c_str());
     const bool all = options.surface.scheme == "all";
-    const std::vector<std::string> schemes = all ? schemeNames() : std::vector<std::string>{options.surface.scheme};
+    std::vector<std::string> names;
+    for (const Scheme& scheme : schemes()) {
+        names.emplace_back(scheme.name);
+    }
+    if (!all) {
+        names = {options.surface.scheme};
+    }
     std::vector<ProfileRun> runs;
     Profiler profiler(session, options);
     for (const CharacterFile& file : files) {
-        for (const std::string& scheme : schemes) {
+        for (const std::string& scheme : names) {
             Result<ProfileRun> run = profiler.run(file, scheme);
             if (!run && all && run.error().code == ErrorCode::asset) { // not every scheme takes every cage
                 warn(run.error().message);
@@ -338,15 +340,18 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
             runs.push_back(std::move(*run));
         }
     }
+    if (runs.empty()) {
+        return Error{ErrorCode::asset, "no scheme takes any of the files"};
+    }
     Status status = success();
     if (!options.json.empty()) {
-        status = writeText(options.json, dump(toJson(machine, runs), 2));
+        status = writeTextFile(options.json, dump(toJson(machine, runs), 2));
     }
     if (status && !options.csv.empty()) {
-        status = writeText(options.csv, toCsv(runs));
+        status = writeTextFile(options.csv, toCsv(runs));
     }
     if (status && !options.trace.empty()) {
-        status = writeText(options.trace, dump(toTrace(machine, runs), -1));
+        status = writeTextFile(options.trace, dump(toTrace(machine, runs), -1));
     }
     return status;
 }

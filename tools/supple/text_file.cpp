@@ -48,4 +48,8 @@ void TextFile::flush() {
     pending_.clear();
 }
 
+Status writeTextFile(const std::string& path, std::string_view text) {
+    return TextFile(path).text(text).close();
+}
+
 } // namespace supple::tools

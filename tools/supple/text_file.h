@@ -30,4 +30,7 @@ private:
     std::string pending_;
 };
 
+/// Writes a whole file at once.
+[[nodiscard]] Status writeTextFile(const std::string& path, std::string_view text);
+
 } // namespace supple::tools
