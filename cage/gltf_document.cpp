@@ -37,6 +37,10 @@ std::string at(const char* what, size_t index) {
     return std::string(what) + " " + std::to_string(index);
 }
 
+std::string within(const std::string& element, const std::string& part) {
+    return element + " " + part;
+}
+
 std::string listed(const std::string& text) {
     return "\"" + text + "\"";
 }

@@ -875,8 +875,9 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
         character.name = name;
         const GltfDocument document = loadGltfDocument(bytes, baseDirectory);
         Reader(document, options, character).read();
+        const std::string prefix = name + ": ";
         for (std::string& warning : character.warnings)
-            warning = oneLine(warning.insert(0, name + ": "));
+            warning = oneLine(warning.insert(0, prefix));
         return character;
     } catch (const Refusal& refusal) {
         return failure(refusal.code, name, refusal.message);

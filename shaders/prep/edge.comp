@@ -7,8 +7,10 @@
 #include "shaders/prep/pool.glsl"
 #include "shaders/prep/store.glsl"
 
-vec3 weighted(float w[6], vec3 A, vec3 tA, vec3 tB, vec3 B, vec3 SA, vec3 SB) {
-    precise vec3 r = ((w[0] * A + w[3] * B) + (w[1] * tA + w[2] * tB)) + (w[4] * SA + w[5] * SB);
+// Relative to A, which keeps cancellation small: the weights of a row sum to zero (SA and SB are sums of two points), so
+// that the weight of A itself never appears.
+vec3 weighted(float w[6], vec3 tA, vec3 tB, vec3 B, vec3 SA, vec3 SB) {
+    precise vec3 r = (w[3] * B + (w[1] * tA + w[2] * tB)) + (w[4] * SA + w[5] * SB);
     return r;
 }
 
@@ -21,12 +23,13 @@ void main() {
     uvec4 sums = base + tableElement(record + 1u);
     uvec4 edge = tableElement(record + 2u);
 
-    vec3 A = poolVector(curve.x), tA = poolVector(curve.y), tB = poolVector(curve.z), B = poolVector(curve.w);
-    precise vec3 SA = poolVector(sums.x) + poolVector(sums.y);
-    precise vec3 SB = poolVector(sums.z) + poolVector(sums.w);
+    vec3 A = poolVector(curve.x);
+    precise vec3 tA = poolVector(curve.y) - A, tB = poolVector(curve.z) - A, B = poolVector(curve.w) - A;
+    precise vec3 SA = (poolVector(sums.x) - A) + (poolVector(sums.y) - A);
+    precise vec3 SB = (poolVector(sums.z) - A) + (poolVector(sums.w) - A);
     vec4 w[6];
     for (uint k = 0u; k < 6u; ++k) w[k] = uintBitsToFloat(tableElement(edge.y + k));
     for (uint row = 0u; row < 4u; ++row)
         storePool(base + edge.x + row,
-                  weighted(float[6](w[0][row], w[1][row], w[2][row], w[3][row], w[4][row], w[5][row]), A, tA, tB, B, SA, SB));
+                  weighted(float[6](w[0][row], w[1][row], w[2][row], w[3][row], w[4][row], w[5][row]), tA, tB, B, SA, SB));
 }

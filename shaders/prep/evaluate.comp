@@ -18,9 +18,11 @@ const uint kCoefficients = kPerturbed ? 32u : 16u;
 const uint kRecordElements = kPerturbed ? kPerturbedElements : kRegularElements;
 
 // A row of the patch at one v: the cubic row points and their v-derivatives, and the same for the perturbation.
-// The perturbation rows are h_i., i = 0, 1, 4, 5 (outer) and 2, 3 (inner).
+// The perturbation rows are h_i., i = 0, 1, 4, 5 (outer) and 2, 3 (inner). Derivatives come from coefficients relative to g00:
+// far from the origin that keeps normals several times more exact. Positions come from the coefficients as they are, so
+// that neighbours, whose g00 differ, agree bit for bit.
 struct Row {
-    vec3 g[4], gv[4];
+    vec3 g[4], relative[4], gv[4];
     vec3 outer[4], outerV[4];
     vec3 inner[2], innerV[2];
 };
@@ -32,7 +34,9 @@ Row collapse(vec3 c[32], vec2 v) {
     vec4 b = bernstein3(v), d = bernsteinDerivative3(v);
     for (uint i = 0u; i < 4u; ++i) {
         row.g[i] = sum4(b, c[i], c[4u + i], c[8u + i], c[12u + i]);
-        row.gv[i] = sum4(d, c[i], c[4u + i], c[8u + i], c[12u + i]);
+        vec3 r0 = c[i] - c[0], r1 = c[4u + i] - c[0], r2 = c[8u + i] - c[0], r3 = c[12u + i] - c[0];
+        row.relative[i] = sum4(b, r0, r1, r2, r3);
+        row.gv[i] = sum4(d, r0, r1, r2, r3);
     }
     if (kPerturbed) {
         Basis5 b5 = bernstein5(v), d5 = bernsteinDerivative5(v);
@@ -52,7 +56,7 @@ Row collapse(vec3 c[32], vec2 v) {
 void finish(Row row, vec2 u, out vec3 position, out vec3 normal) {
     vec4 b = bernstein3(u), d = bernsteinDerivative3(u);
     precise vec3 p = sum4(b, row.g[0], row.g[1], row.g[2], row.g[3]);
-    vec3 du = sum4(d, row.g[0], row.g[1], row.g[2], row.g[3]);
+    vec3 du = sum4(d, row.relative[0], row.relative[1], row.relative[2], row.relative[3]);
     vec3 dv = sum4(b, row.gv[0], row.gv[1], row.gv[2], row.gv[3]);
     if (kPerturbed) {
         Basis5 b5 = bernstein5(u), d5 = bernsteinDerivative5(u);

@@ -8,7 +8,7 @@
 // Tables (one buffer, read as uvec4 or as uint):
 //   vertex records   (cage vertex, spoke slot, class element, 0): regular interior vertices first
 //   ring             two words a spoke slot: the spoke's vertex, the diagonal of its sector
-//   classes          (sectors | kBoundaryClass, limitCenter, e2Center, 0), then two elements a spoke:
+//   classes          (sectors | kBoundaryClass, 0, 0, 0), then two elements a spoke:
 //                    (limitEdge, limitFace, e1Edge, e1Face), (e2Edge, e2Face, cosine, sine)
 //   edge records     three elements: pool indices (A, tA, tB, B), (SA1, SA2, SB1, SB2), (H index, edge class element, 0, 0)
 //   edge classes     six elements, for A, tA, tB, B, SA, SB: their weights in (h20, h30, h21, h31)

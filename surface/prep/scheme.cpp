@@ -57,8 +57,7 @@ public:
             const ValenceClass c = makeValenceClass(key.first, key.second, options_);
             elements_[key] = writer.element();
             cosines_[key] = c.c;
-            writer.put({c.sectors | (c.boundary ? shared::kBoundaryClass : 0u), floatBits(c.limitCenter),
-                        floatBits(c.e2Center), 0u});
+            writer.put({c.sectors | (c.boundary ? shared::kBoundaryClass : 0u), 0u, 0u, 0u});
             const uint32_t spokes = c.sectors + (c.boundary ? 1u : 0u);
             for (uint32_t k = 0; k < spokes; ++k) {
                 // The last spoke of a boundary fan has no sector: its diagonal counts nothing.

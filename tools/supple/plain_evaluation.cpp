@@ -1,22 +1,30 @@
 #include "tools/supple/plain_evaluation.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace supple::tools {
 
 namespace {
 
+constexpr uint32_t kSide = 65;
+
+/// Weights of every sample of a row, one array a Bernstein polynomial, so that the loop over a row vectorizes.
 struct Weights {
-    float b[4], d[4];
+    float b[4][kSide], d[4][kSide];
 };
 
-Weights weightsAt(uint32_t k, uint32_t rate) {
-    const float t = static_cast<float>(k) / static_cast<float>(rate);
-    const float s = static_cast<float>(rate - k) / static_cast<float>(rate);
-    const float tt = t * t, ss = s * s, ts = t * s;
-    return {{ss * s, 3.0f * (t * ss), 3.0f * (s * tt), tt * t},
-            {-3.0f * ss, 3.0f * ss - 6.0f * ts, 6.0f * ts - 3.0f * tt, 3.0f * tt}};
+void fill(Weights& w, uint32_t rate) {
+    for (uint32_t k = 0; k <= rate; ++k) {
+        const float t = static_cast<float>(k) / static_cast<float>(rate);
+        const float s = static_cast<float>(rate - k) / static_cast<float>(rate);
+        const float tt = t * t, ss = s * s, ts = t * s;
+        const float b[4] = {ss * s, 3.0f * (t * ss), 3.0f * (s * tt), tt * t};
+        const float d[4] = {-3.0f * ss, 3.0f * ss - 6.0f * ts, 6.0f * ts - 3.0f * tt, 3.0f * tt};
+        for (int i = 0; i < 4; ++i) {
+            w.b[i][k] = b[i];
+            w.d[i][k] = d[i];
+        }
+    }
 }
 
 } // namespace
@@ -40,45 +48,43 @@ void evaluatePlain(std::span<const float> coefficients, uint32_t rate, std::vect
     const size_t patches = coefficients.size() / 64;
     samples.resize(patches * side * side * 6);
     float* out = samples.data();
-    Weights weights[65];
-    for (uint32_t k = 0; k <= rate; ++k) {
-        weights[k] = weightsAt(k, rate);
-    }
+    Weights w;
+    fill(w, rate);
+    float row[6][kSide]; // x, y, z, normal
     for (size_t p = 0; p < patches; ++p) {
         const float* g = coefficients.data() + 64 * p;
         for (uint32_t j = 0; j < side; ++j) {
-            const Weights& v = weights[j];
-            float row[4][3], rowV[4][3];
+            float c[4][3], cv[4][3];
             for (int i = 0; i < 4; ++i) {
                 for (int axis = 0; axis < 3; ++axis) {
-                    const float a = g[4 * i + axis], b = g[16 + 4 * i + axis];
-                    const float c = g[32 + 4 * i + axis], d = g[48 + 4 * i + axis];
-                    row[i][axis] = (v.b[0] * a + v.b[3] * d) + (v.b[1] * b + v.b[2] * c);
-                    rowV[i][axis] = (v.d[0] * a + v.d[3] * d) + (v.d[1] * b + v.d[2] * c);
+                    const float g0 = g[4 * i + axis], g1 = g[16 + 4 * i + axis];
+                    const float g2 = g[32 + 4 * i + axis], g3 = g[48 + 4 * i + axis];
+                    c[i][axis] = (w.b[0][j] * g0 + w.b[3][j] * g3) + (w.b[1][j] * g1 + w.b[2][j] * g2);
+                    cv[i][axis] = (w.d[0][j] * g0 + w.d[3][j] * g3) + (w.d[1][j] * g1 + w.d[2][j] * g2);
                 }
             }
             for (uint32_t i = 0; i < side; ++i) {
-                const Weights& u = weights[i];
-                float p3[3], du[3], dv[3];
+                float du[3], dv[3];
                 for (int axis = 0; axis < 3; ++axis) {
-                    p3[axis] = (u.b[0] * row[0][axis] + u.b[3] * row[3][axis]) +
-                               (u.b[1] * row[1][axis] + u.b[2] * row[2][axis]);
-                    du[axis] = (u.d[0] * row[0][axis] + u.d[3] * row[3][axis]) +
-                               (u.d[1] * row[1][axis] + u.d[2] * row[2][axis]);
-                    dv[axis] = (u.b[0] * rowV[0][axis] + u.b[3] * rowV[3][axis]) +
-                               (u.b[1] * rowV[1][axis] + u.b[2] * rowV[2][axis]);
+                    row[axis][i] = (w.b[0][i] * c[0][axis] + w.b[3][i] * c[3][axis]) +
+                                   (w.b[1][i] * c[1][axis] + w.b[2][i] * c[2][axis]);
+                    du[axis] = (w.d[0][i] * c[0][axis] + w.d[3][i] * c[3][axis]) +
+                               (w.d[1][i] * c[1][axis] + w.d[2][i] * c[2][axis]);
+                    dv[axis] = (w.b[0][i] * cv[0][axis] + w.b[3][i] * cv[3][axis]) +
+                               (w.b[1][i] * cv[1][axis] + w.b[2][i] * cv[2][axis]);
                 }
                 const float nx = du[1] * dv[2] - du[2] * dv[1];
                 const float ny = du[2] * dv[0] - du[0] * dv[2];
                 const float nz = du[0] * dv[1] - du[1] * dv[0];
-                const float length = 1.0f / std::sqrt(std::max(nx * nx + ny * ny + nz * nz, 1e-30f));
-                out[0] = p3[0];
-                out[1] = p3[1];
-                out[2] = p3[2];
-                out[3] = nx * length;
-                out[4] = ny * length;
-                out[5] = nz * length;
-                out += 6;
+                const float scale = 1.0f / std::sqrt(nx * nx + ny * ny + nz * nz + 1e-30f);
+                row[3][i] = nx * scale;
+                row[4][i] = ny * scale;
+                row[5][i] = nz * scale;
+            }
+            for (uint32_t i = 0; i < side; ++i) {
+                for (int k = 0; k < 6; ++k) {
+                    *out++ = row[k][i];
+                }
             }
         }
     }

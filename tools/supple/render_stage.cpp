@@ -1,0 +1,111 @@
+#include "tools/supple/render_stage.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <glm/gtc/constants.hpp>
+
+namespace supple::tools {
+
+Result<VkExtent2D> parseSize(const std::string& text) {
+    VkExtent2D extent{};
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%ux%u%n", &extent.width, &extent.height, &read) != 2 ||
+        static_cast<size_t>(read) != text.size() || extent.width == 0 || extent.height == 0)
+        return Error{ErrorCode::argument, text + " is not WxH in pixels"};
+    return extent;
+}
+
+Result<uint32_t> parseView(const std::string& name) {
+    constexpr std::pair<const char*, uint32_t> kViews[] = {
+        {"shaded", shared::kViewShaded},   {"wire", shared::kViewWire},   {"patches", shared::kViewPatches},
+        {"normals", shared::kViewNormals}, {"zebra", shared::kViewZebra},
+    };
+    for (const auto& [known, view] : kViews) {
+        if (name == known)
+            return view;
+    }
+    return Error{ErrorCode::argument, name + " is no view (shaded, wire, patches, normals, zebra)"};
+}
+
+DeviceFlags deviceFlags(const DrawOptions& options) {
+    return {.device = options.device, .mapping = options.mapping, .validate = options.validate};
+}
+
+float radians(double degrees) {
+    return static_cast<float>(degrees) * glm::pi<float>() / 180.0f;
+}
+
+float pixelScale(VkExtent2D extent) {
+    return std::clamp(static_cast<float>(extent.height) / 900.0f, 0.6f, 4.0f);
+}
+
+std::vector<ClipTime> spreadTimes(const host::Figure& figure, uint32_t clip, uint32_t count) {
+    if (clip == SUPPLE_BIND_POSE || count <= 1)
+        return {{clip, 0.0}};
+    std::vector<ClipTime> times;
+    for (uint32_t i = 0; i < count; ++i)
+        times.push_back({clip, figure.clipDuration(clip) * i / (count - 1)});
+    return times;
+}
+
+Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& file, VkExtent2D size,
+                                           const DrawOptions& options) {
+    std::unique_ptr<Stage> stage(new Stage(session));
+    host::Device& device = *session.device;
+    Result<host::DrawTarget> target = host::DrawTarget::create(device, size);
+    if (!target)
+        return target.error();
+    stage->target_ = std::move(*target);
+    Result<std::unique_ptr<host::Figure>> figure = host::Figure::open(*session.context, file, options.pairQuads);
+    if (!figure)
+        return figure.error();
+    stage->figure_ = std::move(*figure);
+    Result<std::unique_ptr<host::FigureGroup>> group =
+        host::FigureGroup::create(*stage->figure_, {.scheme = schemeOf(options.scheme), .rate = options.rate});
+    if (!group)
+        return group.error();
+    stage->group_ = std::move(*group);
+    Result<std::unique_ptr<host::SurfaceRenderer>> renderer = host::SurfaceRenderer::create(device);
+    if (!renderer)
+        return renderer.error();
+    stage->renderer_ = std::move(*renderer);
+    Result<host::FigureBinding> binding = stage->renderer_->bind(*stage->group_);
+    if (!binding)
+        return binding.error();
+    stage->binding_ = std::move(*binding);
+    return stage;
+}
+
+Result<Extent> Stage::measure(std::span<const ClipTime> poses, bool cage) {
+    Extent extent;
+    for (const ClipTime& clipTime : poses) {
+        if (const Status status = pose(clipTime); !status)
+            return status.error();
+        Result<std::vector<glm::vec3>> points = cage ? group_->readCage() : group_->readSurface();
+        if (!points)
+            return points.error();
+        for (const glm::vec3& point : *points)
+            extent.bounds.add(point);
+        extent.points.insert(extent.points.end(), points->begin(), points->end());
+    }
+    return extent;
+}
+
+Status Stage::pose(const ClipTime& pose) {
+    if (const Status status = group_->pose(0, pose.clip, pose.time); !status)
+        return status.error();
+    const SuppleGroup groups[] = {group_->handle()};
+    return session_.context->evaluate(groups);
+}
+
+Result<host::Picture> Stage::draw(host::Scene scene) {
+    scene.group = group_.get();
+    scene.binding = &binding_;
+    const Status status = session_.device->submitAndWait(
+        [&](VkCommandBuffer commands) { renderer_->record(commands, 0, target_, scene); });
+    if (!status)
+        return status.error();
+    return host::readPicture(*session_.device, target_.color().handle(), target_.extent(), host::kPictureFormat);
+}
+
+} // namespace supple::tools
