@@ -7,22 +7,24 @@
 namespace supple::skinning {
 
 std::vector<uint32_t> buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights) {
+    const uint32_t vertexCount = cage.vertexCount();
     std::vector<uint32_t> vertices, influences;
-    vertices.reserve(4 * size_t{cage.vertexCount()});
+    vertices.reserve(4 * (size_t{vertexCount} + 1));
     influences.reserve(2 * weights.influences.size());
-    for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
+    const auto nextElement = [&] { return static_cast<uint32_t>(vertexCount + 1 + influences.size() / 4); };
+    for (uint32_t v = 0; v < vertexCount; ++v) {
         for (int axis = 0; axis < 3; ++axis)
             vertices.push_back(std::bit_cast<uint32_t>(cage.positions[v][axis]));
-        vertices.push_back(static_cast<uint32_t>(cage.vertexCount() + influences.size() / 4));
+        vertices.push_back(nextElement());
         const uint32_t end = weights.starts[v + 1];
         for (uint32_t i = weights.starts[v]; i < end; i += 2) {
             const cage::Influence first = weights.influences[i];
             const cage::Influence second = i + 1 < end ? weights.influences[i + 1] : cage::Influence{first.joint, 0.0f};
-            const uint32_t last = i + 2 >= end ? shared::kLastInfluence : 0u;
-            influences.insert(influences.end(), {first.joint, std::bit_cast<uint32_t>(first.weight),
-                                                 second.joint | last, std::bit_cast<uint32_t>(second.weight)});
+            influences.insert(influences.end(), {first.joint, std::bit_cast<uint32_t>(first.weight), second.joint,
+                                                 std::bit_cast<uint32_t>(second.weight)});
         }
     }
+    vertices.insert(vertices.end(), {0u, 0u, 0u, nextElement()});
     vertices.insert(vertices.end(), influences.begin(), influences.end());
     return vertices;
 }

@@ -39,14 +39,13 @@ void main() {
     vec3 rest = uintBitsToFloat(vertex.xyz);
     uint joints = instance * push.jointCount;
 
+    uint end = table(index + 1u).w;
     precise vec3 p = vec3(0.0);
-    uvec4 pair;
-    uint element = vertex.w;
-    do {
-        pair = table(element++);
+    for (uint element = vertex.w; element < end; ++element) {
+        uvec4 pair = table(element);
         precise vec3 first = transformed(joints + pair.x, uintBitsToFloat(pair.y), rest);
-        precise vec3 second = transformed(joints + (pair.z & ~kLastInfluence), uintBitsToFloat(pair.w), rest);
+        precise vec3 second = transformed(joints + pair.z, uintBitsToFloat(pair.w), rest);
         p = p + (first + second);
-    } while ((pair.z & kLastInfluence) == 0u);
+    }
     deformedCage[instance * push.cageStride + index] = vec4(p, 1.0);
 }

@@ -1,17 +1,14 @@
 // The deform pass: push constants and the layout of its static table.
 //
-// Table (uvec4 elements): one record a cage vertex, then the influences, two an element.
-//   vertex     (x, y, z as float bits; first influence element)
-//   influences (joint, weight bits, joint, weight bits); the list of a vertex ends with the element whose second joint
-//              has kLastInfluence set; an odd list is filled up with weight 0
+// Table (uvec4 elements): one record a cage vertex and one more, then the influences, two an element.
+//   vertex     (x, y, z as float bits; first influence element); a vertex's influences end where the next one's begin
+//   influences (joint, weight bits, joint, weight bits); an odd list is filled up with weight 0
 #ifndef SUPPLE_SHARED_DEFORM_H
 #define SUPPLE_SHARED_DEFORM_H
 
 #include "shaders/shared/portable.h"
 
 SUPPLE_SHARED_BEGIN
-
-SUPPLE_SHARED_CONST kLastInfluence = 0x80000000u;
 
 // Descriptor bindings, set 0. Every table is bound twice: GPUs load it as a storage buffer, CPU devices as texels.
 SUPPLE_SHARED_CONST kDeformTableBinding = 0u;

@@ -77,9 +77,12 @@ TEST(Weld, TouchingAlongTwoEdgesStaysApart) {
         return Indices{0, 1,  a1, 0, a1, a0, 1, 2,  a2, 1, a2, a1, 1, 0,  b0,
                        1, b0, b1, 2, 1,  b1, 2, b1, b2, 0, a0, b0, 2, b2, a2};
     };
-    const Soup soup = soupOf(joined(roof(3), roof(9)));
-    Welding welding = weld(soup.candidates, soup.triangles);
-    EXPECT_EQ(countSets(welding.roots), 18u) << "nine vertices each";
+    Soup soup = soupOf(joined(roof(3), roof(9)));
+    EXPECT_EQ(countSets(weld(soup.candidates, soup.triangles).roots), 18u) << "nine vertices each";
+    // Whatever the numbers: now the ridge's middle comes before its ends.
+    for (uint32_t& candidate : soup.candidates)
+        candidate = candidate == 0 ? 1 : candidate == 1 ? 0 : candidate;
+    EXPECT_EQ(countSets(weld(soup.candidates, soup.triangles).roots), 18u);
 }
 
 TEST(Weld, SharedVerticesStayShared) {

@@ -249,7 +249,7 @@ Clip joy(const Skeleton& skeleton, const Pose& rest) {
         pose.turnPair("ear", 0, -12 * c, 18 * nod(t - 0.05) / 20);
         pose.turnPair("earTip", 0, -8 * c, 20 * nod(t - 0.12) / 20);
         pose.turn("jaw", 27 * mouth(t), 0, 0);
-        pose.turn("tongue", -13 * mouth(t), 0, 0);
+        pose.turn("tongue", -5 * mouth(t), 0, 0);
         blink(pose, squint(t));
         beam(pose, glee(t));
         for (int i = 1; i <= kTailJoints; ++i) {

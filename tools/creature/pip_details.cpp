@@ -171,8 +171,11 @@ void addMiddleDetails(Cage& cage) {
     glints(cage);
 
     // A tongue, its root in the throat.
-    stub(cage, Part::Tongue, frameFrom({0, 1.052, 0.13}, {0, 0, 1}, {1, 0, 0}),
-         {{0.0, 0.095, 0.024}, {0.08, 0.125, 0.026, {0, 0.006, 0}}, {0.17, 0.120, 0.024}, {0.245, 0.080, 0.016}});
+    stub(cage, Part::Tongue, frameFrom({0, 1.028, 0.10}, {0, 0, 1}, {1, 0, 0}),
+         {{0.0, 0.110, 0.050},
+          {0.10, 0.140, 0.052, {0, 0.004, 0}},
+          {0.20, 0.130, 0.044, {0, 0.006, 0}},
+          {0.28, 0.085, 0.026, {0, 0.010, 0}}});
 
     // A crest from the crown down the back to the tail.
     struct Plate {

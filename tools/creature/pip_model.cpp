@@ -197,7 +197,9 @@ void Builder::mouth() {
         high.y = middle + gap;
         cage.points[static_cast<size_t>(slit.at(column, 0))].jaw = 1.0;
     }
-    const double inwards[] = {0.955, 0.80, 0.55};
+    // The far wall is set well back, or the mouth is only a groove round a pillar.
+    const double inwards[] = {0.955, 0.82, 0.64};
+    const double backwards[] = {0.955, 0.72, 0.24};
     const double heights[] = {0.010, 0.035, 0.055};
     for (int step = 0; step < 3; ++step) {
         cage.part = Part::Mouth;
@@ -209,7 +211,7 @@ void Builder::mouth() {
                 const double s = inwards[step];
                 const double corner = column == 5 ? 0.35 : 1.0;
                 p.x = lip.x * s;
-                p.z = lip.z * s;
+                p.z = lip.z * backwards[step];
                 p.y = lip.y - (row == 0 ? 1 : -1) * (heights[step] - 0.012) * corner - (1 - s) * 0.06;
                 cage.points[static_cast<size_t>(slit.at(column, row))].jaw =
                     row == 0 ? (step < 2 ? 1.0 : 0.6) : (step < 2 ? 0.0 : 0.2);
