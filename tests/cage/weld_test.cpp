@@ -79,9 +79,12 @@ TEST(Weld, TouchingAlongTwoEdgesStaysApart) {
     };
     Soup soup = soupOf(joined(roof(3), roof(9)));
     EXPECT_EQ(countSets(weld(soup.candidates, soup.triangles).roots), 18u) << "nine vertices each";
-    // Whatever the numbers: now the ridge's middle comes before its ends.
+    // Whatever the numbers: the ridge's middle before its ends, and behind them.
     for (uint32_t& candidate : soup.candidates)
         candidate = candidate == 0 ? 1 : candidate == 1 ? 0 : candidate;
+    EXPECT_EQ(countSets(weld(soup.candidates, soup.triangles).roots), 18u);
+    for (uint32_t& candidate : soup.candidates)
+        candidate = candidate == 0 ? 100 : candidate;
     EXPECT_EQ(countSets(weld(soup.candidates, soup.triangles).roots), 18u);
 }
 

@@ -1,0 +1,37 @@
+// Assets that lie beside the checkout on some machines. Where they are absent a test says how many cases it left out.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace supple::test {
+
+/// The paths below ../shared/assets that exist; prints how many of `names` were left out otherwise.
+inline std::vector<std::string> sharedAssets(const std::vector<std::string>& names) {
+    std::vector<std::string> present;
+    for (const std::string& name : names) {
+        const std::string path = std::string(SUPPLE_SHARED_DIR) + "/assets/" + name;
+        if (std::filesystem::exists(path)) {
+            present.push_back(path);
+        }
+    }
+    if (present.size() < names.size()) {
+        std::printf("%zu shared-asset cases left out: %s/assets is not present\n", names.size() - present.size(),
+                    SUPPLE_SHARED_DIR);
+    }
+    return present;
+}
+
+/// The characters all of whose faces are quads, and the demo character, which is always there.
+inline std::vector<std::string> allQuadCharacters() {
+    std::vector<std::string> paths =
+        sharedAssets({"characters/man_casual_quads.glb", "characters/mh_female1605.glb",
+                      "characters/mh_female1605_morph.glb", "characters/mh_body_13k_infl8.glb",
+                      "characters/mh_proxy741.glb", "characters/pawn_creased.glb"});
+    paths.insert(paths.begin(), std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
+    return paths;
+}
+
+} // namespace supple::test
