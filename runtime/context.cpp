@@ -6,7 +6,8 @@
 
 namespace supple::runtime {
 
-Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc) {
+Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc,
+                                                  const surface::prep::Shaders& prepShaders) {
     auto context = std::make_unique<Context>();
     context->log_ = desc.log;
     context->logUser_ = desc.logUser;
@@ -34,7 +35,7 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc) 
     if (!deform)
         return deform.error();
     context->deform_ = std::move(*deform);
-    Result<surface::prep::Passes> prep = surface::prep::Passes::create(d);
+    Result<surface::prep::Passes> prep = surface::prep::Passes::create(d, prepShaders);
     if (!prep)
         return prep.error();
     context->prep_ = std::move(*prep);

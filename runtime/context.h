@@ -24,7 +24,10 @@ public:
     Context() = default;
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
-    [[nodiscard]] static Result<std::unique_ptr<Context>> create(const SuppleContextDesc& desc);
+    /// `prepShaders`: tests put mutated code in.
+    [[nodiscard]] static Result<std::unique_ptr<Context>>
+    create(const SuppleContextDesc& desc,
+           const surface::prep::Shaders& prepShaders = surface::prep::Shaders::embedded());
 
     void log(SuppleSeverity severity, const std::string& text) const;
 

@@ -7,19 +7,26 @@
 layout(location = 0) in vec3 inPosition;
 layout(location = 0) out vec4 outColor;
 
+const float kFarthestShadow = 3.2; // in radii of the scene
+
 void main() {
+    float away = length(inPosition.xz - frame.target.xz) / frame.target.w;
+    vec3 color = backdrop(gl_FragCoord.xy);
+    if (away > kFarthestShadow) {
+        outColor = vec4(dither(color, gl_FragCoord.xy), 1.0);
+        return;
+    }
     vec3 lit = vec3(0.0), all = vec3(0.0);
     vec3 receiver = inPosition + vec3(0.0, frame.shadowTexel, 0.0);
     for (uint i = 0u; i < frame.lightCount; ++i) {
-        vec4 color = frame.lights[i].color;
+        vec4 light = frame.lights[i].color;
         // The rim would throw a long shadow towards the viewer that tells nothing of the figure.
-        float weight = max(frame.lights[i].direction.y, 0.0) * (uint(color.w) == kLightRim ? 0.15 : 1.0);
+        float weight = max(frame.lights[i].direction.y, 0.0) * (uint(light.w) == kLightRim ? 0.15 : 1.0);
         if (weight <= 0.0)
             continue;
-        all += color.rgb * weight;
-        lit += color.rgb * weight * lightVisibility(i, receiver);
+        all += light.rgb * weight;
+        lit += light.rgb * weight * lightVisibility(i, receiver);
     }
-    float away = length(inPosition.xz - frame.target.xz) / frame.target.w;
-    vec3 shade = mix(lit / max(all, vec3(1e-4)), vec3(1.0), smoothstep(1.6, 3.6, away));
-    outColor = vec4(dither(backdrop(gl_FragCoord.xy) * mix(vec3(1.0), shade, 0.86), gl_FragCoord.xy), 1.0);
+    vec3 shade = mix(lit / max(all, vec3(1e-4)), vec3(1.0), smoothstep(1.5, kFarthestShadow, away));
+    outColor = vec4(dither(color * mix(vec3(1.0), shade, 0.86), gl_FragCoord.xy), 1.0);
 }

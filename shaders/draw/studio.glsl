@@ -68,7 +68,7 @@ vec3 studioShade(Material material, vec3 position, vec3 n, vec3 v) {
 
 /// A filmic curve: Narkowicz's fit of the ACES reference, which keeps blacks firm and rolls highlights off.
 vec3 toneMap(vec3 x) {
-    x *= 0.72;
+    x *= frame.exposure;
     return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 

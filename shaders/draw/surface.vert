@@ -5,6 +5,9 @@
 
 layout(set = 1, binding = kSurfaceAttributeBinding, std430) readonly buffer Attributes { uvec4 attributes[]; };
 
+// Drawn twice, depth first: both times to the same bits.
+invariant gl_Position;
+
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec2 outUv;

@@ -59,3 +59,7 @@ vec3 sum2(vec2 w, vec3 a, vec3 b) {
     precise vec3 r = w.x * a + w.y * b;
     return r;
 }
+
+// The same sums for derivatives. They feed normals only, so the compiler may arrange them as it likes.
+vec3 blend4(vec4 w, vec3 a, vec3 b, vec3 c, vec3 d) { return (w.x * a + w.w * d) + (w.y * b + w.z * c); }
+vec3 blend2(vec2 w, vec3 a, vec3 b) { return w.x * a + w.y * b; }

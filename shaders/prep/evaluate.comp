@@ -30,23 +30,24 @@ struct Row {
 // Order of the 16 perturbation coefficients (pool gather and shared memory): h_2j then h_3j for j = 0, 1, 4, 5, then
 // h_i2, h_i3 for i = 0, 1, 4, 5.
 Row collapse(vec3 c[32], vec2 v) {
-    precise Row row;
+    Row row;
     vec4 b = bernstein3(v), d = bernsteinDerivative3(v);
     for (uint i = 0u; i < 4u; ++i) {
-        row.g[i] = sum4(b, c[i], c[4u + i], c[8u + i], c[12u + i]);
+        precise vec3 g = sum4(b, c[i], c[4u + i], c[8u + i], c[12u + i]);
+        row.g[i] = g;
         vec3 r0 = c[i] - c[0], r1 = c[4u + i] - c[0], r2 = c[8u + i] - c[0], r3 = c[12u + i] - c[0];
-        row.relative[i] = sum4(b, r0, r1, r2, r3);
-        row.gv[i] = sum4(d, r0, r1, r2, r3);
+        row.relative[i] = blend4(b, r0, r1, r2, r3);
+        row.gv[i] = blend4(d, r0, r1, r2, r3);
     }
     if (kPerturbed) {
         Basis5 b5 = bernstein5(v), d5 = bernsteinDerivative5(v);
         for (uint i = 0u; i < 2u; ++i) {
             row.inner[i] = sum4(b5.outer, c[16u + 4u * i], c[17u + 4u * i], c[18u + 4u * i], c[19u + 4u * i]);
-            row.innerV[i] = sum4(d5.outer, c[16u + 4u * i], c[17u + 4u * i], c[18u + 4u * i], c[19u + 4u * i]);
+            row.innerV[i] = blend4(d5.outer, c[16u + 4u * i], c[17u + 4u * i], c[18u + 4u * i], c[19u + 4u * i]);
         }
         for (uint i = 0u; i < 4u; ++i) {
             row.outer[i] = sum2(b5.inner, c[24u + 2u * i], c[25u + 2u * i]);
-            row.outerV[i] = sum2(d5.inner, c[24u + 2u * i], c[25u + 2u * i]);
+            row.outerV[i] = blend2(d5.inner, c[24u + 2u * i], c[25u + 2u * i]);
         }
     }
     return row;
@@ -56,17 +57,17 @@ Row collapse(vec3 c[32], vec2 v) {
 void finish(Row row, vec2 u, out vec3 position, out vec3 normal) {
     vec4 b = bernstein3(u), d = bernsteinDerivative3(u);
     precise vec3 p = sum4(b, row.g[0], row.g[1], row.g[2], row.g[3]);
-    vec3 du = sum4(d, row.relative[0], row.relative[1], row.relative[2], row.relative[3]);
-    vec3 dv = sum4(b, row.gv[0], row.gv[1], row.gv[2], row.gv[3]);
+    vec3 du = blend4(d, row.relative[0], row.relative[1], row.relative[2], row.relative[3]);
+    vec3 dv = blend4(b, row.gv[0], row.gv[1], row.gv[2], row.gv[3]);
     if (kPerturbed) {
         Basis5 b5 = bernstein5(u), d5 = bernsteinDerivative5(u);
         precise vec3 h = sum2(b5.inner, row.inner[0], row.inner[1]) +
                          sum4(b5.outer, row.outer[0], row.outer[1], row.outer[2], row.outer[3]);
         p = p + h;
-        du += sum2(d5.inner, row.inner[0], row.inner[1]) +
-              sum4(d5.outer, row.outer[0], row.outer[1], row.outer[2], row.outer[3]);
-        dv += sum2(b5.inner, row.innerV[0], row.innerV[1]) +
-              sum4(b5.outer, row.outerV[0], row.outerV[1], row.outerV[2], row.outerV[3]);
+        du += blend2(d5.inner, row.inner[0], row.inner[1]) +
+              blend4(d5.outer, row.outer[0], row.outer[1], row.outer[2], row.outer[3]);
+        dv += blend2(b5.inner, row.innerV[0], row.innerV[1]) +
+              blend4(b5.outer, row.outerV[0], row.outerV[1], row.outerV[2], row.outerV[3]);
     }
     position = p;
     normal = unitNormal(cross(du, dv)); // outwards

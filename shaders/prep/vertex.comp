@@ -45,10 +45,8 @@ void regularVertex(uint base, uint slot, uint words, uint cageBase, uint vertex)
     precise vec3 e2 = (4.0 * (e[1] - e[3]) + ((d[0] - d[2]) + (d[1] - d[3]))) * (1.0 / 36.0);
     storePoint(base + vertex, p0, x);
     uint tangent = base + push.tangents + slot, face = base + push.faces + slot;
-    storePoint(tangent, p0, x + e1);
-    storePoint(tangent + 1u, p0, x + e2);
-    storePoint(tangent + 2u, p0, x - e1);
-    storePoint(tangent + 3u, p0, x - e2);
+    precise vec3 t[4] = vec3[4](x + e1, x + e2, x - e1, x - e2);
+    for (uint k = 0u; k < 4u; ++k) storePoint(tangent + k, p0, t[k]);
     for (uint k = 0u; k < 4u; ++k) storePoint(face + k, p0, faceCoefficient(e[k], e[(k + 1u) & 3u], d[k]));
 }
 

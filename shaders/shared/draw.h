@@ -64,7 +64,7 @@ struct FrameUniforms {
     vec4 viewport;  // width, height, 1 / width, 1 / height
     vec4 bounce;    // light from below
     uint lightCount;
-    uint shadowSize; // texels a side
+    float exposure;
     float shadowTexel; // its width in the world
     float pixelScale;  // line widths are multiplied by it
     Light lights[kMaxLights];

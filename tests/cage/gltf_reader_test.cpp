@@ -7,6 +7,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
+#include <unistd.h>
 
 namespace supple::cage {
 namespace {
@@ -475,7 +476,7 @@ TEST(GltfReader, Materials) {
 
 TEST(GltfReader, ImagesFromBufferViewsAndFiles) {
     namespace fs = std::filesystem;
-    const fs::path folder = fs::path(testing::TempDir()) / "supple_gltf_images";
+    const fs::path folder = fs::path(testing::TempDir()) / ("supple_gltf_images_" + std::to_string(getpid()));
     fs::remove_all(folder);
     fs::create_directories(folder / "textures");
     std::ofstream(folder / "textures" / "a b.jpg", std::ios::binary) << "\xFF\xD8\xFF\xE0 not really";

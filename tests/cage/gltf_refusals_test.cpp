@@ -9,6 +9,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
+#include <unistd.h>
 
 namespace supple::cage {
 namespace {
@@ -172,7 +173,7 @@ TEST(GltfRefusals, ExternalFiles) {
               "t.glb: buffer 0 uri: \"quad.bin\": external files are not allowed for an asset read from memory");
 
     namespace fs = std::filesystem;
-    const fs::path folder = fs::path(testing::TempDir()) / "supple_gltf_refusals";
+    const fs::path folder = fs::path(testing::TempDir()) / ("supple_gltf_refusals_" + std::to_string(getpid()));
     fs::remove_all(folder);
     fs::create_directories(folder / "asset" / "sub");
     std::ofstream(folder / "outside.bin", std::ios::binary)

@@ -31,6 +31,7 @@ struct PipelineDesc {
     bool depthBias = false;
     bool blend = false;
     bool alphaToCoverage = false;
+    bool colorWrite = true;
     VkFormat color = VK_FORMAT_UNDEFINED;
     VkFormat depth = VK_FORMAT_UNDEFINED;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
@@ -105,7 +106,8 @@ Result<VkPipeline> createPipeline(Device& device, VkPipelineLayout layout, const
     depth.depthWriteEnable = desc.depthWrite ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = desc.depthCompare;
     VkPipelineColorBlendAttachmentState attachment{};
-    attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
+    if (desc.colorWrite)
+        attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
     attachment.blendEnable = desc.blend ? VK_TRUE : VK_FALSE;
     attachment.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
     attachment.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
@@ -178,7 +180,8 @@ Result<std::unique_ptr<DrawPipelines>> DrawPipelines::create(Device& device, con
 
 DrawPipelines::~DrawPipelines() {
     const VkDevice device = device_.handle();
-    for (const VkPipeline pipeline : {surfaceShadow, cageShadow, surface, cageFace, cageEdge, ground, backdrop})
+    for (const VkPipeline pipeline :
+         {surfaceShadow, cageShadow, surfaceDepth, surface, cageFace, cageEdge, ground, backdrop})
         vkDestroyPipeline(device, pipeline, nullptr);
     vkDestroySampler(device, shadowSampler, nullptr);
     vkDestroyPipelineLayout(device, layout, nullptr);
@@ -259,6 +262,11 @@ Status DrawPipelines::createPipelines(const DrawFormats& formats) {
                                    .color = formats.color,
                                    .depth = formats.depth,
                                    .samples = formats.samples};
+    PipelineDesc surfaceDepthDesc = surfaceDesc;
+    surfaceDepthDesc.name = "surface depth";
+    surfaceDepthDesc.fragment = {};
+    surfaceDepthDesc.alphaToCoverage = false;
+    surfaceDepthDesc.colorWrite = false;
     PipelineDesc cageFaceDesc = surfaceDesc;
     cageFaceDesc.name = "cage face";
     cageFaceDesc.vertex = draw_cage_face_vert;
@@ -284,9 +292,9 @@ Status DrawPipelines::createPipelines(const DrawFormats& formats) {
     backdropDesc.depthWrite = false;
 
     const std::pair<const PipelineDesc*, VkPipeline*> all[] = {
-        {&shadow, &surfaceShadow},  {&cageShadowDesc, &cageShadow}, {&surfaceDesc, &surface},
-        {&cageFaceDesc, &cageFace}, {&cageEdgeDesc, &cageEdge},     {&groundDesc, &ground},
-        {&backdropDesc, &backdrop},
+        {&shadow, &surfaceShadow}, {&cageShadowDesc, &cageShadow}, {&surfaceDepthDesc, &surfaceDepth},
+        {&surfaceDesc, &surface},  {&cageFaceDesc, &cageFace},     {&cageEdgeDesc, &cageEdge},
+        {&groundDesc, &ground},    {&backdropDesc, &backdrop},
     };
     for (const auto& [desc, pipeline] : all) {
         Result<VkPipeline> made = createPipeline(device_, layout, *desc);

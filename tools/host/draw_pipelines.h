@@ -31,6 +31,7 @@ public:
 
     VkPipeline surfaceShadow = VK_NULL_HANDLE;
     VkPipeline cageShadow = VK_NULL_HANDLE;
+    VkPipeline surfaceDepth = VK_NULL_HANDLE; ///< only depth: what is hidden is then never shaded
     VkPipeline surface = VK_NULL_HANDLE;
     VkPipeline cageFace = VK_NULL_HANDLE;
     VkPipeline cageEdge = VK_NULL_HANDLE;

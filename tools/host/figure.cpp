@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -29,6 +30,49 @@ Result<std::vector<std::byte>> readFile(const std::string& path) {
     if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
         return Error{ErrorCode::io, path + ": cannot be read to its end"};
     return bytes;
+}
+
+float linearFromSrgb(float x) {
+    return x < 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+}
+
+/// In linear light, from every few pixels.
+glm::vec4 averageColor(const Picture& picture) {
+    glm::vec4 sum(0.0f);
+    float count = 0.0f;
+    const size_t pixels = picture.rgba.size() / 4;
+    const size_t step = std::max<size_t>(pixels / 4096, 1);
+    for (size_t i = 0; i < pixels; i += step) {
+        for (int channel = 0; channel < 3; ++channel)
+            sum[channel] +=
+                linearFromSrgb(static_cast<float>(picture.rgba[i * 4 + static_cast<size_t>(channel)]) / 255.0f);
+        count += 1.0f;
+    }
+    return glm::vec4(glm::vec3(sum) / std::max(count, 1.0f), 1.0f);
+}
+
+/// Over the faces by their rest area; `materials` ends with what a face without material has.
+float averageLuminance(const cage::Cage& cage, const std::vector<glm::vec4>& materials) {
+    float sum = 0.0f;
+    float area = 0.0f;
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        const size_t material = cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[face];
+        const glm::vec3 base = materials[std::min(material, materials.size() - 1)];
+        const glm::vec3 origin = cage.positions[cage.faceVertices[cage.faceStarts[face]]];
+        glm::vec3 normal(0.0f);
+        glm::vec3 vertexColor(0.0f);
+        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
+            const uint32_t next = corner + 1 < cage.faceStarts[face + 1] ? corner + 1 : cage.faceStarts[face];
+            normal += glm::cross(cage.positions[cage.faceVertices[corner]] - origin,
+                                 cage.positions[cage.faceVertices[next]] - origin);
+            vertexColor += cage.cornerColors.empty() ? glm::vec3(1.0f) : glm::vec3(cage.cornerColors[corner]);
+        }
+        const glm::vec3 color = base * vertexColor / static_cast<float>(cage.sides(face));
+        const float faceArea = glm::length(normal);
+        sum += faceArea * glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+        area += faceArea;
+    }
+    return area > 0.0f ? sum / area : 0.5f;
 }
 
 } // namespace
@@ -163,6 +207,7 @@ Status Figure::uploadCage() {
 }
 
 Status Figure::uploadBaseColors() {
+    std::vector<glm::vec4> averages;
     Picture white = Picture::blank(1, 1);
     std::fill(white.rgba.begin(), white.rgba.end(), uint8_t{255});
     for (size_t i = 0; i <= character_.materials.size(); ++i) {
@@ -180,7 +225,11 @@ Status Figure::uploadBaseColors() {
         if (!texture)
             return texture.error();
         baseColors_.push_back(std::move(*texture));
+        averages.push_back(averageColor(*picture));
+        if (i < character_.materials.size())
+            averages.back() *= character_.materials[i].baseColorFactor;
     }
+    averageAlbedo_ = averageLuminance(character_.cage, averages);
     return success();
 }
 

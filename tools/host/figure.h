@@ -36,6 +36,8 @@ public:
     [[nodiscard]] Result<uint32_t> findClip(const std::string& nameOrIndex) const;
     [[nodiscard]] double clipDuration(uint32_t clip) const;
 
+    /// Luminance of the base color over the cage's faces: linear, 0..1.
+    [[nodiscard]] float averageAlbedo() const { return averageAlbedo_; }
     /// One a material, and one white one at the end for what has none.
     [[nodiscard]] const std::vector<Image>& baseColors() const { return baseColors_; }
     [[nodiscard]] const std::vector<CageRange>& cageRanges() const { return cageRanges_; }
@@ -57,6 +59,7 @@ private:
     Buffer cageCorners_;
     Buffer cageEdges_;
     uint32_t cageEdgeCount_ = 0;
+    float averageAlbedo_ = 0.5f;
 };
 
 struct GroupOptions {

@@ -1,6 +1,8 @@
 #include "tools/host/picture.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -79,6 +81,46 @@ void Picture::drawText(uint32_t x, uint32_t y, const std::string& text, uint32_t
                 std::memcpy(pixel(column, row), color, 3);
         }
     }
+}
+
+PictureAverage::PictureAverage(uint32_t width, uint32_t height)
+    : width_(width), height_(height), sum_(size_t{width} * height * 3) {}
+
+void PictureAverage::add(const Picture& picture) {
+    static const std::array<float, 256> kLinear = [] {
+        std::array<float, 256> table{};
+        for (size_t i = 0; i < table.size(); ++i) {
+            const float x = static_cast<float>(i) / 255.0f;
+            table[i] = x < 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+        }
+        return table;
+    }();
+    for (size_t pixel = 0; pixel < sum_.size() / 3; ++pixel) {
+        for (size_t channel = 0; channel < 3; ++channel)
+            sum_[pixel * 3 + channel] += kLinear[picture.rgba[pixel * 4 + channel]];
+    }
+    ++count_;
+}
+
+Picture PictureAverage::picture() const {
+    // 4096 steps are finer than 8 bits of sRGB anywhere but in the darkest twelve, which stay in order.
+    constexpr size_t kSteps = 4096;
+    static const std::vector<uint8_t> kSrgb = [] {
+        std::vector<uint8_t> table(kSteps + 1);
+        for (size_t i = 0; i <= kSteps; ++i) {
+            const float x = static_cast<float>(i) / kSteps;
+            const float y = x < 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+            table[i] = static_cast<uint8_t>(std::lround(y * 255.0f));
+        }
+        return table;
+    }();
+    Picture mean = Picture::blank(width_, height_);
+    const float scale = count_ > 0 ? static_cast<float>(kSteps) / static_cast<float>(count_) : 0.0f;
+    for (size_t pixel = 0; pixel < sum_.size() / 3; ++pixel) {
+        for (size_t channel = 0; channel < 3; ++channel)
+            mean.rgba[pixel * 4 + channel] = kSrgb[static_cast<size_t>(sum_[pixel * 3 + channel] * scale + 0.5f)];
+    }
+    return mean;
 }
 
 Status writePng(const Picture& picture, const std::string& path) {

@@ -26,6 +26,20 @@ struct Picture {
     void drawText(uint32_t x, uint32_t y, const std::string& text, uint32_t scale, const uint8_t (&color)[3]);
 };
 
+/// The mean of pictures of one size, taken in linear light.
+class PictureAverage {
+public:
+    PictureAverage(uint32_t width, uint32_t height);
+    void add(const Picture& picture);
+    [[nodiscard]] Picture picture() const;
+
+private:
+    uint32_t width_;
+    uint32_t height_;
+    uint32_t count_ = 0;
+    std::vector<float> sum_; ///< linear RGB
+};
+
 [[nodiscard]] Status writePng(const Picture& picture, const std::string& path);
 [[nodiscard]] Result<Picture> readPng(const std::string& path);
 /// PNG or JPEG bytes as a glTF holds them; `name` begins the message.

@@ -11,10 +11,11 @@ namespace supple::host {
 
 /// How many directions sample each part of the rig. More are softer and dearer: every one is a shadow map.
 struct StudioQuality {
-    uint32_t key = 10;
-    uint32_t rim = 3;
-    uint32_t sky = 18;
+    uint32_t key = 5;
+    uint32_t rim = 2;
+    uint32_t sky = 9;
     uint32_t shadowSize = 1024; ///< texels a side of each shadow map
+    uint32_t passes = 4;        ///< pictures, each with other directions, that are averaged into one
 
     [[nodiscard]] uint32_t lightCount() const { return key + rim + sky; }
 
@@ -22,13 +23,18 @@ struct StudioQuality {
     [[nodiscard]] static StudioQuality still() { return {}; }
     /// For a window: on a CPU device a few directions must do.
     [[nodiscard]] static StudioQuality interactive(bool cpuDevice) {
-        return cpuDevice ? StudioQuality{2, 1, 4, 512} : StudioQuality{8, 2, 14, 1024};
+        return cpuDevice ? StudioQuality{2, 1, 4, 512, 1} : StudioQuality{8, 2, 14, 1024, 1};
     }
 };
 
 /// The rig for a figure inside the sphere, seen from `yaw` (see Camera): the key stands to the viewer's left, the rim
-/// behind the figure to the right.
-[[nodiscard]] std::vector<shared::Light> studioLights(const StudioQuality& quality, float yaw, glm::vec3 center,
-                                                      float radius);
+/// behind the figure to the right. All passes together sample each part of the rig evenly, and so does every one of
+/// them.
+[[nodiscard]] std::vector<shared::Light> studioLights(const StudioQuality& quality, uint32_t pass, float yaw,
+                                                      glm::vec3 center, float radius);
+/// Where in the pixel a pass samples: an offset in pixels, within half a pixel.
+[[nodiscard]] glm::vec2 studioJitter(const StudioQuality& quality, uint32_t pass);
+/// Brings figures as dark as coal and as light as chalk to a middle brightness, half way.
+[[nodiscard]] float studioExposure(float averageAlbedo);
 
 } // namespace supple::host

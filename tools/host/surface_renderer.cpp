@@ -17,7 +17,7 @@ constexpr glm::vec4 kCageEdgeColor(0.010f, 0.014f, 0.022f, 0.85f);
 constexpr glm::vec4 kOverlayEdgeColor(0.95f, 0.42f, 0.06f, 0.9f);
 
 /// Push constants that fit any draw of the group; ranges and materials are filled in draw by draw.
-shared::DrawPush basePush(const Scene& scene, std::optional<uint32_t> light) {
+shared::DrawPush basePush(const Scene& scene, uint32_t light) {
     const SuppleGroupOutput& output = scene.group->output();
     shared::DrawPush push{};
     push.baseColor = glm::vec4(1.0f);
@@ -26,7 +26,7 @@ shared::DrawPush basePush(const Scene& scene, std::optional<uint32_t> light) {
     push.verticesPerInstance = output.verticesPerInstance;
     push.cageVerticesPerInstance = output.cageVerticesPerInstance;
     push.view = scene.view;
-    push.light = light.value_or(0);
+    push.light = light;
     if (output.vertexFormat == SUPPLE_VERTEX_24)
         push.flags |= shared::kDrawVertex24;
     if (output.attributes.buffer != VK_NULL_HANDLE)
@@ -50,7 +50,8 @@ void applyMaterial(const cage::Character& character, uint32_t index, shared::Dra
         push.flags |= shared::kDrawTranslucent;
 }
 
-bool castsShadow(const cage::Character& character, uint32_t material) {
+/// Without holes: casts a shadow, and hides what is behind before it is shaded.
+bool isSolid(const cage::Character& character, uint32_t material) {
     return material >= character.materials.size() || character.materials[material].alphaMode == cage::AlphaMode::opaque;
 }
 
@@ -302,7 +303,11 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
     shared::FrameUniforms frame{};
     frame.view = scene.camera.view();
     const float reach = radius + glm::length(scene.camera.target - center);
-    frame.viewProjection = scene.camera.projection(aspect, reach) * frame.view;
+    glm::mat4 projection = scene.camera.projection(aspect, reach);
+    const glm::vec2 jitter = studioJitter(quality_, scene.pass) * 2.0f / glm::vec2(width, height);
+    projection[2][0] += jitter.x; // times -w: a shift of the whole picture
+    projection[2][1] += jitter.y;
+    frame.viewProjection = projection * frame.view;
     const glm::vec3 eye = scene.camera.eye();
     frame.eye = glm::vec4(eye, 1.0f);
     frame.target = glm::vec4(center, radius);
@@ -311,10 +316,12 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
     frame.viewport = glm::vec4(width, height, 1.0f / width, 1.0f / height);
     frame.bounce = glm::vec4(0.20f, 0.19f, 0.18f, 0.0f);
     frame.lightCount = quality_.lightCount();
-    frame.shadowSize = quality_.shadowSize;
+    // The other views paint every figure in the same colors.
+    frame.exposure = scene.view == shared::kViewShaded ? studioExposure(scene.group->figure().averageAlbedo())
+                                                       : studioExposure(0.4f);
     frame.shadowTexel = 2.0f * radius / static_cast<float>(quality_.shadowSize);
     frame.pixelScale = scene.pixelScale;
-    const std::vector<shared::Light> lights = studioLights(quality_, scene.lightYaw, center, radius);
+    const std::vector<shared::Light> lights = studioLights(quality_, scene.pass, scene.lightYaw, center, radius);
     std::copy(lights.begin(), lights.end(), frame.lights);
     std::memcpy(slot.uniforms.mapped(), &frame, sizeof frame);
 }
@@ -340,7 +347,7 @@ void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene
         if (scene.cageFaces)
             drawCageFaces(commands, scene, light);
         else
-            drawSurface(commands, scene, light);
+            drawSurfaceShadow(commands, scene, light);
         vkCmdEndRendering(commands);
     }
     imageBarrier(commands, shadowMaps_, drawn, {VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, read});
@@ -385,7 +392,8 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     if (scene.cageFaces)
         drawCageFaces(commands, scene, std::nullopt);
     else
-        drawSurface(commands, scene, std::nullopt);
+        for (const bool depthOnly : {true, false})
+            drawSurface(commands, scene, depthOnly);
     if (scene.ground.has_value() && scene.camera.eye().y > *scene.ground) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->ground);
         vkCmdDraw(commands, 4, 1, 0, 0);
@@ -398,32 +406,45 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
 }
 
-void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const {
+void SurfaceRenderer::pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const {
+    vkCmdPushConstants(commands, pipelines_->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                       sizeof push, &push);
+}
+
+void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
     const SuppleGroupOutput& output = scene.group->output();
-    const cage::Character& character = scene.group->figure().character();
     shared::DrawPush push = basePush(scene, light);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                      light ? pipelines_->surfaceShadow : pipelines_->surface);
-    if (light)
-        vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
-    else
-        vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->surfaceShadow);
+    vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
     for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.drawRanges[i];
-        if (light && !castsShadow(character, range.material))
+        if (!isSolid(scene.group->figure().character(), range.material))
+            continue;
+        push.firstPatch = range.firstPatch;
+        push.patchCount = range.patchCount;
+        pushConstants(commands, push);
+        vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), range.patchCount * output.instanceCount, 0, 0, 0);
+    }
+}
+
+void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene, bool depthOnly) const {
+    const SuppleGroupOutput& output = scene.group->output();
+    const cage::Character& character = scene.group->figure().character();
+    shared::DrawPush push = basePush(scene, 0);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                      depthOnly ? pipelines_->surfaceDepth : pipelines_->surface);
+    vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
+    for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
+        const SuppleDrawRange& range = output.drawRanges[i];
+        if (depthOnly && !isSolid(character, range.material))
             continue;
         applyMaterial(character, range.material, push);
         push.firstPatch = range.firstPatch;
         push.patchCount = range.patchCount;
-        vkCmdPushConstants(commands, pipelines_->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                           sizeof push, &push);
-        if (light) {
-            vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), range.patchCount * output.instanceCount, 0, 0,
-                             0);
-            continue;
-        }
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
-                                &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);
+        pushConstants(commands, push);
+        if (!depthOnly)
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
+                                    &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);
         vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
                                  output.indirect.offset + VkDeviceSize{i} * output.indirect.stride, 1,
                                  output.indirect.stride);
@@ -432,15 +453,14 @@ void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene, 
 
 void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const {
     const cage::Character& character = scene.group->figure().character();
-    shared::DrawPush push = basePush(scene, light);
+    shared::DrawPush push = basePush(scene, light.value_or(0));
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, light ? pipelines_->cageShadow : pipelines_->cageFace);
     for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
-        if (light && !castsShadow(character, range.material))
+        if (light && !isSolid(character, range.material))
             continue;
         applyMaterial(character, range.material, push);
         push.primitive = range.firstCorner;
-        vkCmdPushConstants(commands, pipelines_->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                           sizeof push, &push);
+        pushConstants(commands, push);
         if (!light)
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
                                     &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);
@@ -449,11 +469,10 @@ void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene
 }
 
 void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene) const {
-    shared::DrawPush push = basePush(scene, std::nullopt);
+    shared::DrawPush push = basePush(scene, 0);
     push.baseColor = scene.cageFaces ? kCageEdgeColor : kOverlayEdgeColor;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
-    vkCmdPushConstants(commands, pipelines_->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                       sizeof push, &push);
+    pushConstants(commands, push);
     vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->output().instanceCount, 0, 0);
 }
 

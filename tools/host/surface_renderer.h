@@ -52,6 +52,7 @@ struct Scene {
     uint32_t view = 0;           ///< shared::kView...
     bool cageFaces = false;      ///< the cage instead of the surface
     bool cageEdges = false;
+    uint32_t pass = 0;       ///< of StudioQuality::passes
     float pixelScale = 1.0f; ///< line widths are multiplied by it
 };
 
@@ -64,6 +65,8 @@ public:
     SurfaceRenderer& operator=(const SurfaceRenderer&) = delete;
 
     [[nodiscard]] Result<FigureBinding> bind(const FigureGroup& group);
+
+    [[nodiscard]] const StudioQuality& quality() const { return quality_; }
 
     /// Records the whole picture, outside of rendering. `slot` (below framesInFlight) must not be in use by a pending
     /// picture; the target is left in TRANSFER_SRC_OPTIMAL, visible to copies.
@@ -81,7 +84,9 @@ private:
     void writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene) const;
     void recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const;
-    void drawSurface(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const;
+    void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
+    void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
+    void drawSurface(VkCommandBuffer commands, const Scene& scene, bool depthOnly) const;
     void drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const;
     void drawCageEdges(VkCommandBuffer commands, const Scene& scene) const;
 

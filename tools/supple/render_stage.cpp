@@ -101,11 +101,19 @@ Status Stage::pose(const ClipTime& pose) {
 Result<host::Picture> Stage::draw(host::Scene scene) {
     scene.group = group_.get();
     scene.binding = &binding_;
-    const Status status = session_.device->submitAndWait(
-        [&](VkCommandBuffer commands) { renderer_->record(commands, 0, target_, scene); });
-    if (!status)
-        return status.error();
-    return host::readPicture(*session_.device, target_.color().handle(), target_.extent(), host::kPictureFormat);
+    host::PictureAverage average(target_.extent().width, target_.extent().height);
+    for (scene.pass = 0; scene.pass < renderer_->quality().passes; ++scene.pass) {
+        const Status status = session_.device->submitAndWait(
+            [&](VkCommandBuffer commands) { renderer_->record(commands, 0, target_, scene); });
+        if (!status)
+            return status.error();
+        Result<host::Picture> pass =
+            host::readPicture(*session_.device, target_.color().handle(), target_.extent(), host::kPictureFormat);
+        if (!pass)
+            return pass.error();
+        average.add(*pass);
+    }
+    return average.picture();
 }
 
 } // namespace supple::tools

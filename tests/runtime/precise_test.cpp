@@ -1,0 +1,128 @@
+// `precise` where it matters: the static check on every shader that feeds a position, and mutations that take `precise` from
+// one helper: the static check must see each, and the bits of shared borders must show it.
+#include "runtime/context.h"
+#include "cage/procedural.h"
+#include "cage/topology.h"
+#include "tests/support/gpu_surface.h"
+#include "tests/support/meshes.h"
+#include "tests/support/spirv_precise.h"
+
+#include <cstring>
+#include <gtest/gtest.h>
+
+namespace supple::test {
+namespace {
+
+struct Checked {
+    const char* shader;
+    const char* position; ///< what the shader calls the value that becomes a position or feeds one
+};
+constexpr Checked kShaders[] = {
+    {"prep/evaluate.comp", "position"}, {"prep/vertex.comp", "canonical"}, {"prep/edge.comp", "canonical"},
+    {"deform/deform.comp", "p"},
+};
+
+TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
+    for (const Checked& c : kShaders) {
+        const std::vector<uint32_t> spirv = compileShader(c.shader, "");
+        ASSERT_FALSE(spirv.empty());
+        uint32_t checked = 0;
+        const std::vector<std::string> offences = imprecisePositionArithmetic(spirv, c.position, checked);
+        std::printf("%-20s %u operations carry NoContraction\n", c.shader, checked);
+        EXPECT_GT(checked, 10u) << c.shader << ": the walk found too little to be believed";
+        for (const std::string& offence : offences)
+            ADD_FAILURE() << c.shader << ": " << offence;
+    }
+}
+
+/// Border samples that differ when evaluation runs the given code, over rates 5, 7, 11.
+uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
+    host::Device& device = *testDevice();
+    SuppleContextDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.instance = device.instance();
+    desc.physicalDevice = device.physicalDevice();
+    desc.device = device.handle();
+    desc.queueFamily = device.queueFamily();
+    desc.getInstanceProcAddr = device.getInstanceProcAddr();
+    desc.mapping = SUPPLE_MAPPING_NARROW;
+    surface::prep::Shaders shaders = surface::prep::Shaders::embedded();
+    shaders.evaluate = evaluate;
+    Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(desc, shaders);
+    if (!context) {
+        ADD_FAILURE() << context.error().message;
+        return 0;
+    }
+    const cage::Cage cage = perturbed(cage::makeSplitTorus(8, 7), 0.02f, 11);
+    const Result<cage::Topology> topology = cage::buildTopology(cage);
+    SuppleCageDesc cageDesc{};
+    cageDesc.structSize = sizeof(cageDesc);
+    cageDesc.vertexCount = cage.vertexCount();
+    cageDesc.faceCount = cage.faceCount();
+    cageDesc.positions = &cage.positions[0].x;
+    const std::vector<uint32_t> counts(cage.faceCount(), 4);
+    cageDesc.faceVertexCounts = counts.data();
+    cageDesc.faceVertexIndices = cage.faceVertices.data();
+
+    uint64_t different = 0, frame = 0;
+    for (const uint32_t rate : {5u, 7u, 11u}) {
+        Result<cage::Character> character = runtime::characterFromArrays(cageDesc, "mutation");
+        Result<uint64_t> asset = (*context)->createAsset(std::move(*character));
+        SuppleGroupDesc groupDesc{};
+        groupDesc.structSize = sizeof(groupDesc);
+        groupDesc.asset = {*asset};
+        groupDesc.instanceCount = 1;
+        groupDesc.rate = rate;
+        groupDesc.vertexFormat = SUPPLE_VERTEX_24;
+        Result<uint64_t> id = (*context)->createGroup(groupDesc);
+        const SuppleGroup handle{*id};
+        SuppleRecordDesc record{};
+        record.structSize = sizeof(record);
+        record.groups = &handle;
+        record.groupCount = 1;
+        record.after = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+        ++frame;
+        EXPECT_TRUE((*context)->beginFrame(frame, frame - 1).ok());
+        EXPECT_TRUE(device
+                        .submitAndWait([&](VkCommandBuffer commands) {
+                            EXPECT_TRUE((*context)->record(commands, record).ok());
+                        })
+                        .ok());
+        const runtime::Group& group = *(*context)->groups.find(*id);
+        const Result<std::vector<std::byte>> bytes = device.readBuffer(group.output().surfaceVertices);
+        std::vector<uint32_t> patchOfFace(cage.faceCount());
+        for (uint32_t p = 0; p < group.tables().patches.size(); ++p)
+            patchOfFace[group.tables().patches[p].face] = p;
+        const auto position = [&](uint32_t corner, uint32_t k) {
+            const uint32_t face = topology->cornerFaces[corner];
+            const glm::uvec2 at = edgeSample(corner - cage.faceStarts[face], k, rate);
+            return bytes->data() + 24 * (size_t{patchOfFace[face]} * group.output().samplesPerPatch + at.y * (rate + 1) + at.x);
+        };
+        for (const cage::Topology::Edge& edge : topology->edges)
+            for (uint32_t k = 0; k <= rate && edge.twin != cage::kNone; ++k)
+                different += std::memcmp(position(edge.corner, k), position(edge.twin, rate - k), 12) != 0;
+    }
+    return different;
+}
+
+TEST(Precise, MutationsAreCaught) {
+    ASSERT_NE(testDevice(), nullptr);
+    EXPECT_EQ(differingBits(compileShader("prep/evaluate.comp", "")), 0u) << "unmutated";
+    uint64_t shown = 0;
+    for (const char* helper : {"sum4", "sum2", "bernstein3", "bernstein5", "parameterPair", "finish", "*"}) {
+        const std::vector<uint32_t> spirv = compileShader("prep/evaluate.comp", helper);
+        ASSERT_FALSE(spirv.empty());
+        uint32_t checked = 0;
+        const size_t offences = imprecisePositionArithmetic(spirv, "position", checked).size();
+        const uint64_t bits = differingBits(spirv);
+        std::printf("without precise in %-14s static check: %zu operations; border samples that differ: %llu\n", helper,
+                    offences, static_cast<unsigned long long>(bits));
+        EXPECT_GT(offences, 0u) << helper;
+        shown += bits > 0 ? 1 : 0;
+    }
+    // Which helper shows in the bits is the compiler's choice; that none does would mean the bit test is blind.
+    EXPECT_GE(shown, 1u);
+}
+
+} // namespace
+} // namespace supple::test

@@ -1,0 +1,324 @@
+#include "tests/support/spirv_precise.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <unistd.h>
+
+namespace supple::test {
+
+namespace {
+
+// SPIR-V opcodes the walk needs (Khronos SPIR-V specification, section 3.42).
+enum Op : uint32_t {
+    kName = 5,
+    kTypeStruct = 30,
+    kTypePointer = 32,
+    kConstant = 43,
+    kFunction = 54,
+    kFunctionParameter = 55,
+    kFunctionCall = 57,
+    kVariable = 59,
+    kLoad = 61,
+    kStore = 62,
+    kAccessChain = 65,
+    kInBoundsAccessChain = 66,
+    kDecorate = 71,
+    kVectorShuffle = 79,
+    kCompositeConstruct = 80,
+    kCompositeExtract = 81,
+    kCompositeInsert = 82,
+    kFAdd = 129,
+    kFSub = 131,
+    kFMul = 133,
+    kFDiv = 136,
+    kVectorTimesScalar = 142,
+    kDot = 148,
+    kSelect = 169,
+    kReturnValue = 254,
+};
+constexpr uint32_t kNoContraction = 42;
+
+const char* arithmeticName(uint32_t op) {
+    switch (op) {
+    case kFAdd: return "FAdd";
+    case kFSub: return "FSub";
+    case kFMul: return "FMul";
+    case kFDiv: return "FDiv";
+    case kVectorTimesScalar: return "VectorTimesScalar";
+    case kDot: return "Dot";
+    default: return nullptr;
+    }
+}
+
+struct Instruction {
+    uint32_t op = 0;
+    uint32_t type = 0;
+    uint32_t result = 0;
+    uint32_t function = 0; ///< id of the function it stands in
+    std::vector<uint32_t> operands; ///< without type and result
+};
+
+/// A value, or one member of a struct value; a pointer stands for what is stored behind it.
+struct Key {
+    uint32_t id = 0;
+    int member = -1;
+    auto operator<=>(const Key&) const = default;
+};
+
+class Walk {
+public:
+    explicit Walk(std::span<const uint32_t> words) { parse(words); }
+
+    std::vector<std::string> run(const std::string& positionName, uint32_t& checked) {
+        for (const auto& [id, name] : names_)
+            if (name == positionName && byResult_.contains(id) &&
+                (byResult_[id].op == kVariable || byResult_[id].op == kFunctionParameter))
+                push({id, -1});
+        while (!pending_.empty()) {
+            const Key key = pending_.back();
+            pending_.pop_back();
+            visit(key);
+        }
+        std::vector<std::string> offences;
+        for (const uint32_t id : arithmetic_)
+            if (!noContraction_.contains(id))
+                offences.push_back(std::string(arithmeticName(byResult_[id].op)) + " in " + names_[byResult_[id].function]);
+        checked = static_cast<uint32_t>(arithmetic_.size());
+        return offences;
+    }
+
+private:
+    void parse(std::span<const uint32_t> words) {
+        uint32_t function = 0;
+        for (size_t at = 5; at < words.size();) {
+            const uint32_t count = words[at] >> 16, op = words[at] & 0xFFFFu;
+            const std::span<const uint32_t> body = words.subspan(at + 1, count - 1);
+            at += count;
+            if (op == kName) {
+                names_[body[0]] = reinterpret_cast<const char*>(body.data() + 1);
+                names_[body[0]] = names_[body[0]].substr(0, names_[body[0]].find('('));
+                continue;
+            }
+            if (op == kDecorate && body[1] == kNoContraction)
+                noContraction_.insert(body[0]);
+            Instruction i;
+            i.op = op;
+            if (op == kTypeStruct) {
+                structs_.insert(body[0]);
+                continue;
+            }
+            if (op == kTypePointer) {
+                pointees_[body[0]] = body[2];
+                continue;
+            }
+            if (op == kStore || op == kReturnValue) {
+                i.operands.assign(body.begin(), body.end());
+                i.function = function;
+                (op == kStore ? stores_ : returns_).push_back(i);
+                continue;
+            }
+            if (op == kFunction || op == kFunctionParameter || op == kFunctionCall || op == kVariable || op == kLoad ||
+                op == kAccessChain || op == kInBoundsAccessChain || op == kConstant || (op >= 77 && op <= 250)) {
+                if (body.size() < 2)
+                    continue;
+                i.type = body[0];
+                i.result = body[1];
+                i.operands.assign(body.begin() + 2, body.end());
+                if (op == kFunction)
+                    function = i.result;
+                i.function = function;
+                if (op == kFunctionParameter)
+                    parameters_[function].push_back(i.result);
+                byResult_[i.result] = i;
+                if (op == kFunctionCall)
+                    calls_.push_back(i);
+            }
+        }
+    }
+
+    void push(Key key) {
+        if (seen_.insert(key).second)
+            pending_.push_back(key);
+    }
+
+    /// The variable or parameter behind a pointer, and the member an access chain picks first when it is a struct.
+    [[nodiscard]] Key root(uint32_t pointer) const {
+        int member = -1;
+        while (true) {
+            const auto found = byResult_.find(pointer);
+            if (found == byResult_.end())
+                return {pointer, member};
+            const Instruction& i = found->second;
+            if (i.op != kAccessChain && i.op != kInBoundsAccessChain)
+                return {pointer, member};
+            pointer = i.operands[0];
+            member = -1;
+            const auto base = byResult_.find(pointer);
+            if (base != byResult_.end() && pointees_.contains(base->second.type) &&
+                structs_.contains(pointees_.at(base->second.type))) {
+                const auto index = byResult_.find(i.operands[1]);
+                if (index != byResult_.end() && index->second.op == kConstant)
+                    member = static_cast<int>(index->second.operands[0]);
+            }
+        }
+    }
+
+    [[nodiscard]] static bool overlap(int a, int b) { return a == -1 || b == -1 || a == b; }
+
+    void visit(Key key) {
+        const auto found = byResult_.find(key.id);
+        if (found == byResult_.end())
+            return; // a constant or a type
+        const Instruction& i = found->second;
+        switch (i.op) {
+        case kVariable:
+        case kFunctionParameter: {
+            // Whatever is stored into it, here or through a call it is passed to.
+            for (const Instruction& store : stores_) {
+                const Key target = root(store.operands[0]);
+                if (target.id == key.id && overlap(target.member, key.member))
+                    push({store.operands[1], target.member == -1 ? key.member : -1});
+            }
+            for (const Instruction& call : calls_) {
+                const std::vector<uint32_t>& parameters = parameters_[call.operands[0]];
+                for (size_t a = 0; a < parameters.size(); ++a) {
+                    const Key argument = root(call.operands[a + 1]);
+                    if (argument.id == key.id && overlap(argument.member, key.member))
+                        push({parameters[a], argument.member == -1 ? key.member : -1});
+                    if (parameters[a] == key.id)
+                        push({argument.id, argument.member == -1 ? key.member : argument.member});
+                }
+            }
+            return;
+        }
+        case kLoad: {
+            const Key from = root(i.operands[0]);
+            const auto base = byResult_.find(from.id);
+            // Buffers, texels and push constants are where values come from; walking ends there.
+            if (base != byResult_.end() && (base->second.op == kFunctionParameter ||
+                                            (base->second.op == kVariable && base->second.operands[0] == 7)))
+                push({from.id, from.member == -1 ? key.member : from.member});
+            return;
+        }
+        case kFunctionCall:
+            for (const Instruction& value : returns_)
+                if (value.function == i.operands[0])
+                    push({value.operands[0], key.member});
+            return;
+        case kCompositeConstruct:
+            if (structs_.contains(i.type) && key.member >= 0)
+                push({i.operands[static_cast<size_t>(key.member)], -1});
+            else
+                for (const uint32_t operand : i.operands)
+                    push({operand, -1});
+            return;
+        case kCompositeExtract: {
+            const auto composite = byResult_.find(i.operands[0]);
+            const bool ofStruct = composite != byResult_.end() && structs_.contains(composite->second.type);
+            push({i.operands[0], ofStruct ? static_cast<int>(i.operands[1]) : -1});
+            return;
+        }
+        case kVectorShuffle:
+        case kCompositeInsert:
+            push({i.operands[0], -1});
+            push({i.operands[1], -1});
+            return;
+        case kSelect:
+            push({i.operands[1], -1});
+            push({i.operands[2], -1});
+            return;
+        default:
+            break;
+        }
+        if (arithmeticName(i.op) != nullptr)
+            arithmetic_.insert(key.id);
+        if (i.op >= 109 && i.op <= 250) // conversions and arithmetic
+            for (const uint32_t operand : i.operands)
+                push({operand, -1});
+    }
+
+    std::map<uint32_t, std::string> names_;
+    std::map<uint32_t, Instruction> byResult_;
+    std::map<uint32_t, uint32_t> pointees_;
+    std::set<uint32_t> structs_, noContraction_, arithmetic_;
+    std::map<uint32_t, std::vector<uint32_t>> parameters_;
+    std::vector<Instruction> stores_, returns_, calls_;
+    std::set<Key> seen_;
+    std::vector<Key> pending_;
+};
+
+std::string readText(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// Removes `precise ` from the body of every function called `name`; counts the removals.
+std::string stripped(const std::string& source, const std::string& name, uint32_t& removals) {
+    if (name == "*") {
+        std::string all = source;
+        for (size_t at = all.find("precise "); at != std::string::npos; at = all.find("precise ", at)) {
+            all.erase(at, 8);
+            ++removals;
+        }
+        return all;
+    }
+    const std::regex definition("\\n[A-Za-z0-9_]+ " + name + "\\([^)]*\\) \\{");
+    std::smatch match;
+    if (!std::regex_search(source, match, definition))
+        return source;
+    const size_t begin = static_cast<size_t>(match.position(0));
+    size_t end = source.find("\n}", begin + 1);
+    std::string body = source.substr(begin, end - begin);
+    for (size_t at = body.find("precise "); at != std::string::npos; at = body.find("precise ", at)) {
+        body.erase(at, 8);
+        ++removals;
+    }
+    return source.substr(0, begin) + body + source.substr(end);
+}
+
+} // namespace
+
+std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> spirv, const std::string& positionName,
+                                                     uint32_t& checked) {
+    return Walk(spirv).run(positionName, checked);
+}
+
+std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip) {
+    namespace fs = std::filesystem;
+    const fs::path root = fs::temp_directory_path() / ("supple_precise_" + std::to_string(getpid()));
+    fs::remove_all(root);
+    fs::create_directories(root);
+    fs::copy(fs::path(SUPPLE_SOURCE_DIR) / "shaders", root / "shaders", fs::copy_options::recursive);
+    uint32_t removals = 0;
+    if (!strip.empty()) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / "shaders")) {
+            if (!entry.is_regular_file())
+                continue;
+            const std::string text = readText(entry.path());
+            std::ofstream(entry.path()) << stripped(text, strip, removals);
+        }
+        EXPECT_GT(removals, 0u) << strip << " has no precise to strip";
+    }
+    const fs::path output = root / "out.spv";
+    const std::string command = std::string(SUPPLE_GLSLANG_COMMAND) + " --quiet -g -V --target-env vulkan1.3 -I" +
+                                root.string() + " -o " + output.string() + " " + (root / "shaders" / path).string();
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    std::ifstream file(output, std::ios::binary);
+    const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    std::vector<uint32_t> words(bytes.size() / 4);
+    std::memcpy(words.data(), bytes.data(), words.size() * 4);
+    fs::remove_all(root);
+    return words;
+}
+
+} // namespace supple::test
