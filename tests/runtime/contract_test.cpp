@@ -1,0 +1,420 @@
+// The contract with the host: what crosses per frame, barriers, failures that leave everything usable, refusals.
+#include "cage/gltf_reader.h"
+#include "cage/procedural.h"
+#include "skinning/pose.h"
+#include "tests/support/gpu_surface.h"
+#include "tests/support/meshes.h"
+#include "tests/support/wrapped_vulkan.h"
+
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <gtest/gtest.h>
+
+namespace supple::test {
+namespace {
+
+const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
+
+/// A device of its own whose Supple calls go through the wrapped table, validation on.
+std::unique_ptr<host::Device> wrappedDevice(bool validation = true) {
+    host::DeviceOptions options;
+    options.validation = validation;
+    options.suppleGetInstanceProcAddr = &wrappedGetInstanceProcAddr;
+    Result<std::unique_ptr<host::Device>> device = host::Device::create(options);
+    if (!device) {
+        ADD_FAILURE() << device.error().message;
+        return nullptr;
+    }
+    return std::move(*device);
+}
+
+struct Character {
+    SuppleAsset asset{};
+    SuppleGroup group{};
+    SuppleResult result = SUPPLE_OK;
+};
+/// A group of `instances` of a cube sphere, or the first error.
+Character makeCharacter(SuppleContext context, uint32_t instances = 1) {
+    const cage::Cage cage = cage::makeCubeSphere(4);
+    const std::vector<uint32_t> counts(cage.faceCount(), 4);
+    SuppleCageDesc cageDesc{};
+    cageDesc.structSize = sizeof(cageDesc);
+    cageDesc.vertexCount = cage.vertexCount();
+    cageDesc.faceCount = cage.faceCount();
+    cageDesc.positions = &cage.positions[0].x;
+    cageDesc.faceVertexCounts = counts.data();
+    cageDesc.faceVertexIndices = cage.faceVertices.data();
+    SuppleAssetDesc assetDesc{};
+    assetDesc.structSize = sizeof(assetDesc);
+    assetDesc.name = "sphere";
+    assetDesc.cage = &cageDesc;
+    Character c;
+    c.result = suppleCreateAsset(context, &assetDesc, &c.asset);
+    if (c.result != SUPPLE_OK)
+        return c;
+    SuppleGroupDesc groupDesc{};
+    groupDesc.structSize = sizeof(groupDesc);
+    groupDesc.asset = c.asset;
+    groupDesc.instanceCount = instances;
+    groupDesc.rate = 3;
+    groupDesc.flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
+    c.result = suppleCreateGroup(context, &groupDesc, &c.group);
+    return c;
+}
+
+TEST(Contract, OnlyPosesCrossPerFrame) {
+    wrappedVulkan();
+    const std::unique_ptr<host::Device> device = wrappedDevice();
+    ASSERT_NE(device, nullptr);
+    constexpr uint32_t kInstances = 5;
+    {
+        GpuOptions options;
+        options.instanceCount = kInstances;
+        Result<std::unique_ptr<host::Context>> context = host::Context::create(*device);
+        ASSERT_TRUE(context.ok()) << context.error().message;
+        std::vector<std::byte> bytes;
+        {
+            std::FILE* file = std::fopen(kPip.c_str(), "rb");
+            ASSERT_NE(file, nullptr);
+            std::byte buffer[4096];
+            for (size_t n = 0; (n = std::fread(buffer, 1, sizeof(buffer), file)) > 0;)
+                bytes.insert(bytes.end(), buffer, buffer + n);
+            std::fclose(file);
+        }
+        SuppleAssetDesc assetDesc{};
+        assetDesc.structSize = sizeof(assetDesc);
+        assetDesc.bytes = bytes.data();
+        assetDesc.byteCount = bytes.size();
+        SuppleAsset asset{};
+        ASSERT_EQ(suppleCreateAsset((*context)->handle(), &assetDesc, &asset), SUPPLE_OK);
+        SuppleAssetInfo info{};
+        info.structSize = sizeof(info);
+        ASSERT_EQ(suppleGetAssetInfo((*context)->handle(), asset, &info), SUPPLE_OK);
+        SuppleGroupDesc groupDesc{};
+        groupDesc.structSize = sizeof(groupDesc);
+        groupDesc.asset = asset;
+        groupDesc.instanceCount = kInstances;
+        SuppleGroup group{};
+        ASSERT_EQ(suppleCreateGroup((*context)->handle(), &groupDesc, &group), SUPPLE_OK);
+        ASSERT_TRUE((*context)->evaluate({&group, 1}).ok()); // the first frame uploads the static tables
+
+        const uint64_t paletteBytes = uint64_t{kInstances} * info.jointCount * 48;
+        for (uint32_t frame = 0; frame < 10; ++frame) {
+            WrappedVulkan& counts = wrappedVulkan();
+            for (uint32_t i = 0; i < kInstances; ++i)
+                ASSERT_EQ(suppleSetClipPose((*context)->handle(), group, i, 1, 0.1 * frame + 0.3 * i), SUPPLE_OK);
+            ASSERT_TRUE((*context)->evaluate({&group, 1}, frame % 2 == 0 ? SUPPLE_RECORD_TIMINGS : 0).ok());
+            EXPECT_EQ(counts.maps, 0u);
+            EXPECT_EQ(counts.updates, 0u);
+            EXPECT_EQ(counts.invalidates, 0u);
+            EXPECT_EQ(counts.fills, 0u);
+            EXPECT_EQ(counts.allocations, 0u);
+            EXPECT_EQ(counts.buffers, 0u);
+            EXPECT_EQ(counts.copies, 1u);
+            EXPECT_EQ(counts.copiedBytes, paletteBytes) << "joint palettes and nothing else";
+        }
+        std::printf("%llu bytes cross per frame: %u instances x %u joints x 48\n",
+                    static_cast<unsigned long long>(paletteBytes), kInstances, info.jointCount);
+    }
+    EXPECT_EQ(device->validationMessageCount(), 0u);
+}
+
+TEST(Contract, AMissingBarrierIsSeenByTheValidationLayer) {
+    // Barriers of a frame in order: entry, uploads, deform, vertex, edge, exit. Those between passes must each matter.
+    for (const int64_t dropped : {2, 3, 4}) {
+        wrappedVulkan();
+        const std::unique_ptr<host::Device> device = wrappedDevice();
+        ASSERT_NE(device, nullptr);
+        {
+            Result<std::unique_ptr<host::Context>> context = host::Context::create(*device);
+            ASSERT_TRUE(context.ok());
+            Character c = makeCharacter((*context)->handle());
+            ASSERT_EQ(c.result, SUPPLE_OK);
+            ASSERT_TRUE((*context)->evaluate({&c.group, 1}).ok());
+            ASSERT_EQ(device->validationMessageCount(), 0u);
+            WrappedVulkan& wrapped = wrappedVulkan();
+            wrapped.dropBarrier = dropped;
+            const_cast<host::ValidationLog&>(*device->validation()).setQuiet(true);
+            ASSERT_TRUE((*context)->evaluate({&c.group, 1}).ok());
+            EXPECT_EQ(wrapped.barriers, 6u) << "the frame has other barriers now: look at the indices above";
+        }
+        EXPECT_GT(device->validationMessageCount(), 0u) << "barrier " << dropped;
+    }
+}
+
+TEST(Contract, OutOfMemoryLeavesTheContextUsable) {
+    for (const bool hostMemory : {false, true}) {
+        wrappedVulkan();
+        const std::unique_ptr<host::Device> device = wrappedDevice();
+        ASSERT_NE(device, nullptr);
+        uint32_t failures = 0;
+        {
+            host::ContextOptions contextOptions;
+            contextOptions.printWarnings = false;
+            Result<std::unique_ptr<host::Context>> context = host::Context::create(*device, contextOptions);
+            ASSERT_TRUE(context.ok());
+            for (int64_t n = 0;; ++n) {
+                WrappedVulkan& wrapped = wrappedVulkan();
+                (hostMemory ? wrapped.failBuffer : wrapped.failAllocation) = n;
+                Character c = makeCharacter((*context)->handle(), 2);
+                if (c.result == SUPPLE_OK)
+                    break;
+                ++failures;
+                EXPECT_EQ(c.result, hostMemory ? SUPPLE_ERROR_HOST_MEMORY : SUPPLE_ERROR_DEVICE_MEMORY) << "failure " << n;
+                if (c.asset.id != 0) {
+                    EXPECT_EQ(suppleDestroyAsset((*context)->handle(), c.asset), SUPPLE_OK);
+                }
+                ASSERT_LT(n, 100);
+            }
+            wrappedVulkan();
+            Character c = makeCharacter((*context)->handle(), 2);
+            ASSERT_EQ(c.result, SUPPLE_OK);
+            EXPECT_TRUE((*context)->evaluate({&c.group, 1}).ok());
+        }
+        EXPECT_GT(failures, 4u);
+        EXPECT_EQ(device->validationMessageCount(), 0u) << "something leaked";
+    }
+}
+
+TEST(Contract, AMissingFeatureIsNamed) {
+    WrappedVulkan& wrapped = wrappedVulkan();
+    const std::unique_ptr<host::Device> device = wrappedDevice(false);
+    ASSERT_NE(device, nullptr);
+    wrapped.hideSynchronization2 = true;
+    SuppleRequirements requirements{};
+    requirements.structSize = sizeof(requirements);
+    EXPECT_EQ(suppleQueryRequirements(device->instance(), device->physicalDevice(), &wrappedGetInstanceProcAddr,
+                                      &requirements),
+              SUPPLE_ERROR_UNSUPPORTED);
+    EXPECT_NE(std::string(requirements.reason).find("synchronization2"), std::string::npos) << requirements.reason;
+    const Result<std::unique_ptr<host::Context>> context = host::Context::create(*device);
+    ASSERT_FALSE(context.ok());
+    EXPECT_NE(context.error().message.find("synchronization2"), std::string::npos) << context.error().message;
+}
+
+TEST(Contract, InstancesHaveTheirOwnPoseAndTransform) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    GpuOptions options;
+    options.instanceCount = 3;
+    options.rate = 2;
+    GpuSurface three(*device, kPip, options);
+    options.instanceCount = 1;
+    GpuSurface alone(*device, kPip, options);
+    ASSERT_TRUE(three.valid() && alone.valid());
+    const glm::mat4 transform = glm::rotate(glm::translate(glm::mat4(1.0f), {3.0f, 0.5f, -2.0f}), 0.7f, {0.0f, 1.0f, 0.0f});
+    SuppleContext context = three.context().handle();
+    ASSERT_EQ(suppleSetClipPose(context, three.group(), 0, 0, 0.4), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(context, three.group(), 1, 1, 0.9), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(context, three.group(), 2, 1, 0.9), SUPPLE_OK);
+    ASSERT_EQ(suppleSetTransform(context, three.group(), 2, glm::value_ptr(transform)), SUPPLE_OK);
+    three.evaluate();
+    ASSERT_EQ(suppleSetClipPose(context, alone.group(), 0, 1, 0.9), SUPPLE_OK);
+    alone.evaluate();
+    double moved = 0.0, turned = 0.0;
+    for (uint32_t p = 0; p < three.output().patchCount; ++p)
+        for (uint32_t s = 0; s < three.output().samplesPerPatch; ++s) {
+            const GpuSurface::Vertex &a = alone.vertex(0, p, s), &b = three.vertex(1, p, s), &c = three.vertex(2, p, s);
+            ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << "an instance's bits depend on its neighbours";
+            moved = std::max<double>(moved, glm::length(glm::vec3(transform * glm::vec4(b.position, 1.0f)) - c.position));
+            turned = std::max<double>(turned, glm::length(glm::mat3(transform) * b.normal - c.normal));
+        }
+    EXPECT_LT(moved, 1e-5);
+    EXPECT_LT(turned, 1e-3);
+}
+
+TEST(Contract, MatrixPosesEqualClipPoses) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    const Result<cage::Character> character = cage::readGltfFile(kPip);
+    ASSERT_TRUE(character.ok());
+    std::vector<glm::mat4> nodes(character->skeleton.nodes.size()), joints;
+    skinning::sampleClip(character->skeleton, character->clips[2], 1.1, nodes);
+    skinning::globalTransforms(character->skeleton, nodes, nodes);
+    for (const uint32_t node : character->skin.joints)
+        joints.push_back(nodes[node]);
+    GpuOptions options;
+    options.instanceCount = 2;
+    options.rate = 1;
+    GpuSurface gpu(*device, kPip, options);
+    ASSERT_TRUE(gpu.valid());
+    SuppleContext context = gpu.context().handle();
+    ASSERT_EQ(suppleSetClipPose(context, gpu.group(), 0, 2, 1.1), SUPPLE_OK);
+    ASSERT_EQ(suppleSetMatrixPose(context, gpu.group(), 1, glm::value_ptr(joints[0]), static_cast<uint32_t>(joints.size())),
+              SUPPLE_OK);
+    gpu.evaluate();
+    double worst = 0.0;
+    for (uint32_t v = 0; v < gpu.output().cageVertexCount; ++v)
+        worst = std::max<double>(worst, glm::length(gpu.deformed(0, v) - gpu.deformed(1, v)));
+    EXPECT_LT(worst, 1e-6);
+}
+
+TEST(Contract, DestroyedGroupsLiveUntilTheirFrameIsComplete) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    Result<std::unique_ptr<host::Context>> created = host::Context::create(*device);
+    ASSERT_TRUE(created.ok());
+    SuppleContext context = (*created)->handle();
+    Character a = makeCharacter(context), b = makeCharacter(context);
+    ASSERT_EQ(a.result, SUPPLE_OK);
+    ASSERT_EQ(b.result, SUPPLE_OK);
+    const auto record = [&](VkCommandBuffer commands, SuppleGroup group) {
+        SuppleRecordDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.groups = &group;
+        desc.groupCount = 1;
+        return suppleRecord(context, commands, &desc);
+    };
+    // Destroyed between recording and submission: the command buffer must stay valid.
+    ASSERT_EQ(suppleBeginFrame(context, 1, 0), SUPPLE_OK);
+    ASSERT_TRUE(device
+                    ->submitAndWait([&](VkCommandBuffer commands) {
+                        EXPECT_EQ(record(commands, a.group), SUPPLE_OK);
+                        EXPECT_EQ(suppleDestroyGroup(context, a.group), SUPPLE_OK);
+                        EXPECT_EQ(suppleDestroyAsset(context, a.asset), SUPPLE_OK);
+                    })
+                    .ok());
+    EXPECT_EQ(suppleDestroyGroup(context, a.group), SUPPLE_ERROR_ARGUMENT) << "the handle is dead at once";
+    ASSERT_EQ(suppleBeginFrame(context, 2, 1), SUPPLE_OK);
+    Character c = makeCharacter(context); // may reuse the slot: the generation differs
+    ASSERT_EQ(c.result, SUPPLE_OK);
+    EXPECT_NE(c.group.id, a.group.id);
+    ASSERT_TRUE(device->submitAndWait([&](VkCommandBuffer commands) {
+                          EXPECT_EQ(record(commands, a.group), SUPPLE_ERROR_ARGUMENT);
+                          EXPECT_EQ(record(commands, c.group), SUPPLE_OK);
+                          EXPECT_EQ(record(commands, c.group), SUPPLE_ERROR_ARGUMENT) << "twice in a frame";
+                      })
+                    .ok());
+}
+
+TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    Result<std::unique_ptr<host::Context>> created = host::Context::create(*device);
+    ASSERT_TRUE(created.ok());
+    SuppleContext context = (*created)->handle();
+    Character c = makeCharacter(context);
+    ASSERT_EQ(c.result, SUPPLE_OK);
+    const float nan[16] = {std::nanf("")};
+    EXPECT_EQ(suppleCreateContext(nullptr, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleCreateAsset(nullptr, nullptr, nullptr), SUPPLE_ERROR_ARGUMENT);
+    SuppleAsset asset{};
+    EXPECT_EQ(suppleCreateAsset(context, nullptr, &asset), SUPPLE_ERROR_ARGUMENT);
+    SuppleGroup group{};
+    SuppleGroupDesc groupDesc{};
+    groupDesc.structSize = sizeof(groupDesc);
+    groupDesc.asset = c.asset;
+    groupDesc.instanceCount = 0;
+    EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
+    groupDesc.instanceCount = 1;
+    groupDesc.rate = 65;
+    EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
+    groupDesc.rate = 64;
+    groupDesc.instanceCount = 0x7FFFFFFF;
+    EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_LIMIT);
+    groupDesc.structSize = 4;
+    EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSetClipPose(context, c.group, 1, SUPPLE_BIND_POSE, 0.0), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSetClipPose(context, c.group, 0, 0, 0.0), SUPPLE_ERROR_ARGUMENT) << "it has no clips";
+    EXPECT_EQ(suppleSetTransform(context, c.group, 0, nan), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSetMatrixPose(context, c.group, 0, nan, 1), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSetMatrixPose(context, c.group, 0, nullptr, 1), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleRecord(context, VK_NULL_HANDLE, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleBeginFrame(context, 0, 0), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleBeginFrame(context, 5, 0), SUPPLE_ERROR_ARGUMENT) << "more in flight than the context keeps";
+    EXPECT_EQ(suppleBeginFrame(context, 5, 5), SUPPLE_ERROR_ARGUMENT);
+    SuppleGroupOutput output{};
+    EXPECT_EQ(suppleGetGroupOutput(context, c.group, &output), SUPPLE_ERROR_ARGUMENT) << "structSize is 0";
+    EXPECT_EQ(suppleGetGroupOutput(context, {12345}, &output), SUPPLE_ERROR_ARGUMENT);
+    uint32_t count = 0;
+    EXPECT_EQ(suppleGetTimings(context, nullptr, &count), SUPPLE_NOT_READY);
+    EXPECT_TRUE((*created)->evaluate({&c.group, 1}).ok()) << "and it still works";
+}
+
+TEST(Contract, CagesAreRefusedByName) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    host::ContextOptions contextOptions;
+    contextOptions.printWarnings = false;
+    Result<std::unique_ptr<host::Context>> created = host::Context::create(*device, contextOptions);
+    ASSERT_TRUE(created.ok());
+    const auto refusal = [&](const cage::Cage& cage) {
+        std::vector<uint32_t> counts;
+        for (uint32_t f = 0; f < cage.faceCount(); ++f)
+            counts.push_back(cage.sides(f));
+        SuppleCageDesc cageDesc{};
+        cageDesc.structSize = sizeof(cageDesc);
+        cageDesc.vertexCount = cage.vertexCount();
+        cageDesc.faceCount = cage.faceCount();
+        cageDesc.positions = &cage.positions[0].x;
+        cageDesc.faceVertexCounts = counts.data();
+        cageDesc.faceVertexIndices = cage.faceVertices.data();
+        SuppleAssetDesc assetDesc{};
+        assetDesc.structSize = sizeof(assetDesc);
+        assetDesc.name = "shape.cage";
+        assetDesc.cage = &cageDesc;
+        SuppleAsset asset{};
+        SuppleResult result = suppleCreateAsset((*created)->handle(), &assetDesc, &asset);
+        if (result == SUPPLE_OK) {
+            SuppleGroupDesc groupDesc{};
+            groupDesc.structSize = sizeof(groupDesc);
+            groupDesc.asset = asset;
+            groupDesc.instanceCount = 1;
+            SuppleGroup group{};
+            result = suppleCreateGroup((*created)->handle(), &groupDesc, &group);
+        }
+        EXPECT_EQ(result, SUPPLE_ERROR_ASSET);
+        const Status status = (*created)->check(result, "create");
+        return status.ok() ? std::string() : status.error().message;
+    };
+    cage::Cage flipped = cube();
+    std::swap(flipped.faceVertices[1], flipped.faceVertices[3]);
+    cage::Cage nan = cube();
+    nan.positions[3].y = std::nanf("");
+    cage::Cage range = cube();
+    range.faceVertices[5] = 99;
+    const std::pair<const char*, std::string> cases[] = {
+        {"prism with pentagons", refusal(prism(5))}, {"flipped face", refusal(flipped)},
+        {"NaN position", refusal(nan)},              {"index out of range", refusal(range)}};
+    for (const auto& [name, message] : cases)
+        std::printf("%-22s %s\n", name, message.c_str());
+    EXPECT_NE(cases[0].second.find("5 sides"), std::string::npos) << cases[0].second;
+    EXPECT_NE(cases[1].second.find("edge"), std::string::npos) << cases[1].second;
+    EXPECT_NE(cases[2].second.find("vertex 3"), std::string::npos) << cases[2].second;
+    EXPECT_NE(cases[3].second.find("99"), std::string::npos) << cases[3].second;
+}
+
+TEST(Contract, TimingsNameEveryPassAndNeverBlock) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    Result<std::unique_ptr<host::Context>> created = host::Context::create(*device);
+    ASSERT_TRUE(created.ok());
+    Character c = makeCharacter((*created)->handle());
+    ASSERT_EQ(c.result, SUPPLE_OK);
+    for (int frame = 0; frame < 3; ++frame)
+        ASSERT_TRUE((*created)->evaluate({&c.group, 1}, SUPPLE_RECORD_TIMINGS).ok());
+    uint32_t count = 0;
+    ASSERT_EQ(suppleGetTimings((*created)->handle(), nullptr, &count), SUPPLE_OK);
+    std::vector<SuppleTiming> timings(count);
+    ASSERT_EQ(suppleGetTimings((*created)->handle(), timings.data(), &count), SUPPLE_OK);
+    std::vector<std::string> passes;
+    double end = 0.0;
+    for (const SuppleTiming& t : timings) {
+        passes.emplace_back(t.pass);
+        EXPECT_GE(t.gpuEnd, t.gpuBegin);
+        EXPECT_GE(t.gpuBegin, end) << "passes follow each other";
+        end = t.gpuBegin;
+        EXPECT_GT(t.bytes, 0u);
+    }
+    EXPECT_EQ(passes, (std::vector<std::string>{"upload", "deform", "vertex", "edge", "patch", "evaluate"}));
+}
+
+} // namespace
+} // namespace supple::test

@@ -1,0 +1,30 @@
+// A function table between Supple and the driver: counts what crosses per frame, drops a barrier, fails an allocation, hides
+// a feature. One test at a time uses it; state is reset by wrappedVulkan().
+#pragma once
+
+#include <cstdint>
+#include <vulkan/vulkan.h>
+
+namespace supple::test {
+
+struct WrappedVulkan {
+    // counted
+    uint64_t maps = 0, flushes = 0, updates = 0, invalidates = 0;
+    uint64_t copies = 0, copiedBytes = 0;
+    uint64_t fills = 0, barriers = 0, allocations = 0, mappedBytes = 0;
+    // provoked
+    int64_t dropBarrier = -1;    ///< index of the vkCmdPipelineBarrier2 to leave out
+    int64_t failAllocation = -1; ///< index of the vkAllocateMemory that fails with VK_ERROR_OUT_OF_DEVICE_MEMORY
+    int64_t failBuffer = -1;     ///< index of the vkCreateBuffer that fails with VK_ERROR_OUT_OF_HOST_MEMORY
+    uint64_t buffers = 0;
+    bool hideSynchronization2 = false;
+};
+
+/// The state, reset.
+WrappedVulkan& wrappedVulkan();
+/// The same state, as it is.
+WrappedVulkan& currentWrappedVulkan();
+/// What goes into DeviceOptions::suppleGetInstanceProcAddr.
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL wrappedGetInstanceProcAddr(VkInstance instance, const char* name);
+
+} // namespace supple::test
