@@ -56,37 +56,42 @@ const char* resultName(VkResult result) {
 
 Error vulkanError(VkResult result, const std::string& what) {
     ErrorCode code = ErrorCode::vulkan;
-    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY) {
         code = ErrorCode::hostMemory;
-    else if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+    } else if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
         code = ErrorCode::deviceMemory;
-    else if (result == VK_ERROR_DEVICE_LOST)
+    } else if (result == VK_ERROR_DEVICE_LOST) {
         code = ErrorCode::deviceLost;
+    }
     return {code, what + ": " + resultName(result) + " (" + std::to_string(static_cast<int>(result)) + ")"};
 }
 
 Requirements requirements() {
     Requirements r;
-    for (const NamedFeature12& feature : kFeatures12)
+    for (const NamedFeature12& feature : kFeatures12) {
         r.features12.*feature.member = VK_TRUE;
-    for (const NamedFeature13& feature : kFeatures13)
+    }
+    for (const NamedFeature13& feature : kFeatures13) {
         r.features13.*feature.member = VK_TRUE;
+    }
     return r;
 }
 
 std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDevice,
                                PFN_vkGetInstanceProcAddr getInstanceProcAddr) {
     Functions vk;
-    if (const char* missing = vk.loadInstance(instance, getInstanceProcAddr))
+    if (const char* missing = vk.loadInstance(instance, getInstanceProcAddr)) {
         return std::string("entry point ") + missing + " (is the instance Vulkan 1.1 or later?)";
+    }
 
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     vk.GetPhysicalDeviceProperties2(physicalDevice, &properties);
     const std::string name = std::string(properties.properties.deviceName) + ": ";
-    if (properties.properties.apiVersion < VK_API_VERSION_1_3)
+    if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
         return name + "Vulkan 1.3 (it offers " +
                std::to_string(VK_API_VERSION_MAJOR(properties.properties.apiVersion)) + "." +
                std::to_string(VK_API_VERSION_MINOR(properties.properties.apiVersion)) + ")";
+    }
 
     VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
@@ -94,34 +99,43 @@ std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDev
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     features.pNext = &features12;
     vk.GetPhysicalDeviceFeatures2(physicalDevice, &features);
-    for (const NamedFeature12& feature : kFeatures12)
-        if (features12.*feature.member == VK_FALSE)
+    for (const NamedFeature12& feature : kFeatures12) {
+        if (features12.*feature.member == VK_FALSE) {
             return name + "feature " + feature.name;
-    for (const NamedFeature13& feature : kFeatures13)
-        if (features13.*feature.member == VK_FALSE)
+        }
+    }
+    for (const NamedFeature13& feature : kFeatures13) {
+        if (features13.*feature.member == VK_FALSE) {
             return name + "feature " + feature.name;
+        }
+    }
 
     const VkPhysicalDeviceLimits& limits = properties.properties.limits;
-    if (std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers) < kStorageBuffers)
+    if (std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers) < kStorageBuffers) {
         return name + "limit maxPerStageDescriptorStorageBuffers of " + std::to_string(kStorageBuffers);
-    if (limits.maxPerStageDescriptorSampledImages < kTexelBuffers)
+    }
+    if (limits.maxPerStageDescriptorSampledImages < kTexelBuffers) {
         return name + "limit maxPerStageDescriptorSampledImages of " + std::to_string(kTexelBuffers);
-    if (limits.maxPushConstantsSize < kPushConstantBytes)
+    }
+    if (limits.maxPushConstantsSize < kPushConstantBytes) {
         return name + "limit maxPushConstantsSize of " + std::to_string(kPushConstantBytes);
+    }
 
     for (VkFormat format : {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32_UINT}) {
         VkFormatProperties formatProperties;
         vk.GetPhysicalDeviceFormatProperties(physicalDevice, format, &formatProperties);
-        if ((formatProperties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) == 0)
+        if ((formatProperties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) == 0) {
             return name + "uniform texel buffers of 32-bit formats";
+        }
     }
     return {};
 }
 
 Result<Device> Device::create(const DeviceDesc& desc) {
     const std::string missing = missingRequirement(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr);
-    if (!missing.empty())
+    if (!missing.empty()) {
         return Error{ErrorCode::unsupported, "device lacks " + missing};
+    }
 
     Device d;
     d.physicalDevice = desc.physicalDevice;
@@ -130,8 +144,9 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.allocator = desc.allocator;
     d.debugUtils = desc.debugUtils;
     d.vk.loadInstance(desc.instance, desc.getInstanceProcAddr);
-    if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils))
+    if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils)) {
         return Error{ErrorCode::unsupported, std::string("device lacks entry point ") + name};
+    }
 
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
@@ -143,20 +158,23 @@ Result<Device> Device::create(const DeviceDesc& desc) {
 
     uint32_t familyCount = 0;
     d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, nullptr);
-    if (desc.queueFamily >= familyCount)
+    if (desc.queueFamily >= familyCount) {
         return Error{ErrorCode::argument, "queue family " + std::to_string(desc.queueFamily) + ": the device has " +
                                               std::to_string(familyCount)};
+    }
     std::vector<VkQueueFamilyProperties> families(familyCount);
     d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, families.data());
-    if ((families[desc.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
+    if ((families[desc.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
         return Error{ErrorCode::argument, "queue family " + std::to_string(desc.queueFamily) + ": no compute"};
+    }
     d.timestampValidBits = families[desc.queueFamily].timestampValidBits;
     return d;
 }
 
 void Device::setName(VkObjectType type, uint64_t object, const char* name) const {
-    if (!debugUtils)
+    if (!debugUtils) {
         return;
+    }
     VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
     info.objectType = type;
     info.objectHandle = object;
@@ -165,16 +183,18 @@ void Device::setName(VkObjectType type, uint64_t object, const char* name) const
 }
 
 void Device::beginLabel(VkCommandBuffer commandBuffer, const char* name) const {
-    if (!debugUtils)
+    if (!debugUtils) {
         return;
+    }
     VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
     label.pLabelName = name;
     vk.CmdBeginDebugUtilsLabelEXT(commandBuffer, &label);
 }
 
 void Device::endLabel(VkCommandBuffer commandBuffer) const {
-    if (debugUtils)
+    if (debugUtils) {
         vk.CmdEndDebugUtilsLabelEXT(commandBuffer);
+    }
 }
 
 VkDeviceSize Device::bufferWindow(uint32_t texelBytes) const {

@@ -21,8 +21,9 @@ public:
         return *this;
     }
     ~Handle() {
-        if (handle_ != VK_NULL_HANDLE)
+        if (handle_ != VK_NULL_HANDLE) {
             (device_->vk.*Destroy)(device_->handle, handle_, device_->allocator);
+        }
     }
     [[nodiscard]] T get() const { return handle_; }
 

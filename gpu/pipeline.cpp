@@ -12,15 +12,17 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
     layout.pushBytes = pushBytes;
 
     std::vector<VkDescriptorSetLayoutBinding> entries;
-    for (const Binding& binding : bindings)
+    for (const Binding& binding : bindings) {
         entries.push_back({binding.binding, binding.type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     setInfo.bindingCount = static_cast<uint32_t>(entries.size());
     setInfo.pBindings = entries.data();
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
     VkResult result = device.vk.CreateDescriptorSetLayout(device.handle, &setInfo, device.allocator, &setLayout);
-    if (result != VK_SUCCESS)
+    if (result != VK_SUCCESS) {
         return vulkanError(result, std::string("descriptor set layout of ") + name);
+    }
     layout.setLayout = SetLayoutHandle(device, setLayout);
     device.setName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, reinterpret_cast<uint64_t>(setLayout), name);
 
@@ -32,8 +34,9 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
     info.pPushConstantRanges = &push;
     VkPipelineLayout pipelineLayout = VK_NULL_HANDLE;
     result = device.vk.CreatePipelineLayout(device.handle, &info, device.allocator, &pipelineLayout);
-    if (result != VK_SUCCESS)
+    if (result != VK_SUCCESS) {
         return vulkanError(result, std::string("pipeline layout of ") + name);
+    }
     layout.pipelineLayout = PipelineLayoutHandle(device, pipelineLayout);
     device.setName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<uint64_t>(pipelineLayout), name);
     return layout;
@@ -47,8 +50,9 @@ Result<PipelineHandle> createComputePipeline(const Device& device, const Compute
     moduleInfo.pCode = spirv.data();
     VkShaderModule shader = VK_NULL_HANDLE;
     VkResult result = device.vk.CreateShaderModule(device.handle, &moduleInfo, device.allocator, &shader);
-    if (result != VK_SUCCESS)
+    if (result != VK_SUCCESS) {
         return vulkanError(result, std::string("shader ") + name);
+    }
     const ShaderModuleHandle module(device, shader);
 
     std::vector<Constant> all = {{kLocalSizeConstant, device.mapping.localSize},
@@ -77,8 +81,9 @@ Result<PipelineHandle> createComputePipeline(const Device& device, const Compute
     VkPipeline pipeline = VK_NULL_HANDLE;
     result =
         device.vk.CreateComputePipelines(device.handle, device.pipelineCache, 1, &info, device.allocator, &pipeline);
-    if (result != VK_SUCCESS)
+    if (result != VK_SUCCESS) {
         return vulkanError(result, std::string("pipeline ") + name);
+    }
     device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), name);
     return PipelineHandle(device, pipeline);
 }
@@ -86,8 +91,9 @@ Result<PipelineHandle> createComputePipeline(const Device& device, const Compute
 Result<DescriptorPoolHandle> createDescriptorPool(const Device& device, const ComputeLayout& layout, uint32_t setCount,
                                                   const char* name) {
     uint32_t texelBuffers = 0;
-    for (const Binding& binding : layout.bindings)
+    for (const Binding& binding : layout.bindings) {
         texelBuffers += binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER ? 1 : 0;
+    }
     const uint32_t storageBuffers = static_cast<uint32_t>(layout.bindings.size()) - texelBuffers;
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, storageBuffers * setCount},
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, texelBuffers * setCount}};
@@ -97,8 +103,9 @@ Result<DescriptorPoolHandle> createDescriptorPool(const Device& device, const Co
     info.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;
     const VkResult result = device.vk.CreateDescriptorPool(device.handle, &info, device.allocator, &pool);
-    if (result != VK_SUCCESS)
+    if (result != VK_SUCCESS) {
         return vulkanError(result, std::string("descriptor pool of ") + name);
+    }
     device.setName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, reinterpret_cast<uint64_t>(pool), name);
     return DescriptorPoolHandle(device, pool);
 }
@@ -112,8 +119,9 @@ Result<VkDescriptorSet> allocateSet(const Device& device, const ComputeLayout& l
     info.pSetLayouts = &setLayout;
     VkDescriptorSet set = VK_NULL_HANDLE;
     const VkResult result = device.vk.AllocateDescriptorSets(device.handle, &info, &set);
-    if (result != VK_SUCCESS)
+    if (result != VK_SUCCESS) {
         return vulkanError(result, std::string("descriptor set of ") + name);
+    }
     device.setName(VK_OBJECT_TYPE_DESCRIPTOR_SET, reinterpret_cast<uint64_t>(set), name);
     return set;
 }

@@ -14,31 +14,37 @@ Result<StaticBuffers> StaticBuffers::create(const Device& device, std::span<cons
     buffers.owner_ = &device;
     buffers.count_ = requests.size();
     Result<BufferSet> localSet = BufferSet::create(device, local, MemoryKind::deviceLocal);
-    if (!localSet)
+    if (!localSet) {
         return localSet.error();
+    }
     Result<BufferSet> stagingSet = BufferSet::create(device, staging, MemoryKind::upload);
-    if (!stagingSet)
+    if (!stagingSet) {
         return stagingSet.error();
+    }
     buffers.device_ = std::move(*localSet);
     buffers.staging_ = std::move(*stagingSet);
     for (size_t i = 0; i < requests.size(); ++i) {
-        if (requests[i].bytes.empty())
+        if (requests[i].bytes.empty()) {
             continue;
+        }
         std::memcpy(buffers.staging_.mapped(i), requests[i].bytes.data(), requests[i].bytes.size());
         const Status flushed = buffers.staging_.flush(i, 0, requests[i].bytes.size());
-        if (!flushed)
+        if (!flushed) {
             return flushed.error();
+        }
     }
     return buffers;
 }
 
 VkDeviceSize StaticBuffers::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
-    if (recorded_)
+    if (recorded_) {
         return 0;
+    }
     VkDeviceSize bytes = 0;
     for (size_t i = 0; i < count_; ++i) {
-        if (device_.size(i) == 0)
+        if (device_.size(i) == 0) {
             continue;
+        }
         const VkBufferCopy copy{0, 0, device_.size(i)};
         owner_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(i), device_.buffer(i), 1, &copy);
         bytes += copy.size;
@@ -49,8 +55,9 @@ VkDeviceSize StaticBuffers::recordUpload(VkCommandBuffer commandBuffer, uint64_t
 }
 
 void StaticBuffers::releaseStaging(uint64_t completedFrame) {
-    if (!recorded_ || released_ || recordedFrame_ > completedFrame)
+    if (!recorded_ || released_ || recordedFrame_ > completedFrame) {
         return;
+    }
     staging_ = BufferSet();
     released_ = true;
 }

@@ -58,8 +58,9 @@ SuppleResult refuse(const Context& context, const char* function, const char* re
 /// Runs an entry point's body. Out of memory is the one thing the standard library throws at us.
 template <class F>
 SuppleResult guarded(SuppleContext handle, const char* function, F&& body) noexcept {
-    if (handle == nullptr || handle->context == nullptr)
+    if (handle == nullptr || handle->context == nullptr) {
         return SUPPLE_ERROR_ARGUMENT;
+    }
     try {
         return body(*handle->context);
     } catch (const std::bad_alloc&) {
@@ -77,8 +78,9 @@ template <class Body>
 SuppleResult withGroup(SuppleContext handle, SuppleGroup group, const char* function, Body&& body) noexcept {
     return guarded(handle, function, [&](Context& context) {
         const std::shared_ptr<Group>& found = context.groups.find(group.id);
-        if (found == nullptr)
+        if (found == nullptr) {
             return refuse(context, function, "stale or foreign group handle");
+        }
         return body(context, *found);
     });
 }
@@ -87,10 +89,11 @@ template <class Body>
 SuppleResult withInstance(SuppleContext handle, SuppleGroup group, uint32_t instance, const char* function,
                           Body&& body) noexcept {
     return withGroup(handle, group, function, [&](Context& context, Group& found) {
-        if (instance >= found.instanceCount())
+        if (instance >= found.instanceCount()) {
             return report(context,
                           {ErrorCode::argument, std::string(function) + ": instance " + std::to_string(instance) +
                                                     " of " + std::to_string(found.instanceCount())});
+        }
         return body(context, found);
     });
 }
@@ -142,8 +145,9 @@ const char* suppleResultString(SuppleResult result) {
 SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physicalDevice,
                                      PFN_vkGetInstanceProcAddr getInstanceProcAddr, SuppleRequirements* out) {
     if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr ||
-        out == nullptr || out->structSize != sizeof(SuppleRequirements))
+        out == nullptr || out->structSize != sizeof(SuppleRequirements)) {
         return SUPPLE_ERROR_ARGUMENT;
+    }
     try {
         const supple::gpu::Requirements requirements = supple::gpu::requirements();
         out->apiVersion = requirements.apiVersion;
@@ -158,13 +162,16 @@ SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physi
 }
 
 SuppleResult suppleCreateContext(const SuppleContextDesc* desc, SuppleContext* out) {
-    if (out != nullptr)
+    if (out != nullptr) {
         *out = nullptr;
-    if (desc == nullptr || out == nullptr || desc->structSize != sizeof(SuppleContextDesc))
+    }
+    if (desc == nullptr || out == nullptr || desc->structSize != sizeof(SuppleContextDesc)) {
         return SUPPLE_ERROR_ARGUMENT;
+    }
     const auto log = [&](const std::string& text) {
-        if (desc->log != nullptr)
+        if (desc->log != nullptr) {
             desc->log(SUPPLE_SEVERITY_ERROR, text.c_str(), desc->logUser);
+        }
     };
     try {
         if (desc->instance == VK_NULL_HANDLE || desc->physicalDevice == VK_NULL_HANDLE ||
@@ -194,18 +201,22 @@ void suppleDestroyContext(SuppleContext context) {
 
 SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* desc, SuppleAsset* out) {
     return guarded(handle, "suppleCreateAsset", [&](Context& context) {
-        if (out == nullptr)
+        if (out == nullptr) {
             return refuse(context, "suppleCreateAsset", "out is null");
+        }
         out->id = 0;
-        if (desc == nullptr || desc->structSize != sizeof(SuppleAssetDesc))
+        if (desc == nullptr || desc->structSize != sizeof(SuppleAssetDesc)) {
             return refuse(context, "suppleCreateAsset", "desc is null or its structSize is wrong");
-        if ((desc->bytes == nullptr) == (desc->cage == nullptr))
+        }
+        if ((desc->bytes == nullptr) == (desc->cage == nullptr)) {
             return refuse(context, "suppleCreateAsset", "give either bytes or cage");
+        }
         const std::string name = desc->name != nullptr ? desc->name : "asset";
         supple::Result<supple::cage::Character> character = [&]() -> supple::Result<supple::cage::Character> {
             if (desc->cage != nullptr) {
-                if (desc->cage->structSize != sizeof(SuppleCageDesc))
+                if (desc->cage->structSize != sizeof(SuppleCageDesc)) {
                     return Error{ErrorCode::argument, "suppleCreateAsset: cage->structSize is wrong"};
+                }
                 return supple::runtime::characterFromArrays(*desc->cage, name);
             }
             supple::cage::GltfOptions options;
@@ -213,11 +224,13 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* desc
             return supple::cage::readGltf({static_cast<const std::byte*>(desc->bytes), desc->byteCount}, name,
                                           desc->baseDirectory != nullptr ? desc->baseDirectory : "", options);
         }();
-        if (!character)
+        if (!character) {
             return report(context, character.error());
+        }
         supple::Result<uint64_t> id = context.createAsset(std::move(*character));
-        if (!id)
+        if (!id) {
             return report(context, id.error());
+        }
         out->id = *id;
         return SUPPLE_OK;
     });
@@ -225,8 +238,9 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* desc
 
 SuppleResult suppleDestroyAsset(SuppleContext handle, SuppleAsset asset) {
     return guarded(handle, "suppleDestroyAsset", [&](Context& context) {
-        if (context.assets.remove(asset.id) == nullptr)
+        if (context.assets.remove(asset.id) == nullptr) {
             return refuse(context, "suppleDestroyAsset", "stale or foreign asset handle");
+        }
         return SUPPLE_OK;
     });
 }
@@ -234,10 +248,12 @@ SuppleResult suppleDestroyAsset(SuppleContext handle, SuppleAsset asset) {
 SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleAssetInfo* out) {
     return guarded(handle, "suppleGetAssetInfo", [&](Context& context) {
         const auto& found = context.assets.find(asset.id);
-        if (found == nullptr)
+        if (found == nullptr) {
             return refuse(context, "suppleGetAssetInfo", "stale or foreign asset handle");
-        if (out == nullptr || out->structSize != sizeof(SuppleAssetInfo))
+        }
+        if (out == nullptr || out->structSize != sizeof(SuppleAssetInfo)) {
             return refuse(context, "suppleGetAssetInfo", "out is null or its structSize is wrong");
+        }
         const supple::cage::Character& character = found->character;
         out->cageVertexCount = character.cage.vertexCount();
         out->faceCount = character.cage.faceCount();
@@ -260,12 +276,15 @@ SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleA
 SuppleResult suppleGetClipInfo(SuppleContext handle, SuppleAsset asset, uint32_t clip, SuppleClipInfo* out) {
     return guarded(handle, "suppleGetClipInfo", [&](Context& context) {
         const auto& found = context.assets.find(asset.id);
-        if (found == nullptr)
+        if (found == nullptr) {
             return refuse(context, "suppleGetClipInfo", "stale or foreign asset handle");
-        if (out == nullptr || out->structSize != sizeof(SuppleClipInfo))
+        }
+        if (out == nullptr || out->structSize != sizeof(SuppleClipInfo)) {
             return refuse(context, "suppleGetClipInfo", "out is null or its structSize is wrong");
-        if (clip >= found->character.clips.size())
+        }
+        if (clip >= found->character.clips.size()) {
             return refuse(context, "suppleGetClipInfo", "no such clip");
+        }
         out->name = found->character.clips[clip].name.c_str();
         out->duration = found->character.clips[clip].duration;
         return SUPPLE_OK;
@@ -274,24 +293,31 @@ SuppleResult suppleGetClipInfo(SuppleContext handle, SuppleAsset asset, uint32_t
 
 SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* desc, SuppleGroup* out) {
     return guarded(handle, "suppleCreateGroup", [&](Context& context) {
-        if (out == nullptr)
+        if (out == nullptr) {
             return refuse(context, "suppleCreateGroup", "out is null");
+        }
         out->id = 0;
-        if (desc == nullptr || desc->structSize != sizeof(SuppleGroupDesc))
+        if (desc == nullptr || desc->structSize != sizeof(SuppleGroupDesc)) {
             return refuse(context, "suppleCreateGroup", "desc is null or its structSize is wrong");
-        if (desc->instanceCount == 0)
+        }
+        if (desc->instanceCount == 0) {
             return refuse(context, "suppleCreateGroup", "instanceCount is 0");
-        if (desc->rate > SUPPLE_MAX_RATE)
+        }
+        if (desc->rate > SUPPLE_MAX_RATE) {
             return refuse(context, "suppleCreateGroup", "rate must be 1..64");
-        if (desc->scheme != SUPPLE_SCHEME_AUTO && desc->scheme != SUPPLE_SCHEME_PREP)
+        }
+        if (desc->scheme != SUPPLE_SCHEME_AUTO && desc->scheme != SUPPLE_SCHEME_PREP) {
             return refuse(context, "suppleCreateGroup", "no such scheme");
+        }
         if (static_cast<uint32_t>(desc->vertexFormat) > SUPPLE_VERTEX_24 ||
             static_cast<uint32_t>(desc->tangentMode) > SUPPLE_TANGENTS_PRINTED ||
-            static_cast<uint32_t>(desc->cornerRule) > SUPPLE_CORNERS_SMOOTH)
+            static_cast<uint32_t>(desc->cornerRule) > SUPPLE_CORNERS_SMOOTH) {
             return refuse(context, "suppleCreateGroup", "no such vertexFormat, tangentMode or cornerRule");
+        }
         supple::Result<uint64_t> id = context.createGroup(*desc);
-        if (!id)
+        if (!id) {
             return report(context, id.error());
+        }
         out->id = *id;
         return SUPPLE_OK;
     });
@@ -310,10 +336,12 @@ SuppleResult suppleSetClipPose(SuppleContext handle, SuppleGroup group, uint32_t
             found.setBindPose(instance);
             return SUPPLE_OK;
         }
-        if (clip >= found.asset().character.clips.size())
+        if (clip >= found.asset().character.clips.size()) {
             return refuse(context, "suppleSetClipPose", "no such clip");
-        if (!std::isfinite(time))
+        }
+        if (!std::isfinite(time)) {
             return refuse(context, "suppleSetClipPose", "time is not finite");
+        }
         found.setClipPose(instance, clip, time);
         return SUPPLE_OK;
     });
@@ -322,10 +350,12 @@ SuppleResult suppleSetClipPose(SuppleContext handle, SuppleGroup group, uint32_t
 SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleGroup group, uint32_t instance, const float* jointMatrices,
                                  uint32_t jointCount) {
     return withInstance(handle, group, instance, "suppleSetMatrixPose", [&](Context& context, Group& found) {
-        if (jointMatrices == nullptr || jointCount != found.jointCount())
+        if (jointMatrices == nullptr || jointCount != found.jointCount()) {
             return refuse(context, "suppleSetMatrixPose", "jointMatrices is null or jointCount is not the skin's");
-        if (!finite(jointMatrices, 16 * size_t{jointCount}))
+        }
+        if (!finite(jointMatrices, 16 * size_t{jointCount})) {
             return refuse(context, "suppleSetMatrixPose", "a joint matrix is not finite");
+        }
         found.setMatrixPose(instance, jointMatrices);
         return SUPPLE_OK;
     });
@@ -333,8 +363,9 @@ SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleGroup group, uint32
 
 SuppleResult suppleSetTransform(SuppleContext handle, SuppleGroup group, uint32_t instance, const float* transform) {
     return withInstance(handle, group, instance, "suppleSetTransform", [&](Context& context, Group& found) {
-        if (transform == nullptr || !finite(transform, 16))
+        if (transform == nullptr || !finite(transform, 16)) {
             return refuse(context, "suppleSetTransform", "transform is null or not finite");
+        }
         found.setTransform(instance, glm::make_mat4(transform));
         return SUPPLE_OK;
     });
@@ -349,12 +380,15 @@ SuppleResult suppleBeginFrame(SuppleContext handle, uint64_t frame, uint64_t com
 
 SuppleResult suppleRecord(SuppleContext handle, VkCommandBuffer commandBuffer, const SuppleRecordDesc* desc) {
     return guarded(handle, "suppleRecord", [&](Context& context) {
-        if (commandBuffer == VK_NULL_HANDLE)
+        if (commandBuffer == VK_NULL_HANDLE) {
             return refuse(context, "suppleRecord", "commandBuffer is null");
-        if (desc == nullptr || desc->structSize != sizeof(SuppleRecordDesc))
+        }
+        if (desc == nullptr || desc->structSize != sizeof(SuppleRecordDesc)) {
             return refuse(context, "suppleRecord", "desc is null or its structSize is wrong");
-        if (desc->groupCount > 0 && desc->groups == nullptr)
+        }
+        if (desc->groupCount > 0 && desc->groups == nullptr) {
             return refuse(context, "suppleRecord", "groups is null");
+        }
         const supple::Status status = context.record(commandBuffer, *desc);
         return status ? SUPPLE_OK : report(context, status.error());
     });
@@ -362,8 +396,9 @@ SuppleResult suppleRecord(SuppleContext handle, VkCommandBuffer commandBuffer, c
 
 SuppleResult suppleGetGroupOutput(SuppleContext handle, SuppleGroup group, SuppleGroupOutput* out) {
     return withGroup(handle, group, "suppleGetGroupOutput", [&](Context& context, Group& found) {
-        if (out == nullptr || out->structSize != sizeof(SuppleGroupOutput))
+        if (out == nullptr || out->structSize != sizeof(SuppleGroupOutput)) {
             return refuse(context, "suppleGetGroupOutput", "out is null or its structSize is wrong");
+        }
         *out = found.output();
         return SUPPLE_OK;
     });
@@ -371,8 +406,9 @@ SuppleResult suppleGetGroupOutput(SuppleContext handle, SuppleGroup group, Suppl
 
 SuppleResult suppleGetPatches(SuppleContext handle, SuppleGroup group, SupplePatchInfo* out, uint32_t* count) {
     return withGroup(handle, group, "suppleGetPatches", [&](Context& context, Group& found) {
-        if (count == nullptr)
+        if (count == nullptr) {
             return refuse(context, "suppleGetPatches", "count is null");
+        }
         const auto& patches = found.tables().patches;
         const auto total = static_cast<uint32_t>(patches.size());
         const uint32_t n = out == nullptr ? 0 : std::min(*count, total);
@@ -388,8 +424,9 @@ SuppleResult suppleGetPatches(SuppleContext handle, SuppleGroup group, SupplePat
 
 SuppleResult suppleGetTimings(SuppleContext handle, SuppleTiming* out, uint32_t* count) {
     return guarded(handle, "suppleGetTimings", [&](Context& context) {
-        if (count == nullptr)
+        if (count == nullptr) {
             return refuse(context, "suppleGetTimings", "count is null");
+        }
         const std::vector<SuppleTiming>& latest = context.timings.latest();
         if (latest.empty()) {
             *count = 0;

@@ -12,8 +12,9 @@ constexpr VkBufferUsageFlags kTableUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 
 Status checkTableSize(const gpu::Device& device, const std::string& name, const char* table, VkDeviceSize bytes) {
-    if (bytes <= device.bufferWindow(16) && bytes / 4 <= device.limits.maxTexelBufferElements)
+    if (bytes <= device.bufferWindow(16) && bytes / 4 <= device.limits.maxTexelBufferElements) {
         return success();
+    }
     return Error{ErrorCode::limit, name + ": " + table + " of " + std::to_string(bytes) +
                                        " bytes exceed the device's storage-buffer range"};
 }
@@ -23,18 +24,21 @@ Status checkTableSize(const gpu::Device& device, const std::string& name, const 
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Character character) {
     auto asset = std::make_shared<Asset>();
     Result<cage::Topology> topology = cage::buildTopology(character.cage);
-    if (!topology)
+    if (!topology) {
         return Error{ErrorCode::asset, character.name + ": " + topology.error().message};
+    }
     asset->topology = std::move(*topology);
 
     const std::vector<uint32_t> table = skinning::buildDeformTable(character.cage, character.weights);
     const Status fits = checkTableSize(device, character.name, "skin tables", table.size() * 4);
-    if (!fits)
+    if (!fits) {
         return fits.error();
+    }
     const gpu::StaticRequest request{"supple deform table", kTableUsage, std::as_bytes(std::span(table))};
     Result<gpu::StaticBuffers> buffers = gpu::StaticBuffers::create(device, {&request, 1});
-    if (!buffers)
+    if (!buffers) {
         return buffers.error();
+    }
     asset->buffers = std::move(*buffers);
     asset->character = std::move(character);
     return asset;
@@ -42,24 +46,29 @@ Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Ch
 
 Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device,
                                                        const surface::prep::Options& options) {
-    for (const std::shared_ptr<SchemeTables>& scheme : schemes)
-        if (scheme->options.tangentMode == options.tangentMode && scheme->options.cornerRule == options.cornerRule)
+    for (const std::shared_ptr<SchemeTables>& scheme : schemes) {
+        if (scheme->options.tangentMode == options.tangentMode && scheme->options.cornerRule == options.cornerRule) {
             return scheme;
+        }
+    }
     const Status accepted = surface::prep::accepts(character.cage, topology);
-    if (!accepted)
+    if (!accepted) {
         return Error{accepted.error().code, character.name + ": " + accepted.error().message};
+    }
 
     auto scheme = std::make_shared<SchemeTables>();
     scheme->options = options;
     scheme->tables = surface::prep::buildTables(character.cage, topology, options);
     std::vector<uint32_t>& words = scheme->tables.words;
     const Status fits = checkTableSize(device, character.name, "p-rep tables", words.size() * 4);
-    if (!fits)
+    if (!fits) {
         return fits.error();
+    }
     const gpu::StaticRequest request{"supple p-rep tables", kTableUsage, std::as_bytes(std::span(words))};
     Result<gpu::StaticBuffers> buffers = gpu::StaticBuffers::create(device, {&request, 1});
-    if (!buffers)
+    if (!buffers) {
         return buffers.error();
+    }
     scheme->buffers = std::move(*buffers);
     words = {};
     schemes.push_back(scheme);
@@ -68,10 +77,12 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
 
 Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const std::string& name) {
     const auto refuse = [&](const std::string& reason) { return Error{ErrorCode::asset, name + ": " + reason}; };
-    if (desc.positions == nullptr || desc.faceVertexCounts == nullptr || desc.faceVertexIndices == nullptr)
+    if (desc.positions == nullptr || desc.faceVertexCounts == nullptr || desc.faceVertexIndices == nullptr) {
         return Error{ErrorCode::argument, name + ": positions, faceVertexCounts or faceVertexIndices is null"};
-    if (desc.vertexCount == 0 || desc.faceCount == 0)
+    }
+    if (desc.vertexCount == 0 || desc.faceCount == 0) {
         return refuse("no vertices or no faces");
+    }
 
     cage::Character character;
     character.name = name;
@@ -82,8 +93,9 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
     for (uint32_t v = 0; v < desc.vertexCount; ++v) {
         for (int axis = 0; axis < 3; ++axis) {
             const float x = desc.positions[3 * size_t{v} + static_cast<size_t>(axis)];
-            if (!std::isfinite(x))
+            if (!std::isfinite(x)) {
                 return refuse("vertex " + std::to_string(v) + ": position is not finite");
+            }
             cage.positions[v][axis] = x;
         }
         cage.sourceVertices[v] = v;
@@ -92,14 +104,17 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
     uint64_t corners = 0;
     for (uint32_t f = 0; f < desc.faceCount; ++f) {
         corners += desc.faceVertexCounts[f];
-        if (corners > 0x7FFFFFFFu)
+        if (corners > 0x7FFFFFFFu) {
             return refuse("face " + std::to_string(f) + ": more than 2^31 corners");
+        }
         cage.faceStarts.push_back(static_cast<uint32_t>(corners));
     }
     cage.faceVertices.assign(desc.faceVertexIndices, desc.faceVertexIndices + corners);
-    if (desc.cornerUvs != nullptr)
-        for (uint64_t c = 0; c < corners; ++c)
+    if (desc.cornerUvs != nullptr) {
+        for (uint64_t c = 0; c < corners; ++c) {
             cage.cornerUvs.emplace_back(desc.cornerUvs[2 * c], desc.cornerUvs[2 * c + 1]);
+        }
+    }
 
     character.skeleton.nodes.emplace_back();
     character.skeleton.nodes[0].name = name;
@@ -108,8 +123,9 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
     character.skin.inverseBinds = {glm::mat4(1.0f)};
     character.weights.starts.resize(size_t{desc.vertexCount} + 1);
     character.weights.influences.resize(desc.vertexCount, {0, 1.0f});
-    for (uint32_t v = 0; v <= desc.vertexCount; ++v)
+    for (uint32_t v = 0; v <= desc.vertexCount; ++v) {
         character.weights.starts[v] = v;
+    }
     character.sourceVertexCount = desc.vertexCount;
     return character;
 }

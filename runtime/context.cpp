@@ -7,7 +7,7 @@
 namespace supple::runtime {
 
 Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc,
-                                                  const surface::prep::Shaders& prepShaders) {
+                                                 const surface::prep::Shaders& prepShaders) {
     auto context = std::make_unique<Context>();
     context->log_ = desc.log;
     context->logUser_ = desc.logUser;
@@ -26,47 +26,55 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc,
                          : desc.mapping == SUPPLE_MAPPING_WIDE ? gpu::MappingChoice::wide
                                                                : gpu::MappingChoice::automatic;
     Result<gpu::Device> device = gpu::Device::create(deviceDesc);
-    if (!device)
+    if (!device) {
         return device.error();
+    }
     context->device_ = std::make_unique<gpu::Device>(std::move(*device));
     const gpu::Device& d = *context->device_;
 
     Result<skinning::DeformPass> deform = skinning::DeformPass::create(d);
-    if (!deform)
+    if (!deform) {
         return deform.error();
+    }
     context->deform_ = std::move(*deform);
     Result<surface::prep::Passes> prep = surface::prep::Passes::create(d, prepShaders);
-    if (!prep)
+    if (!prep) {
         return prep.error();
+    }
     context->prep_ = std::move(*prep);
 
     const std::vector<float> pairs = surface::parameterPairs();
     const gpu::StaticRequest request{"supple parameter pairs", VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                      std::as_bytes(std::span(pairs))};
     Result<gpu::StaticBuffers> pairBuffers = gpu::StaticBuffers::create(d, {&request, 1});
-    if (!pairBuffers)
+    if (!pairBuffers) {
         return pairBuffers.error();
+    }
     context->pairs_ = std::move(*pairBuffers);
 
     const Status timings = context->timings.create(d, context->framesInFlight_);
-    if (!timings)
+    if (!timings) {
         return timings.error();
+    }
     return context;
 }
 
 void Context::log(SuppleSeverity severity, const std::string& text) const {
-    if (log_ != nullptr)
+    if (log_ != nullptr) {
         log_(severity, text.c_str(), logUser_);
+    }
 }
 
 Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
-    if (frame <= frame_)
+    if (frame <= frame_) {
         return Error{ErrorCode::argument,
                      "frame " + std::to_string(frame) + " does not rise above frame " + std::to_string(frame_)};
-    if (completedFrame >= frame || frame - completedFrame > framesInFlight_)
+    }
+    if (completedFrame >= frame || frame - completedFrame > framesInFlight_) {
         return Error{ErrorCode::argument, "frame " + std::to_string(frame) + " with completed frame " +
                                               std::to_string(completedFrame) + ": the context keeps " +
                                               std::to_string(framesInFlight_) + " frames in flight"};
+    }
     frame_ = frame;
     retire(completedFrame);
     timings.beginFrame(frame, completedFrame);
@@ -81,29 +89,34 @@ void Context::retire(uint64_t completedFrame) {
 }
 
 Result<uint64_t> Context::createAsset(cage::Character character) {
-    for (const std::string& warning : character.warnings)
+    for (const std::string& warning : character.warnings) {
         log(SUPPLE_SEVERITY_WARNING, character.name + ": " + warning);
+    }
     Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(character));
-    if (!asset)
+    if (!asset) {
         return asset.error();
+    }
     return assets.insert(std::move(*asset));
 }
 
 Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     const std::shared_ptr<Asset>& asset = assets.find(desc.asset.id);
-    if (asset == nullptr)
+    if (asset == nullptr) {
         return Error{ErrorCode::argument, "suppleCreateGroup: stale or foreign asset handle"};
+    }
     const GroupShared shared{device_.get(), &deform_, &prep_, pairs_.buffer(0), pairs_.size(0), framesInFlight_};
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
-    if (!group)
+    if (!group) {
         return group.error();
+    }
     return groups.insert(std::move(*group));
 }
 
 bool Context::destroyGroup(uint64_t id) {
     std::shared_ptr<Group> group = groups.remove(id);
-    if (group == nullptr)
+    if (group == nullptr) {
         return false;
+    }
     retired_.push_back(std::move(group)); // freed by the next beginFrame that may
     return true;
 }

@@ -13,18 +13,23 @@ constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 } // namespace
 
 Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc) {
-    if (frame_ == 0)
+    if (frame_ == 0) {
         return Error{ErrorCode::argument, "suppleRecord before suppleBeginFrame"};
+    }
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
         const std::shared_ptr<Group>& group = groups.find(desc.groups[g].id);
-        if (group == nullptr)
+        if (group == nullptr) {
             return Error{ErrorCode::argument, "suppleRecord: group " + std::to_string(g) + ": stale or foreign handle"};
-        if (group->lastRecordedFrame() == frame_)
+        }
+        if (group->lastRecordedFrame() == frame_) {
             return Error{ErrorCode::argument, "suppleRecord: group " + std::to_string(g) +
                                                   ": recorded twice in frame " + std::to_string(frame_)};
-        for (uint32_t h = 0; h < g; ++h)
-            if (desc.groups[h].id == desc.groups[g].id)
+        }
+        for (uint32_t h = 0; h < g; ++h) {
+            if (desc.groups[h].id == desc.groups[g].id) {
                 return Error{ErrorCode::argument, "suppleRecord: group " + std::to_string(g) + ": listed twice"};
+            }
+        }
     }
 
     const gpu::Device& device = *device_;
@@ -36,15 +41,18 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             Group& group = *groups.find(desc.groups[g].id);
             timings.beginPass();
             const Group::PassCost cost = recordGroup(group);
-            if (cost.bytes > 0)
+            if (cost.bytes > 0) {
                 timings.endPass(commandBuffer, name, g, cost.points, cost.bytes);
+            }
         }
         device.endLabel(commandBuffer);
     };
     const auto any = [&](auto&& predicate) {
-        for (uint32_t g = 0; g < desc.groupCount; ++g)
-            if (predicate(*groups.find(desc.groups[g].id)))
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            if (predicate(*groups.find(desc.groups[g].id))) {
                 return true;
+            }
+        }
         return false;
     };
     const auto computeBarrier = [&] {
@@ -63,15 +71,17 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     (void)pairBytes;
     pass("upload", [&](Group& group) {
         Result<Group::PassCost> cost = group.recordUpload(commandBuffer, frame_);
-        if (cost)
+        if (cost) {
             return *cost;
+        }
         status = cost.error();
         return Group::PassCost{};
     });
     gpu::memoryBarrier(device, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {kCompute, kRead | kWrite});
 
-    if (any([](Group& group) { return group.attributesPending(); }))
+    if (any([](Group& group) { return group.attributesPending(); })) {
         pass("attributes", [&](Group& group) { return group.recordAttributes(commandBuffer); });
+    }
     pass("deform", [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();
     pass("vertex", [&](Group& group) { return group.recordVertex(commandBuffer); });
@@ -80,15 +90,17 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         pass("edge", [&](Group& group) { return group.recordEdge(commandBuffer); });
         computeBarrier();
     }
-    if (any([](Group& group) { return group.writesPatches(); }))
+    if (any([](Group& group) { return group.writesPatches(); })) {
         pass("patch", [&](Group& group) {
             return group.writesPatches() ? group.recordPatch(commandBuffer) : Group::PassCost{};
         });
+    }
     pass("evaluate", [&](Group& group) { return group.recordEvaluate(commandBuffer); });
 
-    if (desc.after.stages != 0)
+    if (desc.after.stages != 0) {
         gpu::memoryBarrier(device, commandBuffer, {kCompute | kTransfer, kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT},
                            {desc.after.stages, desc.after.access});
+    }
     device.endLabel(commandBuffer);
     return status;
 }

@@ -57,8 +57,9 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     options.cornerRule =
         desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth : surface::prep::CornerRule::sharp;
     Result<std::shared_ptr<SchemeTables>> scheme = asset->tablesFor(*shared.device, options);
-    if (!scheme)
+    if (!scheme) {
         return scheme.error();
+    }
     group->scheme_ = *scheme;
     group->asset_ = std::move(asset);
     group->instanceCount_ = desc.instanceCount;
@@ -69,10 +70,11 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     const uint64_t vertices = samples * group->scheme_->tables.patches.size();
     // Vertex indices are 32 bits on the device.
     if ((vertices + kVertexPadding) * desc.instanceCount > 0xFFFFFFFFull ||
-        uint64_t{group->scheme_->tables.poolStride} * desc.instanceCount > 0xFFFFFFFFull)
+        uint64_t{group->scheme_->tables.poolStride} * desc.instanceCount > 0xFFFFFFFFull) {
         return Error{ErrorCode::limit, group->asset_->character.name + ": " + std::to_string(desc.instanceCount) +
                                            " instances at rate " + std::to_string(rate) +
                                            " need more than 2^32 surface vertices"};
+    }
     group->evaluation_.rate = rate;
     group->evaluation_.vertex24 = desc.vertexFormat == SUPPLE_VERTEX_24;
     group->evaluation_.verticesPerInstance = roundUp(static_cast<uint32_t>(vertices), kVertexPadding);
@@ -81,14 +83,17 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->transforms_.assign(desc.instanceCount, glm::mat4(1.0f));
     group->palettes_.resize(size_t{desc.instanceCount} * group->jointCount_);
     group->scratch_.resize(group->asset_->character.skeleton.nodes.size());
-    for (uint32_t instance = 0; instance < desc.instanceCount; ++instance)
+    for (uint32_t instance = 0; instance < desc.instanceCount; ++instance) {
         group->setBindPose(instance);
+    }
 
     Status status = group->createBuffers(desc);
-    if (status)
+    if (status) {
         status = group->createSets();
-    if (!status)
+    }
+    if (!status) {
         return Error{status.error().code, group->asset_->character.name + ": " + status.error().message};
+    }
     group->fillOutput(desc);
     return group;
 }
@@ -120,31 +125,36 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
                              (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0 ? patches * samples * 16 : 0,
                              kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
     attributesPending_ = requests[kAttributes].size > 0;
-    if (requests[kAttributes].size > device.limits.maxStorageBufferRange)
+    if (requests[kAttributes].size > device.limits.maxStorageBufferRange) {
         return Error{ErrorCode::limit, "surface attributes exceed the device's storage-buffer range"};
+    }
     Result<gpu::BufferSet> buffers = gpu::BufferSet::create(device, requests, gpu::MemoryKind::deviceLocal);
-    if (!buffers)
+    if (!buffers) {
         return buffers.error();
+    }
     buffers_ = std::move(*buffers);
 
     const gpu::BufferRequest staging{"supple palette staging", requests[kPalettes].size * shared_.framesInFlight,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     Result<gpu::BufferSet> stagingSet = gpu::BufferSet::create(device, {&staging, 1}, gpu::MemoryKind::upload);
-    if (!stagingSet)
+    if (!stagingSet) {
         return stagingSet.error();
+    }
     staging_ = std::move(*stagingSet);
 
     const std::vector<uint16_t> indices = surface::quadGridIndices(evaluation_.rate);
     std::vector<VkDrawIndexedIndirectCommand> indirect;
-    for (const surface::prep::DrawRange& drawRange : tables.drawRanges)
+    for (const surface::prep::DrawRange& drawRange : tables.drawRanges) {
         indirect.push_back({static_cast<uint32_t>(indices.size()), drawRange.patchCount * instanceCount_, 0, 0, 0});
+    }
     const gpu::StaticRequest staticRequests[] = {
         {"supple grid indices", kOutput | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(std::span(indices))},
         {"supple indirect arguments", kOutput | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
          std::as_bytes(std::span(indirect))}};
     Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(device, staticRequests);
-    if (!statics)
+    if (!statics) {
         return statics.error();
+    }
     static_ = std::move(*statics);
     return success();
 }
@@ -163,13 +173,15 @@ Status Group::createSets() {
     // As many instances a window as every bound range can hold.
     const VkDeviceSize texelLimit = device.bufferWindow(16), storageLimit = device.limits.maxStorageBufferRange;
     VkDeviceSize deformFit = texelLimit / std::max(paletteBytes, cageBytes);
-    if (deformFit < instanceCount_)
+    if (deformFit < instanceCount_) {
         deformFit = deformFit / kDeformWindowMultiple * kDeformWindowMultiple;
+    }
     const VkDeviceSize prepFit = std::min({texelLimit / std::max(cageBytes, poolBytes), storageLimit / surfaceBytes,
                                            patchBytes > 0 ? storageLimit / patchBytes : VkDeviceSize{instanceCount_}});
-    if (deformFit == 0 || prepFit == 0)
+    if (deformFit == 0 || prepFit == 0) {
         return Error{ErrorCode::limit, "one instance exceeds the device's storage-buffer range of " +
                                            std::to_string(storageLimit) + " bytes"};
+    }
     const auto deformWindow = static_cast<uint32_t>(std::min<VkDeviceSize>(deformFit, instanceCount_));
     const auto prepWindow = static_cast<uint32_t>(std::min<VkDeviceSize>(prepFit, instanceCount_));
     const uint32_t deformCount = (instanceCount_ + deformWindow - 1) / deformWindow;
@@ -190,8 +202,9 @@ Status Group::createSets() {
 
     Result<gpu::DescriptorPoolHandle> pool =
         gpu::createDescriptorPool(device, shared_.deform->layout(), deformCount, "supple deform");
-    if (!pool)
+    if (!pool) {
         return pool.error();
+    }
     deformPool_ = std::move(*pool);
     const VkBuffer deformTable = asset_->buffers.buffer(0);
     const VkDeviceSize deformTableBytes = asset_->buffers.size(0);
@@ -200,8 +213,9 @@ Status Group::createSets() {
         const uint32_t first = w * deformWindow, count = std::min(deformWindow, instanceCount_ - first);
         Result<VkDescriptorSet> set =
             gpu::allocateSet(device, shared_.deform->layout(), deformPool_.get(), "supple deform");
-        if (!set)
+        if (!set) {
             return set.error();
+        }
         const VkBuffer palettes = buffers_.buffer(kPalettes), deformed = buffers_.buffer(kDeformedCage);
         const gpu::BoundResource resources[] = {
             {kDeformTableBinding, range(deformTable, 0, deformTableBytes), VK_NULL_HANDLE},
@@ -212,15 +226,17 @@ Status Group::createSets() {
              view(palettes, kFloat4, first * paletteBytes, count * paletteBytes, "supple palette")},
             {kDeformedCageBinding, range(deformed, first * cageBytes, count * cageBytes), VK_NULL_HANDLE},
         };
-        if (!failed)
+        if (!failed) {
             return failed;
+        }
         gpu::writeSet(device, *set, resources);
         deformWindows_.push_back({*set, count});
     }
 
     pool = gpu::createDescriptorPool(device, shared_.prep->layout(), prepCount, "supple p-rep");
-    if (!pool)
+    if (!pool) {
         return pool.error();
+    }
     prepPool_ = std::move(*pool);
     const VkBuffer table = scheme_->buffers.buffer(0);
     const VkDeviceSize tableBytes = scheme_->buffers.size(0);
@@ -229,8 +245,9 @@ Status Group::createSets() {
     for (uint32_t w = 0; w < prepCount && failed.ok(); ++w) {
         const uint32_t first = w * prepWindow, count = std::min(prepWindow, instanceCount_ - first);
         Result<VkDescriptorSet> set = gpu::allocateSet(device, shared_.prep->layout(), prepPool_.get(), "supple p-rep");
-        if (!set)
+        if (!set) {
             return set.error();
+        }
         const VkBuffer cage = buffers_.buffer(kDeformedCage), coefficients = buffers_.buffer(kPool);
         // Bindings a group does without point at the pool: every binding of the layout must be valid.
         const VkDescriptorBufferInfo unused = range(coefficients, first * poolBytes, kVec4Bytes);
@@ -252,8 +269,9 @@ Status Group::createSets() {
              VK_NULL_HANDLE},
             {kPairBinding, range(shared_.pairs, 0, shared_.pairBytes), VK_NULL_HANDLE},
         };
-        if (!failed)
+        if (!failed) {
             return failed;
+        }
         gpu::writeSet(device, *set, resources);
         prepWindows_.push_back({*set, count});
     }
@@ -343,8 +361,9 @@ Result<Group::PassCost> Group::recordUpload(VkCommandBuffer commandBuffer, uint6
         }
     }
     const Status flushed = staging_.flush(0, offset, bytes);
-    if (!flushed)
+    if (!flushed) {
         return flushed.error();
+    }
     const VkBufferCopy copy{offset, 0, bytes};
     device.vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kPalettes), 1, &copy);
     cost.points = palettes_.size();
@@ -353,8 +372,9 @@ Result<Group::PassCost> Group::recordUpload(VkCommandBuffer commandBuffer, uint6
 }
 
 Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
-    if (!attributesPending_)
+    if (!attributesPending_) {
         return {};
+    }
     attributesPending_ = false;
     shared_.prep->recordAttributes(commandBuffer, scheme_->tables, prepWindows_.front(), evaluation_);
     const uint64_t points = uint64_t{output_.patchCount} * output_.samplesPerPatch;
@@ -362,16 +382,18 @@ Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
 }
 
 Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
-    for (const DeformWindow& window : deformWindows_)
+    for (const DeformWindow& window : deformWindows_) {
         shared_.deform->record(commandBuffer, window.set,
                                {output_.cageVertexCount, window.instanceCount, jointCount_, evaluation_.cageStride});
+    }
     const uint64_t points = uint64_t{output_.cageVertexCount} * instanceCount_;
     return {points, points * kVec4Bytes};
 }
 
 Group::PassCost Group::recordVertex(VkCommandBuffer commandBuffer) const {
-    for (const surface::prep::Window& window : prepWindows_)
+    for (const surface::prep::Window& window : prepWindows_) {
         shared_.prep->recordVertex(commandBuffer, scheme_->tables, window, evaluation_);
+    }
     const surface::prep::Tables& t = scheme_->tables;
     const uint64_t edgeCoefficients = uint64_t{t.faces} + (t.faces - t.tangents);
     const uint64_t points = uint64_t{output_.cageVertexCount} * instanceCount_;
@@ -379,22 +401,25 @@ Group::PassCost Group::recordVertex(VkCommandBuffer commandBuffer) const {
 }
 
 Group::PassCost Group::recordEdge(VkCommandBuffer commandBuffer) const {
-    for (const surface::prep::Window& window : prepWindows_)
+    for (const surface::prep::Window& window : prepWindows_) {
         shared_.prep->recordEdge(commandBuffer, scheme_->tables, window, evaluation_);
+    }
     const uint64_t points = uint64_t{scheme_->tables.edges.count} * instanceCount_;
     return {points, points * 4 * kVec4Bytes};
 }
 
 Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
-    for (const surface::prep::Window& window : prepWindows_)
+    for (const surface::prep::Window& window : prepWindows_) {
         shared_.prep->recordPatch(commandBuffer, scheme_->tables, window, evaluation_);
+    }
     const uint64_t points = uint64_t{output_.patchCount} * instanceCount_;
     return {points, points * 32 * kVec4Bytes};
 }
 
 Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
-    for (const surface::prep::Window& window : prepWindows_)
+    for (const surface::prep::Window& window : prepWindows_) {
         shared_.prep->recordEvaluate(commandBuffer, scheme_->tables, window, evaluation_);
+    }
     const uint64_t points = uint64_t{output_.patchCount} * output_.samplesPerPatch * instanceCount_;
     return {points, points * output_.surfaceVertices.stride};
 }

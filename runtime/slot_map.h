@@ -27,13 +27,15 @@ public:
     [[nodiscard]] const std::shared_ptr<T>& find(uint64_t id) const {
         static const std::shared_ptr<T> none;
         const uint64_t index = (id & 0xFFFFFFFFu) - 1u;
-        if (index >= slots_.size() || slots_[index].generation != id >> 32)
+        if (index >= slots_.size() || slots_[index].generation != id >> 32) {
             return none;
+        }
         return slots_[index].value;
     }
     std::shared_ptr<T> remove(uint64_t id) {
-        if (find(id) == nullptr)
+        if (find(id) == nullptr) {
             return nullptr;
+        }
         const auto index = static_cast<uint32_t>((id & 0xFFFFFFFFu) - 1u);
         std::shared_ptr<T> value = std::move(slots_[index].value);
         slots_[index].value = nullptr;
@@ -43,9 +45,11 @@ public:
     }
     template <class F>
     void forEach(F&& visit) const {
-        for (const Slot& slot : slots_)
-            if (slot.value != nullptr)
+        for (const Slot& slot : slots_) {
+            if (slot.value != nullptr) {
                 visit(*slot.value);
+            }
+        }
     }
 
 private:

@@ -14,11 +14,13 @@ Status Timings::create(const gpu::Device& device, uint32_t framesInFlight) {
     for (Slot& slot : slots_) {
         slot.entries.reserve(kMarks);
         slot.marks.reserve(kMarks);
-        if (!supported_)
+        if (!supported_) {
             continue;
+        }
         Result<gpu::Timers> timers = gpu::Timers::create(device, kMarks, "supple timings");
-        if (!timers)
+        if (!timers) {
             return timers.error();
+        }
         slot.timers = std::move(*timers);
     }
     return success();
@@ -26,8 +28,9 @@ Status Timings::create(const gpu::Device& device, uint32_t framesInFlight) {
 
 void Timings::beginFrame(uint64_t frame, uint64_t completedFrame) {
     for (Slot& slot : slots_) {
-        if (slot.frame == 0 || slot.frame > completedFrame)
+        if (slot.frame == 0 || slot.frame > completedFrame) {
             continue;
+        }
         const bool newer = latest_.empty() || slot.frame > latest_.front().frame;
         if (newer && !slot.entries.empty() && slot.timers.read(nanoseconds_)) {
             latest_.assign(slot.entries.begin(), slot.entries.end());
@@ -47,23 +50,27 @@ void Timings::beginFrame(uint64_t frame, uint64_t completedFrame) {
 
 void Timings::open(VkCommandBuffer commandBuffer, bool enabled) {
     enabled_ = enabled && supported_;
-    if (!enabled_)
+    if (!enabled_) {
         return;
-    if (current_->entries.empty())
+    }
+    if (current_->entries.empty()) {
         current_->timers.reset(commandBuffer);
+    }
     uint32_t mark = 0;
     enabled_ = current_->timers.mark(commandBuffer, mark);
 }
 
 void Timings::beginPass() {
-    if (enabled_)
+    if (enabled_) {
         passBegin_ = std::chrono::steady_clock::now();
+    }
 }
 
 void Timings::endPass(VkCommandBuffer commandBuffer, const char* pass, uint32_t group, uint64_t points,
                       uint64_t bytes) {
-    if (!enabled_)
+    if (!enabled_) {
         return;
+    }
     uint32_t mark = 0;
     if (!current_->timers.mark(commandBuffer, mark)) {
         enabled_ = false;

@@ -13,8 +13,9 @@ std::vector<uint32_t> buildDeformTable(const cage::Cage& cage, const cage::SkinW
     influences.reserve(2 * weights.influences.size());
     const auto nextElement = [&] { return static_cast<uint32_t>(vertexCount + 1 + influences.size() / 4); };
     for (uint32_t v = 0; v < vertexCount; ++v) {
-        for (int axis = 0; axis < 3; ++axis)
+        for (int axis = 0; axis < 3; ++axis) {
             vertices.push_back(std::bit_cast<uint32_t>(cage.positions[v][axis]));
+        }
         vertices.push_back(nextElement());
         const uint32_t end = weights.starts[v + 1];
         for (uint32_t i = weights.starts[v]; i < end; i += 2) {
@@ -42,13 +43,15 @@ Result<DeformPass> DeformPass::create(const gpu::Device& device) {
     pass.device_ = &device;
     Result<gpu::ComputeLayout> layout =
         gpu::ComputeLayout::create(device, bindings, sizeof(DeformPush), "supple deform");
-    if (!layout)
+    if (!layout) {
         return layout.error();
+    }
     pass.layout_ = std::move(*layout);
     Result<gpu::PipelineHandle> pipeline =
         gpu::createComputePipeline(device, pass.layout_, deform_deform_comp, {}, "supple deform");
-    if (!pipeline)
+    if (!pipeline) {
         return pipeline.error();
+    }
     pass.pipeline_ = std::move(*pipeline);
     return pass;
 }

@@ -50,8 +50,9 @@ using Vector = glm::vec<N, double, glm::defaultp>;
 template <int N>
 Vector<N> element(const Channel& channel, size_t index) {
     Vector<N> v;
-    for (int k = 0; k < N; ++k)
+    for (int k = 0; k < N; ++k) {
         v[k] = static_cast<double>(channel.values[N * index + static_cast<size_t>(k)]);
+    }
     return v;
 }
 
@@ -66,8 +67,9 @@ Vector<4> mix(const Vector<4>& a, const Vector<4>& b, double t) {
     const double cosine = std::min(std::abs(d), 1.0);
     const double angle = std::acos(cosine);
     const double sine = std::sin(angle);
-    if (sine < 1e-6)
+    if (sine < 1e-6) {
         return a * (1.0 - t) + b * (sign * t);
+    }
     return a * (std::sin((1.0 - t) * angle) / sine) + b * (sign * std::sin(t * angle) / sine);
 }
 
@@ -79,15 +81,18 @@ Vector<N> sample(const Channel& channel, double time) {
     // The first key later than `time`; a key's own time gives its value as it is.
     const auto later = std::upper_bound(times.begin(), times.end(), time,
                                         [](double t, float k) { return t < static_cast<double>(k); });
-    if (later == times.begin())
+    if (later == times.begin()) {
         return key(0);
+    }
     const size_t k = static_cast<size_t>(later - times.begin()) - 1;
-    if (later == times.end() || channel.interpolation == Interpolation::step || static_cast<double>(times[k]) == time)
+    if (later == times.end() || channel.interpolation == Interpolation::step || static_cast<double>(times[k]) == time) {
         return key(k);
+    }
     const double span = static_cast<double>(times[k + 1]) - static_cast<double>(times[k]);
     const double t = (time - static_cast<double>(times[k])) / span;
-    if (!cubic)
+    if (!cubic) {
         return mix(key(k), key(k + 1), t);
+    }
     const Vector<N> leaving = element<N>(channel, 3 * k + 2);
     const Vector<N> arriving = element<N>(channel, 3 * (k + 1));
     const double t2 = t * t;
@@ -100,23 +105,26 @@ Vector<N> sample(const Channel& channel, double time) {
 
 Affine toAffine(const glm::mat4& matrix) {
     Affine affine;
-    for (int r = 0; r < 3; ++r)
+    for (int r = 0; r < 3; ++r) {
         affine.rows[r] = glm::vec4(matrix[0][r], matrix[1][r], matrix[2][r], matrix[3][r]);
+    }
     return affine;
 }
 
 void restPose(const cage::Skeleton& skeleton, std::span<glm::mat4> locals) {
     assert(locals.size() == skeleton.nodes.size());
-    for (size_t i = 0; i < locals.size(); ++i)
+    for (size_t i = 0; i < locals.size(); ++i) {
         locals[i] = restLocal(skeleton.nodes[i]);
+    }
 }
 
 void sampleClip(const cage::Skeleton& skeleton, const cage::Clip& clip, double time, std::span<glm::mat4> locals) {
     assert(locals.size() == skeleton.nodes.size());
     std::vector<Transform> transforms;
     transforms.reserve(skeleton.nodes.size());
-    for (const cage::Node& node : skeleton.nodes)
+    for (const cage::Node& node : skeleton.nodes) {
         transforms.push_back(restTransform(node));
+    }
     std::vector<bool> animated(skeleton.nodes.size(), false);
     for (const Channel& channel : clip.channels) {
         Transform& transform = transforms[channel.node];
@@ -133,8 +141,9 @@ void sampleClip(const cage::Skeleton& skeleton, const cage::Clip& clip, double t
             break;
         }
     }
-    for (size_t i = 0; i < locals.size(); ++i)
+    for (size_t i = 0; i < locals.size(); ++i) {
         locals[i] = animated[i] ? compose(transforms[i]) : restLocal(skeleton.nodes[i]);
+    }
 }
 
 void globalTransforms(const cage::Skeleton& skeleton, std::span<const glm::mat4> locals, std::span<glm::mat4> globals) {
@@ -148,8 +157,9 @@ void globalTransforms(const cage::Skeleton& skeleton, std::span<const glm::mat4>
 void jointPalette(const cage::Skin& skin, std::span<const glm::mat4> globals, const glm::mat4& transform,
                   std::span<Affine> palette) {
     assert(palette.size() == skin.joints.size());
-    for (size_t j = 0; j < palette.size(); ++j)
+    for (size_t j = 0; j < palette.size(); ++j) {
         palette[j] = toAffine(transform * globals[skin.joints[j]] * skin.inverseBinds[j]);
+    }
 }
 
 std::vector<glm::dvec3> deformOnCpu(const cage::Cage& cage, const cage::SkinWeights& weights,

@@ -18,8 +18,8 @@ struct Affine {
 [[nodiscard]] Affine toAffine(const glm::mat4& matrix);
 
 /// Local transform of every node at `time` seconds of `clip`. Sampling follows glTF 2.0: STEP, LINEAR (slerp for
-/// rotations, shortest path), CUBICSPLINE (normalised rotations), clamped outside the keys; nodes without a channel keep
-/// their rest transform. `locals` has one entry per node.
+/// rotations, shortest path), CUBICSPLINE (normalised rotations), clamped outside the keys; nodes without a channel
+/// keep their rest transform. `locals` has one entry per node.
 void sampleClip(const cage::Skeleton& skeleton, const cage::Clip& clip, double time, std::span<glm::mat4> locals);
 
 /// Rest transforms of every node.

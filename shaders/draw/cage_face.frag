@@ -28,5 +28,5 @@ void main() {
     if (!gl_FrontFacing && (push.flags & kDrawDoubleSided) == 0u)
         albedo *= 0.35;
     float alpha = (push.flags & kDrawTranslucent) != 0u ? base.a : 1.0;
-    outColor = vec4(toneMap(studioShade(Material(albedo, 0.6), inPosition, n, v)), alpha);
+    outColor = vec4(toneMap(studioShade(Material(albedo, 0.6), gatherLight(inPosition, n), n, v)), alpha);
 }

@@ -30,39 +30,58 @@ vec3 studioReflection(vec3 r) {
     return mix(vec3(0.16, 0.15, 0.14), ceiling, smoothstep(-0.35, 0.25, r.y));
 }
 
+/// What the rig sends to a place: a few numbers that vary slowly, so that dense vertices may carry them.
+struct Incident {
+    vec3 sky;   // irradiance
+    float key;  // visible share of the key
+    float rim;  // and of the rim
+    float open; // visible share of the sky
+};
+
+Incident gatherLight(vec3 position, vec3 n) {
+    vec3 sky = vec3(0.0);
+    float seen[3] = float[3](0.0, 0.0, 0.0), all[3] = float[3](1e-4, 1e-4, 1e-4);
+    // Receivers step off the surface: along the normal by a good texel, so that a map's own steps cast no shadow.
+    vec3 receiver = position + n * (frame.shadowTexel * 1.6);
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        float nl = dot(n, frame.lights[i].direction.xyz);
+        if (nl <= 0.0)
+            continue;
+        vec4 color = frame.lights[i].color;
+        uint part = uint(color.w);
+        float visible = lightVisibility(i, receiver) * nl;
+        seen[part] += visible;
+        all[part] += nl;
+        if (part == kLightSky)
+            sky += color.rgb * visible;
+    }
+    return Incident(sky, seen[kLightKey] / all[kLightKey], seen[kLightRim] / all[kLightRim],
+                    seen[kLightSky] / all[kLightSky]);
+}
+
+/// Lambert's law for a soft box: the light sinks behind the horizon bit by bit.
+float softLambert(float nl) {
+    const float soft = 0.18;
+    return nl < soft ? (max(nl + soft, 0.0) * max(nl + soft, 0.0)) / (4.0 * soft) : nl;
+}
+
 struct Material {
     vec3 albedo;
     float roughness;
 };
 
 /// Radiance towards the eye, before the tone curve. n faces the viewer's side of the surface.
-vec3 studioShade(Material material, vec3 position, vec3 n, vec3 v) {
-    vec3 diffuse = vec3(0.0), specular = vec3(0.0);
-    float sky = 0.0, openSky = 1e-4;
-    // Receivers step off the surface: along the normal by a good texel, so that a map's own steps cast no shadow.
-    vec3 receiver = position + n * (frame.shadowTexel * 1.6);
-    for (uint i = 0u; i < frame.lightCount; ++i) {
-        vec3 l = frame.lights[i].direction.xyz;
-        vec4 color = frame.lights[i].color;
-        bool fromSky = uint(color.w) == kLightSky;
-        float nl = dot(n, l);
-        openSky += fromSky ? max(nl, 0.0) : 0.0;
-        if (nl <= 0.0)
-            continue;
-        float visible = lightVisibility(i, receiver) * nl;
-        diffuse += color.rgb * visible;
-        if (fromSky)
-            sky += visible;
-        else if (visible > 0.0)
-            specular += color.rgb * (kPi * visible / nl) * glossy(n, v, l, material.roughness, 0.04);
-    }
-    float open = clamp(sky / openSky, 0.0, 1.0);
+vec3 studioShade(Material material, Incident light, vec3 n, vec3 v) {
+    vec3 key = frame.keyDirection.xyz, rim = frame.rimDirection.xyz;
+    vec3 keyLight = frame.keyColor.rgb * light.key, rimLight = frame.rimColor.rgb * light.rim;
     float down = 0.5 - 0.5 * n.y;
-    diffuse += frame.bounce.rgb * down * mix(0.35, 1.0, open);
-
+    vec3 diffuse = keyLight * softLambert(dot(n, key)) + rimLight * softLambert(dot(n, rim)) + light.sky +
+                   frame.bounce.rgb * down * mix(0.35, 1.0, light.open);
+    vec3 specular = kPi * (keyLight * glossy(n, v, key, material.roughness, 0.04) +
+                           rimLight * glossy(n, v, rim, material.roughness, 0.04));
     float nv = clamp(dot(n, v), 0.0, 1.0);
     float fresnel = 0.04 + 0.96 * pow(1.0 - nv, 5.0) * (1.0 - 0.6 * material.roughness);
-    vec3 sheen = studioReflection(reflect(-v, n)) * fresnel * mix(0.15, 1.0, open) * 0.9;
+    vec3 sheen = studioReflection(reflect(-v, n)) * fresnel * mix(0.15, 1.0, light.open) * 0.9;
     return material.albedo * diffuse + specular + sheen;
 }
 

@@ -14,7 +14,12 @@ layout(location = 3) in vec4 inColor;
 layout(location = 4) in vec2 inGrid;
 layout(location = 5) flat in uint inPatch;
 
+layout(location = 6) in vec3 inSky;
+layout(location = 7) in vec3 inKeyRimOpen;
+
 layout(location = 0) out vec4 outColor;
+
+layout(constant_id = 0) const bool kLightPerVertex = false; // see surface.vert
 
 const vec3 kClay = vec3(0.50, 0.47, 0.44);
 
@@ -69,7 +74,12 @@ void main() {
         // The inside of a skin that is not meant to be seen: still there, but plainly inside.
         if (back && (push.flags & kDrawDoubleSided) == 0u)
             material.albedo *= 0.35;
-        color = toneMap(studioShade(material, inPosition, n, v));
+        Incident light;
+        if (kLightPerVertex)
+            light = Incident(inSky, inKeyRimOpen.x, inKeyRimOpen.y, inKeyRimOpen.z);
+        else
+            light = gatherLight(inPosition, n);
+        color = toneMap(studioShade(material, light, n, v));
     }
 
     if (push.view == kViewWire)

@@ -1,12 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/draw/frame.glsl"
+#include "shaders/draw/studio.glsl"
 #include "shaders/draw/surface_input.glsl"
 
 layout(set = 1, binding = kSurfaceAttributeBinding, std430) readonly buffer Attributes { uvec4 attributes[]; };
-
-// Drawn twice, depth first: both times to the same bits.
-invariant gl_Position;
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
@@ -14,6 +12,12 @@ layout(location = 2) out vec2 outUv;
 layout(location = 3) out vec4 outColor;
 layout(location = 4) out vec2 outGrid; // in segments: 0..rate
 layout(location = 5) flat out uint outPatch;
+layout(location = 6) out vec3 outSky;
+layout(location = 7) out vec3 outKeyRimOpen;
+
+// Where triangles are hardly larger than pixels the light is looked up once a vertex instead of once a pixel: a device
+// that shades in blocks would do it many times over.
+layout(constant_id = 0) const bool kLightPerVertex = false;
 
 void main() {
     uint word = surfaceWord();
@@ -29,6 +33,14 @@ void main() {
         uvec4 packed = attributes[outPatch * push.samplesPerPatch + gl_VertexIndex];
         outUv = uintBitsToFloat(packed.xy);
         outColor = vec4(unpackUnorm2x16(packed.z), unpackUnorm2x16(packed.w));
+    }
+    outSky = vec3(0.0);
+    outKeyRimOpen = vec3(0.0);
+    if (kLightPerVertex) {
+        bool away = dot(outNormal, frame.eye.xyz - position) < 0.0; // its other side is seen
+        Incident light = gatherLight(position, away ? -outNormal : outNormal);
+        outSky = light.sky;
+        outKeyRimOpen = vec3(light.key, light.rim, light.open);
     }
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 }

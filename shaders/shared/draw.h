@@ -63,6 +63,10 @@ struct FrameUniforms {
     vec4 ground;    // x: height, y: 1 where there is one
     vec4 viewport;  // width, height, 1 / width, 1 / height
     vec4 bounce;    // light from below
+    vec4 keyDirection; // the middle of the key's directions, and all their light together
+    vec4 keyColor;
+    vec4 rimDirection;
+    vec4 rimColor;
     uint lightCount;
     float exposure;
     float shadowTexel; // its width in the world

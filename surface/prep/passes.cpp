@@ -50,8 +50,9 @@ uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
             best = n;
             bestUse = use;
         }
-        if (n * samples >= 4 * localSize)
+        if (n * samples >= 4 * localSize) {
             break;
+        }
     }
     return best;
 }
@@ -74,8 +75,9 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     Passes passes;
     passes.device_ = &device;
     Result<gpu::ComputeLayout> layout = gpu::ComputeLayout::create(device, bindings, sizeof(PrepPush), "supple p-rep");
-    if (!layout)
+    if (!layout) {
         return layout.error();
+    }
     passes.layout_ = std::move(*layout);
 
     struct Wanted {
@@ -92,19 +94,23 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
         {&passes.patch_[0], shaders.patch, {{kClassConstant, VK_FALSE}}, "supple p-rep patch, regular"},
         {&passes.patch_[1], shaders.patch, {{kClassConstant, VK_TRUE}}, "supple p-rep patch, perturbed"},
     };
-    for (uint32_t patchClass = 0; patchClass < 2; ++patchClass)
-        for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24)
-            for (uint32_t normals = 0; normals < 2; ++normals)
+    for (uint32_t patchClass = 0; patchClass < 2; ++patchClass) {
+        for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24) {
+            for (uint32_t normals = 0; normals < 2; ++normals) {
                 wanted.push_back(
                     {&passes.evaluate_[patchClass][vertex24][normals],
                      shaders.evaluate,
                      {{kClassConstant, patchClass}, {kVertex24Constant, vertex24}, {kCornerNormalsConstant, normals}},
                      patchClass == 0 ? "supple p-rep evaluate, regular" : "supple p-rep evaluate, perturbed"});
+            }
+        }
+    }
     for (const Wanted& w : wanted) {
         Result<gpu::PipelineHandle> pipeline =
             gpu::createComputePipeline(device, passes.layout_, w.spirv, w.constants, w.name);
-        if (!pipeline)
+        if (!pipeline) {
             return pipeline.error();
+        }
         *w.target = std::move(*pipeline);
     }
     return passes;
@@ -117,8 +123,9 @@ uint64_t Passes::groupsFor(uint64_t lanes) const {
 
 void Passes::record(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
                     const shared::PrepPush& push, uint64_t groups) const {
-    if (push.count == 0)
+    if (push.count == 0) {
         return;
+    }
     const VkPipelineLayout layout = layout_.pipelineLayout.get();
     device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);

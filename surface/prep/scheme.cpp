@@ -24,8 +24,9 @@ bool regular(const cage::Topology& topology, uint32_t vertex) {
 
 bool perturbedEdge(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge) {
     const cage::Topology::Edge& e = topology.edges[edge];
-    if (e.twin == cage::kNone)
+    if (e.twin == cage::kNone) {
         return false;
+    }
     return !regular(topology, cage.faceVertices[e.corner]) || !regular(topology, cage.faceVertices[e.twin]);
 }
 
@@ -34,8 +35,9 @@ class Writer {
 public:
     explicit Writer(std::vector<uint32_t>& words) : words_(words) {}
     [[nodiscard]] uint32_t element() {
-        while (words_.size() % 4 != 0)
+        while (words_.size() % 4 != 0) {
             words_.push_back(0);
+        }
         return static_cast<uint32_t>(words_.size() / 4);
     }
     void put(std::initializer_list<uint32_t> values) { words_.insert(words_.end(), values); }
@@ -52,8 +54,9 @@ public:
     void write(Writer& writer, uint32_t vertexCount) {
         for (uint32_t v = 0; v < vertexCount; ++v) {
             const auto key = keyOf(v);
-            if (elements_.contains(key))
+            if (elements_.contains(key)) {
                 continue;
+            }
             const ValenceClass c = makeValenceClass(key.first, key.second, options_);
             elements_[key] = writer.element();
             cosines_[key] = c.c;
@@ -84,10 +87,12 @@ private:
 } // namespace
 
 Status accepts(const cage::Cage& cage, const cage::Topology&) {
-    for (uint32_t face = 0; face < cage.faceCount(); ++face)
-        if (cage.sides(face) != 4)
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        if (cage.sides(face) != 4) {
             return Error{ErrorCode::asset, "face " + std::to_string(face) + " has " + std::to_string(cage.sides(face)) +
                                                " sides: p-rep takes quads only"};
+        }
+    }
     return success();
 }
 
@@ -102,17 +107,18 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
     t.faces = t.tangents + spokeCount;
     const uint32_t edgeCoefficients = t.faces + spokeCount;
     std::vector<uint32_t> perturbedEdges, edgeSlots(topology.edges.size(), cage::kNone);
-    for (uint32_t e = 0; e < topology.edges.size(); ++e)
+    for (uint32_t e = 0; e < topology.edges.size(); ++e) {
         if (perturbedEdge(cage, topology, e)) {
             edgeSlots[e] = edgeCoefficients + 4 * static_cast<uint32_t>(perturbedEdges.size());
             perturbedEdges.push_back(e);
         }
+    }
     const uint32_t zero = edgeCoefficients + 4 * static_cast<uint32_t>(perturbedEdges.size());
     t.poolStride = (zero + 1 + 15) / 16 * 16;
 
     // Ring, parallel to the spokes.
     t.ring = 4 * writer.element();
-    for (uint32_t v = 0; v < vertexCount; ++v)
+    for (uint32_t v = 0; v < vertexCount; ++v) {
         for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
             const uint32_t corner = topology.sectorCorners[s];
             uint32_t diagonal = v;
@@ -122,14 +128,16 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
             }
             writer.put({topology.spokeVertices[s], diagonal});
         }
+    }
 
     ClassTable classes(topology, options);
     classes.write(writer, vertexCount);
 
     // Vertices: regular interior ones first; the others by class, so that neighbouring lanes loop equally long.
     std::vector<uint32_t> order(vertexCount);
-    for (uint32_t v = 0; v < vertexCount; ++v)
+    for (uint32_t v = 0; v < vertexCount; ++v) {
         order[v] = v;
+    }
     const auto rank = [&](uint32_t v) {
         const bool interiorRegular = topology.boundary[v] == 0 && topology.sectorCount(v) == 4;
         return std::tuple(!interiorRegular, topology.spokeCount(v), topology.boundary[v]);
@@ -147,13 +155,15 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
     for (uint32_t e : perturbedEdges) {
         const cage::Topology::Edge& edge = topology.edges[e];
         const std::pair key(classes.c(cage.faceVertices[edge.corner]), classes.c(cage.faceVertices[edge.twin]));
-        if (edgeClasses.contains(key))
+        if (edgeClasses.contains(key)) {
             continue;
+        }
         edgeClasses[key] = writer.element();
         const EdgeWeights weights = makeEdgeWeights(key.first, key.second);
-        for (size_t vector = 0; vector < 6; ++vector)
+        for (size_t vector = 0; vector < 6; ++vector) {
             writer.put({floatBits(weights[0][vector]), floatBits(weights[1][vector]), floatBits(weights[2][vector]),
                         floatBits(weights[3][vector])});
+        }
     }
     const auto corner = [&](uint32_t c, uint32_t steps) {
         const uint32_t first = cage.faceStarts[topology.cornerFaces[c]];
@@ -178,8 +188,9 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
         for (uint32_t j = 0; j < 4; ++j) {
             const uint32_t c = cage.faceStarts[face] + j;
             patch.corners[j] = cage.faceVertices[c];
-            if (edgeSlots[topology.cornerEdges[c]] != cage::kNone)
+            if (edgeSlots[topology.cornerEdges[c]] != cage::kNone) {
                 patch.patchClass = PatchClass::perturbed;
+            }
         }
     }
     const auto material = [&](const PatchInfo& p) {
@@ -199,8 +210,9 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
         Section& section = patchClass == PatchClass::regular ? t.regularPatches : t.perturbedPatches;
         section.table = writer.element();
         for (const PatchInfo& patch : patches) {
-            if (patch.patchClass != patchClass)
+            if (patch.patchClass != patchClass) {
                 continue;
+            }
             ++section.count;
             std::array<uint32_t, 16> g{}, h{};
             std::array<uint32_t, 4> normals{};
@@ -215,25 +227,30 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
                 const uint32_t slot = edgeSlots[edge];
                 // A half-edge that runs against the edge's own direction swaps h20 <-> h30 and h21 <-> h31.
                 const uint32_t swap = topology.edges[edge].corner == c ? 0u : 1u;
-                for (uint32_t s = 0; s < 4; ++s)
+                for (uint32_t s = 0; s < 4; ++s) {
                     h[4 * j + s] = slot == cage::kNone ? zero : slot + (s ^ swap);
+                }
                 const bool smoothCorner = options.cornerRule == CornerRule::smooth && topology.boundary[v] != 0 &&
                                           topology.sectorCount(v) == 1;
                 normals[j] = smoothCorner ? t.faces + topology.spokeStarts[v] + 1 : shared::kNoNormal;
                 t.cornerNormals = t.cornerNormals || smoothCorner;
             }
-            for (uint32_t index : g)
+            for (uint32_t index : g) {
                 writer.put({index});
-            if (patchClass == PatchClass::perturbed)
-                for (uint32_t k = 0; k < 16; ++k)
+            }
+            if (patchClass == PatchClass::perturbed) {
+                for (uint32_t k = 0; k < 16; ++k) {
                     writer.put({h[kFaceEdgeOrder[k]]});
-            for (uint32_t normal : normals)
+                }
+            }
+            for (uint32_t normal : normals) {
                 writer.put({normal});
+            }
         }
     }
 
     t.attributes = writer.element();
-    for (const PatchInfo& patch : patches)
+    for (const PatchInfo& patch : patches) {
         for (uint32_t j = 0; j < 4; ++j) {
             const uint32_t c = cage.faceStarts[patch.face] + j;
             const glm::vec2 uv = cage.cornerUvs.empty() ? glm::vec2(0.0f) : cage.cornerUvs[c];
@@ -244,11 +261,13 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
             writer.put({std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y), unorm16(0) | unorm16(1) << 16,
                         unorm16(2) | unorm16(3) << 16});
         }
+    }
     (void)writer.element();
 
     for (uint32_t p = 0; p < faceCount; ++p) {
-        if (t.drawRanges.empty() || t.drawRanges.back().material != material(patches[p]))
+        if (t.drawRanges.empty() || t.drawRanges.back().material != material(patches[p])) {
             t.drawRanges.push_back({p, 0, material(patches[p])});
+        }
         ++t.drawRanges.back().patchCount;
     }
     t.patches = std::move(patches);

@@ -1,5 +1,5 @@
-// Whole characters on the GPU: skinning against the CPU skinner, surfaces against the double-precision reference, and what
-// neighbouring patches share: position bits and normals.
+// Whole characters on the GPU: skinning against the CPU skinner, surfaces against the double-precision reference, and
+// what neighbouring patches share: position bits and normals.
 #include "cage/gltf_reader.h"
 #include "skinning/pose.h"
 #include "surface/prep/reference.h"
@@ -22,9 +22,11 @@ struct Pose {
 /// The bind pose and three times of each clip.
 std::vector<Pose> posesOf(const cage::Character& character) {
     std::vector<Pose> poses = {{}};
-    for (uint32_t clip = 0; clip < character.clips.size(); ++clip)
-        for (const double fraction : {0.15, 0.4, 0.75})
+    for (uint32_t clip = 0; clip < character.clips.size(); ++clip) {
+        for (const double fraction : {0.15, 0.4, 0.75}) {
             poses.push_back({clip, fraction * character.clips[clip].duration});
+        }
+    }
     return poses;
 }
 
@@ -75,13 +77,16 @@ TEST(CharactersOnGpu, SkinSurfaceAndBorders) {
         options.flags = 0;
         GpuSurface gpu(*device, path, options);
         ASSERT_TRUE(gpu.valid()) << name;
-        for (uint32_t i = 0; i < poses.size(); ++i)
-            ASSERT_EQ(suppleSetClipPose(gpu.context().handle(), gpu.group(), i, poses[i].clip, poses[i].time), SUPPLE_OK);
+        for (uint32_t i = 0; i < poses.size(); ++i) {
+            ASSERT_EQ(suppleSetClipPose(gpu.context().handle(), gpu.group(), i, poses[i].clip, poses[i].time),
+                      SUPPLE_OK);
+        }
         gpu.evaluate();
 
         std::vector<uint32_t> patchOfFace(cage.faceCount());
-        for (uint32_t p = 0; p < gpu.patches().size(); ++p)
+        for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
             patchOfFace[gpu.patches()[p].face] = p;
+        }
         // The reference is slow; a large cage is compared at every eighth patch, its borders everywhere.
         const uint32_t step = cage.faceCount() > 4000 ? 8 : 1;
         double skin = 0.0, positions = 0.0;
@@ -91,15 +96,16 @@ TEST(CharactersOnGpu, SkinSurfaceAndBorders) {
         for (uint32_t instance = 0; instance < poses.size(); ++instance) {
             const std::vector<glm::dvec3> deformed = deformedOnCpu(*character, poses[instance]);
             const double size = extent(deformed);
-            for (uint32_t v = 0; v < cage.vertexCount(); ++v)
+            for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
                 raise(skin, glm::length(glm::dvec3(gpu.deformed(instance, v)) - deformed[v]) / size);
+            }
 
             const auto coefficients = surface::prep::construct<double>(cage, *topology, deformed, {});
             double area = 0.0;
             uint64_t areaSamples = 0;
             for (uint32_t face = 0; face < cage.faceCount(); face += step) {
                 const auto patch = surface::prep::gatherPatch<double>(cage, *topology, coefficients, face, {});
-                for (uint32_t j = 0; j <= kRate; ++j)
+                for (uint32_t j = 0; j <= kRate; ++j) {
                     for (uint32_t i = 0; i <= kRate; ++i) {
                         const auto sample = surface::prep::evaluate<double>(patch, parameterPair<double>(i, kRate),
                                                                             parameterPair<double>(j, kRate));
@@ -109,12 +115,14 @@ TEST(CharactersOnGpu, SkinSurfaceAndBorders) {
                         area += glm::length(glm::cross(sample.du, sample.dv));
                         ++areaSamples;
                     }
+                }
             }
             const double meanArea = area / static_cast<double>(areaSamples);
 
             for (const cage::Topology::Edge& edge : topology->edges) {
-                if (edge.twin == cage::kNone)
+                if (edge.twin == cage::kNone) {
                     continue;
+                }
                 for (uint32_t k = 0; k <= kRate; ++k) {
                     const auto at = [&](uint32_t corner, uint32_t sample) -> const GpuSurface::Vertex& {
                         const uint32_t face = topology->cornerFaces[corner];
@@ -133,7 +141,8 @@ TEST(CharactersOnGpu, SkinSurfaceAndBorders) {
                         const auto sample = surface::prep::evaluate<double>(patch, parameterPair<double>(grid.x, kRate),
                                                                             parameterPair<double>(grid.y, kRate));
                         char line[160];
-                        std::snprintf(line, sizeof(line), "    pose %u, face %u, sample %u: %.3f degrees, |Du x Dv| %.1e of the mean\n",
+                        std::snprintf(line, sizeof(line),
+                                      "    pose %u, face %u, sample %u: %.3f degrees, |Du x Dv| %.1e of the mean\n",
                                       instance, face, k, angle,
                                       glm::length(glm::cross(sample.du, sample.dv)) / meanArea);
                         listed += line;
@@ -141,14 +150,16 @@ TEST(CharactersOnGpu, SkinSurfaceAndBorders) {
                 }
             }
         }
-        std::printf("%-24s %2zu poses: skin %.1e, positions %.1e of the extent; normals %.4f %% within 0.05, max %.3f; across "
-                    "borders %.4f %% within 0.05, mean %.5f, max %.3f degrees; %llu of %llu border samples differ\n",
-                    name.c_str(), poses.size(), skin, positions, 100.0 * normals.withinShare(), normals.worst,
-                    100.0 * across.withinShare(), across.mean(), across.worst,
-                    static_cast<unsigned long long>(differentBits), static_cast<unsigned long long>(borderSamples));
-        if (!listed.empty())
+        std::printf(
+            "%-24s %2zu poses: skin %.1e, positions %.1e of the extent; normals %.4f %% within 0.05, max %.3f; across "
+            "borders %.4f %% within 0.05, mean %.5f, max %.3f degrees; %llu of %llu border samples differ\n",
+            name.c_str(), poses.size(), skin, positions, 100.0 * normals.withinShare(), normals.worst,
+            100.0 * across.withinShare(), across.mean(), across.worst, static_cast<unsigned long long>(differentBits),
+            static_cast<unsigned long long>(borderSamples));
+        if (!listed.empty()) {
             std::printf("  %llu samples above 0.05 degrees across borders, the first of them:\n%s",
                         static_cast<unsigned long long>(across.above), listed.c_str());
+        }
         EXPECT_LE(skin, 1e-5) << name;
         EXPECT_LE(positions, 1e-5) << name;
         EXPECT_GE(normals.withinShare(), 0.999) << name;

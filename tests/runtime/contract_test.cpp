@@ -52,8 +52,9 @@ Character makeCharacter(SuppleContext context, uint32_t instances = 1) {
     assetDesc.cage = &cageDesc;
     Character c;
     c.result = suppleCreateAsset(context, &assetDesc, &c.asset);
-    if (c.result != SUPPLE_OK)
+    if (c.result != SUPPLE_OK) {
         return c;
+    }
     SuppleGroupDesc groupDesc{};
     groupDesc.structSize = sizeof(groupDesc);
     groupDesc.asset = c.asset;
@@ -79,8 +80,9 @@ TEST(Contract, OnlyPosesCrossPerFrame) {
             std::FILE* file = std::fopen(kPip.c_str(), "rb");
             ASSERT_NE(file, nullptr);
             std::byte buffer[4096];
-            for (size_t n = 0; (n = std::fread(buffer, 1, sizeof(buffer), file)) > 0;)
+            for (size_t n = 0; (n = std::fread(buffer, 1, sizeof(buffer), file)) > 0;) {
                 bytes.insert(bytes.end(), buffer, buffer + n);
+            }
             std::fclose(file);
         }
         SuppleAssetDesc assetDesc{};
@@ -103,8 +105,9 @@ TEST(Contract, OnlyPosesCrossPerFrame) {
         const uint64_t paletteBytes = uint64_t{kInstances} * info.jointCount * 48;
         for (uint32_t frame = 0; frame < 10; ++frame) {
             WrappedVulkan& counts = wrappedVulkan();
-            for (uint32_t i = 0; i < kInstances; ++i)
+            for (uint32_t i = 0; i < kInstances; ++i) {
                 ASSERT_EQ(suppleSetClipPose((*context)->handle(), group, i, 1, 0.1 * frame + 0.3 * i), SUPPLE_OK);
+            }
             ASSERT_TRUE((*context)->evaluate({&group, 1}, frame % 2 == 0 ? SUPPLE_RECORD_TIMINGS : 0).ok());
             EXPECT_EQ(counts.maps, 0u);
             EXPECT_EQ(counts.updates, 0u);
@@ -159,10 +162,12 @@ TEST(Contract, OutOfMemoryLeavesTheContextUsable) {
                 WrappedVulkan& wrapped = wrappedVulkan();
                 (hostMemory ? wrapped.failBuffer : wrapped.failAllocation) = n;
                 Character c = makeCharacter((*context)->handle(), 2);
-                if (c.result == SUPPLE_OK)
+                if (c.result == SUPPLE_OK) {
                     break;
+                }
                 ++failures;
-                EXPECT_EQ(c.result, hostMemory ? SUPPLE_ERROR_HOST_MEMORY : SUPPLE_ERROR_DEVICE_MEMORY) << "failure " << n;
+                EXPECT_EQ(c.result, hostMemory ? SUPPLE_ERROR_HOST_MEMORY : SUPPLE_ERROR_DEVICE_MEMORY)
+                    << "failure " << n;
                 if (c.asset.id != 0) {
                     EXPECT_EQ(suppleDestroyAsset((*context)->handle(), c.asset), SUPPLE_OK);
                 }
@@ -205,7 +210,8 @@ TEST(Contract, InstancesHaveTheirOwnPoseAndTransform) {
     options.instanceCount = 1;
     GpuSurface alone(*device, kPip, options);
     ASSERT_TRUE(three.valid() && alone.valid());
-    const glm::mat4 transform = glm::rotate(glm::translate(glm::mat4(1.0f), {3.0f, 0.5f, -2.0f}), 0.7f, {0.0f, 1.0f, 0.0f});
+    const glm::mat4 transform =
+        glm::rotate(glm::translate(glm::mat4(1.0f), {3.0f, 0.5f, -2.0f}), 0.7f, {0.0f, 1.0f, 0.0f});
     SuppleContext context = three.context().handle();
     ASSERT_EQ(suppleSetClipPose(context, three.group(), 0, 0, 0.4), SUPPLE_OK);
     ASSERT_EQ(suppleSetClipPose(context, three.group(), 1, 1, 0.9), SUPPLE_OK);
@@ -215,13 +221,15 @@ TEST(Contract, InstancesHaveTheirOwnPoseAndTransform) {
     ASSERT_EQ(suppleSetClipPose(context, alone.group(), 0, 1, 0.9), SUPPLE_OK);
     alone.evaluate();
     double moved = 0.0, turned = 0.0;
-    for (uint32_t p = 0; p < three.output().patchCount; ++p)
+    for (uint32_t p = 0; p < three.output().patchCount; ++p) {
         for (uint32_t s = 0; s < three.output().samplesPerPatch; ++s) {
             const GpuSurface::Vertex &a = alone.vertex(0, p, s), &b = three.vertex(1, p, s), &c = three.vertex(2, p, s);
             ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << "an instance's bits depend on its neighbours";
-            moved = std::max<double>(moved, glm::length(glm::vec3(transform * glm::vec4(b.position, 1.0f)) - c.position));
+            moved =
+                std::max<double>(moved, glm::length(glm::vec3(transform * glm::vec4(b.position, 1.0f)) - c.position));
             turned = std::max<double>(turned, glm::length(glm::mat3(transform) * b.normal - c.normal));
         }
+    }
     EXPECT_LT(moved, 1e-5);
     EXPECT_LT(turned, 1e-3);
 }
@@ -235,8 +243,9 @@ TEST(Contract, MatrixPosesEqualClipPoses) {
     std::vector<glm::mat4> nodes(character->skeleton.nodes.size()), joints;
     skinning::sampleClip(character->skeleton, character->clips[2], 1.1, nodes);
     skinning::globalTransforms(character->skeleton, nodes, nodes);
-    for (const uint32_t node : character->skin.joints)
+    for (const uint32_t node : character->skin.joints) {
         joints.push_back(nodes[node]);
+    }
     GpuOptions options;
     options.instanceCount = 2;
     options.rate = 1;
@@ -244,12 +253,14 @@ TEST(Contract, MatrixPosesEqualClipPoses) {
     ASSERT_TRUE(gpu.valid());
     SuppleContext context = gpu.context().handle();
     ASSERT_EQ(suppleSetClipPose(context, gpu.group(), 0, 2, 1.1), SUPPLE_OK);
-    ASSERT_EQ(suppleSetMatrixPose(context, gpu.group(), 1, glm::value_ptr(joints[0]), static_cast<uint32_t>(joints.size())),
-              SUPPLE_OK);
+    ASSERT_EQ(
+        suppleSetMatrixPose(context, gpu.group(), 1, glm::value_ptr(joints[0]), static_cast<uint32_t>(joints.size())),
+        SUPPLE_OK);
     gpu.evaluate();
     double worst = 0.0;
-    for (uint32_t v = 0; v < gpu.output().cageVertexCount; ++v)
+    for (uint32_t v = 0; v < gpu.output().cageVertexCount; ++v) {
         worst = std::max<double>(worst, glm::length(gpu.deformed(0, v) - gpu.deformed(1, v)));
+    }
     EXPECT_LT(worst, 1e-6);
 }
 
@@ -284,11 +295,12 @@ TEST(Contract, DestroyedGroupsLiveUntilTheirFrameIsComplete) {
     Character c = makeCharacter(context); // may reuse the slot: the generation differs
     ASSERT_EQ(c.result, SUPPLE_OK);
     EXPECT_NE(c.group.id, a.group.id);
-    ASSERT_TRUE(device->submitAndWait([&](VkCommandBuffer commands) {
-                          EXPECT_EQ(record(commands, a.group), SUPPLE_ERROR_ARGUMENT);
-                          EXPECT_EQ(record(commands, c.group), SUPPLE_OK);
-                          EXPECT_EQ(record(commands, c.group), SUPPLE_ERROR_ARGUMENT) << "twice in a frame";
-                      })
+    ASSERT_TRUE(device
+                    ->submitAndWait([&](VkCommandBuffer commands) {
+                        EXPECT_EQ(record(commands, a.group), SUPPLE_ERROR_ARGUMENT);
+                        EXPECT_EQ(record(commands, c.group), SUPPLE_OK);
+                        EXPECT_EQ(record(commands, c.group), SUPPLE_ERROR_ARGUMENT) << "twice in a frame";
+                    })
                     .ok());
 }
 
@@ -346,8 +358,9 @@ TEST(Contract, CagesAreRefusedByName) {
     ASSERT_TRUE(created.ok());
     const auto refusal = [&](const cage::Cage& cage) {
         std::vector<uint32_t> counts;
-        for (uint32_t f = 0; f < cage.faceCount(); ++f)
+        for (uint32_t f = 0; f < cage.faceCount(); ++f) {
             counts.push_back(cage.sides(f));
+        }
         SuppleCageDesc cageDesc{};
         cageDesc.structSize = sizeof(cageDesc);
         cageDesc.vertexCount = cage.vertexCount();
@@ -379,11 +392,13 @@ TEST(Contract, CagesAreRefusedByName) {
     nan.positions[3].y = std::nanf("");
     cage::Cage range = cube();
     range.faceVertices[5] = 99;
-    const std::pair<const char*, std::string> cases[] = {
-        {"prism with pentagons", refusal(prism(5))}, {"flipped face", refusal(flipped)},
-        {"NaN position", refusal(nan)},              {"index out of range", refusal(range)}};
-    for (const auto& [name, message] : cases)
+    const std::pair<const char*, std::string> cases[] = {{"prism with pentagons", refusal(prism(5))},
+                                                         {"flipped face", refusal(flipped)},
+                                                         {"NaN position", refusal(nan)},
+                                                         {"index out of range", refusal(range)}};
+    for (const auto& [name, message] : cases) {
         std::printf("%-22s %s\n", name, message.c_str());
+    }
     EXPECT_NE(cases[0].second.find("5 sides"), std::string::npos) << cases[0].second;
     EXPECT_NE(cases[1].second.find("edge"), std::string::npos) << cases[1].second;
     EXPECT_NE(cases[2].second.find("vertex 3"), std::string::npos) << cases[2].second;
@@ -398,8 +413,9 @@ TEST(Contract, TimingsNameEveryPassAndNeverBlock) {
     ASSERT_TRUE(created.ok());
     Character c = makeCharacter((*created)->handle());
     ASSERT_EQ(c.result, SUPPLE_OK);
-    for (int frame = 0; frame < 3; ++frame)
+    for (int frame = 0; frame < 3; ++frame) {
         ASSERT_TRUE((*created)->evaluate({&c.group, 1}, SUPPLE_RECORD_TIMINGS).ok());
+    }
     uint32_t count = 0;
     ASSERT_EQ(suppleGetTimings((*created)->handle(), nullptr, &count), SUPPLE_OK);
     std::vector<SuppleTiming> timings(count);

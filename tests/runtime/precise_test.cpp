@@ -1,8 +1,8 @@
-// `precise` where it matters: the static check on every shader that feeds a position, and mutations that take `precise` from
-// one helper: the static check must see each, and the bits of shared borders must show it.
-#include "runtime/context.h"
+// `precise` where it matters: the static check on every shader that feeds a position, and mutations that take `precise`
+// from one helper: the static check must see each, and the bits of shared borders must show it.
 #include "cage/procedural.h"
 #include "cage/topology.h"
+#include "runtime/context.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/spirv_precise.h"
@@ -18,7 +18,9 @@ struct Checked {
     const char* position; ///< what the shader calls the value that becomes a position or feeds one
 };
 constexpr Checked kShaders[] = {
-    {"prep/evaluate.comp", "position"}, {"prep/vertex.comp", "canonical"}, {"prep/edge.comp", "canonical"},
+    {"prep/evaluate.comp", "position"},
+    {"prep/vertex.comp", "canonical"},
+    {"prep/edge.comp", "canonical"},
     {"deform/deform.comp", "p"},
 };
 
@@ -30,8 +32,9 @@ TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
         const std::vector<std::string> offences = imprecisePositionArithmetic(spirv, c.position, checked);
         std::printf("%-20s %u operations carry NoContraction\n", c.shader, checked);
         EXPECT_GT(checked, 10u) << c.shader << ": the walk found too little to be believed";
-        for (const std::string& offence : offences)
+        for (const std::string& offence : offences) {
             ADD_FAILURE() << c.shader << ": " << offence;
+        }
     }
 }
 
@@ -84,23 +87,26 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
         ++frame;
         EXPECT_TRUE((*context)->beginFrame(frame, frame - 1).ok());
         EXPECT_TRUE(device
-                        .submitAndWait([&](VkCommandBuffer commands) {
-                            EXPECT_TRUE((*context)->record(commands, record).ok());
-                        })
+                        .submitAndWait(
+                            [&](VkCommandBuffer commands) { EXPECT_TRUE((*context)->record(commands, record).ok()); })
                         .ok());
         const runtime::Group& group = *(*context)->groups.find(*id);
         const Result<std::vector<std::byte>> bytes = device.readBuffer(group.output().surfaceVertices);
         std::vector<uint32_t> patchOfFace(cage.faceCount());
-        for (uint32_t p = 0; p < group.tables().patches.size(); ++p)
+        for (uint32_t p = 0; p < group.tables().patches.size(); ++p) {
             patchOfFace[group.tables().patches[p].face] = p;
+        }
         const auto position = [&](uint32_t corner, uint32_t k) {
             const uint32_t face = topology->cornerFaces[corner];
             const glm::uvec2 at = edgeSample(corner - cage.faceStarts[face], k, rate);
-            return bytes->data() + 24 * (size_t{patchOfFace[face]} * group.output().samplesPerPatch + at.y * (rate + 1) + at.x);
+            return bytes->data() +
+                   24 * (size_t{patchOfFace[face]} * group.output().samplesPerPatch + at.y * (rate + 1) + at.x);
         };
-        for (const cage::Topology::Edge& edge : topology->edges)
-            for (uint32_t k = 0; k <= rate && edge.twin != cage::kNone; ++k)
+        for (const cage::Topology::Edge& edge : topology->edges) {
+            for (uint32_t k = 0; k <= rate && edge.twin != cage::kNone; ++k) {
                 different += std::memcmp(position(edge.corner, k), position(edge.twin, rate - k), 12) != 0;
+            }
+        }
     }
     return different;
 }

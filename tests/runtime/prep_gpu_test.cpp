@@ -19,9 +19,10 @@ GpuOptions gpuOptions(const Options& options, SuppleMapping mapping, uint32_t ra
     GpuOptions gpu;
     gpu.mapping = mapping;
     gpu.rate = rate;
-    gpu.tangents = options.tangentMode == surface::prep::TangentMode::printed ? SUPPLE_TANGENTS_PRINTED
-                                                                              : SUPPLE_TANGENTS_DEFAULT;
-    gpu.corners = options.cornerRule == surface::prep::CornerRule::smooth ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP;
+    gpu.tangents =
+        options.tangentMode == surface::prep::TangentMode::printed ? SUPPLE_TANGENTS_PRINTED : SUPPLE_TANGENTS_DEFAULT;
+    gpu.corners =
+        options.cornerRule == surface::prep::CornerRule::smooth ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP;
     return gpu;
 }
 
@@ -67,8 +68,9 @@ struct BorderBits {
 };
 BorderBits countBorderBits(const GpuSurface& gpu, const cage::Cage& cage, const cage::Topology& topology) {
     std::vector<uint32_t> patchOfFace(cage.faceCount());
-    for (uint32_t p = 0; p < gpu.patches().size(); ++p)
+    for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
         patchOfFace[gpu.patches()[p].face] = p;
+    }
     const uint32_t rate = gpu.output().rate;
     BorderBits bits;
     const auto position = [&](uint32_t corner, uint32_t k) {
@@ -77,8 +79,9 @@ BorderBits countBorderBits(const GpuSurface& gpu, const cage::Cage& cage, const 
         return gpu.vertex(0, patchOfFace[face], at.x, at.y).position;
     };
     for (const cage::Topology::Edge& edge : topology.edges) {
-        if (edge.twin == cage::kNone)
+        if (edge.twin == cage::kNone) {
             continue;
+        }
         for (uint32_t k = 0; k <= rate; ++k) {
             const glm::vec3 a = position(edge.corner, k), b = position(edge.twin, rate - k);
             ++bits.samples;
@@ -131,7 +134,7 @@ TEST(PrepMappings, GiveTheSamePositionBits) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    for (const NamedCage& named : borderCages())
+    for (const NamedCage& named : borderCages()) {
         for (const uint32_t rate : {1u, 2u, 3u, 6u, 8u, 13u, 33u, 64u}) {
             GpuSurface narrow(*device, named.cage, gpuOptions({}, SUPPLE_MAPPING_NARROW, rate));
             GpuSurface wide(*device, named.cage, gpuOptions({}, SUPPLE_MAPPING_WIDE, rate));
@@ -140,8 +143,9 @@ TEST(PrepMappings, GiveTheSamePositionBits) {
             wide.evaluate();
             uint64_t different = 0;
             for (uint32_t p = 0; p < narrow.output().patchCount; ++p) {
-                for (uint32_t s = 0; s < narrow.output().samplesPerPatch; ++s)
+                for (uint32_t s = 0; s < narrow.output().samplesPerPatch; ++s) {
                     different += std::memcmp(&narrow.vertex(0, p, s).position, &wide.vertex(0, p, s).position, 12) != 0;
+                }
                 for (uint32_t k = 0; k < 32; ++k) {
                     const glm::vec3 a = narrow.coefficient(0, p, k), b = wide.coefficient(0, p, k);
                     different += std::memcmp(&a, &b, 12) != 0;
@@ -149,6 +153,7 @@ TEST(PrepMappings, GiveTheSamePositionBits) {
             }
             EXPECT_EQ(different, 0u) << named.name << " at rate " << rate;
         }
+    }
 }
 
 TEST(PrepOnGpuFormats, SixteenBytesHoldTheSamePositionsAndCloseNormals) {
@@ -165,11 +170,12 @@ TEST(PrepOnGpuFormats, SixteenBytesHoldTheSamePositionsAndCloseNormals) {
         full.evaluate();
         packed.evaluate();
         double worst = 0.0;
-        for (uint32_t p = 0; p < full.output().patchCount; ++p)
+        for (uint32_t p = 0; p < full.output().patchCount; ++p) {
             for (uint32_t s = 0; s < full.output().samplesPerPatch; ++s) {
                 EXPECT_EQ(std::memcmp(&full.vertex(0, p, s).position, &packed.vertex(0, p, s).position, 12), 0);
                 raise(worst, angleDegrees(full.vertex(0, p, s).normal, packed.vertex(0, p, s).normal));
             }
+        }
         std::printf("octahedral 2 x 16: largest error %.4f degrees\n", worst);
         EXPECT_LE(worst, 0.005);
     }
@@ -184,8 +190,9 @@ TEST(PrepOnGpuRegular, AllValencesFourHasNoPerturbation) {
     gpu.evaluate();
     for (uint32_t p = 0; p < gpu.output().patchCount; ++p) {
         EXPECT_EQ(gpu.patches()[p].patchClass, SUPPLE_PATCH_REGULAR);
-        for (uint32_t k = 16; k < 32; ++k)
+        for (uint32_t k = 16; k < 32; ++k) {
             EXPECT_EQ(gpu.coefficient(0, p, k), glm::vec3(0.0f));
+        }
     }
 }
 

@@ -24,11 +24,13 @@ DeviceHolder& holder() {
 class DeviceEnvironment : public testing::Environment {
 public:
     void TearDown() override {
-        if (holder().device == nullptr)
+        if (holder().device == nullptr) {
             return;
+        }
         const auto log = holder().device->validation();
-        for (std::unique_ptr<host::Context>& context : holder().contexts)
+        for (std::unique_ptr<host::Context>& context : holder().contexts) {
             context = nullptr;
+        }
         holder().device = nullptr;
         EXPECT_EQ(log->messageCount(), 0u) << "the validation layer spoke";
     }
@@ -58,18 +60,20 @@ host::Device* testDevice() {
         host::DeviceOptions options;
         options.validation = std::getenv("SUPPLE_VALIDATION") != nullptr;
         Result<std::unique_ptr<host::Device>> device = host::Device::create(options);
-        if (device)
+        if (device) {
             h.device = std::move(*device);
-        else
+        } else {
             ADD_FAILURE() << device.error().message;
+        }
     }
     EXPECT_NE(h.device, nullptr) << "no Vulkan device";
     return h.device.get();
 }
 
 ValidationGuard::ValidationGuard() {
-    if (const host::Device* device = testDevice())
+    if (const host::Device* device = testDevice()) {
         before_ = device->validationMessageCount();
+    }
 }
 ValidationGuard::~ValidationGuard() {
     if (const host::Device* device = testDevice()) {
@@ -79,8 +83,9 @@ ValidationGuard::~ValidationGuard() {
 
 GpuSurface::GpuSurface(host::Device& device, const cage::Cage& cage, const GpuOptions& options) {
     std::vector<uint32_t> counts;
-    for (uint32_t f = 0; f < cage.faceCount(); ++f)
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
         counts.push_back(cage.sides(f));
+    }
     SuppleCageDesc desc{};
     desc.structSize = sizeof(desc);
     desc.vertexCount = cage.vertexCount();
@@ -123,8 +128,9 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
         EXPECT_TRUE(status.ok()) << status.error().message;
         return status.ok();
     };
-    if (!check(suppleCreateAsset(context_->handle(), &asset, &asset_), "suppleCreateAsset"))
+    if (!check(suppleCreateAsset(context_->handle(), &asset, &asset_), "suppleCreateAsset")) {
         return;
+    }
     SuppleGroupDesc group{};
     group.structSize = sizeof(group);
     group.flags = options.flags;
@@ -134,21 +140,25 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     group.vertexFormat = options.format;
     group.tangentMode = options.tangents;
     group.cornerRule = options.corners;
-    if (!check(suppleCreateGroup(context_->handle(), &group, &group_), "suppleCreateGroup"))
+    if (!check(suppleCreateGroup(context_->handle(), &group, &group_), "suppleCreateGroup")) {
         return;
+    }
     output_.structSize = sizeof(output_);
-    if (!check(suppleGetGroupOutput(context_->handle(), group_, &output_), "suppleGetGroupOutput"))
+    if (!check(suppleGetGroupOutput(context_->handle(), group_, &output_), "suppleGetGroupOutput")) {
         return;
+    }
     uint32_t count = output_.patchCount;
     patches_.resize(count);
-    if (!check(suppleGetPatches(context_->handle(), group_, patches_.data(), &count), "suppleGetPatches"))
+    if (!check(suppleGetPatches(context_->handle(), group_, patches_.data(), &count), "suppleGetPatches")) {
         return;
+    }
     valid_ = true;
 }
 
 GpuSurface::~GpuSurface() {
-    if (context_ == nullptr)
+    if (context_ == nullptr) {
         return;
+    }
     if (group_.id != 0) {
         EXPECT_EQ(suppleDestroyGroup(context_->handle(), group_), SUPPLE_OK);
     }
@@ -181,12 +191,14 @@ void GpuSurface::evaluate() {
         }
     }
     const auto readVec4 = [&](const SuppleBufferView& view, std::vector<glm::vec3>& out) {
-        if (view.buffer == VK_NULL_HANDLE)
+        if (view.buffer == VK_NULL_HANDLE) {
             return;
+        }
         const std::vector<std::byte> bytes = read(view);
         out.resize(bytes.size() / 16);
-        for (size_t i = 0; i < out.size(); ++i)
+        for (size_t i = 0; i < out.size(); ++i) {
             std::memcpy(&out[i], bytes.data() + 16 * i, 12);
+        }
     };
     readVec4(output_.deformedCage, deformed_);
     readVec4(output_.patchCoefficients, coefficients_);

@@ -12,8 +12,8 @@
 
 namespace supple::test {
 
-/// One device for a whole test program, with validation when SUPPLE_VALIDATION is set (tools/test.sh sets it). Null, with a
-/// failure recorded, when there is no device.
+/// One device for a whole test program, with validation when SUPPLE_VALIDATION is set (tools/test.sh sets it). Null,
+/// with a failure recorded, when there is no device.
 [[nodiscard]] host::Device* testDevice();
 
 /// Fails the test when the validation layer has spoken since the guard was made.
@@ -63,7 +63,8 @@ public:
         glm::vec3 position, normal;
     };
     [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t sample) const {
-        return vertices_[size_t{instance} * output_.verticesPerInstance + size_t{patch} * output_.samplesPerPatch + sample];
+        return vertices_[size_t{instance} * output_.verticesPerInstance + size_t{patch} * output_.samplesPerPatch +
+                         sample];
     }
     [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t i, uint32_t j) const {
         return vertex(instance, patch, j * (output_.rate + 1) + i);

@@ -48,13 +48,20 @@ constexpr uint32_t kNoContraction = 42;
 
 const char* arithmeticName(uint32_t op) {
     switch (op) {
-    case kFAdd: return "FAdd";
-    case kFSub: return "FSub";
-    case kFMul: return "FMul";
-    case kFDiv: return "FDiv";
-    case kVectorTimesScalar: return "VectorTimesScalar";
-    case kDot: return "Dot";
-    default: return nullptr;
+    case kFAdd:
+        return "FAdd";
+    case kFSub:
+        return "FSub";
+    case kFMul:
+        return "FMul";
+    case kFDiv:
+        return "FDiv";
+    case kVectorTimesScalar:
+        return "VectorTimesScalar";
+    case kDot:
+        return "Dot";
+    default:
+        return nullptr;
     }
 }
 
@@ -62,7 +69,7 @@ struct Instruction {
     uint32_t op = 0;
     uint32_t type = 0;
     uint32_t result = 0;
-    uint32_t function = 0; ///< id of the function it stands in
+    uint32_t function = 0;          ///< id of the function it stands in
     std::vector<uint32_t> operands; ///< without type and result
 };
 
@@ -78,19 +85,24 @@ public:
     explicit Walk(std::span<const uint32_t> words) { parse(words); }
 
     std::vector<std::string> run(const std::string& positionName, uint32_t& checked) {
-        for (const auto& [id, name] : names_)
+        for (const auto& [id, name] : names_) {
             if (name == positionName && byResult_.contains(id) &&
-                (byResult_[id].op == kVariable || byResult_[id].op == kFunctionParameter))
+                (byResult_[id].op == kVariable || byResult_[id].op == kFunctionParameter)) {
                 push({id, -1});
+            }
+        }
         while (!pending_.empty()) {
             const Key key = pending_.back();
             pending_.pop_back();
             visit(key);
         }
         std::vector<std::string> offences;
-        for (const uint32_t id : arithmetic_)
-            if (!noContraction_.contains(id))
-                offences.push_back(std::string(arithmeticName(byResult_[id].op)) + " in " + names_[byResult_[id].function]);
+        for (const uint32_t id : arithmetic_) {
+            if (!noContraction_.contains(id)) {
+                offences.push_back(std::string(arithmeticName(byResult_[id].op)) + " in " +
+                                   names_[byResult_[id].function]);
+            }
+        }
         checked = static_cast<uint32_t>(arithmetic_.size());
         return offences;
     }
@@ -107,8 +119,9 @@ private:
                 names_[body[0]] = names_[body[0]].substr(0, names_[body[0]].find('('));
                 continue;
             }
-            if (op == kDecorate && body[1] == kNoContraction)
+            if (op == kDecorate && body[1] == kNoContraction) {
                 noContraction_.insert(body[0]);
+            }
             Instruction i;
             i.op = op;
             if (op == kTypeStruct) {
@@ -127,26 +140,31 @@ private:
             }
             if (op == kFunction || op == kFunctionParameter || op == kFunctionCall || op == kVariable || op == kLoad ||
                 op == kAccessChain || op == kInBoundsAccessChain || op == kConstant || (op >= 77 && op <= 250)) {
-                if (body.size() < 2)
+                if (body.size() < 2) {
                     continue;
+                }
                 i.type = body[0];
                 i.result = body[1];
                 i.operands.assign(body.begin() + 2, body.end());
-                if (op == kFunction)
+                if (op == kFunction) {
                     function = i.result;
+                }
                 i.function = function;
-                if (op == kFunctionParameter)
+                if (op == kFunctionParameter) {
                     parameters_[function].push_back(i.result);
+                }
                 byResult_[i.result] = i;
-                if (op == kFunctionCall)
+                if (op == kFunctionCall) {
                     calls_.push_back(i);
+                }
             }
         }
     }
 
     void push(Key key) {
-        if (seen_.insert(key).second)
+        if (seen_.insert(key).second) {
             pending_.push_back(key);
+        }
     }
 
     /// The variable or parameter behind a pointer, and the member an access chain picks first when it is a struct.
@@ -154,19 +172,22 @@ private:
         int member = -1;
         while (true) {
             const auto found = byResult_.find(pointer);
-            if (found == byResult_.end())
+            if (found == byResult_.end()) {
                 return {pointer, member};
+            }
             const Instruction& i = found->second;
-            if (i.op != kAccessChain && i.op != kInBoundsAccessChain)
+            if (i.op != kAccessChain && i.op != kInBoundsAccessChain) {
                 return {pointer, member};
+            }
             pointer = i.operands[0];
             member = -1;
             const auto base = byResult_.find(pointer);
             if (base != byResult_.end() && pointees_.contains(base->second.type) &&
                 structs_.contains(pointees_.at(base->second.type))) {
                 const auto index = byResult_.find(i.operands[1]);
-                if (index != byResult_.end() && index->second.op == kConstant)
+                if (index != byResult_.end() && index->second.op == kConstant) {
                     member = static_cast<int>(index->second.operands[0]);
+                }
             }
         }
     }
@@ -175,8 +196,9 @@ private:
 
     void visit(Key key) {
         const auto found = byResult_.find(key.id);
-        if (found == byResult_.end())
+        if (found == byResult_.end()) {
             return; // a constant or a type
+        }
         const Instruction& i = found->second;
         switch (i.op) {
         case kVariable:
@@ -184,17 +206,20 @@ private:
             // Whatever is stored into it, here or through a call it is passed to.
             for (const Instruction& store : stores_) {
                 const Key target = root(store.operands[0]);
-                if (target.id == key.id && overlap(target.member, key.member))
+                if (target.id == key.id && overlap(target.member, key.member)) {
                     push({store.operands[1], target.member == -1 ? key.member : -1});
+                }
             }
             for (const Instruction& call : calls_) {
                 const std::vector<uint32_t>& parameters = parameters_[call.operands[0]];
                 for (size_t a = 0; a < parameters.size(); ++a) {
                     const Key argument = root(call.operands[a + 1]);
-                    if (argument.id == key.id && overlap(argument.member, key.member))
+                    if (argument.id == key.id && overlap(argument.member, key.member)) {
                         push({parameters[a], argument.member == -1 ? key.member : -1});
-                    if (parameters[a] == key.id)
+                    }
+                    if (parameters[a] == key.id) {
                         push({argument.id, argument.member == -1 ? key.member : argument.member});
+                    }
                 }
             }
             return;
@@ -204,21 +229,26 @@ private:
             const auto base = byResult_.find(from.id);
             // Buffers, texels and push constants are where values come from; walking ends there.
             if (base != byResult_.end() && (base->second.op == kFunctionParameter ||
-                                            (base->second.op == kVariable && base->second.operands[0] == 7)))
+                                            (base->second.op == kVariable && base->second.operands[0] == 7))) {
                 push({from.id, from.member == -1 ? key.member : from.member});
+            }
             return;
         }
         case kFunctionCall:
-            for (const Instruction& value : returns_)
-                if (value.function == i.operands[0])
+            for (const Instruction& value : returns_) {
+                if (value.function == i.operands[0]) {
                     push({value.operands[0], key.member});
+                }
+            }
             return;
         case kCompositeConstruct:
-            if (structs_.contains(i.type) && key.member >= 0)
+            if (structs_.contains(i.type) && key.member >= 0) {
                 push({i.operands[static_cast<size_t>(key.member)], -1});
-            else
-                for (const uint32_t operand : i.operands)
+            } else {
+                for (const uint32_t operand : i.operands) {
                     push({operand, -1});
+                }
+            }
             return;
         case kCompositeExtract: {
             const auto composite = byResult_.find(i.operands[0]);
@@ -238,11 +268,14 @@ private:
         default:
             break;
         }
-        if (arithmeticName(i.op) != nullptr)
+        if (arithmeticName(i.op) != nullptr) {
             arithmetic_.insert(key.id);
-        if (i.op >= 109 && i.op <= 250) // conversions and arithmetic
-            for (const uint32_t operand : i.operands)
+        }
+        if (i.op >= 109 && i.op <= 250) { // conversions and arithmetic
+            for (const uint32_t operand : i.operands) {
                 push({operand, -1});
+            }
+        }
     }
 
     std::map<uint32_t, std::string> names_;
@@ -274,8 +307,9 @@ std::string stripped(const std::string& source, const std::string& name, uint32_
     }
     const std::regex definition("\\n[A-Za-z0-9_]+ " + name + "\\([^)]*\\) \\{");
     std::smatch match;
-    if (!std::regex_search(source, match, definition))
+    if (!std::regex_search(source, match, definition)) {
         return source;
+    }
     const size_t begin = static_cast<size_t>(match.position(0));
     size_t end = source.find("\n}", begin + 1);
     std::string body = source.substr(begin, end - begin);
@@ -302,8 +336,9 @@ std::vector<uint32_t> compileShader(const std::string& path, const std::string& 
     uint32_t removals = 0;
     if (!strip.empty()) {
         for (const auto& entry : fs::recursive_directory_iterator(root / "shaders")) {
-            if (!entry.is_regular_file())
+            if (!entry.is_regular_file()) {
                 continue;
+            }
             const std::string text = readText(entry.path());
             std::ofstream(entry.path()) << stripped(text, strip, removals);
         }

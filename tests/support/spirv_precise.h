@@ -1,5 +1,6 @@
-// Static check of `precise`: every addition, subtraction, multiplication, division, vector-times-scalar and dot product on the
-// way to a stored position must carry NoContraction. glslang's `precise` stops at function boundaries; this does not.
+// Static check of `precise`: every addition, subtraction, multiplication, division, vector-times-scalar and dot product
+// on the way to a stored position must carry NoContraction. glslang's `precise` stops at function boundaries; this does
+// not.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +10,15 @@
 
 namespace supple::test {
 
-/// Walks back from every variable and parameter of the given OpName (the module must carry names) through stores, calls and
-/// struct members to the buffers the values come from. Returns one line an offending instruction: its opcode and function.
-/// `checked` counts the arithmetic instructions met.
+/// Walks back from every variable and parameter of the given OpName (the module must carry names) through stores, calls
+/// and struct members to the buffers the values come from. Returns one line an offending instruction: its opcode and
+/// function. `checked` counts the arithmetic instructions met.
 [[nodiscard]] std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> spirv,
                                                                    const std::string& positionName, uint32_t& checked);
 
-/// GLSL below shaders/, compiled with names kept. `strip`: the name of a function whose `precise` qualifiers are removed
-/// first, wherever it is defined; "*": everywhere; empty leaves the source alone. Empty result: it did not compile (the test fails).
+/// GLSL below shaders/, compiled with names kept. `strip`: the name of a function whose `precise` qualifiers are
+/// removed first, wherever it is defined; "*": everywhere; empty leaves the source alone. Empty result: it did not
+/// compile (the test fails).
 [[nodiscard]] std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip);
 
 } // namespace supple::test

@@ -31,21 +31,24 @@ VKAPI_ATTR VkResult VKAPI_CALL flush(VkDevice device, uint32_t count, const VkMa
 }
 VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
                                         const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
-    if (static_cast<int64_t>(state.allocations++) == state.failAllocation)
+    if (static_cast<int64_t>(state.allocations++) == state.failAllocation) {
         return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
     return real.AllocateMemory(device, info, allocator, memory);
 }
 VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice device, const VkBufferCreateInfo* info,
                                             const VkAllocationCallbacks* allocator, VkBuffer* buffer) {
-    if (static_cast<int64_t>(state.buffers++) == state.failBuffer)
+    if (static_cast<int64_t>(state.buffers++) == state.failBuffer) {
         return VK_ERROR_OUT_OF_HOST_MEMORY;
+    }
     return real.CreateBuffer(device, info, allocator, buffer);
 }
 VKAPI_ATTR void VKAPI_CALL copyBuffer(VkCommandBuffer commands, VkBuffer source, VkBuffer target, uint32_t count,
                                       const VkBufferCopy* regions) {
     ++state.copies;
-    for (uint32_t i = 0; i < count; ++i)
+    for (uint32_t i = 0; i < count; ++i) {
         state.copiedBytes += regions[i].size;
+    }
     real.CmdCopyBuffer(commands, source, target, count, regions);
 }
 VKAPI_ATTR void VKAPI_CALL fillBuffer(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
@@ -54,16 +57,20 @@ VKAPI_ATTR void VKAPI_CALL fillBuffer(VkCommandBuffer commands, VkBuffer buffer,
     real.CmdFillBuffer(commands, buffer, offset, size, value);
 }
 VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer commands, const VkDependencyInfo* info) {
-    if (static_cast<int64_t>(state.barriers++) != state.dropBarrier)
+    if (static_cast<int64_t>(state.barriers++) != state.dropBarrier) {
         real.CmdPipelineBarrier2(commands, info);
+    }
 }
 VKAPI_ATTR void VKAPI_CALL features(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* out) {
     real.GetPhysicalDeviceFeatures2(device, out);
-    if (!state.hideSynchronization2)
+    if (!state.hideSynchronization2) {
         return;
-    for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next != nullptr; next = next->pNext)
-        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES)
+    }
+    for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next != nullptr; next = next->pNext) {
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
             reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(next)->synchronization2 = VK_FALSE;
+        }
+    }
 }
 
 /// Keeps the real function and hands out ours.
@@ -76,25 +83,34 @@ PFN_vkVoidFunction wrap(F& slot, PFN_vkVoidFunction function, F ours) {
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
     const PFN_vkVoidFunction function = real.GetDeviceProcAddr(device, name);
     const auto is = [&](const char* other) { return std::strcmp(name, other) == 0; };
-    if (is("vkMapMemory"))
+    if (is("vkMapMemory")) {
         return wrap(real.MapMemory, function, &mapMemory);
-    if (is("vkFlushMappedMemoryRanges"))
+    }
+    if (is("vkFlushMappedMemoryRanges")) {
         return wrap(real.FlushMappedMemoryRanges, function, &flush);
-    if (is("vkAllocateMemory"))
+    }
+    if (is("vkAllocateMemory")) {
         return wrap(real.AllocateMemory, function, &allocate);
-    if (is("vkCreateBuffer"))
+    }
+    if (is("vkCreateBuffer")) {
         return wrap(real.CreateBuffer, function, &createBuffer);
-    if (is("vkCmdCopyBuffer"))
+    }
+    if (is("vkCmdCopyBuffer")) {
         return wrap(real.CmdCopyBuffer, function, &copyBuffer);
-    if (is("vkCmdFillBuffer"))
+    }
+    if (is("vkCmdFillBuffer")) {
         return wrap(real.CmdFillBuffer, function, &fillBuffer);
-    if (is("vkCmdPipelineBarrier2"))
+    }
+    if (is("vkCmdPipelineBarrier2")) {
         return wrap(real.CmdPipelineBarrier2, function, &barrier);
+    }
     // What Supple does not load today must not slip past the count tomorrow.
-    if (is("vkCmdUpdateBuffer"))
+    if (is("vkCmdUpdateBuffer")) {
         ++state.updates;
-    if (is("vkInvalidateMappedMemoryRanges"))
+    }
+    if (is("vkInvalidateMappedMemoryRanges")) {
         ++state.invalidates;
+    }
     return function;
 }
 
@@ -105,14 +121,18 @@ WrappedVulkan& wrappedVulkan() {
     return state;
 }
 
-WrappedVulkan& currentWrappedVulkan() { return state; }
+WrappedVulkan& currentWrappedVulkan() {
+    return state;
+}
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL wrappedGetInstanceProcAddr(VkInstance instance, const char* name) {
     const PFN_vkVoidFunction function = vkGetInstanceProcAddr(instance, name);
-    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
         return wrap(real.GetDeviceProcAddr, function, &getDeviceProcAddr);
-    if (std::strcmp(name, "vkGetPhysicalDeviceFeatures2") == 0)
+    }
+    if (std::strcmp(name, "vkGetPhysicalDeviceFeatures2") == 0) {
         return wrap(real.GetPhysicalDeviceFeatures2, function, &features);
+    }
     return function;
 }
 

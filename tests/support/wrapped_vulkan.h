@@ -1,5 +1,5 @@
-// A function table between Supple and the driver: counts what crosses per frame, drops a barrier, fails an allocation, hides
-// a feature. One test at a time uses it; state is reset by wrappedVulkan().
+// A function table between Supple and the driver: counts what crosses per frame, drops a barrier, fails an allocation,
+// hides a feature. One test at a time uses it; state is reset by wrappedVulkan().
 #pragma once
 
 #include <cstdint>

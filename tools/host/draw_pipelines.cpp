@@ -31,7 +31,7 @@ struct PipelineDesc {
     bool depthBias = false;
     bool blend = false;
     bool alphaToCoverage = false;
-    bool colorWrite = true;
+    bool lightPerVertex = false;
     VkFormat color = VK_FORMAT_UNDEFINED;
     VkFormat depth = VK_FORMAT_UNDEFINED;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
@@ -62,11 +62,15 @@ Result<VkPipeline> createPipeline(Device& device, VkPipelineLayout layout, const
     const ShaderModule vertex(device.handle(), desc.vertex);
     if (vertex.result != VK_SUCCESS)
         return vulkanError(vertex.result, "vkCreateShaderModule");
+    const VkBool32 lightPerVertex = desc.lightPerVertex ? VK_TRUE : VK_FALSE;
+    const VkSpecializationMapEntry entry{0, 0, sizeof lightPerVertex};
+    const VkSpecializationInfo specialization{1, &entry, sizeof lightPerVertex, &lightPerVertex};
     const auto addStage = [&](VkShaderStageFlagBits stage, VkShaderModule module) {
         auto info = vkStruct<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
         info.stage = stage;
         info.module = module;
         info.pName = "main";
+        info.pSpecializationInfo = &specialization;
         stages.push_back(info);
     };
     addStage(VK_SHADER_STAGE_VERTEX_BIT, vertex.handle);
@@ -106,8 +110,7 @@ Result<VkPipeline> createPipeline(Device& device, VkPipelineLayout layout, const
     depth.depthWriteEnable = desc.depthWrite ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = desc.depthCompare;
     VkPipelineColorBlendAttachmentState attachment{};
-    if (desc.colorWrite)
-        attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
+    attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
     attachment.blendEnable = desc.blend ? VK_TRUE : VK_FALSE;
     attachment.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
     attachment.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
@@ -181,7 +184,7 @@ Result<std::unique_ptr<DrawPipelines>> DrawPipelines::create(Device& device, con
 DrawPipelines::~DrawPipelines() {
     const VkDevice device = device_.handle();
     for (const VkPipeline pipeline :
-         {surfaceShadow, cageShadow, surfaceDepth, surface, cageFace, cageEdge, ground, backdrop})
+         {surfaceShadow, cageShadow, surface, surfaceVertexLit, cageFace, cageEdge, ground, backdrop})
         vkDestroyPipeline(device, pipeline, nullptr);
     vkDestroySampler(device, shadowSampler, nullptr);
     vkDestroyPipelineLayout(device, layout, nullptr);
@@ -194,7 +197,7 @@ Status DrawPipelines::createLayouts() {
     constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
     constexpr Binding kFrame[] = {
         {shared::kFrameBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | kFragment},
-        {shared::kShadowBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+        {shared::kShadowBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kVertex | kFragment},
     };
     constexpr Binding kFigure[] = {
         {shared::kSurfaceVertexBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
@@ -262,11 +265,9 @@ Status DrawPipelines::createPipelines(const DrawFormats& formats) {
                                    .color = formats.color,
                                    .depth = formats.depth,
                                    .samples = formats.samples};
-    PipelineDesc surfaceDepthDesc = surfaceDesc;
-    surfaceDepthDesc.name = "surface depth";
-    surfaceDepthDesc.fragment = {};
-    surfaceDepthDesc.alphaToCoverage = false;
-    surfaceDepthDesc.colorWrite = false;
+    PipelineDesc surfaceVertexLitDesc = surfaceDesc;
+    surfaceVertexLitDesc.name = "surface, lit by vertex";
+    surfaceVertexLitDesc.lightPerVertex = true;
     PipelineDesc cageFaceDesc = surfaceDesc;
     cageFaceDesc.name = "cage face";
     cageFaceDesc.vertex = draw_cage_face_vert;
@@ -292,7 +293,7 @@ Status DrawPipelines::createPipelines(const DrawFormats& formats) {
     backdropDesc.depthWrite = false;
 
     const std::pair<const PipelineDesc*, VkPipeline*> all[] = {
-        {&shadow, &surfaceShadow}, {&cageShadowDesc, &cageShadow}, {&surfaceDepthDesc, &surfaceDepth},
+        {&shadow, &surfaceShadow}, {&cageShadowDesc, &cageShadow}, {&surfaceVertexLitDesc, &surfaceVertexLit},
         {&surfaceDesc, &surface},  {&cageFaceDesc, &cageFace},     {&cageEdgeDesc, &cageEdge},
         {&groundDesc, &ground},    {&backdropDesc, &backdrop},
     };

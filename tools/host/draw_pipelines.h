@@ -31,8 +31,8 @@ public:
 
     VkPipeline surfaceShadow = VK_NULL_HANDLE;
     VkPipeline cageShadow = VK_NULL_HANDLE;
-    VkPipeline surfaceDepth = VK_NULL_HANDLE; ///< only depth: what is hidden is then never shaded
     VkPipeline surface = VK_NULL_HANDLE;
+    VkPipeline surfaceVertexLit = VK_NULL_HANDLE; ///< the light looked up once a vertex
     VkPipeline cageFace = VK_NULL_HANDLE;
     VkPipeline cageEdge = VK_NULL_HANDLE;
     VkPipeline ground = VK_NULL_HANDLE;

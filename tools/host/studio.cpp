@@ -66,16 +66,19 @@ void addSoftLight(std::vector<shared::Light>& lights, uint32_t count, const Samp
 
 } // namespace
 
+StudioMiddle studioMiddle(float yaw) {
+    return {direction(yaw - 0.75f, 0.72f), kKeyColor, direction(yaw + 2.55f, 0.50f), kRimColor};
+}
+
 std::vector<shared::Light> studioLights(const StudioQuality& quality, uint32_t pass, float yaw, glm::vec3 center,
                                         float radius) {
+    const StudioMiddle middle = studioMiddle(yaw);
     const Sampling sampling{pass, std::max(quality.passes, 1u)};
     const Sphere sphere{center, radius};
     std::vector<shared::Light> lights;
     lights.reserve(quality.lightCount());
-    addSoftLight(lights, quality.key, sampling, direction(yaw - 0.75f, 0.72f), 0.2f, kKeyColor, shared::kLightKey,
-                 sphere);
-    addSoftLight(lights, quality.rim, sampling, direction(yaw + 2.55f, 0.50f), 0.16f, kRimColor, shared::kLightRim,
-                 sphere);
+    addSoftLight(lights, quality.key, sampling, middle.keyDirection, 0.2f, middle.keyColor, shared::kLightKey, sphere);
+    addSoftLight(lights, quality.rim, sampling, middle.rimDirection, 0.16f, middle.rimColor, shared::kLightRim, sphere);
     // Equal areas of the upper half sphere; a surface that faces straight up gathers the sky's color once.
     const float scale = 2.0f / static_cast<float>(std::max(quality.sky, 1u));
     for (uint32_t i = 0; i < quality.sky; ++i) {

@@ -19,8 +19,10 @@ struct StudioQuality {
 
     [[nodiscard]] uint32_t lightCount() const { return key + rim + sky; }
 
-    /// For pictures.
-    [[nodiscard]] static StudioQuality still() { return {}; }
+    /// For pictures of this height; small ones show less of it.
+    [[nodiscard]] static StudioQuality still(uint32_t height) {
+        return height <= 480 ? StudioQuality{4, 2, 8, 512, 3} : StudioQuality{};
+    }
     /// For a window: on a CPU device a few directions must do.
     [[nodiscard]] static StudioQuality interactive(bool cpuDevice) {
         return cpuDevice ? StudioQuality{2, 1, 4, 512, 1} : StudioQuality{8, 2, 14, 1024, 1};
@@ -32,6 +34,11 @@ struct StudioQuality {
 /// them.
 [[nodiscard]] std::vector<shared::Light> studioLights(const StudioQuality& quality, uint32_t pass, float yaw,
                                                       glm::vec3 center, float radius);
+/// The middles of the key and the rim, each with all its light: what highlights are drawn from.
+struct StudioMiddle {
+    glm::vec3 keyDirection, keyColor, rimDirection, rimColor;
+};
+[[nodiscard]] StudioMiddle studioMiddle(float yaw);
 /// Where in the pixel a pass samples: an offset in pixels, within half a pixel.
 [[nodiscard]] glm::vec2 studioJitter(const StudioQuality& quality, uint32_t pass);
 /// Brings figures as dark as coal and as light as chalk to a middle brightness, half way.

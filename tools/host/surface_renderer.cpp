@@ -16,6 +16,9 @@ constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
 constexpr glm::vec4 kCageEdgeColor(0.010f, 0.014f, 0.022f, 0.85f);
 constexpr glm::vec4 kOverlayEdgeColor(0.95f, 0.42f, 0.06f, 0.9f);
 
+/// From here on a CPU device looks the light up once a vertex: it shades blocks of pixels, however small the triangle.
+constexpr uint32_t kVertexLitRate = 4;
+
 /// Push constants that fit any draw of the group; ranges and materials are filled in draw by draw.
 shared::DrawPush basePush(const Scene& scene, uint32_t light) {
     const SuppleGroupOutput& output = scene.group->output();
@@ -50,7 +53,7 @@ void applyMaterial(const cage::Character& character, uint32_t index, shared::Dra
         push.flags |= shared::kDrawTranslucent;
 }
 
-/// Without holes: casts a shadow, and hides what is behind before it is shaded.
+/// Without holes: casts a shadow.
 bool isSolid(const cage::Character& character, uint32_t material) {
     return material >= character.materials.size() || character.materials[material].alphaMode == cage::AlphaMode::opaque;
 }
@@ -321,6 +324,11 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
                                                        : studioExposure(0.4f);
     frame.shadowTexel = 2.0f * radius / static_cast<float>(quality_.shadowSize);
     frame.pixelScale = scene.pixelScale;
+    const StudioMiddle middle = studioMiddle(scene.lightYaw);
+    frame.keyDirection = glm::vec4(middle.keyDirection, 0.0f);
+    frame.keyColor = glm::vec4(middle.keyColor, 0.0f);
+    frame.rimDirection = glm::vec4(middle.rimDirection, 0.0f);
+    frame.rimColor = glm::vec4(middle.rimColor, 0.0f);
     const std::vector<shared::Light> lights = studioLights(quality_, scene.pass, scene.lightYaw, center, radius);
     std::copy(lights.begin(), lights.end(), frame.lights);
     std::memcpy(slot.uniforms.mapped(), &frame, sizeof frame);
@@ -332,7 +340,8 @@ void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene
     const ImageUse drawn{
         VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
         {kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT}};
-    const SuppleSyncScope read{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+    const SuppleSyncScope read{VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                               VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
     imageBarrier(commands, shadowMaps_, {VK_IMAGE_LAYOUT_UNDEFINED, read}, drawn);
     const VkExtent2D extent{quality_.shadowSize, quality_.shadowSize};
     for (uint32_t light = 0; light < quality_.lightCount(); ++light) {
@@ -392,8 +401,7 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     if (scene.cageFaces)
         drawCageFaces(commands, scene, std::nullopt);
     else
-        for (const bool depthOnly : {true, false})
-            drawSurface(commands, scene, depthOnly);
+        drawSurface(commands, scene);
     if (scene.ground.has_value() && scene.camera.eye().y > *scene.ground) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->ground);
         vkCmdDraw(commands, 4, 1, 0, 0);
@@ -427,24 +435,22 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
     }
 }
 
-void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene, bool depthOnly) const {
+void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) const {
     const SuppleGroupOutput& output = scene.group->output();
     const cage::Character& character = scene.group->figure().character();
     shared::DrawPush push = basePush(scene, 0);
+    const bool vertexLit = device_.isCpu() && output.rate >= kVertexLitRate;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                      depthOnly ? pipelines_->surfaceDepth : pipelines_->surface);
+                      vertexLit ? pipelines_->surfaceVertexLit : pipelines_->surface);
     vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
     for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.drawRanges[i];
-        if (depthOnly && !isSolid(character, range.material))
-            continue;
         applyMaterial(character, range.material, push);
         push.firstPatch = range.firstPatch;
         push.patchCount = range.patchCount;
         pushConstants(commands, push);
-        if (!depthOnly)
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
-                                    &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
+                                &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);
         vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
                                  output.indirect.offset + VkDeviceSize{i} * output.indirect.stride, 1,
                                  output.indirect.stride);

@@ -20,7 +20,7 @@ inline constexpr SuppleSyncScope kRendererReads = {
 
 struct RendererOptions {
     VkFormat colorFormat = kPictureFormat;
-    StudioQuality quality = StudioQuality::still();
+    StudioQuality quality;
     uint32_t framesInFlight = 1; ///< pictures that may be pending at once
 };
 
@@ -86,7 +86,7 @@ private:
     void recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const;
     void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
     void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
-    void drawSurface(VkCommandBuffer commands, const Scene& scene, bool depthOnly) const;
+    void drawSurface(VkCommandBuffer commands, const Scene& scene) const;
     void drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const;
     void drawCageEdges(VkCommandBuffer commands, const Scene& scene) const;
 

@@ -1,5 +1,5 @@
-// supple bench: the permanent benchmark. All contestants of a row run in interleaved rounds of one process, so that a slow phase
-// of the machine meets them all; what counts is the ratio within a round.
+// supple bench: the permanent benchmark. All contestants of a row run in interleaved rounds of one process, so that a
+// slow phase of the machine meets them all; what counts is the ratio within a round.
 #include "cage/procedural.h"
 #include "runtime/context.h"
 #include "tools/supple/command.h"
@@ -111,8 +111,8 @@ private:
     VkResult result_ = VK_SUCCESS;
 };
 
-/// A cage as a group of one instance on an internal context: the benchmark times single passes, which the public interface
-/// does not record apart.
+/// A cage as a group of one instance on an internal context: the benchmark times single passes, which the public
+/// interface does not record apart.
 struct Subject {
     std::string name;
     runtime::Context* context = nullptr;
@@ -204,9 +204,8 @@ private:
     /// Records a whole frame of `subject` once, so that statics are uploaded.
     Status warmUp(const Subject& subject) {
         Status status = success();
-        const Status submitted = session_.device->submitAndWait([&](VkCommandBuffer commands) {
-            status = recordFrame(subject, commands, 0);
-        });
+        const Status submitted = session_.device->submitAndWait(
+            [&](VkCommandBuffer commands) { status = recordFrame(subject, commands, 0); });
         return status ? submitted : status;
     }
     Status recordFrame(const Subject& subject, VkCommandBuffer commands, uint32_t flags) {
@@ -263,10 +262,18 @@ private:
                     return recorded;
                 }
                 const uint64_t points = uint64_t{cage.faceCount()} * samples;
-                row.contestants.push_back({std::string(name) + ", evaluate " + form.name, points,
-                                           [evaluate](uint32_t n) { return evaluate->run(n); }, 1, {}, {}});
-                row.contestants.push_back({std::string(name) + ", frame " + form.name, points,
-                                           [frame](uint32_t n) { return frame->run(n); }, 1, {}, {}});
+                row.contestants.push_back({std::string(name) + ", evaluate " + form.name,
+                                           points,
+                                           [evaluate](uint32_t n) { return evaluate->run(n); },
+                                           1,
+                                           {},
+                                           {}});
+                row.contestants.push_back({std::string(name) + ", frame " + form.name,
+                                           points,
+                                           [frame](uint32_t n) { return frame->run(n); },
+                                           1,
+                                           {},
+                                           {}});
             }
         }
         // The yardstick evaluates the sphere's patches from the coefficients the GPU gathered.
@@ -282,7 +289,8 @@ private:
             std::memcpy(coefficients.data() + first, bytes->data() + 512 * p, 256);
         }
         std::vector<float> out;
-        row.contestants.push_back({"cube sphere 1350, plain C++ bi-3 24 B", uint64_t{coefficients.size() / 64} * samples,
+        row.contestants.push_back({"cube sphere 1350, plain C++ bi-3 24 B",
+                                   uint64_t{coefficients.size() / 64} * samples,
                                    [&](uint32_t n) {
                                        for (uint32_t i = 0; i < n; ++i) {
                                            evaluatePlain(coefficients, rate, out);
@@ -333,10 +341,11 @@ private:
     /// deform .. evaluate with the barriers of a frame; the palette stays as it was uploaded.
     Status recordConstruction(runtime::Group& group, VkCommandBuffer commands) {
         const auto barrier = [&] {
-            host::memoryBarrier(commands, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                 VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
-                                     VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
+            host::memoryBarrier(commands,
+                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                                                                             VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
+                                                                             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
         };
         group.recordDeform(commands);
         barrier();
@@ -378,7 +387,8 @@ private:
     void report() const {
         std::printf("device    %s\n", session_.device->name().c_str());
         std::printf("yardstick plain C++ -O3 for %s, one thread\n", plainEvaluationTarget());
-        std::printf("times     medians of %u interleaved rounds, timestamps off, no pose sampling\n\n", options_.rounds);
+        std::printf("times     medians of %u interleaved rounds, timestamps off, no pose sampling\n\n",
+                    options_.rounds);
         for (const Row& row : rows_) {
             std::printf("rate %u (checksum of the yardstick %.6g)\n", row.rate, row.checksum);
             std::printf("  %-40s %10s %10s %12s\n", "", "CPU ns/pt", "wall ns/pt", "wall ms");
@@ -392,7 +402,8 @@ private:
             }
             std::printf("\n");
         }
-        std::printf("CPU time is the process's: on a CPU device it covers the driver's threads; on a GPU read wall times.\n");
+        std::printf(
+            "CPU time is the process's: on a CPU device it covers the driver's threads; on a GPU read wall times.\n");
     }
 
     Status writeJson() const {

@@ -1,4 +1,5 @@
-// The benchmark's yardstick: a plain C++ evaluation of bicubic patches, compiled -O3, by the same row collapse as the shader.
+// The benchmark's yardstick: a plain C++ evaluation of bicubic patches, compiled -O3, by the same row collapse as the
+// shader.
 #pragma once
 
 #include <cstddef>

@@ -65,7 +65,8 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
     if (!group)
         return group.error();
     stage->group_ = std::move(*group);
-    Result<std::unique_ptr<host::SurfaceRenderer>> renderer = host::SurfaceRenderer::create(device);
+    Result<std::unique_ptr<host::SurfaceRenderer>> renderer =
+        host::SurfaceRenderer::create(device, {.quality = host::StudioQuality::still(size.height)});
     if (!renderer)
         return renderer.error();
     stage->renderer_ = std::move(*renderer);
