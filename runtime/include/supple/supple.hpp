@@ -1,0 +1,166 @@
+// supple.hpp - a thin C++20 layer over supple.h: ownership and sized structs, nothing more. Header only; no exceptions;
+// every call returns the SuppleResult of the C function it stands for. Threads, units and lifetimes are supple.h's.
+#pragma once
+
+#include <supple/supple.h>
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace supple {
+
+/// A struct of supple.h with structSize set and everything else zero, that is: default.
+template <class T>
+[[nodiscard]] constexpr T sized() {
+    T value{};
+    value.structSize = sizeof(T);
+    return value;
+}
+
+/// Owns a SuppleContext. The device must outlive it, and no command buffer that uses it may be pending when it goes.
+class Context {
+public:
+    Context() = default;
+    Context(Context&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+    Context& operator=(Context&& other) noexcept {
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Context() { suppleDestroyContext(handle_); }
+
+    /// Replaces what `out` held.
+    [[nodiscard]] static SuppleResult create(const SuppleContextDesc& desc, Context& out) {
+        Context created;
+        const SuppleResult result = suppleCreateContext(&desc, &created.handle_);
+        if (result == SUPPLE_OK) {
+            out = std::move(created);
+        }
+        return result;
+    }
+
+    [[nodiscard]] SuppleContext handle() const { return handle_; }
+    explicit operator bool() const { return handle_ != nullptr; }
+
+    [[nodiscard]] SuppleResult beginFrame(uint64_t frame, uint64_t completedFrame) const {
+        return suppleBeginFrame(handle_, frame, completedFrame);
+    }
+    [[nodiscard]] SuppleResult record(VkCommandBuffer commandBuffer, std::span<const SuppleGroup> groups,
+                                      SuppleSyncScope before, SuppleSyncScope after, uint32_t flags = 0) const {
+        SuppleRecordDesc desc = sized<SuppleRecordDesc>();
+        desc.flags = flags;
+        desc.groups = groups.data();
+        desc.groupCount = static_cast<uint32_t>(groups.size());
+        desc.before = before;
+        desc.after = after;
+        return suppleRecord(handle_, commandBuffer, &desc);
+    }
+    /// The newest completed frame's passes, into `out` (resized; its capacity is reused). SUPPLE_NOT_READY empties it.
+    [[nodiscard]] SuppleResult timings(std::vector<SuppleTiming>& out) const {
+        uint32_t count = 0;
+        SuppleResult result = suppleGetTimings(handle_, nullptr, &count);
+        out.resize(count);
+        if (result == SUPPLE_OK) {
+            result = suppleGetTimings(handle_, out.data(), &count);
+        }
+        return result;
+    }
+
+private:
+    SuppleContext handle_ = nullptr;
+};
+
+/// Owns a SuppleAsset. Its context must outlive it.
+class Asset {
+public:
+    Asset() = default;
+    Asset(Asset&& other) noexcept
+        : context_(std::exchange(other.context_, nullptr)), handle_(std::exchange(other.handle_, {})) {}
+    Asset& operator=(Asset&& other) noexcept {
+        std::swap(context_, other.context_);
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Asset() {
+        if (context_ != nullptr) {
+            suppleDestroyAsset(context_, handle_);
+        }
+    }
+
+    /// Replaces what `out` held.
+    [[nodiscard]] static SuppleResult create(const Context& context, const SuppleAssetDesc& desc, Asset& out) {
+        SuppleAsset handle{};
+        const SuppleResult result = suppleCreateAsset(context.handle(), &desc, &handle);
+        if (result == SUPPLE_OK) {
+            Asset created;
+            created.context_ = context.handle();
+            created.handle_ = handle;
+            out = std::move(created);
+        }
+        return result;
+    }
+
+    [[nodiscard]] SuppleAsset handle() const { return handle_; }
+    [[nodiscard]] SuppleResult info(SuppleAssetInfo& out) const {
+        out = sized<SuppleAssetInfo>();
+        return suppleGetAssetInfo(context_, handle_, &out);
+    }
+
+private:
+    SuppleContext context_ = nullptr;
+    SuppleAsset handle_{};
+};
+
+/// Owns a SuppleGroup. Its context must outlive it; the device memory goes once the frames that used it are complete.
+class Group {
+public:
+    Group() = default;
+    Group(Group&& other) noexcept
+        : context_(std::exchange(other.context_, nullptr)), handle_(std::exchange(other.handle_, {})) {}
+    Group& operator=(Group&& other) noexcept {
+        std::swap(context_, other.context_);
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Group() {
+        if (context_ != nullptr) {
+            suppleDestroyGroup(context_, handle_);
+        }
+    }
+
+    /// Replaces what `out` held.
+    [[nodiscard]] static SuppleResult create(const Context& context, const SuppleGroupDesc& desc, Group& out) {
+        SuppleGroup handle{};
+        const SuppleResult result = suppleCreateGroup(context.handle(), &desc, &handle);
+        if (result == SUPPLE_OK) {
+            Group created;
+            created.context_ = context.handle();
+            created.handle_ = handle;
+            out = std::move(created);
+        }
+        return result;
+    }
+
+    [[nodiscard]] SuppleGroup handle() const { return handle_; }
+    [[nodiscard]] SuppleResult setClipPose(uint32_t instance, uint32_t clip, double time) const {
+        return suppleSetClipPose(context_, handle_, instance, clip, time);
+    }
+    [[nodiscard]] SuppleResult setMatrixPose(uint32_t instance, std::span<const float> jointMatrices) const {
+        return suppleSetMatrixPose(context_, handle_, instance, jointMatrices.data(),
+                                   static_cast<uint32_t>(jointMatrices.size() / 16));
+    }
+    [[nodiscard]] SuppleResult setTransform(uint32_t instance, std::span<const float, 16> transform) const {
+        return suppleSetTransform(context_, handle_, instance, transform.data());
+    }
+    [[nodiscard]] SuppleResult output(SuppleGroupOutput& out) const {
+        out = sized<SuppleGroupOutput>();
+        return suppleGetGroupOutput(context_, handle_, &out);
+    }
+
+private:
+    SuppleContext context_ = nullptr;
+    SuppleGroup handle_{};
+};
+
+} // namespace supple

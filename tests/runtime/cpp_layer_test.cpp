@@ -1,0 +1,76 @@
+// The C++ layer: ownership, sized structs, and that everything works through it alone.
+#include "tests/support/gpu_surface.h"
+
+#include <array>
+#include <gtest/gtest.h>
+#include <supple/supple.hpp>
+
+namespace {
+
+constexpr float kPositions[] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1, -1, -1, 1, 1, -1, 1, -1, 1, 1, 1, 1, 1};
+constexpr uint32_t kCounts[] = {4, 4, 4, 4, 4, 4};
+constexpr uint32_t kIndices[] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+
+TEST(CppLayer, OwnsWhatItMakes) {
+    supple::host::Device* device = supple::test::testDevice();
+    ASSERT_NE(device, nullptr);
+    const supple::test::ValidationGuard guard;
+    auto contextDesc = supple::sized<SuppleContextDesc>();
+    contextDesc.instance = device->instance();
+    contextDesc.physicalDevice = device->physicalDevice();
+    contextDesc.device = device->handle();
+    contextDesc.queueFamily = device->queueFamily();
+    contextDesc.getInstanceProcAddr = device->getInstanceProcAddr();
+    supple::Context context;
+    ASSERT_EQ(supple::Context::create(contextDesc, context), SUPPLE_OK);
+
+    auto cage = supple::sized<SuppleCageDesc>();
+    cage.vertexCount = 8;
+    cage.faceCount = 6;
+    cage.positions = kPositions;
+    cage.faceVertexCounts = kCounts;
+    cage.faceVertexIndices = kIndices;
+    auto assetDesc = supple::sized<SuppleAssetDesc>();
+    assetDesc.name = "cube";
+    assetDesc.cage = &cage;
+    supple::Group group;
+    {
+        supple::Asset asset;
+        ASSERT_EQ(supple::Asset::create(context, assetDesc, asset), SUPPLE_OK);
+        SuppleAssetInfo info;
+        ASSERT_EQ(asset.info(info), SUPPLE_OK);
+        EXPECT_EQ(info.faceCount, 6u);
+        auto groupDesc = supple::sized<SuppleGroupDesc>();
+        groupDesc.asset = asset.handle();
+        groupDesc.instanceCount = 1;
+        ASSERT_EQ(supple::Group::create(context, groupDesc, group), SUPPLE_OK);
+    } // the group keeps what it needs of the asset
+
+    std::array<float, 16> identity{};
+    identity[0] = identity[5] = identity[10] = identity[15] = 1.0f;
+    EXPECT_EQ(group.setTransform(0, identity), SUPPLE_OK);
+    EXPECT_EQ(group.setMatrixPose(0, identity), SUPPLE_OK);
+    EXPECT_EQ(group.setClipPose(0, SUPPLE_BIND_POSE, 0.0), SUPPLE_OK);
+    std::vector<SuppleTiming> timings;
+    EXPECT_EQ(context.timings(timings), SUPPLE_NOT_READY);
+    for (uint64_t frame = 1; frame <= 2; ++frame) {
+        ASSERT_EQ(context.beginFrame(frame, frame - 1), SUPPLE_OK);
+        const SuppleGroup handle = group.handle();
+        ASSERT_TRUE(device
+                        ->submitAndWait([&](VkCommandBuffer commands) {
+                            EXPECT_EQ(context.record(commands, {&handle, 1}, {}, {}, SUPPLE_RECORD_TIMINGS), SUPPLE_OK);
+                        })
+                        .ok());
+    }
+    ASSERT_EQ(context.beginFrame(3, 2), SUPPLE_OK);
+    EXPECT_EQ(context.timings(timings), SUPPLE_OK);
+    EXPECT_FALSE(timings.empty());
+    SuppleGroupOutput output;
+    ASSERT_EQ(group.output(output), SUPPLE_OK);
+    EXPECT_EQ(output.patchCount, 6u);
+    supple::Group moved = std::move(group);
+    EXPECT_EQ(group.output(output), SUPPLE_ERROR_ARGUMENT) << "moved from";
+    EXPECT_EQ(moved.output(output), SUPPLE_OK);
+}
+
+} // namespace
