@@ -34,7 +34,7 @@ float patchHash(uint x) {
 /// Light tubes all round the viewer: a kink in a stripe is a kink in the surface's normals.
 vec3 zebra(vec3 n, vec3 v) {
     vec3 r = mat3(frame.view) * reflect(-v, n);
-    float at = acos(clamp(dot(r, normalize(vec3(0.35, 0.93, 0.1))), -1.0, 1.0)) * (14.0 / kPi);
+    float at = acos(clamp(dot(r, normalize(vec3(0.35, 0.93, 0.1))), -1.0, 1.0)) * (10.0 / kPi);
     float width = max(fwidth(at), 1e-4);
     float stripe = smoothstep(-width, width, abs(fract(at) - 0.5) - 0.25);
     stripe = mix(stripe, 0.5, smoothstep(0.35, 0.9, width));
@@ -85,7 +85,7 @@ void main() {
     if (push.view == kViewWire)
         color = mix(color, vec3(0.012, 0.016, 0.025), 0.72 * gridLines(inGrid, segments, 0.9 * frame.pixelScale));
     if (push.view == kViewWire)
-        color = mix(color, vec3(0.78, 0.22, 0.035), borderLine(inGrid, segments, float(push.rate), 1.5 * frame.pixelScale));
+        color = mix(color, vec3(0.78, 0.22, 0.035), borderLine(inGrid, segments, float(push.rate), 1.1 * frame.pixelScale));
     else if (push.view == kViewPatches)
         color = mix(color, vec3(0.01, 0.012, 0.018), 0.85 * borderLine(inGrid, segments, float(push.rate), 0.9 * frame.pixelScale));
     outColor = vec4(color, alpha);
