@@ -41,6 +41,7 @@ void main() {
 
     uint end = table(index + 1u).w;
     precise vec3 p = vec3(0.0);
+    // Tested at the top: in a do-while, Mesa 22.3's lavapipe goes on adding for lanes that have finished.
     for (uint element = vertex.w; element < end; ++element) {
         uvec4 pair = table(element);
         precise vec3 first = transformed(joints + pair.x, uintBitsToFloat(pair.y), rest);
