@@ -61,7 +61,8 @@ std::string clipName(const host::Figure& figure, uint32_t clip) {
 std::vector<ClipTime> columnTimes(const host::Figure& figure, uint32_t clip, uint32_t columns) {
     std::vector<ClipTime> times;
     for (uint32_t column = 0; column < columns; ++column)
-        times.push_back({clip, figure.clipDuration(clip) * column / columns});
+        // Off the simple fractions, where a clip of two cycles would show the same two poses twice.
+        times.push_back({clip, figure.clipDuration(clip) * (column + 0.5) / (columns + 0.5)});
     return times;
 }
 
