@@ -5,7 +5,12 @@ function(supple_target name)
     set_target_properties(${name} PROPERTIES
         CXX_EXTENSIONS OFF C_STANDARD 99 C_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
         CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-    target_include_directories(${name} PUBLIC ${supple_SOURCE_DIR})
+    # The public library shows hosts its own include folder alone.
+    if(name STREQUAL "supple")
+        target_include_directories(${name} PRIVATE ${supple_SOURCE_DIR})
+    else()
+        target_include_directories(${name} PUBLIC ${supple_SOURCE_DIR})
+    endif()
     if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
         # Vulkan structs are begun with their sType alone; the rest is zero by the language.
         target_compile_options(${name} PRIVATE -Wall -Wextra -Werror -Wno-missing-field-initializers)

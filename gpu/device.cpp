@@ -25,7 +25,6 @@ constexpr NamedFeature13 kFeatures13[] = {{"synchronization2", &VkPhysicalDevice
 // The widest pass binds this many storage buffers and texel buffers.
 constexpr uint32_t kStorageBuffers = 7;
 constexpr uint32_t kTexelBuffers = 4;
-constexpr uint32_t kPushConstantBytes = 64;
 
 const char* resultName(VkResult result) {
     switch (result) {
@@ -86,10 +85,8 @@ std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDev
 
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     vk.GetPhysicalDeviceProperties2(physicalDevice, &properties);
-    const std::string name = std::string(properties.properties.deviceName) + ": ";
     if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
-        return name + "Vulkan 1.3 (it offers " +
-               std::to_string(VK_API_VERSION_MAJOR(properties.properties.apiVersion)) + "." +
+        return "Vulkan 1.3 (it offers " + std::to_string(VK_API_VERSION_MAJOR(properties.properties.apiVersion)) + "." +
                std::to_string(VK_API_VERSION_MINOR(properties.properties.apiVersion)) + ")";
     }
 
@@ -101,31 +98,31 @@ std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDev
     vk.GetPhysicalDeviceFeatures2(physicalDevice, &features);
     for (const NamedFeature12& feature : kFeatures12) {
         if (features12.*feature.member == VK_FALSE) {
-            return name + "feature " + feature.name;
+            return std::string("feature ") + feature.name;
         }
     }
     for (const NamedFeature13& feature : kFeatures13) {
         if (features13.*feature.member == VK_FALSE) {
-            return name + "feature " + feature.name;
+            return std::string("feature ") + feature.name;
         }
     }
 
     const VkPhysicalDeviceLimits& limits = properties.properties.limits;
     if (std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers) < kStorageBuffers) {
-        return name + "limit maxPerStageDescriptorStorageBuffers of " + std::to_string(kStorageBuffers);
+        return std::string("limit maxPerStageDescriptorStorageBuffers of ") + std::to_string(kStorageBuffers);
     }
     if (limits.maxPerStageDescriptorSampledImages < kTexelBuffers) {
-        return name + "limit maxPerStageDescriptorSampledImages of " + std::to_string(kTexelBuffers);
+        return "limit maxPerStageDescriptorSampledImages of " + std::to_string(kTexelBuffers);
     }
     if (limits.maxPushConstantsSize < kPushConstantBytes) {
-        return name + "limit maxPushConstantsSize of " + std::to_string(kPushConstantBytes);
+        return "limit maxPushConstantsSize of " + std::to_string(kPushConstantBytes);
     }
 
     for (VkFormat format : {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32_UINT}) {
         VkFormatProperties formatProperties;
         vk.GetPhysicalDeviceFormatProperties(physicalDevice, format, &formatProperties);
         if ((formatProperties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) == 0) {
-            return name + "uniform texel buffers of 32-bit formats";
+            return "uniform texel buffers of 32-bit formats";
         }
     }
     return {};
@@ -134,7 +131,7 @@ std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDev
 Result<Device> Device::create(const DeviceDesc& desc) {
     const std::string missing = missingRequirement(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr);
     if (!missing.empty()) {
-        return Error{ErrorCode::unsupported, "device lacks " + missing};
+        return Error{ErrorCode::unsupported, "the device lacks " + missing};
     }
 
     Device d;
@@ -148,11 +145,17 @@ Result<Device> Device::create(const DeviceDesc& desc) {
         return Error{ErrorCode::unsupported, std::string("device lacks entry point ") + name};
     }
 
+    VkPhysicalDeviceMaintenance3Properties maintenance3{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceMaintenance4Properties maintenance4{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
+    maintenance4.pNext = &maintenance3;
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    driver.pNext = &maintenance4;
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &driver;
     d.vk.GetPhysicalDeviceProperties2(desc.physicalDevice, &properties);
     d.limits = properties.properties.limits;
+    d.maxBufferSize = maintenance4.maxBufferSize;
+    d.maxAllocationSize = maintenance3.maxMemoryAllocationSize;
     d.mapping = chooseMapping(properties.properties.deviceType, driver.driverID, desc.mapping);
     d.vk.GetPhysicalDeviceMemoryProperties(desc.physicalDevice, &d.memory);
 

@@ -11,6 +11,9 @@
 
 namespace supple::gpu {
 
+/// What the widest pass pushes; requirements() asks for it.
+inline constexpr uint32_t kPushConstantBytes = 64;
+
 struct DeviceDesc {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
@@ -33,6 +36,8 @@ struct Device {
     Functions vk;
     Mapping mapping;
     VkPhysicalDeviceLimits limits{};
+    VkDeviceSize maxBufferSize = 0;     ///< VkPhysicalDeviceMaintenance4Properties
+    VkDeviceSize maxAllocationSize = 0; ///< VkPhysicalDeviceMaintenance3Properties
     VkPhysicalDeviceMemoryProperties memory{};
     uint32_t timestampValidBits = 0;
 

@@ -1,4 +1,4 @@
-// Buffers that live and die together, in one device allocation.
+// Buffers that live and die together, in as few device allocations as the device allows: one, unless they are huge.
 #pragma once
 
 #include "base/result.h"
@@ -21,7 +21,7 @@ enum class MemoryKind {
     upload,      ///< host visible, mapped for its whole life
 };
 
-/// Buffers in the order of the requests, bound to one VkDeviceMemory, every offset aligned as its buffer needs.
+/// Buffers in the order of the requests, every offset aligned as its buffer needs.
 class BufferSet {
 public:
     [[nodiscard]] static Result<BufferSet> create(const Device& device, std::span<const BufferRequest> requests,
@@ -35,7 +35,9 @@ public:
     [[nodiscard]] VkDeviceSize size(size_t index) const { return buffers_[index].size; }
     [[nodiscard]] VkDeviceSize allocatedBytes() const { return allocatedBytes_; }
     /// Mapped bytes of an upload buffer.
-    [[nodiscard]] std::byte* mapped(size_t index) const { return mapped_ + buffers_[index].offset; }
+    [[nodiscard]] std::byte* mapped(size_t index) const {
+        return allocations_[buffers_[index].allocation].mapped + buffers_[index].offset;
+    }
     /// Makes host writes to [offset, offset + size) of an upload buffer visible; nothing where memory is coherent.
     [[nodiscard]] Status flush(size_t index, VkDeviceSize offset, VkDeviceSize size) const;
 
@@ -43,12 +45,17 @@ private:
     struct Entry {
         BufferHandle handle;
         VkDeviceSize size = 0;
-        VkDeviceSize offset = 0; ///< in the allocation
+        VkDeviceSize offset = 0; ///< in its allocation
+        size_t allocation = 0;
+    };
+    struct Allocation {
+        MemoryHandle memory;
+        std::byte* mapped = nullptr;
+        VkDeviceSize size = 0;
     };
     const Device* device_ = nullptr;
-    MemoryHandle memory_; // declared before the buffers: destroyed after them
+    std::vector<Allocation> allocations_; // declared before the buffers: destroyed after them
     std::vector<Entry> buffers_;
-    std::byte* mapped_ = nullptr;
     bool coherent_ = true;
     VkDeviceSize allocatedBytes_ = 0;
 };

@@ -1,6 +1,5 @@
 #include "gpu/timers.h"
 
-#include <algorithm>
 #include <string>
 
 namespace supple::gpu {
@@ -37,24 +36,17 @@ bool Timers::mark(VkCommandBuffer commandBuffer, uint32_t& index) {
     return true;
 }
 
-bool Timers::read(std::span<double> nanoseconds) {
-    const uint32_t n = std::min(count_, static_cast<uint32_t>(nanoseconds.size()));
-    if (n == 0) {
-        return false;
+std::span<const uint64_t> Timers::read() {
+    if (count_ == 0) {
+        return {};
     }
-    const VkResult result = device_->vk.GetQueryPoolResults(device_->handle, pool_.get(), 0, n, n * sizeof(uint64_t),
-                                                            raw_.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+    const VkResult result =
+        device_->vk.GetQueryPoolResults(device_->handle, pool_.get(), 0, count_, count_ * sizeof(uint64_t), raw_.data(),
+                                        sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
     if (result != VK_SUCCESS) { // VK_NOT_READY included
-        return false;
+        return {};
     }
-    const uint64_t mask = device_->timestampValidBits >= 64 ? ~0ull : (1ull << device_->timestampValidBits) - 1;
-    const uint64_t first = raw_[0] & mask;
-    for (uint32_t i = 0; i < n; ++i) {
-        const uint64_t elapsed = ((raw_[i] & mask) - first) & mask;
-        nanoseconds[i] = (static_cast<double>(first) + static_cast<double>(elapsed)) *
-                         static_cast<double>(device_->limits.timestampPeriod);
-    }
-    return true;
+    return {raw_.data(), count_};
 }
 
 } // namespace supple::gpu

@@ -1,4 +1,4 @@
-// GPU timestamps, ringed over the frames in flight. Reading never blocks.
+// GPU timestamps of one frame. Reading never blocks.
 #pragma once
 
 #include "base/result.h"
@@ -19,9 +19,8 @@ public:
     /// Records a timestamp after everything recorded before; returns its index, or false when the pool is full.
     [[nodiscard]] bool mark(VkCommandBuffer commandBuffer, uint32_t& index);
     [[nodiscard]] uint32_t count() const { return count_; }
-    /// Nanoseconds of each mark; false when the device has not written them all yet. Differences survive the wrap of
-    /// timestampValidBits once.
-    [[nodiscard]] bool read(std::span<double> nanoseconds);
+    /// The device's ticks at each mark; empty when the device has not written them all yet. Valid until the next call.
+    [[nodiscard]] std::span<const uint64_t> read();
 
 private:
     const Device* device_ = nullptr;

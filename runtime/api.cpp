@@ -366,6 +366,9 @@ SuppleResult suppleSetTransform(SuppleContext handle, SuppleGroup group, uint32_
         if (transform == nullptr || !finite(transform, 16)) {
             return refuse(context, "suppleSetTransform", "transform is null or not finite");
         }
+        if (transform[3] != 0.0f || transform[7] != 0.0f || transform[11] != 0.0f || transform[15] != 1.0f) {
+            return refuse(context, "suppleSetTransform", "the last row is not 0, 0, 0, 1");
+        }
         found.setTransform(instance, glm::make_mat4(transform));
         return SUPPLE_OK;
     });

@@ -12,11 +12,13 @@ constexpr VkBufferUsageFlags kTableUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 
 Status checkTableSize(const gpu::Device& device, const std::string& name, const char* table, VkDeviceSize bytes) {
-    if (bytes <= device.bufferWindow(16) && bytes / 4 <= device.limits.maxTexelBufferElements) {
+    // The narrow mapping also reads tables word by word through a texel view.
+    const bool texelsFit = device.mapping.wide || bytes / 4 <= device.limits.maxTexelBufferElements;
+    if (bytes <= device.bufferWindow(16) && texelsFit) {
         return success();
     }
     return Error{ErrorCode::limit, name + ": " + table + " of " + std::to_string(bytes) +
-                                       " bytes exceed the device's storage-buffer range"};
+                                       " bytes exceed the device's storage-buffer range or texel-buffer elements"};
 }
 
 } // namespace

@@ -67,11 +67,10 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         {kCompute | kTransfer, kRead | kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT});
     timings.open(commandBuffer, (desc.flags & SUPPLE_RECORD_TIMINGS) != 0);
 
-    const VkDeviceSize pairBytes = pairs_.recordUpload(commandBuffer, frame_);
-    (void)pairBytes;
     pass("upload", [&](Group& group) {
         Result<Group::PassCost> cost = group.recordUpload(commandBuffer, frame_);
         if (cost) {
+            cost->bytes += pairs_.recordUpload(commandBuffer, frame_); // the first frame's first group pays for it
             return *cost;
         }
         status = cost.error();

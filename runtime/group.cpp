@@ -18,6 +18,7 @@ enum StaticIndex : size_t { kGridIndices, kIndirect };
 constexpr VkDeviceSize kVec4Bytes = 16;
 constexpr VkDeviceSize kAffineBytes = sizeof(skinning::Affine);
 static_assert(kAffineBytes == 48);
+static_assert(surface::kMaxRate == SUPPLE_MAX_RATE);
 
 // Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits): instances of the pool, the deformed cage
 // and the surface vertices (16 or 24 bytes each) start on such multiples.
@@ -69,8 +70,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     const uint64_t samples = uint64_t{rate + 1} * (rate + 1);
     const uint64_t vertices = samples * group->scheme_->tables.patches.size();
     // Vertex indices are 32 bits on the device.
-    if ((vertices + kVertexPadding) * desc.instanceCount > 0xFFFFFFFFull ||
-        uint64_t{group->scheme_->tables.poolStride} * desc.instanceCount > 0xFFFFFFFFull) {
+    if ((vertices + kVertexPadding) * desc.instanceCount > 0xFFFFFFFFull) {
         return Error{ErrorCode::limit, group->asset_->character.name + ": " + std::to_string(desc.instanceCount) +
                                            " instances at rate " + std::to_string(rate) +
                                            " need more than 2^32 surface vertices"};
@@ -167,8 +167,7 @@ Status Group::createSets() {
     const VkDeviceSize cageBytes = evaluation_.cageStride * kVec4Bytes;
     const VkDeviceSize poolBytes = tables.poolStride * kVec4Bytes;
     const VkDeviceSize surfaceBytes = evaluation_.verticesPerInstance * vertexBytes;
-    const VkDeviceSize patchBytes =
-        writesPatches() || buffers_.size(kPatchCoefficients) > 0 ? tables.patches.size() * 32 * kVec4Bytes : 0;
+    const VkDeviceSize patchBytes = buffers_.size(kPatchCoefficients) > 0 ? tables.patches.size() * 32 * kVec4Bytes : 0;
 
     // As many instances a window as every bound range can hold.
     const VkDeviceSize texelLimit = device.bufferWindow(16), storageLimit = device.limits.maxStorageBufferRange;
@@ -179,20 +178,21 @@ Status Group::createSets() {
     const VkDeviceSize prepFit = std::min({texelLimit / std::max(cageBytes, poolBytes), storageLimit / surfaceBytes,
                                            patchBytes > 0 ? storageLimit / patchBytes : VkDeviceSize{instanceCount_}});
     if (deformFit == 0 || prepFit == 0) {
-        return Error{ErrorCode::limit, "one instance exceeds the device's storage-buffer range of " +
-                                           std::to_string(storageLimit) + " bytes"};
+        return Error{ErrorCode::limit,
+                     std::string(prepFit == 0 ? "one instance's surface" : "sixteen instances' cages") +
+                         " exceed the device's storage-buffer range of " + std::to_string(storageLimit) + " bytes"};
     }
     const auto deformWindow = static_cast<uint32_t>(std::min<VkDeviceSize>(deformFit, instanceCount_));
     const auto prepWindow = static_cast<uint32_t>(std::min<VkDeviceSize>(prepFit, instanceCount_));
     const uint32_t deformCount = (instanceCount_ + deformWindow - 1) / deformWindow;
     const uint32_t prepCount = (instanceCount_ + prepWindow - 1) / prepWindow;
 
-    Status failed = success();
+    Status status = success();
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size,
                           const char* name) -> VkBufferView {
         Result<gpu::BufferViewHandle> result = gpu::createTexelView(device, buffer, format, offset, size, name);
         if (!result) {
-            failed = result.error();
+            status = result.error();
             return VK_NULL_HANDLE;
         }
         views_.push_back(std::move(*result));
@@ -209,7 +209,7 @@ Status Group::createSets() {
     const VkBuffer deformTable = asset_->buffers.buffer(0);
     const VkDeviceSize deformTableBytes = asset_->buffers.size(0);
     const VkBufferView deformTableView = view(deformTable, kUint4, 0, deformTableBytes, "supple deform table");
-    for (uint32_t w = 0; w < deformCount && failed.ok(); ++w) {
+    for (uint32_t w = 0; w < deformCount && status.ok(); ++w) {
         const uint32_t first = w * deformWindow, count = std::min(deformWindow, instanceCount_ - first);
         Result<VkDescriptorSet> set =
             gpu::allocateSet(device, shared_.deform->layout(), deformPool_.get(), "supple deform");
@@ -226,8 +226,8 @@ Status Group::createSets() {
              view(palettes, kFloat4, first * paletteBytes, count * paletteBytes, "supple palette")},
             {kDeformedCageBinding, range(deformed, first * cageBytes, count * cageBytes), VK_NULL_HANDLE},
         };
-        if (!failed) {
-            return failed;
+        if (!status) {
+            return status;
         }
         gpu::writeSet(device, *set, resources);
         deformWindows_.push_back({*set, count});
@@ -242,7 +242,7 @@ Status Group::createSets() {
     const VkDeviceSize tableBytes = scheme_->buffers.size(0);
     const VkBufferView table4 = view(table, kUint4, 0, tableBytes, "supple p-rep tables");
     const VkBufferView table1 = view(table, VK_FORMAT_R32_UINT, 0, tableBytes, "supple p-rep table words");
-    for (uint32_t w = 0; w < prepCount && failed.ok(); ++w) {
+    for (uint32_t w = 0; w < prepCount && status.ok(); ++w) {
         const uint32_t first = w * prepWindow, count = std::min(prepWindow, instanceCount_ - first);
         Result<VkDescriptorSet> set = gpu::allocateSet(device, shared_.prep->layout(), prepPool_.get(), "supple p-rep");
         if (!set) {
@@ -269,13 +269,13 @@ Status Group::createSets() {
              VK_NULL_HANDLE},
             {kPairBinding, range(shared_.pairs, 0, shared_.pairBytes), VK_NULL_HANDLE},
         };
-        if (!failed) {
-            return failed;
+        if (!status) {
+            return status;
         }
         gpu::writeSet(device, *set, resources);
         prepWindows_.push_back({*set, count});
     }
-    return failed;
+    return status;
 }
 
 void Group::fillOutput(const SuppleGroupDesc& desc) {
@@ -300,9 +300,11 @@ void Group::fillOutput(const SuppleGroupDesc& desc) {
     o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
     o.indexCount = static_cast<uint32_t>(static_.size(kGridIndices) / 2);
     o.indirect = {static_.buffer(kIndirect), 0, static_.size(kIndirect), sizeof(VkDrawIndexedIndirectCommand)};
-    static_assert(sizeof(SuppleDrawRange) == sizeof(surface::prep::DrawRange));
-    o.drawRanges = reinterpret_cast<const SuppleDrawRange*>(tables.drawRanges.data());
-    o.drawRangeCount = static_cast<uint32_t>(tables.drawRanges.size());
+    for (const surface::prep::DrawRange& drawRange : tables.drawRanges) {
+        drawRanges_.push_back({drawRange.firstPatch, drawRange.patchCount, drawRange.material});
+    }
+    o.drawRanges = drawRanges_.data();
+    o.drawRangeCount = static_cast<uint32_t>(drawRanges_.size());
     o.deviceBytes = buffers_.allocatedBytes() + static_.deviceBytes();
 }
 

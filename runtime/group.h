@@ -91,6 +91,7 @@ private:
     std::vector<DeformWindow> deformWindows_;
     std::vector<surface::prep::Window> prepWindows_;
     SuppleGroupOutput output_{};
+    std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
     bool cleared_ = false;
     bool attributesPending_ = false;
     uint64_t lastRecordedFrame_ = 0;

@@ -1,5 +1,6 @@
 // Generation-checked handles: an id is (generation << 32 | index + 1), so that 0 is never valid and a stale id is
-// caught.
+// caught. Generations begin at a number made of the map's address: ids of another map (another context's, or another
+// kind of handle) do not fit.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +12,15 @@ namespace supple::runtime {
 template <class T>
 class SlotMap {
 public:
+    SlotMap() = default;
+    SlotMap(const SlotMap&) = delete;
+    SlotMap& operator=(const SlotMap&) = delete;
+
     uint64_t insert(std::shared_ptr<T> value) {
         uint32_t index = 0;
         if (free_.empty()) {
             index = static_cast<uint32_t>(slots_.size());
-            slots_.emplace_back();
+            slots_.push_back({nullptr, firstGeneration()});
         } else {
             index = free_.back();
             free_.pop_back();
@@ -24,11 +29,10 @@ public:
         return (static_cast<uint64_t>(slots_[index].generation) << 32) | (index + 1u);
     }
     /// Null for a stale or foreign id.
-    [[nodiscard]] const std::shared_ptr<T>& find(uint64_t id) const {
-        static const std::shared_ptr<T> none;
+    [[nodiscard]] std::shared_ptr<T> find(uint64_t id) const {
         const uint64_t index = (id & 0xFFFFFFFFu) - 1u;
         if (index >= slots_.size() || slots_[index].generation != id >> 32) {
-            return none;
+            return nullptr;
         }
         return slots_[index].value;
     }
@@ -38,7 +42,6 @@ public:
         }
         const auto index = static_cast<uint32_t>((id & 0xFFFFFFFFu) - 1u);
         std::shared_ptr<T> value = std::move(slots_[index].value);
-        slots_[index].value = nullptr;
         ++slots_[index].generation;
         free_.push_back(index);
         return value;
@@ -55,8 +58,13 @@ public:
 private:
     struct Slot {
         std::shared_ptr<T> value;
-        uint32_t generation = 1;
+        uint32_t generation = 0;
     };
+    [[nodiscard]] uint32_t firstGeneration() const {
+        const uint64_t hashed = (reinterpret_cast<uintptr_t>(this) >> 3) * 0x9E3779B97F4A7C15ull;
+        return static_cast<uint32_t>(hashed >> 33) | 1u; // 31 bits: room to count up
+    }
+
     std::vector<Slot> slots_;
     std::vector<uint32_t> free_;
 };

@@ -32,13 +32,19 @@ private:
         std::vector<SuppleTiming> entries;
         std::vector<uint32_t> marks; ///< per entry: the timestamp that ends it; the one before begins it
     };
+    void collect(Slot& slot);
+    [[nodiscard]] double nanoseconds(uint64_t ticks) const;
+
     std::vector<Slot> slots_;
     Slot* current_ = nullptr;
-    bool supported_ = false;
+    bool timestamps_ = false; ///< the queue family has them
     bool enabled_ = false;
+    uint64_t tickMask_ = 0;
+    double tickPeriod_ = 1.0;
+    bool originKnown_ = false;
+    uint64_t origin_ = 0; ///< first tick seen: differences are taken as integers, which doubles could not hold
     std::chrono::steady_clock::time_point passBegin_;
     std::vector<SuppleTiming> latest_;
-    std::vector<double> nanoseconds_;
 };
 
 } // namespace supple::runtime

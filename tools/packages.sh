@@ -11,7 +11,7 @@ supple_packages=(
 )
 # To test as well.
 supple_test_packages=(
-    libgtest-dev glslang-dev spirv-tools vulkan-validationlayers
+    libgtest-dev vulkan-validationlayers
     xvfb xauth
 )
 

@@ -91,7 +91,6 @@ vec3 toneMap(vec3 x) {
     return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 
-vec3 toSrgb(vec3 x) { return mix(1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, 12.92 * x, lessThan(x, vec3(0.0031308))); }
 vec3 fromSrgb(vec3 x) { return mix(pow((x + 0.055) / 1.055, vec3(2.4)), x / 12.92, lessThan(x, vec3(0.04045))); }
 
 /// The backdrop as it is shown: brighter behind the figure, so that dark and light figures both stand out from it.
@@ -104,8 +103,9 @@ vec3 backdrop(vec2 pixel) {
     return color;
 }
 
-/// Breaks the steps of 8 bits in slow gradients: interleaved gradient noise (Jimenez, SIGGRAPH 2014).
+/// Breaks the steps of 8 bits in slow gradients: interleaved gradient noise (Jimenez, SIGGRAPH 2014) of one step, whose size
+/// in linear light goes about with the root.
 vec3 dither(vec3 color, vec2 pixel) {
     float noise = fract(52.9829189 * fract(dot(floor(pixel), vec2(0.06711056, 0.00583715)))) - 0.5;
-    return fromSrgb(clamp(toSrgb(color) + noise / 255.0, 0.0, 1.0));
+    return max(color + sqrt(color) * (noise * (2.0 / 255.0)), 0.0);
 }

@@ -4,10 +4,12 @@ layout(constant_id = 4) const bool kVertex24 = false;
 layout(set = 0, binding = kSurfaceBinding, std430) writeonly buffer Surface16 { uvec4 surface16[]; };
 layout(set = 0, binding = kSurfaceBinding, scalar) writeonly buffer Surface24 { vec3 surface24[]; };
 
+const float kTiny = 1e-37; // above the denormals, which devices may flush
+
 // Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer, "A Survey of Efficient Representations for Independent Unit
 // Vectors" (JCGT 2014): octahedral mapping.
 uint encodeOctahedral(vec3 n) {
-    vec2 p = n.xy * (1.0 / (abs(n.x) + abs(n.y) + abs(n.z)));
+    vec2 p = n.xy / max(abs(n.x) + abs(n.y) + abs(n.z), kTiny);
     vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
     return packSnorm2x16(n.z < 0.0 ? folded : p);
 }
@@ -21,5 +23,5 @@ void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
     }
 }
 
-// unit(n); a vanishing n stays zero instead of becoming NaN.
-vec3 unitNormal(vec3 n) { return n * inversesqrt(max(dot(n, n), 1e-30)); }
+// unit(n); a vanishing n stays zero instead of becoming NaN (and is +z in the 16-byte form).
+vec3 unitNormal(vec3 n) { return n * inversesqrt(max(dot(n, n), kTiny)); }

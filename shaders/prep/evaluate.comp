@@ -111,7 +111,6 @@ void evaluateNarrow() {
     }
 }
 
-const uint kMaxPatchesPerGroup = 8u;
 shared vec4 sharedCoefficients[kMaxPatchesPerGroup * 32u];
 
 void evaluateWide() {

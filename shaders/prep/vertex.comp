@@ -85,7 +85,7 @@ void anyVertex(uint base, uint slot, uint words, uint cageBase, uint vertex, uin
         precise vec3 last = lastSpoke * (1.0 / 3.0);
         storePoint(tangent, p0, first);
         storePoint(tangent + sectors, p0, last);
-        storePool(face + sectors, cross(e1, e2));
+        pool[face + sectors] = vec4(cross(e1, e2), 0.0); // a normal, no position: shared/prep.h
     } else {
         storePoint(face + sectors - 1u, p0, faceCoefficient(lastSpoke, firstSpoke, lastDiagonal));
     }

@@ -12,7 +12,7 @@
 //                    (limitEdge, limitFace, e1Edge, e1Face), (e2Edge, e2Face, cosine, sine)
 //   edge records     three elements: pool indices (A, tA, tB, B), (SA1, SA2, SB1, SB2), (H index, edge class element, 0, 0)
 //   edge classes     six elements, for A, tA, tB, B, SA, SB: their weights in (h20, h30, h21, h31)
-//   patch records    pool indices: regular 16 g (i + 4 j), perturbed 16 g + 16 h in evaluation order (kPatchElements...);
+//   patch records    pool indices: regular 16 g (i + 4 j), perturbed 16 g + 16 h in evaluation order (below);
 //                    then one element: for each corner the pool index of its normal, or kNoNormal
 //   attributes       four elements a patch, one a corner: (u, v, color as RG and BA in 16-bit unorm)
 #ifndef SUPPLE_SHARED_PREP_H
@@ -37,6 +37,7 @@ SUPPLE_SHARED_CONST kPairBinding = 10u;
 SUPPLE_SHARED_CONST kBoundaryClass = 0x80000000u;
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
 
+SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u; // wide mapping: what the shared memory of evaluate.comp holds
 SUPPLE_SHARED_CONST kRegularElements = 5u;   // table elements of a regular patch record
 SUPPLE_SHARED_CONST kPerturbedElements = 9u; // and of a perturbed one
 

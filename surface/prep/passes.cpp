@@ -13,12 +13,12 @@ namespace supple::surface::prep {
 
 namespace {
 
+static_assert(sizeof(shared::PrepPush) <= gpu::kPushConstantBytes);
+
 // Specialization constants of the passes (shaders/prep, shaders/evaluate/surface_vertex.glsl).
 constexpr uint32_t kClassConstant = gpu::kFirstPassConstant; // kRegular, kPerturbed
 constexpr uint32_t kVertex24Constant = kClassConstant + 1;
 constexpr uint32_t kCornerNormalsConstant = kClassConstant + 2;
-
-constexpr uint32_t kMaxPatchesPerGroup = 8; // size of the shared memory in evaluate.comp
 
 shared::PrepPush pushFor(const Tables& tables, const Section& section, const Window& window,
                          const Evaluation& evaluation) {
@@ -43,7 +43,7 @@ shared::PrepPush pushFor(const Tables& tables, const Section& section, const Win
 uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
     uint32_t best = 1;
     double bestUse = 0.0;
-    for (uint32_t n = 1; n <= kMaxPatchesPerGroup; ++n) {
+    for (uint32_t n = 1; n <= shared::kMaxPatchesPerGroup; ++n) {
         const uint32_t rounds = (n * samples + localSize - 1) / localSize;
         const double use = static_cast<double>(n * samples) / (rounds * localSize);
         if (use > bestUse + 0.02) { // a larger group must be worth its shared memory

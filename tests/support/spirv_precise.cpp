@@ -19,6 +19,7 @@ namespace {
 // SPIR-V opcodes the walk needs (Khronos SPIR-V specification, section 3.42).
 enum Op : uint32_t {
     kName = 5,
+    kExtInst = 12,
     kTypeStruct = 30,
     kTypePointer = 32,
     kConstant = 43,
@@ -103,6 +104,9 @@ public:
                                    names_[byResult_[id].function]);
             }
         }
+        for (const uint32_t id : unknown_) {
+            offences.push_back("opcode " + std::to_string(byResult_[id].op) + " in " + names_[byResult_[id].function]);
+        }
         checked = static_cast<uint32_t>(arithmetic_.size());
         return offences;
     }
@@ -139,7 +143,8 @@ private:
                 continue;
             }
             if (op == kFunction || op == kFunctionParameter || op == kFunctionCall || op == kVariable || op == kLoad ||
-                op == kAccessChain || op == kInBoundsAccessChain || op == kConstant || (op >= 77 && op <= 250)) {
+                op == kAccessChain || op == kInBoundsAccessChain || op == kConstant || op == kExtInst ||
+                (op >= 77 && op <= 250)) {
                 if (body.size() < 2) {
                     continue;
                 }
@@ -193,6 +198,28 @@ private:
     }
 
     [[nodiscard]] static bool overlap(int a, int b) { return a == -1 || b == -1 || a == b; }
+
+    /// Opcodes that move or convert values without rounding sums or products, or read them from a buffer or an image.
+    [[nodiscard]] static bool harmless(uint32_t op) {
+        switch (op) {
+        case 83:  // CopyObject
+        case 87:  // ImageSampleImplicitLod .. ImageFetch, Image
+        case 95:  //
+        case 100: //
+        case 111: // ConvertSToF
+        case 112: // ConvertUToF
+        case 124: // Bitcast
+        case 127: // FNegate
+        case 128: // IAdd, ISub, IMul, UDiv: sample numbers
+        case 130:
+        case 132:
+        case 134:
+        case 245: // Phi
+            return true;
+        default:
+            return op == kConstant || op == kAccessChain;
+        }
+    }
 
     void visit(Key key) {
         const auto found = byResult_.find(key.id);
@@ -268,6 +295,9 @@ private:
         default:
             break;
         }
+        if (arithmeticName(i.op) == nullptr && !harmless(i.op)) {
+            unknown_.insert(key.id); // a built-in, a matrix product: nothing says that it rounds the same on both sides
+        }
         if (arithmeticName(i.op) != nullptr) {
             arithmetic_.insert(key.id);
         }
@@ -281,7 +311,7 @@ private:
     std::map<uint32_t, std::string> names_;
     std::map<uint32_t, Instruction> byResult_;
     std::map<uint32_t, uint32_t> pointees_;
-    std::set<uint32_t> structs_, noContraction_, arithmetic_;
+    std::set<uint32_t> structs_, noContraction_, arithmetic_, unknown_;
     std::map<uint32_t, std::vector<uint32_t>> parameters_;
     std::vector<Instruction> stores_, returns_, calls_;
     std::set<Key> seen_;

@@ -16,6 +16,10 @@ struct Table {
     PFN_vkCmdCopyBuffer CmdCopyBuffer;
     PFN_vkCmdFillBuffer CmdFillBuffer;
     PFN_vkCmdPipelineBarrier2 CmdPipelineBarrier2;
+    PFN_vkCmdUpdateBuffer CmdUpdateBuffer;
+    PFN_vkCmdCopyBuffer2 CmdCopyBuffer2;
+    PFN_vkInvalidateMappedMemoryRanges InvalidateMappedMemoryRanges;
+    PFN_vkGetPhysicalDeviceProperties2 GetPhysicalDeviceProperties2;
 };
 Table real;
 WrappedVulkan state;
@@ -61,6 +65,28 @@ VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer commands, const VkDependencyI
         real.CmdPipelineBarrier2(commands, info);
     }
 }
+VKAPI_ATTR void VKAPI_CALL updateBuffer(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset,
+                                        VkDeviceSize size, const void* data) {
+    ++state.updates;
+    real.CmdUpdateBuffer(commands, buffer, offset, size, data);
+}
+VKAPI_ATTR void VKAPI_CALL copyBuffer2(VkCommandBuffer commands, const VkCopyBufferInfo2* info) {
+    ++state.copies;
+    for (uint32_t i = 0; i < info->regionCount; ++i) {
+        state.copiedBytes += info->pRegions[i].size;
+    }
+    real.CmdCopyBuffer2(commands, info);
+}
+VKAPI_ATTR VkResult VKAPI_CALL invalidate(VkDevice device, uint32_t count, const VkMappedMemoryRange* ranges) {
+    state.invalidates += count;
+    return real.InvalidateMappedMemoryRanges(device, count, ranges);
+}
+VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
+    real.GetPhysicalDeviceProperties2(device, out);
+    if (state.maxStorageBufferRange != 0) {
+        out->properties.limits.maxStorageBufferRange = state.maxStorageBufferRange;
+    }
+}
 VKAPI_ATTR void VKAPI_CALL features(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* out) {
     real.GetPhysicalDeviceFeatures2(device, out);
     if (!state.hideSynchronization2) {
@@ -104,12 +130,14 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     if (is("vkCmdPipelineBarrier2")) {
         return wrap(real.CmdPipelineBarrier2, function, &barrier);
     }
-    // What Supple does not load today must not slip past the count tomorrow.
     if (is("vkCmdUpdateBuffer")) {
-        ++state.updates;
+        return wrap(real.CmdUpdateBuffer, function, &updateBuffer);
+    }
+    if (is("vkCmdCopyBuffer2")) {
+        return wrap(real.CmdCopyBuffer2, function, &copyBuffer2);
     }
     if (is("vkInvalidateMappedMemoryRanges")) {
-        ++state.invalidates;
+        return wrap(real.InvalidateMappedMemoryRanges, function, &invalidate);
     }
     return function;
 }
@@ -129,6 +157,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL wrappedGetInstanceProcAddr(VkInstance i
     const PFN_vkVoidFunction function = vkGetInstanceProcAddr(instance, name);
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
         return wrap(real.GetDeviceProcAddr, function, &getDeviceProcAddr);
+    }
+    if (std::strcmp(name, "vkGetPhysicalDeviceProperties2") == 0) {
+        return wrap(real.GetPhysicalDeviceProperties2, function, &properties);
     }
     if (std::strcmp(name, "vkGetPhysicalDeviceFeatures2") == 0) {
         return wrap(real.GetPhysicalDeviceFeatures2, function, &features);

@@ -11,13 +11,14 @@ struct WrappedVulkan {
     // counted
     uint64_t maps = 0, flushes = 0, updates = 0, invalidates = 0;
     uint64_t copies = 0, copiedBytes = 0;
-    uint64_t fills = 0, barriers = 0, allocations = 0, mappedBytes = 0;
+    uint64_t fills = 0, barriers = 0, allocations = 0;
     // provoked
     int64_t dropBarrier = -1;    ///< index of the vkCmdPipelineBarrier2 to leave out
     int64_t failAllocation = -1; ///< index of the vkAllocateMemory that fails with VK_ERROR_OUT_OF_DEVICE_MEMORY
     int64_t failBuffer = -1;     ///< index of the vkCreateBuffer that fails with VK_ERROR_OUT_OF_HOST_MEMORY
     uint64_t buffers = 0;
     bool hideSynchronization2 = false;
+    uint32_t maxStorageBufferRange = 0; ///< when not 0: what the device says
 };
 
 /// The state, reset.

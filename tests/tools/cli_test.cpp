@@ -63,6 +63,8 @@ std::string cubeGltf(const std::string& binaryName, bool polygons) {
     return gltf.dump();
 }
 
+const std::vector<glm::vec2> kCubeUvs{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {1, 1}, {0, 1}};
+
 template <class T>
 void append(std::string& bytes, const std::vector<T>& values) {
     bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
@@ -84,7 +86,7 @@ std::string cubeBinary() {
     append(bytes, indices);
     append<float>(bytes, {0, 2});
     append<float>(bytes, {0, 0, 0, 0, 3, 0});
-    append<float>(bytes, {0, 0, 1, 0, 1, 1, 0, 1, 0, 0, 1, 0, 1, 1, 0, 1});
+    append(bytes, kCubeUvs);
     return bytes;
 }
 
@@ -337,12 +339,17 @@ TEST_F(Cli, BakePatchesMatchTheSurface) {
         ASSERT_EQ(patch["corners"].size(), 4u);
         ASSERT_EQ(patch["coefficients"].size(), 32u);
         // Corner coefficients are corner samples, to the bit: g(0,0), g(3,0), g(0,3), g(3,3).
-        const std::pair<size_t, size_t> corners[] = {{0, 0}, {3, 5}, {12, 30}, {15, 35}};
-        for (const auto& [coefficient, sample] : corners) {
+        struct Corner {
+            size_t coefficient, sample, index;
+        };
+        for (const Corner corner : {Corner{0, 0, 0}, {3, 5, 1}, {12, 30, 3}, {15, 35, 2}}) {
+            const Json& coefficient = patch["coefficients"][corner.coefficient];
+            const size_t sample = p * 36 + corner.sample;
             for (int axis = 0; axis < 3; ++axis) {
-                EXPECT_EQ(patch["coefficients"][coefficient][static_cast<size_t>(axis)].get<float>(),
-                          obj.v[p * 36 + sample][axis]);
+                EXPECT_EQ(coefficient[static_cast<size_t>(axis)].get<float>(), obj.v[sample][axis]);
             }
+            const auto vertex = patch["corners"][corner.index].get<size_t>();
+            EXPECT_EQ(obj.vt[sample], kCubeUvs[vertex]) << "cage vertices keep the file's order here";
         }
     }
     std::sort(faces.begin(), faces.end());

@@ -36,6 +36,7 @@ public:
 
     /// A frame number not used before; every frame of the context takes its number here.
     [[nodiscard]] uint64_t nextFrame() { return ++frame_; }
+    [[nodiscard]] uint64_t lastFrame() const { return frame_; }
     /// One whole frame: records the groups as they are posed, submits and waits. For hosts that do not overlap frames.
     [[nodiscard]] Status evaluate(std::span<const SuppleGroup> groups, uint32_t recordFlags = 0);
 

@@ -20,7 +20,7 @@ namespace supple::host {
 
 struct DeviceOptions {
     /// Part of the device's name (any case) or its index; empty takes the best: discrete, integrated, virtual, CPU.
-    std::string device;
+    std::string device = {};
     /// VK_LAYER_KHRONOS_validation with synchronization validation; its messages are counted and printed.
     bool validation = false;
     /// Surface and swapchain extensions too.

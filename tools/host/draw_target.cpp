@@ -5,19 +5,19 @@
 
 namespace supple::host {
 
-VkSampleCountFlagBits pictureSamples(const Device& device) {
+VkSampleCountFlagBits pictureSamples(const Device& device, bool multisample) {
     const VkPhysicalDeviceLimits& limits = device.properties().limits;
     const VkSampleCountFlags both = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
-    return (both & VK_SAMPLE_COUNT_4_BIT) != 0 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+    return multisample && (both & VK_SAMPLE_COUNT_4_BIT) != 0 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
 }
 
-Result<DrawTarget> DrawTarget::create(Device& device, VkExtent2D extent, VkFormat format) {
+Result<DrawTarget> DrawTarget::create(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples,
+                                      VkFormat format) {
     const uint32_t limit = device.properties().limits.maxImageDimension2D;
     if (extent.width == 0 || extent.height == 0 || extent.width > limit || extent.height > limit)
         return Error{ErrorCode::limit, "a picture of " + std::to_string(extent.width) + "x" +
                                            std::to_string(extent.height) + " pixels; the device draws 1 to " +
                                            std::to_string(limit) + " a side"};
-    const VkSampleCountFlagBits samples = pictureSamples(device);
     DrawTarget target;
     const auto make = [&](Image& image, const ImageDesc& desc) -> Status {
         Result<Image> made = device.createImage(desc);

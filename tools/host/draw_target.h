@@ -9,14 +9,15 @@ namespace supple::host {
 inline constexpr VkFormat kPictureFormat = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
-/// 4 where the device multisamples color and depth, else 1.
-[[nodiscard]] VkSampleCountFlagBits pictureSamples(const Device& device);
+/// 4 where that is wanted and the device multisamples color and depth, else 1.
+[[nodiscard]] VkSampleCountFlagBits pictureSamples(const Device& device, bool multisample);
 
 class DrawTarget {
 public:
     DrawTarget() = default;
     /// The color format must be an sRGB one of 8 bits: shaders write linear light.
-    [[nodiscard]] static Result<DrawTarget> create(Device& device, VkExtent2D extent, VkFormat format = kPictureFormat);
+    [[nodiscard]] static Result<DrawTarget> create(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples,
+                                                   VkFormat format = kPictureFormat);
 
     [[nodiscard]] VkExtent2D extent() const { return color_.desc().extent; }
     [[nodiscard]] VkSampleCountFlagBits samples() const { return depth_.desc().samples; }

@@ -86,6 +86,9 @@ public:
     [[nodiscard]] const Buffer& shadowIndices() const { return shadowIndices_; }
     [[nodiscard]] uint32_t shadowIndexCount() const { return shadowIndexCount_; }
 
+    /// Destroys Supple's group at once; its memory goes when the frames that used it are completed. The tables stay.
+    void release();
+
     [[nodiscard]] Status pose(uint32_t instance, uint32_t clip, double time);
     /// Positions of the surface vertices, or of the deformed cage, as last evaluated; waits for the device.
     [[nodiscard]] Result<std::vector<glm::vec3>> readSurface() const;

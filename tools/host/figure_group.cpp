@@ -7,7 +7,7 @@ namespace supple::host {
 namespace {
 
 /// Triangles a shadow map may cost before its grid is made coarser.
-constexpr uint64_t kShadowTrianglesCpu = 40'000;
+constexpr uint64_t kShadowTrianglesCpu = 16'000;
 constexpr uint64_t kShadowTrianglesGpu = 1'500'000;
 
 /// Two triangles a cell of a grid of `segments` a side, laid over a patch of `rate` segments.
@@ -72,8 +72,13 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
 }
 
 FigureGroup::~FigureGroup() {
+    release();
+}
+
+void FigureGroup::release() {
     if (group_.id != 0)
         suppleDestroyGroup(figure_.context().handle(), group_);
+    group_ = {};
 }
 
 Status FigureGroup::uploadTables() {

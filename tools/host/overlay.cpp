@@ -28,6 +28,9 @@ void applyStyle(float scale) {
         style.Colors[color] = ImVec4(r, g, b, a);
     };
     set(ImGuiCol_WindowBg, 0.07f, 0.08f, 0.10f, 0.86f);
+    set(ImGuiCol_TitleBg, 0.10f, 0.11f, 0.13f, 1.0f);
+    set(ImGuiCol_TitleBgActive, 0.12f, 0.14f, 0.17f, 1.0f);
+    set(ImGuiCol_TitleBgCollapsed, 0.07f, 0.08f, 0.10f, 0.86f);
     set(ImGuiCol_FrameBg, 0.16f, 0.18f, 0.21f, 1.0f);
     set(ImGuiCol_FrameBgHovered, 0.21f, 0.23f, 0.27f, 1.0f);
     set(ImGuiCol_FrameBgActive, 0.24f, 0.27f, 0.31f, 1.0f);

@@ -93,10 +93,10 @@ std::vector<shared::Light> studioLights(const StudioQuality& quality, uint32_t p
 glm::vec2 studioJitter(const StudioQuality& quality, uint32_t pass) {
     if (quality.passes <= 1)
         return glm::vec2(0.0f);
-    // The plane's most even sequence (Roberts, 2018), centered on the pixel; multisampling covers what lies between.
+    // The plane's most even sequence (Roberts, 2018), centered on the pixel. Multisampling covers what lies between.
     const auto n = static_cast<float>(pass + 1);
     const glm::vec2 at = glm::fract(glm::vec2(0.75487767f, 0.56984029f) * n + 0.5f) - 0.5f;
-    return at * 0.5f;
+    return quality.multisample ? at * 0.5f : at;
 }
 
 float studioExposure(float averageAlbedo) {

@@ -115,7 +115,7 @@ Result<std::unique_ptr<SurfaceRenderer>> SurfaceRenderer::create(Device& device,
     std::unique_ptr<SurfaceRenderer> renderer(new SurfaceRenderer(device));
     renderer->quality_ = options.quality;
     Result<std::unique_ptr<DrawPipelines>> pipelines =
-        DrawPipelines::create(device, {options.colorFormat, kDepthFormat, kShadowFormat, pictureSamples(device)});
+        DrawPipelines::create(device, {options.colorFormat, kDepthFormat, kShadowFormat, renderer->samples()});
     if (!pipelines)
         return pipelines.error();
     renderer->pipelines_ = std::move(*pipelines);

@@ -68,6 +68,8 @@ public:
 
     [[nodiscard]] const StudioQuality& quality() const { return quality_; }
 
+    /// What the targets of this renderer must have.
+    [[nodiscard]] VkSampleCountFlagBits samples() const { return pictureSamples(device_, quality_.multisample); }
     /// Records the whole picture, outside of rendering. `slot` (below framesInFlight) must not be in use by a pending
     /// picture; the target is left in TRANSFER_SRC_OPTIMAL, visible to copies.
     void record(VkCommandBuffer commands, uint32_t slot, const DrawTarget& target, const Scene& scene);

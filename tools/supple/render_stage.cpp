@@ -48,14 +48,28 @@ std::vector<ClipTime> spreadTimes(const host::Figure& figure, uint32_t clip, uin
     return times;
 }
 
+Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> poses, bool cage) {
+    Extent extent;
+    const SuppleGroup groups[] = {group.handle()};
+    for (const ClipTime& clipTime : poses) {
+        if (const Status status = group.pose(0, clipTime.clip, clipTime.time); !status)
+            return status.error();
+        if (const Status status = group.figure().context().evaluate(groups); !status)
+            return status.error();
+        Result<std::vector<glm::vec3>> points = cage ? group.readCage() : group.readSurface();
+        if (!points)
+            return points.error();
+        for (const glm::vec3& point : *points)
+            extent.bounds.add(point);
+        extent.points.insert(extent.points.end(), points->begin(), points->end());
+    }
+    return extent;
+}
+
 Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& file, VkExtent2D size,
                                            const DrawOptions& options) {
     std::unique_ptr<Stage> stage(new Stage(session));
     host::Device& device = *session.device;
-    Result<host::DrawTarget> target = host::DrawTarget::create(device, size);
-    if (!target)
-        return target.error();
-    stage->target_ = std::move(*target);
     Result<std::unique_ptr<host::Figure>> figure = host::Figure::open(*session.context, file, options.pairQuads);
     if (!figure)
         return figure.error();
@@ -66,30 +80,19 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
         return group.error();
     stage->group_ = std::move(*group);
     Result<std::unique_ptr<host::SurfaceRenderer>> renderer =
-        host::SurfaceRenderer::create(device, {.quality = host::StudioQuality::still(size.height)});
+        host::SurfaceRenderer::create(device, {.quality = host::StudioQuality::still(size.height, device.isCpu())});
     if (!renderer)
         return renderer.error();
     stage->renderer_ = std::move(*renderer);
+    Result<host::DrawTarget> target = host::DrawTarget::create(device, size, stage->renderer_->samples());
+    if (!target)
+        return target.error();
+    stage->target_ = std::move(*target);
     Result<host::FigureBinding> binding = stage->renderer_->bind(*stage->group_);
     if (!binding)
         return binding.error();
     stage->binding_ = std::move(*binding);
     return stage;
-}
-
-Result<Extent> Stage::measure(std::span<const ClipTime> poses, bool cage) {
-    Extent extent;
-    for (const ClipTime& clipTime : poses) {
-        if (const Status status = pose(clipTime); !status)
-            return status.error();
-        Result<std::vector<glm::vec3>> points = cage ? group_->readCage() : group_->readSurface();
-        if (!points)
-            return points.error();
-        for (const glm::vec3& point : *points)
-            extent.bounds.add(point);
-        extent.points.insert(extent.points.end(), points->begin(), points->end());
-    }
-    return extent;
 }
 
 Status Stage::pose(const ClipTime& pose) {

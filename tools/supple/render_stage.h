@@ -35,6 +35,9 @@ struct Extent {
     host::Bounds bounds;
 };
 
+/// Evaluates every pose in turn and notes where the surface (or the cage) is. No frame may be pending.
+[[nodiscard]] Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> poses, bool cage);
+
 class Stage {
 public:
     [[nodiscard]] static Result<std::unique_ptr<Stage>> open(Session& session, const std::string& file, VkExtent2D size,
@@ -42,8 +45,9 @@ public:
 
     [[nodiscard]] const host::Figure& figure() const { return *figure_; }
 
-    /// Evaluates every pose in turn and notes where the surface (or the cage) is.
-    [[nodiscard]] Result<Extent> measure(std::span<const ClipTime> poses, bool cage);
+    [[nodiscard]] Result<Extent> measure(std::span<const ClipTime> poses, bool cage) {
+        return measureGroup(*group_, poses, cage);
+    }
     [[nodiscard]] Status pose(const ClipTime& pose);
     /// Draws the figure as it is posed; group and binding of the scene are filled in here.
     [[nodiscard]] Result<host::Picture> draw(host::Scene scene);

@@ -2,8 +2,283 @@
 
 #include "tools/supple/command.h"
 
+#if !SUPPLE_HAS_WINDOW
+
 namespace supple::tools {
 
-int runView(const ViewOptions&) { return fail(kExitUsage, "not built"); }
+int runView(const ViewOptions&) {
+    return fail(kExitUsage, "view: this supple was built without GLFW and Dear ImGui");
+}
 
 } // namespace supple::tools
+
+#else
+
+#include "tools/host/overlay.h"
+#include "tools/host/window.h"
+#include "tools/supple/view_panel.h"
+#include "tools/supple/view_stage.h"
+
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+namespace supple::tools {
+
+namespace {
+
+/// With --frames every frame is a fixed step, so that the same frame is always the same picture.
+constexpr double kFixedStep = 1.0 / 30.0;
+
+constexpr VkImageSubresourceRange kWholeImage{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+constexpr SuppleSyncScope kCopyRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+constexpr SuppleSyncScope kCopyWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr SuppleSyncScope kColor{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                 VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+
+/// The same bits, read as sRGB: the renderer writes linear light, the window shows what is stored.
+VkFormat srgbFormat(VkFormat format) {
+    return format == VK_FORMAT_B8G8R8A8_UNORM ? VK_FORMAT_B8G8R8A8_SRGB : VK_FORMAT_R8G8B8A8_SRGB;
+}
+
+/// Everything of the viewer, in the order it is made; it goes in the opposite order.
+class Viewer {
+public:
+    explicit Viewer(const ViewOptions& options) : options_(options) {}
+
+    [[nodiscard]] Status open(VkExtent2D size);
+    [[nodiscard]] Status run();
+    [[nodiscard]] std::shared_ptr<const host::ValidationLog> validation() const { return validation_; }
+
+private:
+    [[nodiscard]] Status fitTarget();
+    [[nodiscard]] Status fulfil(const PanelWishes& wishes);
+    [[nodiscard]] Status drawFrame(const host::WindowFrame& frame, bool readBack);
+    void copyToWindow(const host::WindowFrame& frame) const;
+    void copyToHost(const host::WindowFrame& frame) const;
+    [[nodiscard]] Status writeScreenshot() const;
+    [[nodiscard]] double secondsSinceLast();
+    [[nodiscard]] float aspect() const {
+        return static_cast<float>(window_->extent().width) / static_cast<float>(window_->extent().height);
+    }
+
+    const ViewOptions& options_;
+    std::shared_ptr<const host::ValidationLog> validation_;
+    std::unique_ptr<host::Device> device_;
+    std::unique_ptr<host::Context> context_;
+    std::unique_ptr<host::Window> window_;
+    std::unique_ptr<host::Overlay> overlay_;
+    std::unique_ptr<host::SurfaceRenderer> renderer_;
+    host::DrawTarget target_;
+    uint32_t targetGeneration_ = 0;
+    host::Buffer screenshot_;
+    std::unique_ptr<ViewStage> stage_;
+    std::optional<PanelState> panel_;
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Moves a made thing to where it is kept, or passes the error on.
+template <class T>
+Status keep(Result<T> made, T& place) {
+    if (!made)
+        return made.error();
+    place = std::move(*made);
+    return success();
+}
+
+Status Viewer::open(VkExtent2D size) {
+    const DeviceFlags flags = deviceFlags(options_.draw);
+    if (const Status status =
+            keep(host::Device::create({.device = flags.device, .validation = flags.validate, .window = true}), device_);
+        !status)
+        return status.error();
+    validation_ = device_->validation();
+    if (const Status status = keep(host::Context::create(*device_, {.mapping = mappingOf(flags),
+                                                                    .framesInFlight = host::kWindowFramesInFlight}),
+                                   context_);
+        !status)
+        return status.error();
+    if (const Status status = keep(host::Window::create(*device_, "supple", size), window_); !status)
+        return status.error();
+    if (const Status status = keep(host::Overlay::create(*device_, *window_), overlay_); !status)
+        return status.error();
+    const host::RendererOptions rendererOptions{.colorFormat = srgbFormat(window_->format()),
+                                                .quality = host::StudioQuality::interactive(device_->isCpu()),
+                                                .framesInFlight = host::kWindowFramesInFlight};
+    if (const Status status = keep(host::SurfaceRenderer::create(*device_, rendererOptions), renderer_); !status)
+        return status.error();
+    if (const Status status = keep(ViewStage::create(*context_, *renderer_, options_.draw), stage_); !status)
+        return status.error();
+    panel_.emplace(PanelState{options_.files, 0, {}, device_->name(), 0.0});
+    const float shape = static_cast<float>(size.width) / static_cast<float>(size.height);
+    if (const Status status = stage_->open(options_.files.front(), options_.clip, shape); !status)
+        return status.error();
+    window_->waitIdle(context_->lastFrame()); // opening evaluates frames of its own
+    return success();
+}
+
+double Viewer::secondsSinceLast() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    panel_->frameMilliseconds += 0.1 * (seconds * 1e3 - panel_->frameMilliseconds);
+    return options_.frames > 0 ? kFixedStep : seconds;
+}
+
+Status Viewer::run() {
+    uint32_t drawn = 0;
+    while (!window_->shouldClose()) {
+        Result<std::optional<host::WindowFrame>> begun = window_->begin();
+        if (!begun)
+            return begun.error();
+        if (!begun->has_value())
+            continue;
+        if (const Status status = fitTarget(); !status)
+            return status.error();
+        stage_->retire(window_->completedFrame());
+        stage_->advance(secondsSinceLast());
+        overlay_->beginPanels();
+        const PanelWishes wishes = buildPanel(*panel_, *stage_, aspect());
+        overlay_->endPanels();
+
+        const bool isLast = options_.frames > 0 && drawn + 1 == options_.frames;
+        const bool readBack = isLast && !options_.screenshot.empty();
+        if (const Status status = drawFrame(**begun, readBack); !status)
+            return status.error();
+        ++drawn;
+        if (readBack) {
+            window_->waitIdle(context_->lastFrame());
+            if (const Status status = writeScreenshot(); !status)
+                return status.error();
+        }
+        if (isLast || wishes.close)
+            break;
+        // Between frames, so that nothing half recorded refers to what is exchanged.
+        if (const Status status = fulfil(wishes); !status)
+            panel_->message = status.error().message;
+    }
+    window_->waitIdle(context_->lastFrame());
+    return success();
+}
+
+Status Viewer::fitTarget() {
+    if (targetGeneration_ == window_->generation())
+        return success();
+    window_->waitIdle(context_->lastFrame());
+    Result<host::DrawTarget> target =
+        host::DrawTarget::create(*device_, window_->extent(), renderer_->samples(), srgbFormat(window_->format()));
+    if (!target)
+        return target.error();
+    target_ = std::move(*target);
+    targetGeneration_ = window_->generation();
+    return success();
+}
+
+Status Viewer::fulfil(const PanelWishes& wishes) {
+    if (wishes.file) {
+        window_->waitIdle(context_->lastFrame());
+        if (const Status status = stage_->open(options_.files[*wishes.file], {}, aspect()); !status)
+            return status.error();
+        window_->waitIdle(context_->lastFrame());
+        panel_->file = *wishes.file;
+        panel_->message.clear();
+    }
+    if (wishes.rate && *wishes.rate != stage_->group().output().rate) {
+        const uint32_t before = stage_->group().output().rate;
+        if (const Status status = stage_->setRate(*wishes.rate, context_->lastFrame()); !status) {
+            stage_->settings.rate = static_cast<int>(before);
+            return status.error();
+        }
+        panel_->message.clear();
+    }
+    return success();
+}
+
+Status Viewer::drawFrame(const host::WindowFrame& frame, bool readBack) {
+    const uint64_t number = context_->nextFrame();
+    if (const Status status = stage_->record(frame.commands, frame.slot, number, window_->completedFrame(), target_);
+        !status)
+        return status.error();
+    copyToWindow(frame);
+    if (const Status status = overlay_->record(frame); !status)
+        return status.error();
+    if (readBack) {
+        if (!window_->canRead())
+            return Error{ErrorCode::unsupported, "the window's pictures cannot be read back"};
+        const VkDeviceSize size = VkDeviceSize{4} * window_->extent().width * window_->extent().height;
+        Result<host::Buffer> buffer =
+            device_->createBuffer(size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, host::MemoryKind::readback);
+        if (!buffer)
+            return buffer.error();
+        screenshot_ = std::move(*buffer);
+        copyToHost(frame);
+    }
+    return window_->end(frame, number);
+}
+
+void Viewer::copyToWindow(const host::WindowFrame& frame) const {
+    const VkImage image = window_->image(frame.image);
+    // The transfer stage is where the submission waits for the image.
+    host::imageBarrier(frame.commands, image, kWholeImage,
+                       {VK_IMAGE_LAYOUT_UNDEFINED, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0}},
+                       {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, kCopyWrite});
+    VkImageCopy region{};
+    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.dstSubresource = region.srcSubresource;
+    region.extent = {window_->extent().width, window_->extent().height, 1};
+    vkCmdCopyImage(frame.commands, target_.color().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    host::imageBarrier(frame.commands, image, kWholeImage, {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, kCopyWrite},
+                       {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColor});
+}
+
+void Viewer::copyToHost(const host::WindowFrame& frame) const {
+    const VkImage image = window_->image(frame.image);
+    host::imageBarrier(frame.commands, image, kWholeImage, {VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, kCopyRead},
+                       {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopyRead});
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {window_->extent().width, window_->extent().height, 1};
+    vkCmdCopyImageToBuffer(frame.commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, screenshot_.handle(), 1,
+                           &region);
+    host::imageBarrier(frame.commands, image, kWholeImage, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopyRead},
+                       {VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, {}});
+    host::memoryBarrier(frame.commands, kCopyWrite, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+}
+
+Status Viewer::writeScreenshot() const {
+    host::Picture picture = host::Picture::blank(window_->extent().width, window_->extent().height);
+    std::memcpy(picture.rgba.data(), screenshot_.mapped(), picture.rgba.size());
+    for (size_t i = 0; i < picture.rgba.size(); i += 4) {
+        if (window_->format() == VK_FORMAT_B8G8R8A8_UNORM)
+            std::swap(picture.rgba[i], picture.rgba[i + 2]);
+        picture.rgba[i + 3] = 255;
+    }
+    return host::writePng(picture, options_.screenshot);
+}
+
+} // namespace
+
+int runView(const ViewOptions& options) {
+    const Result<VkExtent2D> size = parseSize(options.size);
+    if (!size)
+        return fail(kExitUsage, "--size: " + size.error().message);
+    if (options.files.empty())
+        return fail(kExitUsage, "view: no file");
+    std::shared_ptr<const host::ValidationLog> validation;
+    {
+        Viewer viewer(options);
+        Status status = viewer.open(*size);
+        if (status)
+            status = viewer.run();
+        validation = viewer.validation();
+        if (!status)
+            return fail(status.error());
+    }
+    if (validation->messageCount() != 0)
+        return fail(kExitBadInput, std::to_string(validation->messageCount()) + " validation messages");
+    return kExitOk;
+}
+
+} // namespace supple::tools
+
+#endif

@@ -46,6 +46,7 @@ extern "C" {
 #define SUPPLE_BIND_POSE 0xFFFFFFFFu /* clip index that means: the cage as modelled */
 #define SUPPLE_NO_MATERIAL 0xFFFFFFFFu
 #define SUPPLE_MAX_RATE 64u
+#define SUPPLE_MAX_TIMINGS 512u /* entries a frame: passes x groups; what goes beyond is not timed */
 
 /* A context borrows the host's device; assets and groups belong to one context. */
 typedef struct SuppleContext_T* SuppleContext;
@@ -220,7 +221,8 @@ SUPPLE_API SuppleResult suppleSetClipPose(SuppleContext context, SuppleGroup gro
  * of the skin's joints; Supple applies the inverse bind matrices. */
 SUPPLE_API SuppleResult suppleSetMatrixPose(SuppleContext context, SuppleGroup group, uint32_t instance,
                                             const float* jointMatrices, uint32_t jointCount);
-/* Places an instance: applied after the pose, so surface vertices come out in the space this maps to. */
+/* Places an instance: an affine float[16] (last row 0, 0, 0, 1) applied after the pose, so that surface vertices come out in
+ * the space it maps to. A mirroring transform turns the winding and with it the normals. */
 SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleGroup group, uint32_t instance,
                                            const float* transform);
 
@@ -248,7 +250,9 @@ typedef struct SuppleRecordDesc {
     SuppleSyncScope after;  /* the coming uses of the outputs; all of Supple's writes are made visible to it */
 } SuppleRecordDesc;
 
-/* Records the passes of the groups, outside a render pass. Between suppleBeginFrame calls each group once. */
+/* Records the passes of the groups, outside a render pass. Between suppleBeginFrame calls each group once. What is
+ * recorded must be submitted, once, and in the order of recording on one queue: the first command buffer that uses a group
+ * or an asset also uploads its tables. With after.stages = 0 no barrier follows the passes; the host puts its own. */
 SUPPLE_API SuppleResult suppleRecord(SuppleContext context, VkCommandBuffer commandBuffer, const SuppleRecordDesc* desc);
 
 /* ---------------------------------------------------------------------------------------------------- output */
@@ -313,7 +317,7 @@ typedef struct SuppleTiming {
     const char* pass;     /* static: upload, deform, vertex, edge, patch, evaluate, attributes */
     uint32_t group;       /* index of the group in suppleRecord's array */
     uint64_t frame;
-    double gpuBegin;      /* nanoseconds on the device's clock */
+    double gpuBegin;      /* nanoseconds since the context's first timestamp; 0 where the queue has none */
     double gpuEnd;
     double cpuRecord;     /* nanoseconds the host spent recording the pass */
     uint64_t points;      /* elements the pass wrote */

@@ -1,0 +1,304 @@
+// Pictures: what is drawn stands where it should, is the same from run to run, and draws without a word from the
+// validation layer. Judging beauty stays with people.
+#include "tools/host/surface_renderer.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+namespace supple::host {
+namespace {
+
+constexpr VkExtent2D kSize{240, 200};
+constexpr float kMargin = 0.08f;
+
+/// One device for all pictures, under the validation layer where it is installed.
+class RenderTest : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        Result<std::unique_ptr<Device>> device = Device::create({.validation = true});
+        if (!device)
+            device = Device::create();
+        ASSERT_TRUE(device.ok()) << device.error().message;
+        device_ = std::move(*device);
+        Result<std::unique_ptr<Context>> context = Context::create(*device_);
+        ASSERT_TRUE(context.ok()) << context.error().message;
+        context_ = std::move(*context);
+        Result<std::unique_ptr<SurfaceRenderer>> renderer =
+            SurfaceRenderer::create(*device_, {.quality = StudioQuality::interactive(true)});
+        ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+        renderer_ = std::move(*renderer);
+        Result<DrawTarget> target = DrawTarget::create(*device_, kSize, renderer_->samples());
+        ASSERT_TRUE(target.ok()) << target.error().message;
+        target_ = std::move(*target);
+        Result<std::unique_ptr<Figure>> figure =
+            Figure::open(*context_, std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
+        ASSERT_TRUE(figure.ok()) << figure.error().message;
+        figure_ = std::move(*figure);
+    }
+
+    static void TearDownTestSuite() {
+        figure_.reset();
+        target_ = {};
+        renderer_.reset();
+        context_.reset();
+        if (device_ == nullptr)
+            return;
+        const std::shared_ptr<const ValidationLog> validation = device_->validation();
+        device_.reset();
+        EXPECT_EQ(validation->messageCount(), 0u);
+    }
+
+    void SetUp() override { ASSERT_NE(figure_, nullptr); }
+    void TearDown() override { EXPECT_EQ(device_->validationMessageCount(), 0u); }
+
+    static std::unique_ptr<FigureGroup> makeGroup(GroupOptions options = {.rate = 4}) {
+        Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(*figure_, options);
+        EXPECT_TRUE(group.ok()) << (group.ok() ? "" : group.error().message);
+        return std::move(*group);
+    }
+
+    static void evaluate(FigureGroup& group) {
+        const SuppleGroup groups[] = {group.handle()};
+        const Status status = context_->evaluate(groups);
+        ASSERT_TRUE(status.ok()) << status.error().message;
+    }
+
+    static Scene frontScene(const FigureGroup& group, float yaw) {
+        const Result<std::vector<glm::vec3>> points = group.readSurface();
+        EXPECT_TRUE(points.ok());
+        Scene scene;
+        scene.camera = frameCamera(*points, yaw, 0.2f, static_cast<float>(kSize.width) / kSize.height, kMargin);
+        scene.bounds = boundsOf(*points);
+        scene.lightYaw = yaw;
+        return scene;
+    }
+
+    static Picture draw(const FigureGroup& group, Scene scene) {
+        Result<FigureBinding> binding = renderer_->bind(group);
+        EXPECT_TRUE(binding.ok());
+        scene.group = &group;
+        scene.binding = &*binding;
+        const Status status =
+            device_->submitAndWait([&](VkCommandBuffer commands) { renderer_->record(commands, 0, target_, scene); });
+        EXPECT_TRUE(status.ok());
+        Result<Picture> picture = readPicture(*device_, target_.color().handle(), kSize, kPictureFormat);
+        EXPECT_TRUE(picture.ok());
+        return *picture;
+    }
+
+    static inline std::unique_ptr<Device> device_;
+    static inline std::unique_ptr<Context> context_;
+    static inline std::unique_ptr<SurfaceRenderer> renderer_;
+    static inline DrawTarget target_;
+    static inline std::unique_ptr<Figure> figure_;
+};
+
+/// In the normals view the figure is vivid and the backdrop is grey.
+bool isFigure(const Picture& normals, uint32_t x, uint32_t y) {
+    const uint8_t* pixel = normals.pixel(x, y);
+    return *std::max_element(pixel, pixel + 3) - *std::min_element(pixel, pixel + 3) > 48;
+}
+
+struct Silhouette {
+    double coverage = 0.0; ///< share of the picture
+    uint32_t left = kSize.width;
+    uint32_t right = 0;
+    uint32_t top = kSize.height;
+    uint32_t bottom = 0;
+};
+
+Silhouette silhouette(const Picture& normals) {
+    Silhouette found;
+    uint32_t count = 0;
+    for (uint32_t y = 0; y < normals.height; ++y) {
+        for (uint32_t x = 0; x < normals.width; ++x) {
+            if (!isFigure(normals, x, y))
+                continue;
+            ++count;
+            found.left = std::min(found.left, x);
+            found.right = std::max(found.right, x);
+            found.top = std::min(found.top, y);
+            found.bottom = std::max(found.bottom, y);
+        }
+    }
+    found.coverage = static_cast<double>(count) / (normals.width * normals.height);
+    return found;
+}
+
+/// Mean difference of a channel, 0..255.
+double difference(const Picture& a, const Picture& b) {
+    double sum = 0.0;
+    for (size_t i = 0; i < a.rgba.size(); ++i)
+        sum += std::abs(static_cast<int>(a.rgba[i]) - static_cast<int>(b.rgba[i]));
+    return sum / static_cast<double>(a.rgba.size());
+}
+
+TEST_F(RenderTest, FigureFillsTheFrameUpToItsMargin) {
+    const std::unique_ptr<FigureGroup> group = makeGroup();
+    evaluate(*group);
+    Scene scene = frontScene(*group, 0.6f);
+    scene.view = shared::kViewNormals;
+    const Silhouette seen = silhouette(draw(*group, scene));
+    EXPECT_GT(seen.coverage, 0.12);
+    EXPECT_LT(seen.coverage, 0.70);
+    // It touches the margin in one direction, on both sides, and stays inside in the other.
+    const double tall = static_cast<double>(seen.bottom - seen.top + 1) / kSize.height;
+    const double wide = static_cast<double>(seen.right - seen.left + 1) / kSize.width;
+    EXPECT_NEAR(std::max(tall, wide), 1.0 - 2.0 * kMargin, 0.03);
+}
+
+TEST_F(RenderTest, EveryViewDrawsAndDiffersFromTheOthers) {
+    const std::unique_ptr<FigureGroup> group = makeGroup();
+    evaluate(*group);
+    Scene scene = frontScene(*group, 0.6f);
+    scene.ground = scene.bounds.min.y;
+    std::vector<Picture> pictures;
+    for (const uint32_t view :
+         {shared::kViewShaded, shared::kViewWire, shared::kViewPatches, shared::kViewNormals, shared::kViewZebra}) {
+        scene.view = view;
+        pictures.push_back(draw(*group, scene));
+        EXPECT_EQ(difference(pictures.back(), draw(*group, scene)), 0.0) << "view " << view << ", drawn twice";
+    }
+    for (size_t i = 0; i < pictures.size(); ++i) {
+        for (size_t j = i + 1; j < pictures.size(); ++j)
+            EXPECT_GT(difference(pictures[i], pictures[j]), 1.0) << "views " << i << " and " << j;
+    }
+}
+
+TEST_F(RenderTest, CageAndSurfaceCoverAboutTheSamePixels) {
+    const std::unique_ptr<FigureGroup> group = makeGroup();
+    evaluate(*group);
+    Scene scene = frontScene(*group, 0.6f);
+    scene.view = shared::kViewNormals;
+    const Picture surface = draw(*group, scene);
+    scene.cageFaces = true;
+    const Picture cage = draw(*group, scene);
+    uint32_t both = 0;
+    uint32_t either = 0;
+    for (uint32_t y = 0; y < kSize.height; ++y) {
+        for (uint32_t x = 0; x < kSize.width; ++x) {
+            const bool inSurface = isFigure(surface, x, y);
+            const bool inCage = isFigure(cage, x, y);
+            both += inSurface && inCage ? 1 : 0;
+            either += inSurface || inCage ? 1 : 0;
+        }
+    }
+    EXPECT_GT(static_cast<double>(both) / either, 0.80);
+    EXPECT_GT(silhouette(cage).coverage, silhouette(surface).coverage) << "the surface shrinks from its cage";
+    scene.cageFaces = false;
+    scene.cageEdges = true;
+    EXPECT_GT(difference(surface, draw(*group, scene)), 0.5) << "the cage's lines";
+}
+
+TEST_F(RenderTest, BothVertexFormatsGiveTheSamePicture) {
+    Picture pictures[2];
+    for (const SuppleVertexFormat format : {SUPPLE_VERTEX_16, SUPPLE_VERTEX_24}) {
+        const std::unique_ptr<FigureGroup> group = makeGroup({.rate = 4, .vertexFormat = format});
+        evaluate(*group);
+        pictures[format] = draw(*group, frontScene(*group, 0.6f));
+    }
+    EXPECT_LT(difference(pictures[0], pictures[1]), 0.05);
+}
+
+TEST_F(RenderTest, TurningTheFigureAndTheCameraTogetherChangesNothing) {
+    const std::unique_ptr<FigureGroup> group = makeGroup();
+    evaluate(*group);
+    const Picture before = draw(*group, frontScene(*group, 0.6f));
+    const glm::mat4 quarterTurn = glm::rotate(glm::mat4(1.0f), glm::half_pi<float>(), glm::vec3(0.0f, 1.0f, 0.0f));
+    ASSERT_EQ(suppleSetTransform(context_->handle(), group->handle(), 0, &quarterTurn[0][0]), SUPPLE_OK);
+    evaluate(*group);
+    const Picture after = draw(*group, frontScene(*group, 0.6f + glm::half_pi<float>()));
+    // Shadow maps fall on other texels; nothing else may move.
+    EXPECT_LT(difference(before, after), 0.6);
+}
+
+TEST_F(RenderTest, InstancesStandWhereTheirTransformsPutThem) {
+    const std::unique_ptr<FigureGroup> group = makeGroup({.instances = 2, .rate = 4});
+    const glm::mat4 aside = glm::translate(glm::mat4(1.0f), glm::vec3(3.0f, 0.0f, 0.0f));
+    ASSERT_EQ(suppleSetTransform(context_->handle(), group->handle(), 1, &aside[0][0]), SUPPLE_OK);
+    evaluate(*group);
+    Scene scene = frontScene(*group, 0.0f);
+    scene.view = shared::kViewNormals;
+    const Picture picture = draw(*group, scene);
+    double halves[2] = {};
+    for (uint32_t y = 0; y < kSize.height; ++y) {
+        for (uint32_t x = 0; x < kSize.width; ++x)
+            halves[x * 2 / kSize.width] += isFigure(picture, x, y) ? 1.0 : 0.0;
+    }
+    EXPECT_GT(halves[0], 500.0);
+    EXPECT_NEAR(halves[0] / halves[1], 1.0, 0.1);
+}
+
+TEST(PictureTest, PngKeepsEveryPixel) {
+    Picture picture = Picture::blank(37, 11);
+    for (size_t i = 0; i < picture.rgba.size(); ++i)
+        picture.rgba[i] = static_cast<uint8_t>(i * 7 + i / 5);
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("supple_picture_" + std::to_string(std::rand()) + ".png")).string();
+    ASSERT_TRUE(writePng(picture, path).ok());
+    const Result<Picture> read = readPng(path);
+    std::remove(path.c_str());
+    ASSERT_TRUE(read.ok());
+    EXPECT_EQ(read->width, 37u);
+    EXPECT_EQ(read->height, 11u);
+    EXPECT_EQ(read->rgba, picture.rgba);
+}
+
+TEST(PictureTest, WhatIsNoPictureIsRefused) {
+    const std::byte noise[] = {std::byte{0x89}, std::byte{'P'}, std::byte{'N'}, std::byte{'G'}, std::byte{0}};
+    const Result<Picture> decoded = decodePicture(noise, "image 3");
+    ASSERT_FALSE(decoded.ok());
+    EXPECT_EQ(decoded.error().code, ErrorCode::asset);
+    EXPECT_EQ(decoded.error().message.rfind("image 3: ", 0), 0u);
+    EXPECT_FALSE(readPng("/nowhere/at/all.png").ok());
+    EXPECT_FALSE(writePng(Picture::blank(2, 2), "/nowhere/at/all.png").ok());
+}
+
+TEST(PictureTest, TheMeanIsTakenInLinearLight) {
+    Picture black = Picture::blank(1, 1);
+    Picture white = Picture::blank(1, 1);
+    std::fill(white.rgba.begin(), white.rgba.end(), uint8_t{255});
+    PictureAverage average(1, 1);
+    average.add(black);
+    average.add(white);
+    EXPECT_EQ(average.picture().rgba[0], 188); // half the light
+    PictureAverage single(1, 1);
+    single.add(white);
+    EXPECT_EQ(single.picture().rgba[0], 255);
+}
+
+TEST(CameraTest, FramedPointsAreInsideAndTouchTheMargin) {
+    std::vector<glm::vec3> points;
+    for (int i = 0; i < 200; ++i) {
+        const auto t = static_cast<float>(i);
+        points.emplace_back(3.0f * std::sin(t), std::cos(2.0f * t) + 0.2f * t, std::sin(5.0f * t));
+    }
+    for (const float aspect : {0.5f, 1.0f, 2.5f}) {
+        const Camera camera = frameCamera(points, 0.7f, 0.3f, aspect, kMargin);
+        const glm::mat4 toClip = camera.projection(aspect, boundsOf(points).radius()) * camera.view();
+        float reach = 0.0f;
+        for (const glm::vec3& point : points) {
+            const glm::vec4 clip = toClip * glm::vec4(point, 1.0f);
+            ASSERT_GT(clip.w, 0.0f);
+            EXPECT_GT(clip.z, 0.0f);
+            EXPECT_LT(clip.z, clip.w);
+            reach = std::max({reach, std::abs(clip.x / clip.w), std::abs(clip.y / clip.w)});
+        }
+        EXPECT_NEAR(reach, 1.0f - 2.0f * kMargin, 1e-3f);
+    }
+}
+
+TEST(DeviceTest, UnknownDeviceIsNamedWithWhatThereIs) {
+    const Result<std::unique_ptr<Device>> device = Device::create({.device = "no such thing"});
+    ASSERT_FALSE(device.ok());
+    EXPECT_EQ(device.error().code, ErrorCode::unsupported);
+    EXPECT_NE(device.error().message.find("no such thing"), std::string::npos);
+}
+
+} // namespace
+} // namespace supple::host

@@ -1,0 +1,130 @@
+// The viewer without its window: two frames in flight, the rate and the file exchanged between frames, under the
+// validation layer.
+#include "tools/supple/view_stage.h"
+
+#include "tools/host/vk_struct.h"
+
+#include <gtest/gtest.h>
+
+namespace supple::tools {
+namespace {
+
+constexpr VkExtent2D kSize{160, 120};
+constexpr float kAspect = 160.0f / 120.0f;
+
+/// What a window does with its slots: a command buffer and a fence each.
+class FrameRing {
+public:
+    explicit FrameRing(host::Device& device) : device_(device) {
+        for (Slot& slot : slots_) {
+            auto allocate = host::vkStruct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+            allocate.commandPool = device.commandPool();
+            allocate.commandBufferCount = 1;
+            EXPECT_EQ(vkAllocateCommandBuffers(device.handle(), &allocate, &slot.commands), VK_SUCCESS);
+            auto fence = host::vkStruct<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+            fence.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+            EXPECT_EQ(vkCreateFence(device.handle(), &fence, nullptr, &slot.done), VK_SUCCESS);
+        }
+    }
+    ~FrameRing() {
+        vkDeviceWaitIdle(device_.handle());
+        for (const Slot& slot : slots_)
+            vkDestroyFence(device_.handle(), slot.done, nullptr);
+    }
+    FrameRing(const FrameRing&) = delete;
+    FrameRing& operator=(const FrameRing&) = delete;
+
+    /// Waits for the slot that frame `number` takes, and no longer.
+    void draw(ViewStage& stage, uint64_t number, const host::DrawTarget& target) {
+        const auto index = static_cast<uint32_t>(number % 2);
+        Slot& slot = slots_[index];
+        vkWaitForFences(device_.handle(), 1, &slot.done, VK_TRUE, UINT64_MAX);
+        vkResetFences(device_.handle(), 1, &slot.done);
+        completed_ = std::max(completed_, slot.number);
+        stage.retire(completed_);
+        auto begin = host::vkStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+        begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        vkBeginCommandBuffer(slot.commands, &begin);
+        const Status status = stage.record(slot.commands, index, number, completed_, target);
+        EXPECT_TRUE(status.ok()) << status.error().message;
+        vkEndCommandBuffer(slot.commands);
+        auto commands = host::vkStruct<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
+        commands.commandBuffer = slot.commands;
+        auto submit = host::vkStruct<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
+        submit.commandBufferInfoCount = 1;
+        submit.pCommandBufferInfos = &commands;
+        EXPECT_EQ(vkQueueSubmit2(device_.queue(), 1, &submit, slot.done), VK_SUCCESS);
+        slot.number = number;
+    }
+    void waitIdle(uint64_t number) {
+        vkDeviceWaitIdle(device_.handle());
+        completed_ = std::max(completed_, number);
+    }
+
+private:
+    struct Slot {
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        VkFence done = VK_NULL_HANDLE;
+        uint64_t number = 0;
+    };
+    host::Device& device_;
+    Slot slots_[2];
+    uint64_t completed_ = 0;
+};
+
+TEST(ViewStageTest, RateAndFileChangeWhileFramesAreInFlight) {
+    Result<std::unique_ptr<host::Device>> device = host::Device::create({.validation = true});
+    if (!device)
+        device = host::Device::create();
+    ASSERT_TRUE(device.ok()) << device.error().message;
+    const std::shared_ptr<const host::ValidationLog> validation = (*device)->validation();
+    {
+        Result<std::unique_ptr<host::Context>> context = host::Context::create(**device, {.framesInFlight = 2});
+        ASSERT_TRUE(context.ok()) << context.error().message;
+        Result<std::unique_ptr<host::SurfaceRenderer>> renderer = host::SurfaceRenderer::create(
+            **device, {.quality = host::StudioQuality::interactive(true), .framesInFlight = 2});
+        ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+        Result<host::DrawTarget> target = host::DrawTarget::create(**device, kSize, (*renderer)->samples());
+        ASSERT_TRUE(target.ok()) << target.error().message;
+        DrawOptions options;
+        options.rate = 2;
+        Result<std::unique_ptr<ViewStage>> opened = ViewStage::create(**context, **renderer, options);
+        ASSERT_TRUE(opened.ok()) << opened.error().message;
+        ViewStage& stage = **opened;
+        FrameRing ring(**device);
+
+        const std::string file = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
+        const Status first = stage.open(file, "1", kAspect);
+        ASSERT_TRUE(first.ok()) << first.error().message;
+        EXPECT_EQ(stage.settings.clip, 1u);
+        ring.waitIdle((*context)->lastFrame());
+        for (int i = 0; i < 14; ++i) {
+            stage.advance(1.0 / 30.0);
+            stage.orbit(0.1f, 0.02f);
+            stage.settings.cageOverlay = i % 3 == 0;
+            stage.settings.cageFaces = i % 5 == 4;
+            ring.draw(stage, (*context)->nextFrame(), *target);
+            // New groups one after another, while the old ones are still being drawn.
+            if (i == 3 || i == 4 || i == 10) {
+                const Status changed = stage.setRate(static_cast<uint32_t>(3 + i), (*context)->lastFrame());
+                ASSERT_TRUE(changed.ok()) << changed.error().message;
+                EXPECT_EQ(stage.group().output().rate, static_cast<uint32_t>(3 + i));
+            }
+            if (i == 7) {
+                ring.waitIdle((*context)->lastFrame());
+                EXPECT_FALSE(stage.open("/nowhere.glb", {}, kAspect).ok());
+                EXPECT_EQ(stage.figure().path(), file) << "a file that cannot be opened leaves the old one";
+                const Status second = stage.open(file, {}, kAspect);
+                ASSERT_TRUE(second.ok()) << second.error().message;
+                ring.waitIdle((*context)->lastFrame());
+            }
+        }
+        EXPECT_FALSE(stage.passTimes().empty());
+        ring.waitIdle((*context)->lastFrame());
+    }
+    device->reset();
+    EXPECT_EQ(validation->messageCount(), 0u);
+}
+
+} // namespace
+} // namespace supple::tools

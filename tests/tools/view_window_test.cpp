@@ -1,0 +1,77 @@
+// The window under the validation layer: frames go on while it is resized. Needs a display; view_test.sh brings one.
+#include "tools/host/overlay.h"
+#include "tools/host/window.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+namespace supple::host {
+namespace {
+
+constexpr VkImageSubresourceRange kWholeImage{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+
+/// A cleared picture with a panel on it.
+Status drawFrame(Window& window, Overlay& overlay, const WindowFrame& frame, uint64_t number) {
+    const SuppleSyncScope transfer{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    const VkImage image = window.image(frame.image);
+    imageBarrier(frame.commands, image, kWholeImage,
+                 {VK_IMAGE_LAYOUT_UNDEFINED, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0}},
+                 {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, transfer});
+    const VkClearColorValue color{{0.2f, 0.3f, 0.4f, 1.0f}};
+    vkCmdClearColorImage(frame.commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &color, 1, &kWholeImage);
+    imageBarrier(frame.commands, image, kWholeImage, {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, transfer},
+                 {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                  {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                   VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT}});
+    overlay.beginPanels();
+    ImGui::Begin("panel");
+    ImGui::Text("frame %u", static_cast<unsigned>(number));
+    ImGui::End();
+    overlay.endPanels();
+    if (const Status status = overlay.record(frame); !status)
+        return status.error();
+    return window.end(frame, number);
+}
+
+TEST(WindowTest, SurvivesResizing) {
+    if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr)
+        GTEST_SKIP() << "no display";
+    Result<std::unique_ptr<Device>> device = Device::create({.validation = true, .window = true});
+    if (!device)
+        device = Device::create({.window = true});
+    ASSERT_TRUE(device.ok()) << device.error().message;
+    const std::shared_ptr<const ValidationLog> validation = (*device)->validation();
+    {
+        Result<std::unique_ptr<Window>> window = Window::create(**device, "supple test", {320, 240});
+        ASSERT_TRUE(window.ok()) << window.error().message;
+        Result<std::unique_ptr<Overlay>> overlay = Overlay::create(**device, **window);
+        ASSERT_TRUE(overlay.ok()) << overlay.error().message;
+        uint64_t number = 0;
+        for (const VkExtent2D size : {VkExtent2D{320, 240}, VkExtent2D{500, 180}, VkExtent2D{64, 400}}) {
+            glfwSetWindowSize((*window)->handle(), static_cast<int>(size.width), static_cast<int>(size.height));
+            bool fits = false;
+            for (int attempt = 0; attempt < 200 && !fits; ++attempt) {
+                Result<std::optional<WindowFrame>> frame = (*window)->begin();
+                ASSERT_TRUE(frame.ok()) << frame.error().message;
+                if (!frame->has_value())
+                    continue;
+                const Status status = drawFrame(**window, **overlay, **frame, ++number);
+                ASSERT_TRUE(status.ok()) << status.error().message;
+                fits = (*window)->extent().width == size.width && (*window)->extent().height == size.height;
+            }
+            EXPECT_TRUE(fits) << size.width << "x" << size.height;
+        }
+        EXPECT_LE(number - (*window)->completedFrame(), kWindowFramesInFlight);
+        (*window)->waitIdle(number);
+        EXPECT_EQ((*window)->completedFrame(), number);
+    }
+    device->reset();
+    EXPECT_EQ(validation->messageCount(), 0u);
+}
+
+} // namespace
+} // namespace supple::host

@@ -1,0 +1,169 @@
+#include "tools/supple/view_panel.h"
+
+#if SUPPLE_HAS_WINDOW
+
+#include "tools/supple/command.h"
+
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <filesystem>
+#include <imgui.h>
+
+namespace supple::tools {
+
+namespace {
+
+constexpr const char* kViewNames[] = {"shaded", "wire", "patches", "normals", "zebra"};
+constexpr float kRadiansPerPixel = 0.0085f;
+
+/// Dragging and scrolling that the panel does not want.
+void moveCamera(ViewStage& stage) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.WantCaptureMouse)
+        return;
+    const float height = std::max(io.DisplaySize.y, 1.0f);
+    const bool panKey = io.KeyShift;
+    if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f) && !panKey)
+        stage.orbit(-io.MouseDelta.x * kRadiansPerPixel, io.MouseDelta.y * kRadiansPerPixel);
+    else if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0.0f) ||
+             ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 0.0f) ||
+             ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f))
+        stage.pan(-io.MouseDelta.x / height, io.MouseDelta.y / height);
+    if (io.MouseWheel != 0.0f)
+        stage.zoom(io.MouseWheel);
+}
+
+void handleKeys(ViewStage& stage, float aspect, PanelWishes& wishes) {
+    if (ImGui::GetIO().WantTextInput)
+        return;
+    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    if (pressed(GLFW_KEY_SPACE))
+        stage.settings.playing = !stage.settings.playing;
+    for (int i = 0; i < static_cast<int>(std::size(kViewNames)); ++i) {
+        if (pressed(GLFW_KEY_1 + i))
+            stage.settings.view = static_cast<uint32_t>(i);
+    }
+    if (pressed(GLFW_KEY_C))
+        stage.settings.cageOverlay = !stage.settings.cageOverlay;
+    if (pressed(GLFW_KEY_F))
+        stage.frameFigure(aspect);
+    wishes.close = pressed(GLFW_KEY_ESCAPE);
+}
+
+void buildFiles(const PanelState& state, PanelWishes& wishes) {
+    const auto shortName = [&](size_t i) { return std::filesystem::path(state.files[i]).filename().string(); };
+    if (state.files.size() == 1) {
+        ImGui::TextUnformatted(shortName(0).c_str());
+        return;
+    }
+    ImGui::SetNextItemWidth(-1.0f);
+    if (ImGui::BeginCombo("##file", shortName(state.file).c_str())) {
+        for (size_t i = 0; i < state.files.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));
+            if (ImGui::Selectable(shortName(i).c_str(), i == state.file) && i != state.file)
+                wishes.file = i;
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
+    }
+}
+
+void buildPlayback(ViewStage& stage) {
+    ViewSettings& settings = stage.settings;
+    const std::vector<cage::Clip>& clips = stage.figure().character().clips;
+    const auto clipName = [&](uint32_t clip) {
+        return clip < clips.size() ? printable(clips[clip].name) : std::string("bind pose");
+    };
+    ImGui::SetNextItemWidth(-1.0f);
+    if (ImGui::BeginCombo("##clip", clipName(settings.clip).c_str())) {
+        for (uint32_t i = 0; i <= clips.size(); ++i) {
+            const uint32_t clip = i < clips.size() ? i : SUPPLE_BIND_POSE;
+            ImGui::PushID(static_cast<int>(i));
+            if (ImGui::Selectable(clipName(clip).c_str(), clip == settings.clip)) {
+                settings.clip = clip;
+                settings.time = 0.0;
+            }
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
+    }
+    const double duration = stage.figure().clipDuration(settings.clip);
+    if (duration <= 0.0)
+        return;
+    if (ImGui::Button(settings.playing ? "pause" : "play", ImVec2(60.0f, 0.0f)))
+        settings.playing = !settings.playing;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1.0f);
+    const double start = 0.0;
+    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &settings.time, &start, &duration, "%.2f s"))
+        settings.playing = false;
+    ImGui::SliderFloat("speed", &settings.speed, 0.05f, 3.0f, "%.2f x", ImGuiSliderFlags_Logarithmic);
+}
+
+void buildSurface(ViewStage& stage, PanelWishes& wishes) {
+    ViewSettings& settings = stage.settings;
+    ImGui::SliderInt("rate", &settings.rate, 1, static_cast<int>(SUPPLE_MAX_RATE), "%d",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    // A rate is a new group: made when the slider is let go, not at every step of it.
+    if (ImGui::IsItemDeactivatedAfterEdit())
+        wishes.rate = static_cast<uint32_t>(settings.rate);
+    int view = static_cast<int>(settings.view);
+    if (ImGui::Combo("view", &view, kViewNames, static_cast<int>(std::size(kViewNames))))
+        settings.view = static_cast<uint32_t>(view);
+    ImGui::Checkbox("cage lines", &settings.cageOverlay);
+    ImGui::SameLine();
+    ImGui::Checkbox("cage only", &settings.cageFaces);
+    ImGui::Checkbox("ground", &settings.ground);
+    const SuppleGroupOutput& output = stage.group().output();
+    ImGui::TextDisabled("%u patches, %u vertices", output.patchCount, output.patchCount * output.samplesPerPatch);
+}
+
+void buildTimings(const PanelState& state, const ViewStage& stage) {
+    double sum = 0.0;
+    double longest = 1e-6;
+    for (const auto& [name, time] : stage.passTimes()) {
+        sum += time.gpuMilliseconds;
+        longest = std::max(longest, time.gpuMilliseconds);
+    }
+    ImGui::TextDisabled("%s", state.device.c_str());
+    for (const char* pass : {"upload", "deform", "vertex", "edge", "patch", "evaluate", "attributes"}) {
+        const auto found = stage.passTimes().find(pass);
+        if (found == stage.passTimes().end())
+            continue;
+        ImGui::TextUnformatted(pass);
+        ImGui::SameLine(90.0f);
+        char label[32];
+        std::snprintf(label, sizeof label, "%.3f ms", found->second.gpuMilliseconds);
+        ImGui::ProgressBar(static_cast<float>(found->second.gpuMilliseconds / longest), ImVec2(-1.0f, 0.0f), label);
+    }
+    ImGui::Text("surface %.2f ms   frame %.1f ms", sum, state.frameMilliseconds);
+}
+
+} // namespace
+
+PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect) {
+    PanelWishes wishes;
+    ImGui::SetNextWindowPos(ImVec2(16.0f, 16.0f), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(300.0f, 0.0f), ImGuiCond_Always);
+    if (ImGui::Begin("supple", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+        buildFiles(state, wishes);
+        buildPlayback(stage);
+        ImGui::Separator();
+        buildSurface(stage, wishes);
+        ImGui::Separator();
+        buildTimings(state, stage);
+        if (!state.message.empty()) {
+            ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
+            ImGui::TextWrapped("%s", printable(state.message).c_str());
+            ImGui::PopStyleColor();
+        }
+    }
+    ImGui::End();
+    moveCamera(stage);
+    handleKeys(stage, aspect, wishes);
+    return wishes;
+}
+
+} // namespace supple::tools
+
+#endif

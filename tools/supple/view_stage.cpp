@@ -1,0 +1,180 @@
+#include "tools/supple/view_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supple::tools {
+
+namespace {
+
+constexpr float kMargin = 0.10f;
+constexpr float kSteepest = 1.5f; ///< radians; the camera never looks straight up or down
+/// Poses of each clip that the camera has to hold and the floor has to carry.
+constexpr uint32_t kMeasuredPoses = 5;
+/// Share of a new measurement in the shown time.
+constexpr double kSmoothing = 0.1;
+
+} // namespace
+
+Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, host::SurfaceRenderer& renderer,
+                                                     const DrawOptions& options) {
+    std::unique_ptr<ViewStage> stage(new ViewStage(context, renderer));
+    const Result<uint32_t> view = parseView(options.view);
+    if (!view)
+        return view.error();
+    stage->settings.view = *view;
+    stage->settings.rate = static_cast<int>(options.rate);
+    stage->settings.cageFaces = options.scheme == "cage";
+    stage->settings.cageOverlay = options.cageOverlay;
+    stage->settings.ground = options.ground;
+    stage->scheme_ = schemeOf(options.scheme);
+    stage->pairQuads_ = options.pairQuads;
+    stage->startYaw_ = radians(options.yaw);
+    stage->startPitch_ = radians(options.pitch);
+    return stage;
+}
+
+Status ViewStage::open(const std::string& file, const std::string& clip, float aspect) {
+    Result<std::unique_ptr<host::Figure>> figure = host::Figure::open(context_, file, pairQuads_);
+    if (!figure)
+        return figure.error();
+    const Result<uint32_t> chosen = (*figure)->findClip(clip);
+    if (!chosen)
+        return chosen.error();
+    Result<std::unique_ptr<host::FigureGroup>> group =
+        host::FigureGroup::create(**figure, {.scheme = scheme_, .rate = static_cast<uint32_t>(settings.rate)});
+    if (!group)
+        return group.error();
+    std::vector<ClipTime> poses;
+    const auto clipCount = static_cast<uint32_t>((*figure)->character().clips.size());
+    for (uint32_t i = 0; i < clipCount; ++i) {
+        const std::vector<ClipTime> times = spreadTimes(**figure, i, kMeasuredPoses);
+        poses.insert(poses.end(), times.begin(), times.end());
+    }
+    if (poses.empty())
+        poses.push_back({});
+    Result<Extent> extent = measureGroup(**group, poses, false);
+    if (!extent)
+        return extent.error();
+    Result<host::FigureBinding> binding = renderer_.bind(**group);
+    if (!binding)
+        return binding.error();
+
+    retired_.clear();
+    binding_ = std::move(*binding);
+    group_ = std::move(*group);
+    figure_ = std::move(*figure);
+    extent_ = std::move(*extent);
+    settings.clip = *chosen != SUPPLE_BIND_POSE || clipCount == 0 ? *chosen : 0;
+    settings.time = 0.0;
+    passTimes_.clear();
+    frameFigure(aspect);
+    return success();
+}
+
+Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
+    Result<std::unique_ptr<host::FigureGroup>> group =
+        host::FigureGroup::create(*figure_, {.scheme = scheme_, .rate = rate});
+    if (!group)
+        return group.error();
+    Result<host::FigureBinding> binding = renderer_.bind(**group);
+    if (!binding)
+        return binding.error();
+    group_->release();
+    retired_.push_back({lastFrame, std::move(group_), std::move(binding_)});
+    group_ = std::move(*group);
+    binding_ = std::move(*binding);
+    settings.rate = static_cast<int>(rate);
+    return success();
+}
+
+void ViewStage::retire(uint64_t completedFrame) {
+    std::erase_if(retired_, [&](const Retired& retired) { return retired.frame <= completedFrame; });
+}
+
+void ViewStage::advance(double seconds) {
+    const double duration = figure_->clipDuration(settings.clip);
+    if (!settings.playing || duration <= 0.0)
+        return;
+    settings.time = std::fmod(settings.time + seconds * static_cast<double>(settings.speed), duration);
+}
+
+void ViewStage::frameFigure(float aspect) {
+    camera_ = host::frameCamera(extent_.points, startYaw_, startPitch_, aspect, kMargin);
+}
+
+void ViewStage::orbit(float yaw, float pitch) {
+    camera_.yaw += yaw;
+    camera_.pitch = std::clamp(camera_.pitch + pitch, -kSteepest, kSteepest);
+}
+
+void ViewStage::pan(float right, float up) {
+    const glm::mat3 toWorld = glm::transpose(glm::mat3(camera_.view()));
+    const float height = 2.0f * camera_.distance * std::tan(camera_.fieldOfView * 0.5f);
+    camera_.target += (toWorld[0] * right + toWorld[1] * up) * height;
+}
+
+void ViewStage::zoom(float steps) {
+    const float radius = extent_.bounds.radius();
+    camera_.distance = std::clamp(camera_.distance * std::pow(0.88f, steps), radius * 0.05f, radius * 20.0f);
+}
+
+Status ViewStage::record(VkCommandBuffer commands, uint32_t slot, uint64_t frame, uint64_t completedFrame,
+                         const host::DrawTarget& target) {
+    if (const Status status =
+            context_.check(suppleBeginFrame(context_.handle(), frame, completedFrame), "suppleBeginFrame");
+        !status)
+        return status.error();
+    readTimings();
+    if (const Status status = group_->pose(0, settings.clip, settings.time); !status)
+        return status.error();
+    const SuppleGroup groups[] = {group_->handle()};
+    SuppleRecordDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.flags = SUPPLE_RECORD_TIMINGS;
+    desc.groups = groups;
+    desc.groupCount = 1;
+    desc.before = host::kRendererReads;
+    desc.after = host::kRendererReads;
+    if (const Status status = context_.check(suppleRecord(context_.handle(), commands, &desc), "suppleRecord"); !status)
+        return status.error();
+
+    host::Scene scene;
+    scene.group = group_.get();
+    scene.binding = &binding_;
+    scene.camera = camera_;
+    scene.bounds = extent_.bounds;
+    if (settings.ground)
+        scene.ground = extent_.bounds.min.y;
+    // A turntable: the lights stay with the viewer.
+    scene.lightYaw = camera_.yaw;
+    scene.view = settings.view;
+    scene.cageFaces = settings.cageFaces;
+    scene.cageEdges = settings.cageFaces || settings.cageOverlay;
+    scene.pixelScale = pixelScale(target.extent());
+    renderer_.record(commands, slot, target, scene);
+    return success();
+}
+
+void ViewStage::readTimings() {
+    SuppleTiming timings[64];
+    uint32_t count = static_cast<uint32_t>(std::size(timings));
+    const SuppleResult result = suppleGetTimings(context_.handle(), timings, &count);
+    if (result != SUPPLE_OK && result != SUPPLE_INCOMPLETE)
+        return;
+    std::map<std::string, PassTime> frame;
+    for (uint32_t i = 0; i < count; ++i) {
+        PassTime& pass = frame[timings[i].pass];
+        pass.gpuMilliseconds += (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6;
+        pass.cpuMilliseconds += timings[i].cpuRecord * 1e-6;
+    }
+    for (const auto& [name, time] : frame) {
+        const auto [shown, isNew] = passTimes_.try_emplace(name, time);
+        if (isNew)
+            continue;
+        shown->second.gpuMilliseconds += kSmoothing * (time.gpuMilliseconds - shown->second.gpuMilliseconds);
+        shown->second.cpuMilliseconds += kSmoothing * (time.cpuMilliseconds - shown->second.cpuMilliseconds);
+    }
+}
+
+} // namespace supple::tools

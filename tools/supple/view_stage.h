@@ -1,0 +1,89 @@
+// What the viewer shows: one figure of a list of files, playing, seen by an orbiting camera.
+#pragma once
+
+#include "tools/host/surface_renderer.h"
+#include "tools/supple/render_stage.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace supple::tools {
+
+/// What the panel and the keys change.
+struct ViewSettings {
+    uint32_t clip = SUPPLE_BIND_POSE;
+    double time = 0.0;
+    bool playing = true;
+    float speed = 1.0f;
+    int rate = 8;
+    uint32_t view = 0;      ///< shared::kView...
+    bool cageFaces = false; ///< the cage instead of the surface
+    bool cageOverlay = false;
+    bool ground = true;
+};
+
+/// A pass of the last completed frames, smoothed.
+struct PassTime {
+    double gpuMilliseconds = 0.0;
+    double cpuMilliseconds = 0.0;
+};
+
+class ViewStage {
+public:
+    [[nodiscard]] static Result<std::unique_ptr<ViewStage>>
+    create(host::Context& context, host::SurfaceRenderer& renderer, const DrawOptions& options);
+
+    /// Opens a file and makes it the one that is shown; on failure the old one stays. No frame may be pending.
+    [[nodiscard]] Status open(const std::string& file, const std::string& clip, float aspect);
+    [[nodiscard]] bool hasFigure() const { return group_ != nullptr; }
+    [[nodiscard]] const host::Figure& figure() const { return *figure_; }
+    [[nodiscard]] const host::FigureGroup& group() const { return *group_; }
+    [[nodiscard]] const std::map<std::string, PassTime>& passTimes() const { return passTimes_; }
+
+    /// A group of the new rate takes the old one's place; the old one goes when its frames are completed.
+    [[nodiscard]] Status setRate(uint32_t rate, uint64_t lastFrame);
+    /// Lets go of what the completed frames used.
+    void retire(uint64_t completedFrame);
+
+    void advance(double seconds);
+    void frameFigure(float aspect);
+    void orbit(float yaw, float pitch);
+    /// In fractions of the picture's height.
+    void pan(float right, float up);
+    void zoom(float steps);
+
+    /// One frame: Supple's passes, then the picture.
+    [[nodiscard]] Status record(VkCommandBuffer commands, uint32_t slot, uint64_t frame, uint64_t completedFrame,
+                                const host::DrawTarget& target);
+
+    ViewSettings settings;
+
+private:
+    struct Retired {
+        uint64_t frame = 0;
+        std::unique_ptr<host::FigureGroup> group;
+        host::FigureBinding binding;
+    };
+
+    ViewStage(host::Context& context, host::SurfaceRenderer& renderer) : context_(context), renderer_(renderer) {}
+    void readTimings();
+
+    host::Context& context_;
+    host::SurfaceRenderer& renderer_;
+    SuppleScheme scheme_ = SUPPLE_SCHEME_AUTO;
+    bool pairQuads_ = false;
+    float startYaw_ = 0.0f;
+    float startPitch_ = 0.0f;
+    std::unique_ptr<host::Figure> figure_;
+    std::unique_ptr<host::FigureGroup> group_;
+    host::FigureBinding binding_;
+    std::vector<Retired> retired_; ///< before figure_ in time, so gone before it
+    Extent extent_;
+    host::Camera camera_;
+    std::map<std::string, PassTime> passTimes_;
+};
+
+} // namespace supple::tools
