@@ -1,5 +1,6 @@
 #include "cage/gltf_accessors.h"
 
+#include "cage/gltf_message.h"
 #include "cage/gltf_refusal.h"
 
 #include <algorithm>
@@ -102,18 +103,21 @@ uint32_t loadInteger(const std::byte* from, int componentType) {
 std::span<const std::byte> viewBytes(const GltfDocument& document, int view, uint64_t offset, uint64_t count,
                                      uint64_t elementSize, uint64_t& stride, const std::string& element) {
     const auto& bufferView = document.model.bufferViews[static_cast<size_t>(view)];
-    if (stride == 0)
+    if (stride == 0) {
         stride = bufferView.byteStride != 0 ? bufferView.byteStride : elementSize;
-    if (stride < elementSize)
+    }
+    if (stride < elementSize) {
         refuse(element, "byteStride " + std::to_string(stride) + " is less than the element's " +
                             std::to_string(elementSize) + " bytes");
+    }
     const uint64_t available = bufferView.byteLength;
     // count > 0; nothing here can overflow: the quotient is formed instead of the product.
     if (offset > available || available - offset < elementSize ||
-        count - 1 > (available - offset - elementSize) / stride)
+        count - 1 > (available - offset - elementSize) / stride) {
         refuse(element, std::to_string(count) + " elements at byte " + std::to_string(offset) +
                             " are out of range: bufferView " + std::to_string(view) + " has " +
                             std::to_string(available) + " bytes");
+    }
     return document.buffers[static_cast<size_t>(bufferView.buffer)].subspan(
         bufferView.byteOffset + static_cast<size_t>(offset), static_cast<size_t>((count - 1) * stride + elementSize));
 }
@@ -122,32 +126,37 @@ std::span<const std::byte> viewBytes(const GltfDocument& document, int view, uin
 std::vector<std::byte> packed(const GltfDocument& document, int index, int type, uint32_t allowed,
                               const std::string& element) {
     const Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
-    if (accessor.type != type)
+    if (accessor.type != type) {
         refuse(element, std::string(typeName(accessor.type)) + " instead of " + typeName(type));
-    if ((componentBit(accessor) & allowed) == 0)
+    }
+    if ((componentBit(accessor) & allowed) == 0) {
         refuse(element, componentName(accessor) + " components are not allowed here");
+    }
     const uint64_t elementSize =
         componentSize(accessor.componentType) *
         static_cast<uint64_t>(supple_tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)));
     const uint64_t count = accessor.count;
     std::vector<std::byte> bytes;
     if (accessor.bufferView < 0) {
-        if (count > kMaxZeroElements)
+        if (count > kMaxZeroElements) {
             refuse(element,
                    "accessor without bufferView: " + std::to_string(count) + " elements, at most " +
                        std::to_string(kMaxZeroElements) + " are read",
                    ErrorCode::limit);
+        }
         bytes.resize(static_cast<size_t>(count * elementSize));
     } else {
         uint64_t stride = 0;
         const auto source =
             viewBytes(document, accessor.bufferView, accessor.byteOffset, count, elementSize, stride, element);
         bytes.resize(static_cast<size_t>(count * elementSize));
-        for (uint64_t i = 0; i < count; ++i)
+        for (uint64_t i = 0; i < count; ++i) {
             std::memcpy(bytes.data() + i * elementSize, source.data() + i * stride, elementSize);
+        }
     }
-    if (!accessor.sparse.isSparse)
+    if (!accessor.sparse.isSparse) {
         return bytes;
+    }
 
     const auto sparseCount = static_cast<uint64_t>(accessor.sparse.count);
     const auto& indices = accessor.sparse.indices;
@@ -162,11 +171,13 @@ std::vector<std::byte> packed(const GltfDocument& document, int index, int type,
     uint64_t previous = 0;
     for (uint64_t i = 0; i < sparseCount; ++i) {
         const uint64_t target = loadInteger(indexBytes.data() + i * indexSize, indices.componentType);
-        if (target >= count)
+        if (target >= count) {
             refuse(element + " sparse indices", std::to_string(target) + " is out of range: the accessor has " +
                                                     std::to_string(count) + " elements");
-        if (i > 0 && target <= previous)
+        }
+        if (i > 0 && target <= previous) {
             refuse(element + " sparse indices", "not strictly increasing");
+        }
         previous = target;
         std::memcpy(bytes.data() + target * elementSize, valueBytes.data() + i * elementSize, elementSize);
     }
@@ -210,13 +221,21 @@ std::vector<uint32_t> readIntegers(const GltfDocument& document, int accessor, i
     const int componentType = document.model.accessors[static_cast<size_t>(accessor)].componentType;
     const size_t size = componentSize(componentType);
     std::vector<uint32_t> values(bytes.size() / size);
-    for (size_t i = 0; i < values.size(); ++i)
+    for (size_t i = 0; i < values.size(); ++i) {
         values[i] = loadInteger(bytes.data() + i * size, componentType);
+    }
     return values;
 }
 
 size_t accessorCount(const GltfDocument& document, int accessor) {
     return document.model.accessors[static_cast<size_t>(accessor)].count;
+}
+
+void checkVertexCount(const GltfDocument& document, int accessor, size_t vertexCount, const std::string& element) {
+    const size_t count = accessorCount(document, accessor);
+    if (count != vertexCount) {
+        refuse(element, counted(count, "element", "elements") + " for " + counted(vertexCount, "vertex", "vertices"));
+    }
 }
 
 } // namespace supple::cage

@@ -36,4 +36,7 @@ enum ComponentTypes : uint32_t {
 /// Number of elements.
 [[nodiscard]] size_t accessorCount(const GltfDocument& document, int accessor);
 
+/// Refuses an attribute that does not have one element a vertex.
+void checkVertexCount(const GltfDocument& document, int accessor, size_t vertexCount, const std::string& element);
+
 } // namespace supple::cage

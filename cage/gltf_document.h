@@ -1,4 +1,5 @@
-// A glTF or GLB in memory: container, JSON and buffers, checked before anything is built from them. Private to cage/.
+// A glTF or GLB in memory: container, JSON, buffers and images, checked before anything is built from them. Private to
+// cage/.
 #pragma once
 
 #include "cage/character.h"
@@ -10,9 +11,6 @@
 #include <vector>
 
 namespace supple::cage {
-
-/// JSON nested deeper than this is refused before it is parsed: parsers and writers recurse.
-inline constexpr int kMaxJsonDepth = 64;
 
 struct GltfDocument {
     /// Everything but buffers, images, cameras and top-level extensions, which tinygltf never sees. Every index in it

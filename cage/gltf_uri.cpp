@@ -16,12 +16,15 @@ namespace {
 constexpr uintmax_t kMaxFileBytes = 0xFFFFFFFFu;
 
 int hexDigit(char c) {
-    if (c >= '0' && c <= '9')
+    if (c >= '0' && c <= '9') {
         return c - '0';
-    if (c >= 'a' && c <= 'f')
+    }
+    if (c >= 'a' && c <= 'f') {
         return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F')
+    }
+    if (c >= 'A' && c <= 'F') {
         return c - 'A' + 10;
+    }
     return -1;
 }
 
@@ -41,11 +44,14 @@ std::string percentDecode(std::string_view text) {
 
 bool hasScheme(std::string_view uri) {
     const size_t colon = uri.find(':');
-    if (colon == std::string_view::npos || colon == 0 || std::isalpha(static_cast<unsigned char>(uri[0])) == 0)
+    if (colon == std::string_view::npos || colon == 0 || std::isalpha(static_cast<unsigned char>(uri[0])) == 0) {
         return false;
-    for (const char c : uri.substr(0, colon))
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '+' && c != '-' && c != '.')
+    }
+    for (const char c : uri.substr(0, colon)) {
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '+' && c != '-' && c != '.') {
             return false;
+        }
+    }
     return true;
 }
 
@@ -58,11 +64,13 @@ UriBytes problem(std::string reason, bool readable = true) {
 
 constexpr std::array<int, 256> makeBase64Values() {
     std::array<int, 256> values{};
-    for (auto& value : values)
+    for (auto& value : values) {
         value = -1;
+    }
     constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < alphabet.size(); ++i)
+    for (size_t i = 0; i < alphabet.size(); ++i) {
         values[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
+    }
     return values;
 }
 constexpr auto kBase64Values = makeBase64Values();
@@ -71,18 +79,22 @@ constexpr auto kBase64Values = makeBase64Values();
 
 bool isDataUri(std::string_view uri) {
     constexpr std::string_view scheme = "data:";
-    if (uri.size() < scheme.size())
+    if (uri.size() < scheme.size()) {
         return false;
-    for (size_t i = 0; i < scheme.size(); ++i)
-        if (std::tolower(static_cast<unsigned char>(uri[i])) != scheme[i])
+    }
+    for (size_t i = 0; i < scheme.size(); ++i) {
+        if (std::tolower(static_cast<unsigned char>(uri[i])) != scheme[i]) {
             return false;
+        }
+    }
     return true;
 }
 
 UriBytes decodeDataUri(std::string_view uri) {
     const size_t comma = uri.find(',');
-    if (comma == std::string_view::npos)
+    if (comma == std::string_view::npos) {
         return problem("data URI without a comma");
+    }
     std::string_view header = uri.substr(5, comma - 5);
     const std::string_view payload = uri.substr(comma + 1);
     constexpr std::string_view base64 = ";base64";
@@ -91,8 +103,9 @@ UriBytes decodeDataUri(std::string_view uri) {
         result.mimeType = std::string(header.substr(0, header.find(';')));
         const std::string text = percentDecode(payload);
         result.bytes.resize(text.size());
-        if (!text.empty())
+        if (!text.empty()) {
             std::memcpy(result.bytes.data(), text.data(), text.size());
+        }
         return result;
     }
     header = header.substr(0, header.size() - base64.size());
@@ -103,15 +116,17 @@ UriBytes decodeDataUri(std::string_view uri) {
     bool padded = false;
     for (size_t i = 0; i < payload.size(); ++i) {
         const unsigned char c = static_cast<unsigned char>(payload[i]);
-        if (std::isspace(c) != 0)
+        if (std::isspace(c) != 0) {
             continue;
+        }
         if (c == '=') {
             padded = true;
             continue;
         }
         const int value = kBase64Values[c];
-        if (value < 0 || padded)
+        if (value < 0 || padded) {
             return problem("data URI: not base64 at character " + std::to_string(comma + 1 + i));
+        }
         bits = (bits << 6) | static_cast<uint32_t>(value);
         bitCount += 6;
         if (bitCount >= 8) {
@@ -125,60 +140,77 @@ UriBytes decodeDataUri(std::string_view uri) {
 UriBytes readRegularFile(const std::string& path) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
-    if (status.type() == std::filesystem::file_type::not_found)
+    if (status.type() == std::filesystem::file_type::not_found) {
         return problem("no such file", false);
-    if (code)
+    }
+    if (code) {
         return problem(code.message(), false);
-    if (status.type() != std::filesystem::file_type::regular)
+    }
+    if (status.type() != std::filesystem::file_type::regular) {
         return problem("not a regular file", false);
+    }
     const uintmax_t size = std::filesystem::file_size(path, code);
-    if (code)
+    if (code) {
         return problem(code.message(), false);
-    if (size > kMaxFileBytes)
+    }
+    if (size > kMaxFileBytes) {
         return problem("larger than 4 GiB", false);
+    }
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
-    if (!stream)
+    if (!stream) {
         return problem(errno != 0 ? std::generic_category().message(errno) : "cannot be opened", false);
+    }
     UriBytes result;
     result.bytes.resize(static_cast<size_t>(size));
-    if (size > 0)
+    if (size > 0) {
         stream.read(reinterpret_cast<char*>(result.bytes.data()), static_cast<std::streamsize>(size));
-    if (!stream)
+    }
+    if (!stream) {
         return problem("cannot be read", false);
+    }
     return result;
 }
 
 UriBytes readBelow(const std::string& baseDirectory, std::string_view uri) {
     const std::string relative = percentDecode(uri);
     // Both spellings are judged: what is written, and what it decodes to.
-    if (hasScheme(uri) || hasScheme(relative))
+    if (hasScheme(uri) || hasScheme(relative)) {
         return problem("only relative paths and data: URIs are allowed");
-    if (relative.empty())
+    }
+    if (relative.empty()) {
         return problem("empty path");
-    if (relative.front() == '/' || relative.find('\\') != std::string::npos)
+    }
+    if (relative.front() == '/' || relative.find('\\') != std::string::npos) {
         return problem("only relative paths with forward slashes are allowed");
-    if (relative.find('\0') != std::string::npos)
+    }
+    if (relative.find('\0') != std::string::npos) {
         return problem("path contains a NUL character");
+    }
     for (size_t begin = 0; begin <= relative.size();) {
         const size_t end = std::min(relative.find('/', begin), relative.size());
-        if (relative.compare(begin, end - begin, "..") == 0)
+        if (relative.compare(begin, end - begin, "..") == 0) {
             return problem("path leaves the asset's folder");
+        }
         begin = end + 1;
     }
-    if (baseDirectory.empty())
+    if (baseDirectory.empty()) {
         return problem("external files are not allowed for an asset read from memory");
+    }
 
     std::error_code code;
     const auto base = std::filesystem::canonical(baseDirectory, code);
-    if (code)
+    if (code) {
         return problem("asset folder: " + code.message(), false);
+    }
     const auto path = std::filesystem::canonical(base / relative, code);
-    if (code)
+    if (code) {
         return problem(code == std::errc::no_such_file_or_directory ? "no such file" : code.message(), false);
+    }
     const auto [baseEnd, pathMiddle] = std::mismatch(base.begin(), base.end(), path.begin(), path.end());
-    if (baseEnd != base.end())
+    if (baseEnd != base.end()) {
         return problem("path leaves the asset's folder");
+    }
     (void)pathMiddle;
     return readRegularFile(path.string());
 }

@@ -24,8 +24,12 @@ void main() {
         float weight = max(frame.lights[i].direction.y, 0.0) * (uint(light.w) == kLightRim ? 0.15 : 1.0);
         if (weight <= 0.0)
             continue;
+        float visible = lightVisibility(i, receiver);
+        // A few directions of sky are no soft shadow yet: far from the figure they fade, near it they hold it down.
+        if (frame.softShadows > 0.0 && uint(light.w) == kLightSky)
+            visible = mix(visible, 1.0, smoothstep(0.15, 0.9, away));
         all += light.rgb * weight;
-        lit += light.rgb * weight * lightVisibility(i, receiver);
+        lit += light.rgb * weight * visible;
     }
     vec3 shade = mix(lit / max(all, vec3(1e-4)), vec3(1.0), smoothstep(1.5, kFarthestShadow, away));
     outColor = vec4(dither(color * mix(vec3(1.0), shade, 0.86), gl_FragCoord.xy), 1.0);

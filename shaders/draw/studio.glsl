@@ -7,7 +7,18 @@ const float kPi = 3.14159265;
 /// 0 where the light is hidden from the position, 1 where it is seen.
 float lightVisibility(uint light, vec3 position) {
     vec4 at = frame.lights[light].shadow * vec4(position, 1.0);
-    return texture(shadowMaps, vec4(at.xy * 0.5 + 0.5, float(light), min(at.z, 1.0)));
+    vec2 uv = at.xy * 0.5 + 0.5;
+    float depth = min(at.z, 1.0);
+    if (frame.softShadows == 0.0)
+        return texture(shadowMaps, vec4(uv, float(light), depth));
+    // Few directions: four looks spread over the neighboring texels round off the steps of the map.
+    float sum = 0.0;
+    for (uint i = 0u; i < 4u; ++i) {
+        vec2 corner = vec2(i & 1u, i >> 1) * 2.0 - 1.0;
+        vec2 turned = vec2(corner.x * 0.89 - corner.y * 0.45, corner.x * 0.45 + corner.y * 0.89);
+        sum += texture(shadowMaps, vec4(uv + turned * frame.softShadows, float(light), depth));
+    }
+    return sum * 0.25;
 }
 
 /// GGX with Schlick's Fresnel and the Hammon approximation of the joint Smith term (PBR Diffuse Lighting for GGX+Smith

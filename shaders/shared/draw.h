@@ -71,6 +71,10 @@ struct FrameUniforms {
     float exposure;
     float shadowTexel; // its width in the world
     float pixelScale;  // line widths are multiplied by it
+    float softShadows; // how far shadow lookups are spread, in the map; 0: one lookup
+    float unused0;
+    float unused1;
+    float unused2;
     Light lights[kMaxLights];
 };
 
@@ -87,7 +91,6 @@ struct DrawPush {
     float alphaCutoff;
     uint light;     // whose shadow map is being drawn
     uint primitive; // first cage corner or edge of the draw
-    uint primitiveCount;
 };
 
 // One corner of a triangle of a cage face; three in a row make the triangle.

@@ -5,6 +5,7 @@
 #include "tests/support/gpu_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/wrapped_vulkan.h"
+#include "tools/host/cage_arrays.h"
 
 #include <cmath>
 #include <cstring>
@@ -38,18 +39,11 @@ struct Character {
 /// A group of `instances` of a cube sphere, or the first error.
 Character makeCharacter(SuppleContext context, uint32_t instances = 1) {
     const cage::Cage cage = cage::makeCubeSphere(4);
-    const std::vector<uint32_t> counts(cage.faceCount(), 4);
-    SuppleCageDesc cageDesc{};
-    cageDesc.structSize = sizeof(cageDesc);
-    cageDesc.vertexCount = cage.vertexCount();
-    cageDesc.faceCount = cage.faceCount();
-    cageDesc.positions = &cage.positions[0].x;
-    cageDesc.faceVertexCounts = counts.data();
-    cageDesc.faceVertexIndices = cage.faceVertices.data();
+    const host::CageArrays arrays(cage);
     SuppleAssetDesc assetDesc{};
     assetDesc.structSize = sizeof(assetDesc);
     assetDesc.name = "sphere";
-    assetDesc.cage = &cageDesc;
+    assetDesc.cage = &arrays.desc;
     Character c;
     c.result = suppleCreateAsset(context, &assetDesc, &c.asset);
     if (c.result != SUPPLE_OK) {
@@ -358,21 +352,11 @@ TEST(Contract, CagesAreRefusedByName) {
     Result<std::unique_ptr<host::Context>> created = host::Context::create(*device, contextOptions);
     ASSERT_TRUE(created.ok());
     const auto refusal = [&](const cage::Cage& cage) {
-        std::vector<uint32_t> counts;
-        for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-            counts.push_back(cage.sides(f));
-        }
-        SuppleCageDesc cageDesc{};
-        cageDesc.structSize = sizeof(cageDesc);
-        cageDesc.vertexCount = cage.vertexCount();
-        cageDesc.faceCount = cage.faceCount();
-        cageDesc.positions = &cage.positions[0].x;
-        cageDesc.faceVertexCounts = counts.data();
-        cageDesc.faceVertexIndices = cage.faceVertices.data();
+        const host::CageArrays arrays(cage);
         SuppleAssetDesc assetDesc{};
         assetDesc.structSize = sizeof(assetDesc);
         assetDesc.name = "shape.cage";
-        assetDesc.cage = &cageDesc;
+        assetDesc.cage = &arrays.desc;
         SuppleAsset asset{};
         SuppleResult result = suppleCreateAsset((*created)->handle(), &assetDesc, &asset);
         if (result == SUPPLE_OK) {

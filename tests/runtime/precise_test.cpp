@@ -6,6 +6,7 @@
 #include "tests/support/gpu_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/spirv_precise.h"
+#include "tools/host/cage_arrays.h"
 
 #include <cstring>
 #include <gtest/gtest.h>
@@ -58,18 +59,11 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
     }
     const cage::Cage cage = perturbed(cage::makeSplitTorus(8, 7), 0.02f, 11);
     const Result<cage::Topology> topology = cage::buildTopology(cage);
-    SuppleCageDesc cageDesc{};
-    cageDesc.structSize = sizeof(cageDesc);
-    cageDesc.vertexCount = cage.vertexCount();
-    cageDesc.faceCount = cage.faceCount();
-    cageDesc.positions = &cage.positions[0].x;
-    const std::vector<uint32_t> counts(cage.faceCount(), 4);
-    cageDesc.faceVertexCounts = counts.data();
-    cageDesc.faceVertexIndices = cage.faceVertices.data();
+    const host::CageArrays arrays(cage);
 
     uint64_t different = 0, frame = 0;
     for (const uint32_t rate : {5u, 7u, 11u}) {
-        Result<cage::Character> character = runtime::characterFromArrays(cageDesc, "mutation");
+        Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "mutation");
         Result<uint64_t> asset = (*context)->createAsset(std::move(*character));
         SuppleGroupDesc groupDesc{};
         groupDesc.structSize = sizeof(groupDesc);

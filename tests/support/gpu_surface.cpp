@@ -1,5 +1,7 @@
 #include "tests/support/gpu_surface.h"
 
+#include "tools/host/cage_arrays.h"
+
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -82,21 +84,11 @@ ValidationGuard::~ValidationGuard() {
 }
 
 GpuSurface::GpuSurface(host::Device& device, const cage::Cage& cage, const GpuOptions& options) {
-    std::vector<uint32_t> counts;
-    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-        counts.push_back(cage.sides(f));
-    }
-    SuppleCageDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.vertexCount = cage.vertexCount();
-    desc.faceCount = cage.faceCount();
-    desc.positions = &cage.positions[0].x;
-    desc.faceVertexCounts = counts.data();
-    desc.faceVertexIndices = cage.faceVertices.data();
+    const host::CageArrays arrays(cage);
     SuppleAssetDesc asset{};
     asset.structSize = sizeof(asset);
     asset.name = "test cage";
-    asset.cage = &desc;
+    asset.cage = &arrays.desc;
     create(device, asset, options);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
 
 namespace supple::host {
@@ -220,8 +221,11 @@ Status Device::createInstance(const DeviceOptions& options) {
     if (debugUtils_)
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (options.window) {
+        // Drivers that are told of Wayland look for a compositor and complain on stderr where there is none.
+        const bool wayland = std::getenv("WAYLAND_DISPLAY") != nullptr;
         for (const char* name : kSurfaceExtensions) {
-            if (hasExtension(available, name))
+            const bool wanted = wayland || std::strcmp(name, "VK_KHR_wayland_surface") != 0;
+            if (wanted && hasExtension(available, name))
                 extensions.push_back(name);
         }
         if (!hasExtension(available, VK_KHR_SURFACE_EXTENSION_NAME))

@@ -81,8 +81,10 @@ std::vector<shared::Light> studioLights(const StudioQuality& quality, uint32_t p
     addSoftLight(lights, quality.rim, sampling, middle.rimDirection, 0.16f, middle.rimColor, shared::kLightRim, sphere);
     // Equal areas of the upper half sphere; a surface that faces straight up gathers the sky's color once.
     const float scale = 2.0f / static_cast<float>(std::max(quality.sky, 1u));
+    // A few directions keep to the top: low ones would each throw a long shadow of its own.
+    const float reach = quality.sky * sampling.passes >= 8 ? 0.96f : 0.55f;
     for (uint32_t i = 0; i < quality.sky; ++i) {
-        const float height = 1.0f - sampling.fraction(i, quality.sky) * 0.96f;
+        const float height = 1.0f - sampling.fraction(i, quality.sky) * reach;
         const glm::vec3 towards = direction(yaw + kGoldenAngle * sampling.index(i), std::asin(height));
         const glm::vec3 color = glm::mix(kSkyHorizon, kSkyZenith, height) * scale;
         lights.push_back(makeLight(towards, color, shared::kLightSky, sphere));

@@ -32,7 +32,7 @@ struct StudioQuality {
     /// For a window: on a CPU device a few directions must do.
     [[nodiscard]] static StudioQuality interactive(bool cpuDevice) {
         if (cpuDevice)
-            return {.key = 1, .rim = 1, .sky = 4, .shadowSize = 512, .passes = 1, .multisample = false};
+            return {.key = 1, .rim = 1, .sky = 4, .shadowSize = 768, .passes = 1, .multisample = false};
         return {.key = 8, .rim = 2, .sky = 14, .shadowSize = 1024, .passes = 1};
     }
 };

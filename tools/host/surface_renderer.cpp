@@ -19,6 +19,9 @@ constexpr glm::vec4 kOverlayEdgeColor(0.95f, 0.42f, 0.06f, 0.9f);
 /// From here on a CPU device looks the light up once a vertex: it shades blocks of pixels, however small the triangle.
 constexpr uint32_t kVertexLitRate = 4;
 
+/// Below so many directions the steps of single shadow maps show.
+constexpr uint32_t kFewLights = 12;
+
 /// Push constants that fit any draw of the group; ranges and materials are filled in draw by draw.
 shared::DrawPush basePush(const Scene& scene, uint32_t light) {
     const SuppleGroupOutput& output = scene.group->output();
@@ -324,6 +327,8 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
                                                        : studioExposure(0.4f);
     frame.shadowTexel = 2.0f * radius / static_cast<float>(quality_.shadowSize);
     frame.pixelScale = scene.pixelScale;
+    if (quality_.lightCount() * quality_.passes < kFewLights)
+        frame.softShadows = 0.8f / static_cast<float>(quality_.shadowSize);
     const StudioMiddle middle = studioMiddle(scene.lightYaw);
     frame.keyDirection = glm::vec4(middle.keyDirection, 0.0f);
     frame.keyColor = glm::vec4(middle.keyColor, 0.0f);

@@ -2,6 +2,7 @@
 // slow phase of the machine meets them all; what counts is the ratio within a round.
 #include "cage/procedural.h"
 #include "runtime/context.h"
+#include "tools/host/cage_arrays.h"
 #include "tools/supple/command.h"
 #include "tools/supple/plain_evaluation.h"
 #include "tools/supple/session.h"
@@ -124,15 +125,8 @@ constexpr SuppleSyncScope kNoScope{VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
 
 Result<Subject> makeSubject(runtime::Context& context, const std::string& name, const cage::Cage& cage, uint32_t rate,
                             SuppleVertexFormat format) {
-    SuppleCageDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.vertexCount = cage.vertexCount();
-    desc.faceCount = cage.faceCount();
-    desc.positions = &cage.positions[0].x;
-    const std::vector<uint32_t> counts(cage.faceCount(), 4);
-    desc.faceVertexCounts = counts.data();
-    desc.faceVertexIndices = cage.faceVertices.data();
-    Result<cage::Character> character = runtime::characterFromArrays(desc, name);
+    const host::CageArrays arrays(cage);
+    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, name);
     if (!character) {
         return character.error();
     }

@@ -1,0 +1,13 @@
+// From a glTF file's vertices and triangles to the cage: welding, polygons, corners. Private to cage/.
+#pragma once
+
+#include "cage/character.h"
+#include "cage/gltf_mesh.h"
+#include "cage/gltf_reader.h"
+
+namespace supple::cage {
+
+/// Fills the cage, its weights and what a character tells of where they came from. Throws Refusal.
+void buildCage(const GltfMesh& mesh, const GltfOptions& options, Character& out);
+
+} // namespace supple::cage

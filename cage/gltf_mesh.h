@@ -1,0 +1,38 @@
+// A mesh of a glTF file as the file has it: vertices, triangles, attributes; nothing welded. Private to cage/.
+#pragma once
+
+#include "cage/gltf_document.h"
+#include "cage/gltf_message.h"
+#include "cage/gltf_skin.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace supple::cage {
+
+/// One primitive's share of a mesh.
+struct MeshPart {
+    std::string element;
+    int material = -1;
+    bool ngonEncoded = false;
+    uint32_t firstVertex = 0; ///< of its POSITION elements among all vertices read
+    uint32_t vertexCount = 0;
+    std::vector<uint32_t> triangles; ///< three vertices each, counted over all parts
+    std::vector<float> uvs;          ///< two per POSITION element, or empty
+    std::vector<float> colors;       ///< four per POSITION element, or empty
+};
+
+/// Primitives over the same accessors share their vertices.
+struct GltfMesh {
+    std::string element;
+    std::vector<glm::vec3> positions;
+    VertexWeights weights;
+    std::vector<MeshPart> parts; ///< at least one
+};
+
+/// Primitives that are not triangles are left out with a warning. Throws Refusal.
+[[nodiscard]] GltfMesh readMesh(const GltfDocument& document, uint32_t meshNode, size_t jointCount, Warnings& warnings);
+
+} // namespace supple::cage

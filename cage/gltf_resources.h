@@ -1,0 +1,19 @@
+// The bytes a glTF file refers to: buffers, which it cannot do without, and images, which it can. Private to cage/.
+#pragma once
+
+#include "cage/gltf_container.h"
+#include "cage/gltf_document.h"
+#include "cage/gltf_json.h"
+
+#include <string>
+
+namespace supple::cage {
+
+/// Fills document.buffers and what is behind them. Throws Refusal.
+void loadBuffers(const json& buffers, const GltfContainer& container, const std::string& baseDirectory,
+                 GltfDocument& document);
+
+/// Fills document.images, with a warning for those that cannot be read. The views have passed checkStructure().
+void loadImages(const json& images, const json& views, const std::string& baseDirectory, GltfDocument& document);
+
+} // namespace supple::cage
