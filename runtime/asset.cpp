@@ -25,11 +25,7 @@ Status checkTableSize(const gpu::Device& device, const std::string& name, const 
 
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Character character) {
     auto asset = std::make_shared<Asset>();
-    Result<cage::Topology> topology = cage::buildTopology(character.cage);
-    if (!topology) {
-        return Error{ErrorCode::asset, character.name + ": " + topology.error().message};
-    }
-    asset->topology = std::move(*topology);
+    asset->topology = cage::buildTopology(character.cage);
 
     const std::vector<uint32_t> table = skinning::buildDeformTable(character.cage, character.weights);
     const Status fits = checkTableSize(device, character.name, "skin tables", table.size() * 4);
@@ -53,14 +49,17 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
             return scheme;
         }
     }
-    const Status accepted = surface::prep::accepts(character.cage, topology);
+    if (!topology) {
+        return Error{ErrorCode::asset, character.name + ": " + topology.error().message};
+    }
+    const Status accepted = surface::prep::accepts(character.cage, *topology);
     if (!accepted) {
         return Error{accepted.error().code, character.name + ": " + accepted.error().message};
     }
 
     auto scheme = std::make_shared<SchemeTables>();
     scheme->options = options;
-    scheme->tables = surface::prep::buildTables(character.cage, topology, options);
+    scheme->tables = surface::prep::buildTables(character.cage, *topology, options);
     std::vector<uint32_t>& words = scheme->tables.words;
     const Status fits = checkTableSize(device, character.name, "p-rep tables", words.size() * 4);
     if (!fits) {

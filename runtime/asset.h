@@ -22,12 +22,12 @@ struct SchemeTables {
 
 struct Asset {
     cage::Character character;
-    cage::Topology topology;
-    gpu::StaticBuffers buffers; ///< 0: the deform table
+    Result<cage::Topology> topology = cage::Topology{}; ///< or why no surface can be made of the cage
+    gpu::StaticBuffers buffers;                         ///< 0: the deform table
     std::vector<std::shared_ptr<SchemeTables>> schemes;
 
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device, cage::Character character);
-    /// Finds or builds the tables for `options`.
+    /// Finds or builds the tables for `options`; refuses what the scheme cannot take.
     [[nodiscard]] Result<std::shared_ptr<SchemeTables>> tablesFor(const gpu::Device& device,
                                                                   const surface::prep::Options& options);
 };

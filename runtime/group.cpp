@@ -57,11 +57,15 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
                                                                       : surface::prep::TangentMode::standard;
     options.cornerRule =
         desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth : surface::prep::CornerRule::sharp;
-    Result<std::shared_ptr<SchemeTables>> scheme = asset->tablesFor(*shared.device, options);
-    if (!scheme) {
-        return scheme.error();
+    if (desc.scheme == SUPPLE_SCHEME_CAGE) {
+        group->scheme_ = std::make_shared<SchemeTables>(); // no patches: every surface pass is empty
+    } else {
+        Result<std::shared_ptr<SchemeTables>> scheme = asset->tablesFor(*shared.device, options);
+        if (!scheme) {
+            return scheme.error();
+        }
+        group->scheme_ = *scheme;
     }
-    group->scheme_ = *scheme;
     group->asset_ = std::move(asset);
     group->instanceCount_ = desc.instanceCount;
     group->jointCount_ = static_cast<uint32_t>(group->asset_->character.skin.joints.size());
@@ -175,8 +179,11 @@ Status Group::createSets() {
     if (deformFit < instanceCount_) {
         deformFit = deformFit / kDeformWindowMultiple * kDeformWindowMultiple;
     }
-    const VkDeviceSize prepFit = std::min({texelLimit / std::max(cageBytes, poolBytes), storageLimit / surfaceBytes,
-                                           patchBytes > 0 ? storageLimit / patchBytes : VkDeviceSize{instanceCount_}});
+    VkDeviceSize prepFit = instanceCount_;
+    for (const VkDeviceSize bytes : {surfaceBytes, patchBytes}) {
+        prepFit = bytes > 0 ? std::min(prepFit, storageLimit / bytes) : prepFit;
+    }
+    prepFit = std::min(prepFit, texelLimit / std::max(cageBytes, poolBytes));
     if (deformFit == 0 || prepFit == 0) {
         return Error{ErrorCode::limit,
                      std::string(prepFit == 0 ? "one instance's surface" : "sixteen instances' cages") +
@@ -233,6 +240,9 @@ Status Group::createSets() {
         deformWindows_.push_back({*set, count});
     }
 
+    if (tables.patches.empty()) {
+        return status;
+    }
     pool = gpu::createDescriptorPool(device, shared_.prep->layout(), prepCount, "supple p-rep");
     if (!pool) {
         return pool.error();
@@ -340,7 +350,7 @@ Result<Group::PassCost> Group::recordUpload(VkCommandBuffer commandBuffer, uint6
     cost.bytes += asset_->buffers.recordUpload(commandBuffer, frame);
     cost.bytes += scheme_->buffers.recordUpload(commandBuffer, frame);
     cost.bytes += static_.recordUpload(commandBuffer, frame);
-    if (!cleared_) {
+    if (!cleared_ && buffers_.size(kPool) > 0) {
         // The zero coefficient and the slots no stage writes.
         device.vk.CmdFillBuffer(commandBuffer, buffers_.buffer(kPool), 0, VK_WHOLE_SIZE, 0);
         cleared_ = true;

@@ -344,6 +344,41 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     EXPECT_TRUE((*created)->evaluate({&c.group, 1}).ok()) << "and it still works";
 }
 
+TEST(Contract, TheCageAloneNeedsNoScheme) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    Result<std::unique_ptr<host::Context>> created = host::Context::create(*device);
+    ASSERT_TRUE(created.ok());
+    const cage::Cage cage = prism(5); // pentagons: p-rep refuses it
+    const host::CageArrays arrays(cage);
+    SuppleAssetDesc assetDesc{};
+    assetDesc.structSize = sizeof(assetDesc);
+    assetDesc.cage = &arrays.desc;
+    SuppleAsset asset{};
+    ASSERT_EQ(suppleCreateAsset((*created)->handle(), &assetDesc, &asset), SUPPLE_OK);
+    SuppleGroupDesc groupDesc{};
+    groupDesc.structSize = sizeof(groupDesc);
+    groupDesc.flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
+    groupDesc.asset = asset;
+    groupDesc.instanceCount = 2;
+    groupDesc.scheme = SUPPLE_SCHEME_CAGE;
+    SuppleGroup group{};
+    ASSERT_EQ(suppleCreateGroup((*created)->handle(), &groupDesc, &group), SUPPLE_OK);
+    ASSERT_TRUE((*created)->evaluate({&group, 1}, SUPPLE_RECORD_TIMINGS).ok());
+    SuppleGroupOutput output{};
+    output.structSize = sizeof(output);
+    ASSERT_EQ(suppleGetGroupOutput((*created)->handle(), group, &output), SUPPLE_OK);
+    EXPECT_EQ(output.patchCount, 0u);
+    EXPECT_EQ(output.surfaceVertices.buffer, VkBuffer{VK_NULL_HANDLE});
+    const Result<std::vector<std::byte>> bytes = device->readBuffer(output.deformedCage);
+    ASSERT_TRUE(bytes.ok());
+    for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
+        EXPECT_EQ(std::memcmp(bytes->data() + 16 * size_t{output.cageVerticesPerInstance + v}, &cage.positions[v], 12),
+                  0);
+    }
+}
+
 TEST(Contract, CagesAreRefusedByName) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <random>
 
 namespace supple::host {
 namespace {
@@ -234,12 +237,106 @@ TEST_F(RenderTest, InstancesStandWhereTheirTransformsPutThem) {
     EXPECT_NEAR(halves[0] / halves[1], 1.0, 0.1);
 }
 
+std::string base64(const std::vector<uint8_t>& bytes) {
+    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t word = 0;
+        for (size_t k = 0; k < 3; ++k)
+            word = word << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
+        for (size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? kDigits[word >> (18 - 6 * k) & 63u] : '=';
+    }
+    return text;
+}
+
+std::vector<uint8_t> fileBytes(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// A cube of six quads, every side with the whole of the picture on it.
+std::string texturedCube(const std::filesystem::path& directory, const Picture& picture) {
+    const std::filesystem::path png = directory / "texture.png";
+    EXPECT_TRUE(writePng(picture, png.string()).ok());
+    std::vector<float> floats; // 24 positions, then 24 UVs
+    std::vector<float> uvs;
+    std::vector<uint16_t> indices;
+    for (int side = 0; side < 6; ++side) {
+        const int axis = side / 2;
+        const float sign = side % 2 == 0 ? 1.0f : -1.0f;
+        const auto first = static_cast<uint16_t>(side * 4);
+        for (int corner = 0; corner < 4; ++corner) {
+            const float u = corner == 1 || corner == 2 ? 1.0f : -1.0f;
+            const float v = corner >= 2 ? 1.0f : -1.0f;
+            float position[3];
+            position[axis] = sign;
+            position[(axis + 1) % 3] = u * sign;
+            position[(axis + 2) % 3] = v;
+            floats.insert(floats.end(), position, position + 3);
+            uvs.push_back(u * sign * 0.5f + 0.5f);
+            uvs.push_back(0.5f - v * 0.5f);
+        }
+        for (const int corner : {0, 1, 2, 0, 2, 3})
+            indices.push_back(static_cast<uint16_t>(first + corner));
+    }
+    floats.insert(floats.end(), uvs.begin(), uvs.end());
+    std::vector<uint8_t> bytes(floats.size() * 4 + indices.size() * 2);
+    std::memcpy(bytes.data(), floats.data(), floats.size() * 4);
+    std::memcpy(bytes.data() + floats.size() * 4, indices.data(), indices.size() * 2);
+    const std::string gltf =
+        R"({"asset":{"version":"2.0"},"extensionsUsed":["FB_ngon_encoding"],"scene":0,"scenes":[{"nodes":[0]}],)"
+        R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,)"
+        R"("material":0,"extensions":{"FB_ngon_encoding":{}}}]}],)"
+        R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{"source":0}],)"
+        R"("images":[{"uri":"data:image/png;base64,)" +
+        base64(fileBytes(png)) +
+        R"("}],"accessors":[{"bufferView":0,"componentType":5126,"count":24,"type":"VEC3","min":[-1,-1,-1],)"
+        R"("max":[1,1,1]},{"bufferView":1,"componentType":5126,"count":24,"type":"VEC2"},)"
+        R"({"bufferView":2,"componentType":5123,"count":36,"type":"SCALAR"}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":288},{"buffer":0,"byteOffset":288,"byteLength":192},)"
+        R"({"buffer":0,"byteOffset":480,"byteLength":72}],"buffers":[{"byteLength":552,)"
+        R"("uri":"data:application/octet-stream;base64,)" +
+        base64(bytes) + R"("}]})";
+    const std::filesystem::path file = directory / "cube.gltf";
+    std::ofstream(file) << gltf;
+    return file.string();
+}
+
+TEST_F(RenderTest, TexturesLieWhereTheirUvsPutThem) {
+    const std::filesystem::path directory =
+        std::filesystem::temp_directory_path() / ("supple_render_" + std::to_string(std::random_device()()));
+    std::filesystem::create_directories(directory);
+    Picture picture = Picture::blank(16, 16); // the left half red, the right half blue
+    for (uint32_t y = 0; y < 16; ++y) {
+        for (uint32_t x = 0; x < 16; ++x)
+            picture.pixel(x, y)[x < 8 ? 0 : 2] = 230;
+    }
+    Result<std::unique_ptr<Figure>> cube = Figure::open(*context_, texturedCube(directory, picture));
+    std::filesystem::remove_all(directory);
+    ASSERT_TRUE(cube.ok()) << cube.error().message;
+    Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(**cube, {.rate = 8});
+    ASSERT_TRUE(group.ok()) << group.error().message;
+    evaluate(**group);
+    // On the +Z side the picture's U runs along +X.
+    Scene scene = frontScene(**group, 0.0f);
+    for (const bool cage : {false, true}) {
+        scene.cageFaces = cage;
+        const Picture seen = draw(**group, scene);
+        const uint8_t* left = seen.pixel(kSize.width * 2 / 5, kSize.height / 2);
+        const uint8_t* right = seen.pixel(kSize.width * 3 / 5, kSize.height / 2);
+        EXPECT_GT(left[0], left[2] + 60) << "red to the left";
+        EXPECT_GT(right[2], right[0] + 60) << "blue to the right";
+    }
+}
+
 TEST(PictureTest, PngKeepsEveryPixel) {
     Picture picture = Picture::blank(37, 11);
     for (size_t i = 0; i < picture.rgba.size(); ++i)
         picture.rgba[i] = static_cast<uint8_t>(i * 7 + i / 5);
     const std::string path =
-        (std::filesystem::temp_directory_path() / ("supple_picture_" + std::to_string(std::rand()) + ".png")).string();
+        (std::filesystem::temp_directory_path() / ("supple_picture_" + std::to_string(std::random_device()()) + ".png"))
+            .string();
     ASSERT_TRUE(writePng(picture, path).ok());
     const Result<Picture> read = readPng(path);
     std::remove(path.c_str());

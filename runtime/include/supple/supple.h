@@ -170,6 +170,8 @@ typedef struct SuppleClipInfo {
     double duration;  /* seconds */
 } SuppleClipInfo;
 
+/* Refuses malformed files and arrays. What only a surface cannot take (a non-manifold edge, a face that is no quad) is
+ * refused by suppleCreateGroup, so that the cage alone can still be had. */
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
 /* The asset's groups keep what they need; the handle is dead at once. */
 SUPPLE_API SuppleResult suppleDestroyAsset(SuppleContext context, SuppleAsset asset);
@@ -180,7 +182,8 @@ SUPPLE_API SuppleResult suppleGetClipInfo(SuppleContext context, SuppleAsset ass
 
 typedef enum SuppleScheme {
     SUPPLE_SCHEME_AUTO = 0, /* the best scheme that takes the cage; today p-rep */
-    SUPPLE_SCHEME_PREP = 1  /* p-rep: quads, G1 at any valence, one patch a face */
+    SUPPLE_SCHEME_PREP = 1, /* p-rep: quads, G1 at any valence, one patch a face */
+    SUPPLE_SCHEME_CAGE = 100 /* no surface: the deformed cage alone, of any polygons; no patches, no surface vertices */
 } SuppleScheme;
 
 typedef enum SuppleVertexFormat {
