@@ -16,12 +16,12 @@ inline constexpr uint32_t kNone = 0xFFFFFFFFu;
 /// A control cage: oriented polygons (counter-clockwise seen from outside) over welded cage vertices.
 /// Attributes stay per corner, so that UV and colour seams survive welding.
 struct Cage {
-    std::vector<glm::vec3> positions;    ///< one per cage vertex: the rest position
-    std::vector<uint32_t> faceStarts;    ///< faceCount + 1 entries; corners of face f are [faceStarts[f], faceStarts[f+1])
-    std::vector<uint32_t> faceVertices;  ///< one per corner: cage vertex
-    std::vector<glm::vec2> cornerUvs;    ///< one per corner, or empty (TEXCOORD_0)
-    std::vector<glm::vec4> cornerColors; ///< one per corner, or empty (COLOR_0, linear RGBA)
-    std::vector<uint32_t> faceMaterials; ///< one per face: index into Character::materials or kNone; or empty
+    std::vector<glm::vec3> positions; ///< one per cage vertex: the rest position
+    std::vector<uint32_t> faceStarts; ///< faceCount + 1 entries; corners of face f are [faceStarts[f], faceStarts[f+1])
+    std::vector<uint32_t> faceVertices;   ///< one per corner: cage vertex
+    std::vector<glm::vec2> cornerUvs;     ///< one per corner, or empty (TEXCOORD_0)
+    std::vector<glm::vec4> cornerColors;  ///< one per corner, or empty (COLOR_0, linear RGBA)
+    std::vector<uint32_t> faceMaterials;  ///< one per face: index into Character::materials or kNone; or empty
     std::vector<uint32_t> sourceVertices; ///< one per cage vertex: first POSITION element it came from (weld order)
 
     [[nodiscard]] uint32_t vertexCount() const { return static_cast<uint32_t>(positions.size()); }

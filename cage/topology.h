@@ -14,9 +14,9 @@ namespace supple::cage {
 ///
 /// The fan of a vertex, counter-clockwise seen from outside: spoke k is an edge neighbour, sector k the face corner
 /// between spokes k and k+1. Interior vertex of valence n: spokes and sectors 0..n-1, indices mod n, sector 0 at the
-/// smallest corner. Boundary vertex with m faces: spokes 0..m, sectors 0..m-1, spoke 0 has no face on its clockwise side.
-/// Spokes of all vertices are packed by start index; sector k has the slot of spoke k, so the last slot of a boundary
-/// fan carries no sector.
+/// smallest corner. Boundary vertex with m faces: spokes 0..m, sectors 0..m-1, spoke 0 has no face on its clockwise
+/// side. Spokes of all vertices are packed by start index; sector k has the slot of spoke k, so the last slot of a
+/// boundary fan carries no sector.
 struct Topology {
     std::vector<uint32_t> spokeStarts;   ///< vertexCount + 1
     std::vector<uint32_t> spokeVertices; ///< per spoke: the vertex at its far end
@@ -26,10 +26,11 @@ struct Topology {
     std::vector<uint32_t> cornerFaces;  ///< per corner: its face
     std::vector<uint32_t> cornerSpokes; ///< per corner: spoke towards the next vertex of the face (= its sector's slot)
     std::vector<uint32_t> cornerSpokesBack; ///< per corner: spoke towards the previous vertex of the face
-    std::vector<uint32_t> twins;        ///< per corner (half-edge): the opposite half-edge, kNone on the boundary
-    std::vector<uint32_t> cornerEdges;  ///< per corner (half-edge): its undirected edge
+    std::vector<uint32_t> twins;            ///< per corner (half-edge): the opposite half-edge, kNone on the boundary
+    std::vector<uint32_t> cornerEdges;      ///< per corner (half-edge): its undirected edge
 
-    /// An undirected edge: `corner` is the owning half-edge (the smaller corner index; the edge's own direction A -> B).
+    /// An undirected edge: `corner` is the owning half-edge (the smaller corner index; the edge's own direction A ->
+    /// B).
     struct Edge {
         uint32_t corner = kNone;
         uint32_t twin = kNone; ///< kNone on the boundary
@@ -49,10 +50,10 @@ struct Topology {
 [[nodiscard]] uint32_t nextCorner(const Cage& cage, uint32_t face, uint32_t corner);
 [[nodiscard]] uint32_t previousCorner(const Cage& cage, uint32_t face, uint32_t corner);
 
-/// Builds the topology, or names the first fault: no faces; a face with fewer than three corners, an index out of range or a
-/// repeated vertex; an edge with more than two faces; two faces that run along an edge in the same direction (flipped
-/// orientation or duplicate face); a vertex without faces; a vertex with several fans (bow tie); interior valence 2.
-/// Message form: "edge (12, 40): three faces meet here: 3, 9, 17".
+/// Builds the topology, or names the first fault: no faces; a face with fewer than three corners, an index out of range
+/// or a repeated vertex; an edge with more than two faces; two faces that run along an edge in the same direction
+/// (flipped orientation or duplicate face); a vertex without faces; a vertex with several fans (bow tie); interior
+/// valence 2. Message form: "edge (12, 40): three faces meet here: 3, 9, 17".
 [[nodiscard]] Result<Topology> buildTopology(const Cage& cage);
 
 } // namespace supple::cage

@@ -172,8 +172,7 @@ Result<Baked> evaluate(Session& session, const BakeOptions& options, const Chara
     desc.flags = groupFlags;
     desc.asset = *asset;
     desc.instanceCount = 1;
-    desc.scheme =
-        options.surface.scheme == kCageScheme ? SUPPLE_SCHEME_CAGE : schemeOf(options.surface.scheme);
+    desc.scheme = options.surface.scheme == kCageScheme ? SUPPLE_SCHEME_CAGE : schemeOf(options.surface.scheme);
     desc.rate = options.surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
     desc.tangentMode = tangentsOf(options.surface);

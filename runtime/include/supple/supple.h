@@ -12,9 +12,10 @@
  *   - A context and everything made from it is externally synchronised: one thread at a time per context.
  *   - Handles carry an index and a generation; a stale or foreign handle gives SUPPLE_ERROR_ARGUMENT, never a crash.
  *   - Functions return SUPPLE_OK or an error; the reason goes to the log callback in one line.
- *   - Matrices are column-major float[16] for column vectors, right-handed, +Y up as glTF; angles radians, time seconds.
- *   - Recording creates no Vulkan object and allocates no memory. It binds the compute pipeline, descriptor sets and push
- *     constants of the given command buffer; the host rebinds its own compute state afterwards.
+ *   - Matrices are column-major float[16] for column vectors, right-handed, +Y up as glTF; angles radians, time
+ * seconds.
+ *   - Recording creates no Vulkan object and allocates no memory. It binds the compute pipeline, descriptor sets and
+ * push constants of the given command buffer; the host rebinds its own compute state afterwards.
  */
 #ifndef SUPPLE_H
 #define SUPPLE_H
@@ -59,12 +60,12 @@ typedef struct SuppleGroup {
 
 typedef enum SuppleResult {
     SUPPLE_OK = 0,
-    SUPPLE_NOT_READY = 1,           /* no finished frame to report yet */
-    SUPPLE_INCOMPLETE = 2,          /* the array was too small; it was filled as far as it went */
-    SUPPLE_ERROR_ARGUMENT = -1,     /* a rule of this header was broken */
-    SUPPLE_ERROR_ASSET = -2,        /* malformed file or cage, or the scheme cannot take it */
-    SUPPLE_ERROR_UNSUPPORTED = -3,  /* the device lacks something listed by suppleQueryRequirements */
-    SUPPLE_ERROR_LIMIT = -4,        /* a limit of the device or of this header is exceeded */
+    SUPPLE_NOT_READY = 1,          /* no finished frame to report yet */
+    SUPPLE_INCOMPLETE = 2,         /* the array was too small; it was filled as far as it went */
+    SUPPLE_ERROR_ARGUMENT = -1,    /* a rule of this header was broken */
+    SUPPLE_ERROR_ASSET = -2,       /* malformed file or cage, or the scheme cannot take it */
+    SUPPLE_ERROR_UNSUPPORTED = -3, /* the device lacks something listed by suppleQueryRequirements */
+    SUPPLE_ERROR_LIMIT = -4,       /* a limit of the device or of this header is exceeded */
     SUPPLE_ERROR_HOST_MEMORY = -5,
     SUPPLE_ERROR_DEVICE_MEMORY = -6,
     SUPPLE_ERROR_DEVICE_LOST = -7,
@@ -95,9 +96,13 @@ typedef struct SuppleRequirements {
 SUPPLE_API SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physicalDevice,
                                                 PFN_vkGetInstanceProcAddr getInstanceProcAddr, SuppleRequirements* out);
 
-/* How work is laid on the device. AUTO: NARROW on CPU devices (one lane a patch, texel-buffer loads), WIDE on GPUs (many
- * lanes a patch, coefficients in shared memory). Positions agree bit for bit. */
-typedef enum SuppleMapping { SUPPLE_MAPPING_AUTO = 0, SUPPLE_MAPPING_NARROW = 1, SUPPLE_MAPPING_WIDE = 2 } SuppleMapping;
+/* How work is laid on the device. AUTO: NARROW on CPU devices (one lane a patch, texel-buffer loads), WIDE on GPUs
+ * (many lanes a patch, coefficients in shared memory). Positions agree bit for bit. */
+typedef enum SuppleMapping {
+    SUPPLE_MAPPING_AUTO = 0,
+    SUPPLE_MAPPING_NARROW = 1,
+    SUPPLE_MAPPING_WIDE = 2
+} SuppleMapping;
 
 typedef enum SuppleContextFlags {
     SUPPLE_CONTEXT_DEBUG_UTILS = 1 /* the host enabled VK_EXT_debug_utils: label passes, name objects */
@@ -145,8 +150,8 @@ typedef enum SuppleAssetFlags {
 /* Either a file in memory (bytes) or a cage as arrays. Everything is copied before the call returns. */
 typedef struct SuppleAssetDesc {
     uint32_t structSize;
-    uint32_t flags;   /* SuppleAssetFlags */
-    const char* name; /* begins every message about the asset; optional */
+    uint32_t flags;    /* SuppleAssetFlags */
+    const char* name;  /* begins every message about the asset; optional */
     const void* bytes; /* .glb or .gltf */
     size_t byteCount;
     const char* baseDirectory; /* where the .gltf's external files lie; null allows none */
@@ -181,8 +186,8 @@ SUPPLE_API SuppleResult suppleGetClipInfo(SuppleContext context, SuppleAsset ass
 /* ---------------------------------------------------------------------------------------------------- groups */
 
 typedef enum SuppleScheme {
-    SUPPLE_SCHEME_AUTO = 0, /* the best scheme that takes the cage; today p-rep */
-    SUPPLE_SCHEME_PREP = 1, /* p-rep: quads, G1 at any valence, one patch a face */
+    SUPPLE_SCHEME_AUTO = 0,  /* the best scheme that takes the cage; today p-rep */
+    SUPPLE_SCHEME_PREP = 1,  /* p-rep: quads, G1 at any valence, one patch a face */
     SUPPLE_SCHEME_CAGE = 100 /* no surface: the deformed cage alone, of any polygons; no patches, no surface vertices */
 } SuppleScheme;
 
@@ -224,8 +229,8 @@ SUPPLE_API SuppleResult suppleSetClipPose(SuppleContext context, SuppleGroup gro
  * of the skin's joints; Supple applies the inverse bind matrices. */
 SUPPLE_API SuppleResult suppleSetMatrixPose(SuppleContext context, SuppleGroup group, uint32_t instance,
                                             const float* jointMatrices, uint32_t jointCount);
-/* Places an instance: an affine float[16] (last row 0, 0, 0, 1) applied after the pose, so that surface vertices come out in
- * the space it maps to. A mirroring transform turns the winding and with it the normals. */
+/* Places an instance: an affine float[16] (last row 0, 0, 0, 1) applied after the pose, so that surface vertices come
+ * out in the space it maps to. A mirroring transform turns the winding and with it the normals. */
 SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleGroup group, uint32_t instance,
                                            const float* transform);
 
@@ -254,9 +259,11 @@ typedef struct SuppleRecordDesc {
 } SuppleRecordDesc;
 
 /* Records the passes of the groups, outside a render pass. Between suppleBeginFrame calls each group once. What is
- * recorded must be submitted, once, and in the order of recording on one queue: the first command buffer that uses a group
- * or an asset also uploads its tables. With after.stages = 0 no barrier follows the passes; the host puts its own. */
-SUPPLE_API SuppleResult suppleRecord(SuppleContext context, VkCommandBuffer commandBuffer, const SuppleRecordDesc* desc);
+ * recorded must be submitted, once, and in the order of recording on one queue: the first command buffer that uses a
+ * group or an asset also uploads its tables. With after.stages = 0 no barrier follows the passes; the host puts its
+ * own. */
+SUPPLE_API SuppleResult suppleRecord(SuppleContext context, VkCommandBuffer commandBuffer,
+                                     const SuppleRecordDesc* desc);
 
 /* ---------------------------------------------------------------------------------------------------- output */
 
@@ -289,9 +296,10 @@ typedef struct SuppleGroupOutput {
     uint32_t cageVerticesPerInstance; /* >= cageVertexCount: the stride of deformedCage between instances */
     SuppleBufferView surfaceVertices; /* vertex of (instance, patch, sample): instance * verticesPerInstance
                                        * + patch * samplesPerPatch + sample */
-    SuppleBufferView attributes;  /* per (patch, sample), shared by all instances: float2 uv, linear RGBA in
-                                  * 4 x unorm16 */
-    SuppleBufferView deformedCage; /* float4 (x, y, z, 1) per cage vertex: instance * cageVerticesPerInstance + vertex */
+    SuppleBufferView attributes;      /* per (patch, sample), shared by all instances: float2 uv, linear RGBA in
+                                       * 4 x unorm16 */
+    SuppleBufferView
+        deformedCage; /* float4 (x, y, z, 1) per cage vertex: instance * cageVerticesPerInstance + vertex */
     SuppleBufferView patchCoefficients; /* float4 per coefficient, 32 per patch (16 g, then 16 h), instance-major */
     SuppleBufferView gridIndices; /* uint16, two triangles a grid cell, shared by all patches: indexCount entries */
     uint32_t indexCount;
@@ -312,23 +320,24 @@ typedef struct SupplePatchInfo {
 } SupplePatchInfo;
 
 /* Fills out with up to *count patches in device order and sets *count to the number of patches. out may be null. */
-SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup group, SupplePatchInfo* out, uint32_t* count);
+SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup group, SupplePatchInfo* out,
+                                         uint32_t* count);
 
 /* ---------------------------------------------------------------------------------------------------- timings */
 
 typedef struct SuppleTiming {
-    const char* pass;     /* static: upload, deform, vertex, edge, patch, evaluate, attributes */
-    uint32_t group;       /* index of the group in suppleRecord's array */
+    const char* pass; /* static: upload, deform, vertex, edge, patch, evaluate, attributes */
+    uint32_t group;   /* index of the group in suppleRecord's array */
     uint64_t frame;
-    double gpuBegin;      /* nanoseconds since the context's first timestamp; 0 where the queue has none */
+    double gpuBegin; /* nanoseconds since the context's first timestamp; 0 where the queue has none */
     double gpuEnd;
-    double cpuRecord;     /* nanoseconds the host spent recording the pass */
-    uint64_t points;      /* elements the pass wrote */
-    uint64_t bytes;       /* bytes the pass wrote */
+    double cpuRecord; /* nanoseconds the host spent recording the pass */
+    uint64_t points;  /* elements the pass wrote */
+    uint64_t bytes;   /* bytes the pass wrote */
 } SuppleTiming;
 
-/* The passes of the newest completed frame recorded with SUPPLE_RECORD_TIMINGS. Never blocks: SUPPLE_NOT_READY when there
- * is none. Fills up to *count entries and sets *count to their number. */
+/* The passes of the newest completed frame recorded with SUPPLE_RECORD_TIMINGS. Never blocks: SUPPLE_NOT_READY when
+ * there is none. Fills up to *count entries and sets *count to their number. */
 SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, SuppleTiming* out, uint32_t* count);
 
 #ifdef __cplusplus
