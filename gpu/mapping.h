@@ -1,7 +1,6 @@
 // How compute work is laid on a device: the one place where device properties become specialization constants.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vulkan/vulkan_core.h>
 

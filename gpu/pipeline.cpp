@@ -9,7 +9,6 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
                                             const char* name) {
     ComputeLayout layout;
     layout.bindings.assign(bindings.begin(), bindings.end());
-    layout.pushBytes = pushBytes;
 
     std::vector<VkDescriptorSetLayoutBinding> entries;
     for (const Binding& binding : bindings) {

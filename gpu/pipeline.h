@@ -17,7 +17,6 @@ struct Binding {
 /// One descriptor set (set 0) and one push-constant block, both for the compute stage.
 struct ComputeLayout {
     std::vector<Binding> bindings;
-    uint32_t pushBytes = 0;
     SetLayoutHandle setLayout;
     PipelineLayoutHandle pipelineLayout;
 

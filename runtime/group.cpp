@@ -407,9 +407,9 @@ Group::PassCost Group::recordVertex(VkCommandBuffer commandBuffer) const {
         shared_.prep->recordVertex(commandBuffer, scheme_->tables, window, evaluation_);
     }
     const surface::prep::Tables& t = scheme_->tables;
-    const uint64_t edgeCoefficients = uint64_t{t.faces} + (t.faces - t.tangents);
+    const uint64_t coefficients = uint64_t{t.faces} + (t.faces - t.tangents);
     const uint64_t points = uint64_t{output_.cageVertexCount} * instanceCount_;
-    return {points, edgeCoefficients * instanceCount_ * kVec4Bytes};
+    return {points, coefficients * instanceCount_ * kVec4Bytes};
 }
 
 Group::PassCost Group::recordEdge(VkCommandBuffer commandBuffer) const {

@@ -1,6 +1,6 @@
 // Evaluation of p-rep patches: bi-3, and with kPerturbed the sparse bi-5 perturbation (docs/prep.md).
 // Coefficients are gathered from the pool by index. Narrow mapping: one lane a patch, everything in registers, rows collapsed
-// in v first. Wide mapping: a workgroup takes a few patches into shared memory, one lane a sample. Both use the functions
+// in v first. Wide mapping: a workgroup takes a few patches into shared memory, its lanes share the samples. Both use the functions
 // collapse() and finish(), so positions agree bit for bit.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -109,15 +109,6 @@ Vec3<T> sum4(const std::array<T, 4>& w, const Vec3<T>& a, const Vec3<T>& b, cons
 
 } // namespace
 
-bool isPerturbed(const Cage& cage, const Topology& topology, uint32_t edge) {
-    const Topology::Edge& e = topology.edges[edge];
-    if (e.twin == kNone) {
-        return false;
-    }
-    return topology.effectiveValence(cage.faceVertices[e.corner]) != 4 ||
-           topology.effectiveValence(cage.faceVertices[e.twin]) != 4;
-}
-
 template <class T>
 Coefficients<T> construct(const Cage& cage, const Topology& topology, std::span<const Vec3<T>> positions,
                           const Options& options) {

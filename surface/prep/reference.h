@@ -4,7 +4,7 @@
 #pragma once
 
 #include "cage/topology.h"
-#include "surface/prep/weights.h"
+#include "surface/prep/scheme.h"
 
 #include <array>
 #include <glm/glm.hpp>
@@ -44,9 +44,6 @@ struct Sample {
     Vec position, du, dv;
     Vec normal; ///< unit(du x dv), or the corner's limit normal at a smooth one-face corner; zero where that vanishes
 };
-
-/// Whether an edge carries a perturbation: an interior edge with an irregular end.
-[[nodiscard]] bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge);
 
 /// Construction: vertex and edge stages. `positions` has one entry per cage vertex; the cage is all quads.
 template <class T>

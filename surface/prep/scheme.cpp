@@ -22,14 +22,6 @@ bool regular(const cage::Topology& topology, uint32_t vertex) {
     return topology.effectiveValence(vertex) == 4;
 }
 
-bool perturbedEdge(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge) {
-    const cage::Topology::Edge& e = topology.edges[edge];
-    if (e.twin == cage::kNone) {
-        return false;
-    }
-    return !regular(topology, cage.faceVertices[e.corner]) || !regular(topology, cage.faceVertices[e.twin]);
-}
-
 /// Appends table sections and keeps them on element boundaries.
 class Writer {
 public:
@@ -86,6 +78,14 @@ private:
 
 } // namespace
 
+bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge) {
+    const cage::Topology::Edge& e = topology.edges[edge];
+    if (e.twin == cage::kNone) {
+        return false;
+    }
+    return !regular(topology, cage.faceVertices[e.corner]) || !regular(topology, cage.faceVertices[e.twin]);
+}
+
 Status accepts(const cage::Cage& cage, const cage::Topology&) {
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         if (cage.sides(face) != 4) {
@@ -108,7 +108,7 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
     const uint32_t edgeCoefficients = t.faces + spokeCount;
     std::vector<uint32_t> perturbedEdges, edgeSlots(topology.edges.size(), cage::kNone);
     for (uint32_t e = 0; e < topology.edges.size(); ++e) {
-        if (perturbedEdge(cage, topology, e)) {
+        if (isPerturbed(cage, topology, e)) {
             edgeSlots[e] = edgeCoefficients + 4 * static_cast<uint32_t>(perturbedEdges.size());
             perturbedEdges.push_back(e);
         }

@@ -15,6 +15,9 @@ namespace supple::surface::prep {
 /// the reason: "face 12 has 5 sides: p-rep takes quads only".
 [[nodiscard]] Status accepts(const cage::Cage& cage, const cage::Topology& topology);
 
+/// Whether an edge carries a perturbation: an interior edge with an irregular end.
+[[nodiscard]] bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge);
+
 enum class PatchClass : uint32_t { regular = 0, perturbed = 1 };
 
 /// One patch in device order: u runs from corner 0 to corner 1, v from corner 0 to corner 3.
