@@ -4,14 +4,38 @@ namespace supple::cage {
 
 const char* polygonSourceName(PolygonSource source) {
     switch (source) {
-    case PolygonSource::triangles:
-        return "triangles";
+    case PolygonSource::cageExtension:
+        return "SUPPLE_mesh_cage";
+    case PolygonSource::meshPolygon:
+        return "EXT_mesh_polygon";
     case PolygonSource::ngonEncoding:
         return "FB_ngon_encoding";
+    case PolygonSource::hiddenEdges:
+        return "EXT_mesh_primitive_edge_visibility";
     case PolygonSource::pairedTriangles:
         return "paired triangles";
+    case PolygonSource::triangles:
+        return "triangles";
+    case PolygonSource::obj:
+        return "OBJ";
     case PolygonSource::arrays:
         return "arrays";
+    }
+    return "unknown";
+}
+
+const char* weldSourceName(WeldSource source) {
+    switch (source) {
+    case WeldSource::cageExtension:
+        return "SUPPLE_mesh_cage";
+    case WeldSource::vertexAttribute:
+        return "_CAGE_VERTEX";
+    case WeldSource::meshManifold:
+        return "EXT_mesh_manifold";
+    case WeldSource::equality:
+        return "equal position, skin and morphs";
+    case WeldSource::given:
+        return "as given";
     }
     return "unknown";
 }

@@ -13,6 +13,31 @@ namespace supple::cage {
 
 inline constexpr uint32_t kNone = 0xFFFFFFFFu;
 
+/// Sharpness as OpenSubdiv, USD and Maya count it: 0 is smooth, kHardSharpness and more is infinitely sharp. (Blender's
+/// crease c in 0..1 is 10 c^2.)
+inline constexpr float kHardSharpness = 10.0f;
+
+/// A crease along one edge of the cage.
+struct Crease {
+    uint32_t a = 0; ///< cage vertices, in either order
+    uint32_t b = 0;
+    float sharpness = 0.0f;
+};
+
+/// A sharp vertex of the cage. Surfaces interpolate it where sharpness >= kHardSharpness; less is carried, not used.
+struct SharpVertex {
+    uint32_t vertex = 0;
+    float sharpness = 0.0f;
+};
+
+/// P_m's own crease control: alpha of the edge vertex -> toward at `vertex`, in (0, 2/3]; 2/3 is smooth. Overrides what
+/// follows from sharpness at that end of the edge.
+struct CreaseScalar {
+    uint32_t vertex = 0;
+    uint32_t toward = 0;
+    float alpha = 0.0f;
+};
+
 /// A control cage: oriented polygons (counter-clockwise seen from outside) over welded cage vertices.
 /// Attributes stay per corner, so that UV and colour seams survive welding.
 struct Cage {
@@ -20,9 +45,14 @@ struct Cage {
     std::vector<uint32_t> faceStarts; ///< faceCount + 1 entries; corners of face f are [faceStarts[f], faceStarts[f+1])
     std::vector<uint32_t> faceVertices;   ///< one per corner: cage vertex
     std::vector<glm::vec2> cornerUvs;     ///< one per corner, or empty (TEXCOORD_0)
+    std::vector<glm::vec2> cornerUvs1;    ///< one per corner, or empty (TEXCOORD_1)
     std::vector<glm::vec4> cornerColors;  ///< one per corner, or empty (COLOR_0, linear RGBA)
     std::vector<uint32_t> faceMaterials;  ///< one per face: index into Character::materials or kNone; or empty
     std::vector<uint32_t> sourceVertices; ///< one per cage vertex: first POSITION element it came from (weld order)
+    std::vector<Crease> creases;          ///< at most one an edge
+    std::vector<SharpVertex> sharpVertices;
+    std::vector<CreaseScalar> creaseScalars;
+    std::vector<uint32_t> holes; ///< rising: faces that shape their neighbours but are not drawn
 
     [[nodiscard]] uint32_t vertexCount() const { return static_cast<uint32_t>(positions.size()); }
     [[nodiscard]] uint32_t faceCount() const {
@@ -69,10 +99,11 @@ struct SkinWeights {
 };
 
 enum class Interpolation { step, linear, cubicSpline };
-enum class ChannelPath { translation, rotation, scale };
+enum class ChannelPath { translation, rotation, scale, weights };
 
 /// One animated property of one node. values holds, per key, one value (step, linear) or in-tangent, value, out-tangent
-/// (cubicSpline); a value is 3 floats, or 4 (x, y, z, w) for rotations.
+/// (cubicSpline); a value is 3 floats, 4 (x, y, z, w) for rotations, one a morph target for weights (whose node is the
+/// character's mesh node: channels of other nodes' weights are left out).
 struct Channel {
     uint32_t node = 0;
     ChannelPath path = ChannelPath::translation;
@@ -85,6 +116,18 @@ struct Clip {
     std::string name;
     double duration = 0.0; ///< seconds: the last key of any channel; the clip starts at 0
     std::vector<Channel> channels;
+};
+
+/// Displacements of cage vertices, added with a weight before skinning. Only vertices that move are listed.
+struct MorphTarget {
+    std::string name;               ///< mesh.extras.targetNames, or empty
+    std::vector<uint32_t> vertices; ///< rising cage vertices
+    std::vector<glm::vec3> deltas;  ///< one per entry of `vertices`
+};
+
+struct Morphs {
+    std::vector<MorphTarget> targets;
+    std::vector<float> weights; ///< one a target: node.weights, else mesh.weights, else 0
 };
 
 /// Encoded image bytes as the file holds them; decoding is the host's.
@@ -101,6 +144,7 @@ struct Material {
     std::string name;
     glm::vec4 baseColorFactor{1.0f};
     uint32_t baseColorImage = kNone; ///< index into Character::images
+    uint32_t baseColorUvSet = 0;     ///< 0: cornerUvs, 1: cornerUvs1
     Wrap wrapU = Wrap::repeat;
     Wrap wrapV = Wrap::repeat;
     AlphaMode alphaMode = AlphaMode::opaque;
@@ -108,17 +152,39 @@ struct Material {
     bool doubleSided = false;
 };
 
-/// Where the polygons came from (refs: glTF FB_ngon_encoding draft; plain triangles; opt-in pairing; host arrays).
-enum class PolygonSource { triangles, ngonEncoding, pairedTriangles, arrays };
+/// Where the polygons came from. A reader takes the first of these that a file has (docs/gltf.md).
+enum class PolygonSource {
+    cageExtension,   ///< SUPPLE_mesh_cage
+    meshPolygon,     ///< EXT_mesh_polygon
+    ngonEncoding,    ///< FB_ngon_encoding
+    hiddenEdges,     ///< EXT_mesh_primitive_edge_visibility
+    pairedTriangles, ///< GltfOptions::pairQuads
+    triangles,
+    obj,
+    arrays ///< the host's
+};
 [[nodiscard]] const char* polygonSourceName(PolygonSource source);
+
+/// What said which of a file's vertices are one cage vertex.
+enum class WeldSource {
+    cageExtension,   ///< SUPPLE_mesh_cage: cageVertices
+    vertexAttribute, ///< _CAGE_VERTEX
+    meshManifold,    ///< EXT_mesh_manifold
+    equality,        ///< equal position, skin and morph deltas
+    given            ///< nothing to weld: OBJ, the host's arrays
+};
+[[nodiscard]] const char* weldSourceName(WeldSource source);
 
 struct Character {
     std::string name; ///< file name or the host's name for it; begins every message about it
     Cage cage;
     PolygonSource polygonSource = PolygonSource::arrays;
+    WeldSource weldSource = WeldSource::given;
     Skeleton skeleton;
+    uint32_t meshNode = 0; ///< the node that carries the mesh
     Skin skin;
     SkinWeights weights;
+    Morphs morphs;
     std::vector<Clip> clips;
     std::vector<Material> materials;
     std::vector<Image> images;

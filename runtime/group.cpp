@@ -146,7 +146,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     }
     staging_ = std::move(*stagingSet);
 
-    const std::vector<uint16_t> indices = surface::quadGridIndices(evaluation_.rate);
+    const std::vector<uint16_t> indices = surface::gridIndices(surface::Domain::quad, evaluation_.rate);
     std::vector<VkDrawIndexedIndirectCommand> indirect;
     for (const surface::prep::DrawRange& drawRange : tables.drawRanges) {
         indirect.push_back({static_cast<uint32_t>(indices.size()), drawRange.patchCount * instanceCount_, 0, 0, 0});

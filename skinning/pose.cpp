@@ -139,6 +139,8 @@ void sampleClip(const cage::Skeleton& skeleton, const cage::Clip& clip, double t
         case ChannelPath::scale:
             transform.scale = sample<3>(channel, time);
             break;
+        case ChannelPath::weights:
+            break; // not a transform
         }
     }
     for (size_t i = 0; i < locals.size(); ++i) {

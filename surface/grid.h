@@ -1,16 +1,63 @@
-// The tessellation grid: shared triangle indices and parameter pairs.
+// Tessellation grids: how the samples of a patch are numbered, the triangles between them, and parameter pairs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace supple::surface {
 
 inline constexpr uint32_t kMaxRate = 64; ///< segments along a patch edge
+inline constexpr uint32_t kMaxSides = 5; ///< of a patch
 
-/// Two triangles a cell of a (rate + 1)^2 grid, samples row-major with u fastest, counter-clockwise where u x v points
-/// at the viewer. Shared by all quad patches of a rate.
-[[nodiscard]] std::vector<uint16_t> quadGridIndices(uint32_t rate);
+/// The domains of patches. Samples are counted by integers 0..rate; R is the rate.
+///
+///   quad      (R+1)^2 samples (i, j), u = i/R, v = j/R, u fastest. Corners (0,0) (R,0) (R,R) (0,R).
+///   polar     the same samples; the side v = 1 is one point, corner 2. Corners (0,0) (R,0) (.,R).
+///   triangle  (R+1)(R+2)/2 samples, rows j = 0..R parallel to edge 0, each i = 0..R-j: barycentric weights
+///             (R-i-j, i, j)/R of corners 0, 1, 2.
+///   pentagon  5 R(R+1)/2 + 1 samples. Sector s (between the centre and edge s) by sector, rows j = 0..R-1 parallel to
+///   the edge,
+///             each i = 0..R-j-1: weights (R-i-j, i, j)/R of corner s, corner s+1 and the centre. The row's last point
+///             belongs to sector s+1; the last sample of all is the centre.
+enum class Domain : uint32_t { quad, polar, triangle, pentagon };
+inline constexpr uint32_t kDomainCount = 4;
+
+[[nodiscard]] constexpr uint32_t cornerCount(Domain domain) {
+    return domain == Domain::pentagon ? 5 : domain == Domain::quad ? 4 : 3;
+}
+
+[[nodiscard]] constexpr uint32_t sampleCount(Domain domain, uint32_t rate) {
+    switch (domain) {
+    case Domain::triangle:
+        return (rate + 1) * (rate + 2) / 2;
+    case Domain::pentagon:
+        return 5 * rate * (rate + 1) / 2 + 1;
+    default:
+        return (rate + 1) * (rate + 1);
+    }
+}
+
+/// A sample's integer parameters. quad and polar: (i, j). triangle: (i, j) as above. pentagon: sector and (i, j); the
+/// centre is (0, rate) of sector 0.
+struct GridSample {
+    uint32_t sector = 0;
+    uint32_t i = 0;
+    uint32_t j = 0;
+};
+[[nodiscard]] GridSample gridSample(Domain domain, uint32_t rate, uint32_t sample);
+
+/// The k-th sample (0..rate) along edge e of the domain, from corner e to the next corner. Polar domains: edge 0 is the
+/// outer one, 1 and 2 are radial.
+[[nodiscard]] uint32_t edgeSample(Domain domain, uint32_t rate, uint32_t edge, uint32_t k);
+
+/// Triangles between the samples, counter-clockwise seen from outside, none of zero area. Shared by all patches of a
+/// domain and rate.
+[[nodiscard]] std::vector<uint16_t> gridIndices(Domain domain, uint32_t rate);
+
+/// Weights of the patch's corners at a sample, for attributes: bilinear on quads, linear on triangles, linear between
+/// centre (the corners' mean) and edge on pentagons; on polar domains linear towards the apex.
+[[nodiscard]] std::array<float, kMaxSides> cornerWeights(Domain domain, uint32_t rate, uint32_t sample);
 
 /// Pairs (k / rate, (rate - k) / rate), k = 0..rate, for every rate 1..kMaxRate one after the other, correctly rounded.
 [[nodiscard]] std::vector<float> parameterPairs();

@@ -1,0 +1,25 @@
+// Creases, sharp vertices and crease scalars of a cage, laid on its topology: what every surface scheme asks.
+#pragma once
+
+#include "cage/topology.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace supple::cage {
+
+struct Features {
+    std::vector<float> edgeSharpness;   ///< per edge of the topology; boundary edges have kHardSharpness
+    std::vector<float> vertexSharpness; ///< per vertex
+    std::vector<float> spokeAlphas;     ///< per spoke slot: the cage's crease scalar there, -1 where it gives none
+    /// What names no edge or vertex of the cage, one line each; the rest is used.
+    std::vector<std::string> unused;
+
+    [[nodiscard]] bool hard(uint32_t edge) const { return edgeSharpness[edge] >= kHardSharpness; }
+};
+
+/// O(creases log + corners). Of several creases on one edge the sharpest counts; negative or NaN sharpness counts as 0.
+[[nodiscard]] Features buildFeatures(const Cage& cage, const Topology& topology);
+
+} // namespace supple::cage
