@@ -13,13 +13,15 @@ struct Features {
     std::vector<float> edgeSharpness;   ///< per edge of the topology; boundary edges have kHardSharpness
     std::vector<float> vertexSharpness; ///< per vertex
     std::vector<float> spokeAlphas;     ///< per spoke slot: the cage's crease scalar there, -1 where it gives none
-    /// What names no edge or vertex of the cage, one line each; the rest is used.
+    /// What names no edge or vertex of the cage, or no scalar, one line each; the rest is used.
     std::vector<std::string> unused;
 
     [[nodiscard]] bool hard(uint32_t edge) const { return edgeSharpness[edge] >= kHardSharpness; }
 };
 
-/// O(creases log + corners). Of several creases on one edge the sharpest counts; negative or NaN sharpness counts as 0.
+/// Of several creases on one edge, or sharp vertices at one vertex, the sharpest counts; of several scalars at one end
+/// of an edge the last. Negative or NaN sharpness counts as 0. A scalar outside 0..1 is not used.
+/// O(corners), and for each crease the smaller valence of its ends.
 [[nodiscard]] Features buildFeatures(const Cage& cage, const Topology& topology);
 
 } // namespace supple::cage

@@ -275,6 +275,30 @@ uint32_t previousCorner(const Cage& cage, uint32_t face, uint32_t corner) {
     return corner == cage.faceStarts[face] ? cage.faceStarts[face + 1] - 1 : corner - 1;
 }
 
+uint32_t spokeEdge(const Cage& cage, const Topology& topology, uint32_t spoke) {
+    const uint32_t corner = topology.sectorCorners[spoke];
+    if (corner != kNone) {
+        return topology.cornerEdges[corner];
+    }
+    const uint32_t last = topology.sectorCorners[spoke - 1]; // the far side of a boundary fan
+    return topology.cornerEdges[previousCorner(cage, topology.cornerFaces[last], last)];
+}
+
+uint32_t findEdge(const Cage& cage, const Topology& topology, uint32_t a, uint32_t b) {
+    if (std::max(a, b) >= cage.vertexCount()) {
+        return kNone;
+    }
+    if (topology.spokeCount(b) < topology.spokeCount(a)) {
+        std::swap(a, b);
+    }
+    for (uint32_t s = topology.spokeStarts[a]; s < topology.spokeStarts[a + 1]; ++s) {
+        if (topology.spokeVertices[s] == b) {
+            return spokeEdge(cage, topology, s);
+        }
+    }
+    return kNone;
+}
+
 Result<Topology> buildTopology(const Cage& cage) {
     try {
         if (std::optional<Error> error = checkArrays(cage)) {

@@ -50,6 +50,11 @@ struct Topology {
 [[nodiscard]] uint32_t nextCorner(const Cage& cage, uint32_t face, uint32_t corner);
 [[nodiscard]] uint32_t previousCorner(const Cage& cage, uint32_t face, uint32_t corner);
 
+/// The undirected edge at a spoke slot.
+[[nodiscard]] uint32_t spokeEdge(const Cage& cage, const Topology& topology, uint32_t spoke);
+/// The edge between two vertices, kNone where there is none. Linear in the smaller of their valences.
+[[nodiscard]] uint32_t findEdge(const Cage& cage, const Topology& topology, uint32_t a, uint32_t b);
+
 /// Builds the topology, or names the first fault: no faces; a face with fewer than three corners, an index out of range
 /// or a repeated vertex; an edge with more than two faces; two faces that run along an edge in the same direction
 /// (flipped orientation or duplicate face); a vertex without faces; a vertex with several fans (bow tie); interior

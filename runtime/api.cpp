@@ -307,7 +307,7 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* desc
             return refuse(context, "suppleCreateGroup", "rate must be 1..64");
         }
         if (desc->scheme != SUPPLE_SCHEME_AUTO && desc->scheme != SUPPLE_SCHEME_PREP &&
-            desc->scheme != SUPPLE_SCHEME_CAGE) {
+            desc->scheme != SUPPLE_SCHEME_PM && desc->scheme != SUPPLE_SCHEME_CAGE) {
             return refuse(context, "suppleCreateGroup", "no such scheme");
         }
         if (static_cast<uint32_t>(desc->vertexFormat) > SUPPLE_VERTEX_24 ||
@@ -419,6 +419,8 @@ SuppleResult suppleGetPatches(SuppleContext handle, SuppleGroup group, SupplePat
         for (uint32_t i = 0; i < n; ++i) {
             out[i].face = patches[i].face;
             out[i].patchClass = static_cast<SupplePatchClass>(patches[i].patchClass);
+            out[i].cornerCount = patches[i].cornerCount;
+            out[i].coefficientCount = supple::surface::coefficientCount(patches[i].patchClass);
             std::copy(patches[i].corners.begin(), patches[i].corners.end(), out[i].corners);
         }
         *count = total;

@@ -2,6 +2,7 @@
 
 #include "skinning/deform_pass.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace supple::runtime {
@@ -25,8 +26,6 @@ Status checkTableSize(const gpu::Device& device, const std::string& name, const 
 
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Character character) {
     auto asset = std::make_shared<Asset>();
-    asset->topology = cage::buildTopology(character.cage);
-
     const std::vector<uint32_t> table = skinning::buildDeformTable(character.cage, character.weights);
     const Status fits = checkTableSize(device, character.name, "skin tables", table.size() * 4);
     if (!fits) {
@@ -42,30 +41,25 @@ Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Ch
     return asset;
 }
 
-Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device,
-                                                       const surface::prep::Options& options) {
+Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device, const surface::Recipe& recipe) {
     for (const std::shared_ptr<SchemeTables>& scheme : schemes) {
-        if (scheme->options.tangentMode == options.tangentMode && scheme->options.cornerRule == options.cornerRule) {
+        if (scheme->recipe == recipe) {
             return scheme;
         }
     }
-    if (!topology) {
-        return Error{ErrorCode::asset, character.name + ": " + topology.error().message};
+    Result<surface::Tables> tables = surface::buildTables(recipe, character.cage);
+    if (!tables) {
+        return Error{tables.error().code, character.name + ": " + tables.error().message};
     }
-    const Status accepted = surface::prep::accepts(character.cage, *topology);
-    if (!accepted) {
-        return Error{accepted.error().code, character.name + ": " + accepted.error().message};
-    }
-
     auto scheme = std::make_shared<SchemeTables>();
-    scheme->options = options;
-    scheme->tables = surface::prep::buildTables(character.cage, *topology, options);
+    scheme->recipe = recipe;
+    scheme->tables = std::move(*tables);
     std::vector<uint32_t>& words = scheme->tables.words;
-    const Status fits = checkTableSize(device, character.name, "p-rep tables", words.size() * 4);
+    const Status fits = checkTableSize(device, character.name, "surface tables", words.size() * 4);
     if (!fits) {
         return fits.error();
     }
-    const gpu::StaticRequest request{"supple p-rep tables", kTableUsage, std::as_bytes(std::span(words))};
+    const gpu::StaticRequest request{"supple surface tables", kTableUsage, std::as_bytes(std::span(words))};
     Result<gpu::StaticBuffers> buffers = gpu::StaticBuffers::create(device, {&request, 1});
     if (!buffers) {
         return buffers.error();
@@ -116,6 +110,41 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
             cage.cornerUvs.emplace_back(desc.cornerUvs[2 * c], desc.cornerUvs[2 * c + 1]);
         }
     }
+
+    if (desc.cornerUvs1 != nullptr) {
+        for (uint64_t c = 0; c < corners; ++c) {
+            cage.cornerUvs1.emplace_back(desc.cornerUvs1[2 * c], desc.cornerUvs1[2 * c + 1]);
+        }
+    }
+    const auto present = [](uint32_t count, auto... arrays) { return count == 0 || (... && (arrays != nullptr)); };
+    if (!present(desc.creaseCount, desc.creaseVertices, desc.creaseSharpnesses) ||
+        !present(desc.cornerCount, desc.cornerVertices, desc.cornerSharpnesses) ||
+        !present(desc.creaseScalarCount, desc.creaseScalars) || !present(desc.holeCount, desc.holes)) {
+        return Error{ErrorCode::argument, name + ": a count without its array"};
+    }
+    for (uint32_t i = 0; i < desc.creaseCount; ++i) {
+        cage.creases.push_back(
+            {desc.creaseVertices[2 * size_t{i}], desc.creaseVertices[2 * size_t{i} + 1], desc.creaseSharpnesses[i]});
+    }
+    for (uint32_t i = 0; i < desc.cornerCount; ++i) {
+        cage.sharpVertices.push_back({desc.cornerVertices[i], desc.cornerSharpnesses[i]});
+    }
+    for (uint32_t i = 0; i < desc.creaseScalarCount; ++i) {
+        const SuppleCreaseScalar& scalar = desc.creaseScalars[i];
+        if (!(scalar.alpha > 0.0f && scalar.alpha <= 1.0f)) {
+            return refuse("crease scalar " + std::to_string(i) + ": alpha is not in (0, 1]");
+        }
+        cage.creaseScalars.push_back({scalar.vertex, scalar.toward, scalar.alpha});
+    }
+    for (uint32_t i = 0; i < desc.holeCount; ++i) {
+        if (desc.holes[i] >= desc.faceCount) {
+            return refuse("hole " + std::to_string(i) + ": face " + std::to_string(desc.holes[i]) + " of " +
+                          std::to_string(desc.faceCount));
+        }
+        cage.holes.push_back(desc.holes[i]);
+    }
+    std::sort(cage.holes.begin(), cage.holes.end());
+    cage.holes.erase(std::unique(cage.holes.begin(), cage.holes.end()), cage.holes.end());
 
     character.skeleton.nodes.emplace_back();
     character.skeleton.nodes[0].name = name;

@@ -3,33 +3,31 @@
 
 #include "base/result.h"
 #include "cage/character.h"
-#include "cage/topology.h"
 #include "gpu/static_buffers.h"
 #include "supple/supple.h"
-#include "surface/prep/scheme.h"
+#include "surface/schemes.h"
 
 #include <memory>
 #include <vector>
 
 namespace supple::runtime {
 
-/// Static tables of p-rep for one asset and one set of options, shared by the groups that use them.
+/// Static tables of a scheme for one asset and one set of options, shared by the groups that use them.
 struct SchemeTables {
-    surface::prep::Options options;
-    surface::prep::Tables tables; ///< `words` is emptied once it lies in the staging memory
-    gpu::StaticBuffers buffers;   ///< 0: the tables
+    surface::Recipe recipe;
+    surface::Tables tables;     ///< `words` is emptied once it lies in the staging memory
+    gpu::StaticBuffers buffers; ///< 0: the tables
 };
 
 struct Asset {
     cage::Character character;
-    Result<cage::Topology> topology = cage::Topology{}; ///< or why no surface can be made of the cage
-    gpu::StaticBuffers buffers;                         ///< 0: the deform table
+    gpu::StaticBuffers buffers; ///< 0: the deform table
     std::vector<std::shared_ptr<SchemeTables>> schemes;
 
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device, cage::Character character);
-    /// Finds or builds the tables for `options`; refuses what the scheme cannot take.
+    /// Finds or builds the tables of a recipe; refuses what the scheme cannot take.
     [[nodiscard]] Result<std::shared_ptr<SchemeTables>> tablesFor(const gpu::Device& device,
-                                                                  const surface::prep::Options& options);
+                                                                  const surface::Recipe& recipe);
 };
 
 /// A character without skeleton or clips from the host's arrays: one joint, every vertex bound to it.

@@ -6,8 +6,7 @@
 
 namespace supple::runtime {
 
-Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc,
-                                                 const surface::prep::Shaders& prepShaders) {
+Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, const surface::Shaders& shaders) {
     auto context = std::make_unique<Context>();
     context->log_ = desc.log;
     context->logUser_ = desc.logUser;
@@ -37,11 +36,11 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc,
         return deform.error();
     }
     context->deform_ = std::move(*deform);
-    Result<surface::prep::Passes> prep = surface::prep::Passes::create(d, prepShaders);
-    if (!prep) {
-        return prep.error();
+    Result<surface::Passes> passes = surface::Passes::create(d, shaders);
+    if (!passes) {
+        return passes.error();
     }
-    context->prep_ = std::move(*prep);
+    context->surface_ = std::move(*passes);
 
     const std::vector<float> pairs = surface::parameterPairs();
     const gpu::StaticRequest request{"supple parameter pairs", VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -104,10 +103,13 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     if (asset == nullptr) {
         return Error{ErrorCode::argument, "suppleCreateGroup: stale or foreign asset handle"};
     }
-    const GroupShared shared{device_.get(), &deform_, &prep_, pairs_.buffer(0), pairs_.size(0), framesInFlight_};
+    const GroupShared shared{device_.get(), &deform_, &surface_, pairs_.buffer(0), pairs_.size(0), framesInFlight_};
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
     if (!group) {
         return group.error();
+    }
+    for (const std::string& note : (*group)->tables().notes) {
+        log(SUPPLE_SEVERITY_INFO, asset->character.name + ": " + note);
     }
     return groups.insert(std::move(*group));
 }

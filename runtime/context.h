@@ -9,7 +9,7 @@
 #include "runtime/timings.h"
 #include "skinning/deform_pass.h"
 #include "supple/supple.h"
-#include "surface/prep/passes.h"
+#include "surface/passes.h"
 
 #include <memory>
 #include <string>
@@ -24,10 +24,9 @@ public:
     Context() = default;
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
-    /// `prepShaders`: tests put mutated code in.
+    /// `shaders`: tests put mutated code in.
     [[nodiscard]] static Result<std::unique_ptr<Context>>
-    create(const SuppleContextDesc& desc,
-           const surface::prep::Shaders& prepShaders = surface::prep::Shaders::embedded());
+    create(const SuppleContextDesc& desc, const surface::Shaders& shaders = surface::Shaders::embedded());
 
     void log(SuppleSeverity severity, const std::string& text) const;
 
@@ -51,7 +50,7 @@ private:
     uint32_t framesInFlight_ = 2;
     uint64_t frame_ = 0; ///< 0: no frame begun
     skinning::DeformPass deform_;
-    surface::prep::Passes prep_;
+    surface::Passes surface_;
     gpu::StaticBuffers pairs_;
     std::vector<std::shared_ptr<Group>> retired_; ///< destroyed by the host, perhaps still in flight
 };

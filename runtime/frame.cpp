@@ -1,9 +1,13 @@
 // One frame, as the data flows: upload, deform, vertex, edge, patch, evaluate.
 #include "runtime/context.h"
 
+#include <utility>
+
 namespace supple::runtime {
 
 namespace {
+
+using surface::Stage;
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
@@ -83,11 +87,11 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     pass("deform", [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();
-    pass("vertex", [&](Group& group) { return group.recordVertex(commandBuffer); });
-    computeBarrier();
-    if (any([](Group& group) { return group.hasEdges(); })) {
-        pass("edge", [&](Group& group) { return group.recordEdge(commandBuffer); });
-        computeBarrier();
+    for (const auto& [stage, name] : {std::pair(Stage::vertex, "vertex"), std::pair(Stage::edge, "edge")}) {
+        if (any([&](Group& group) { return group.tables().has(stage); })) {
+            pass(name, [&](Group& group) { return group.recordStage(commandBuffer, stage); });
+            computeBarrier();
+        }
     }
     if (any([](Group& group) { return group.writesPatches(); })) {
         pass("patch", [&](Group& group) {

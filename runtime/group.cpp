@@ -3,6 +3,7 @@
 #include "surface/grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -12,7 +13,16 @@ namespace {
 
 using namespace supple::shared;
 
-enum BufferIndex : size_t { kPalettes, kDeformedCage, kPool, kSurface, kPatchCoefficients, kAttributes, kBufferCount };
+enum BufferIndex : size_t {
+    kPalettes,
+    kDeformedCage,
+    kPool,
+    kSurface,
+    kPatchCoefficients,
+    kAttributes,
+    kUvs1,
+    kBufferCount
+};
 enum StaticIndex : size_t { kGridIndices, kIndirect };
 
 constexpr VkDeviceSize kVec4Bytes = 16;
@@ -52,15 +62,18 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
                                              const SuppleGroupDesc& desc) {
     auto group = std::make_shared<Group>();
     group->shared_ = shared;
-    surface::prep::Options options;
-    options.tangentMode = desc.tangentMode == SUPPLE_TANGENTS_PRINTED ? surface::prep::TangentMode::printed
-                                                                      : surface::prep::TangentMode::standard;
-    options.cornerRule =
-        desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth : surface::prep::CornerRule::sharp;
+    surface::Recipe recipe;
+    if (desc.scheme == SUPPLE_SCHEME_PREP) {
+        recipe.scheme = surface::SchemeId::prep;
+        recipe.prep.tangentMode = desc.tangentMode == SUPPLE_TANGENTS_PRINTED ? surface::prep::TangentMode::printed
+                                                                              : surface::prep::TangentMode::standard;
+        recipe.prep.cornerRule = desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth
+                                                                          : surface::prep::CornerRule::sharp;
+    }
     if (desc.scheme == SUPPLE_SCHEME_CAGE) {
         group->scheme_ = std::make_shared<SchemeTables>(); // no patches: every surface pass is empty
     } else {
-        Result<std::shared_ptr<SchemeTables>> scheme = asset->tablesFor(*shared.device, options);
+        Result<std::shared_ptr<SchemeTables>> scheme = asset->tablesFor(*shared.device, recipe);
         if (!scheme) {
             return scheme.error();
         }
@@ -71,17 +84,17 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->jointCount_ = static_cast<uint32_t>(group->asset_->character.skin.joints.size());
 
     const uint32_t rate = desc.rate == 0 ? 8 : desc.rate;
-    const uint64_t samples = uint64_t{rate + 1} * (rate + 1);
-    const uint64_t vertices = samples * group->scheme_->tables.patches.size();
+    group->evaluation_.rate = rate;
+    group->evaluation_.vertex24 = desc.vertexFormat == SUPPLE_VERTEX_24;
+    const uint64_t vertices = group->evaluation_.layOut(group->scheme_->tables);
     // Vertex indices are 32 bits on the device.
     if ((vertices + kVertexPadding) * desc.instanceCount > 0xFFFFFFFFull) {
         return Error{ErrorCode::limit, group->asset_->character.name + ": " + std::to_string(desc.instanceCount) +
                                            " instances at rate " + std::to_string(rate) +
                                            " need more than 2^32 surface vertices"};
     }
-    group->evaluation_.rate = rate;
-    group->evaluation_.vertex24 = desc.vertexFormat == SUPPLE_VERTEX_24;
-    group->evaluation_.verticesPerInstance = roundUp(static_cast<uint32_t>(vertices), kVertexPadding);
+    group->vertexCount_ = static_cast<uint32_t>(vertices);
+    group->evaluation_.verticesPerInstance = roundUp(group->vertexCount_, kVertexPadding);
     group->evaluation_.cageStride = roundUp(group->asset_->character.cage.vertexCount(), kCagePadding);
 
     group->transforms_.assign(desc.instanceCount, glm::mat4(1.0f));
@@ -104,11 +117,10 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
 
 Status Group::createBuffers(const SuppleGroupDesc& desc) {
     const gpu::Device& device = *shared_.device;
-    const surface::prep::Tables& tables = scheme_->tables;
+    const surface::Tables& tables = scheme_->tables;
     const VkDeviceSize n = instanceCount_;
     const VkDeviceSize vertexBytes = evaluation_.vertex24 ? 24 : 16;
     const VkDeviceSize patches = tables.patches.size();
-    const VkDeviceSize samples = VkDeviceSize{evaluation_.rate + 1} * (evaluation_.rate + 1);
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     constexpr VkBufferUsageFlags kTexels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     constexpr VkBufferUsageFlags kOutput = kStorage | kTexels | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
@@ -122,12 +134,14 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
                        kStorage | kTexels | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     requests[kSurface] = {"supple surface vertices", n * evaluation_.verticesPerInstance * vertexBytes,
                           kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
-    requests[kPatchCoefficients] = {"supple patch coefficients",
-                                    (desc.flags & SUPPLE_GROUP_PATCHES) != 0 ? n * patches * 32 * kVec4Bytes : 0,
-                                    kOutput};
+    requests[kPatchCoefficients] = {
+        "supple patch coefficients",
+        (desc.flags & SUPPLE_GROUP_PATCHES) != 0 ? n * patches * kPatchStride * kVec4Bytes : 0, kOutput};
     requests[kAttributes] = {"supple surface attributes",
-                             (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0 ? patches * samples * 16 : 0,
+                             (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0 ? VkDeviceSize{vertexCount_} * 16 : 0,
                              kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
+    requests[kUvs1] = {"supple second UV set", tables.uvSets == 2 ? requests[kAttributes].size / 2 : 0,
+                       kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
     attributesPending_ = requests[kAttributes].size > 0;
     if (requests[kAttributes].size > device.limits.maxStorageBufferRange) {
         return Error{ErrorCode::limit, "surface attributes exceed the device's storage-buffer range"};
@@ -146,10 +160,30 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     }
     staging_ = std::move(*stagingSet);
 
-    const std::vector<uint16_t> indices = surface::gridIndices(surface::Domain::quad, evaluation_.rate);
+    // The indices of every domain in use, one after the other, and the draw ranges over them.
+    std::vector<uint16_t> indices;
+    std::array<SuppleDrawRange, surface::kDomainCount> domains{};
     std::vector<VkDrawIndexedIndirectCommand> indirect;
-    for (const surface::prep::DrawRange& drawRange : tables.drawRanges) {
-        indirect.push_back({static_cast<uint32_t>(indices.size()), drawRange.patchCount * instanceCount_, 0, 0, 0});
+    for (const surface::DrawRange& drawRange : tables.drawRanges) {
+        SuppleDrawRange& grid = domains[static_cast<size_t>(drawRange.domain)];
+        if (grid.indexCount == 0) {
+            const std::vector<uint16_t> own = surface::gridIndices(drawRange.domain, evaluation_.rate);
+            grid.firstIndex = static_cast<uint32_t>(indices.size());
+            grid.indexCount = static_cast<uint32_t>(own.size());
+            grid.samplesPerPatch = surface::sampleCount(drawRange.domain, evaluation_.rate);
+            indices.insert(indices.end(), own.begin(), own.end());
+        }
+        SuppleDrawRange range = grid;
+        range.domain = static_cast<SuppleDomain>(drawRange.domain);
+        range.firstPatch = drawRange.firstPatch;
+        range.patchCount = drawRange.patchCount;
+        range.material = drawRange.material;
+        if (!drawRanges_.empty()) {
+            const SuppleDrawRange& last = drawRanges_.back();
+            range.firstVertex = last.firstVertex + last.patchCount * last.samplesPerPatch;
+        }
+        drawRanges_.push_back(range);
+        indirect.push_back({range.indexCount, range.patchCount * instanceCount_, range.firstIndex, 0, 0});
     }
     const gpu::StaticRequest staticRequests[] = {
         {"supple grid indices", kOutput | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(std::span(indices))},
@@ -165,13 +199,14 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
 
 Status Group::createSets() {
     const gpu::Device& device = *shared_.device;
-    const surface::prep::Tables& tables = scheme_->tables;
+    const surface::Tables& tables = scheme_->tables;
     const VkDeviceSize vertexBytes = evaluation_.vertex24 ? 24 : 16;
     const VkDeviceSize paletteBytes = jointCount_ * kAffineBytes;
     const VkDeviceSize cageBytes = evaluation_.cageStride * kVec4Bytes;
     const VkDeviceSize poolBytes = tables.poolStride * kVec4Bytes;
     const VkDeviceSize surfaceBytes = evaluation_.verticesPerInstance * vertexBytes;
-    const VkDeviceSize patchBytes = buffers_.size(kPatchCoefficients) > 0 ? tables.patches.size() * 32 * kVec4Bytes : 0;
+    const VkDeviceSize patchBytes =
+        buffers_.size(kPatchCoefficients) > 0 ? tables.patches.size() * kPatchStride * kVec4Bytes : 0;
 
     // As many instances a window as every bound range can hold.
     const VkDeviceSize texelLimit = device.bufferWindow(16), storageLimit = device.limits.maxStorageBufferRange;
@@ -179,20 +214,20 @@ Status Group::createSets() {
     if (deformFit < instanceCount_) {
         deformFit = deformFit / kDeformWindowMultiple * kDeformWindowMultiple;
     }
-    VkDeviceSize prepFit = instanceCount_;
+    VkDeviceSize surfaceFit = instanceCount_;
     for (const VkDeviceSize bytes : {surfaceBytes, patchBytes}) {
-        prepFit = bytes > 0 ? std::min(prepFit, storageLimit / bytes) : prepFit;
+        surfaceFit = bytes > 0 ? std::min(surfaceFit, storageLimit / bytes) : surfaceFit;
     }
-    prepFit = std::min(prepFit, texelLimit / std::max(cageBytes, poolBytes));
-    if (deformFit == 0 || prepFit == 0) {
+    surfaceFit = std::min(surfaceFit, texelLimit / std::max(cageBytes, poolBytes));
+    if (deformFit == 0 || surfaceFit == 0) {
         return Error{ErrorCode::limit,
-                     std::string(prepFit == 0 ? "one instance's surface" : "sixteen instances' cages") +
+                     std::string(surfaceFit == 0 ? "one instance's surface" : "sixteen instances' cages") +
                          " exceed the device's storage-buffer range of " + std::to_string(storageLimit) + " bytes"};
     }
     const auto deformWindow = static_cast<uint32_t>(std::min<VkDeviceSize>(deformFit, instanceCount_));
-    const auto prepWindow = static_cast<uint32_t>(std::min<VkDeviceSize>(prepFit, instanceCount_));
+    const auto surfaceWindow = static_cast<uint32_t>(std::min<VkDeviceSize>(surfaceFit, instanceCount_));
     const uint32_t deformCount = (instanceCount_ + deformWindow - 1) / deformWindow;
-    const uint32_t prepCount = (instanceCount_ + prepWindow - 1) / prepWindow;
+    const uint32_t surfaceCount = (instanceCount_ + surfaceWindow - 1) / surfaceWindow;
 
     Status status = success();
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size,
@@ -243,18 +278,19 @@ Status Group::createSets() {
     if (tables.patches.empty()) {
         return status;
     }
-    pool = gpu::createDescriptorPool(device, shared_.prep->layout(), prepCount, "supple p-rep");
+    pool = gpu::createDescriptorPool(device, shared_.surface->layout(), surfaceCount, "supple surface");
     if (!pool) {
         return pool.error();
     }
-    prepPool_ = std::move(*pool);
+    surfacePool_ = std::move(*pool);
     const VkBuffer table = scheme_->buffers.buffer(0);
     const VkDeviceSize tableBytes = scheme_->buffers.size(0);
-    const VkBufferView table4 = view(table, kUint4, 0, tableBytes, "supple p-rep tables");
-    const VkBufferView table1 = view(table, VK_FORMAT_R32_UINT, 0, tableBytes, "supple p-rep table words");
-    for (uint32_t w = 0; w < prepCount && status.ok(); ++w) {
-        const uint32_t first = w * prepWindow, count = std::min(prepWindow, instanceCount_ - first);
-        Result<VkDescriptorSet> set = gpu::allocateSet(device, shared_.prep->layout(), prepPool_.get(), "supple p-rep");
+    const VkBufferView table4 = view(table, kUint4, 0, tableBytes, "supple surface tables");
+    const VkBufferView table1 = view(table, VK_FORMAT_R32_UINT, 0, tableBytes, "supple surface table words");
+    for (uint32_t w = 0; w < surfaceCount && status.ok(); ++w) {
+        const uint32_t first = w * surfaceWindow, count = std::min(surfaceWindow, instanceCount_ - first);
+        Result<VkDescriptorSet> set =
+            gpu::allocateSet(device, shared_.surface->layout(), surfacePool_.get(), "supple surface");
         if (!set) {
             return set.error();
         }
@@ -277,19 +313,20 @@ Status Group::createSets() {
              VK_NULL_HANDLE},
             {kAttributeBinding, attributes ? range(buffers_.buffer(kAttributes), 0, VK_WHOLE_SIZE) : unused,
              VK_NULL_HANDLE},
+            {kUv1Binding, buffers_.size(kUvs1) > 0 ? range(buffers_.buffer(kUvs1), 0, VK_WHOLE_SIZE) : unused,
+             VK_NULL_HANDLE},
             {kPairBinding, range(shared_.pairs, 0, shared_.pairBytes), VK_NULL_HANDLE},
         };
         if (!status) {
             return status;
         }
         gpu::writeSet(device, *set, resources);
-        prepWindows_.push_back({*set, count});
+        surfaceWindows_.push_back({*set, count});
     }
     return status;
 }
 
 void Group::fillOutput(const SuppleGroupDesc& desc) {
-    const surface::prep::Tables& tables = scheme_->tables;
     const auto whole = [&](BufferIndex index, uint32_t stride) {
         return SuppleBufferView{buffers_.buffer(index), 0, buffers_.size(index), stride};
     };
@@ -298,21 +335,18 @@ void Group::fillOutput(const SuppleGroupDesc& desc) {
     o.instanceCount = instanceCount_;
     o.rate = evaluation_.rate;
     o.vertexFormat = desc.vertexFormat;
-    o.patchCount = static_cast<uint32_t>(tables.patches.size());
-    o.samplesPerPatch = (o.rate + 1) * (o.rate + 1);
+    o.patchCount = static_cast<uint32_t>(scheme_->tables.patches.size());
+    o.vertexCount = vertexCount_;
     o.verticesPerInstance = evaluation_.verticesPerInstance;
     o.cageVertexCount = asset_->character.cage.vertexCount();
     o.cageVerticesPerInstance = evaluation_.cageStride;
     o.surfaceVertices = whole(kSurface, evaluation_.vertex24 ? 24 : 16);
     o.attributes = whole(kAttributes, 16);
+    o.uvs1 = whole(kUvs1, 8);
     o.deformedCage = whole(kDeformedCage, 16);
     o.patchCoefficients = whole(kPatchCoefficients, 16);
     o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
-    o.indexCount = static_cast<uint32_t>(static_.size(kGridIndices) / 2);
     o.indirect = {static_.buffer(kIndirect), 0, static_.size(kIndirect), sizeof(VkDrawIndexedIndirectCommand)};
-    for (const surface::prep::DrawRange& drawRange : tables.drawRanges) {
-        drawRanges_.push_back({drawRange.firstPatch, drawRange.patchCount, drawRange.material});
-    }
     o.drawRanges = drawRanges_.data();
     o.drawRangeCount = static_cast<uint32_t>(drawRanges_.size());
     o.deviceBytes = buffers_.allocatedBytes() + static_.deviceBytes();
@@ -388,9 +422,8 @@ Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
         return {};
     }
     attributesPending_ = false;
-    shared_.prep->recordAttributes(commandBuffer, scheme_->tables, prepWindows_.front(), evaluation_);
-    const uint64_t points = uint64_t{output_.patchCount} * output_.samplesPerPatch;
-    return {points, points * 16};
+    shared_.surface->recordAttributes(commandBuffer, scheme_->tables, surfaceWindows_.front(), evaluation_);
+    return {vertexCount_, buffers_.size(kAttributes) + buffers_.size(kUvs1)};
 }
 
 Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
@@ -402,37 +435,33 @@ Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
     return {points, points * kVec4Bytes};
 }
 
-Group::PassCost Group::recordVertex(VkCommandBuffer commandBuffer) const {
-    for (const surface::prep::Window& window : prepWindows_) {
-        shared_.prep->recordVertex(commandBuffer, scheme_->tables, window, evaluation_);
+Group::PassCost Group::recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const {
+    for (const surface::Window& window : surfaceWindows_) {
+        shared_.surface->recordStage(commandBuffer, stage, scheme_->tables, window, evaluation_);
     }
-    const surface::prep::Tables& t = scheme_->tables;
-    const uint64_t coefficients = uint64_t{t.faces} + (t.faces - t.tangents);
-    const uint64_t points = uint64_t{output_.cageVertexCount} * instanceCount_;
-    return {points, coefficients * instanceCount_ * kVec4Bytes};
-}
-
-Group::PassCost Group::recordEdge(VkCommandBuffer commandBuffer) const {
-    for (const surface::prep::Window& window : prepWindows_) {
-        shared_.prep->recordEdge(commandBuffer, scheme_->tables, window, evaluation_);
+    PassCost cost;
+    for (const surface::Construction& c : scheme_->tables.constructions) {
+        if (c.stage == stage) {
+            cost.points += uint64_t{c.section.count} * instanceCount_;
+            cost.bytes += uint64_t{c.coefficients} * instanceCount_ * kVec4Bytes;
+        }
     }
-    const uint64_t points = uint64_t{scheme_->tables.edges.count} * instanceCount_;
-    return {points, points * 4 * kVec4Bytes};
+    return cost;
 }
 
 Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
-    for (const surface::prep::Window& window : prepWindows_) {
-        shared_.prep->recordPatch(commandBuffer, scheme_->tables, window, evaluation_);
+    for (const surface::Window& window : surfaceWindows_) {
+        shared_.surface->recordPatch(commandBuffer, scheme_->tables, window, evaluation_);
     }
     const uint64_t points = uint64_t{output_.patchCount} * instanceCount_;
-    return {points, points * 32 * kVec4Bytes};
+    return {points, points * kPatchStride * kVec4Bytes};
 }
 
 Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
-    for (const surface::prep::Window& window : prepWindows_) {
-        shared_.prep->recordEvaluate(commandBuffer, scheme_->tables, window, evaluation_);
+    for (const surface::Window& window : surfaceWindows_) {
+        shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, window, evaluation_);
     }
-    const uint64_t points = uint64_t{output_.patchCount} * output_.samplesPerPatch * instanceCount_;
+    const uint64_t points = uint64_t{vertexCount_} * instanceCount_;
     return {points, points * output_.surfaceVertices.stride};
 }
 

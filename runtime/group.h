@@ -8,7 +8,7 @@
 #include "skinning/deform_pass.h"
 #include "skinning/pose.h"
 #include "supple/supple.h"
-#include "surface/prep/passes.h"
+#include "surface/passes.h"
 
 #include <glm/glm.hpp>
 #include <memory>
@@ -20,7 +20,7 @@ namespace supple::runtime {
 struct GroupShared {
     const gpu::Device* device = nullptr;
     const skinning::DeformPass* deform = nullptr;
-    const surface::prep::Passes* prep = nullptr;
+    const surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
     uint32_t framesInFlight = 2;
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] uint32_t instanceCount() const { return instanceCount_; }
     [[nodiscard]] uint32_t jointCount() const { return jointCount_; }
     [[nodiscard]] const Asset& asset() const { return *asset_; }
-    [[nodiscard]] const surface::prep::Tables& tables() const { return scheme_->tables; }
+    [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables; }
     [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
 
     void setBindPose(uint32_t instance);
@@ -53,11 +53,9 @@ public:
     PassCost recordAttributes(VkCommandBuffer commandBuffer); ///< nothing after the first time
     [[nodiscard]] bool attributesPending() const { return attributesPending_; }
     PassCost recordDeform(VkCommandBuffer commandBuffer) const;
-    PassCost recordVertex(VkCommandBuffer commandBuffer) const;
-    PassCost recordEdge(VkCommandBuffer commandBuffer) const;
+    PassCost recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const;
     PassCost recordPatch(VkCommandBuffer commandBuffer) const;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const;
-    [[nodiscard]] bool hasEdges() const { return scheme_->tables.edges.count > 0; }
     [[nodiscard]] bool writesPatches() const { return output_.patchCoefficients.buffer != VK_NULL_HANDLE; }
 
     [[nodiscard]] uint64_t lastRecordedFrame() const { return lastRecordedFrame_; }
@@ -73,7 +71,8 @@ private:
     std::shared_ptr<SchemeTables> scheme_;
     uint32_t instanceCount_ = 0;
     uint32_t jointCount_ = 0;
-    surface::prep::Evaluation evaluation_;
+    uint32_t vertexCount_ = 0; ///< surface vertices an instance, without padding
+    surface::Evaluation evaluation_;
 
     std::vector<skinning::Affine> palettes_; ///< posed, not yet placed: jointCount_ an instance
     std::vector<glm::mat4> transforms_;      ///< one an instance
@@ -82,14 +81,14 @@ private:
     gpu::BufferSet buffers_;    ///< see the enumeration in group.cpp
     gpu::BufferSet staging_;    ///< palettes, one run a frame in flight
     gpu::StaticBuffers static_; ///< grid indices, indirect arguments
-    gpu::DescriptorPoolHandle deformPool_, prepPool_;
+    gpu::DescriptorPoolHandle deformPool_, surfacePool_;
     std::vector<gpu::BufferViewHandle> views_;
     struct DeformWindow {
         VkDescriptorSet set = VK_NULL_HANDLE;
         uint32_t instanceCount = 0;
     };
     std::vector<DeformWindow> deformWindows_;
-    std::vector<surface::prep::Window> prepWindows_;
+    std::vector<surface::Window> surfaceWindows_;
     SuppleGroupOutput output_{};
     std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
     bool cleared_ = false;

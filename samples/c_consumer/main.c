@@ -328,7 +328,7 @@ int main(void) {
 
     memcpy(vertex, (const char*)readback.mapped + (FRAME_COUNT % FRAMES_IN_FLIGHT) * sizeof vertex, sizeof vertex);
     printf("%u surface vertices, the first at (%.6f, %.6f, %.6f) with normal (%.6f, %.6f, %.6f)\n",
-           output.patchCount * output.samplesPerPatch, vertex[0], vertex[1], vertex[2], vertex[3], vertex[4],
+           output.vertexCount, vertex[0], vertex[1], vertex[2], vertex[3], vertex[4],
            vertex[5]);
 
     CHECK_SUPPLE(suppleDestroyGroup(context, group));

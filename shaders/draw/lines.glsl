@@ -5,16 +5,20 @@ float lineCoverage(float distance, float halfWidth) {
     return 1.0 - smoothstep(max(halfWidth - 0.6, 0.0), halfWidth + 0.6, distance);
 }
 
+float strongest(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
 /// Lines at whole numbers of `at`; `perPixel` is its change from pixel to pixel.
-float gridLines(vec2 at, vec2 perPixel, float halfWidth) {
-    vec2 distance = abs(fract(at - 0.5) - 0.5) / max(perPixel, vec2(1e-6));
-    vec2 fade = 1.0 - smoothstep(vec2(0.16), vec2(0.45), perPixel * halfWidth);
-    return max(lineCoverage(distance.x, halfWidth) * fade.x, lineCoverage(distance.y, halfWidth) * fade.y);
+float gridLines(vec3 at, vec3 perPixel, float halfWidth) {
+    vec3 distance = abs(fract(at - 0.5) - 0.5) / max(perPixel, vec3(1e-6));
+    vec3 fade = 1.0 - smoothstep(vec3(0.16), vec3(0.45), perPixel * halfWidth);
+    return strongest(vec3(lineCoverage(distance.x, halfWidth), lineCoverage(distance.y, halfWidth),
+                          lineCoverage(distance.z, halfWidth)) * fade);
 }
 
-/// The border of the square 0..side.
-float borderLine(vec2 at, vec2 perPixel, float side, float halfWidth) {
-    vec2 distance = min(at, side - at) / max(perPixel, vec2(1e-6));
-    vec2 fade = 1.0 - 0.7 * smoothstep(vec2(0.12), vec2(0.5), perPixel * halfWidth / side);
-    return max(lineCoverage(distance.x, halfWidth) * fade.x, lineCoverage(distance.y, halfWidth) * fade.y);
+/// Lines where `inside`, the distance from a border in segments, is 0 (vec3(1e9) leaves a side out).
+float borderLine(vec3 inside, vec3 perPixel, float side, float halfWidth) {
+    vec3 distance = inside / max(perPixel, vec3(1e-6));
+    vec3 fade = 1.0 - 0.7 * smoothstep(vec3(0.12), vec3(0.5), perPixel * halfWidth / side);
+    return strongest(vec3(lineCoverage(distance.x, halfWidth), lineCoverage(distance.y, halfWidth),
+                          lineCoverage(distance.z, halfWidth)) * fade);
 }

@@ -11,7 +11,7 @@ layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
 layout(location = 2) in vec2 inUv;
 layout(location = 3) in vec4 inColor;
-layout(location = 4) in vec2 inGrid;
+layout(location = 4) in vec3 inGrid; // see surface.vert
 layout(location = 5) flat in uint inPatch;
 
 layout(location = 6) in vec3 inSky;
@@ -22,6 +22,19 @@ layout(location = 0) out vec4 outColor;
 layout(constant_id = 0) const bool kLightPerVertex = false; // see surface.vert
 
 const vec3 kClay = vec3(0.50, 0.47, 0.44);
+
+// Regular, perturbed, polar, P_3, P_4, P_5.
+const vec3 kClassColors[6] = vec3[6](vec3(0.36, 0.43, 0.50), vec3(0.78, 0.33, 0.11), vec3(0.62, 0.20, 0.42),
+                                     vec3(0.80, 0.58, 0.12), vec3(0.78, 0.33, 0.11), vec3(0.16, 0.50, 0.34));
+
+/// Distances from the patch's border, in segments.
+vec3 insideBorder() {
+    const float kFar = 1e9;
+    float rate = float(push.rate);
+    if (push.domain == kDrawQuad) return vec3(min(inGrid.xy, rate - inGrid.xy), kFar);
+    if (push.domain == kDrawPolar) return vec3(min(inGrid.x, rate - inGrid.x), inGrid.y, kFar);
+    return push.domain == kDrawTriangle ? inGrid : vec3(kFar, kFar, inGrid.z);
+}
 
 float patchHash(uint x) {
     x = (x ^ 61u) ^ (x >> 16);
@@ -55,7 +68,7 @@ void main() {
         discard;
     float alpha = (push.flags & kDrawTranslucent) != 0u ? base.a : 1.0;
 
-    vec2 segments = fwidth(inGrid);
+    vec3 segments = fwidth(inGrid);
     vec3 color;
     if (push.view == kViewNormals) {
         color = fromSrgb((back ? -n : n) * 0.5 + 0.5);
@@ -67,8 +80,7 @@ void main() {
             material = Material(kClay, 0.55);
         } else if (push.view == kViewPatches) {
             float vary = patchHash(inPatch) - 0.5;
-            vec3 regular = vec3(0.36, 0.43, 0.50), perturbed = vec3(0.78, 0.33, 0.11);
-            material.albedo = (patchClasses[inPatch] == 0u ? regular : perturbed) * (1.0 + 0.34 * vary);
+            material.albedo = kClassColors[patchClasses[inPatch]] * (1.0 + 0.34 * vary);
             material.roughness = 0.5;
         }
         // The inside of a skin that is not meant to be seen: still there, but plainly inside.
@@ -85,8 +97,8 @@ void main() {
     if (push.view == kViewWire)
         color = mix(color, vec3(0.012, 0.016, 0.025), 0.72 * gridLines(inGrid, segments, 0.9 * frame.pixelScale));
     if (push.view == kViewWire)
-        color = mix(color, vec3(0.78, 0.22, 0.035), borderLine(inGrid, segments, float(push.rate), 1.1 * frame.pixelScale));
+        color = mix(color, vec3(0.78, 0.22, 0.035), borderLine(insideBorder(), segments, float(push.rate), 1.1 * frame.pixelScale));
     else if (push.view == kViewPatches)
-        color = mix(color, vec3(0.01, 0.012, 0.018), 0.85 * borderLine(inGrid, segments, float(push.rate), 0.9 * frame.pixelScale));
+        color = mix(color, vec3(0.01, 0.012, 0.018), 0.85 * borderLine(insideBorder(), segments, float(push.rate), 0.9 * frame.pixelScale));
     outColor = vec4(color, alpha);
 }

@@ -10,7 +10,7 @@ layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec2 outUv;
 layout(location = 3) out vec4 outColor;
-layout(location = 4) out vec2 outGrid; // in segments: 0..rate
+layout(location = 4) out vec3 outGrid; // in segments: see gridPosition
 layout(location = 5) flat out uint outPatch;
 layout(location = 6) out vec3 outSky;
 layout(location = 7) out vec3 outKeyRimOpen;
@@ -19,18 +19,33 @@ layout(location = 7) out vec3 outKeyRimOpen;
 // that shades in blocks would do it many times over.
 layout(constant_id = 0) const bool kLightPerVertex = false;
 
+// Where a sample lies, in segments. Cells' sides are whole numbers of one coordinate; the patch's border is where a
+// coordinate is 0, on quads also where it is the rate. Quads and polar patches have two coordinates, triangles three.
+// Pentagons: the third counts from the border to the centre, the others from the two rays of the sector, the nearer first,
+// so that all three are continuous over the rays.
+vec3 gridPosition(uint index) {
+    uint side = push.rate + 1u;
+    if (push.domain <= kDrawPolar) return vec3(index % side, index / side, 0.5);
+    uint perSector = push.rate * side / 2u;
+    bool pentagon = push.domain == kDrawPentagon;
+    if (pentagon && index == 5u * perSector) return vec3(0.0, 0.0, push.rate);
+    uint rest = pentagon ? index % perSector : index, row = pentagon ? push.rate : side, j = 0u;
+    for (; rest >= row; --row, ++j) rest -= row;
+    float i = float(rest), k = float(push.rate - rest - j);
+    return pentagon ? vec3(min(i, k), max(i, k), j) : vec3(i, k, j);
+}
+
 void main() {
     uint word = surfaceWord();
     vec3 position = surfacePosition(word);
     outPosition = position;
     outNormal = surfaceNormal(word);
     outPatch = drawnPatch();
-    uint side = push.rate + 1u;
-    outGrid = vec2(gl_VertexIndex % side, gl_VertexIndex / side);
+    outGrid = gridPosition(gl_VertexIndex);
     outUv = vec2(0.0);
     outColor = vec4(1.0);
     if ((push.flags & kDrawAttributes) != 0u) {
-        uvec4 packed = attributes[outPatch * push.samplesPerPatch + gl_VertexIndex];
+        uvec4 packed = attributes[surfaceVertex()];
         outUv = uintBitsToFloat(packed.xy);
         outColor = vec4(unpackUnorm2x16(packed.z), unpackUnorm2x16(packed.w));
     }

@@ -4,9 +4,13 @@ layout(set = 1, binding = kSurfaceVertexBinding, std430) readonly buffer Surface
 
 uint drawnPatch() { return push.firstPatch + gl_InstanceIndex % push.patchCount; }
 
+// Counted within a character instance.
+uint surfaceVertex() {
+    return push.firstVertex + (gl_InstanceIndex % push.patchCount) * push.samplesPerPatch + gl_VertexIndex;
+}
+
 uint surfaceWord() {
-    uint vertex = (gl_InstanceIndex / push.patchCount) * push.verticesPerInstance +
-                  drawnPatch() * push.samplesPerPatch + gl_VertexIndex;
+    uint vertex = (gl_InstanceIndex / push.patchCount) * push.verticesPerInstance + surfaceVertex();
     return vertex * ((push.flags & kDrawVertex24) != 0u ? 6u : 4u);
 }
 

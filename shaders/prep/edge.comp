@@ -3,9 +3,9 @@
 // depend on the two valences only. One invocation a perturbed edge and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/prep/tables.glsl"
-#include "shaders/prep/pool.glsl"
-#include "shaders/prep/store.glsl"
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/surface/store.glsl"
 
 // Relative to A, which keeps cancellation small: the weights of a row sum to zero (SA and SB are sums of two points), so
 // that the weight of A itself never appears.

@@ -37,6 +37,12 @@ SUPPLE_SHARED_CONST kViewPatches = 2u;
 SUPPLE_SHARED_CONST kViewNormals = 3u;
 SUPPLE_SHARED_CONST kViewZebra = 4u;
 
+// DrawPush::domain: values of SuppleDomain.
+SUPPLE_SHARED_CONST kDrawQuad = 0u;
+SUPPLE_SHARED_CONST kDrawPolar = 1u;
+SUPPLE_SHARED_CONST kDrawTriangle = 2u;
+SUPPLE_SHARED_CONST kDrawPentagon = 3u;
+
 // DrawPush::flags
 SUPPLE_SHARED_CONST kDrawVertex24 = 1u;     // surface vertices of 24 bytes
 SUPPLE_SHARED_CONST kDrawDoubleSided = 2u;  // back faces are meant to be seen
@@ -82,8 +88,10 @@ struct DrawPush {
     vec4 baseColor;
     uint firstPatch;
     uint patchCount; // of the draw range
+    uint domain;     // SuppleDomain
     uint rate;
     uint samplesPerPatch;
+    uint firstVertex; // of the draw range
     uint verticesPerInstance;
     uint cageVerticesPerInstance;
     uint view;

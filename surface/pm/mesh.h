@@ -35,6 +35,9 @@ struct Sector {
     uint32_t facets = 0; ///< q
     SectorKind kind = SectorKind::interior;
     bool creased = false; ///< some edge inside the sector has an alpha other than 2/3
+    /// Closed, and the vertex is sharp (cage::SharpVertex): the sector's v, t and f are moved by p - v, so that the
+    /// surface passes through the vertex. Open sectors become corners instead.
+    bool pinned = false;
 
     [[nodiscard]] bool closed() const { return kind == SectorKind::interior; }
     [[nodiscard]] uint32_t edges() const { return closed() ? facets : facets + 1; }
@@ -49,9 +52,8 @@ enum class FacetClass : uint8_t { ordinary, polar, p3, p4, p5 };
 /// Per corner of Mesh::cage (corner c of facet f at vertex v; half-edge c runs to the next vertex of f).
 struct FacetCorner {
     uint32_t sector = 0;
-    uint32_t slot =
-        0; ///< facet slot of f in the sector = edge slot of the half-edge c (edge j, towards the next vertex)
-    uint32_t slotBack = 0; ///< edge slot of edge j + 1 (towards the previous vertex)
+    uint32_t slot = 0;     ///< facet slot of f in the sector = edge slot of edge j, the half-edge c
+    uint32_t slotBack = 0; ///< edge slot of edge j + 1, towards the previous vertex of f
     /// Facet slot across edge j (facet j - 1) and across edge j + 1 (facet j + 1) in the same sector; kNone where that
     /// edge ends the sector.
     uint32_t across = cage::kNone;
@@ -72,13 +74,18 @@ struct Mesh {
     /// Per facet: the corner (0..sides-1) its patch begins at. 0 but for polar facets, whose last corner must be the
     /// apex: patch corner i is facet corner (first + i) % sides.
     std::vector<uint8_t> firstCorners;
-    /// What was changed on the way in, one line each ("face 12 has 7 sides: split into 4 + 5 sides").
+    /// What was changed or left out on the way in, one line each ("face 12 has 7 sides: split into a quad and a
+    /// pentagon").
     std::vector<std::string> notes;
+
+    [[nodiscard]] uint32_t corner(uint32_t facet, uint32_t patchCorner) const {
+        return cage.faceStarts[facet] + (firstCorners[facet] + patchCorner) % cage.sides(facet);
+    }
 };
 
 /// Splits, builds topology and features, and sorts out sectors and classes. Refuses what P_m cannot take, by name: what
-/// cage::buildTopology refuses, and a face of six or more sides none of whose zig-zag splits is free ("face 12: ...").
-/// O(corners) but for the sorting of neighbours.
+/// cage::buildTopology refuses, and a face of six or more sides none of whose zig-zag splits is free ("face 12 has 6
+/// sides: ..."). O(corners) but for the sorting of neighbours and the choice of splits.
 [[nodiscard]] Result<Mesh> buildMesh(const cage::Cage& cage);
 
 } // namespace supple::surface::pm

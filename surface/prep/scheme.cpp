@@ -1,6 +1,7 @@
 #include "surface/prep/scheme.h"
 
 #include "shaders/shared/prep.h"
+#include "surface/table_writer.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,36 +15,16 @@ namespace supple::surface::prep {
 
 namespace {
 
-uint32_t floatBits(double value) {
-    return std::bit_cast<uint32_t>(static_cast<float>(value));
-}
-
 bool regular(const cage::Topology& topology, uint32_t vertex) {
     return topology.effectiveValence(vertex) == 4;
 }
-
-/// Appends table sections and keeps them on element boundaries.
-class Writer {
-public:
-    explicit Writer(std::vector<uint32_t>& words) : words_(words) {}
-    [[nodiscard]] uint32_t element() {
-        while (words_.size() % 4 != 0) {
-            words_.push_back(0);
-        }
-        return static_cast<uint32_t>(words_.size() / 4);
-    }
-    void put(std::initializer_list<uint32_t> values) { words_.insert(words_.end(), values); }
-
-private:
-    std::vector<uint32_t>& words_;
-};
 
 /// Valence classes in use, each written once.
 class ClassTable {
 public:
     ClassTable(const cage::Topology& topology, const Options& options) : topology_(topology), options_(options) {}
 
-    void write(Writer& writer, uint32_t vertexCount) {
+    void write(TableWriter& writer, uint32_t vertexCount) {
         for (uint32_t v = 0; v < vertexCount; ++v) {
             const auto key = keyOf(v);
             if (elements_.contains(key)) {
@@ -86,7 +67,7 @@ bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_
     return !regular(topology, cage.faceVertices[e.corner]) || !regular(topology, cage.faceVertices[e.twin]);
 }
 
-Status accepts(const cage::Cage& cage, const cage::Topology&) {
+Status accepts(const cage::Cage& cage) {
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         if (cage.sides(face) != 4) {
             return Error{ErrorCode::asset, "face " + std::to_string(face) + " has " + std::to_string(cage.sides(face)) +
@@ -98,7 +79,7 @@ Status accepts(const cage::Cage& cage, const cage::Topology&) {
 
 Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const Options& options) {
     Tables t;
-    Writer writer(t.words);
+    TableWriter writer(t.words);
     const uint32_t vertexCount = cage.vertexCount(), faceCount = cage.faceCount();
     const auto spokeCount = static_cast<uint32_t>(topology.spokeVertices.size());
 
@@ -143,12 +124,15 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
         return std::tuple(!interiorRegular, topology.spokeCount(v), topology.boundary[v]);
     };
     std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
-    t.regularVertices.table = writer.element();
+    Section regularVertices{writer.element(), 0}, otherVertices;
     for (uint32_t v : order) {
         writer.put({v, topology.spokeStarts[v], classes.element(v), 0u});
-        (std::get<0>(rank(v)) ? t.otherVertices : t.regularVertices).count += 1;
+        (std::get<0>(rank(v)) ? otherVertices : regularVertices).count += 1;
     }
-    t.otherVertices.table = t.regularVertices.table + t.regularVertices.count;
+    otherVertices.table = regularVertices.table + regularVertices.count;
+    t.constructions.push_back({Stage::vertex, Kernel::prepVertexRegular, regularVertices, 9 * regularVertices.count});
+    const uint32_t otherCoefficients = vertexCount + 2 * spokeCount - 9 * regularVertices.count;
+    t.constructions.push_back({Stage::vertex, Kernel::prepVertex, otherVertices, otherCoefficients});
 
     // Edge classes, then edges.
     std::map<std::pair<double, double>, uint32_t> edgeClasses;
@@ -169,8 +153,8 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
         const uint32_t first = cage.faceStarts[topology.cornerFaces[c]];
         return first + (c - first + steps) % 4;
     };
-    t.edges.table = writer.element();
-    t.edges.count = static_cast<uint32_t>(perturbedEdges.size());
+    const auto edgeCount = static_cast<uint32_t>(perturbedEdges.size());
+    t.constructions.push_back({Stage::edge, Kernel::prepEdge, {writer.element(), edgeCount}, 4 * edgeCount});
     for (uint32_t e : perturbedEdges) {
         const uint32_t f = topology.edges[e].corner, o = topology.edges[e].twin; // faces left and right of A -> B
         const uint32_t a = cage.faceVertices[f], b = cage.faceVertices[o];
@@ -180,25 +164,30 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
         writer.put({edgeSlots[e], edgeClasses.at({classes.c(a), classes.c(b)}), 0u, 0u});
     }
 
+    const auto smoothCorner = [&](uint32_t v) {
+        return options.cornerRule == CornerRule::smooth && topology.boundary[v] != 0 && topology.sectorCount(v) == 1;
+    };
+
     // Patches.
-    std::vector<PatchInfo> patches(faceCount);
+    std::vector<DraftPatch> patches;
     for (uint32_t face = 0; face < faceCount; ++face) {
-        PatchInfo& patch = patches[face];
-        patch.face = face;
+        if (std::binary_search(cage.holes.begin(), cage.holes.end(), face)) {
+            continue;
+        }
+        DraftPatch& patch = patches.emplace_back();
+        patch.facet = patch.info.face = face;
+        patch.material = cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[face];
         for (uint32_t j = 0; j < 4; ++j) {
             const uint32_t c = cage.faceStarts[face] + j;
-            patch.corners[j] = cage.faceVertices[c];
+            patch.cageCorners[j] = c;
+            patch.info.corners[j] = cage.faceVertices[c];
             if (edgeSlots[topology.cornerEdges[c]] != cage::kNone) {
-                patch.patchClass = PatchClass::perturbed;
+                patch.info.patchClass = PatchClass::perturbed;
             }
+            t.cornerNormals = t.cornerNormals || smoothCorner(cage.faceVertices[c]);
         }
     }
-    const auto material = [&](const PatchInfo& p) {
-        return cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[p.face];
-    };
-    std::stable_sort(patches.begin(), patches.end(), [&](const PatchInfo& a, const PatchInfo& b) {
-        return std::pair(a.patchClass, material(a)) < std::pair(b.patchClass, material(b));
-    });
+    sortPatches(patches);
 
     // Corner-local coefficient (a along the edge j -> j+1, b along j -> j-1) to patch index i + 4 j, docs/prep.md.
     const auto patchIndex = [](uint32_t j, uint32_t a, uint32_t b) {
@@ -206,71 +195,44 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
         return i[j] + 4 * k[j];
     };
     constexpr std::array<uint32_t, 16> kFaceEdgeOrder = {SUPPLE_PREP_FACE_EDGE_ORDER};
-    for (const PatchClass patchClass : {PatchClass::regular, PatchClass::perturbed}) {
-        Section& section = patchClass == PatchClass::regular ? t.regularPatches : t.perturbedPatches;
-        section.table = writer.element();
-        for (const PatchInfo& patch : patches) {
-            if (patch.patchClass != patchClass) {
-                continue;
-            }
-            ++section.count;
-            std::array<uint32_t, 16> g{}, h{};
-            std::array<uint32_t, 4> normals{};
-            for (uint32_t j = 0; j < 4; ++j) {
-                const uint32_t c = cage.faceStarts[patch.face] + j;
-                const uint32_t v = patch.corners[j];
-                g[patchIndex(j, 0, 0)] = v;
-                g[patchIndex(j, 1, 0)] = t.tangents + topology.cornerSpokes[c];
-                g[patchIndex(j, 0, 1)] = t.tangents + topology.cornerSpokesBack[c];
-                g[patchIndex(j, 1, 1)] = t.faces + topology.cornerSpokes[c];
-                const uint32_t edge = topology.cornerEdges[c];
-                const uint32_t slot = edgeSlots[edge];
-                // A half-edge that runs against the edge's own direction swaps h20 <-> h30 and h21 <-> h31.
-                const uint32_t swap = topology.edges[edge].corner == c ? 0u : 1u;
-                for (uint32_t s = 0; s < 4; ++s) {
-                    h[4 * j + s] = slot == cage::kNone ? zero : slot + (s ^ swap);
-                }
-                const bool smoothCorner = options.cornerRule == CornerRule::smooth && topology.boundary[v] != 0 &&
-                                          topology.sectorCount(v) == 1;
-                normals[j] = smoothCorner ? t.faces + topology.spokeStarts[v] + 1 : shared::kNoNormal;
-                t.cornerNormals = t.cornerNormals || smoothCorner;
-            }
-            for (uint32_t index : g) {
-                writer.put({index});
-            }
-            if (patchClass == PatchClass::perturbed) {
-                for (uint32_t k = 0; k < 16; ++k) {
-                    writer.put({h[kFaceEdgeOrder[k]]});
-                }
-            }
-            for (uint32_t normal : normals) {
-                writer.put({normal});
-            }
+    for (uint32_t p = 0; p < patches.size(); ++p) {
+        const DraftPatch& patch = patches[p];
+        const PatchClass patchClass = patch.info.patchClass;
+        if (t.ranges.empty() || t.ranges.back().patchClass != patchClass) {
+            t.ranges.push_back({patchClass, {writer.element(), 0}, p, 0});
         }
-    }
-
-    t.attributes = writer.element();
-    for (const PatchInfo& patch : patches) {
+        ++t.ranges.back().section.count;
+        std::array<uint32_t, 16> g{}, h{};
+        std::array<uint32_t, 4> normals{};
         for (uint32_t j = 0; j < 4; ++j) {
-            const uint32_t c = cage.faceStarts[patch.face] + j;
-            const glm::vec2 uv = cage.cornerUvs.empty() ? glm::vec2(0.0f) : cage.cornerUvs[c];
-            const glm::vec4 color = cage.cornerColors.empty() ? glm::vec4(1.0f) : cage.cornerColors[c];
-            const auto unorm16 = [&](int channel) {
-                return static_cast<uint32_t>(std::clamp(color[channel], 0.0f, 1.0f) * 65535.0f + 0.5f);
-            };
-            writer.put({std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y), unorm16(0) | unorm16(1) << 16,
-                        unorm16(2) | unorm16(3) << 16});
+            const uint32_t c = patch.cageCorners[j];
+            const uint32_t v = patch.info.corners[j];
+            g[patchIndex(j, 0, 0)] = v;
+            g[patchIndex(j, 1, 0)] = t.tangents + topology.cornerSpokes[c];
+            g[patchIndex(j, 0, 1)] = t.tangents + topology.cornerSpokesBack[c];
+            g[patchIndex(j, 1, 1)] = t.faces + topology.cornerSpokes[c];
+            const uint32_t edge = topology.cornerEdges[c];
+            const uint32_t slot = edgeSlots[edge];
+            // A half-edge that runs against the edge's own direction swaps h20 <-> h30 and h21 <-> h31.
+            const uint32_t swap = topology.edges[edge].corner == c ? 0u : 1u;
+            for (uint32_t s = 0; s < 4; ++s) {
+                h[4 * j + s] = slot == cage::kNone ? zero : slot + (s ^ swap);
+            }
+            normals[j] = smoothCorner(v) ? t.faces + topology.spokeStarts[v] + 1 : shared::kNoNormal;
+        }
+        for (uint32_t index : g) {
+            writer.put({index});
+        }
+        if (patchClass == PatchClass::perturbed) {
+            for (uint32_t k = 0; k < 16; ++k) {
+                writer.put({h[kFaceEdgeOrder[k]]});
+            }
+        }
+        if (t.cornerNormals) {
+            writer.put({normals[0], normals[1], normals[2], normals[3]});
         }
     }
-    (void)writer.element();
-
-    for (uint32_t p = 0; p < faceCount; ++p) {
-        if (t.drawRanges.empty() || t.drawRanges.back().material != material(patches[p])) {
-            t.drawRanges.push_back({p, 0, material(patches[p])});
-        }
-        ++t.drawRanges.back().patchCount;
-    }
-    t.patches = std::move(patches);
+    finishTables(cage, patches, writer, t);
     return t;
 }
 

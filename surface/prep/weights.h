@@ -17,6 +17,8 @@ enum class CornerRule { sharp, smooth };
 struct Options {
     TangentMode tangentMode = TangentMode::standard;
     CornerRule cornerRule = CornerRule::sharp;
+
+    bool operator==(const Options&) const = default;
 };
 
 /// One valence class: (faces round the vertex, interior or boundary).

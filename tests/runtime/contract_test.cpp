@@ -217,7 +217,7 @@ TEST(Contract, InstancesHaveTheirOwnPoseAndTransform) {
     alone.evaluate();
     double moved = 0.0, turned = 0.0;
     for (uint32_t p = 0; p < three.output().patchCount; ++p) {
-        for (uint32_t s = 0; s < three.output().samplesPerPatch; ++s) {
+        for (uint32_t s = 0; s < three.sampleCount(p); ++s) {
             const GpuSurface::Vertex &a = alone.vertex(0, p, s), &b = three.vertex(1, p, s), &c = three.vertex(2, p, s);
             ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << "an instance's bits depend on its neighbours";
             moved =
@@ -456,7 +456,7 @@ TEST(Contract, LargeGroupsAreWindowsOfInstances) {
                 Result<std::vector<std::byte>> bytes = device->readBuffer(output.surfaceVertices);
                 ASSERT_TRUE(bytes.ok());
                 // Padding between instances is never written.
-                const size_t used = size_t{output.patchCount} * output.samplesPerPatch * 16;
+                const size_t used = size_t{output.vertexCount} * 16;
                 for (uint32_t i = 0; i < kInstances; ++i) {
                     const std::byte* first = bytes->data() + size_t{i} * output.verticesPerInstance * 16;
                     results[small ? 1 : 0].insert(results[small ? 1 : 0].end(), first, first + used);
@@ -566,7 +566,7 @@ TEST(Contract, MappingsSkinAndEvaluateManyInstancesAlike) {
             different += std::memcmp(&a, &b, sizeof(a)) != 0 ? 1 : 0;
         }
         for (uint32_t p = 0; p < narrow.output().patchCount; ++p) {
-            for (uint32_t s = 0; s < narrow.output().samplesPerPatch; ++s) {
+            for (uint32_t s = 0; s < narrow.sampleCount(p); ++s) {
                 different += std::memcmp(&narrow.vertex(i, p, s).position, &wide.vertex(i, p, s).position, 12) != 0;
             }
         }

@@ -19,9 +19,8 @@ struct Checked {
     const char* position; ///< what the shader calls the value that becomes a position or feeds one
 };
 constexpr Checked kShaders[] = {
-    {"prep/evaluate.comp", "position"},
-    {"prep/vertex.comp", "canonical"},
-    {"prep/edge.comp", "canonical"},
+    {"evaluate/bicubic.comp", "position"}, {"prep/vertex.comp", "canonical"}, {"prep/edge.comp", "canonical"},
+    {"pm/vertex.comp", "canonical"},       {"pm/facet.comp", "canonical"},    {"pm/evaluate.comp", "position"},
     {"deform/deform.comp", "p"},
 };
 
@@ -50,8 +49,8 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
     desc.queueFamily = device.queueFamily();
     desc.getInstanceProcAddr = device.getInstanceProcAddr();
     desc.mapping = SUPPLE_MAPPING_NARROW;
-    surface::prep::Shaders shaders = surface::prep::Shaders::embedded();
-    shaders.evaluate = evaluate;
+    surface::Shaders shaders = surface::Shaders::embedded();
+    shaders.bicubic = evaluate;
     Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(desc, shaders);
     if (!context) {
         ADD_FAILURE() << context.error().message;
@@ -69,6 +68,7 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
         groupDesc.structSize = sizeof(groupDesc);
         groupDesc.asset = {*asset};
         groupDesc.instanceCount = 1;
+        groupDesc.scheme = SUPPLE_SCHEME_PREP;
         groupDesc.rate = rate;
         groupDesc.vertexFormat = SUPPLE_VERTEX_24;
         Result<uint64_t> id = (*context)->createGroup(groupDesc);
@@ -93,8 +93,8 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
         const auto position = [&](uint32_t corner, uint32_t k) {
             const uint32_t face = topology->cornerFaces[corner];
             const glm::uvec2 at = edgeSample(corner - cage.faceStarts[face], k, rate);
-            return bytes->data() +
-                   24 * (size_t{patchOfFace[face]} * group.output().samplesPerPatch + at.y * (rate + 1) + at.x);
+            return bytes->data() + 24 * (size_t{patchOfFace[face]} * group.output().drawRanges[0].samplesPerPatch +
+                                         at.y * (rate + 1) + at.x);
         };
         for (const cage::Topology::Edge& edge : topology->edges) {
             for (uint32_t k = 0; k <= rate && edge.twin != cage::kNone; ++k) {
@@ -107,10 +107,10 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
 
 TEST(Precise, MutationsAreCaught) {
     ASSERT_NE(testDevice(), nullptr);
-    EXPECT_EQ(differingBits(compileShader("prep/evaluate.comp", "")), 0u) << "unmutated";
+    EXPECT_EQ(differingBits(compileShader("evaluate/bicubic.comp", "")), 0u) << "unmutated";
     uint64_t shown = 0;
     for (const char* helper : {"sum4", "sum2", "bernstein3", "bernstein5", "parameterPair", "finish", "*"}) {
-        const std::vector<uint32_t> spirv = compileShader("prep/evaluate.comp", helper);
+        const std::vector<uint32_t> spirv = compileShader("evaluate/bicubic.comp", helper);
         ASSERT_FALSE(spirv.empty());
         uint32_t checked = 0;
         const size_t offences = imprecisePositionArithmetic(spirv, "position", checked).size();

@@ -128,6 +128,7 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     group.flags = options.flags;
     group.asset = asset_;
     group.instanceCount = options.instanceCount;
+    group.scheme = options.scheme;
     group.rate = options.rate;
     group.vertexFormat = options.format;
     group.tangentMode = options.tangents;
@@ -143,6 +144,9 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     patches_.resize(count);
     if (!check(suppleGetPatches(context_->handle(), group_, patches_.data(), &count), "suppleGetPatches")) {
         return;
+    }
+    for (uint32_t r = 0; r < output_.drawRangeCount; ++r) {
+        ranges_.insert(ranges_.end(), output_.drawRanges[r].patchCount, r);
     }
     valid_ = true;
 }

@@ -33,6 +33,7 @@ struct GpuOptions {
     uint32_t instanceCount = 1;
     uint32_t rate = 8;
     SuppleVertexFormat format = SUPPLE_VERTEX_24;
+    SuppleScheme scheme = SUPPLE_SCHEME_PREP;
     SuppleTangentMode tangents = SUPPLE_TANGENTS_DEFAULT;
     SuppleCornerRule corners = SUPPLE_CORNERS_SHARP;
     uint32_t flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
@@ -63,18 +64,25 @@ public:
         glm::vec3 position, normal;
     };
     [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t sample) const {
-        return vertices_[size_t{instance} * output_.verticesPerInstance + size_t{patch} * output_.samplesPerPatch +
-                         sample];
+        return vertices_[size_t{instance} * output_.verticesPerInstance + vertexIndex(patch, sample)];
     }
+    /// Of a patch's sample among the surface vertices of an instance.
+    [[nodiscard]] uint32_t vertexIndex(uint32_t patch, uint32_t sample) const {
+        const SuppleDrawRange& range = rangeOf(patch);
+        return range.firstVertex + (patch - range.firstPatch) * range.samplesPerPatch + sample;
+    }
+    [[nodiscard]] const SuppleDrawRange& rangeOf(uint32_t patch) const { return output_.drawRanges[ranges_[patch]]; }
+    [[nodiscard]] uint32_t sampleCount(uint32_t patch) const { return rangeOf(patch).samplesPerPatch; }
+    /// Quad patches.
     [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t i, uint32_t j) const {
         return vertex(instance, patch, j * (output_.rate + 1) + i);
     }
     [[nodiscard]] glm::vec3 deformed(uint32_t instance, uint32_t cageVertex) const {
         return deformed_[size_t{instance} * output_.cageVerticesPerInstance + cageVertex];
     }
-    /// 0..15 g[i + 4 j], 16..31 h[4 e + s].
+    /// In the order of SupplePatchClass.
     [[nodiscard]] glm::vec3 coefficient(uint32_t instance, uint32_t patch, uint32_t k) const {
-        return coefficients_[(size_t{instance} * output_.patchCount + patch) * 32 + k];
+        return coefficients_[(size_t{instance} * output_.patchCount + patch) * SUPPLE_PATCH_STRIDE + k];
     }
     [[nodiscard]] const std::vector<std::byte>& rawVertices() const { return rawVertices_; }
 
@@ -87,6 +95,7 @@ private:
     SuppleGroup group_{};
     SuppleGroupOutput output_{};
     std::vector<SupplePatchInfo> patches_;
+    std::vector<uint32_t> ranges_; ///< per patch: its draw range
     std::vector<std::byte> rawVertices_;
     std::vector<Vertex> vertices_;
     std::vector<glm::vec3> deformed_;

@@ -234,7 +234,7 @@ TEST_F(Cli, InspectCountsACube) {
     EXPECT_EQ(json["valences"]["interior"], Json({{"3", 8}}));
     EXPECT_EQ(json["valences"]["boundary"], Json::object());
     EXPECT_EQ(json["seamVertices"], 0);
-    EXPECT_EQ(json["uvs"], true);
+    EXPECT_EQ(json["uvSets"], 1);
     EXPECT_EQ(json["joints"], 1);
     ASSERT_EQ(json["clips"].size(), 1u);
     EXPECT_EQ(json["clips"][0]["name"], "Rise");

@@ -22,11 +22,35 @@ struct CageArrays {
         desc.faceVertexCounts = faceVertexCounts.data();
         desc.faceVertexIndices = cage.faceVertices.data();
         desc.cornerUvs = cage.cornerUvs.empty() ? nullptr : &cage.cornerUvs[0].x;
+        desc.cornerUvs1 = cage.cornerUvs1.empty() ? nullptr : &cage.cornerUvs1[0].x;
+        for (const cage::Crease& crease : cage.creases) {
+            creaseVertices.insert(creaseVertices.end(), {crease.a, crease.b});
+            creaseSharpnesses.push_back(crease.sharpness);
+        }
+        desc.creaseCount = static_cast<uint32_t>(creaseSharpnesses.size());
+        desc.creaseVertices = creaseVertices.data();
+        desc.creaseSharpnesses = creaseSharpnesses.data();
+        for (const cage::SharpVertex& corner : cage.sharpVertices) {
+            cornerVertices.push_back(corner.vertex);
+            cornerSharpnesses.push_back(corner.sharpness);
+        }
+        desc.cornerCount = static_cast<uint32_t>(cornerVertices.size());
+        desc.cornerVertices = cornerVertices.data();
+        desc.cornerSharpnesses = cornerSharpnesses.data();
+        for (const cage::CreaseScalar& scalar : cage.creaseScalars) {
+            creaseScalars.push_back({scalar.vertex, scalar.toward, scalar.alpha});
+        }
+        desc.creaseScalarCount = static_cast<uint32_t>(creaseScalars.size());
+        desc.creaseScalars = creaseScalars.data();
+        desc.holeCount = static_cast<uint32_t>(cage.holes.size());
+        desc.holes = cage.holes.data();
     }
     CageArrays(const CageArrays&) = delete;
     CageArrays& operator=(const CageArrays&) = delete;
 
-    std::vector<uint32_t> faceVertexCounts;
+    std::vector<uint32_t> faceVertexCounts, creaseVertices, cornerVertices;
+    std::vector<float> creaseSharpnesses, cornerSharpnesses;
+    std::vector<SuppleCreaseScalar> creaseScalars;
     SuppleCageDesc desc{};
 };
 

@@ -10,7 +10,8 @@ namespace {
 constexpr uint64_t kShadowTrianglesCpu = 16'000;
 constexpr uint64_t kShadowTrianglesGpu = 1'500'000;
 
-/// Two triangles a cell of a grid of `segments` a side, laid over a patch of `rate` segments.
+/// For quads and polar patches: two triangles a cell of a grid of `segments` a side, laid over a patch of `rate`
+/// segments.
 std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
     const auto sample = [&](uint32_t i, uint32_t j) {
         const uint32_t column = (i * rate + segments / 2) / segments;
@@ -125,7 +126,7 @@ Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {
         return bytes.error();
     std::vector<glm::vec3> positions = positionsOf(*bytes, output_.surfaceVertices.stride);
     // Between the instances there may be room that no patch fills.
-    const size_t used = size_t{output_.patchCount} * output_.samplesPerPatch;
+    const size_t used = output_.vertexCount;
     std::vector<glm::vec3> packed;
     packed.reserve(used * output_.instanceCount);
     for (size_t instance = 0; instance < output_.instanceCount; ++instance) {

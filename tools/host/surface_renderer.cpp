@@ -28,7 +28,6 @@ shared::DrawPush basePush(const Scene& scene, uint32_t light) {
     shared::DrawPush push{};
     push.baseColor = glm::vec4(1.0f);
     push.rate = output.rate;
-    push.samplesPerPatch = output.samplesPerPatch;
     push.verticesPerInstance = output.verticesPerInstance;
     push.cageVerticesPerInstance = output.cageVerticesPerInstance;
     push.view = scene.view;
@@ -38,6 +37,14 @@ shared::DrawPush basePush(const Scene& scene, uint32_t light) {
     if (output.attributes.buffer != VK_NULL_HANDLE)
         push.flags |= shared::kDrawAttributes;
     return push;
+}
+
+void applyRange(const SuppleDrawRange& range, shared::DrawPush& push) {
+    push.firstPatch = range.firstPatch;
+    push.patchCount = range.patchCount;
+    push.domain = static_cast<uint32_t>(range.domain);
+    push.samplesPerPatch = range.samplesPerPatch;
+    push.firstVertex = range.firstVertex;
 }
 
 void applyMaterial(const cage::Character& character, uint32_t index, shared::DrawPush& push) {
@@ -428,15 +435,20 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
     const SuppleGroupOutput& output = scene.group->output();
     shared::DrawPush push = basePush(scene, light);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->surfaceShadow);
-    vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
     for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.drawRanges[i];
         if (!isSolid(scene.group->figure().character(), range.material))
             continue;
-        push.firstPatch = range.firstPatch;
-        push.patchCount = range.patchCount;
+        applyRange(range, push);
         pushConstants(commands, push);
-        vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), range.patchCount * output.instanceCount, 0, 0, 0);
+        const uint32_t patches = range.patchCount * output.instanceCount;
+        if (range.domain == SUPPLE_DOMAIN_QUAD || range.domain == SUPPLE_DOMAIN_POLAR) {
+            vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
+            vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), patches, 0, 0, 0);
+        } else {
+            vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
+            vkCmdDrawIndexed(commands, range.indexCount, patches, range.firstIndex, 0, 0);
+        }
     }
 }
 
@@ -451,8 +463,7 @@ void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) 
     for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.drawRanges[i];
         applyMaterial(character, range.material, push);
-        push.firstPatch = range.firstPatch;
-        push.patchCount = range.patchCount;
+        applyRange(range, push);
         pushConstants(commands, push);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
                                 &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);

@@ -1,4 +1,5 @@
 // supple bake: the evaluated surface exactly as the device wrote it, as an OBJ; the patches behind it as JSON.
+#include "surface/scheme.h"
 #include "tools/supple/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/session.h"
@@ -30,6 +31,7 @@ struct Baked {
     std::vector<SupplePatchInfo> patches;
     std::vector<std::byte> surfaceVertices;
     std::vector<std::byte> attributes;
+    std::vector<std::byte> gridIndices;
     std::vector<std::byte> coefficients;
     std::vector<std::byte> deformedCage;
 };
@@ -51,42 +53,61 @@ void writeVector(TextFile& file, std::string_view keyword, const Vec& value) {
     file.text("\n");
 }
 
+/// The faces of a patch's grid as samples: quads on quads, triangles elsewhere.
+std::vector<std::vector<uint32_t>> gridFaces(const SuppleDrawRange& range, uint32_t rate,
+                                             const std::vector<std::byte>& indices) {
+    std::vector<std::vector<uint32_t>> faces;
+    if (range.domain == SUPPLE_DOMAIN_QUAD) {
+        const uint32_t row = rate + 1;
+        for (uint32_t v = 0; v < rate; ++v) {
+            for (uint32_t u = 0; u < rate; ++u) {
+                const uint32_t first = v * row + u;
+                faces.push_back({first, first + 1, first + row + 1, first + row});
+            }
+        }
+        return faces;
+    }
+    for (uint32_t i = 0; i < range.indexCount; i += 3) {
+        uint16_t corners[3];
+        std::memcpy(corners, indices.data() + (size_t{range.firstIndex} + i) * sizeof(uint16_t), sizeof corners);
+        faces.push_back({corners[0], corners[1], corners[2]});
+    }
+    return faces;
+}
+
 Status writeSurface(const std::string& path, const Baked& baked, const std::string& scheme) {
     const SuppleGroupOutput& output = baked.output;
     const bool uvs = !baked.attributes.empty();
-    const uint64_t samples = output.samplesPerPatch;
-    const uint64_t row = output.rate + 1;
     TextFile file(path);
     file.text("# supple bake: scheme ").text(scheme).text(", rate ").number(uint64_t{output.rate});
     file.text(", ").number(uint64_t{output.patchCount}).text(" patches\n");
-    for (uint64_t patch = 0; patch < output.patchCount; ++patch) {
-        const uint64_t first = patch * samples;
-        file.text("g patch_").number(patch).text("\n");
-        for (uint64_t i = first; i < first + samples; ++i) {
-            writeVector(file, "v", element<glm::vec3>(baked.surfaceVertices, output.surfaceVertices, i));
-        }
-        for (uint64_t i = first; i < first + samples; ++i) {
-            writeVector(file, "vn",
-                        element<glm::vec3>(baked.surfaceVertices, output.surfaceVertices, i, sizeof(glm::vec3)));
-        }
-        for (uint64_t i = first; uvs && i < first + samples; ++i) {
-            writeVector(file, "vt", element<glm::vec2>(baked.attributes, output.attributes, i));
-        }
-        const auto corner = [&](uint64_t sample) { // OBJ counts from 1, through all groups
-            const uint64_t index = first + sample + 1;
-            file.text(" ").number(index).text("/");
-            if (uvs) {
-                file.number(index);
+    for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = output.drawRanges[r];
+        const std::vector<std::vector<uint32_t>> faces = gridFaces(range, output.rate, baked.gridIndices);
+        for (uint64_t patch = range.firstPatch; patch < range.firstPatch + range.patchCount; ++patch) {
+            const uint64_t samples = range.samplesPerPatch;
+            const uint64_t first = range.firstVertex + (patch - range.firstPatch) * samples;
+            file.text("g patch_").number(patch).text("\n");
+            for (uint64_t i = first; i < first + samples; ++i) {
+                writeVector(file, "v", element<glm::vec3>(baked.surfaceVertices, output.surfaceVertices, i));
             }
-            file.text("/").number(index);
-        };
-        for (uint64_t v = 0; v < output.rate; ++v) {
-            for (uint64_t u = 0; u < output.rate; ++u) {
+            for (uint64_t i = first; i < first + samples; ++i) {
+                writeVector(file, "vn",
+                            element<glm::vec3>(baked.surfaceVertices, output.surfaceVertices, i, sizeof(glm::vec3)));
+            }
+            for (uint64_t i = first; uvs && i < first + samples; ++i) {
+                writeVector(file, "vt", element<glm::vec2>(baked.attributes, output.attributes, i));
+            }
+            for (const std::vector<uint32_t>& face : faces) {
                 file.text("f");
-                corner(v * row + u);
-                corner(v * row + u + 1);
-                corner((v + 1) * row + u + 1);
-                corner((v + 1) * row + u);
+                for (const uint32_t sample : face) {
+                    const uint64_t index = first + sample + 1; // OBJ counts from 1, through all groups
+                    file.text(" ").number(index).text("/");
+                    if (uvs) {
+                        file.number(index);
+                    }
+                    file.text("/").number(index);
+                }
                 file.text("\n");
             }
         }
@@ -116,26 +137,25 @@ Status writeCage(const std::string& path, const Baked& baked, const cage::Cage& 
     return file.close();
 }
 
-const char* className(SupplePatchClass patchClass) {
-    return patchClass == SUPPLE_PATCH_REGULAR ? "regular" : "perturbed";
-}
-
 Status writePatches(const std::string& path, const Baked& baked, const std::string& scheme) {
     const SuppleBufferView& view = baked.output.patchCoefficients;
-    const uint64_t coefficients = baked.coefficients.size() / view.stride / baked.output.patchCount;
     TextFile file(path);
     file.text("{\"scheme\":\"").text(scheme).text("\",\"rate\":").number(uint64_t{baked.output.rate});
     file.text(",\"patches\":[");
     for (uint64_t patch = 0; patch < baked.output.patchCount; ++patch) {
         const SupplePatchInfo& info = baked.patches[patch];
         file.text(patch == 0 ? "\n" : ",\n").text("{\"face\":").number(uint64_t{info.face});
-        file.text(",\"class\":\"").text(className(info.patchClass)).text("\",\"corners\":[");
-        for (int i = 0; i < 4; ++i) {
+        file.text(",\"class\":\"")
+            .text(surface::className(static_cast<surface::PatchClass>(info.patchClass)))
+            .text("\",\"corners\":[");
+        for (uint32_t i = 0; i < info.cornerCount; ++i) {
             file.text(i == 0 ? "" : ",").number(uint64_t{info.corners[i]});
         }
         file.text("],\"coefficients\":[");
-        for (uint64_t i = 0; i < coefficients; ++i) {
-            const auto value = element<glm::vec3>(baked.coefficients, view, patch * coefficients + i);
+        // p-rep's always come as 16 g, 16 h; a regular patch's h are zero.
+        const uint64_t count = scheme == "prep" ? SUPPLE_PATCH_STRIDE : info.coefficientCount;
+        for (uint64_t i = 0; i < count; ++i) {
+            const auto value = element<glm::vec3>(baked.coefficients, view, patch * SUPPLE_PATCH_STRIDE + i);
             file.text(i == 0 ? "[" : ",[").number(value.x).text(",").number(value.y).text(",").number(value.z);
             file.text("]");
         }
@@ -212,9 +232,8 @@ Result<Baked> evaluate(Session& session, const BakeOptions& options, const Chara
             context.check(suppleGetPatches(context.handle(), group, baked.patches.data(), &count), "suppleGetPatches");
     }
     const std::pair<const SuppleBufferView*, std::vector<std::byte>*> buffers[] = {
-        {&baked.output.surfaceVertices, &baked.surfaceVertices},
-        {&baked.output.attributes, &baked.attributes},
-        {&baked.output.patchCoefficients, &baked.coefficients},
+        {&baked.output.surfaceVertices, &baked.surfaceVertices}, {&baked.output.attributes, &baked.attributes},
+        {&baked.output.gridIndices, &baked.gridIndices},         {&baked.output.patchCoefficients, &baked.coefficients},
         {&baked.output.deformedCage, &baked.deformedCage},
     };
     for (const auto& [view, bytes] : buffers) {

@@ -139,6 +139,7 @@ Result<Subject> makeSubject(runtime::Context& context, const std::string& name, 
     groupDesc.flags = SUPPLE_GROUP_PATCHES;
     groupDesc.asset = {*asset};
     groupDesc.instanceCount = 1;
+    groupDesc.scheme = SUPPLE_SCHEME_PREP;
     groupDesc.rate = rate;
     groupDesc.vertexFormat = format;
     Result<uint64_t> group = context.createGroup(groupDesc);
@@ -343,10 +344,10 @@ private:
         };
         group.recordDeform(commands);
         barrier();
-        group.recordVertex(commands);
+        group.recordStage(commands, surface::Stage::vertex);
         barrier();
-        if (group.hasEdges()) {
-            group.recordEdge(commands);
+        if (group.tables().has(surface::Stage::edge)) {
+            group.recordStage(commands, surface::Stage::edge);
             barrier();
         }
         group.recordEvaluate(commands);

@@ -1,6 +1,7 @@
 // supple inspect: what a character file holds, and which schemes take it. Needs no device.
 #include "cage/gltf_reader.h"
 #include "cage/topology.h"
+#include "surface/schemes.h"
 #include "tools/supple/command.h"
 #include "tools/supple/options.h"
 
@@ -24,7 +25,9 @@ using Histogram = std::map<uint32_t, uint32_t>; ///< value -> how many
 
 struct SchemeVerdict {
     const char* scheme;
-    std::string refusal; ///< empty: accepted
+    std::string refusal;                     ///< empty: accepted
+    std::map<std::string, uint32_t> patches; ///< class -> how many
+    std::vector<std::string> notes;
 };
 
 /// What is not stored in the character itself but counted from it.
@@ -38,6 +41,22 @@ struct Findings {
     uint32_t mostInfluences = 0;
     std::vector<SchemeVerdict> schemes;
 };
+
+SchemeVerdict judge(const Scheme& scheme, const cage::Cage& cage) {
+    SchemeVerdict verdict{scheme.name, "", {}, {}};
+    surface::Recipe recipe;
+    recipe.scheme = static_cast<surface::SchemeId>(scheme.scheme);
+    const Result<surface::Tables> tables = surface::buildTables(recipe, cage);
+    if (!tables) {
+        verdict.refusal = tables.error().message;
+        return verdict;
+    }
+    for (const surface::PatchInfo& patch : tables->patches) {
+        ++verdict.patches[surface::className(patch.patchClass)];
+    }
+    verdict.notes = tables->notes;
+    return verdict;
+}
 
 Findings examine(const cage::Character& character) {
     const cage::Cage& cage = character.cage;
@@ -64,8 +83,7 @@ Findings examine(const cage::Character& character) {
         findings.topologyFault = topology.error().message;
     }
     for (const Scheme& scheme : schemes()) {
-        const Status status = findings.topology ? scheme.accepts(cage, *findings.topology) : topology.error();
-        findings.schemes.push_back({scheme.name, status ? "" : status.error().message});
+        findings.schemes.push_back(judge(scheme, cage));
     }
     return findings;
 }
@@ -84,6 +102,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     Json json;
     json["file"] = options.file;
     json["polygonSource"] = cage::polygonSourceName(character.polygonSource);
+    json["weldSource"] = cage::weldSourceName(character.weldSource);
     json["vertices"] = cage.vertexCount();
     json["faces"] = cage.faceCount();
     json["corners"] = cage.cornerCount();
@@ -98,7 +117,14 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     }
     json["sourceVertices"] = character.sourceVertexCount;
     json["seamVertices"] = character.seamVertexCount;
-    json["uvs"] = !cage.cornerUvs.empty();
+    json["uvSets"] = (cage.cornerUvs.empty() ? 0 : 1) + (cage.cornerUvs1.empty() ? 0 : 1);
+    json["creases"] = cage.creases.size();
+    json["sharpVertices"] = cage.sharpVertices.size();
+    json["holes"] = cage.holes.size();
+    json["morphTargets"] = Json::array();
+    for (const cage::MorphTarget& target : character.morphs.targets) {
+        json["morphTargets"].push_back({{"name", target.name}, {"vertices", target.vertices.size()}});
+    }
     json["colors"] = !cage.cornerColors.empty();
     json["joints"] = character.skin.joints.size();
     json["mostInfluences"] = findings.mostInfluences;
@@ -125,7 +151,13 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
         entry["accepted"] = verdict.refusal.empty();
         if (!verdict.refusal.empty()) {
             entry["reason"] = verdict.refusal;
+            continue;
         }
+        entry["patches"] = Json::object();
+        for (const auto& [name, count] : verdict.patches) {
+            entry["patches"][name] = count;
+        }
+        entry["notes"] = verdict.notes;
     }
     // Names come from the file as they are: replace what is not UTF-8 rather than refuse to print it.
     std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
@@ -147,6 +179,7 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     const cage::Cage& cage = character.cage;
     printLine("file", options.file);
     printLine("polygons from", cage::polygonSourceName(character.polygonSource));
+    printLine("welded by", cage::weldSourceName(character.weldSource));
     printLine("vertices", std::to_string(cage.vertexCount()) + " (" + std::to_string(character.sourceVertexCount) +
                               " in the file, " + std::to_string(character.seamVertexCount) + " merged at seams)");
     printLine("faces", std::to_string(cage.faceCount()));
@@ -159,6 +192,10 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     } else {
         printLine("topology", "not a manifold: " + findings.topologyFault);
     }
+    printLine("creases", std::to_string(cage.creases.size()) + ", sharp vertices " +
+                             std::to_string(cage.sharpVertices.size()) + ", holes " +
+                             std::to_string(cage.holes.size()));
+    printLine("morph targets", std::to_string(character.morphs.targets.size()));
     printLine("joints", std::to_string(character.skin.joints.size()) + ", at most " +
                             std::to_string(findings.mostInfluences) + " a vertex");
     printLine("clips", std::to_string(character.clips.size()));
@@ -179,8 +216,14 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         printLine("warning", warning);
     }
     for (const SchemeVerdict& verdict : findings.schemes) {
-        printLine((std::string("scheme ") + verdict.scheme).c_str(),
-                  verdict.refusal.empty() ? "accepted" : "refused: " + verdict.refusal);
+        std::string text = verdict.refusal.empty() ? "accepted:" : "refused: " + verdict.refusal;
+        for (const auto& [name, count] : verdict.patches) {
+            text += " " + std::to_string(count) + " " + name;
+        }
+        printLine((std::string("scheme ") + verdict.scheme).c_str(), text);
+        for (const std::string& note : verdict.notes) {
+            printLine("", note);
+        }
     }
 }
 

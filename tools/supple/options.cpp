@@ -1,7 +1,5 @@
 #include "tools/supple/options.h"
 
-#include "surface/prep/scheme.h"
-
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -73,7 +71,7 @@ void bindPose(CLI::App& command, std::string& clip, double& time) {
 }
 
 std::span<const Scheme> schemes() {
-    static constexpr Scheme kSchemes[] = {{"prep", SUPPLE_SCHEME_PREP, surface::prep::accepts}};
+    static constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM}, {"prep", SUPPLE_SCHEME_PREP}};
     return kSchemes;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/result.h"
-#include "cage/topology.h"
 
 #include <cstdint>
 #include <span>
@@ -44,11 +43,10 @@ void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::
 /// --clip, a name or index, empty for the bind pose; --time in seconds.
 void bindPose(CLI::App& command, std::string& clip, double& time);
 
-/// The list of schemes, best first: what "auto" takes where it can.
+/// The list of schemes; "auto" is the first.
 struct Scheme {
     const char* name;
     SuppleScheme scheme;
-    Status (*accepts)(const cage::Cage& cage, const cage::Topology& topology);
 };
 [[nodiscard]] std::span<const Scheme> schemes();
 /// "auto" and the names above; anything else is auto.

@@ -115,7 +115,7 @@ void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     ImGui::Checkbox("cage only", &settings.cageFaces);
     ImGui::Checkbox("ground", &settings.ground);
     const SuppleGroupOutput& output = stage.group().output();
-    ImGui::TextDisabled("%u patches, %u vertices", output.patchCount, output.patchCount * output.samplesPerPatch);
+    ImGui::TextDisabled("%u patches, %u vertices", output.patchCount, output.vertexCount);
 }
 
 void buildTimings(const PanelState& state, const ViewStage& stage) {

@@ -132,7 +132,16 @@ SUPPLE_API void suppleDestroyContext(SuppleContext context);
 
 /* ---------------------------------------------------------------------------------------------------- assets */
 
-/* A control cage given as arrays (copied). Polygons are oriented counter-clockwise seen from outside. */
+/* P_m's own crease control: alpha of the edge vertex -> toward at its end `vertex`, in (0, 1]: 2/3 is smooth, smaller is
+ * sharper. Overrides what follows from a crease's sharpness there. */
+typedef struct SuppleCreaseScalar {
+    uint32_t vertex;
+    uint32_t toward;
+    float alpha;
+} SuppleCreaseScalar;
+
+/* A control cage given as arrays (copied). Polygons are oriented counter-clockwise seen from outside. Sharpness counts as
+ * in OpenSubdiv and USD: 0 is smooth, 10 and more infinitely sharp. */
 typedef struct SuppleCageDesc {
     uint32_t structSize;
     uint32_t vertexCount;
@@ -141,6 +150,17 @@ typedef struct SuppleCageDesc {
     const uint32_t* faceVertexCounts;  /* faceCount */
     const uint32_t* faceVertexIndices; /* sum of faceVertexCounts */
     const float* cornerUvs;            /* optional: 2 per entry of faceVertexIndices */
+    const float* cornerUvs1;           /* optional: a second UV set */
+    uint32_t creaseCount;
+    const uint32_t* creaseVertices; /* 2 per crease: the edge's ends */
+    const float* creaseSharpnesses;
+    uint32_t cornerCount; /* sharp vertices */
+    const uint32_t* cornerVertices;
+    const float* cornerSharpnesses;
+    uint32_t creaseScalarCount;
+    const SuppleCreaseScalar* creaseScalars;
+    uint32_t holeCount; /* faces that shape their neighbours but are not drawn */
+    const uint32_t* holes;
 } SuppleCageDesc;
 
 typedef enum SuppleAssetFlags {
@@ -186,8 +206,9 @@ SUPPLE_API SuppleResult suppleGetClipInfo(SuppleContext context, SuppleAsset ass
 /* ---------------------------------------------------------------------------------------------------- groups */
 
 typedef enum SuppleScheme {
-    SUPPLE_SCHEME_AUTO = 0,  /* the best scheme that takes the cage; today p-rep */
-    SUPPLE_SCHEME_PREP = 1,  /* p-rep: quads, G1 at any valence, one patch a face */
+    SUPPLE_SCHEME_AUTO = 0,  /* P_m */
+    SUPPLE_SCHEME_PREP = 1,  /* p-rep: quads, G1 at any valence, one patch a face; creases are ignored */
+    SUPPLE_SCHEME_PM = 2,    /* P_m: any polygons, polar fans, creases; G1 but at creases, one patch a facet */
     SUPPLE_SCHEME_CAGE = 100 /* no surface: the deformed cage alone, of any polygons; no patches, no surface vertices */
 } SuppleScheme;
 
@@ -274,12 +295,30 @@ typedef struct SuppleBufferView {
     uint32_t stride; /* bytes an element */
 } SuppleBufferView;
 
-/* A run of patches of one material. Draw instance i (0 .. patchCount * instanceCount - 1) is patch
- * firstPatch + i % patchCount of character instance i / patchCount. */
+/* What a patch is evaluated over, R = rate. Samples are counted row by row; a patch's corners are the domain's.
+ * QUAD      (R+1)^2: (i, j) at j (R+1) + i, u = i/R from corner 0 to 1, v = j/R from corner 0 to 3
+ * POLAR     the same samples; the row j = R is one point, corner 2
+ * TRIANGLE  (R+1)(R+2)/2: rows j = 0..R from the edge 0-1 towards corner 2, each i = 0..R-j
+ * PENTAGON  5 R(R+1)/2 + 1: for each edge s-(s+1) rows j = 0..R-1 from the edge towards the centre, each i = 0..R-j-1 (the
+ *           row's last point is the next edge's first); then the centre */
+typedef enum SuppleDomain {
+    SUPPLE_DOMAIN_QUAD = 0,
+    SUPPLE_DOMAIN_POLAR = 1,
+    SUPPLE_DOMAIN_TRIANGLE = 2,
+    SUPPLE_DOMAIN_PENTAGON = 3
+} SuppleDomain;
+
+/* A run of patches of one domain and material; ranges follow each other without gaps. Draw instance i (0 .. patchCount *
+ * instanceCount - 1) is patch firstPatch + i % patchCount of character instance i / patchCount. */
 typedef struct SuppleDrawRange {
     uint32_t firstPatch;
     uint32_t patchCount;
     uint32_t material; /* index among the file's materials, or SUPPLE_NO_MATERIAL */
+    SuppleDomain domain;
+    uint32_t samplesPerPatch;
+    uint32_t firstVertex; /* of the range in an instance's surface vertices */
+    uint32_t firstIndex;  /* in gridIndices: the triangles of one patch, shared by all of the range */
+    uint32_t indexCount;
 } SuppleDrawRange;
 
 /* Valid until the group is destroyed. Buffers have usage STORAGE, UNIFORM_TEXEL, TRANSFER_SRC and, where it makes
@@ -290,19 +329,21 @@ typedef struct SuppleGroupOutput {
     uint32_t rate;
     SuppleVertexFormat vertexFormat;
     uint32_t patchCount;          /* per instance */
-    uint32_t samplesPerPatch;     /* (rate + 1)^2, u fastest */
-    uint32_t verticesPerInstance; /* >= patchCount * samplesPerPatch: instance k starts at vertex k * this */
+    uint32_t vertexCount;         /* surface vertices per instance */
+    uint32_t verticesPerInstance; /* >= vertexCount: instance k starts at vertex k * this */
     uint32_t cageVertexCount;
     uint32_t cageVerticesPerInstance; /* >= cageVertexCount: the stride of deformedCage between instances */
-    SuppleBufferView surfaceVertices; /* vertex of (instance, patch, sample): instance * verticesPerInstance
-                                       * + patch * samplesPerPatch + sample */
-    SuppleBufferView attributes;      /* per (patch, sample), shared by all instances: float2 uv, linear RGBA in
+    SuppleBufferView surfaceVertices; /* vertex of (instance, patch, sample) with the patch's range r: instance *
+                                       * verticesPerInstance + r.firstVertex + (patch - r.firstPatch) *
+                                       * r.samplesPerPatch + sample */
+    SuppleBufferView attributes;      /* per surface vertex of one instance, shared by all: float2 uv, linear RGBA in
                                        * 4 x unorm16 */
+    SuppleBufferView uvs1;            /* the same for the second UV set, where the cage has one: float2 */
     SuppleBufferView
         deformedCage; /* float4 (x, y, z, 1) per cage vertex: instance * cageVerticesPerInstance + vertex */
-    SuppleBufferView patchCoefficients; /* float4 per coefficient, 32 per patch (16 g, then 16 h), instance-major */
-    SuppleBufferView gridIndices; /* uint16, two triangles a grid cell, shared by all patches: indexCount entries */
-    uint32_t indexCount;
+    SuppleBufferView patchCoefficients; /* float4 per coefficient, SUPPLE_PATCH_STRIDE per patch, instance-major; see
+                                         * SupplePatchInfo */
+    SuppleBufferView gridIndices; /* uint16: see SuppleDrawRange */
     SuppleBufferView indirect; /* VkDrawIndexedIndirectCommand per draw range */
     const SuppleDrawRange* drawRanges;
     uint32_t drawRangeCount;
@@ -311,12 +352,24 @@ typedef struct SuppleGroupOutput {
 
 SUPPLE_API SuppleResult suppleGetGroupOutput(SuppleContext context, SuppleGroup group, SuppleGroupOutput* out);
 
-typedef enum SupplePatchClass { SUPPLE_PATCH_REGULAR = 0, SUPPLE_PATCH_PERTURBED = 1 } SupplePatchClass;
+/* Classes of patches, and their coefficients in order (docs/prep.md, docs/pm.md). */
+typedef enum SupplePatchClass {
+    SUPPLE_PATCH_REGULAR = 0,   /* 16: bicubic, g[i + 4 j] */
+    SUPPLE_PATCH_PERTURBED = 1, /* 32, p-rep: 16 g, then 16 h */
+    SUPPLE_PATCH_POLAR = 2,     /* 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
+    SUPPLE_PATCH_P3 = 3,        /* 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
+    SUPPLE_PATCH_P4 = 4,        /* 25 */
+    SUPPLE_PATCH_P5 = 5         /* 31 */
+} SupplePatchClass;
+#define SUPPLE_PATCH_STRIDE 32
+#define SUPPLE_MAX_SIDES 5
 
 typedef struct SupplePatchInfo {
-    uint32_t face; /* source face of the cage */
+    uint32_t face; /* source face of the cage; faces of six and more sides are split, each part a patch */
     SupplePatchClass patchClass;
-    uint32_t corners[4]; /* cage vertices; the patch runs u from corner 0 to 1, v from 0 to 3 */
+    uint32_t cornerCount;
+    uint32_t corners[SUPPLE_MAX_SIDES]; /* cage vertices, corner i at corner i of the domain */
+    uint32_t coefficientCount;
 } SupplePatchInfo;
 
 /* Fills out with up to *count patches in device order and sets *count to the number of patches. out may be null. */

@@ -1,4 +1,4 @@
-// Evaluation of p-rep patches: bi-3, and with kPerturbed the sparse bi-5 perturbation (docs/prep.md).
+// Evaluation of bicubic patches: regular, p-rep's with the sparse bi-5 perturbation (docs/prep.md), polar (docs/pm.md).
 // Coefficients are gathered from the pool by index. Narrow mapping: one lane a patch, everything in registers, rows collapsed
 // in v first. Wide mapping: a workgroup takes a few patches into shared memory, its lanes share the samples. Both use the functions
 // collapse() and finish(), so positions agree bit for bit.
@@ -6,16 +6,15 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #define POOL_READ_ONLY
-#include "shaders/prep/tables.glsl"
-#include "shaders/prep/pool.glsl"
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
+#include "shaders/evaluate/bicubic.glsl"
 
-layout(constant_id = 3) const bool kPerturbed = false;
-layout(constant_id = 5) const bool kCornerNormals = false; // smooth one-face corners: Du x Dv vanishes there
-
+const bool kPerturbed = kClass == kPerturbedPatch;
+const bool kPolar = kClass == kPolarPatch;
 const uint kCoefficients = kPerturbed ? 32u : 16u;
-const uint kRecordElements = kPerturbed ? kPerturbedElements : kRegularElements;
 
 // A row of the patch at one v: the cubic row points and their v-derivatives, and the same for the perturbation.
 // The perturbation rows are h_i., i = 0, 1, 4, 5 (outer) and 2, 3 (inner). Derivatives come from coefficients relative to g00:
@@ -32,11 +31,13 @@ struct Row {
 Row collapse(vec3 c[32], vec2 v) {
     Row row;
     vec4 b = bernstein3(v), d = bernsteinDerivative3(v);
+    // Du of a polar patch has the factor 1 - v, which vanishes at the apex: it is left out.
+    vec4 along = kPolar ? vec4(v.y * v.y, 3.0 * (v.x * v.y), 3.0 * (v.x * v.x), 0.0) : b;
     for (uint i = 0u; i < 4u; ++i) {
         precise vec3 g = sum4(b, c[i], c[4u + i], c[8u + i], c[12u + i]);
         row.g[i] = g;
         vec3 r0 = c[i] - c[0], r1 = c[4u + i] - c[0], r2 = c[8u + i] - c[0], r3 = c[12u + i] - c[0];
-        row.relative[i] = blend4(b, r0, r1, r2, r3);
+        row.relative[i] = blend4(along, r0, r1, r2, r3);
         row.gv[i] = blend4(d, r0, r1, r2, r3);
     }
     if (kPerturbed) {
@@ -84,7 +85,7 @@ void evaluateNarrow() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
     uint instance = id / push.count;
     uint patchIndex = id - instance * push.count;
-    uint record = push.table + patchIndex * kRecordElements;
+    uint record = push.table + patchIndex * recordElements();
     uint base = instance * push.poolStride;
     vec3 c[32];
     for (uint k = 0u; k < kCoefficients / 4u; ++k) {
@@ -95,15 +96,16 @@ void evaluateNarrow() {
         c[4u * k + 3u] = poolVector(indices.w);
     }
     uvec4 normalSlots = uvec4(kNoNormal);
-    if (kCornerNormals) normalSlots = tableElement(record + kRecordElements - 1u);
+    if (kCornerNormals) normalSlots = tableElement(record + recordElements() - 1u);
 
     uint side = push.rate + 1u;
-    uint vertex = instance * push.verticesPerInstance + (push.firstPatch + patchIndex) * (side * side);
+    uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * (side * side);
     for (uint j = 0u; j < side; ++j) {
         Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
         for (uint i = 0u; i < side; ++i) {
             vec3 position, normal;
             finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
+            if (kPolar && j == push.rate) position = c[12]; // the apex itself, from every patch round it
             if (kCornerNormals) normal = cornerNormal(normal, i, j, normalSlots, base);
             storeSurfaceVertex(vertex, position, normal);
             ++vertex;
@@ -121,7 +123,7 @@ void evaluateWide() {
         uint slot = k / kCoefficients, coefficient = k - slot * kCoefficients;
         uint id = first + slot;
         uint instance = id / push.count;
-        uint record = push.table + (id - instance * push.count) * kRecordElements;
+        uint record = push.table + (id - instance * push.count) * recordElements();
         uint index = instance * push.poolStride + tableWord(4u * record + coefficient);
         sharedCoefficients[slot * 32u + coefficient] = vec4(poolVector(index), 0.0);
     }
@@ -138,11 +140,12 @@ void evaluateWide() {
         Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
         vec3 position, normal;
         finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
+        if (kPolar && j == push.rate) position = c[12];
         if (kCornerNormals) {
-            uvec4 slots = tableElement(push.table + patchIndex * kRecordElements + kRecordElements - 1u);
+            uvec4 slots = tableElement(push.table + patchIndex * recordElements() + recordElements() - 1u);
             normal = cornerNormal(normal, i, j, slots, instance * push.poolStride);
         }
-        storeSurfaceVertex(instance * push.verticesPerInstance + (push.firstPatch + patchIndex) * samples + sampleIndex,
+        storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples + sampleIndex,
                            position, normal);
     }
 }

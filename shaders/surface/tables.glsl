@@ -1,14 +1,14 @@
-// Bindings and loads the p-rep passes share. Loads go through one function each: storage buffers on GPUs, texel buffers on
+// Bindings and loads the passes share. Loads go through one function each: storage buffers on GPUs, texel buffers on
 // CPU devices, whose drivers gather texels without a loop over the lanes.
 #include "shaders/shared/mapping.glsl"
-#include "shaders/shared/prep.h"
+#include "shaders/shared/surface.h"
 
 layout(set = 0, binding = kTableBinding, std430) readonly buffer Table4 { uvec4 tableElements[]; };
 layout(set = 0, binding = kTableBinding, std430) readonly buffer Table1 { uint tableWords[]; };
 layout(set = 0, binding = kTable4TexelBinding) uniform usamplerBuffer tableElementTexels;
 layout(set = 0, binding = kTable1TexelBinding) uniform usamplerBuffer tableWordTexels;
 
-layout(push_constant) uniform Push { PrepPush push; };
+layout(push_constant) uniform Push { SurfacePush push; };
 
 uvec4 tableElement(uint i) {
     if (kWide) return tableElements[i];

@@ -1,0 +1,30 @@
+// Patch pass of bicubic patches: gathers the coefficients of every patch, for inspection and tests. Evaluation gathers by itself.
+// One invocation a patch and instance. Output: kPatchStride float4 a patch: 16 g (i + 4 j); perturbed patches then 16 h
+// (4 e + s); polar patches have 13, their last row being one point.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define POOL_READ_ONLY
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/shared/prep.h"
+#include "shaders/evaluate/bicubic.glsl"
+
+layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer PatchCoefficients { vec4 coefficients[]; };
+
+const uint kFaceEdgeOrder[16] = uint[16](SUPPLE_PREP_FACE_EDGE_ORDER);
+
+void main() {
+    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint instance = id / push.count;
+    uint patchIndex = id - instance * push.count;
+    uint record = push.table + patchIndex * recordElements();
+    uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
+    for (uint k = 0u; k < 16u; ++k) {
+        bool past = kClass == kPolarPatch && k > 12u;
+        vec3 g = past ? vec3(0.0) : poolVector(instance * push.poolStride + tableWord(4u * record + k));
+        coefficients[target + k] = vec4(g, 0.0);
+        vec3 h = vec3(0.0);
+        if (kClass == kPerturbedPatch) h = poolVector(instance * push.poolStride + tableWord(4u * record + 16u + k));
+        coefficients[target + 16u + kFaceEdgeOrder[k]] = vec4(h, 0.0);
+    }
+}

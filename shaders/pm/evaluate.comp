@@ -1,0 +1,203 @@
+// Evaluation of P_3, P_4 and P_5 patches: m triangular sectors of degree 4 round a centre (docs/pm.md). Coefficients are
+// gathered from the pool by index; a sector's 15 are expanded from the patch's 6 m + 1. Samples on a border come from the
+// border's cubic alone, by the same sum as every other class of patch. Narrow mapping: one lane a patch, sector by sector.
+// Wide mapping: a workgroup expands the sectors of a few patches into shared memory, its lanes share the samples. Both use
+// loadSector() and finish(), so positions agree bit for bit.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#define POOL_READ_ONLY
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/evaluate/basis.glsl"
+#include "shaders/evaluate/domain.glsl"
+#include "shaders/evaluate/surface_vertex.glsl"
+#include "shaders/pm/pm.glsl"
+
+// Samples of a sector lie in rows parallel to its edge, kRowStep / rate of the way to the centre apart.
+const uint kRowStep = kClass == kP5Patch ? 1u : kClass == kP4Patch ? 2u : 3u;
+const uint kSectorPoints = 20u; // centre, border[4], c[15]
+
+// One sector. c is relative to the centre and stands in the order 400 310 220 130 040 | 301 211 121 031 | 202 112 022 |
+// 103 013 | 004; indices count corner i, corner i + 1, centre.
+struct Sector {
+    vec3 centre;
+    vec3 border[4];
+    vec3 c[15];
+};
+
+// A ray of (3): the points 301, 202, 103 of the sector after it (031, 022, 013 of the sector before), from b310, b211, b112
+// after it and b130, b121, b112 before it.
+vec3[3] rayPoints(vec3 v, vec3 p310, vec3 p130, vec3 p211, vec3 p121, vec3 after112, vec3 before112) {
+    precise vec3 x1 = kRayMiddle * v + kRaySide * (p310 + p130);
+    precise vec3 x2 = kRayMiddle * x1 + kRaySide * (p211 + p121);
+    precise vec3 x3 = kRayMiddle * x2 + kRaySide * (after112 + before112);
+    return vec3[3](x1, x2, x3);
+}
+
+vec3 third(vec3 near, vec3 far) {
+    precise vec3 r = (near + 3.0 * far) * 0.25;
+    return r;
+}
+
+Sector loadSector(uint record, uint base, uint i) {
+    const uint m = kSides;
+    uint n = i + 1u == m ? 0u : i + 1u, l = i == 0u ? m - 1u : i - 1u;
+    uint inner = base + tableElement(record).w;
+    uvec4 own = base + tableElement(record + i), next = base + tableElement(record + n), last = base + tableElement(record + l);
+    Sector s;
+    s.centre = poolVector(inner);
+    vec3 v0 = poolVector(own.x), t0 = poolVector(own.y), t1 = poolVector(own.z), v1 = poolVector(next.x);
+    s.border = vec3[4](v0, t0, t1, v1);
+    precise vec3 a = v0 - s.centre, b = t0 - s.centre, c = t1 - s.centre, d = v1 - s.centre;
+    precise vec3 nextTangent = poolVector(next.y) - s.centre, lastTangent = poolVector(last.z) - s.centre;
+    uint at = inner + 1u + 3u * i, atNext = inner + 1u + 3u * n, atLast = inner + 1u + 3u * l;
+    precise vec3 p211 = poolVector(at) - s.centre, p121 = poolVector(at + 1u) - s.centre, p112 = poolVector(at + 2u) - s.centre;
+    precise vec3 last121 = poolVector(atLast + 1u) - s.centre, last112 = poolVector(atLast + 2u) - s.centre;
+    precise vec3 next211 = poolVector(atNext) - s.centre, next112 = poolVector(atNext + 2u) - s.centre;
+    vec3 p310 = third(a, b), p130 = third(d, c);
+    precise vec3 p220 = (b + c) * 0.5;
+    vec3 left[3] = rayPoints(a, p310, third(a, lastTangent), p211, last121, p112, last112);
+    vec3 right[3] = rayPoints(d, third(d, nextTangent), p130, next211, p121, next112, p112);
+    s.c = vec3[15](a, p310, p220, p130, d, left[0], p211, p121, right[0], left[1], p112, right[1], left[2], right[2], vec3(0.0));
+    return s;
+}
+
+// One step of de Casteljau's algorithm short of the point: the cubic blends towards corner i, corner i + 1 and the centre.
+// The position is their blend, the derivatives are 4 times their differences.
+void cubicBlends(Sector s, vec3 w, out vec3 first, out vec3 second, out vec3 inner) {
+    precise float x = w.x, y = w.y, z = w.z;
+    precise float b[10] = float[10](x * x * x, 3.0 * (x * x * y), 3.0 * (x * y * y), y * y * y, 3.0 * (x * x * z),
+                                    6.0 * (x * y * z), 3.0 * (y * y * z), 3.0 * (x * z * z), 3.0 * (y * z * z), z * z * z);
+    // Rows of the cubic's coefficients in the quartic's: from 400, from 310, from 301.
+    precise vec3 p = ((b[0] * s.c[0] + b[1] * s.c[1]) + (b[2] * s.c[2] + b[3] * s.c[3])) +
+                     ((b[4] * s.c[5] + b[5] * s.c[6]) + b[6] * s.c[7]) + ((b[7] * s.c[9] + b[8] * s.c[10]) + b[9] * s.c[12]);
+    precise vec3 q = ((b[0] * s.c[1] + b[1] * s.c[2]) + (b[2] * s.c[3] + b[3] * s.c[4])) +
+                     ((b[4] * s.c[6] + b[5] * s.c[7]) + b[6] * s.c[8]) + ((b[7] * s.c[10] + b[8] * s.c[11]) + b[9] * s.c[13]);
+    precise vec3 r = ((b[0] * s.c[5] + b[1] * s.c[6]) + (b[2] * s.c[7] + b[3] * s.c[8])) +
+                     ((b[4] * s.c[9] + b[5] * s.c[10]) + b[6] * s.c[11]) + ((b[7] * s.c[12] + b[8] * s.c[13]) + b[9] * s.c[14]);
+    first = p;
+    second = q;
+    inner = r;
+}
+
+// The sample (k, l) of a sector: weights (rate - k - l, k, l) / rate. `singular`: its corner has parallel tangents.
+void finish(Sector s, uint k, uint l, bool singular, out vec3 position, out vec3 normal) {
+    vec2 second = parameterPair(k, push.rate, push.pairs), third = parameterPair(l, push.rate, push.pairs);
+    vec3 w = vec3(parameterPair(push.rate - k - l, push.rate, push.pairs).x, second.x, third.x);
+    vec3 a, b, c;
+    cubicBlends(s, w, a, b, c);
+    precise vec3 p = s.centre + ((w.x * a + w.y * b) + w.z * c);
+    if (l == 0u) {
+        precise vec3 onBorder = sum4(bernstein3(second), s.border[0], s.border[1], s.border[2], s.border[3]);
+        p = onBorder;
+    }
+    if (singular && k == 0u && l == 0u) {
+        const float kStep = 1e-3 / 3.0; // a step inside, where there is a normal
+        cubicBlends(s, vec3(1.0 - 2.0 * kStep, kStep, kStep), a, b, c);
+    }
+    position = p;
+    normal = unitNormal(cross(b - a, c - a)); // outwards
+}
+
+// Grid sample of (k, l) in a sector.
+uint sampleOf(uint sector, uint k, uint l) {
+    uint rate = push.rate, d = l / kRowStep;
+    if (kClass == kP5Patch)
+        return l == rate ? 5u * (rate * (rate + 1u) / 2u) : sector * (rate * (rate + 1u) / 2u) + rowStart(rate, l) + k;
+    if (kClass == kP4Patch) {
+        uvec2 at = sector == 0u ? uvec2(d + k, d) : sector == 1u ? uvec2(rate - d, d + k)
+                 : sector == 2u ? uvec2(rate - d - k, rate - d) : uvec2(d, rate - d - k);
+        return at.y * (rate + 1u) + at.x;
+    }
+    uint w[3] = uint[3](d, d, d); // weights of the corners
+    w[sector] += rate - k - l;
+    w[(sector + 1u) % 3u] += k;
+    return rowStart(rate + 1u, w[2]) + w[1];
+}
+
+// The other way: sector and (k, l) of a grid sample. Points on a ray belong to the sector after it, the centre to sector 0.
+uvec3 sectorOf(uint index) {
+    uint rate = push.rate;
+    if (kClass == kP5Patch) return pentagonSample(rate, index);
+    if (kClass == kP4Patch) {
+        uint j = index / (rate + 1u), i = index - j * (rate + 1u);
+        uint d = min(min(i, j), rate - max(i, j));
+        if (j == d && (i < rate - d || 2u * d == rate)) return uvec3(i - d, 2u * d, 0u);
+        if (i == rate - d && j < rate - d) return uvec3(j - d, 2u * d, 1u);
+        if (j == rate - d && i > d) return uvec3(rate - d - i, 2u * d, 2u);
+        return uvec3(rate - d - j, 2u * d, 3u);
+    }
+    uvec2 at = triangleSample(rate + 1u, index);
+    uint w[3] = uint[3](rate - at.x - at.y, at.x, at.y);
+    uint d = min(w[0], min(w[1], w[2]));
+    if (3u * d == rate) return uvec3(0u, rate, 0u);
+    uint s = w[2] == d && w[0] > d ? 0u : w[0] == d && w[1] > d ? 1u : 2u;
+    return uvec3(w[(s + 1u) % 3u] - d, 3u * d, s);
+}
+
+void evaluateNarrow() {
+    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint instance = id / push.count;
+    uint patchIndex = id - instance * push.count;
+    uint record = push.table + kSides * patchIndex, base = instance * push.poolStride;
+    uint samples = kClass == kP5Patch ? 5u * push.rate * (push.rate + 1u) / 2u + 1u
+                 : kClass == kP4Patch ? (push.rate + 1u) * (push.rate + 1u) : (push.rate + 1u) * (push.rate + 2u) / 2u;
+    uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
+    uint singular = tableElement(record + 1u).w;
+    for (uint sector = 0u; sector < kSides; ++sector) {
+        Sector s = loadSector(record, base, sector);
+        bool step = (singular & (1u << sector)) != 0u;
+        for (uint l = 0u; l <= push.rate; l += kRowStep) {
+            uint end = l < push.rate ? push.rate - l : sector == 0u ? 1u : 0u; // the centre is sector 0's
+            for (uint k = 0u; k < end; ++k) {
+                vec3 position, normal;
+                finish(s, k, l, step, position, normal);
+                storeSurfaceVertex(vertex + sampleOf(sector, k, l), position, normal);
+            }
+        }
+    }
+}
+
+shared vec4 sharedPoints[kMaxPatchesPerGroup * kSides * kSectorPoints];
+
+void evaluateWide() {
+    uint total = push.count * push.instanceCount;
+    uint first = workgroupIndex() * push.patchesPerGroup;
+    uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
+    for (uint n = gl_LocalInvocationID.x; n < here * kSides; n += gl_WorkGroupSize.x) {
+        uint slot = n / kSides, id = first + slot;
+        uint instance = id / push.count;
+        uint record = push.table + kSides * (id - instance * push.count);
+        Sector s = loadSector(record, instance * push.poolStride, n - slot * kSides);
+        uint to = n * kSectorPoints;
+        sharedPoints[to] = vec4(s.centre, 0.0);
+        for (uint i = 0u; i < 4u; ++i) sharedPoints[to + 1u + i] = vec4(s.border[i], 0.0);
+        for (uint i = 0u; i < 15u; ++i) sharedPoints[to + 5u + i] = vec4(s.c[i], 0.0);
+    }
+    barrier();
+    uint samples = kClass == kP5Patch ? 5u * push.rate * (push.rate + 1u) / 2u + 1u
+                 : kClass == kP4Patch ? (push.rate + 1u) * (push.rate + 1u) : (push.rate + 1u) * (push.rate + 2u) / 2u;
+    for (uint n = gl_LocalInvocationID.x; n < here * samples; n += gl_WorkGroupSize.x) {
+        uint slot = n / samples, sampleIndex = n - slot * samples;
+        uint id = first + slot;
+        uint instance = id / push.count;
+        uint patchIndex = id - instance * push.count;
+        uvec3 at = sectorOf(sampleIndex);
+        uint from = (slot * kSides + at.z) * kSectorPoints;
+        Sector s;
+        s.centre = sharedPoints[from].xyz;
+        for (uint i = 0u; i < 4u; ++i) s.border[i] = sharedPoints[from + 1u + i].xyz;
+        for (uint i = 0u; i < 15u; ++i) s.c[i] = sharedPoints[from + 5u + i].xyz;
+        uint singular = tableElement(push.table + kSides * patchIndex + 1u).w;
+        vec3 position, normal;
+        finish(s, at.x, at.y, (singular & (1u << at.z)) != 0u, position, normal);
+        storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples + sampleIndex,
+                           position, normal);
+    }
+}
+
+void main() {
+    if (kWide) evaluateWide();
+    else evaluateNarrow();
+}

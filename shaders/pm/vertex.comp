@@ -1,0 +1,124 @@
+// Vertex stage of P_m: limit point v, tangent points t_j, face coefficients f_j of a sector (docs/pm.md, (13)-(16)).
+// One invocation a sector and instance. Without creases the outputs are linear in the ring with weights that depend on
+// the sector's kind alone; creased sectors are computed as the equations stand.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define POOL_WRITE_ONLY
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/surface/store.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/shared/pm.h"
+
+layout(constant_id = 3) const uint kKind = kPmSmoothSector;
+
+vec3 ringSpoke(uint words, uint k, uint cageBase) { return cageVertex(cageBase + tableWord(words + 3u * k)); }
+// Q_j = (p_3j+1 + p_3j+2) / 2; exact where the two are one vertex.
+vec3 ringDiagonal(uint words, uint k, uint cageBase, vec3 p0) {
+    precise vec3 a = cageVertex(cageBase + tableWord(words + 3u * k + 1u)) - p0;
+    precise vec3 b = cageVertex(cageBase + tableWord(words + 3u * k + 2u)) - p0;
+    precise vec3 d = (a + b) * 0.5;
+    return d;
+}
+#include "shaders/surface/vertex.glsl"
+
+// (14), relative to p: a, b are the alphas of the edges to x and y.
+vec3 creasedFace(float a, float b, vec3 x, vec3 y, vec3 q) {
+    precise vec3 r = (((1.0 - a) * b) * 0.5 * x + (a * (1.0 - b)) * 0.5 * y) + (a * b * 0.25) * ((x + y) + q);
+    return r;
+}
+
+void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, vec3 p0, uint weights) {
+    uvec4 header = tableElement(weights);
+    bool open = (header.x & kOpenSector) != 0u, corner = (header.x & kCornerSector) != 0u;
+    uint facets = header.x & ~(kOpenSector | kCornerSector | kPinnedSector), edges = open ? facets + 1u : facets;
+    float limitScale = uintBitsToFloat(header.y), tangentScale = uintBitsToFloat(header.z);
+
+    // Sums over the edges inside: of f_j, and of e_j = (f_j + f_j-1) / 2 with cosines and sines.
+    precise vec3 sum = vec3(0.0), cosines = vec3(0.0), sines = vec3(0.0);
+    precise float sineSum = 0.0;
+    vec3 firstSpoke = vec3(0.0), firstFace = vec3(0.0), lastSpoke = vec3(0.0), lastDiagonal = vec3(0.0), lastFace = vec3(0.0);
+    float firstAlpha = 0.0, lastAlpha = 0.0;
+    for (uint k = 0u; k <= facets; ++k) { // a closed sector's last round is its first edge again
+        uint j = k < edges ? k : 0u;
+        precise vec3 spoke = ringSpoke(words, j, cageBase) - p0;
+        vec4 w = uintBitsToFloat(tableElement(weights + 1u + j));
+        if (k == 0u) {
+            firstSpoke = spoke;
+            firstAlpha = w.x;
+        } else {
+            vec3 f = creasedFace(lastAlpha, w.x, lastSpoke, spoke, lastDiagonal);
+            storePoint(face + k - 1u, p0, f);
+            sum = sum + f;
+            if (k == 1u) {
+                firstFace = f;
+            } else {
+                vec4 inside = uintBitsToFloat(tableElement(weights + k)); // edge k - 1
+                precise vec3 e = (lastFace + f) * 0.5;
+                cosines = cosines + inside.y * e;
+                sines = sines + inside.z * e;
+                sineSum = sineSum + inside.z;
+            }
+            lastFace = f;
+        }
+        lastSpoke = spoke;
+        lastDiagonal = ringDiagonal(words, j, cageBase, p0);
+        lastAlpha = w.x;
+    }
+    precise vec3 x, e1, e2;
+    if (open) {
+        // Written as weightedFan sums it, so that both sides of a hard edge get the same bits.
+        x = corner ? vec3(0.0) : (1.0 / 6.0) * firstSpoke + (1.0 / 6.0) * lastSpoke;
+        e1 = corner ? firstSpoke * (1.0 / 3.0) : (firstSpoke - lastSpoke) * (1.0 / 6.0);
+        e2 = corner ? lastSpoke * (1.0 / 3.0) : tangentScale * (sines - sineSum * x);
+    } else {
+        vec4 w = uintBitsToFloat(tableElement(weights + 1u)); // edge 0 lies between the last facet and the first
+        precise vec3 e = (lastFace + firstFace) * 0.5;
+        x = limitScale * sum;
+        e1 = tangentScale * (cosines + w.y * e);
+        e2 = tangentScale * (sines + w.z * e);
+    }
+    if ((header.x & kPinnedSector) != 0u) {
+        // v, t_j and f_j move by p - v. The f_j are computed once more: v was not known when they were stored.
+        for (uint k = 0u; k < facets; ++k) {
+            uint n = k + 1u == edges ? 0u : k + 1u;
+            precise vec3 a = ringSpoke(words, k, cageBase) - p0, b = ringSpoke(words, n, cageBase) - p0;
+            float alpha = uintBitsToFloat(tableElement(weights + 1u + k).x);
+            float next = uintBitsToFloat(tableElement(weights + 1u + n).x);
+            precise vec3 f = creasedFace(alpha, next, a, b, ringDiagonal(words, k, cageBase, p0)) - x;
+            storePoint(face + k, p0, f);
+        }
+        x = vec3(0.0);
+    }
+    storePoint(limit, p0, x);
+    for (uint k = 0u; k < edges; ++k) {
+        vec4 w = uintBitsToFloat(tableElement(weights + 1u + k));
+        precise vec3 t = x + (e1 * w.y + e2 * w.z);
+        storePoint(tangent + k, p0, t);
+    }
+    if (open) {
+        precise vec3 first = firstSpoke * (1.0 / 3.0);
+        precise vec3 last = lastSpoke * (1.0 / 3.0);
+        storePoint(tangent, p0, first);
+        storePoint(tangent + facets, p0, last);
+    }
+}
+
+void main() {
+    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint instance = id / push.count;
+    uvec4 record = tableElement(push.table + (id - instance * push.count));
+    uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
+    uint words = push.ring + 3u * record.y;
+    uint limit = base + record.w, tangent = base + push.tangents + record.y, face = base + push.faces + record.y;
+    vec3 p0 = cageVertex(cageBase + record.x);
+    if (kKind == kPmRegularSector) {
+        regularFan(limit, tangent, face, words, cageBase, p0);
+    } else if (kKind == kPmSmoothSector) {
+        uint header = tableElement(record.z).x;
+        weightedFan(limit, tangent, face, words, cageBase, p0, record.z + 1u, header & ~kOpenSector,
+                    (header & kOpenSector) != 0u);
+    } else {
+        creasedFan(limit, tangent, face, words, cageBase, p0, record.z);
+    }
+}

@@ -1,0 +1,74 @@
+// What the passes of all surface schemes share: descriptor bindings, push constants, the records evaluation reads.
+//
+// Coefficient pool: vec4 elements, one run of `poolStride` an instance; what lies where is the scheme's (shared/prep.h,
+// shared/pm.h), but every scheme stores canonical values: no -0.
+//
+// Tables (one buffer, read as uvec4 or as uint) begin with what the scheme's construction needs and end with
+//   patch records    bicubic (regular, polar): 16 pool indices, row by row in v; polar patches repeat the apex in row 3
+//                    perturbed: 16 + 16, see shared/prep.h;  P_m: see shared/pm.h
+//                    where the group keeps corner normals (kCornerNormals): one more element, for each corner the pool
+//                    index of its normal, or kNoNormal
+//   attributes       one element a patch corner: (u, v, color as RG and BA in 16-bit unorm); with a second UV set one
+//                    more: (u, v, 0, 0)
+#ifndef SUPPLE_SHARED_SURFACE_H
+#define SUPPLE_SHARED_SURFACE_H
+
+#include "shaders/shared/portable.h"
+
+SUPPLE_SHARED_BEGIN
+
+SUPPLE_SHARED_CONST kTableBinding = 0u;
+SUPPLE_SHARED_CONST kTable4TexelBinding = 1u;
+SUPPLE_SHARED_CONST kTable1TexelBinding = 2u;
+SUPPLE_SHARED_CONST kCageBinding = 3u;
+SUPPLE_SHARED_CONST kCageTexelBinding = 4u;
+SUPPLE_SHARED_CONST kPoolBinding = 5u;
+SUPPLE_SHARED_CONST kPoolTexelBinding = 6u;
+SUPPLE_SHARED_CONST kSurfaceBinding = 7u;
+SUPPLE_SHARED_CONST kPatchCoefficientBinding = 8u;
+SUPPLE_SHARED_CONST kAttributeBinding = 9u;
+SUPPLE_SHARED_CONST kUv1Binding = 10u;
+SUPPLE_SHARED_CONST kPairBinding = 11u;
+
+// Classes of patches; values of SupplePatchClass.
+SUPPLE_SHARED_CONST kRegularPatch = 0u;
+SUPPLE_SHARED_CONST kPerturbedPatch = 1u;
+SUPPLE_SHARED_CONST kPolarPatch = 2u;
+SUPPLE_SHARED_CONST kP3Patch = 3u;
+SUPPLE_SHARED_CONST kP4Patch = 4u;
+SUPPLE_SHARED_CONST kP5Patch = 5u;
+
+// Domains; values of SuppleDomain.
+SUPPLE_SHARED_CONST kQuadDomain = 0u;
+SUPPLE_SHARED_CONST kPolarDomain = 1u;
+SUPPLE_SHARED_CONST kTriangleDomain = 2u;
+SUPPLE_SHARED_CONST kPentagonDomain = 3u;
+
+SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
+
+SUPPLE_SHARED_CONST kPatchStride = 32u;       // elements a patch of any class in the patch-coefficient buffer
+SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u; // wide mapping: what the shared memory of the evaluation passes holds
+
+// Where the sections of the tables and of the pool lie, and what a dispatch covers.
+struct SurfacePush {
+    uint count;         // elements an instance: vertices, edges, facets, patches or patch samples
+    uint instanceCount; // of this window
+    uint table;         // first table element of the pass's records
+    uint ring;          // first table word of the ring
+    uint cageStride;    // cage vertices an instance in the deformed cage
+    uint poolStride;
+    uint tangents; // first tangent in the pool
+    uint faces;    // first face coefficient in the pool
+    uint rate;
+    uint firstPatch; // of this range in device order
+    uint patchCount; // of all ranges
+    uint verticesPerInstance;
+    uint firstVertex; // of this range in the instance's surface vertices
+    uint pairs;       // first parameter pair of the rate
+    uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
+    uint uvSets;          // 1 or 2
+};
+
+SUPPLE_SHARED_END
+
+#endif

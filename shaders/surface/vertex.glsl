@@ -1,0 +1,71 @@
+// The vertex stage, as far as schemes share it: limit point, tangent points and face coefficients of a fan whose weights
+// depend on connectivity alone. Needs tables.glsl, pool.glsl, store.glsl, and from the scheme the ring:
+//   vec3 ringSpoke(uint words, uint k, uint cageBase)     far end of edge k
+//   vec3 ringDiagonal(uint words, uint k, uint cageBase, vec3 p0)   opposite corner of facet k, relative to p0
+// Everything is summed over differences to the vertex: far from the origin that keeps the tangents, and with them the
+// normals, several times more exact. The weights of a point sum to 1 and those of a vector to 0, so that the centre's own
+// weight never appears.
+
+// (4 p0 + 2 (spoke + nextSpoke) + diagonal) / 9, relative to p0.
+vec3 faceCoefficient(vec3 spoke, vec3 nextSpoke, vec3 diagonal) {
+    precise vec3 r = (2.0 * (spoke + nextSpoke) + diagonal) * (1.0 / 9.0);
+    return r;
+}
+
+void storePoint(uint i, vec3 p0, vec3 relative) {
+    precise vec3 p = p0 + relative;
+    storePool(i, p);
+}
+
+// A closed fan of four: the uniform bicubic B-spline.
+void regularFan(uint limit, uint tangent, uint face, uint words, uint cageBase, vec3 p0) {
+    precise vec3 e[4], d[4];
+    for (uint k = 0u; k < 4u; ++k) {
+        e[k] = ringSpoke(words, k, cageBase) - p0;
+        d[k] = ringDiagonal(words, k, cageBase, p0);
+    }
+    precise vec3 x = (4.0 * ((e[0] + e[2]) + (e[1] + e[3])) + ((d[0] + d[2]) + (d[1] + d[3]))) * (1.0 / 36.0);
+    precise vec3 e1 = (4.0 * (e[0] - e[2]) + ((d[0] - d[2]) + (d[3] - d[1]))) * (1.0 / 36.0);
+    precise vec3 e2 = (4.0 * (e[1] - e[3]) + ((d[0] - d[2]) + (d[1] - d[3]))) * (1.0 / 36.0);
+    storePoint(limit, p0, x);
+    precise vec3 t[4] = vec3[4](x + e1, x + e2, x - e1, x - e2);
+    for (uint k = 0u; k < 4u; ++k) storePoint(tangent + k, p0, t[k]);
+    for (uint k = 0u; k < 4u; ++k) storePoint(face + k, p0, faceCoefficient(e[k], e[(k + 1u) & 3u], d[k]));
+}
+
+// Any fan, with the weights of its class (two elements a spoke from `weights` on). Gives e1 x e2.
+vec3 weightedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, vec3 p0, uint weights, uint sectors,
+                 bool open) {
+    uint spokes = open ? sectors + 1u : sectors;
+    precise vec3 x = vec3(0.0), e1 = vec3(0.0), e2 = vec3(0.0);
+    vec3 firstSpoke = vec3(0.0), lastSpoke = vec3(0.0), lastDiagonal = vec3(0.0);
+    for (uint k = 0u; k < spokes; ++k) {
+        precise vec3 spoke = ringSpoke(words, k, cageBase) - p0;
+        precise vec3 diagonal = ringDiagonal(words, k, cageBase, p0);
+        vec4 a = uintBitsToFloat(tableElement(weights + 2u * k));
+        vec4 b = uintBitsToFloat(tableElement(weights + 1u + 2u * k));
+        x = x + (a.x * spoke + a.y * diagonal);
+        e1 = e1 + (a.z * spoke + a.w * diagonal);
+        e2 = e2 + (b.x * spoke + b.y * diagonal);
+        if (k == 0u) firstSpoke = spoke;
+        else storePoint(face + k - 1u, p0, faceCoefficient(lastSpoke, spoke, lastDiagonal));
+        lastSpoke = spoke;
+        lastDiagonal = diagonal;
+    }
+    storePoint(limit, p0, x);
+    for (uint k = 0u; k < spokes; ++k) {
+        vec4 b = uintBitsToFloat(tableElement(weights + 1u + 2u * k));
+        precise vec3 t = x + (e1 * b.z + e2 * b.w);
+        storePoint(tangent + k, p0, t);
+    }
+    if (open) {
+        // The curve at its end is the cubic B-spline of the control polygon, whatever the inside does.
+        precise vec3 first = firstSpoke * (1.0 / 3.0);
+        precise vec3 last = lastSpoke * (1.0 / 3.0);
+        storePoint(tangent, p0, first);
+        storePoint(tangent + sectors, p0, last);
+    } else {
+        storePoint(face + sectors - 1u, p0, faceCoefficient(lastSpoke, firstSpoke, lastDiagonal));
+    }
+    return cross(e1, e2);
+}

@@ -1,0 +1,74 @@
+// The GPU passes of all surface schemes: construction (vertex, edge), patch, evaluate, and the attributes that no pose
+// changes. Which kernels a group runs is data: its tables list them.
+#pragma once
+
+#include "gpu/pipeline.h"
+#include "shaders/shared/surface.h"
+#include "surface/scheme.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace supple::surface {
+
+/// SPIR-V of the passes. The default is what was embedded at build time; tests put mutations in.
+struct Shaders {
+    std::span<const uint32_t> prepVertex, prepEdge;
+    std::span<const uint32_t> pmVertex, pmFacet, pmPatch, pmEvaluate;
+    std::span<const uint32_t> patch, bicubic, attributes;
+    [[nodiscard]] static Shaders embedded();
+};
+
+/// What one window of instances binds.
+struct Window {
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    uint32_t instanceCount = 0;
+};
+
+/// What a group evaluates, the same for all its windows.
+struct Evaluation {
+    uint32_t rate = 8;
+    uint32_t cageStride = 0; ///< cage vertices an instance in the deformed cage
+    bool vertex24 = false;
+    uint32_t verticesPerInstance = 0;    ///< at least vertexCount(): the stride between instances
+    std::vector<uint32_t> firstVertices; ///< per patch range: where its vertices begin in an instance
+
+    /// Lays out the ranges of `tables` one after the other; returns the vertices of an instance.
+    uint64_t layOut(const Tables& tables);
+};
+
+/// All pipelines. Recording needs no memory and creates nothing. Between the stages the caller puts a memory barrier
+/// (compute writes to compute reads): vertex | edge | patch, evaluate.
+class Passes {
+public:
+    [[nodiscard]] static Result<Passes> create(const gpu::Device& device, const Shaders& shaders = Shaders::embedded());
+
+    [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
+
+    void recordStage(VkCommandBuffer commandBuffer, Stage stage, const Tables& tables, const Window& window,
+                     const Evaluation& evaluation) const;
+    void recordPatch(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
+                     const Evaluation& evaluation) const;
+    void recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
+                        const Evaluation& evaluation) const;
+    void recordAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
+                          const Evaluation& evaluation) const;
+
+private:
+    void record(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
+                const shared::SurfacePush& push, uint64_t groups) const;
+    [[nodiscard]] uint64_t groupsFor(uint64_t lanes) const;
+
+    static constexpr size_t kClasses = 6;
+    const gpu::Device* device_ = nullptr;
+    gpu::ComputeLayout layout_;
+    std::array<gpu::PipelineHandle, static_cast<size_t>(Kernel::count)> construction_;
+    std::array<gpu::PipelineHandle, kDomainCount> attributes_; ///< by domain
+    // By class and by corner normals, which only p-rep's classes have; evaluate_ also by 24-byte vertices.
+    std::array<std::array<gpu::PipelineHandle, 2>, kClasses> patch_;
+    std::array<std::array<std::array<gpu::PipelineHandle, 2>, 2>, kClasses> evaluate_;
+};
+
+} // namespace supple::surface

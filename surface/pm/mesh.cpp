@@ -1,0 +1,218 @@
+#include "surface/pm/mesh.h"
+
+#include "surface/pm/split.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+namespace supple::surface::pm {
+namespace {
+
+using cage::Cage;
+using cage::kNone;
+using cage::Topology;
+
+/// Cuts the fans into sectors and packs their slots.
+class SectorBuilder {
+public:
+    explicit SectorBuilder(Mesh& mesh) : mesh_(mesh) { mesh_.corners.resize(mesh_.cage.cornerCount()); }
+
+    void add(uint32_t vertex) {
+        const Topology& topology = mesh_.topology;
+        base_ = topology.spokeStarts[vertex];
+        spokes_ = topology.spokeCount(vertex);
+        facets_ = topology.sectorCount(vertex);
+        const bool boundary = topology.boundary[vertex] != 0;
+        std::vector<uint32_t> hard;
+        for (uint32_t k = 0; k < spokes_; ++k) {
+            if (mesh_.features.hard(edgeOf(k))) { // a boundary's first and last spoke always are
+                hard.push_back(k);
+            }
+        }
+        const bool sharp = mesh_.features.vertexSharpness[vertex] >= cage::kHardSharpness;
+        if (!boundary && hard.size() < 2) {
+            addSector(vertex, SectorKind::interior, 0, facets_, sharp);
+            return;
+        }
+        const bool corner = sharp || hard.size() != 2 || (boundary && facets_ == 1);
+        const SectorKind kind = corner ? SectorKind::corner : SectorKind::crease;
+        const size_t runs = boundary ? hard.size() - 1 : hard.size();
+        for (size_t i = 0; i < runs; ++i) {
+            const uint32_t last = i + 1 < hard.size() ? hard[i + 1] : hard[0] + facets_;
+            addSector(vertex, kind, hard[i], last - hard[i], false);
+        }
+    }
+
+private:
+    [[nodiscard]] uint32_t edgeOf(uint32_t spoke) const {
+        return cage::spokeEdge(mesh_.cage, mesh_.topology, base_ + spoke);
+    }
+
+    /// Spokes first, first + 1, ... round the vertex.
+    void addSector(uint32_t vertex, SectorKind kind, uint32_t first, uint32_t facets, bool pinned) {
+        const auto index = static_cast<uint32_t>(mesh_.sectors.size());
+        Sector sector;
+        sector.vertex = vertex;
+        sector.firstSlot = static_cast<uint32_t>(mesh_.slotSpokes.size());
+        sector.facets = facets;
+        sector.kind = kind;
+        sector.pinned = pinned;
+        for (uint32_t j = 0; j < sector.edges(); ++j) {
+            const uint32_t spoke = (first + j) % spokes_;
+            const bool end = !sector.closed() && (j == 0 || j == facets);
+            const double alpha = end ? kSmoothAlpha : alphaOf(spoke);
+            sector.creased = sector.creased || alpha != kSmoothAlpha;
+            mesh_.slotSpokes.push_back(base_ + spoke);
+            mesh_.slotAlphas.push_back(alpha);
+        }
+        for (uint32_t j = 0; j < facets; ++j) {
+            const uint32_t slot = sector.firstSlot;
+            const uint32_t next = sector.closed() ? (j + 1) % facets : j + 1;
+            FacetCorner& corner = mesh_.corners[mesh_.topology.sectorCorners[base_ + (first + j) % spokes_]];
+            corner.sector = index;
+            corner.slot = slot + j;
+            corner.slotBack = slot + next;
+            if (sector.closed() || j > 0) {
+                corner.across = slot + (j + facets - 1) % facets;
+            }
+            if (next < facets) {
+                corner.acrossBack = slot + next;
+            }
+        }
+        mesh_.sectors.push_back(sector);
+    }
+
+    /// Alpha at this vertex of an edge inside a sector. The one hard edge at a dart's tip is as smooth as the others.
+    [[nodiscard]] double alphaOf(uint32_t spoke) const {
+        const float given = mesh_.features.spokeAlphas[base_ + spoke];
+        if (given >= 0.0f) {
+            return given == static_cast<float>(kSmoothAlpha) ? kSmoothAlpha : given;
+        }
+        const uint32_t edge = edgeOf(spoke);
+        return mesh_.features.hard(edge) ? kSmoothAlpha : alphaOfSharpness(mesh_.features.edgeSharpness[edge]);
+    }
+
+    Mesh& mesh_;
+    uint32_t base_ = 0; ///< of the vertex at work: first spoke slot, spokes, facets
+    uint32_t spokes_ = 0;
+    uint32_t facets_ = 0;
+};
+
+/// Whether the facets round a vertex could be polar patches, were it not for other such vertices near.
+bool couldBeApex(const Mesh& mesh, uint32_t vertex) {
+    const Topology& topology = mesh.topology;
+    if (topology.boundary[vertex] != 0) {
+        return false;
+    }
+    for (uint32_t s = topology.spokeStarts[vertex]; s < topology.spokeStarts[vertex + 1]; ++s) {
+        const uint32_t corner = topology.sectorCorners[s];
+        const uint32_t facet = topology.cornerFaces[corner];
+        if (mesh.features.hard(topology.cornerEdges[corner]) || mesh.cage.sides(facet) != 3) {
+            return false;
+        }
+        const uint32_t next = cage::nextCorner(mesh.cage, facet, corner);
+        for (const uint32_t outer : {next, cage::nextCorner(mesh.cage, facet, next)}) {
+            const Sector& sector = mesh.sectors[mesh.corners[outer].sector];
+            if (sector.valence() != 4 || sector.kind == SectorKind::corner) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+std::vector<uint8_t> polarApexes(const Mesh& mesh) {
+    const Topology& topology = mesh.topology;
+    std::vector<uint8_t> candidates(mesh.cage.vertexCount(), 0);
+    for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
+        candidates[v] = couldBeApex(mesh, v) ? 1 : 0;
+    }
+    std::vector<uint8_t> apexes = candidates;
+    for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
+        for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
+            if (candidates[topology.spokeVertices[s]] != 0) {
+                apexes[v] = 0;
+            }
+        }
+    }
+    return apexes;
+}
+
+void classify(Mesh& mesh) {
+    const std::vector<uint8_t> apexes = polarApexes(mesh);
+    mesh.classes.assign(mesh.cage.faceCount(), FacetClass::p5);
+    mesh.firstCorners.assign(mesh.cage.faceCount(), 0);
+    for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
+        const uint32_t first = mesh.cage.faceStarts[f];
+        const uint32_t sides = mesh.cage.sides(f);
+        if (sides == 3) {
+            mesh.classes[f] = FacetClass::p3;
+            for (uint32_t j = 0; j < 3; ++j) {
+                if (apexes[mesh.cage.faceVertices[first + j]] != 0) {
+                    mesh.classes[f] = FacetClass::polar;
+                    mesh.firstCorners[f] = static_cast<uint8_t>((j + 1) % 3);
+                }
+            }
+        } else if (sides == 4) {
+            const bool regular =
+                std::all_of(mesh.corners.begin() + first, mesh.corners.begin() + first + 4,
+                            [&](const FacetCorner& c) { return mesh.sectors[c.sector].valence() == 4; });
+            mesh.classes[f] = regular ? FacetClass::ordinary : FacetClass::p4;
+        }
+    }
+}
+
+void fill(Mesh& mesh) {
+    mesh.features = cage::buildFeatures(mesh.cage, mesh.topology);
+    mesh.notes.insert(mesh.notes.end(), mesh.features.unused.begin(), mesh.features.unused.end());
+    for (uint32_t e = 0; e < mesh.topology.edges.size(); ++e) {
+        mesh.edgeCut.push_back(mesh.features.hard(e) ? 1 : 0);
+    }
+    SectorBuilder sectors(mesh);
+    for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
+        sectors.add(v);
+    }
+    classify(mesh);
+}
+
+Result<Mesh> build(const Cage& cage) {
+    Result<Topology> topology = cage::buildTopology(cage);
+    if (!topology.ok()) {
+        return topology.error();
+    }
+    Result<SplitCage> split = splitFaces(cage, *topology);
+    if (!split.ok()) {
+        return split.error();
+    }
+    Mesh mesh;
+    mesh.cage = std::move(split->cage);
+    mesh.sourceFaces = std::move(split->sourceFaces);
+    mesh.notes = std::move(split->notes);
+    if (mesh.cage.faceCount() > cage.faceCount()) {
+        topology = cage::buildTopology(mesh.cage);
+        if (!topology.ok()) {
+            return topology.error();
+        }
+    }
+    mesh.topology = std::move(*topology);
+    fill(mesh);
+    return mesh;
+}
+
+} // namespace
+
+double alphaOfSharpness(double sharpness) {
+    return kSmoothAlpha * std::exp2(-sharpness);
+}
+
+Result<Mesh> buildMesh(const Cage& cage) {
+    try {
+        return build(cage);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::hostMemory, "out of memory for the facets and sectors of P_m"};
+    }
+}
+
+} // namespace supple::surface::pm

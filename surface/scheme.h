@@ -1,0 +1,129 @@
+// What the surface schemes have in common: classes of patches, and the static tables a scheme makes of a cage.
+#pragma once
+
+#include "cage/character.h"
+#include "shaders/shared/surface.h"
+#include "surface/grid.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace supple::surface {
+
+enum class PatchClass : uint32_t {
+    regular = shared::kRegularPatch,     ///< bicubic
+    perturbed = shared::kPerturbedPatch, ///< p-rep: bicubic and a sparse perturbation of degree 5
+    polar = shared::kPolarPatch,         ///< P_m: a triangle of a polar fan, bicubic with a collapsed side
+    p3 = shared::kP3Patch,               ///< P_m: three, four, five triangular sectors of degree 4
+    p4 = shared::kP4Patch,
+    p5 = shared::kP5Patch
+};
+
+/// "regular", "perturbed", "polar", "p3", "p4", "p5".
+[[nodiscard]] constexpr const char* className(PatchClass patchClass) {
+    constexpr const char* kNames[] = {"regular", "perturbed", "polar", "p3", "p4", "p5"};
+    return kNames[static_cast<uint32_t>(patchClass)];
+}
+
+[[nodiscard]] constexpr Domain domainOf(PatchClass patchClass) {
+    switch (patchClass) {
+    case PatchClass::polar:
+        return Domain::polar;
+    case PatchClass::p3:
+        return Domain::triangle;
+    case PatchClass::p5:
+        return Domain::pentagon;
+    default:
+        return Domain::quad;
+    }
+}
+
+/// Coefficients a patch of a class has, as the patch pass writes them.
+[[nodiscard]] constexpr uint32_t coefficientCount(PatchClass patchClass) {
+    constexpr uint32_t kCounts[] = {16, 32, 13, 19, 25, 31};
+    return kCounts[static_cast<uint32_t>(patchClass)];
+}
+
+/// One patch in device order. Patch corner i lies at corner i of its domain.
+struct PatchInfo {
+    uint32_t face = 0; ///< of the cage as the host gave it
+    PatchClass patchClass = PatchClass::regular;
+    uint32_t cornerCount = 4;
+    std::array<uint32_t, kMaxSides> corners{}; ///< cage vertices
+};
+
+/// A run of records in the tables.
+struct Section {
+    uint32_t table = 0; ///< first element (four words)
+    uint32_t count = 0; ///< records
+};
+
+/// The kernels of all passes; surface/passes.cpp lists what each is made of.
+enum class Kernel : uint32_t {
+    // p-rep
+    prepVertexRegular,
+    prepVertex,
+    prepEdge,
+    // P_m
+    pmVertexRegular,
+    pmVertex,
+    pmVertexCreased,
+    pmPolar,
+    pmFacet3,
+    pmFacet4,
+    pmFacet5,
+    count
+};
+
+/// The passes between deformed cage and coefficients, in order; a barrier stands between them.
+enum class Stage : uint32_t {
+    vertex, ///< one invocation a cage vertex or sector
+    edge    ///< p-rep: a perturbed edge; P_m: a facet
+};
+inline constexpr uint32_t kStageCount = 2;
+
+struct Construction {
+    Stage stage = Stage::vertex;
+    Kernel kernel = Kernel::prepVertex;
+    Section section;
+    uint32_t coefficients = 0; ///< pool elements an instance it writes, for the cost report
+};
+
+/// Consecutive patches of one class in device order.
+struct PatchRange {
+    PatchClass patchClass = PatchClass::regular;
+    Section section;
+    uint32_t firstPatch = 0;
+    uint32_t attributes = 0; ///< first element of the corner attributes
+};
+
+/// Consecutive patches of one domain and material.
+struct DrawRange {
+    Domain domain = Domain::quad;
+    uint32_t firstPatch = 0;
+    uint32_t patchCount = 0;
+    uint32_t material = cage::kNone;
+};
+
+/// What depends on connectivity alone: the tables of shaders/shared/{surface,prep,pm}.h, and where everything lies in
+/// them. Patches are ordered by class, then by material, then by face.
+struct Tables {
+    std::vector<uint32_t> words; ///< a multiple of four
+    uint32_t ring = 0;           ///< first word of the ring
+    uint32_t poolStride = 0;     ///< coefficients an instance, padded so that instances start on 256 bytes
+    uint32_t tangents = 0;       ///< first tangent in the pool
+    uint32_t faces = 0;          ///< first face coefficient in the pool
+    uint32_t uvSets = 1;
+    bool cornerNormals = false; ///< p-rep: some corner needs its stored normal (CornerRule::smooth)
+    std::vector<Construction> constructions;
+    std::vector<PatchRange> ranges;
+    std::vector<PatchInfo> patches;
+    std::vector<DrawRange> drawRanges;
+    std::vector<std::string> notes; ///< what was changed about the cage, one line each
+
+    [[nodiscard]] bool has(Stage stage) const;
+};
+
+} // namespace supple::surface

@@ -1,0 +1,48 @@
+// Writing the tables of a scheme, word by word, and the parts of them all schemes share. Private to surface/.
+#pragma once
+
+#include "surface/scheme.h"
+
+#include <bit>
+#include <initializer_list>
+
+namespace supple::surface {
+
+/// Appends table sections and keeps them on element boundaries.
+class TableWriter {
+public:
+    explicit TableWriter(std::vector<uint32_t>& words) : words_(words) {}
+    /// Fills up to an element boundary and returns the element there.
+    uint32_t element() {
+        while (words_.size() % 4 != 0) {
+            words_.push_back(0);
+        }
+        return static_cast<uint32_t>(words_.size() / 4);
+    }
+    void put(std::initializer_list<uint32_t> values) { words_.insert(words_.end(), values); }
+
+private:
+    std::vector<uint32_t>& words_;
+};
+
+/// A weight computed in double, as the device reads it.
+[[nodiscard]] inline uint32_t floatBits(double value) {
+    return std::bit_cast<uint32_t>(static_cast<float>(value));
+}
+
+/// A patch on its way into the tables: what the device order depends on, and which corners of the cage are its corners.
+struct DraftPatch {
+    PatchInfo info;
+    uint32_t facet = 0; ///< of the cage the scheme works on
+    uint32_t material = cage::kNone;
+    std::array<uint32_t, kMaxSides> cageCorners{}; ///< of that cage
+};
+
+/// Puts patches into device order: by class, then material, then facet.
+void sortPatches(std::vector<DraftPatch>& patches);
+
+/// Corner attributes, draw ranges and patch list of patches in device order. tables.ranges must have been filled with
+/// the patches' classes; their `attributes` are set here.
+void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables);
+
+} // namespace supple::surface
