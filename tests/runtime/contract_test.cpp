@@ -386,7 +386,7 @@ TEST(Contract, CagesAreRefusedByName) {
     contextOptions.printWarnings = false;
     Result<std::unique_ptr<host::Context>> created = host::Context::create(*device, contextOptions);
     ASSERT_TRUE(created.ok());
-    const auto refusal = [&](const cage::Cage& cage) {
+    const auto refusal = [&](const cage::Cage& cage, SuppleScheme scheme = SUPPLE_SCHEME_AUTO) {
         const host::CageArrays arrays(cage);
         SuppleAssetDesc assetDesc{};
         assetDesc.structSize = sizeof(assetDesc);
@@ -399,6 +399,7 @@ TEST(Contract, CagesAreRefusedByName) {
             groupDesc.structSize = sizeof(groupDesc);
             groupDesc.asset = asset;
             groupDesc.instanceCount = 1;
+            groupDesc.scheme = scheme;
             SuppleGroup group{};
             result = suppleCreateGroup((*created)->handle(), &groupDesc, &group);
         }
@@ -412,7 +413,7 @@ TEST(Contract, CagesAreRefusedByName) {
     nan.positions[3].y = std::nanf("");
     cage::Cage range = cube();
     range.faceVertices[5] = 99;
-    const std::pair<const char*, std::string> cases[] = {{"prism with pentagons", refusal(prism(5))},
+    const std::pair<const char*, std::string> cases[] = {{"pentagons for p-rep", refusal(prism(5), SUPPLE_SCHEME_PREP)},
                                                          {"flipped face", refusal(flipped)},
                                                          {"NaN position", refusal(nan)},
                                                          {"index out of range", refusal(range)}};

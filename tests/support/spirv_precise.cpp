@@ -20,6 +20,9 @@ namespace {
 enum Op : uint32_t {
     kName = 5,
     kExtInst = 12,
+    kConvertSToF = 111,
+    kConvertUToF = 112,
+    kControlBarrier = 224,
     kTypeStruct = 30,
     kTypePointer = 32,
     kConstant = 43,
@@ -46,6 +49,7 @@ enum Op : uint32_t {
     kReturnValue = 254,
 };
 constexpr uint32_t kNoContraction = 42;
+constexpr uint32_t kWorkgroupStorage = 4, kFunctionStorage = 7;
 
 const char* arithmeticName(uint32_t op) {
     switch (op) {
@@ -144,7 +148,7 @@ private:
             }
             if (op == kFunction || op == kFunctionParameter || op == kFunctionCall || op == kVariable || op == kLoad ||
                 op == kAccessChain || op == kInBoundsAccessChain || op == kConstant || op == kExtInst ||
-                (op >= 77 && op <= 250)) {
+                (op >= 77 && op <= 250 && op != kControlBarrier)) {
                 if (body.size() < 2) {
                     continue;
                 }
@@ -206,14 +210,8 @@ private:
         case 87:  // ImageSampleImplicitLod .. ImageFetch, Image
         case 95:  //
         case 100: //
-        case 111: // ConvertSToF
-        case 112: // ConvertUToF
         case 124: // Bitcast
         case 127: // FNegate
-        case 128: // IAdd, ISub, IMul, UDiv: sample numbers
-        case 130:
-        case 132:
-        case 134:
         case 245: // Phi
             return true;
         default:
@@ -256,7 +254,8 @@ private:
             const auto base = byResult_.find(from.id);
             // Buffers, texels and push constants are where values come from; walking ends there.
             if (base != byResult_.end() && (base->second.op == kFunctionParameter ||
-                                            (base->second.op == kVariable && base->second.operands[0] == 7))) {
+                                            (base->second.op == kVariable && (base->second.operands[0] == kFunctionStorage ||
+                                                                             base->second.operands[0] == kWorkgroupStorage)))) {
                 push({from.id, from.member == -1 ? key.member : from.member});
             }
             return;
@@ -292,6 +291,9 @@ private:
             push({i.operands[1], -1});
             push({i.operands[2], -1});
             return;
+        case kConvertSToF:
+        case kConvertUToF:
+            return; // sample numbers: integers are exact
         default:
             break;
         }

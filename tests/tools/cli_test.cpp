@@ -255,7 +255,9 @@ TEST_F(Cli, InspectSaysWhyASchemeRefuses) {
     const Json paired = Json::parse(run("inspect triangles.gltf --pair-quads --json").out);
     EXPECT_EQ(paired["sides"], Json({{"4", 6}}));
     EXPECT_EQ(paired["schemes"]["prep"]["accepted"], true);
-    expectFailure(run("bake triangles.gltf -o out.obj"), 1, "3 sides");
+    EXPECT_EQ(triangles["schemes"]["pm"]["accepted"], true);
+    EXPECT_EQ(triangles["schemes"]["pm"]["patches"], Json({{"p3", 12}}));
+    expectFailure(run("bake triangles.gltf -o out.obj --scheme prep"), 1, "3 sides");
 }
 
 TEST_F(Cli, BakeWritesOneGroupAPatch) {
@@ -324,7 +326,7 @@ TEST_F(Cli, BakeCageKeepsThePolygons) {
 }
 
 TEST_F(Cli, BakePatchesMatchTheSurface) {
-    const Outcome outcome = runOnDevice("bake cube.gltf -o out.obj --rate 5 --patches patches.json");
+    const Outcome outcome = runOnDevice("bake cube.gltf -o out.obj --scheme prep --rate 5 --patches patches.json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const Obj obj = readObj(file("out.obj"));
     const Json json = Json::parse(readText(file("patches.json")));
@@ -375,7 +377,7 @@ TEST_F(Cli, ProfileWritesTableJsonCsvAndTrace) {
     EXPECT_NE(json["machine"]["device"], "");
     ASSERT_EQ(json["runs"].size(), 2u);
     for (const Json& run : json["runs"]) {
-        EXPECT_EQ(run["scheme"], "prep");
+        EXPECT_EQ(run["scheme"], "pm") << "what auto stands for";
         EXPECT_EQ(run["instances"], 3);
         EXPECT_EQ(run["frames"], 7) << "no frame's timings were skipped";
         EXPECT_EQ(run["frame"]["points"], 3 * 6 * 81);
