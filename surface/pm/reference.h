@@ -17,7 +17,7 @@ namespace supple::surface::pm {
 template <class T>
 struct Coefficients {
     using Vec = glm::vec<3, T>;
-    std::vector<Vec> limitPoints;
+    std::vector<Vec> limitPoints; ///< v
     std::vector<Vec> tau1, tau2;
     std::vector<Vec> tangents;
     std::vector<Vec> faceCoefficients;
@@ -33,8 +33,7 @@ struct Patch {
     uint32_t count = 16;
     std::array<Vec, 31> c{};
     T apexCosine = 0; ///< polar: cos(2 pi / n) of the apex
-    /// Patch corners at which Du and Dv are parallel (crease sectors of one facet): normals there are taken a step
-    /// inside.
+    /// Patch corners at which the derivatives are parallel: crease sectors of one facet. P_m patches alone have them.
     std::array<bool, kMaxSides> singularCorner{};
 };
 
@@ -53,20 +52,23 @@ template <class T>
 
 [[nodiscard]] Domain domainOf(FacetClass facetClass);
 
-/// A point of the domain: (u, v) on ordinary and polar patches; on P_m patches a sector and the weights of its first
-/// corner, its second corner and the centre.
+/// A point of the domain: the pairs (u, 1 - u) and (v, 1 - v) on ordinary and polar patches; on P_m patches a sector
+/// and the weights of its first corner, its second corner and the centre.
 template <class T>
 struct DomainPoint {
+    glm::vec<2, T> u{}, v{};
     uint32_t sector = 0;
-    glm::vec<2, T> uv{};
     glm::vec<3, T> weights{};
 };
-/// Of a grid sample, from integer counts: triangles by their smallest weight, P_4 by the square's diagonals.
+/// Of a grid sample, from integer counts, every parameter correctly rounded: triangles by their smallest weight, P_4 by
+/// the square's diagonals.
 template <class T>
 [[nodiscard]] DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample);
 
 /// Position and exact normal. Points on a border (v or u in {0, 1}; centre weight 0) are evaluated by the border cubic
-/// alone, w^3 b0 + u^3 b3 with 3 w^2 u b1 + 3 u^2 w b2, so that both sides give the same bits.
+/// alone, (w^3 b0 + u^3 b3) + (3 w^2 u b1 + 3 u^2 w b2), so that both sides give the same bits. At a singular corner
+/// the normal is that of a point kNormalStep further in.
+inline constexpr double kNormalStep = 1e-3;
 template <class T>
 [[nodiscard]] Sample<T> evaluate(const Patch<T>& patch, const DomainPoint<T>& at);
 

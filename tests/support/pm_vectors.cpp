@@ -1,0 +1,125 @@
+#include "tests/support/pm_vectors.h"
+
+#include "tests/support/pm_surface.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace supple::test {
+namespace {
+
+using nlohmann::json;
+using surface::pm::FacetClass;
+using surface::pm::SectorKind;
+
+glm::dvec3 vector(const json& j) {
+    return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
+
+std::vector<glm::dvec3> vectors(const json& j) {
+    std::vector<glm::dvec3> result;
+    for (const json& v : j) {
+        result.push_back(vector(v));
+    }
+    return result;
+}
+
+PmVectors::Sector readSector(const json& j) {
+    static const std::map<std::string, SectorKind> kKinds{
+        {"interior", SectorKind::interior}, {"crease", SectorKind::crease}, {"corner", SectorKind::corner}};
+    PmVectors::Sector sector;
+    sector.vertex = j.at("vertex");
+    sector.kind = kKinds.at(j.at("kind"));
+    sector.valence = j.at("N");
+    sector.edges = j.at("edges").get<std::vector<uint32_t>>();
+    sector.faces = j.at("faces").get<std::vector<uint32_t>>();
+    sector.v = vector(j.at("v"));
+    sector.tau1 = vector(j.at("tau1"));
+    sector.tau2 = vector(j.at("tau2"));
+    sector.t = vectors(j.at("t"));
+    sector.f = vectors(j.at("f"));
+    return sector;
+}
+
+PmVectors::Patch readPatch(const json& j) {
+    static const std::map<std::string, FacetClass> kClasses{{"bicubic", FacetClass::ordinary},
+                                                            {"polar", FacetClass::polar},
+                                                            {"P3", FacetClass::p3},
+                                                            {"P4", FacetClass::p4},
+                                                            {"P5", FacetClass::p5}};
+    PmVectors::Patch patch;
+    patch.facetClass = kClasses.at(j.at("type"));
+    patch.corners = j.at("corners").get<std::vector<uint32_t>>();
+    patch.coefficients = vectors(j.at("coef"));
+    for (const json& s : j.at("samples")) {
+        patch.samples.push_back({s.at("at").get<std::vector<double>>(), vector(s.at("P")), vector(s.at("N"))});
+    }
+    return patch;
+}
+
+PmVectors read(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    const json j = json::parse(file);
+    PmVectors v;
+    v.name = j.at("name").get<std::string>();
+    v.positions = vectors(j.at("vertices"));
+    v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces_in").get<Polygons>());
+    for (const json& s : j.at("sharp")) {
+        v.cage.creases.push_back({s.at(0), s.at(1), s.at(2)});
+    }
+    for (const json& corner : j.at("corners")) {
+        v.cage.sharpVertices.push_back({corner, cage::kHardSharpness});
+    }
+    for (const json& a : j.at("alpha")) {
+        v.alphas.push_back({a.at(0), a.at(1), a.at(2)});
+        v.cage.creaseScalars.push_back({a.at(0), a.at(1), a.at(2)});
+    }
+    v.faces = j.at("faces").get<Polygons>();
+    v.sourceFaces = j.at("source_face").get<std::vector<uint32_t>>();
+    v.apexes = j.at("polar").get<std::vector<uint32_t>>();
+    for (const json& sector : j.at("sectors")) {
+        v.sectors.push_back(readSector(sector));
+    }
+    for (const json& patch : j.at("patches")) {
+        v.patches.push_back(readPatch(patch));
+    }
+    return v;
+}
+
+} // namespace
+
+surface::pm::Mesh PmVectors::mesh() const {
+    surface::pm::Mesh mesh = pmMesh(cage);
+    std::map<std::pair<uint32_t, uint32_t>, double> exact;
+    for (const Alpha& a : alphas) {
+        exact[{a.vertex, a.toward}] = a.alpha;
+    }
+    setAlphas(mesh, [&](uint32_t vertex, uint32_t toward, double rounded) {
+        const auto alpha = exact.find({vertex, toward});
+        return alpha == exact.end() ? rounded : alpha->second;
+    });
+    return mesh;
+}
+
+const std::vector<PmVectors>& pmVectors() {
+    static const std::vector<PmVectors> kAll = [] {
+        std::vector<std::filesystem::path> paths;
+        for (const auto& entry : std::filesystem::directory_iterator(SUPPLE_TEST_DATA "/pm")) {
+            if (entry.path().extension() == ".json") {
+                paths.push_back(entry.path());
+            }
+        }
+        std::sort(paths.begin(), paths.end());
+        std::vector<PmVectors> all;
+        for (const auto& path : paths) {
+            all.push_back(read(path));
+        }
+        return all;
+    }();
+    return kAll;
+}
+
+} // namespace supple::test
