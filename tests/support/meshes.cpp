@@ -26,6 +26,15 @@ cage::Cage makeCage(std::vector<glm::vec3> positions, const Polygons& polygons) 
     return cage;
 }
 
+Polygons polygonsOf(const cage::Cage& cage) {
+    Polygons polygons;
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        polygons.emplace_back(cage.faceVertices.begin() + cage.faceStarts[f],
+                              cage.faceVertices.begin() + cage.faceStarts[f + 1]);
+    }
+    return polygons;
+}
+
 cage::Cage cube() {
     std::vector<glm::vec3> positions;
     for (int i = 0; i < 8; ++i) {
@@ -148,6 +157,189 @@ cage::Cage prism(uint32_t n) {
     polygons.push_back(bottom);
     polygons.push_back(top);
     return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage cappedCylinder(uint32_t n, uint32_t rings) {
+    std::vector<glm::vec3> positions;
+    Polygons polygons;
+    for (uint32_t r = 0; r < rings; ++r) {
+        for (uint32_t i = 0; i < n; ++i) {
+            const double a = 2.0 * std::numbers::pi * i / n;
+            positions.push_back(glm::vec3(std::cos(a), std::sin(a), 0.8 * r));
+        }
+    }
+    const uint32_t bottom = n * rings;
+    const uint32_t top = bottom + 1;
+    positions.push_back({0.0f, 0.0f, -0.5f});
+    positions.push_back(glm::vec3(0.0, 0.0, 0.8 * (rings - 1) + 0.5));
+    for (uint32_t i = 0; i < n; ++i) {
+        const uint32_t next = (i + 1) % n;
+        for (uint32_t r = 0; r + 1 < rings; ++r) {
+            polygons.push_back({r * n + i, r * n + next, (r + 1) * n + next, (r + 1) * n + i});
+        }
+        polygons.push_back({next, i, bottom});
+        polygons.push_back({(rings - 1) * n + i, (rings - 1) * n + next, top});
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage gyroBipyramid(uint32_t n) {
+    std::vector<glm::vec3> positions{{0.0f, 0.0f, -1.2f}, {0.0f, 0.0f, 1.2f}};
+    Polygons polygons;
+    for (const double turn : {0.0, 0.5}) {
+        for (uint32_t i = 0; i < n; ++i) {
+            const double a = 2.0 * std::numbers::pi * (i + turn) / n;
+            positions.push_back(glm::vec3(std::cos(a), std::sin(a), turn - 0.25));
+        }
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        const uint32_t low = 2 + i;
+        const uint32_t lowNext = 2 + (i + 1) % n;
+        const uint32_t high = low + n;
+        const uint32_t highNext = lowNext + n;
+        polygons.push_back({0, lowNext, low});
+        polygons.push_back({1, high, highNext});
+        polygons.push_back({low, lowNext, high});
+        polygons.push_back({lowNext, highNext, high});
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage fanOverQuads(uint32_t n) {
+    const cage::Cage source = prism(n);
+    Polygons polygons = polygonsOf(source);
+    const std::vector<uint32_t> lid = polygons.back();
+    polygons.pop_back();
+    std::vector<glm::vec3> positions = source.positions;
+    positions.push_back({0.0f, 0.0f, 1.5f});
+    for (uint32_t i = 0; i < n; ++i) {
+        polygons.push_back({lid[i], lid[(i + 1) % n], 2 * n});
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage fanOverTriangles(uint32_t n) {
+    std::vector<glm::vec3> positions{{0.0f, 0.0f, 1.0f}};
+    Polygons polygons;
+    const auto add = [&](double angle, double z) {
+        positions.push_back(glm::vec3(std::cos(angle), std::sin(angle), z));
+    };
+    for (uint32_t i = 0; i < 2 * n; ++i) {
+        add(std::numbers::pi * i / n, 0.5);
+    }
+    for (uint32_t i = 0; i < n; ++i) { // foot i stands below the middle of rim 2 i and rim 2 i + 1
+        add(std::numbers::pi * (2 * i + 0.5) / n, -0.5);
+    }
+    const auto rim = [n](uint32_t i) { return 1 + i % (2 * n); };
+    const auto foot = [n](uint32_t i) { return 1 + 2 * n + i % n; };
+    std::vector<uint32_t>& bottom = polygons.emplace_back();
+    for (uint32_t i = n; i-- > 0;) {
+        bottom.push_back(foot(i));
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        polygons.push_back({0, rim(2 * i), rim(2 * i + 1)});
+        polygons.push_back({0, rim(2 * i + 1), rim(2 * i + 2)});
+        polygons.push_back({rim(2 * i + 1), rim(2 * i), foot(i)});
+        polygons.push_back({rim(2 * i + 2), rim(2 * i + 1), foot(i), foot(i + 1)});
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage fanOverPentagons(uint32_t n) {
+    std::vector<glm::vec3> positions{{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}};
+    Polygons polygons;
+    const auto ring = [&](double radius, double z, double turn) {
+        for (uint32_t i = 0; i < n; ++i) {
+            const double a = 2.0 * std::numbers::pi * (i + turn) / n;
+            positions.push_back(glm::vec3(radius * std::cos(a), radius * std::sin(a), z));
+        }
+    };
+    ring(0.9, 0.7, 0.0);
+    ring(1.1, 0.0, 0.0);
+    ring(1.0, -0.5, 0.5);
+    for (uint32_t i = 0; i < n; ++i) {
+        const uint32_t next = (i + 1) % n;
+        const uint32_t rim = 2;
+        const uint32_t belt = 2 + n;
+        const uint32_t foot = 2 + 2 * n; // foot i stands between belt i and i + 1
+        polygons.push_back({0, rim + i, rim + next});
+        polygons.push_back({rim + next, rim + i, belt + i, foot + i, belt + next});
+        polygons.push_back({1, foot + next, belt + next, foot + i});
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage quartered(const cage::Cage& triangles) {
+    std::vector<glm::vec3> positions = triangles.positions;
+    Polygons polygons;
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
+    const auto middle = [&](uint32_t a, uint32_t b) {
+        const auto [entry, isNew] =
+            middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<uint32_t>(positions.size()));
+        if (isNew) {
+            positions.push_back((positions[a] + positions[b]) * 0.5f);
+        }
+        return entry->second;
+    };
+    for (const std::vector<uint32_t>& t : polygonsOf(triangles)) {
+        const uint32_t x = middle(t.at(0), t.at(1));
+        const uint32_t y = middle(t.at(1), t.at(2));
+        const uint32_t z = middle(t.at(2), t.at(0));
+        polygons.insert(polygons.end(), {{t[0], x, z}, {t[1], y, x}, {t[2], z, y}, {x, y, z}});
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage withCutQuads(const cage::Cage& cage, double share, uint32_t seed) {
+    std::mt19937 random(seed);
+    Polygons polygons;
+    for (const std::vector<uint32_t>& p : polygonsOf(cage)) {
+        if (p.size() == 4 && random() < share * 4294967296.0) {
+            polygons.push_back({p[0], p[1], p[2]});
+            polygons.push_back({p[0], p[2], p[3]});
+        } else {
+            polygons.push_back(p);
+        }
+    }
+    return makeCage(cage.positions, polygons);
+}
+
+cage::Cage withMergedFaces(const cage::Cage& cage, uint32_t tries, uint32_t seed) {
+    std::mt19937 random(seed);
+    Polygons polygons = polygonsOf(cage);
+    std::vector<uint32_t> valences(cage.vertexCount(), 0); // of closed cages; boundaries only lose less
+    for (const std::vector<uint32_t>& p : polygons) {
+        for (const uint32_t v : p) {
+            ++valences[v];
+        }
+    }
+    for (uint32_t t = 0; t < tries; ++t) {
+        std::vector<uint32_t>& p = polygons[random() % polygons.size()];
+        const size_t i = random() % p.size();
+        const uint32_t a = p[i];
+        const uint32_t b = p[(i + 1) % p.size()];
+        const auto other = std::find_if(polygons.begin(), polygons.end(), [&](const std::vector<uint32_t>& q) {
+            const auto at = std::find(q.begin(), q.end(), b);
+            return at != q.end() && (at + 1 == q.end() ? q.front() : *(at + 1)) == a;
+        });
+        if (other == polygons.end() || p.size() + other->size() > 7 || valences[a] <= 3 || valences[b] <= 3) {
+            continue;
+        }
+        // b ... a of this face, then what lies between a and b in the other; each other vertex must be met once.
+        std::vector<uint32_t> merged = p;
+        std::rotate(merged.begin(), merged.begin() + static_cast<std::ptrdiff_t>((i + 1) % p.size()), merged.end());
+        std::vector<uint32_t> rest = *other;
+        std::rotate(rest.begin(), std::find(rest.begin(), rest.end(), a), rest.end());
+        merged.insert(merged.end(), rest.begin() + 1, rest.end() - 1);
+        if (std::set<uint32_t>(merged.begin(), merged.end()).size() != merged.size()) {
+            continue;
+        }
+        --valences[a];
+        --valences[b];
+        p = merged;
+        polygons.erase(other);
+    }
+    return makeCage(cage.positions, polygons);
 }
 
 cage::Cage withoutFaces(const cage::Cage& cage, const std::vector<uint32_t>& faces) {

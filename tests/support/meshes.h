@@ -14,6 +14,7 @@ namespace supple::test {
 using Polygons = std::vector<std::vector<uint32_t>>;
 
 [[nodiscard]] cage::Cage makeCage(std::vector<glm::vec3> positions, const Polygons& polygons);
+[[nodiscard]] Polygons polygonsOf(const cage::Cage& cage);
 
 /// Corners at +-1.
 [[nodiscard]] cage::Cage cube();
@@ -28,6 +29,22 @@ using Polygons = std::vector<std::vector<uint32_t>>;
 [[nodiscard]] cage::Cage fan(uint32_t sectors, uint32_t rings, double angle, bool closed);
 /// A closed prism: n quads between two n-gons.
 [[nodiscard]] cage::Cage prism(uint32_t n);
+/// A tube of rings - 1 rings of n quads, closed by fans of n triangles.
+[[nodiscard]] cage::Cage cappedCylinder(uint32_t n, uint32_t rings);
+/// Triangles alone: two poles of valence n and a zigzag belt.
+[[nodiscard]] cage::Cage gyroBipyramid(uint32_t n);
+/// A prism with a fan of n triangles for a lid: the quads end in valence 4 at the fan, in valence 3 below.
+[[nodiscard]] cage::Cage fanOverQuads(uint32_t n);
+/// A fan of 2 n triangles over a ring of n triangles and n quads by turns, closed by an n-gon.
+[[nodiscard]] cage::Cage fanOverTriangles(uint32_t n);
+/// A fan of n triangles, a ring of n pentagons, and quads round the other pole.
+[[nodiscard]] cage::Cage fanOverPentagons(uint32_t n);
+/// Every triangle cut into four at the middles of its edges.
+[[nodiscard]] cage::Cage quartered(const cage::Cage& triangles);
+/// A share of the quads cut into two triangles, chosen by the seed.
+[[nodiscard]] cage::Cage withCutQuads(const cage::Cage& cage, double share, uint32_t seed);
+/// Neighbouring faces merged at random, `tries` times, into faces of up to five sides; no valence below 3 comes of it.
+[[nodiscard]] cage::Cage withMergedFaces(const cage::Cage& cage, uint32_t tries, uint32_t seed);
 /// The cage without some faces; vertices that no face uses any more are dropped.
 [[nodiscard]] cage::Cage withoutFaces(const cage::Cage& cage, const std::vector<uint32_t>& faces);
 
