@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -34,13 +35,36 @@ void checkRotations(Channel& channel, size_t perKey, const std::string& output) 
     }
 }
 
+/// What a path's output looks like.
+struct Output {
+    ChannelPath path;
+    int type;
+    uint32_t components;
+    size_t width; ///< elements a value
+};
+
+std::optional<Output> outputOf(const std::string& path, size_t targetCount) {
+    constexpr uint32_t kAny = kFloat | kNormalizedU8 | kNormalizedU16 | kNormalizedS8 | kNormalizedS16;
+    if (path == "translation") {
+        return Output{ChannelPath::translation, TINYGLTF_TYPE_VEC3, kFloat, 1};
+    }
+    if (path == "rotation") {
+        return Output{ChannelPath::rotation, TINYGLTF_TYPE_VEC4, kAny, 1};
+    }
+    if (path == "scale") {
+        return Output{ChannelPath::scale, TINYGLTF_TYPE_VEC3, kFloat, 1};
+    }
+    if (path == "weights" && targetCount > 0) {
+        return Output{ChannelPath::weights, TINYGLTF_TYPE_SCALAR, kAny, targetCount};
+    }
+    return std::nullopt;
+}
+
 Channel readChannel(const GltfDocument& document, const supple_tinygltf::Animation& animation,
-                    const supple_tinygltf::AnimationChannel& from, const std::string& element) {
+                    const supple_tinygltf::AnimationChannel& from, const Output& kind, const std::string& element) {
     Channel channel;
     channel.node = static_cast<uint32_t>(from.target_node);
-    channel.path = from.target_path == "translation" ? ChannelPath::translation
-                   : from.target_path == "rotation"  ? ChannelPath::rotation
-                                                     : ChannelPath::scale;
+    channel.path = kind.path;
     const auto& sampler = animation.samplers[static_cast<size_t>(from.sampler)];
     channel.interpolation = sampler.interpolation == "STEP"          ? Interpolation::step
                             : sampler.interpolation == "CUBICSPLINE" ? Interpolation::cubicSpline
@@ -65,23 +89,23 @@ Channel readChannel(const GltfDocument& document, const supple_tinygltf::Animati
     }
 
     const std::string output = element + " output";
-    const bool rotation = channel.path == ChannelPath::rotation;
-    channel.values = readFloats(document, sampler.output, rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
-                                rotation ? kFloat | kNormalizedU8 | kNormalizedU16 | kNormalizedS8 | kNormalizedS16
-                                         : static_cast<uint32_t>(kFloat),
-                                output);
-    const size_t width = rotation ? 4 : 3;
+    channel.values = readFloats(document, sampler.output, kind.type, kind.components, output);
+    const size_t elements = accessorCount(document, sampler.output);
     const size_t perKey = cubic ? 3 : 1;
-    if (channel.values.size() != channel.times.size() * perKey * width) {
-        refuse(output, counted(channel.values.size() / width, "element", "elements") + " for " +
-                           counted(channel.times.size(), "key", "keys") + (cubic ? " of CUBICSPLINE" : ""));
+    // The quotient is formed instead of the product, which might overflow.
+    if (elements % (perKey * kind.width) != 0 || elements / (perKey * kind.width) != channel.times.size()) {
+        refuse(output,
+               counted(elements, "element", "elements") + " for " + counted(channel.times.size(), "key", "keys") +
+                   (channel.path == ChannelPath::weights ? " of " + counted(kind.width, "morph target", "morph targets")
+                                                         : "") +
+                   (cubic ? " of CUBICSPLINE" : ""));
     }
     for (size_t k = 0; k < channel.values.size(); ++k) {
         if (!std::isfinite(channel.values[k])) {
-            refuse(item(output, k / width), "not finite");
+            refuse(item(output, k / (channel.values.size() / elements)), "not finite");
         }
     }
-    if (rotation) {
+    if (channel.path == ChannelPath::rotation) {
         checkRotations(channel, perKey, output);
     }
     return channel;
@@ -89,7 +113,8 @@ Channel readChannel(const GltfDocument& document, const supple_tinygltf::Animati
 
 } // namespace
 
-std::vector<Clip> readClips(const GltfDocument& document, const Skeleton& skeleton, Warnings& warnings) {
+std::vector<Clip> readClips(const GltfDocument& document, const Skeleton& skeleton, uint32_t meshNode,
+                            size_t targetCount, Warnings& warnings) {
     const auto& animations = document.model.animations;
     std::vector<Clip> clips;
     uint64_t floats = 0;
@@ -103,7 +128,9 @@ std::vector<Clip> readClips(const GltfDocument& document, const Skeleton& skelet
         for (size_t k = 0; k < animation.channels.size(); ++k) {
             const auto& channel = animation.channels[k];
             const std::string& path = channel.target_path;
-            if (path != "translation" && path != "rotation" && path != "scale") {
+            const bool ofMesh = channel.target_node == static_cast<int>(meshNode);
+            const std::optional<Output> kind = outputOf(path, ofMesh ? targetCount : 0);
+            if (!kind) {
                 ++ignored[path];
                 continue;
             }
@@ -111,10 +138,11 @@ std::vector<Clip> readClips(const GltfDocument& document, const Skeleton& skelet
             if (!targets.emplace(channel.target_node, path).second) {
                 refuse(element, "a second channel for " + path + " of node " + std::to_string(channel.target_node));
             }
-            if (skeleton.nodes[static_cast<size_t>(channel.target_node)].hasMatrix) {
+            if (kind->path != ChannelPath::weights &&
+                skeleton.nodes[static_cast<size_t>(channel.target_node)].hasMatrix) {
                 refuse(element, "animates node " + std::to_string(channel.target_node) + ", which has a matrix");
             }
-            clip.channels.push_back(readChannel(document, animation, channel, element));
+            clip.channels.push_back(readChannel(document, animation, channel, *kind, element));
             floats += clip.channels.back().times.size() + clip.channels.back().values.size();
             if (floats > kMaxKeyFloats) {
                 refuse(element, "the clips hold more than " + std::to_string(kMaxKeyFloats) + " numbers",
@@ -125,7 +153,10 @@ std::vector<Clip> readClips(const GltfDocument& document, const Skeleton& skelet
         for (const auto& [path, count] : ignored) {
             warn(warnings, at("animation", i),
                  counted(count, "channel", "channels") + " of " +
-                     (path == "pointer" ? "KHR_animation_pointer or no node" : path) + " ignored");
+                     (path == "pointer"   ? "KHR_animation_pointer or no node"
+                      : path == "weights" ? "weights of nodes without the mesh's morph targets"
+                                          : path) +
+                     " ignored");
         }
         clips.push_back(std::move(clip));
     }

@@ -1,5 +1,6 @@
 #include "cage/gltf_cage.h"
 
+#include "cage/gltf_creases.h"
 #include "cage/gltf_refusal.h"
 #include "cage/polygons.h"
 #include "cage/weld.h"
@@ -14,7 +15,28 @@
 namespace supple::cage {
 namespace {
 
-/// Numbers the sets of vertices with equal position and skin; warns where only the position is equal.
+/// Vertices in one place that something keeps apart.
+struct Cracks {
+    size_t count = 0;
+    uint32_t first[2] = {0, 0};
+
+    void add(uint32_t a, uint32_t b) {
+        if (count++ == 0) {
+            first[0] = std::min(a, b);
+            first[1] = std::max(a, b);
+        }
+    }
+    void report(const std::string& what, const std::string& element, Warnings& warnings) const {
+        if (count > 0) {
+            warn(warnings, element,
+                 counted(count, "vertex agrees", "vertices agree") + " with another in position but not in " + what +
+                     " (first: vertices " + std::to_string(first[0]) + " and " + std::to_string(first[1]) +
+                     "); kept apart");
+        }
+    }
+};
+
+/// Numbers the sets of vertices with equal position, skin and morphs; warns where only the position is equal.
 std::vector<uint32_t> candidateSets(const GltfMesh& mesh, const std::vector<uint8_t>& used, Warnings& warnings) {
     std::vector<uint32_t> order;
     for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
@@ -47,35 +69,50 @@ std::vector<uint32_t> candidateSets(const GltfMesh& mesh, const std::vector<uint
         }
         return 0;
     };
+    const auto compareMorphs = [&](uint32_t a, uint32_t b) {
+        const auto x = mesh.morphs.of(a);
+        const auto y = mesh.morphs.of(b);
+        if (x.size() != y.size()) {
+            return x.size() < y.size() ? -1 : 1;
+        }
+        for (size_t i = 0; i < x.size(); ++i) {
+            if (x[i].target != y[i].target) {
+                return x[i].target < y[i].target ? -1 : 1;
+            }
+            for (int k = 0; k < 3; ++k) {
+                if (x[i].delta[k] != y[i].delta[k]) {
+                    return x[i].delta[k] < y[i].delta[k] ? -1 : 1;
+                }
+            }
+        }
+        return 0;
+    };
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-        const int byPosition = comparePositions(a, b);
-        const int byBoth = byPosition != 0 ? byPosition : compareSkins(a, b);
-        return byBoth != 0 ? byBoth < 0 : a < b;
+        int by = comparePositions(a, b);
+        by = by != 0 ? by : compareSkins(a, b);
+        by = by != 0 ? by : compareMorphs(a, b);
+        return by != 0 ? by < 0 : a < b;
     });
     std::vector<uint32_t> sets(mesh.positions.size(), 0);
     uint32_t set = 0;
-    size_t cracks = 0;
-    uint32_t crack[2] = {0, 0};
+    Cracks skinCracks;
+    Cracks morphCracks;
     for (size_t i = 0; i < order.size(); ++i) {
         if (i > 0) {
-            const bool samePosition = comparePositions(order[i - 1], order[i]) == 0;
-            const bool sameSkin = samePosition && compareSkins(order[i - 1], order[i]) == 0;
-            if (!sameSkin) {
-                ++set;
-            }
-            if (samePosition && !sameSkin && cracks++ == 0) {
-                crack[0] = std::min(order[i - 1], order[i]);
-                crack[1] = std::max(order[i - 1], order[i]);
+            const uint32_t a = order[i - 1];
+            const uint32_t b = order[i];
+            const bool samePosition = comparePositions(a, b) == 0;
+            const bool sameSkin = samePosition && compareSkins(a, b) == 0;
+            const bool same = sameSkin && compareMorphs(a, b) == 0;
+            set += same ? 0 : 1;
+            if (samePosition && !same) {
+                (sameSkin ? morphCracks : skinCracks).add(a, b);
             }
         }
         sets[order[i]] = set;
     }
-    if (cracks > 0) {
-        warn(warnings, mesh.element,
-             counted(cracks, "vertex agrees", "vertices agree") +
-                 " with another in position but not in skin (first: vertices " + std::to_string(crack[0]) + " and " +
-                 std::to_string(crack[1]) + "); kept apart");
-    }
+    skinCracks.report("skin", mesh.element, warnings);
+    morphCracks.report("morph targets", mesh.element, warnings);
     return sets;
 }
 
@@ -96,6 +133,7 @@ Polygons recoverPolygons(const GltfMesh& mesh, const MeshPart& part, std::span<c
     };
     const auto sameCorner = [&](uint32_t a, uint32_t b) {
         return same(part.uvs, 2, a - part.firstVertex, b - part.firstVertex) &&
+               same(part.uvs1, 2, a - part.firstVertex, b - part.firstVertex) &&
                same(part.colors, 4, a - part.firstVertex, b - part.firstVertex);
     };
     const auto normal = [&](const uint32_t* t) {
@@ -155,6 +193,9 @@ void fillCorners(const GltfMesh& mesh, const Faces& faces, Cage& cage) {
     if (any(&MeshPart::uvs)) {
         cage.cornerUvs.assign(faces.polygons.vertices.size(), glm::vec2(0.0f));
     }
+    if (any(&MeshPart::uvs1)) {
+        cage.cornerUvs1.assign(faces.polygons.vertices.size(), glm::vec2(0.0f));
+    }
     if (any(&MeshPart::colors)) {
         cage.cornerColors.assign(faces.polygons.vertices.size(), glm::vec4(1.0f));
     }
@@ -165,6 +206,9 @@ void fillCorners(const GltfMesh& mesh, const Faces& faces, Cage& cage) {
             if (!part.uvs.empty()) {
                 cage.cornerUvs[c] = {part.uvs[2 * v], part.uvs[2 * v + 1]};
             }
+            if (!part.uvs1.empty()) {
+                cage.cornerUvs1[c] = {part.uvs1[2 * v], part.uvs1[2 * v + 1]};
+            }
             if (!part.colors.empty()) {
                 cage.cornerColors[c] = {part.colors[4 * v], part.colors[4 * v + 1], part.colors[4 * v + 2],
                                         part.colors[4 * v + 3]};
@@ -173,21 +217,22 @@ void fillCorners(const GltfMesh& mesh, const Faces& faces, Cage& cage) {
     }
 }
 
-void fillCage(const GltfMesh& mesh, const Faces& faces, const Welding& welding, Character& out) {
+/// Returns the cage vertex of each of the mesh's vertices, kNone for those without a face.
+std::vector<uint32_t> fillCage(const GltfMesh& mesh, const Faces& faces, const Welding& welding, Character& out) {
     Cage& cage = out.cage;
     std::vector<uint8_t> used(mesh.positions.size(), 0);
     for (const uint32_t v : faces.polygons.vertices) {
         used[v] = 1;
     }
     // A root is the smallest vertex of its set, but may itself have lost its faces to degenerate triangles.
-    std::vector<uint32_t> cageVertex(mesh.positions.size(), kNone);
+    std::vector<uint32_t> ofRoot(mesh.positions.size(), kNone);
     uint32_t usedCount = 0;
     for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
         if (used[v] == 0) {
             continue;
         }
         ++usedCount;
-        uint32_t& index = cageVertex[welding.roots[v]];
+        uint32_t& index = ofRoot[welding.roots[v]];
         if (index != kNone) {
             continue;
         }
@@ -200,7 +245,7 @@ void fillCage(const GltfMesh& mesh, const Faces& faces, const Welding& welding, 
     cage.faceStarts = faces.polygons.starts;
     cage.faceVertices.reserve(faces.polygons.vertices.size());
     for (const uint32_t v : faces.polygons.vertices) {
-        cage.faceVertices.push_back(cageVertex[welding.roots[v]]);
+        cage.faceVertices.push_back(ofRoot[welding.roots[v]]);
     }
     for (const size_t part : faces.parts) {
         cage.faceMaterials.push_back(mesh.parts[part].material < 0 ? kNone
@@ -209,16 +254,27 @@ void fillCage(const GltfMesh& mesh, const Faces& faces, const Welding& welding, 
     fillCorners(mesh, faces, cage);
 
     out.weights.starts.push_back(0);
-    for (const uint32_t v : cage.sourceVertices) {
-        const auto own = mesh.weights.of(v);
+    for (uint32_t i = 0; i < cage.vertexCount(); ++i) {
+        const auto own = mesh.weights.of(cage.sourceVertices[i]);
         out.weights.influences.insert(out.weights.influences.end(), own.begin(), own.end());
         out.weights.starts.push_back(static_cast<uint32_t>(out.weights.influences.size()));
+        for (const MorphDelta& displacement : mesh.morphs.of(cage.sourceVertices[i])) {
+            MorphTarget& target = out.morphs.targets[displacement.target];
+            target.vertices.push_back(i);
+            target.deltas.push_back(displacement.delta);
+        }
     }
+
+    std::vector<uint32_t> cageVertices(mesh.positions.size());
+    for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        cageVertices[v] = ofRoot[welding.roots[v]];
+    }
+    return cageVertices;
 }
 
 } // namespace
 
-void buildCage(const GltfMesh& mesh, const GltfOptions& options, Character& out) {
+void buildCage(const GltfDocument& document, const GltfMesh& mesh, const GltfOptions& options, Character& out) {
     std::vector<uint8_t> used(mesh.positions.size(), 0);
     std::vector<uint32_t> triangles;
     for (const MeshPart& part : mesh.parts) {
@@ -248,7 +304,7 @@ void buildCage(const GltfMesh& mesh, const GltfOptions& options, Character& out)
 
     out.polygonSource = sourceOf(mesh.parts, options.pairQuads);
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
-    fillCage(mesh, faces, welding, out);
+    readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, out.warnings);
 }
 
 } // namespace supple::cage

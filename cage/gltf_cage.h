@@ -7,7 +7,8 @@
 
 namespace supple::cage {
 
-/// Fills the cage, its weights and what a character tells of where they came from. Throws Refusal.
-void buildCage(const GltfMesh& mesh, const GltfOptions& options, Character& out);
+/// Fills the cage, its weights, the displacements of its morph targets, and what a character tells of where they came
+/// from. Throws Refusal.
+void buildCage(const GltfDocument& document, const GltfMesh& mesh, const GltfOptions& options, Character& out);
 
 } // namespace supple::cage

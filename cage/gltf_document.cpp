@@ -82,15 +82,16 @@ supple_tinygltf::Model toModel(json& root) {
 
 } // namespace
 
-GltfDocument loadGltfDocument(std::span<const std::byte> bytes, const std::string& baseDirectory) {
+GltfDocument loadGltfDocument(std::span<const std::byte> bytes, const FileReader& readFile) {
     const GltfContainer container = openContainer(bytes);
     json root = parseJson(container.text);
     checkHeader(root);
 
     GltfDocument document;
-    loadBuffers(table(root, "buffers"), container, baseDirectory, document);
+    loadBuffers(table(root, "buffers"), container, readFile, document);
     checkStructure(root, document.buffers);
-    loadImages(table(root, "images"), table(root, "bufferViews"), baseDirectory, document);
+    loadImages(table(root, "images"), table(root, "bufferViews"), readFile, document);
+    document.meshes = table(root, "meshes");
     document.model = toModel(root);
     return document;
 }

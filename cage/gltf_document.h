@@ -3,6 +3,8 @@
 #pragma once
 
 #include "cage/character.h"
+#include "cage/gltf_json.h"
+#include "cage/gltf_reader.h"
 #include "cage/tinygltf.h"
 
 #include <cstddef>
@@ -16,6 +18,7 @@ struct GltfDocument {
     /// Everything but buffers, images, cameras and top-level extensions, which tinygltf never sees. Every index in it
     /// is in range, every number array has its right length and finite members.
     supple_tinygltf::Model model;
+    json meshes; ///< as the file has them: with the extensions and extras that the model lacks, unchecked
     std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each
     std::vector<Image> images;                       ///< same indices as the file's; bytes empty where missing
     std::vector<std::string> warnings;
@@ -24,6 +27,6 @@ struct GltfDocument {
 };
 
 /// Throws Refusal. The document refers to `bytes`.
-[[nodiscard]] GltfDocument loadGltfDocument(std::span<const std::byte> bytes, const std::string& baseDirectory);
+[[nodiscard]] GltfDocument loadGltfDocument(std::span<const std::byte> bytes, const FileReader& readFile);
 
 } // namespace supple::cage

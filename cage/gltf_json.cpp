@@ -144,14 +144,14 @@ bool isFiniteFloat(const json& number) {
     return std::abs(number.get<double>()) <= std::numeric_limits<float>::max();
 }
 
-void checkNumbers(const json& object, const char* key, const std::string& element, size_t length) {
+void checkNumbers(const json& object, const char* key, const std::string& element, std::optional<size_t> length) {
     const json* values = arrayMember(object, key, element);
     if (values == nullptr) {
         return;
     }
     const std::string place = element + " " + key;
-    if (values->size() != length) {
-        refuse(place, std::to_string(values->size()) + " numbers instead of " + std::to_string(length));
+    if (length && values->size() != *length) {
+        refuse(place, std::to_string(values->size()) + " numbers instead of " + std::to_string(*length));
     }
     for (const json& value : *values) {
         if (!value.is_number()) {

@@ -44,8 +44,8 @@ void checkIndexArray(const json& object, const char* key, const std::string& ele
 
 /// Whether a number is finite as the float it becomes.
 [[nodiscard]] bool isFiniteFloat(const json& number);
-/// An array of `length` finite numbers.
-void checkNumbers(const json& object, const char* key, const std::string& element, size_t length);
+/// An array of finite numbers, `length` of them where it is given.
+void checkNumbers(const json& object, const char* key, const std::string& element, std::optional<size_t> length);
 void checkString(const json& object, const char* key, const std::string& element);
 
 } // namespace supple::cage

@@ -37,17 +37,19 @@ std::vector<Material> readMaterials(const GltfDocument& document, Warnings& warn
         }
         if (pbr.baseColorTexture.index >= 0) {
             const auto& texture = model.textures[static_cast<size_t>(pbr.baseColorTexture.index)];
-            if (pbr.baseColorTexture.texCoord != 0) {
-                warn(warnings, at("material", i) + " baseColorTexture", "only TEXCOORD_0 is read");
-            }
+            const int uvSet = pbr.baseColorTexture.texCoord;
             if (pbr.baseColorTexture.extensions.count("KHR_texture_transform") != 0) {
                 warn(warnings, at("material", i) + " baseColorTexture", "KHR_texture_transform is ignored");
             }
-            if (texture.source < 0) {
+            if (uvSet != 0 && uvSet != 1) {
+                warn(warnings, at("material", i) + " baseColorTexture",
+                     "texCoord " + std::to_string(uvSet) + ": only TEXCOORD_0 and TEXCOORD_1 are read; left out");
+            } else if (texture.source < 0) {
                 warn(warnings, at("texture", static_cast<size_t>(pbr.baseColorTexture.index)),
                      "no image in a core format; left out");
             } else if (!document.images[static_cast<size_t>(texture.source)].bytes.empty()) {
                 material.baseColorImage = static_cast<uint32_t>(texture.source);
+                material.baseColorUvSet = static_cast<uint32_t>(uvSet);
             }
             if (texture.sampler >= 0) {
                 const auto& sampler = model.samplers[static_cast<size_t>(texture.sampler)];

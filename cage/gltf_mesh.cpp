@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace supple::cage {
@@ -27,9 +28,9 @@ public:
     GltfMesh read(uint32_t meshNode) && {
         const auto meshIndex = static_cast<size_t>(model_.nodes[meshNode].mesh);
         const auto& mesh = model_.meshes[meshIndex];
+        out_.index = meshIndex;
         out_.element = at("mesh", meshIndex);
         const bool skinned = model_.nodes[meshNode].skin >= 0;
-        size_t morphed = 0;
         for (size_t k = 0; k < mesh.primitives.size(); ++k) {
             const Primitive& primitive = mesh.primitives[k];
             const std::string element = out_.element + " " + at("primitive", k);
@@ -39,20 +40,19 @@ public:
                 warn(warnings_, element, std::string(kModes[primitive.mode]) + " instead of TRIANGLES; left out");
                 continue;
             }
-            morphed += primitive.targets.empty() ? 0 : 1;
             readPrimitive(primitive, element, skinned);
         }
         if (out_.parts.empty()) {
             refuse(out_.element, "no primitive of TRIANGLES");
-        }
-        if (morphed > 0) {
-            warn(warnings_, out_.element, "morph targets are ignored");
         }
         out_.weights.report(out_.element, warnings_);
         return std::move(out_);
     }
 
 private:
+    /// Accessors of position, joints, weights and morph targets: what makes a vertex.
+    using Stream = std::tuple<int, std::vector<int>, std::vector<int>, std::vector<int>>;
+
     void readPrimitive(const Primitive& primitive, const std::string& element, bool skinned) {
         MeshPart part;
         part.element = element;
@@ -73,14 +73,14 @@ private:
         if (skinned) {
             sets = findSkinSets(primitive, element);
         }
-        std::vector<int> key{position->second};
-        key.insert(key.end(), sets.joints.begin(), sets.joints.end());
-        key.insert(key.end(), sets.weights.begin(), sets.weights.end());
-        const auto [known, isNew] = streams_.try_emplace(key, static_cast<uint32_t>(out_.positions.size()));
+        const std::vector<int> targets = findMorphTargets(primitive);
+        const Stream stream{position->second, sets.joints, sets.weights, targets};
+        const auto [known, isNew] = streams_.try_emplace(stream, static_cast<uint32_t>(out_.positions.size()));
         part.firstVertex = known->second;
         const size_t count = accessorCount(document_, position->second);
         if (isNew) {
             readVertices(position->second, sets, count, element);
+            out_.morphs.append(document_, targets, count, element);
         }
         part.vertexCount = static_cast<uint32_t>(count);
 
@@ -145,7 +145,7 @@ private:
         }
     }
 
-    /// Reads TEXCOORD_0 and COLOR_0. What is not finite becomes 0: it spoils a texture, not the shape.
+    /// Reads TEXCOORD_0, TEXCOORD_1 and COLOR_0. What is not finite becomes 0: it spoils a texture, not the shape.
     void readCornerAttributes(const Primitive& primitive, const std::string& element, MeshPart& part) {
         const auto read = [&](const char* attribute, int type) {
             std::vector<float> values;
@@ -175,6 +175,10 @@ private:
             return values;
         };
         part.uvs = read("TEXCOORD_0", TINYGLTF_TYPE_VEC2);
+        part.uvs1 = read("TEXCOORD_1", TINYGLTF_TYPE_VEC2);
+        if (primitive.attributes.count("TEXCOORD_2") != 0) {
+            warn(warnings_, element, "only TEXCOORD_0 and TEXCOORD_1 are read");
+        }
         const auto color = primitive.attributes.find("COLOR_0");
         if (color == primitive.attributes.end()) {
             return;
@@ -196,7 +200,7 @@ private:
     Warnings& warnings_;
 
     GltfMesh out_;
-    std::map<std::vector<int>, uint32_t> streams_; ///< accessors of position and skin -> first vertex
+    std::map<Stream, uint32_t> streams_; ///< -> first vertex
     uint64_t cornerCount_ = 0;
     uint64_t attributeFloats_ = 0;
 };

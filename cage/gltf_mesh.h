@@ -3,6 +3,7 @@
 
 #include "cage/gltf_document.h"
 #include "cage/gltf_message.h"
+#include "cage/gltf_morphs.h"
 #include "cage/gltf_skin.h"
 
 #include <cstddef>
@@ -21,14 +22,17 @@ struct MeshPart {
     uint32_t vertexCount = 0;
     std::vector<uint32_t> triangles; ///< three vertices each, counted over all parts
     std::vector<float> uvs;          ///< two per POSITION element, or empty
+    std::vector<float> uvs1;         ///< two per POSITION element, or empty
     std::vector<float> colors;       ///< four per POSITION element, or empty
 };
 
 /// Primitives over the same accessors share their vertices.
 struct GltfMesh {
+    size_t index = 0; ///< among the file's meshes
     std::string element;
     std::vector<glm::vec3> positions;
     VertexWeights weights;
+    VertexMorphs morphs;
     std::vector<MeshPart> parts; ///< at least one
 };
 

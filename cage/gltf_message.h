@@ -21,7 +21,7 @@ namespace supple::cage {
 /// Messages are one line, whatever a file calls its parts.
 [[nodiscard]] std::string oneLine(std::string text);
 
-/// What was repaired or left out, as "element: reason"; readGltf() puts the file's name in front.
+/// What was repaired or left out, as "element: reason"; who shows it puts the character's name in front.
 using Warnings = std::vector<std::string>;
 void warn(Warnings& warnings, const std::string& element, const std::string& reason);
 

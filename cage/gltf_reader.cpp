@@ -6,6 +6,7 @@
 #include "cage/gltf_material.h"
 #include "cage/gltf_mesh.h"
 #include "cage/gltf_message.h"
+#include "cage/gltf_morphs.h"
 #include "cage/gltf_nodes.h"
 #include "cage/gltf_refusal.h"
 #include "cage/gltf_skin.h"
@@ -14,6 +15,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <utility>
 
 namespace supple::cage {
 namespace {
@@ -27,8 +29,11 @@ Character toCharacter(const GltfDocument& document, const GltfOptions& options) 
     character.skin = readSkin(document, meshNode);
     character.images = document.images;
     character.materials = readMaterials(document, warnings);
-    buildCage(readMesh(document, meshNode, character.skin.joints.size(), warnings), options, character);
-    character.clips = readClips(document, character.skeleton, warnings);
+    const GltfMesh mesh = readMesh(document, meshNode, character.skin.joints.size(), warnings);
+    character.meshNode = meshNode;
+    character.morphs = readMorphs(document, meshNode, mesh.morphs.targetCount(), warnings);
+    buildCage(document, mesh, options, character);
+    character.clips = readClips(document, character.skeleton, meshNode, mesh.morphs.targetCount(), warnings);
     return character;
 }
 
@@ -41,11 +46,12 @@ Error failure(ErrorCode code, const std::string& name, const std::string& messag
 Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& name, const std::string& baseDirectory,
                            const GltfOptions& options) {
     try {
-        Character character = toCharacter(loadGltfDocument(bytes, baseDirectory), options);
+        const FileReader readFolder = [&](const std::string& path) { return readBelow(baseDirectory, path); };
+        Character character =
+            toCharacter(loadGltfDocument(bytes, options.readFile ? options.readFile : readFolder), options);
         character.name = name;
-        const std::string prefix = name + ": ";
         for (std::string& warning : character.warnings) {
-            warning = oneLine(warning.insert(0, prefix));
+            warning = oneLine(std::move(warning));
         }
         return character;
     } catch (const Refusal& refusal) {
@@ -64,12 +70,12 @@ Result<Character> readGltfFile(const std::string& path, const GltfOptions& optio
         if (file.has_filename()) {
             name = file.filename().string();
         }
-        const UriBytes read = readRegularFile(path);
-        if (!read.problem.empty()) {
-            return failure(ErrorCode::io, name, "file: " + read.problem + ": " + quoted(path));
+        const Result<std::vector<std::byte>> bytes = readRegularFile(path);
+        if (!bytes) {
+            return failure(ErrorCode::io, name, "file: " + bytes.error().message + ": " + quoted(path));
         }
         const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
-        return readGltf(read.bytes, name, folder, options);
+        return readGltf(*bytes, name, folder, options);
     } catch (const std::bad_alloc&) {
         return failure(ErrorCode::hostMemory, name, "file: out of memory");
     } catch (const std::exception& error) {

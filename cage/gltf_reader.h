@@ -6,36 +6,45 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace supple::cage {
 
 /// Nodes nested deeper than this are refused: every level is a step in which a pose's matrices wait for each other.
 inline constexpr uint32_t kMaxNodeDepth = 1024;
 
+/// Gives the bytes of a file that the asset refers to, or why it cannot, in a few words. `path` is percent-decoded and
+/// relative, with forward slashes, no ".." and no scheme.
+using FileReader = std::function<Result<std::vector<std::byte>>(const std::string& path)>;
+
 struct GltfOptions {
     /// Merge consecutive triangles that share an edge into quads where the file carries no polygons.
     bool pairQuads = false;
+    /// Where external buffers and images come from, instead of the folder given to readGltf().
+    FileReader readFile;
 };
 
 /// Parses a glTF or GLB held in memory.
 ///
 /// Which mesh: that of the first node with a mesh and a skin, in scene order, then node order; else of the first node
 /// with a mesh, which becomes a skin of one joint. All its TRIANGLES primitives make one cage. Vertices are welded
-/// where position and skin agree and triangle edges meet there (cage/weld.h); cage vertices keep the order of the
-/// POSITION elements they come from (those of all primitives, one after the other; primitives over the same accessors
-/// share them). Morph targets and their animation are not read yet.
+/// where position, skin and morph targets agree and triangle edges meet there (cage/weld.h); cage vertices keep the
+/// order of the POSITION elements they come from (those of all primitives, one after the other; primitives over the
+/// same accessors share them). Creases and sharp vertices are those of mesh.extras.creases, [vertex, vertex,
+/// sharpness], and mesh.extras.corners, [vertex, sharpness], counted in the same order.
 ///
 /// Repaired or left out with a line in Character::warnings: weights that do not sum to 1 beyond rounding (normalised),
 /// vertices whose weights are all zero (bound to the first joint they name, as three.js does), primitives that are not
 /// triangles, unused vertices, degenerate triangles, missing or unreadable images, channels other than translation,
-/// rotation and scale. Joint numbers of zero weights are not looked at. Everything else that glTF 2.0 forbids and that
-/// could change the shape or its motion is an error.
+/// rotation and scale, and weights of this mesh. Joint numbers of zero weights are not looked at. Everything else that
+/// glTF 2.0 forbids and that could change the shape or its motion is an error.
 ///
-/// `name` begins every message. External buffers and images are looked up below `baseDirectory` (no "..", no absolute
-/// paths, no URL schemes but data:); an empty baseDirectory allows none. Never throws. Errors are one line, "NAME:
-/// element: reason".
+/// `name` begins every error and becomes Character::name; warnings are without it. External buffers and images are
+/// looked up below `baseDirectory` (no "..", no absolute paths, no URL schemes but data:); an empty baseDirectory
+/// allows none; with options.readFile it is not looked at. Never throws. Errors are one line, "NAME: element: reason".
 [[nodiscard]] Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& name,
                                          const std::string& baseDirectory, const GltfOptions& options = {});
 

@@ -14,20 +14,27 @@ namespace supple::cage {
 namespace {
 
 /// A problem is told with the URI it is about; data: URIs are too long for that.
-UriBytes fetch(const std::string& uri, const std::string& baseDirectory) {
+Result<DataUri> fetch(const std::string& uri, const FileReader& readFile) {
     if (isDataUri(uri)) {
         return decodeDataUri(uri);
     }
-    UriBytes read = readBelow(baseDirectory, uri);
-    if (!read.problem.empty()) {
-        read.problem = quoted(uri.substr(0, 100)) + ": " + read.problem;
+    const auto about = [&](const Error& error) {
+        return Error{error.code, quoted(uri.substr(0, 100)) + ": " + error.message};
+    };
+    const Result<std::string> path = relativePath(uri);
+    if (!path) {
+        return about(path.error());
     }
-    return read;
+    Result<std::vector<std::byte>> bytes = readFile(*path);
+    if (!bytes) {
+        return about(bytes.error());
+    }
+    return DataUri{std::move(*bytes), ""};
 }
 
 } // namespace
 
-void loadBuffers(const json& buffers, const GltfContainer& container, const std::string& baseDirectory,
+void loadBuffers(const json& buffers, const GltfContainer& container, const FileReader& readFile,
                  GltfDocument& document) {
     document.owned.resize(buffers.size());
     for (size_t i = 0; i < buffers.size(); ++i) {
@@ -52,11 +59,11 @@ void loadBuffers(const json& buffers, const GltfContainer& container, const std:
             bytes = container.binary;
         } else {
             const std::string text = stringMember(buffers[i], "uri", element);
-            UriBytes read = fetch(text, baseDirectory);
-            if (!read.problem.empty()) {
-                refuse(element + " uri", read.problem, read.readable ? ErrorCode::asset : ErrorCode::io);
+            Result<DataUri> read = fetch(text, readFile);
+            if (!read) {
+                refuse(element + " uri", read.error().message, read.error().code);
             }
-            document.owned[i] = std::move(read.bytes);
+            document.owned[i] = std::move(read->bytes);
             bytes = document.owned[i];
         }
         if (bytes.size() < length) {
@@ -68,7 +75,7 @@ void loadBuffers(const json& buffers, const GltfContainer& container, const std:
 }
 
 /// A character without its texture is still a character: whatever is wrong with an image is a warning.
-void loadImages(const json& images, const json& views, const std::string& baseDirectory, GltfDocument& document) {
+void loadImages(const json& images, const json& views, const FileReader& readFile, GltfDocument& document) {
     for (size_t i = 0; i < images.size(); ++i) {
         const std::string element = at("image", i);
         Image image;
@@ -83,13 +90,13 @@ void loadImages(const json& images, const json& views, const std::string& baseDi
             image.bytes.assign(bytes.begin(), bytes.end());
         } else {
             const std::string uri = stringMember(images[i], "uri", element);
-            UriBytes read = fetch(uri, baseDirectory);
-            if (!read.problem.empty()) {
-                warn(document.warnings, within(element, "uri"), read.problem + "; left out");
+            Result<DataUri> read = fetch(uri, readFile);
+            if (!read) {
+                warn(document.warnings, within(element, "uri"), read.error().message + "; left out");
             } else {
-                image.bytes = std::move(read.bytes);
+                image.bytes = std::move(read->bytes);
                 if (image.mimeType.empty()) {
-                    image.mimeType = read.mimeType;
+                    image.mimeType = read->mimeType;
                 }
                 if (image.name.empty() && !isDataUri(uri)) {
                     image.name = uri;

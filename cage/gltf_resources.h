@@ -4,16 +4,15 @@
 #include "cage/gltf_container.h"
 #include "cage/gltf_document.h"
 #include "cage/gltf_json.h"
-
-#include <string>
+#include "cage/gltf_reader.h"
 
 namespace supple::cage {
 
 /// Fills document.buffers and what is behind them. Throws Refusal.
-void loadBuffers(const json& buffers, const GltfContainer& container, const std::string& baseDirectory,
+void loadBuffers(const json& buffers, const GltfContainer& container, const FileReader& readFile,
                  GltfDocument& document);
 
 /// Fills document.images, with a warning for those that cannot be read. The views have passed checkStructure().
-void loadImages(const json& images, const json& views, const std::string& baseDirectory, GltfDocument& document);
+void loadImages(const json& images, const json& views, const FileReader& readFile, GltfDocument& document);
 
 } // namespace supple::cage

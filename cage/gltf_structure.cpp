@@ -188,6 +188,19 @@ void checkAccessors(const json& accessors, size_t viewCount) {
     }
 }
 
+void checkTargets(const json& primitive, const std::string& element, size_t accessorCount) {
+    const json* targets = arrayMember(primitive, "targets", element);
+    for (size_t i = 0; targets != nullptr && i < targets->size(); ++i) {
+        const std::string place = element + " " + at("target", i);
+        if (!(*targets)[i].is_object()) {
+            refuse(place, "not an object");
+        }
+        for (const auto& [name, value] : (*targets)[i].items()) {
+            checkIndex(value, within(place, name), "accessor", accessorCount);
+        }
+    }
+}
+
 void checkMeshes(const json& root) {
     const json& meshes = table(root, "meshes");
     const json& accessors = table(root, "accessors");
@@ -195,6 +208,7 @@ void checkMeshes(const json& root) {
     const size_t materialCount = table(root, "materials").size();
     for (size_t i = 0; i < meshes.size(); ++i) {
         checkString(meshes[i], "name", at("mesh", i));
+        checkNumbers(meshes[i], "weights", at("mesh", i), std::nullopt);
         const json* primitives = arrayMember(meshes[i], "primitives", at("mesh", i));
         if (primitives == nullptr || primitives->empty()) {
             refuse(at("mesh", i), "no primitives");
@@ -225,6 +239,7 @@ void checkMeshes(const json& root) {
                 refuse(element + " mode", "not in 0..6");
             }
             objectMember(primitive, "extensions", element);
+            checkTargets(primitive, element, accessorCount);
         }
     }
 }
@@ -244,6 +259,7 @@ void checkNodes(const json& root) {
         checkNumbers(nodes[i], "translation", element, 3);
         checkNumbers(nodes[i], "rotation", element, 4);
         checkNumbers(nodes[i], "scale", element, 3);
+        checkNumbers(nodes[i], "weights", element, std::nullopt);
     }
     checkNodeTree(nodes);
 
@@ -333,6 +349,10 @@ void checkMaterials(const json& root) {
         checkNumbers(*pbr, "baseColorFactor", element, 4);
         if (const json* texture = objectMember(*pbr, "baseColorTexture", element)) {
             checkIndexMember(*texture, "index", element + " baseColorTexture", "texture", textures.size(), true);
+            if (unsignedMember(*texture, "texCoord", element + " baseColorTexture", 0) >
+                std::numeric_limits<int>::max()) {
+                refuse(element + " baseColorTexture texCoord", "out of range");
+            }
         }
     }
     for (size_t i = 0; i < textures.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "cage/gltf_uri.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 namespace supple::cage {
 namespace {
@@ -55,11 +57,12 @@ bool hasScheme(std::string_view uri) {
     return true;
 }
 
-UriBytes problem(std::string reason, bool readable = true) {
-    UriBytes result;
-    result.problem = std::move(reason);
-    result.readable = readable;
-    return result;
+Error malformed(std::string reason) {
+    return Error{ErrorCode::asset, std::move(reason)};
+}
+
+Error unreadable(std::string reason) {
+    return Error{ErrorCode::io, std::move(reason)};
 }
 
 constexpr std::array<int, 256> makeBase64Values() {
@@ -90,15 +93,15 @@ bool isDataUri(std::string_view uri) {
     return true;
 }
 
-UriBytes decodeDataUri(std::string_view uri) {
+Result<DataUri> decodeDataUri(std::string_view uri) {
     const size_t comma = uri.find(',');
     if (comma == std::string_view::npos) {
-        return problem("data URI without a comma");
+        return malformed("data URI without a comma");
     }
     std::string_view header = uri.substr(5, comma - 5);
     const std::string_view payload = uri.substr(comma + 1);
     constexpr std::string_view base64 = ";base64";
-    UriBytes result;
+    DataUri result;
     if (header.size() < base64.size() || header.substr(header.size() - base64.size()) != base64) {
         result.mimeType = std::string(header.substr(0, header.find(';')));
         const std::string text = percentDecode(payload);
@@ -125,7 +128,7 @@ UriBytes decodeDataUri(std::string_view uri) {
         }
         const int value = kBase64Values[c];
         if (value < 0 || padded) {
-            return problem("data URI: not base64 at character " + std::to_string(comma + 1 + i));
+            return malformed("data URI: not base64 at character " + std::to_string(comma + 1 + i));
         }
         bits = (bits << 6) | static_cast<uint32_t>(value);
         bitCount += 6;
@@ -137,82 +140,84 @@ UriBytes decodeDataUri(std::string_view uri) {
     return result;
 }
 
-UriBytes readRegularFile(const std::string& path) {
+Result<std::vector<std::byte>> readRegularFile(const std::string& path) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
     if (status.type() == std::filesystem::file_type::not_found) {
-        return problem("no such file", false);
+        return unreadable("no such file");
     }
     if (code) {
-        return problem(code.message(), false);
+        return unreadable(code.message());
     }
     if (status.type() != std::filesystem::file_type::regular) {
-        return problem("not a regular file", false);
+        return unreadable("not a regular file");
     }
     const uintmax_t size = std::filesystem::file_size(path, code);
     if (code) {
-        return problem(code.message(), false);
+        return unreadable(code.message());
     }
     if (size > kMaxFileBytes) {
-        return problem("larger than 4 GiB", false);
+        return unreadable("larger than 4 GiB");
     }
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     if (!stream) {
-        return problem(errno != 0 ? std::generic_category().message(errno) : "cannot be opened", false);
+        return unreadable(errno != 0 ? std::generic_category().message(errno) : "cannot be opened");
     }
-    UriBytes result;
-    result.bytes.resize(static_cast<size_t>(size));
+    std::vector<std::byte> bytes(static_cast<size_t>(size));
     if (size > 0) {
-        stream.read(reinterpret_cast<char*>(result.bytes.data()), static_cast<std::streamsize>(size));
+        stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
     }
     if (!stream) {
-        return problem("cannot be read", false);
+        return unreadable("cannot be read");
     }
-    return result;
+    return bytes;
 }
 
-UriBytes readBelow(const std::string& baseDirectory, std::string_view uri) {
-    const std::string relative = percentDecode(uri);
+Result<std::string> relativePath(std::string_view uri) {
+    std::string path = percentDecode(uri);
     // Both spellings are judged: what is written, and what it decodes to.
-    if (hasScheme(uri) || hasScheme(relative)) {
-        return problem("only relative paths and data: URIs are allowed");
+    if (hasScheme(uri) || hasScheme(path)) {
+        return malformed("only relative paths and data: URIs are allowed");
     }
-    if (relative.empty()) {
-        return problem("empty path");
+    if (path.empty()) {
+        return malformed("empty path");
     }
-    if (relative.front() == '/' || relative.find('\\') != std::string::npos) {
-        return problem("only relative paths with forward slashes are allowed");
+    if (path.front() == '/' || path.find('\\') != std::string::npos) {
+        return malformed("only relative paths with forward slashes are allowed");
     }
-    if (relative.find('\0') != std::string::npos) {
-        return problem("path contains a NUL character");
+    if (path.find('\0') != std::string::npos) {
+        return malformed("path contains a NUL character");
     }
-    for (size_t begin = 0; begin <= relative.size();) {
-        const size_t end = std::min(relative.find('/', begin), relative.size());
-        if (relative.compare(begin, end - begin, "..") == 0) {
-            return problem("path leaves the asset's folder");
+    for (size_t begin = 0; begin <= path.size();) {
+        const size_t end = std::min(path.find('/', begin), path.size());
+        if (path.compare(begin, end - begin, "..") == 0) {
+            return malformed("path leaves the asset's folder");
         }
         begin = end + 1;
     }
-    if (baseDirectory.empty()) {
-        return problem("external files are not allowed for an asset read from memory");
-    }
+    return path;
+}
 
+Result<std::vector<std::byte>> readBelow(const std::string& baseDirectory, const std::string& path) {
+    if (baseDirectory.empty()) {
+        return malformed("external files are not allowed for an asset read from memory");
+    }
     std::error_code code;
     const auto base = std::filesystem::canonical(baseDirectory, code);
     if (code) {
-        return problem("asset folder: " + code.message(), false);
+        return unreadable("asset folder: " + code.message());
     }
-    const auto path = std::filesystem::canonical(base / relative, code);
+    const auto whole = std::filesystem::canonical(base / path, code);
     if (code) {
-        return problem(code == std::errc::no_such_file_or_directory ? "no such file" : code.message(), false);
+        return unreadable(code == std::errc::no_such_file_or_directory ? "no such file" : code.message());
     }
-    const auto [baseEnd, pathMiddle] = std::mismatch(base.begin(), base.end(), path.begin(), path.end());
+    const auto [baseEnd, wholeMiddle] = std::mismatch(base.begin(), base.end(), whole.begin(), whole.end());
     if (baseEnd != base.end()) {
-        return problem("path leaves the asset's folder");
+        return malformed("path leaves the asset's folder");
     }
-    (void)pathMiddle;
-    return readRegularFile(path.string());
+    (void)wholeMiddle;
+    return readRegularFile(whole.string());
 }
 
 } // namespace supple::cage

@@ -1,6 +1,8 @@
 // The URIs of a glTF file: data: URIs and files of the asset's own folder, nothing else. Private to cage/.
 #pragma once
 
+#include "base/result.h"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -10,21 +12,22 @@ namespace supple::cage {
 
 [[nodiscard]] bool isDataUri(std::string_view uri);
 
-struct UriBytes {
+struct DataUri {
     std::vector<std::byte> bytes;
-    std::string mimeType; ///< of a data: URI, else empty
-    std::string problem;  ///< empty when the bytes were read; else the reason
-    bool readable = true; ///< false: the URI is well-formed but the file cannot be read
+    std::string mimeType;
 };
 
 /// "data:[media type][;base64],..." with any media type; white space inside base64 is skipped.
-[[nodiscard]] UriBytes decodeDataUri(std::string_view uri);
+[[nodiscard]] Result<DataUri> decodeDataUri(std::string_view uri);
 
-/// Reads a percent-encoded relative path below `baseDirectory`. Refuses schemes, absolute paths, "..", backslashes,
-/// symbolic links that lead outside, and anything but regular files. An empty baseDirectory allows no file.
-[[nodiscard]] UriBytes readBelow(const std::string& baseDirectory, std::string_view uri);
+/// The path a URI means, percent-decoded; refuses schemes, absolute paths, "..", backslashes and NUL.
+[[nodiscard]] Result<std::string> relativePath(std::string_view uri);
+
+/// Reads a path from relativePath() below `baseDirectory`; refuses symbolic links that lead outside, and anything but
+/// regular files. An empty baseDirectory allows no file.
+[[nodiscard]] Result<std::vector<std::byte>> readBelow(const std::string& baseDirectory, const std::string& path);
 
 /// A whole regular file.
-[[nodiscard]] UriBytes readRegularFile(const std::string& path);
+[[nodiscard]] Result<std::vector<std::byte>> readRegularFile(const std::string& path);
 
 } // namespace supple::cage

@@ -117,7 +117,7 @@ TEST(GltfReader, NameAndControlCharactersStayOnOneLine) {
     ASSERT_TRUE(result.ok());
     ASSERT_EQ(result->warnings.size(), 1u);
     EXPECT_EQ(result->warnings[0],
-              "two?lines: image 0 uri: \"a?b.png\": external files are not allowed for an asset read from memory; left "
+              "image 0 uri: \"a?b.png\": external files are not allowed for an asset read from memory; left "
               "out");
 }
 
@@ -134,8 +134,7 @@ TEST(GltfReader, SkinnedMeshComesBeforeOthers) {
     const Character c = readWell(b.glb());
     EXPECT_EQ(c.cage.faceCount(), 2u);
     EXPECT_EQ(c.skin.joints.size(), 2u);
-    EXPECT_EQ(c.warnings,
-              (Strings{"t.glb: node 3: the mesh of this node is read; 1 other node with a mesh is left out"}));
+    EXPECT_EQ(c.warnings, (Strings{"node 3: the mesh of this node is read; 1 other node with a mesh is left out"}));
 }
 
 TEST(GltfReader, SceneOrderComesBeforeNodeOrder) {
@@ -171,8 +170,8 @@ TEST(GltfReader, OtherPrimitiveModesAreLeftOut) {
                R"(,{"attributes":{"POSITION":0},"mode":5}]}])";
     const Character c = readWell(b.glb());
     EXPECT_EQ(c.cage.faceCount(), 2u);
-    EXPECT_EQ(c.warnings, (Strings{"t.glb: mesh 0 primitive 0: LINES instead of TRIANGLES; left out",
-                                   "t.glb: mesh 0 primitive 2: TRIANGLE_STRIP instead of TRIANGLES; left out"}));
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0 primitive 0: LINES instead of TRIANGLES; left out",
+                                   "mesh 0 primitive 2: TRIANGLE_STRIP instead of TRIANGLES; left out"}));
 }
 
 TEST(GltfReader, PrimitivesOverTheSameAccessorsShareVertices) {
@@ -216,8 +215,8 @@ TEST(GltfReader, UnusedVerticesAndDegenerateTrianglesGo) {
     EXPECT_EQ(c.cage.sourceVertices, (std::vector<uint32_t>{1, 3, 4}));
     EXPECT_EQ(c.cage.faceCount(), 1u);
     EXPECT_EQ(c.seamVertexCount, 0u);
-    EXPECT_EQ(c.warnings, (Strings{"t.glb: mesh 0: 1 vertex has no triangle; left out",
-                                   "t.glb: mesh 0 primitive 0: 2 triangles with a repeated vertex left out"}));
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0: 1 vertex has no triangle; left out",
+                                   "mesh 0 primitive 0: 2 triangles with a repeated vertex left out"}));
 }
 
 // ---- polygons -------------------------------------------------------------------------------------------------------
@@ -323,7 +322,7 @@ TEST(GltfReader, IntegerAttributes) {
     c = readWell(rgb.glb());
     EXPECT_EQ(c.cage.cornerColors[0], glm::vec4(0.5f, 0.25f, 1, 1));
     EXPECT_EQ(c.cage.cornerColors[2], glm::vec4(0, 0, 0, 1));
-    EXPECT_EQ(c.warnings, (Strings{"t.glb: mesh 0 primitive 0 COLOR_0: 1 value is not finite; 0 instead"}));
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0 primitive 0 COLOR_0: 1 value is not finite; 0 instead"}));
 }
 
 // ---- weights --------------------------------------------------------------------------------------------------------
@@ -355,7 +354,7 @@ TEST(GltfReader, WeightsAreNormalisedWithOneWarning) {
         withWeights({{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}}, {{0.5f, 0.5f, 0, 0, 0.25f, 0.25f, 0, 0, 1.5f, 0.5f, 0, 0}});
     EXPECT_EQ(c.weights.influences[2].weight, 0.5f);
     EXPECT_EQ(c.weights.influences[4].weight, 0.75f);
-    EXPECT_EQ(c.warnings, (Strings{"t.glb: mesh 0 WEIGHTS: normalised: they do not sum to 1 at 2 vertices, largest "
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0 WEIGHTS: normalised: they do not sum to 1 at 2 vertices, largest "
                                    "deviation 1"}));
     // Rounding is nobody's fault.
     EXPECT_EQ(withWeights({{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}},
@@ -382,8 +381,7 @@ TEST(GltfReader, VerticesWithoutWeightHangOnTheirFirstJoint) {
     EXPECT_EQ(c.weights.influences[0].joint, 1u);
     EXPECT_EQ(c.weights.influences[1].joint, 0u) << "out of range";
     EXPECT_EQ(c.weights.influences[0].weight, 1.0f);
-    EXPECT_EQ(c.warnings,
-              (Strings{"t.glb: mesh 0 WEIGHTS: all zero at 2 vertices; bound to the first joint named there"}));
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0 WEIGHTS: all zero at 2 vertices; bound to the first joint named there"}));
 }
 
 TEST(GltfReader, EightBitWeightsRoundSilently) {
@@ -412,7 +410,7 @@ TEST(GltfReader, SeamVerticesWithDifferentSkinStayApart) {
     b.nodes = R"([{"mesh":0,"skin":0},{},{}])";
     b.more = R"(,"skins":[{"joints":[1,2]}])";
     const Character c = readWell(b.glb());
-    EXPECT_EQ(c.warnings, (Strings{"t.glb: mesh 0: 1 vertex agrees with another in position but not in skin (first: "
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0: 1 vertex agrees with another in position but not in skin (first: "
                                    "vertices 2 and 4); kept apart"}));
     EXPECT_EQ(c.cage.vertexCount(), 6u) << "the other end of the seam edge has no partner edge either";
 }
@@ -442,7 +440,7 @@ TEST(GltfReader, Materials) {
     b.more += R"(,"materials":[{"name":"skin","alphaMode":"MASK","alphaCutoff":0.25,"doubleSided":true,)"
               R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,1,0,1],"baseColorTexture":{"index":0}}},)"
               R"({"alphaMode":"BLEND"},{"alphaMode":"GLASS"},)"
-              R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":1,"texCoord":1}}}],)"
+              R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":2}}}],)"
               R"("textures":[{"source":1,"sampler":0},{"source":0}],"samplers":[{"wrapS":33071,"wrapT":33648}],)"
               R"("images":[{"uri":"gone.png"},{"uri":"data:image/png;base64,iVBORw0KGgo=","name":"face"}])";
     const Character c = readWell(b.glb());
@@ -466,12 +464,11 @@ TEST(GltfReader, Materials) {
     EXPECT_EQ(c.images[1].name, "face");
     EXPECT_EQ(c.images[1].mimeType, "image/png");
     EXPECT_EQ(c.images[1].bytes.size(), 8u);
-    EXPECT_EQ(
-        c.warnings,
-        (Strings{"t.glb: image 0 uri: \"gone.png\": external files are not allowed for an asset read from memory; "
-                 "left out",
-                 "t.glb: material 2 alphaMode: \"GLASS\" is unknown; opaque",
-                 "t.glb: material 3 baseColorTexture: only TEXCOORD_0 is read"}));
+    EXPECT_EQ(c.warnings,
+              (Strings{"image 0 uri: \"gone.png\": external files are not allowed for an asset read from memory; "
+                       "left out",
+                       "material 2 alphaMode: \"GLASS\" is unknown; opaque",
+                       "material 3 baseColorTexture: texCoord 2: only TEXCOORD_0 and TEXCOORD_1 are read; left out"}));
 }
 
 TEST(GltfReader, ImagesFromBufferViewsAndFiles) {
@@ -494,8 +491,8 @@ TEST(GltfReader, ImagesFromBufferViewsAndFiles) {
     EXPECT_EQ(c->images[0].mimeType, "image/png");
     EXPECT_EQ(c->images[1].bytes.size(), 15u);
     EXPECT_EQ(c->images[1].mimeType, "image/jpeg");
-    EXPECT_EQ(c->warnings, (Strings{"t.glb: image 2 uri: \"../a.png\": path leaves the asset's folder; left out",
-                                    "t.glb: image 3 uri: \"textures/none.png\": no such file; left out"}));
+    EXPECT_EQ(c->warnings, (Strings{"image 2 uri: \"../a.png\": path leaves the asset's folder; left out",
+                                    "image 3 uri: \"textures/none.png\": no such file; left out"}));
     fs::remove_all(folder);
 }
 
@@ -529,8 +526,9 @@ TEST(GltfReader, ForeignChannelsAreIgnoredByName) {
     b.more = replaced(b.more, R"("sampler":9)", R"("sampler":0)");
     const Character c = readWell(b.glb());
     ASSERT_EQ(c.clips[0].channels.size(), 2u);
-    EXPECT_EQ(c.warnings, (Strings{"t.glb: animation 0: 1 channel of KHR_animation_pointer or no node ignored",
-                                   "t.glb: animation 0: 1 channel of weights ignored"}));
+    EXPECT_EQ(c.warnings,
+              (Strings{"animation 0: 1 channel of KHR_animation_pointer or no node ignored",
+                       "animation 0: 1 channel of weights of nodes without the mesh's morph targets ignored"}));
 }
 
 TEST(GltfReader, ClipsKeepTheirNumbers) {
@@ -546,10 +544,211 @@ TEST(GltfReader, ClipsKeepTheirNumbers) {
     EXPECT_EQ(c.clips[1].name, "clip_1");
 }
 
-TEST(GltfReader, MorphTargetsAreIgnoredByName) {
+TEST(GltfReader, KeysOfWeights) {
     GltfBuilder b = skinnedQuad();
-    b.meshes = replaced(b.meshes, R"("mode":4)", R"("targets":[{"POSITION":0}])");
-    EXPECT_EQ(readWell(b.glb()).warnings, (Strings{"t.glb: mesh 0: morph targets are ignored"}));
+    const int dense = b.addFloats("VEC3", {0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 2});
+    b.meshes = replaced(b.meshes, R"("mode":4)",
+                        R"("targets":[{"POSITION":)" + std::to_string(dense) + R"(},{"POSITION":)" +
+                            std::to_string(dense) + "}]");
+    const int linear = b.addFloats("SCALAR", {0, 1, 0.5f, 0.25f, 1, 0});
+    const int bytes = b.addIntegers("SCALAR", 5120, {0, 127, 0x81, 0x80, 0, 127}, true);
+    const int cubic = b.addIntegers("SCALAR", 5123, std::vector<uint32_t>(18, 65535), true);
+    const auto sampler = [](int output, const char* interpolation) {
+        return R"({"input":5,"output":)" + std::to_string(output) + R"(,"interpolation":")" + interpolation + "\"}";
+    };
+    const std::string clip = R"(],"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}}]})";
+    b.more =
+        replaced(b.more, R"("animations":[)",
+                 R"("animations":[{"samplers":[)" + sampler(linear, "LINEAR") + clip + R"(,{"samplers":[)" +
+                     sampler(bytes, "STEP") + clip + R"(,{"samplers":[)" + sampler(cubic, "CUBICSPLINE") + clip + ",");
+    const Character c = readWell(b.glb());
+    EXPECT_EQ(c.warnings, Strings());
+    ASSERT_EQ(c.clips.size(), 4u);
+    for (size_t i = 0; i < 3; ++i) {
+        ASSERT_EQ(c.clips[i].channels.size(), 1u);
+        EXPECT_EQ(c.clips[i].channels[0].path, ChannelPath::weights);
+        EXPECT_EQ(c.clips[i].channels[0].node, c.meshNode);
+        EXPECT_EQ(c.clips[i].duration, 2.0);
+    }
+    EXPECT_EQ(c.clips[0].channels[0].values, (std::vector<float>{0, 1, 0.5f, 0.25f, 1, 0}));
+    EXPECT_EQ(c.clips[1].channels[0].values, (std::vector<float>{0, 1, -1, -1, 0, 1}));
+    EXPECT_EQ(c.clips[1].channels[0].interpolation, Interpolation::step);
+    EXPECT_EQ(c.clips[2].channels[0].values, std::vector<float>(18, 1.0f)) << "three values a key and target";
+}
+
+// ---- morph targets --------------------------------------------------------------------------------------------------
+
+TEST(GltfReader, MorphTargets) {
+    GltfBuilder b = skinnedQuad();
+    const std::string dense = std::to_string(b.addFloats("VEC3", {0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 2, 0}));
+    b.meshes =
+        replaced(b.meshes, R"("mode":4)",
+                 R"("targets":[{"POSITION":)" + dense + R"(},{"NORMAL":0,"TANGENT":0},{"POSITION":)" + dense + "}]");
+    Character c = readWell(b.glb());
+    EXPECT_EQ(c.warnings, Strings());
+    EXPECT_EQ(c.meshNode, 0u);
+    ASSERT_EQ(c.morphs.targets.size(), 3u);
+    EXPECT_EQ(c.morphs.targets[0].vertices, (std::vector<uint32_t>{0, 3})) << "only those that move";
+    EXPECT_EQ(c.morphs.targets[0].deltas, (std::vector<glm::vec3>{{0, 0, 1}, {0, 2, 0}}));
+    EXPECT_EQ(c.morphs.targets[0].name, "");
+    EXPECT_TRUE(c.morphs.targets[1].vertices.empty());
+    EXPECT_EQ(c.morphs.targets[2].vertices, c.morphs.targets[0].vertices);
+    EXPECT_EQ(c.morphs.weights, (std::vector<float>{0, 0, 0}));
+
+    b.meshes = replaced(b.meshes, R"([{"primitives")",
+                        R"([{"weights":[0.25,0.5,1],"extras":{"targetNames":["smile",7,"frown"]},"primitives")");
+    c = readWell(b.glb());
+    EXPECT_EQ(c.morphs.weights, (std::vector<float>{0.25f, 0.5f, 1}));
+    EXPECT_EQ(c.morphs.targets[0].name, "smile");
+    EXPECT_EQ(c.morphs.targets[1].name, "");
+    EXPECT_EQ(c.morphs.targets[2].name, "frown");
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0 extras targetNames[1]: not a string; ignored"}));
+    b.nodes = replaced(b.nodes, R"("mesh":0)", R"("mesh":0,"weights":[1,0,-1])");
+    EXPECT_EQ(readWell(b.glb()).morphs.weights, (std::vector<float>{1, 0, -1})) << "the node's come before the mesh's";
+}
+
+TEST(GltfReader, SparseMorphTargets) {
+    GltfBuilder b = skinnedQuad();
+    const int base = b.addFloats("VEC3", {1, 1, 1, 2, 2, 2, 0, 0, 0, 3, 3, 3});
+    const int indices = b.addIntegers("SCALAR", 5121, {1, 3});
+    const int values = b.addFloats("VEC3", {5, 0, 0, 0, 0, 0});
+    b.meshes = replaced(b.meshes, R"("mode":4)", R"("targets":[{"POSITION":)" + std::to_string(base) + "}]");
+    const std::string dense = R"({"bufferView":)" + std::to_string(base) + R"(,"componentType":5126,"count":4)";
+    const std::string sparse = R"(,"sparse":{"count":2,"indices":{"bufferView":)" + std::to_string(indices) +
+                               R"(,"componentType":5121},"values":{"bufferView":)" + std::to_string(values) + "}}";
+    Character c = readWell(packGlb(replaced(b.json(), dense, dense + sparse), b.binary()));
+    EXPECT_EQ(c.morphs.targets[0].vertices, (std::vector<uint32_t>{0, 1})) << "values replace, also by zero";
+    EXPECT_EQ(c.morphs.targets[0].deltas, (std::vector<glm::vec3>{{1, 1, 1}, {5, 0, 0}}));
+    c = readWell(packGlb(replaced(b.json(), dense, R"({"componentType":5126,"count":4)" + sparse), b.binary()));
+    EXPECT_EQ(c.morphs.targets[0].vertices, (std::vector<uint32_t>{1}));
+    EXPECT_EQ(c.morphs.targets[0].deltas, (std::vector<glm::vec3>{{5, 0, 0}}));
+}
+
+TEST(GltfReader, MorphTargetsOfSeveralPrimitives) {
+    GltfBuilder b;
+    b.addFloats("VEC3", {0, 0, 0, 1, 0, 0, 1, 1, 0});
+    b.addFloats("VEC3", {1, 1, 0, 0, 1, 0, 0, 0, 0});
+    b.addFloats("VEC3", {0, 0, 0, 0, 0, 0, 0, 0, 3});
+    b.addFloats("VEC3", {0, 0, 3, 0, 0, 4, 0, 0, 0});
+    b.addFloats("VEC3", {0, 0, 5, 0, 0, 4, 0, 0, 0});
+    const auto meshes = [](int second) {
+        return R"([{"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":2}]},)"
+               R"({"attributes":{"POSITION":1},"targets":[{"POSITION":)" +
+               std::to_string(second) + "}]}]}]";
+    };
+    b.meshes = meshes(3);
+    Character c = readWell(b.glb());
+    EXPECT_EQ(c.warnings, Strings());
+    EXPECT_EQ(c.cage.vertexCount(), 4u);
+    EXPECT_EQ(c.morphs.targets[0].vertices, (std::vector<uint32_t>{2, 3}));
+    EXPECT_EQ(c.morphs.targets[0].deltas, (std::vector<glm::vec3>{{0, 0, 3}, {0, 0, 4}}));
+    // What moves apart is not welded.
+    b.meshes = meshes(4);
+    c = readWell(b.glb());
+    EXPECT_EQ(c.cage.vertexCount(), 6u);
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0: 1 vertex agrees with another in position but not in morph targets (first: "
+                                   "vertices 2 and 3); kept apart"}));
+}
+
+// ---- creases --------------------------------------------------------------------------------------------------------
+
+TEST(GltfReader, CreasesOfExtras) {
+    // A quad of two triangles that share no vertex; vertices 3 and 4 are 0 and 2 again, 6 is nobody's.
+    GltfBuilder b;
+    b.addFloats("VEC3", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 9, 9, 9});
+    b.addIntegers("SCALAR", 5121, {0, 1, 2, 3, 4, 5});
+    const auto read = [&](const std::string& extras) {
+        b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1}],"extras":)" + extras + "}]";
+        return readWell(b.glb());
+    };
+    const std::string unused = "mesh 0: 1 vertex has no triangle; left out";
+    Character c = read(R"({"creases":[[1,0,2.5],[2,0,1],[4,3,7],[5,4,10]],"corners":[[5,10],[3,1],[0,4]],"x":[[]]})");
+    EXPECT_EQ(c.warnings, Strings{unused});
+    ASSERT_EQ(c.cage.creases.size(), 3u) << "both sides of a seam are one edge";
+    EXPECT_EQ(std::minmax(c.cage.creases[0].a, c.cage.creases[0].b), std::minmax(0u, 1u));
+    EXPECT_EQ(c.cage.creases[0].sharpness, 2.5f);
+    EXPECT_EQ(std::minmax(c.cage.creases[1].a, c.cage.creases[1].b), std::minmax(0u, 2u));
+    EXPECT_EQ(c.cage.creases[1].sharpness, 7.0f) << "the sharpest counts";
+    EXPECT_EQ(std::minmax(c.cage.creases[2].a, c.cage.creases[2].b), std::minmax(2u, 3u));
+    ASSERT_EQ(c.cage.sharpVertices.size(), 2u);
+    EXPECT_EQ(c.cage.sharpVertices[0].vertex, 3u);
+    EXPECT_EQ(c.cage.sharpVertices[0].sharpness, 10.0f);
+    EXPECT_EQ(c.cage.sharpVertices[1].vertex, 0u);
+    EXPECT_EQ(c.cage.sharpVertices[1].sharpness, 4.0f);
+
+    const auto warningOf = [&](const std::string& extras) {
+        const Character bad = read(extras);
+        EXPECT_EQ(bad.warnings.size(), 2u) << extras;
+        return bad.warnings.empty() ? std::string() : bad.warnings.back();
+    };
+    const std::string creases = "mesh 0 extras creases";
+    EXPECT_EQ(warningOf(R"({"creases":7})"), creases + ": not an array; ignored");
+    EXPECT_EQ(warningOf(R"({"creases":[[0,1,1],7,[]]})"),
+              creases + "[1]: not [vertex, vertex, sharpness]; left out, as are 1 more");
+    EXPECT_EQ(warningOf(R"({"creases":[[0,-1,1]]})"), creases + "[0]: not a vertex number: -1; left out");
+    EXPECT_EQ(warningOf(R"({"creases":[[[[0]],1,1]]})"), creases + "[0]: not a vertex number: [[0]]; left out");
+    EXPECT_EQ(warningOf(R"({"creases":[[0,7,1]]})"),
+              creases + "[0]: vertex 7 is out of range: the mesh has 7; left out");
+    EXPECT_EQ(warningOf(R"({"creases":[[0,6,1]]})"), creases + "[0]: vertex 6 has no face; left out");
+    EXPECT_EQ(warningOf(R"({"creases":[[0,3,1]]})"), creases + "[0]: both ends are one vertex of the cage; left out");
+    EXPECT_EQ(warningOf(R"({"creases":[[0,1,-1]]})"),
+              creases + "[0]: sharpness is not a number of at least 0; left out");
+    EXPECT_EQ(warningOf(R"({"creases":[[0,1,1e300]]})"),
+              creases + "[0]: sharpness is not a number of at least 0; left out");
+    EXPECT_EQ(warningOf(R"({"corners":[[0,1,1]]})"), "mesh 0 extras corners[0]: not [vertex, sharpness]; left out");
+    EXPECT_EQ(read("[3]").warnings, Strings{unused});
+    EXPECT_EQ(read(R"("creases")").warnings, Strings{unused});
+}
+
+// ---- corners --------------------------------------------------------------------------------------------------------
+
+TEST(GltfReader, TwoUvSets) {
+    GltfBuilder b = skinnedQuad();
+    const std::string second = std::to_string(b.addIntegers("VEC2", 5121, {0, 0, 255, 0, 255, 255, 0, 255}, true));
+    b.meshes = replaced(b.meshes, R"("TEXCOORD_0":8)",
+                        R"("TEXCOORD_0":8,"TEXCOORD_1":)" + second + R"(,"TEXCOORD_2":)" + second);
+    b.more += R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1,)"
+              R"("extensions":{"KHR_texture_transform":{}}}}}],"textures":[{"source":0}],)"
+              R"("images":[{"uri":"data:image/png;base64,iVBORw0KGgo="}])";
+    const Character c = readWell(b.glb());
+    ASSERT_EQ(c.cage.cornerUvs1.size(), 6u);
+    EXPECT_EQ(c.cage.cornerUvs1[1], glm::vec2(1, 0));
+    EXPECT_EQ(c.cage.cornerUvs1[4], glm::vec2(1, 1));
+    EXPECT_EQ(c.materials[0].baseColorUvSet, 1u);
+    EXPECT_EQ(c.warnings, (Strings{"material 0 baseColorTexture: KHR_texture_transform is ignored",
+                                   "mesh 0 primitive 0: only TEXCOORD_0 and TEXCOORD_1 are read"}));
+}
+
+// ---- files of the host ----------------------------------------------------------------------------------------------
+
+TEST(GltfReader, FilesComeFromTheHost) {
+    GltfBuilder b = skinnedQuad();
+    b.more += R"(,"images":[{"uri":"./tex/a%20b.png"},{"uri":"../up.png"},{"uri":"none.png"}])";
+    std::vector<std::string> asked;
+    GltfOptions options;
+    options.readFile = [&](const std::string& path) -> Result<std::vector<std::byte>> {
+        asked.push_back(path);
+        if (path == "none.png") {
+            return Error{ErrorCode::io, "not in this archive"};
+        }
+        return path == "quad.bin" ? b.binary() : std::vector<std::byte>(3);
+    };
+    Result<Character> c = readGltf(toBytes(b.json("quad.bin")), "t.gltf", "/nowhere", options);
+    ASSERT_TRUE(c.ok()) << c.error().message;
+    EXPECT_EQ(asked, (Strings{"quad.bin", "./tex/a b.png", "none.png"})) << "decoded, and only what may be asked for";
+    EXPECT_EQ(c->images[0].bytes.size(), 3u);
+    EXPECT_EQ(c->warnings, (Strings{"image 1 uri: \"../up.png\": path leaves the asset's folder; left out",
+                                    "image 2 uri: \"none.png\": not in this archive; left out"}));
+
+    options.readFile = [](const std::string&) -> Result<std::vector<std::byte>> {
+        return Error{ErrorCode::io, "offline"};
+    };
+    c = readGltf(toBytes(b.json("quad.bin")), "t.gltf", "", options);
+    ASSERT_FALSE(c.ok());
+    EXPECT_EQ(c.error().code, ErrorCode::io);
+    EXPECT_EQ(c.error().message, "t.gltf: buffer 0 uri: \"quad.bin\": offline");
+    EXPECT_EQ(readGltf(toBytes(b.json("../quad.bin")), "t.gltf", "", options).error().message,
+              "t.gltf: buffer 0 uri: \"../quad.bin\": path leaves the asset's folder");
 }
 
 } // namespace

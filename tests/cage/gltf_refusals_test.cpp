@@ -447,6 +447,61 @@ TEST(GltfRefusals, Indices) {
     EXPECT_EQ(messageOf(flat.glb()), "t.glb: mesh 0: no triangle is left");
 }
 
+TEST(GltfRefusals, MorphTargets) {
+    const auto with = [](const std::string& targets, ErrorCode code = ErrorCode::asset) {
+        return withJson(R"("mode":4)", R"("targets":)" + targets, code);
+    };
+    EXPECT_EQ(with(R"([{"POSITION":0},{"NORMAL":0}])"), "accepted");
+    EXPECT_EQ(with("{}"), "t.glb: mesh 0 primitive 0 targets: not an array");
+    EXPECT_EQ(with("[0]"), "t.glb: mesh 0 primitive 0 target 0: not an object");
+    EXPECT_EQ(with(R"([{"POSITION":9}])"),
+              "t.glb: mesh 0 primitive 0 target 0 POSITION: accessor 9 is out of range: the file has 9");
+    EXPECT_EQ(with(R"([{"POSITION":0},{"POSITION":5}])"),
+              "t.glb: mesh 0 primitive 0 target 1 POSITION: 3 elements for 4 vertices");
+    EXPECT_EQ(with(R"([{"POSITION":2}])"), "t.glb: mesh 0 primitive 0 target 0 POSITION: VEC4 instead of VEC3");
+    GltfBuilder b = skinnedQuad();
+    const int deltas = b.addFloats("VEC3", {0, 0, 0, 0, 0, 0, 0, kNan, 0, 0, 0, 0});
+    const std::string mesh = b.meshes;
+    const auto meshWith = [&](const std::string& ofPrimitive, const std::string& ofMesh) {
+        b.meshes = replaced(mesh, R"("mode":4)", R"("targets":)" + ofPrimitive);
+        b.meshes = replaced(b.meshes, "[{\"primitives\"", "[{" + ofMesh + "\"primitives\"");
+        return messageOf(b.glb());
+    };
+    EXPECT_EQ(meshWith(R"([{"POSITION":)" + std::to_string(deltas) + "}]", ""),
+              "t.glb: mesh 0 primitive 0 target 0 POSITION[2]: not finite");
+    EXPECT_EQ(meshWith(R"([{"POSITION":0}])", R"("weights":[0,1],)"),
+              "t.glb: mesh 0 weights: 2 weights for 1 morph target");
+    EXPECT_EQ(meshWith(R"([{"POSITION":0}])", R"("weights":["a"],)"), "t.glb: mesh 0 weights: not all numbers");
+    EXPECT_EQ(meshWith("[]", R"("weights":[0,1],)"), "accepted") << "with a warning";
+    b.nodes = replaced(b.nodes, R"({"mesh":0)", R"({"weights":[],"mesh":0)");
+    EXPECT_EQ(meshWith(R"([{"POSITION":0}])", ""), "accepted");
+    b.nodes = replaced(b.nodes, R"("weights":[])", R"("weights":[1,2])");
+    EXPECT_EQ(meshWith(R"([{"POSITION":0}])", R"("weights":[1],)"),
+              "t.glb: node 0 weights: 2 weights for 1 morph target");
+
+    GltfBuilder two = skinnedQuad();
+    const auto primitive = [](const std::string& more) {
+        return R"({"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},"indices":3,"targets":[)" + more + "]}";
+    };
+    two.meshes =
+        R"([{"primitives":[)" + primitive(R"({"POSITION":0})") + "," + primitive(R"({"POSITION":0},{})") + "]}]";
+    EXPECT_EQ(messageOf(two.glb()), "t.glb: mesh 0 primitive 1: 2 morph targets, but primitives before it have 1");
+    // Many targets of one accessor that needs no bytes.
+    std::string many;
+    for (int i = 0; i < 65; ++i) {
+        many += std::string(many.empty() ? "" : ",") + R"({"POSITION":0})";
+    }
+    GltfBuilder zeros = skinnedQuad();
+    zeros.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"targets":[)" + many + "]}]}]";
+    zeros.nodes = R"([{"mesh":0},{},{}])";
+    const std::string first = R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})";
+    EXPECT_EQ(
+        messageOf(packGlb(replaced(zeros.json(), first, R"({"componentType":5126,"count":1048575,"type":"VEC3"})"),
+                          zeros.binary()),
+                  ErrorCode::limit),
+        "t.glb: mesh 0 primitive 0: the morph targets hold more than 67108864 displacements");
+}
+
 // ---- animation ------------------------------------------------------------------------------------------------------
 
 TEST(GltfRefusals, Animations) {
@@ -481,6 +536,14 @@ TEST(GltfRefusals, Animations) {
     EXPECT_EQ(
         messageOf(packGlb(replaced(cubic, R"("count":3,"type":"SCALAR")", R"("count":1,"type":"SCALAR")"), b.binary())),
         "t.glb: animation 0 channel 0 input: CUBICSPLINE needs at least two keys");
+    // Four rotations as weights: three keys of two targets need six.
+    const GltfBuilder w = skinnedQuad();
+    std::string weights = replaced(w.json(), R"("mode":4)", R"("targets":[{},{}])");
+    weights = replaced(weights, first, R"({"sampler":0,"target":{"node":0,"path":"weights"}})");
+    EXPECT_EQ(messageOf(packGlb(weights, w.binary())), "t.glb: animation 0 channel 0 output: VEC4 instead of SCALAR");
+    weights = replaced(weights, R"({"input":5,"output":6})", R"({"input":5,"output":5})");
+    EXPECT_EQ(messageOf(packGlb(weights, w.binary())),
+              "t.glb: animation 0 channel 0 output: 3 elements for 3 keys of 2 morph targets");
     EXPECT_EQ(withFloat(kTimes, 1, kNan), "t.glb: animation 0 channel 0 input[1]: not finite");
     EXPECT_EQ(withFloat(kTimes, 0, -1.0f), "t.glb: animation 0 channel 0 input[0]: negative time");
     EXPECT_EQ(withFloat(kTimes, 1, 0.0f), "t.glb: animation 0 channel 0 input[1]: not later than the key before it");
@@ -502,6 +565,9 @@ TEST(GltfRefusals, Materials) {
               "t.glb: material 0 baseColorTexture index: texture 0 is out of range: the file has 0");
     EXPECT_EQ(with(R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{}}}])"),
               "t.glb: material 0 baseColorTexture: index is missing");
+    EXPECT_EQ(with(R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":4294967296}}}],)"
+                   R"("textures":[{}])"),
+              "t.glb: material 0 baseColorTexture texCoord: out of range");
     EXPECT_EQ(with(R"(,"textures":[{"source":0}])"),
               "t.glb: texture 0 source: image 0 is out of range: the file has 0");
     EXPECT_EQ(with(R"(,"textures":[{"sampler":0}])"),

@@ -1,0 +1,146 @@
+#include "cage/gltf_creases.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace supple::cage {
+namespace {
+
+/// The faults of a list's entries: the first by name, the others counted, so that no file can fill the log.
+class EntryFaults {
+public:
+    explicit EntryFaults(std::string list) : list_(std::move(list)) {}
+
+    void add(size_t entry, const std::string& reason) {
+        if (count_++ == 0) {
+            first_ = item(list_, entry);
+            reason_ = reason;
+        }
+    }
+    void report(Warnings& warnings) const {
+        if (count_ > 0) {
+            warn(warnings, first_,
+                 reason_ + "; left out" + (count_ > 1 ? ", as are " + std::to_string(count_ - 1) + " more" : ""));
+        }
+    }
+
+private:
+    std::string list_;
+    std::string first_;
+    std::string reason_;
+    size_t count_ = 0;
+};
+
+/// Edges and vertices in the order of the file, each once, with the sharpest of what it says of them.
+class SharpFeatures {
+public:
+    void addCrease(uint32_t a, uint32_t b, float sharpness, Cage& cage) {
+        const auto [known, isNew] = edges_.try_emplace(std::minmax(a, b), cage.creases.size());
+        if (isNew) {
+            cage.creases.push_back({a, b, sharpness});
+        } else {
+            float& kept = cage.creases[known->second].sharpness;
+            kept = std::max(kept, sharpness);
+        }
+    }
+    void addCorner(uint32_t vertex, float sharpness, Cage& cage) {
+        const auto [known, isNew] = vertices_.try_emplace(vertex, cage.sharpVertices.size());
+        if (isNew) {
+            cage.sharpVertices.push_back({vertex, sharpness});
+        } else {
+            float& kept = cage.sharpVertices[known->second].sharpness;
+            kept = std::max(kept, sharpness);
+        }
+    }
+
+private:
+    std::map<std::pair<uint32_t, uint32_t>, size_t> edges_;
+    std::map<uint32_t, size_t> vertices_;
+};
+
+/// extras may hold anything: nothing in them is an error.
+class ExtrasReader {
+public:
+    ExtrasReader(std::span<const uint32_t> cageVertices, Cage& cage, Warnings& warnings)
+        : cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {}
+
+    /// extras.creases: [vertex, vertex, sharpness]; extras.corners: [vertex, sharpness].
+    void read(const json& extras, const std::string& element) {
+        readList(extras, "creases", element + " extras creases", 2);
+        readList(extras, "corners", element + " extras corners", 1);
+    }
+
+private:
+    void readList(const json& extras, const char* key, const std::string& name, size_t vertexCount) {
+        const json* entries = extras.is_object() ? member(extras, key) : nullptr;
+        if (entries == nullptr) {
+            return;
+        }
+        if (!entries->is_array()) {
+            warn(warnings_, name, "not an array; ignored");
+            return;
+        }
+        EntryFaults faults(name);
+        for (size_t i = 0; i < entries->size(); ++i) {
+            const std::optional<std::string> fault = readEntry((*entries)[i], vertexCount);
+            if (fault) {
+                faults.add(i, *fault);
+            }
+        }
+        faults.report(warnings_);
+    }
+
+    std::optional<std::string> readEntry(const json& entry, size_t vertexCount) {
+        if (!entry.is_array() || entry.size() != vertexCount + 1) {
+            return vertexCount == 2 ? "not [vertex, vertex, sharpness]" : "not [vertex, sharpness]";
+        }
+        uint32_t vertices[2] = {0, 0};
+        for (size_t k = 0; k < vertexCount; ++k) {
+            if (!entry[k].is_number_unsigned()) {
+                return "not a vertex number: " +
+                       entry[k].dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40);
+            }
+            const auto number = entry[k].get<uint64_t>();
+            if (number >= cageVertices_.size()) {
+                return "vertex " + std::to_string(number) + " is out of range: the mesh has " +
+                       std::to_string(cageVertices_.size());
+            }
+            vertices[k] = cageVertices_[static_cast<size_t>(number)];
+            if (vertices[k] == kNone) {
+                return "vertex " + std::to_string(number) + " has no face";
+            }
+        }
+        const json& sharpness = entry[vertexCount];
+        if (!sharpness.is_number() || !isFiniteFloat(sharpness) || sharpness.get<float>() < 0.0f) {
+            return "sharpness is not a number of at least 0";
+        }
+        if (vertexCount == 1) {
+            features_.addCorner(vertices[0], sharpness.get<float>(), cage_);
+        } else if (vertices[0] == vertices[1]) {
+            return "both ends are one vertex of the cage";
+        } else {
+            features_.addCrease(vertices[0], vertices[1], sharpness.get<float>(), cage_);
+        }
+        return std::nullopt;
+    }
+
+    std::span<const uint32_t> cageVertices_;
+    Cage& cage_;
+    Warnings& warnings_;
+    SharpFeatures features_;
+};
+
+} // namespace
+
+void readCreases(const GltfDocument& document, const GltfMesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage,
+                 Warnings& warnings) {
+    const json* extras = member(document.meshes[mesh.index], "extras");
+    if (extras != nullptr) {
+        ExtrasReader(cageVertices, cage, warnings).read(*extras, mesh.element);
+    }
+}
+
+} // namespace supple::cage

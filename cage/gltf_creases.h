@@ -1,0 +1,19 @@
+// Creases and sharp vertices of a glTF file. Private to cage/.
+#pragma once
+
+#include "cage/character.h"
+#include "cage/gltf_document.h"
+#include "cage/gltf_mesh.h"
+#include "cage/gltf_message.h"
+
+#include <cstdint>
+#include <span>
+
+namespace supple::cage {
+
+/// Fills the cage's creases and sharp vertices. `cageVertices` gives the cage vertex of each of the mesh's vertices,
+/// kNone where it is left out.
+void readCreases(const GltfDocument& document, const GltfMesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage,
+                 Warnings& warnings);
+
+} // namespace supple::cage
