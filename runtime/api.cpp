@@ -1,7 +1,7 @@
 // The C ABI: checks arguments, turns errors into results and log lines, lets nothing thrown escape.
 #include "supple/supple.h"
 
-#include "cage/gltf_reader.h"
+#include "cage/character_reader.h"
 #include "runtime/context.h"
 
 #include <algorithm>
@@ -221,7 +221,7 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* desc
             }
             supple::cage::GltfOptions options;
             options.pairQuads = (desc->flags & SUPPLE_ASSET_PAIR_QUADS) != 0;
-            return supple::cage::readGltf({static_cast<const std::byte*>(desc->bytes), desc->byteCount}, name,
+            return supple::cage::readCharacter({static_cast<const std::byte*>(desc->bytes), desc->byteCount}, name,
                                           desc->baseDirectory != nullptr ? desc->baseDirectory : "", options);
         }();
         if (!character) {

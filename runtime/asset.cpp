@@ -1,5 +1,6 @@
 #include "runtime/asset.h"
 
+#include "cage/single_joint.h"
 #include "skinning/deform_pass.h"
 
 #include <algorithm>
@@ -146,16 +147,7 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
     std::sort(cage.holes.begin(), cage.holes.end());
     cage.holes.erase(std::unique(cage.holes.begin(), cage.holes.end()), cage.holes.end());
 
-    character.skeleton.nodes.emplace_back();
-    character.skeleton.nodes[0].name = name;
-    character.skeleton.parentsFirst = {0};
-    character.skin.joints = {0};
-    character.skin.inverseBinds = {glm::mat4(1.0f)};
-    character.weights.starts.resize(size_t{desc.vertexCount} + 1);
-    character.weights.influences.resize(desc.vertexCount, {0, 1.0f});
-    for (uint32_t v = 0; v <= desc.vertexCount; ++v) {
-        character.weights.starts[v] = v;
-    }
+    cage::bindToOneJoint(character);
     character.sourceVertexCount = desc.vertexCount;
     return character;
 }

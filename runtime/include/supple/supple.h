@@ -172,7 +172,7 @@ typedef struct SuppleAssetDesc {
     uint32_t structSize;
     uint32_t flags;    /* SuppleAssetFlags */
     const char* name;  /* begins every message about the asset; optional */
-    const void* bytes; /* .glb or .gltf */
+    const void* bytes; /* .glb or .gltf; .obj when `name` ends so */
     size_t byteCount;
     const char* baseDirectory; /* where the .gltf's external files lie; null allows none */
     const SuppleCageDesc* cage;
