@@ -1,17 +1,13 @@
 #include "tools/host/figure.h"
 
-#include "cage/gltf_reader.h"
 #include "shaders/shared/draw.h"
+#include "tools/host/character_file.h"
 #include "tools/host/texture.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <glm/gtc/packing.hpp>
 
 namespace supple::host {
@@ -19,18 +15,6 @@ namespace supple::host {
 namespace {
 
 constexpr size_t kCornerWords = sizeof(shared::CageCorner) / sizeof(uint32_t);
-
-Result<std::vector<std::byte>> readFile(const std::string& path) {
-    std::error_code code;
-    const auto size = std::filesystem::file_size(path, code);
-    std::ifstream file(path, std::ios::binary);
-    if (code || !file)
-        return Error{ErrorCode::io, path + ": " + (code ? code.message() : std::strerror(errno))};
-    std::vector<std::byte> bytes(size);
-    if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-        return Error{ErrorCode::io, path + ": cannot be read to its end"};
-    return bytes;
-}
 
 float linearFromSrgb(float x) {
     return x < 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
@@ -78,31 +62,17 @@ float averageLuminance(const cage::Cage& cage, const std::vector<glm::vec4>& mat
 } // namespace
 
 Result<std::unique_ptr<Figure>> Figure::open(Context& context, const std::string& path, bool pairQuads) {
-    Result<std::vector<std::byte>> bytes = readFile(path);
-    if (!bytes)
-        return bytes.error();
-    std::unique_ptr<Figure> figure(new Figure(context));
-    figure->path_ = path;
-    std::string directory = std::filesystem::path(path).parent_path().string();
-    if (directory.empty())
-        directory = ".";
     // Twice over: Supple keeps what it computes with; materials, pictures and the cage's faces are the host's to draw.
-    Result<cage::Character> character = cage::readGltf(*bytes, path, directory, {.pairQuads = pairQuads});
-    if (!character)
-        return character.error();
-    figure->character_ = std::move(*character);
-    SuppleAssetDesc desc{};
-    desc.structSize = sizeof desc;
-    if (pairQuads)
-        desc.flags |= SUPPLE_ASSET_PAIR_QUADS;
-    desc.name = path.c_str();
-    desc.bytes = bytes->data();
-    desc.byteCount = bytes->size();
-    desc.baseDirectory = directory.c_str();
-    if (const Status status =
-            context.check(suppleCreateAsset(context.handle(), &desc, &figure->asset_), "suppleCreateAsset");
-        !status)
-        return status.error();
+    Result<CharacterFile> file = readCharacterFile(path, pairQuads);
+    if (!file)
+        return file.error();
+    std::unique_ptr<Figure> figure(new Figure(context));
+    const Result<SuppleAsset> asset = createAsset(context, *file);
+    if (!asset)
+        return asset.error();
+    figure->path_ = path;
+    figure->asset_ = *asset;
+    figure->character_ = std::move(file->character);
     if (const Status status = figure->uploadCage(); !status)
         return status.error();
     if (const Status status = figure->uploadBaseColors(); !status)
@@ -116,23 +86,7 @@ Figure::~Figure() {
 }
 
 Result<uint32_t> Figure::findClip(const std::string& nameOrIndex) const {
-    if (nameOrIndex.empty())
-        return SUPPLE_BIND_POSE;
-    const std::vector<cage::Clip>& clips = character_.clips;
-    for (uint32_t i = 0; i < clips.size(); ++i) {
-        if (clips[i].name == nameOrIndex)
-            return i;
-    }
-    uint32_t index = 0;
-    const char* end = nameOrIndex.data() + nameOrIndex.size();
-    const auto [parsed, code] = std::from_chars(nameOrIndex.data(), end, index);
-    if (code == std::errc() && parsed == end && index < clips.size())
-        return index;
-    std::string have;
-    for (uint32_t i = 0; i < clips.size(); ++i)
-        have += (i > 0 ? ", " : "") + std::to_string(i) + " " + clips[i].name;
-    return Error{ErrorCode::argument,
-                 path_ + ": no clip " + nameOrIndex + (have.empty() ? " (it has none)" : " (have: " + have + ")")};
+    return host::findClip(character_, nameOrIndex);
 }
 
 double Figure::clipDuration(uint32_t clip) const {

@@ -1,6 +1,6 @@
 // supple bake: the evaluated surface exactly as the device wrote it, as an OBJ; the patches behind it as JSON.
 #include "surface/scheme.h"
-#include "tools/supple/character_file.h"
+#include "tools/host/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/session.h"
 #include "tools/supple/text_file.h"
@@ -179,10 +179,10 @@ Status readBack(host::Device& device, const SuppleBufferView& view, std::vector<
 }
 
 /// Poses one instance, runs one frame and reads its results back.
-Result<Baked> evaluate(Session& session, const BakeOptions& options, const CharacterFile& file, uint32_t clip,
+Result<Baked> evaluate(Session& session, const BakeOptions& options, const host::CharacterFile& file, uint32_t clip,
                        uint32_t groupFlags) {
     host::Context& context = *session.context;
-    const Result<SuppleAsset> asset = createAsset(context, file);
+    const Result<SuppleAsset> asset = host::createAsset(context, file);
     if (!asset) {
         return asset.error();
     }
@@ -248,11 +248,11 @@ Result<Baked> evaluate(Session& session, const BakeOptions& options, const Chara
 }
 
 int runBake(const BakeOptions& options) {
-    const Result<CharacterFile> file = readCharacterFile(options.file, options.surface.pairQuads);
+    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.pairQuads);
     if (!file) {
         return fail(kExitBadInput, file.error().message);
     }
-    const Result<uint32_t> clip = findClip(*file, options.clip);
+    const Result<uint32_t> clip = host::findClip(file->character, options.clip);
     if (!clip) {
         return fail(kExitBadInput, clip.error().message);
     }
@@ -289,7 +289,7 @@ int runBake(const BakeOptions& options) {
 void bindBake(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<BakeOptions>();
     CLI::App* command = app.add_subcommand("bake", "The evaluated surface exactly as the device wrote it, as an OBJ");
-    command->add_option("FILE", options->file, "glTF or GLB")->required();
+    command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_option("-o,--output", options->output, "OBJ to write")->required()->type_name("OUT.obj");
     command->add_option("--patches", options->patches, "JSON of the patches and their coefficients")
         ->type_name("OUT.json");

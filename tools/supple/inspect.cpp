@@ -1,7 +1,7 @@
 // supple inspect: what a character file holds, and which schemes take it. Needs no device.
-#include "cage/gltf_reader.h"
 #include "cage/topology.h"
 #include "surface/schemes.h"
+#include "tools/host/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/options.h"
 
@@ -228,15 +228,15 @@ void printText(const InspectOptions& options, const cage::Character& character, 
 }
 
 int runInspect(const InspectOptions& options) {
-    const Result<cage::Character> character = cage::readGltfFile(options.file, {.pairQuads = options.pairQuads});
-    if (!character) {
-        return fail(kExitBadInput, character.error().message);
+    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.pairQuads);
+    if (!file) {
+        return fail(kExitBadInput, file.error().message);
     }
-    const Findings findings = examine(*character);
+    const Findings findings = examine(file->character);
     if (options.json) {
-        printJson(options, *character, findings);
+        printJson(options, file->character, findings);
     } else {
-        printText(options, *character, findings);
+        printText(options, file->character, findings);
     }
     return kExitOk;
 }
@@ -246,7 +246,7 @@ int runInspect(const InspectOptions& options) {
 void bindInspect(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<InspectOptions>();
     CLI::App* command = app.add_subcommand("inspect", "What a character file holds, and which schemes take it");
-    command->add_option("FILE", options->file, "glTF or GLB")->required();
+    command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_flag("--json", options->json, "Print JSON");
     command->add_flag("--pair-quads", options->pairQuads,
                       "Merge consecutive triangle pairs of plain triangles to quads");

@@ -46,7 +46,7 @@ void bindDraw(CLI::App& command, DrawOptions& draw) {
 void bindRender(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand("render", "One picture of a character");
-    command->add_option("FILE", options->file, "glTF or GLB")->required();
+    command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
     command->add_option("--size", options->size, "Of the picture")->check(sizeValidator())->capture_default_str();
     bindPose(*command, options->clip, options->time);
@@ -58,7 +58,7 @@ void bindSheet(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ContactSheetOptions>();
     CLI::App* command = app.add_subcommand(
         "sheet", "A sheet of pictures: a row a clip, a column a time, the deformed cage beside the surface");
-    command->add_option("FILE", options->file, "glTF or GLB")->required();
+    command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
     command->add_option("--clip", options->clips, "Clips by name or index; all without it")->type_name("NAME|INDEX");
     command->add_option("--columns", options->columns, "Times a clip")
@@ -75,7 +75,7 @@ void bindSheet(CLI::App& app, int& exitCode) {
 void bindView(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ViewOptions>();
     CLI::App* command = app.add_subcommand("view", "Characters in a window, playing");
-    command->add_option("FILE", options->files, "glTF or GLB; one is shown at a time")->required();
+    command->add_option("FILE", options->files, "glTF, GLB or OBJ; one is shown at a time")->required();
     command->add_option("--clip", options->clip, "Clip by name or index to begin with")->type_name("NAME|INDEX");
     command->add_option("--size", options->size, "Of the window")->check(sizeValidator())->capture_default_str();
     CLI::Option* frames = command->add_option("--frames", options->frames, "Close after so many; 0 stays open");

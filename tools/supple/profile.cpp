@@ -1,5 +1,5 @@
 // supple profile: runs the frame loop of a host without a window and reports what every pass took.
-#include "tools/supple/character_file.h"
+#include "tools/host/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/profile_report.h"
 #include "tools/supple/session.h"
@@ -115,7 +115,7 @@ class Profiler {
 public:
     Profiler(Session& session, const ProfileOptions& options) : session_(session), options_(options) {}
 
-    Result<ProfileRun> run(const CharacterFile& file, const std::string& scheme) {
+    Result<ProfileRun> run(const host::CharacterFile& file, const std::string& scheme) {
         ProfileRun result;
         result.file = file.path;
         result.scheme = resolvedScheme(scheme);
@@ -162,8 +162,8 @@ private:
         return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start_).count();
     }
 
-    Status createGroup(const CharacterFile& file, const std::string& scheme, ProfileRun& run) {
-        const Result<SuppleAsset> asset = createAsset(*session_.context, file);
+    Status createGroup(const host::CharacterFile& file, const std::string& scheme, ProfileRun& run) {
+        const Result<SuppleAsset> asset = host::createAsset(*session_.context, file);
         if (!asset) {
             return asset.error();
         }
@@ -311,7 +311,7 @@ std::string dump(const nlohmann::ordered_json& json, int indent) {
     return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-Status profile(Session& session, const ProfileOptions& options, const std::vector<CharacterFile>& files) {
+Status profile(Session& session, const ProfileOptions& options, const std::vector<host::CharacterFile>& files) {
     const Machine machine = describe(*session.device, options.device);
     std::printf("%s (%s %s), %s mapping, CPU %s\n", machine.device.c_str(), machine.driver.c_str(),
                 machine.driverInfo.c_str(), machine.mapping.c_str(), machine.cpu.c_str());
@@ -325,7 +325,7 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
     }
     std::vector<ProfileRun> runs;
     Profiler profiler(session, options);
-    for (const CharacterFile& file : files) {
+    for (const host::CharacterFile& file : files) {
         for (const std::string& scheme : names) {
             Result<ProfileRun> run = profiler.run(file, scheme);
             if (!run && all && run.error().code == ErrorCode::asset) { // not every scheme takes every cage
@@ -357,9 +357,9 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
 }
 
 int runProfile(const ProfileOptions& options) {
-    std::vector<CharacterFile> files;
+    std::vector<host::CharacterFile> files;
     for (const std::string& path : options.files) {
-        Result<CharacterFile> file = readCharacterFile(path, options.surface.pairQuads);
+        Result<host::CharacterFile> file = host::readCharacterFile(path, options.surface.pairQuads);
         if (!file) {
             return fail(kExitBadInput, file.error().message);
         }
@@ -373,7 +373,7 @@ int runProfile(const ProfileOptions& options) {
 void bindProfile(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ProfileOptions>();
     CLI::App* command = app.add_subcommand("profile", "What every pass of a frame takes, over many frames");
-    command->add_option("FILE", options->files, "glTF or GLB, one run each")->required();
+    command->add_option("FILE", options->files, "glTF, GLB or OBJ, one run each")->required();
     command->add_option("--instances", options->instances, "Instances evaluated together")
         ->check(CLI::Range(1u, 1000000u))
         ->capture_default_str();

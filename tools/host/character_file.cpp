@@ -1,12 +1,12 @@
-#include "tools/supple/character_file.h"
+#include "tools/host/character_file.h"
 
-#include "cage/gltf_reader.h"
+#include "cage/character_reader.h"
 
 #include <charconv>
 #include <filesystem>
 #include <fstream>
 
-namespace supple::tools {
+namespace supple::host {
 namespace {
 
 Result<std::vector<std::byte>> readFile(const std::string& path) {
@@ -39,14 +39,14 @@ Result<CharacterFile> readCharacterFile(const std::string& path, bool pairQuads)
     }
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const std::string directory = parent.empty() ? "." : parent.string();
-    Result<cage::Character> character = cage::readGltf(*bytes, path, directory, {.pairQuads = pairQuads});
+    Result<cage::Character> character = cage::readCharacter(*bytes, path, directory, {.pairQuads = pairQuads});
     if (!character) {
         return character.error();
     }
     return CharacterFile{path, directory, pairQuads, std::move(*bytes), std::move(*character)};
 }
 
-Result<SuppleAsset> createAsset(host::Context& context, const CharacterFile& file) {
+Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
     SuppleAssetDesc desc{};
     desc.structSize = sizeof desc;
     if (file.pairQuads) {
@@ -64,25 +64,26 @@ Result<SuppleAsset> createAsset(host::Context& context, const CharacterFile& fil
     return asset;
 }
 
-Result<uint32_t> findClip(const CharacterFile& file, const std::string& clip) {
-    if (clip.empty()) {
+Result<uint32_t> findClip(const cage::Character& character, const std::string& nameOrIndex) {
+    if (nameOrIndex.empty()) {
         return SUPPLE_BIND_POSE;
     }
-    const std::vector<cage::Clip>& clips = file.character.clips;
+    const std::vector<cage::Clip>& clips = character.clips;
     std::string names;
     for (uint32_t i = 0; i < clips.size(); ++i) {
-        if (clips[i].name == clip) {
+        if (clips[i].name == nameOrIndex) {
             return i;
         }
         names += (i == 0 ? "" : ", ") + std::to_string(i) + " " + clips[i].name;
     }
     uint32_t index = 0;
-    const auto [end, error] = std::from_chars(clip.data(), clip.data() + clip.size(), index);
-    if (error == std::errc() && end == clip.data() + clip.size() && index < clips.size()) {
+    const char* const last = nameOrIndex.data() + nameOrIndex.size();
+    const auto [end, error] = std::from_chars(nameOrIndex.data(), last, index);
+    if (error == std::errc() && end == last && index < clips.size()) {
         return index;
     }
     return Error{ErrorCode::asset,
-                 file.path + ": no clip \"" + clip + "\"; it has " + (names.empty() ? "none" : names)};
+                 character.name + ": no clip \"" + nameOrIndex + "\"; it has " + (names.empty() ? "none" : names)};
 }
 
-} // namespace supple::tools
+} // namespace supple::host
