@@ -176,7 +176,8 @@ enum class WeldSource {
 [[nodiscard]] const char* weldSourceName(WeldSource source);
 
 struct Character {
-    std::string name; ///< file name or the host's name for it; begins every message about it
+    std::string name;      ///< file name or the host's name for it; begins every message about it
+    std::string copyright; ///< as the file states it
     Cage cage;
     PolygonSource polygonSource = PolygonSource::arrays;
     WeldSource weldSource = WeldSource::given;

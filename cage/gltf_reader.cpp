@@ -24,8 +24,10 @@ Character toCharacter(const GltfDocument& document, const GltfOptions& options) 
     Character character;
     Warnings& warnings = character.warnings;
     warnings = document.warnings;
+    character.copyright = document.model.asset.copyright;
     character.skeleton = readSkeleton(document);
     const uint32_t meshNode = chooseMeshNode(document, warnings);
+    character.meshNode = meshNode;
     character.skin = readSkin(document, meshNode);
     character.images = document.images;
     character.materials = readMaterials(document, warnings);

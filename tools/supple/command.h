@@ -40,5 +40,6 @@ void bindSheet(CLI::App& app, int& exitCode);
 void bindProfile(CLI::App& app, int& exitCode);
 void bindBench(CLI::App& app, int& exitCode);
 void bindView(CLI::App& app, int& exitCode);
+void bindConvert(CLI::App& app, int& exitCode);
 
 } // namespace supple::tools

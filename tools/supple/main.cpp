@@ -30,6 +30,7 @@ int run(int argc, char** argv) {
     bindProfile(app, exitCode);
     bindBench(app, exitCode);
     bindView(app, exitCode);
+    bindConvert(app, exitCode);
 
     try {
         app.parse(argc, argv);

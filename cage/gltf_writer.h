@@ -1,0 +1,31 @@
+// Writes a Character as GLB.
+#pragma once
+
+#include "base/result.h"
+#include "cage/character.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace supple::cage {
+
+struct GlbFile {
+    std::vector<std::byte> bytes;
+    uint32_t vertexCount = 0;          ///< glTF vertices: cage vertices, split where corners differ
+    std::vector<std::string> warnings; ///< what was left out, one line each
+};
+
+/// Everything a Character holds but P_m's crease scalars, as one GLB; the same bytes for the same character.
+///
+/// Polygons, creases, sharp vertices and holes go into SUPPLE_mesh_cage (docs/SUPPLE_mesh_cage.md), and the triangles
+/// that other viewers show follow FB_ngon_encoding. Materials are written as Supple reads them: base color and alpha
+/// mode; what else a material had in its file is not known here. Images no material uses are left out, and so are, with
+/// a warning, those that are not PNG or JPEG, and clips without channels, which glTF forbids.
+///
+/// The character is one that a reader made: indices in range, weights normalised, numbers finite. Never throws. Errors
+/// are one line that begins with the character's name.
+[[nodiscard]] Result<GlbFile> writeGlb(const Character& character);
+
+} // namespace supple::cage
