@@ -169,8 +169,20 @@ void Passes::record(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescri
 
 void Passes::recordStage(VkCommandBuffer commandBuffer, Stage stage, const Tables& tables, const Window& window,
                          const Evaluation& evaluation) const {
+    bool first = true;
     for (const Construction& c : tables.constructions) {
         if (c.stage == stage) {
+            if (stage == Stage::edge && !first) {
+                // P_m's facet kernels read other parts of the pool than they write, but one barrier's scope is a
+                // buffer.
+                constexpr VkAccessFlags2 kPoolAccess = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                                                       VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
+                                                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+                gpu::memoryBarrier(*device_, commandBuffer,
+                                   {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+                                   {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kPoolAccess});
+            }
+            first = false;
             const shared::SurfacePush push = pushFor(tables, c.section, window, evaluation);
             record(commandBuffer, construction_[static_cast<size_t>(c.kernel)].get(), window.set, push,
                    groupsFor(uint64_t{push.count} * push.instanceCount));

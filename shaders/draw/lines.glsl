@@ -7,10 +7,10 @@ float lineCoverage(float distance, float halfWidth) {
 
 float strongest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
-/// Lines at whole numbers of `at`; `perPixel` is its change from pixel to pixel.
+/// Lines at whole numbers of `at`; `perPixel` is its change from pixel to pixel. A coordinate that stands still draws none.
 float gridLines(vec3 at, vec3 perPixel, float halfWidth) {
     vec3 distance = abs(fract(at - 0.5) - 0.5) / max(perPixel, vec3(1e-6));
-    vec3 fade = 1.0 - smoothstep(vec3(0.16), vec3(0.45), perPixel * halfWidth);
+    vec3 fade = (1.0 - smoothstep(vec3(0.16), vec3(0.45), perPixel * halfWidth)) * step(vec3(1e-5), perPixel);
     return strongest(vec3(lineCoverage(distance.x, halfWidth), lineCoverage(distance.y, halfWidth),
                           lineCoverage(distance.z, halfWidth)) * fade);
 }

@@ -253,9 +253,10 @@ private:
             const Key from = root(i.operands[0]);
             const auto base = byResult_.find(from.id);
             // Buffers, texels and push constants are where values come from; walking ends there.
-            if (base != byResult_.end() && (base->second.op == kFunctionParameter ||
-                                            (base->second.op == kVariable && (base->second.operands[0] == kFunctionStorage ||
-                                                                             base->second.operands[0] == kWorkgroupStorage)))) {
+            if (base != byResult_.end() &&
+                (base->second.op == kFunctionParameter ||
+                 (base->second.op == kVariable &&
+                  (base->second.operands[0] == kFunctionStorage || base->second.operands[0] == kWorkgroupStorage)))) {
                 push({from.id, from.member == -1 ? key.member : from.member});
             }
             return;
