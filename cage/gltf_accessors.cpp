@@ -122,9 +122,9 @@ std::span<const std::byte> viewBytes(const GltfDocument& document, int view, uin
         bufferView.byteOffset + static_cast<size_t>(offset), static_cast<size_t>((count - 1) * stride + elementSize));
 }
 
-/// All elements, packed, sparse values put in.
+/// All elements, packed.
 std::vector<std::byte> packed(const GltfDocument& document, int index, int type, uint32_t allowed,
-                              const std::string& element) {
+                              const std::string& element, Sparse sparse) {
     const Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
     if (accessor.type != type) {
         refuse(element, std::string(typeName(accessor.type)) + " instead of " + typeName(type));
@@ -154,7 +154,7 @@ std::vector<std::byte> packed(const GltfDocument& document, int index, int type,
             std::memcpy(bytes.data() + i * elementSize, source.data() + i * stride, elementSize);
         }
     }
-    if (!accessor.sparse.isSparse) {
+    if (!accessor.sparse.isSparse || sparse == Sparse::ignored) {
         return bytes;
     }
 
@@ -188,7 +188,7 @@ std::vector<std::byte> packed(const GltfDocument& document, int index, int type,
 
 std::vector<float> readFloats(const GltfDocument& document, int accessor, int type, uint32_t allowed,
                               const std::string& element) {
-    const std::vector<std::byte> bytes = packed(document, accessor, type, allowed, element);
+    const std::vector<std::byte> bytes = packed(document, accessor, type, allowed, element, Sparse::applied);
     const int componentType = document.model.accessors[static_cast<size_t>(accessor)].componentType;
     const size_t size = componentSize(componentType);
     std::vector<float> values(bytes.size() / size);
@@ -216,8 +216,8 @@ std::vector<float> readFloats(const GltfDocument& document, int accessor, int ty
 }
 
 std::vector<uint32_t> readIntegers(const GltfDocument& document, int accessor, int type, uint32_t allowed,
-                                   const std::string& element) {
-    const std::vector<std::byte> bytes = packed(document, accessor, type, allowed, element);
+                                   const std::string& element, Sparse sparse) {
+    const std::vector<std::byte> bytes = packed(document, accessor, type, allowed, element, sparse);
     const int componentType = document.model.accessors[static_cast<size_t>(accessor)].componentType;
     const size_t size = componentSize(componentType);
     std::vector<uint32_t> values(bytes.size() / size);
@@ -225,6 +225,13 @@ std::vector<uint32_t> readIntegers(const GltfDocument& document, int accessor, i
         values[i] = loadInteger(bytes.data() + i * size, componentType);
     }
     return values;
+}
+
+uint32_t restartIndex(const GltfDocument& document, int accessor) {
+    const int type = document.model.accessors[static_cast<size_t>(accessor)].componentType;
+    return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 0xFFu
+           : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 0xFFFFu
+                                                            : 0xFFFFFFFFu;
 }
 
 size_t accessorCount(const GltfDocument& document, int accessor) {

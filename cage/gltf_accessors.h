@@ -29,9 +29,15 @@ enum ComponentTypes : uint32_t {
 [[nodiscard]] std::vector<float> readFloats(const GltfDocument& document, int accessor, int type, uint32_t allowed,
                                             const std::string& element);
 
+/// Whether a sparse accessor's values take the place of those below them.
+enum class Sparse { applied, ignored };
+
 /// Elements of `type` as unsigned integers.
 [[nodiscard]] std::vector<uint32_t> readIntegers(const GltfDocument& document, int accessor, int type, uint32_t allowed,
-                                                 const std::string& element);
+                                                 const std::string& element, Sparse sparse = Sparse::applied);
+
+/// The largest number of the accessor's component type: no index, but the mark between strips and loops.
+[[nodiscard]] uint32_t restartIndex(const GltfDocument& document, int accessor);
 
 /// Number of elements.
 [[nodiscard]] size_t accessorCount(const GltfDocument& document, int accessor);

@@ -2,8 +2,8 @@
 
 #include "cage/gltf_creases.h"
 #include "cage/gltf_refusal.h"
+#include "cage/gltf_weld.h"
 #include "cage/polygons.h"
-#include "cage/weld.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,114 +15,22 @@
 namespace supple::cage {
 namespace {
 
-/// Vertices in one place that something keeps apart.
-struct Cracks {
-    size_t count = 0;
-    uint32_t first[2] = {0, 0};
-
-    void add(uint32_t a, uint32_t b) {
-        if (count++ == 0) {
-            first[0] = std::min(a, b);
-            first[1] = std::max(a, b);
-        }
-    }
-    void report(const std::string& what, const std::string& element, Warnings& warnings) const {
-        if (count > 0) {
-            warn(warnings, element,
-                 counted(count, "vertex agrees", "vertices agree") + " with another in position but not in " + what +
-                     " (first: vertices " + std::to_string(first[0]) + " and " + std::to_string(first[1]) +
-                     "); kept apart");
-        }
-    }
-};
-
-/// Numbers the sets of vertices with equal position, skin and morphs; warns where only the position is equal.
-std::vector<uint32_t> candidateSets(const GltfMesh& mesh, const std::vector<uint8_t>& used, Warnings& warnings) {
-    std::vector<uint32_t> order;
-    for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        if (used[v] != 0) {
-            order.push_back(v);
-        }
-    }
-    const auto comparePositions = [&](uint32_t a, uint32_t b) {
-        // Finite floats: comparing values is comparing bits, but for -0 = 0.
-        for (int k = 0; k < 3; ++k) {
-            if (mesh.positions[a][k] != mesh.positions[b][k]) {
-                return mesh.positions[a][k] < mesh.positions[b][k] ? -1 : 1;
-            }
-        }
-        return 0;
+/// What a part's edges are sewn along: its own polygons where it lists them, else its triangles.
+void addSewingFaces(const MeshPart& part, Polygons& faces) {
+    const auto add = [&](std::span<const uint32_t> vertices) {
+        faces.vertices.insert(faces.vertices.end(), vertices.begin(), vertices.end());
+        faces.close();
     };
-    const auto compareSkins = [&](uint32_t a, uint32_t b) {
-        const auto x = mesh.weights.of(a);
-        const auto y = mesh.weights.of(b);
-        if (x.size() != y.size()) {
-            return x.size() < y.size() ? -1 : 1;
-        }
-        for (size_t i = 0; i < x.size(); ++i) {
-            if (x[i].joint != y[i].joint) {
-                return x[i].joint < y[i].joint ? -1 : 1;
-            }
-            if (x[i].weight != y[i].weight) {
-                return x[i].weight < y[i].weight ? -1 : 1;
-            }
-        }
-        return 0;
-    };
-    const auto compareMorphs = [&](uint32_t a, uint32_t b) {
-        const auto x = mesh.morphs.of(a);
-        const auto y = mesh.morphs.of(b);
-        if (x.size() != y.size()) {
-            return x.size() < y.size() ? -1 : 1;
-        }
-        for (size_t i = 0; i < x.size(); ++i) {
-            if (x[i].target != y[i].target) {
-                return x[i].target < y[i].target ? -1 : 1;
-            }
-            for (int k = 0; k < 3; ++k) {
-                if (x[i].delta[k] != y[i].delta[k]) {
-                    return x[i].delta[k] < y[i].delta[k] ? -1 : 1;
-                }
-            }
-        }
-        return 0;
-    };
-    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-        int by = comparePositions(a, b);
-        by = by != 0 ? by : compareSkins(a, b);
-        by = by != 0 ? by : compareMorphs(a, b);
-        return by != 0 ? by < 0 : a < b;
-    });
-    std::vector<uint32_t> sets(mesh.positions.size(), 0);
-    uint32_t set = 0;
-    Cracks skinCracks;
-    Cracks morphCracks;
-    for (size_t i = 0; i < order.size(); ++i) {
-        if (i > 0) {
-            const uint32_t a = order[i - 1];
-            const uint32_t b = order[i];
-            const bool samePosition = comparePositions(a, b) == 0;
-            const bool sameSkin = samePosition && compareSkins(a, b) == 0;
-            const bool same = sameSkin && compareMorphs(a, b) == 0;
-            set += same ? 0 : 1;
-            if (samePosition && !same) {
-                (sameSkin ? morphCracks : skinCracks).add(a, b);
-            }
-        }
-        sets[order[i]] = set;
+    const Polygons& own = part.faces.polygons;
+    for (size_t f = 0; f < own.faceCount(); ++f) {
+        add(std::span(own.vertices).subspan(own.starts[f], own.starts[f + 1] - own.starts[f]));
     }
-    skinCracks.report("skin", mesh.element, warnings);
-    morphCracks.report("morph targets", mesh.element, warnings);
-    return sets;
+    for (size_t t = 0; own.faceCount() == 0 && t < part.triangles.size(); t += 3) {
+        add(std::span(part.triangles).subspan(t, 3));
+    }
 }
 
-Polygons recoverPolygons(const GltfMesh& mesh, const MeshPart& part, std::span<const uint32_t> welded, bool pairQuads) {
-    if (part.ngonEncoded) {
-        return decodeNgons(part.triangles, welded);
-    }
-    if (!pairQuads) {
-        return keepTriangles(part.triangles, welded);
-    }
+Polygons pairPart(const GltfMesh& mesh, const MeshPart& part, std::span<const uint32_t> welded) {
     const auto same = [](const std::vector<float>& values, size_t width, size_t a, size_t b) {
         for (size_t k = 0; k < width && !values.empty(); ++k) {
             if (values[width * a + k] != values[width * b + k]) {
@@ -146,10 +54,32 @@ Polygons recoverPolygons(const GltfMesh& mesh, const MeshPart& part, std::span<c
     return pairTriangles(part.triangles, welded, sameCorner, normalsAgree);
 }
 
+PolygonSource sourceOf(const MeshPart& part, bool pairQuads) {
+    return part.faces.source == PolygonSource::triangles && pairQuads ? PolygonSource::pairedTriangles
+                                                                      : part.faces.source;
+}
+
+Polygons recoverPolygons(const GltfMesh& mesh, const MeshPart& part, std::span<const uint32_t> welded, bool pairQuads) {
+    switch (sourceOf(part, pairQuads)) {
+    case PolygonSource::cageExtension:
+    case PolygonSource::meshPolygon:
+        return part.faces.polygons;
+    case PolygonSource::ngonEncoding:
+        return decodeNgons(part.triangles, welded);
+    case PolygonSource::hiddenEdges:
+        return mergeAcrossHiddenEdges(part.triangles, welded, part.faces.hidden);
+    case PolygonSource::pairedTriangles:
+        return pairPart(mesh, part, welded);
+    default:
+        return keepTriangles(part.triangles, welded);
+    }
+}
+
 /// The polygons of all parts, and the part each is of.
 struct Faces {
     Polygons polygons;
     std::vector<size_t> parts;
+    std::vector<uint32_t> holes;
 };
 
 Faces recoverFaces(const GltfMesh& mesh, const Welding& welding, bool pairQuads, Warnings& warnings) {
@@ -166,6 +96,15 @@ Faces recoverFaces(const GltfMesh& mesh, const Welding& welding, bool pairQuads,
                  "FB_ngon_encoding: " + counted(own.recutRuns, "polygon closes", "polygons close") +
                      " on itself; cut into quads and triangles again");
         }
+        if (own.brokenRegions > 0) {
+            warn(warnings, part.element,
+                 "EXT_mesh_primitive_edge_visibility: " +
+                     counted(own.brokenRegions, "region of hidden edges is", "regions of hidden edges are") +
+                     " no simple polygon; left in triangles");
+        }
+        for (const uint32_t hole : part.faces.holes) {
+            faces.holes.push_back(static_cast<uint32_t>(faces.parts.size()) + hole);
+        }
         for (size_t f = 0; f < own.faceCount(); ++f) {
             faces.polygons.vertices.insert(faces.polygons.vertices.end(), own.vertices.begin() + own.starts[f],
                                            own.vertices.begin() + own.starts[f + 1]);
@@ -174,14 +113,6 @@ Faces recoverFaces(const GltfMesh& mesh, const Welding& welding, bool pairQuads,
         }
     }
     return faces;
-}
-
-/// One part with polygons of its own names the source of all.
-PolygonSource sourceOf(const std::vector<MeshPart>& parts, bool pairQuads) {
-    if (std::any_of(parts.begin(), parts.end(), [](const MeshPart& part) { return part.ngonEncoded; })) {
-        return PolygonSource::ngonEncoding;
-    }
-    return pairQuads ? PolygonSource::pairedTriangles : PolygonSource::triangles;
 }
 
 /// UVs and colours; parts without them count as 0 and white where others have them.
@@ -228,17 +159,20 @@ std::vector<uint32_t> fillCage(const GltfMesh& mesh, const Faces& faces, const W
     std::vector<uint32_t> ofRoot(mesh.positions.size(), kNone);
     uint32_t usedCount = 0;
     for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        if (used[v] == 0) {
-            continue;
+        usedCount += used[v];
+        if (used[v] != 0 && ofRoot[welding.roots[v]] == kNone) {
+            ofRoot[welding.roots[v]] = v;
+            cage.sourceVertices.push_back(v);
         }
-        ++usedCount;
-        uint32_t& index = ofRoot[welding.roots[v]];
-        if (index != kNone) {
-            continue;
-        }
-        index = cage.vertexCount();
+    }
+    // The file's own numbers keep their order.
+    if (!mesh.cageNumbers.empty()) {
+        std::sort(cage.sourceVertices.begin(), cage.sourceVertices.end(),
+                  [&](uint32_t a, uint32_t b) { return mesh.cageNumbers[a] < mesh.cageNumbers[b]; });
+    }
+    for (const uint32_t v : cage.sourceVertices) {
+        ofRoot[welding.roots[v]] = cage.vertexCount();
         cage.positions.push_back(mesh.positions[v]);
-        cage.sourceVertices.push_back(v);
     }
     out.seamVertexCount = usedCount - cage.vertexCount();
 
@@ -251,6 +185,7 @@ std::vector<uint32_t> fillCage(const GltfMesh& mesh, const Faces& faces, const W
         cage.faceMaterials.push_back(mesh.parts[part].material < 0 ? kNone
                                                                    : static_cast<uint32_t>(mesh.parts[part].material));
     }
+    cage.holes = faces.holes;
     fillCorners(mesh, faces, cage);
 
     out.weights.starts.push_back(0);
@@ -275,34 +210,38 @@ std::vector<uint32_t> fillCage(const GltfMesh& mesh, const Faces& faces, const W
 } // namespace
 
 void buildCage(const GltfDocument& document, const GltfMesh& mesh, const GltfOptions& options, Character& out) {
-    std::vector<uint8_t> used(mesh.positions.size(), 0);
-    std::vector<uint32_t> triangles;
+    Polygons sewn;
     for (const MeshPart& part : mesh.parts) {
-        for (const uint32_t v : part.triangles) {
-            used[v] = 1;
-        }
-        triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
+        addSewingFaces(part, sewn);
+    }
+    std::vector<uint8_t> used(mesh.positions.size(), 0);
+    for (const uint32_t v : sewn.vertices) {
+        used[v] = 1;
     }
     const auto unused = static_cast<size_t>(std::count(used.begin(), used.end(), uint8_t{0}));
     if (unused > 0) {
-        warn(out.warnings, mesh.element, counted(unused, "vertex has", "vertices have") + " no triangle; left out");
+        warn(out.warnings, mesh.element, counted(unused, "vertex has", "vertices have") + " no face; left out");
     }
 
-    Welding welding = weld(candidateSets(mesh, used, out.warnings), triangles);
-    triangles.clear();
-
+    auto [welding, weldSource] = weldMesh(document, mesh, sewn, out.warnings);
     const Faces faces = recoverFaces(mesh, welding, options.pairQuads, out.warnings);
     if (faces.polygons.faceCount() == 0) {
         refuse(mesh.element, "no triangle is left");
     }
-    const uint32_t apart = unweldDefects(faces.polygons, welding);
+    // What the file merges itself is the file's business.
+    const uint32_t apart = weldSource == WeldSource::equality ? unweldDefects(faces.polygons, welding) : 0;
     if (apart > 0) {
         warn(out.warnings, mesh.element,
              counted(apart, "welded vertex is", "welded vertices are") +
                  " taken apart again: faces do not fit together there");
     }
 
-    out.polygonSource = sourceOf(mesh.parts, options.pairQuads);
+    // One part with polygons of its own names the source of all.
+    out.polygonSource = PolygonSource::triangles;
+    for (const MeshPart& part : mesh.parts) {
+        out.polygonSource = std::min(out.polygonSource, sourceOf(part, options.pairQuads));
+    }
+    out.weldSource = weldSource;
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
     readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, out.warnings);
 }

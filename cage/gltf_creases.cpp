@@ -1,5 +1,8 @@
 #include "cage/gltf_creases.h"
 
+#include "cage/gltf_cage_extension.h"
+#include "cage/gltf_refusal.h"
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -61,19 +64,87 @@ private:
     std::map<uint32_t, size_t> vertices_;
 };
 
+/// Creases and corners of SUPPLE_mesh_cage. What they name is a cage vertex by its number where the mesh numbers them,
+/// else a vertex of the primitive.
+class ExtensionReader {
+public:
+    ExtensionReader(const GltfDocument& document, const GltfMesh& mesh, std::span<const uint32_t> cageVertices,
+                    Cage& cage, Warnings& warnings)
+        : document_(document), mesh_(mesh), cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {
+        for (uint32_t v = 0; v < mesh.cageNumbers.size(); ++v) {
+            // Of several vertices of one number any will do, but one without a face only where none has.
+            uint32_t& vertex = ofNumber_.try_emplace(mesh.cageNumbers[v], cageVertices[v]).first->second;
+            vertex = vertex == kNone ? cageVertices[v] : vertex;
+        }
+    }
+
+    void readCreases(const MeshPart& part) {
+        const SharpList list = readCreaseList(document_, *part.extension);
+        EntryFaults faults(list.element);
+        for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
+            const uint32_t a = vertexOf(part, list, 2 * i);
+            const uint32_t b = vertexOf(part, list, 2 * i + 1);
+            if (a == kNone || b == kNone) {
+                faults.add(2 * i, "a crease at a vertex without a face");
+            } else if (a == b) {
+                refuse(item(list.element, 2 * i), "both ends are one vertex of the cage");
+            } else {
+                features_.addCrease(a, b, list.sharpnesses[i], cage_);
+            }
+        }
+        faults.report(warnings_);
+    }
+
+    void readCorners(const MeshPart& part) {
+        const SharpList list = readCornerList(document_, *part.extension);
+        EntryFaults faults(list.element);
+        for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
+            const uint32_t vertex = vertexOf(part, list, i);
+            if (vertex == kNone) {
+                faults.add(i, "a vertex without a face");
+            } else {
+                features_.addCorner(vertex, list.sharpnesses[i], cage_);
+            }
+        }
+        faults.report(warnings_);
+    }
+
+private:
+    /// kNone for a vertex without a face.
+    uint32_t vertexOf(const MeshPart& part, const SharpList& list, size_t index) const {
+        const uint32_t number = list.vertices[index];
+        if (part.extension->cageVertices >= 0) {
+            const auto found = ofNumber_.find(number);
+            if (found == ofNumber_.end()) {
+                refuse(item(list.element, index), "the mesh has no cage vertex " + std::to_string(number));
+            }
+            return found->second;
+        }
+        if (number >= part.vertexCount) {
+            refuse(item(list.element, index), "vertex " + std::to_string(number) +
+                                                  " is out of range: the primitive has " +
+                                                  std::to_string(part.vertexCount));
+        }
+        return cageVertices_[part.firstVertex + number];
+    }
+
+    const GltfDocument& document_;
+    const GltfMesh& mesh_;
+    std::span<const uint32_t> cageVertices_;
+    Cage& cage_;
+    Warnings& warnings_;
+    SharpFeatures features_;
+    std::map<uint32_t, uint32_t>
+        ofNumber_; ///< number of a cage vertex in the file -> cage vertex, kNone without a face
+};
+
 /// extras may hold anything: nothing in them is an error.
 class ExtrasReader {
 public:
     ExtrasReader(std::span<const uint32_t> cageVertices, Cage& cage, Warnings& warnings)
         : cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {}
 
-    /// extras.creases: [vertex, vertex, sharpness]; extras.corners: [vertex, sharpness].
-    void read(const json& extras, const std::string& element) {
-        readList(extras, "creases", element + " extras creases", 2);
-        readList(extras, "corners", element + " extras corners", 1);
-    }
-
-private:
+    /// Of `vertexCount` vertices and a sharpness each.
     void readList(const json& extras, const char* key, const std::string& name, size_t vertexCount) {
         const json* entries = extras.is_object() ? member(extras, key) : nullptr;
         if (entries == nullptr) {
@@ -93,6 +164,7 @@ private:
         faults.report(warnings_);
     }
 
+private:
     std::optional<std::string> readEntry(const json& entry, size_t vertexCount) {
         if (!entry.is_array() || entry.size() != vertexCount + 1) {
             return vertexCount == 2 ? "not [vertex, vertex, sharpness]" : "not [vertex, sharpness]";
@@ -137,9 +209,30 @@ private:
 
 void readCreases(const GltfDocument& document, const GltfMesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage,
                  Warnings& warnings) {
+    bool creases = false;
+    bool corners = false;
+    ExtensionReader ofExtension(document, mesh, cageVertices, cage, warnings);
+    for (const MeshPart& part : mesh.parts) {
+        if (part.extension && part.extension->creaseIndices >= 0) {
+            ofExtension.readCreases(part);
+            creases = true;
+        }
+        if (part.extension && part.extension->cornerIndices >= 0) {
+            ofExtension.readCorners(part);
+            corners = true;
+        }
+    }
     const json* extras = member(document.meshes[mesh.index], "extras");
-    if (extras != nullptr) {
-        ExtrasReader(cageVertices, cage, warnings).read(*extras, mesh.element);
+    if (extras == nullptr) {
+        return;
+    }
+    // extras.creases: [vertex, vertex, sharpness]; extras.corners: [vertex, sharpness].
+    ExtrasReader ofExtras(cageVertices, cage, warnings);
+    if (!creases) {
+        ofExtras.readList(*extras, "creases", mesh.element + " extras creases", 2);
+    }
+    if (!corners) {
+        ofExtras.readList(*extras, "corners", mesh.element + " extras corners", 1);
     }
 }
 

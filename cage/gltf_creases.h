@@ -11,8 +11,9 @@
 
 namespace supple::cage {
 
-/// Fills the cage's creases and sharp vertices. `cageVertices` gives the cage vertex of each of the mesh's vertices,
-/// kNone where it is left out.
+/// Fills the cage's creases and sharp vertices: of each kind those of SUPPLE_mesh_cage, or else of the mesh's extras.
+/// Throws Refusal when the extension names what is not there; extras are only warned about. `cageVertices` gives the
+/// cage vertex of each of the mesh's vertices, kNone where it is left out.
 void readCreases(const GltfDocument& document, const GltfMesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage,
                  Warnings& warnings);
 

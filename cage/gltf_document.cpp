@@ -6,6 +6,7 @@
 #include "cage/gltf_resources.h"
 #include "cage/gltf_structure.h"
 
+#include <algorithm>
 #include <fstream> // tinygltf.h leaves it out with TINYGLTF_NO_FS, but uses it
 #include <limits>
 
@@ -81,6 +82,11 @@ supple_tinygltf::Model toModel(json& root) {
 }
 
 } // namespace
+
+bool isRequired(const GltfDocument& document, const char* extension) {
+    const auto& required = document.model.extensionsRequired;
+    return std::find(required.begin(), required.end(), extension) != required.end();
+}
 
 GltfDocument loadGltfDocument(std::span<const std::byte> bytes, const FileReader& readFile) {
     const GltfContainer container = openContainer(bytes);

@@ -26,6 +26,9 @@ struct GltfDocument {
     std::vector<std::vector<std::byte>> owned; ///< behind the buffers that are not in the caller's bytes
 };
 
+/// Whether the file names an extension among those it requires.
+[[nodiscard]] bool isRequired(const GltfDocument& document, const char* extension);
+
 /// Throws Refusal. The document refers to `bytes`.
 [[nodiscard]] GltfDocument loadGltfDocument(std::span<const std::byte> bytes, const FileReader& readFile);
 

@@ -3,6 +3,7 @@
 #include "cage/gltf_accessors.h"
 #include "cage/gltf_refusal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -30,34 +31,76 @@ public:
         const auto& mesh = model_.meshes[meshIndex];
         out_.index = meshIndex;
         out_.element = at("mesh", meshIndex);
-        const bool skinned = model_.nodes[meshNode].skin >= 0;
+        skinned_ = model_.nodes[meshNode].skin >= 0;
+        std::vector<size_t> numbers;
         for (size_t k = 0; k < mesh.primitives.size(); ++k) {
             const Primitive& primitive = mesh.primitives[k];
             const std::string element = out_.element + " " + at("primitive", k);
-            if (primitive.mode != TINYGLTF_MODE_TRIANGLES) {
+            if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
+                MeshPart& part = out_.parts.emplace_back();
+                part.element = element;
+                part.extension = findCageExtension(document_, primitiveJson(k), element, warnings_);
+                numbers.push_back(k);
+            } else {
                 static constexpr const char* kModes[] = {"POINTS", "LINES",          "LINE_LOOP",   "LINE_STRIP",
                                                          "",       "TRIANGLE_STRIP", "TRIANGLE_FAN"};
                 warn(warnings_, element, std::string(kModes[primitive.mode]) + " instead of TRIANGLES; left out");
-                continue;
             }
-            readPrimitive(primitive, element, skinned);
         }
         if (out_.parts.empty()) {
             refuse(out_.element, "no primitive of TRIANGLES");
+        }
+        findCageNumbers(mesh, numbers);
+        for (size_t i = 0; i < numbers.size(); ++i) {
+            readPrimitive(mesh.primitives[numbers[i]], primitiveJson(numbers[i]), out_.parts[i]);
         }
         out_.weights.report(out_.element, warnings_);
         return std::move(out_);
     }
 
 private:
-    /// Accessors of position, joints, weights and morph targets: what makes a vertex.
-    using Stream = std::tuple<int, std::vector<int>, std::vector<int>, std::vector<int>>;
+    /// Accessors of position, cage numbers, joints, weights and morph targets: what makes a vertex.
+    using Stream = std::tuple<int, int, std::vector<int>, std::vector<int>, std::vector<int>>;
 
-    void readPrimitive(const Primitive& primitive, const std::string& element, bool skinned) {
-        MeshPart part;
-        part.element = element;
+    [[nodiscard]] const json& primitiveJson(size_t k) const { return document_.meshes[out_.index].at("primitives")[k]; }
+
+    /// Which accessors number the cage's vertices: all primitives' or none.
+    void findCageNumbers(const supple_tinygltf::Mesh& mesh, const std::vector<size_t>& numbers) {
+        const auto find = [&](WeldSource source, auto accessorOf) {
+            cageNumbers_.clear();
+            out_.numberSource = source;
+            for (size_t i = 0; i < out_.parts.size(); ++i) {
+                cageNumbers_.push_back(accessorOf(i));
+            }
+            return static_cast<size_t>(std::count(cageNumbers_.begin(), cageNumbers_.end(), -1));
+        };
+        size_t missing = find(WeldSource::cageExtension, [&](size_t i) {
+            return out_.parts[i].extension ? out_.parts[i].extension->cageVertices : -1;
+        });
+        if (missing == 0) {
+            return;
+        }
+        if (missing < out_.parts.size()) {
+            const auto first = std::find(cageNumbers_.begin(), cageNumbers_.end(), -1) - cageNumbers_.begin();
+            refuse(out_.parts[static_cast<size_t>(first)].element,
+                   "no cageVertices of SUPPLE_mesh_cage, which other primitives of the mesh have");
+        }
+        missing = find(WeldSource::vertexAttribute, [&](size_t i) {
+            const auto& attributes = mesh.primitives[numbers[i]].attributes;
+            const auto found = attributes.find("_CAGE_VERTEX");
+            return found == attributes.end() ? -1 : found->second;
+        });
+        if (missing > 0) {
+            if (missing < out_.parts.size()) {
+                warn(warnings_, out_.element, "_CAGE_VERTEX is not on all primitives; not used");
+            }
+            cageNumbers_.assign(out_.parts.size(), -1);
+        }
+    }
+
+    void readPrimitive(const Primitive& primitive, const json& primitiveJson, MeshPart& part) {
+        const std::string& element = part.element;
         part.material = primitive.material;
-        part.ngonEncoded = primitive.extensions.count("FB_ngon_encoding") != 0;
 
         const auto position = primitive.attributes.find("POSITION");
         if (position == primitive.attributes.end()) {
@@ -70,23 +113,60 @@ private:
 
         // Primitives over the same accessors share their vertices.
         SkinSets sets;
-        if (skinned) {
+        if (skinned_) {
             sets = findSkinSets(primitive, element);
         }
         const std::vector<int> targets = findMorphTargets(primitive);
-        const Stream stream{position->second, sets.joints, sets.weights, targets};
+        const int cageNumbers = cageNumbers_[static_cast<size_t>(&part - out_.parts.data())];
+        const Stream stream{position->second, cageNumbers, sets.joints, sets.weights, targets};
         const auto [known, isNew] = streams_.try_emplace(stream, static_cast<uint32_t>(out_.positions.size()));
         part.firstVertex = known->second;
         const size_t count = accessorCount(document_, position->second);
         if (isNew) {
             readVertices(position->second, sets, count, element);
             out_.morphs.append(document_, targets, count, element);
+            if (cageNumbers >= 0) {
+                readCageNumbers(cageNumbers, count, element);
+            }
         }
+        part.positionAccessor = position->second;
         part.vertexCount = static_cast<uint32_t>(count);
 
         readIndices(primitive, element, part);
+        part.faces = readPolygons(document_, primitiveJson, part.extension, part.triangles, part.vertexCount, element,
+                                  warnings_);
+        for (std::vector<uint32_t>* vertices : {&part.triangles, &part.faces.polygons.vertices}) {
+            for (uint32_t& vertex : *vertices) {
+                vertex += part.firstVertex;
+            }
+        }
+        cornerCount_ += part.triangles.size() + part.faces.polygons.vertices.size();
+        if (cornerCount_ > kMaxCorners) {
+            refuse(element, "more than " + std::to_string(kMaxCorners) + " corners", ErrorCode::limit);
+        }
         readCornerAttributes(primitive, element, part);
-        out_.parts.push_back(std::move(part));
+    }
+
+    /// Blender's exporter has no integer attributes: its numbers are floats.
+    void readCageNumbers(int accessor, size_t count, const std::string& element) {
+        const bool ofExtension = out_.numberSource == WeldSource::cageExtension;
+        const std::string name = element + (ofExtension ? " SUPPLE_mesh_cage cageVertices" : " _CAGE_VERTEX");
+        checkVertexCount(document_, accessor, count, name);
+        const bool isFloat =
+            model_.accessors[static_cast<size_t>(accessor)].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+        if (ofExtension || !isFloat) {
+            const auto values = readIntegers(document_, accessor, TINYGLTF_TYPE_SCALAR, kU8 | kU16 | kU32, name);
+            out_.cageNumbers.insert(out_.cageNumbers.end(), values.begin(), values.end());
+            return;
+        }
+        const auto values = readFloats(document_, accessor, TINYGLTF_TYPE_SCALAR, kFloat, name);
+        for (size_t v = 0; v < values.size(); ++v) {
+            // Beyond 2^24 not every number is a float; written so that a NaN is refused too.
+            if (!(values[v] >= 0.0f && values[v] <= 16777216.0f) || std::floor(values[v]) != values[v]) {
+                refuse(item(name, v), "not a number of a vertex");
+            }
+            out_.cageNumbers.push_back(static_cast<uint32_t>(values[v]));
+        }
     }
 
     /// Without sets, a mesh without a skin.
@@ -116,19 +196,16 @@ private:
                        counted(part.vertexCount, "vertex", "vertices") + " without indices, not a multiple of 3");
             }
             part.triangles.resize(part.vertexCount);
-            std::iota(part.triangles.begin(), part.triangles.end(), part.firstVertex);
+            std::iota(part.triangles.begin(), part.triangles.end(), 0u);
         } else {
             const std::string name = element + " indices";
             part.triangles = readIntegers(document_, primitive.indices, TINYGLTF_TYPE_SCALAR, kU8 | kU16 | kU32, name);
             if (part.triangles.size() % 3 != 0) {
                 refuse(name, std::to_string(part.triangles.size()) + ", not a multiple of 3");
             }
-            const int type = model_.accessors[static_cast<size_t>(primitive.indices)].componentType;
-            const uint32_t restart = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 0xFFu
-                                     : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 0xFFFFu
-                                                                                      : 0xFFFFFFFFu;
+            const uint32_t restart = restartIndex(document_, primitive.indices);
             for (size_t i = 0; i < part.triangles.size(); ++i) {
-                uint32_t& index = part.triangles[i];
+                const uint32_t index = part.triangles[i];
                 if (index == restart) {
                     refuse(item(name, i), std::to_string(index) + " is the restart value, which glTF 2.0 forbids");
                 }
@@ -136,12 +213,7 @@ private:
                     refuse(item(name, i), std::to_string(index) + " is out of range: the primitive has " +
                                               counted(part.vertexCount, "vertex", "vertices"));
                 }
-                index += part.firstVertex;
             }
-        }
-        cornerCount_ += part.triangles.size();
-        if (cornerCount_ > kMaxCorners) {
-            refuse(element, "more than " + std::to_string(kMaxCorners) + " triangle corners", ErrorCode::limit);
         }
     }
 
@@ -200,6 +272,8 @@ private:
     Warnings& warnings_;
 
     GltfMesh out_;
+    bool skinned_ = false;
+    std::vector<int> cageNumbers_;       ///< per part: the accessor that numbers its cage vertices, or -1
     std::map<Stream, uint32_t> streams_; ///< -> first vertex
     uint64_t cornerCount_ = 0;
     uint64_t attributeFloats_ = 0;

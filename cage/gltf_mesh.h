@@ -1,13 +1,16 @@
 // A mesh of a glTF file as the file has it: vertices, triangles, attributes; nothing welded. Private to cage/.
 #pragma once
 
+#include "cage/character.h"
 #include "cage/gltf_document.h"
 #include "cage/gltf_message.h"
 #include "cage/gltf_morphs.h"
+#include "cage/gltf_polygons.h"
 #include "cage/gltf_skin.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +20,9 @@ namespace supple::cage {
 struct MeshPart {
     std::string element;
     int material = -1;
-    bool ngonEncoded = false;
+    int positionAccessor = -1;
+    std::optional<CageExtension> extension;
+    PolygonData faces;        ///< vertices counted as in `triangles`
     uint32_t firstVertex = 0; ///< of its POSITION elements among all vertices read
     uint32_t vertexCount = 0;
     std::vector<uint32_t> triangles; ///< three vertices each, counted over all parts
@@ -33,7 +38,9 @@ struct GltfMesh {
     std::vector<glm::vec3> positions;
     VertexWeights weights;
     VertexMorphs morphs;
-    std::vector<MeshPart> parts; ///< at least one
+    std::vector<uint32_t> cageNumbers; ///< per vertex, where the file numbers cage vertices; else empty
+    WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers
+    std::vector<MeshPart> parts;                         ///< at least one
 };
 
 /// Primitives that are not triangles are left out with a warning. Throws Refusal.

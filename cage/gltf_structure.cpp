@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace supple::cage {
@@ -29,6 +30,14 @@ void checkAsset(const json& root) {
     }
 }
 
+/// Extensions a file may require. (Of the two that allow restart values, lines and strips alone make use.)
+constexpr std::array<std::string_view, 7> kUnderstood{
+    "SUPPLE_mesh_cage",           "EXT_mesh_polygon",
+    "FB_ngon_encoding",           "EXT_mesh_primitive_edge_visibility",
+    "EXT_mesh_manifold",          "KHR_mesh_primitive_restart",
+    "EXT_mesh_primitive_restart",
+};
+
 void checkExtensions(const json& root) {
     for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
         const json* names = arrayMember(root, key, "");
@@ -47,7 +56,7 @@ void checkExtensions(const json& root) {
     }
     for (const json& entry : *required) {
         const std::string name = entry.get<std::string>();
-        if (name == "FB_ngon_encoding") {
+        if (std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end()) {
             continue;
         }
         if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" ||

@@ -1,6 +1,7 @@
 #include "cage/polygons.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace supple::cage {
 namespace {
@@ -75,6 +76,96 @@ Polygons decodeNgons(std::span<const uint32_t> triangles, std::span<const uint32
         }
     }
     finish();
+    return polygons;
+}
+
+Polygons mergeAcrossHiddenEdges(std::span<const uint32_t> triangles, std::span<const uint32_t> welded,
+                                std::span<const uint8_t> hidden) {
+    // Half-edge e runs from triangles[e] to the next corner of its triangle.
+    const auto next = [](size_t e) { return e % 3 == 2 ? e - 2 : e + 1; };
+    const auto from = [&](size_t e) { return welded[triangles[e]]; };
+    const auto to = [&](size_t e) { return welded[triangles[next(e)]]; };
+    const size_t count = triangles.size() / 3;
+
+    std::vector<size_t> byEdge;
+    for (size_t e = 0; e < 3 * count; ++e) {
+        if (!degenerate(&triangles[e - e % 3], welded)) {
+            byEdge.push_back(e);
+        }
+    }
+    const auto edge = [&](size_t e) { return std::pair<uint32_t, uint32_t>(std::minmax(from(e), to(e))); };
+    std::sort(byEdge.begin(), byEdge.end(),
+              [&](size_t x, size_t y) { return std::pair(edge(x), x) < std::pair(edge(y), y); });
+    constexpr size_t kBoundary = ~size_t{0};
+    std::vector<size_t> across(3 * count, kBoundary); ///< half-edge -> the one it is merged with
+    for (size_t begin = 0; begin < byEdge.size();) {
+        size_t end = begin;
+        while (end < byEdge.size() && edge(byEdge[end]) == edge(byEdge[begin])) {
+            ++end;
+        }
+        const size_t x = byEdge[begin];
+        const size_t y = byEdge[end - 1];
+        if (end - begin == 2 && hidden[x] != 0 && hidden[y] != 0 && from(x) == to(y)) {
+            across[x] = y;
+            across[y] = x;
+        }
+        begin = end;
+    }
+
+    Polygons polygons;
+    std::vector<uint8_t> seen(count, 0);
+    std::vector<size_t> region;
+    std::vector<size_t> boundary;
+    std::vector<uint32_t> corners;
+    std::vector<uint32_t> scratch;
+    for (size_t first = 0; first < count; ++first) {
+        if (degenerate(&triangles[3 * first], welded)) {
+            ++polygons.degenerateTriangles;
+            continue;
+        }
+        if (seen[first] != 0) {
+            continue;
+        }
+        seen[first] = 1;
+        region.assign(1, first);
+        boundary.clear();
+        for (size_t i = 0; i < region.size(); ++i) {
+            for (size_t e = 3 * region[i]; e < 3 * region[i] + 3; ++e) {
+                if (across[e] == kBoundary) {
+                    boundary.push_back(e);
+                } else if (seen[across[e] / 3] == 0) {
+                    seen[across[e] / 3] = 1;
+                    region.push_back(across[e] / 3);
+                }
+            }
+        }
+        // n corners make n - 2 triangles; more of these are round a vertex within, or join what is joined already.
+        bool simple = region.size() + 2 == boundary.size();
+        corners.clear();
+        if (simple) {
+            // Along the boundary, round each vertex from one boundary edge to the next.
+            for (size_t e = boundary[0]; corners.size() < boundary.size();) {
+                corners.push_back(triangles[e]);
+                e = next(e);
+                while (across[e] != kBoundary) {
+                    e = next(across[e]);
+                }
+                if (e == boundary[0]) {
+                    break;
+                }
+            }
+            simple = corners.size() == boundary.size() && !repeats(corners, welded, scratch);
+        }
+        if (simple) {
+            addFace(polygons, corners);
+            continue;
+        }
+        ++polygons.brokenRegions;
+        std::sort(region.begin(), region.end());
+        for (const size_t t : region) {
+            addFace(polygons, triangles.subspan(3 * t, 3));
+        }
+    }
     return polygons;
 }
 

@@ -13,6 +13,7 @@ struct Polygons {
     std::vector<uint32_t> starts{0};
     std::vector<uint32_t> vertices;
     uint32_t degenerateTriangles = 0; ///< dropped: two corners are one welded vertex
+    uint32_t brokenRegions = 0;       ///< of hidden edges, left in triangles: no simple polygons
     uint32_t recutRuns = 0;           ///< runs of FB_ngon_encoding that closed on themselves and were cut again
 
     [[nodiscard]] size_t faceCount() const { return starts.size() - 1; }
@@ -31,6 +32,12 @@ struct Polygons {
 /// welded vertex is no polygon: the whole run is cut again, into quads of two triangles each where these are simple,
 /// else into triangles.
 [[nodiscard]] Polygons decodeNgons(std::span<const uint32_t> triangles, std::span<const uint32_t> welded);
+
+/// Merges triangles across hidden edges: `hidden` holds three flags a triangle, of its edges v0v1, v1v2 and v2v0, and
+/// an edge goes where it is hidden on both sides and no third triangle has it. What is merged must be a polygon: one
+/// boundary that passes no vertex twice, and no vertex within; its corners are those of the triangles on the boundary.
+[[nodiscard]] Polygons mergeAcrossHiddenEdges(std::span<const uint32_t> triangles, std::span<const uint32_t> welded,
+                                              std::span<const uint8_t> hidden);
 
 /// A guess, for files without polygons: two consecutive triangles make a quad when they share an edge, run along it in
 /// opposite directions, agree in the attributes at its ends (`sameCorner` of two glTF vertices) and do not fold

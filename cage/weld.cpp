@@ -32,28 +32,36 @@ private:
     std::vector<uint32_t> parents_;
 };
 
+Welding rootsOf(Sets& sets, size_t vertexCount) {
+    Welding welding;
+    welding.roots.resize(vertexCount);
+    for (uint32_t v = 0; v < vertexCount; ++v) {
+        welding.roots[v] = sets.find(v);
+    }
+    return welding;
+}
+
 struct HalfEdge {
     uint32_t low = 0; ///< candidate sets at the ends, low < high
     uint32_t high = 0;
     uint32_t lowVertex = 0;
     uint32_t highVertex = 0;
-    uint32_t triangle = 0;
+    uint32_t face = 0;
     bool forward = false; ///< low -> high
 };
 
-std::vector<HalfEdge> halfEdges(std::span<const uint32_t> candidates, std::span<const uint32_t> triangles) {
+std::vector<HalfEdge> halfEdges(std::span<const uint32_t> candidates, const Polygons& faces) {
     std::vector<HalfEdge> edges;
-    edges.reserve(triangles.size());
-    for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
-        for (size_t j = 0; j < 3; ++j) {
-            const uint32_t from = triangles[t + j];
-            const uint32_t to = triangles[t + (j + 1) % 3];
+    edges.reserve(faces.vertices.size());
+    for (uint32_t f = 0; f < faces.faceCount(); ++f) {
+        for (uint32_t c = faces.starts[f]; c < faces.starts[f + 1]; ++c) {
+            const uint32_t from = faces.vertices[c];
+            const uint32_t to = faces.vertices[c + 1 < faces.starts[f + 1] ? c + 1 : faces.starts[f]];
             const uint32_t a = candidates[from];
             const uint32_t b = candidates[to];
-            if (a == b)
-                continue;
-            edges.push_back(a < b ? HalfEdge{a, b, from, to, static_cast<uint32_t>(t / 3), true}
-                                  : HalfEdge{b, a, to, from, static_cast<uint32_t>(t / 3), false});
+            if (a != b) {
+                edges.push_back(a < b ? HalfEdge{a, b, from, to, f, true} : HalfEdge{b, a, to, from, f, false});
+            }
         }
     }
     std::sort(edges.begin(), edges.end(),
@@ -63,7 +71,7 @@ std::vector<HalfEdge> halfEdges(std::span<const uint32_t> candidates, std::span<
 
 /// Sews two half-edges when they are all of their group.
 bool sewOnlyPair(std::span<const HalfEdge> group, Sets& sets) {
-    if (group.size() != 2 || group[0].forward == group[1].forward || group[0].triangle == group[1].triangle)
+    if (group.size() != 2 || group[0].forward == group[1].forward || group[0].face == group[1].face)
         return false;
     const bool low = sets.unite(group[0].lowVertex, group[1].lowVertex);
     const bool high = sets.unite(group[0].highVertex, group[1].highVertex);
@@ -113,9 +121,9 @@ bool sewGroup(std::span<const HalfEdge> group, Sets& sets, std::vector<HalfEdge>
 
 } // namespace
 
-Welding weld(std::span<const uint32_t> candidates, std::span<const uint32_t> triangles) {
+Welding weld(std::span<const uint32_t> candidates, const Polygons& faces) {
     Sets sets(candidates.size());
-    const std::vector<HalfEdge> edges = halfEdges(candidates, triangles);
+    const std::vector<HalfEdge> edges = halfEdges(candidates, faces);
     std::vector<HalfEdge> open;
     std::vector<HalfEdge> part;
 
@@ -141,11 +149,15 @@ Welding weld(std::span<const uint32_t> candidates, std::span<const uint32_t> tri
             moved = sewGroup(group, sets, open, part) || moved;
     }
 
-    Welding welding;
-    welding.roots.resize(candidates.size());
-    for (uint32_t v = 0; v < candidates.size(); ++v)
-        welding.roots[v] = sets.find(v);
-    return welding;
+    return rootsOf(sets, candidates.size());
+}
+
+Welding weldPairs(size_t vertexCount, std::span<const std::pair<uint32_t, uint32_t>> pairs) {
+    Sets sets(vertexCount);
+    for (const auto& [a, b] : pairs) {
+        sets.unite(a, b);
+    }
+    return rootsOf(sets, vertexCount);
 }
 
 uint32_t unweldDefects(const Polygons& polygons, Welding& welding) {

@@ -215,7 +215,7 @@ TEST(GltfReader, UnusedVerticesAndDegenerateTrianglesGo) {
     EXPECT_EQ(c.cage.sourceVertices, (std::vector<uint32_t>{1, 3, 4}));
     EXPECT_EQ(c.cage.faceCount(), 1u);
     EXPECT_EQ(c.seamVertexCount, 0u);
-    EXPECT_EQ(c.warnings, (Strings{"mesh 0: 1 vertex has no triangle; left out",
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0: 1 vertex has no face; left out",
                                    "mesh 0 primitive 0: 2 triangles with a repeated vertex left out"}));
 }
 
@@ -661,7 +661,7 @@ TEST(GltfReader, CreasesOfExtras) {
         b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1}],"extras":)" + extras + "}]";
         return readWell(b.glb());
     };
-    const std::string unused = "mesh 0: 1 vertex has no triangle; left out";
+    const std::string unused = "mesh 0: 1 vertex has no face; left out";
     Character c = read(R"({"creases":[[1,0,2.5],[2,0,1],[4,3,7],[5,4,10]],"corners":[[5,10],[3,1],[0,4]],"x":[[]]})");
     EXPECT_EQ(c.warnings, Strings{unused});
     ASSERT_EQ(c.cage.creases.size(), 3u) << "both sides of a seam are one edge";

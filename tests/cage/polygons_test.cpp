@@ -108,6 +108,36 @@ TEST(Polygons, RepetitionCountsAfterWelding) {
     EXPECT_EQ(facesOf(decodeNgons(Indices{0, 1, 2, 0, 2, 3}, Indices{0, 1, 2, 1})), (Faces{{0, 1, 2}, {0, 2, 3}}));
 }
 
+TEST(Polygons, HiddenEdgesMergeIntoSimplePolygonsOnly) {
+    const auto merge = [](const Indices& triangles, const std::vector<std::pair<uint32_t, uint32_t>>& shown,
+                          const Indices& welded) {
+        std::vector<uint8_t> hidden;
+        for (size_t e = 0; e < triangles.size(); ++e) {
+            const std::pair<uint32_t, uint32_t> edge{triangles[e], triangles[e % 3 == 2 ? e - 2 : e + 1]};
+            hidden.push_back(std::find(shown.begin(), shown.end(), edge) == shown.end() ? 1 : 0);
+        }
+        return mergeAcrossHiddenEdges(triangles, welded, hidden);
+    };
+    // A strip, in any order of its triangles: begins with the first triangle's first boundary edge.
+    EXPECT_EQ(facesOf(merge({0, 1, 4, 2, 3, 4, 1, 2, 4}, {}, identity(5))), (Faces{{0, 1, 2, 3, 4}}));
+    // Shown on one of its sides only, an edge stays.
+    EXPECT_EQ(facesOf(merge({0, 1, 2, 0, 2, 3}, {{2, 0}}, identity(4))), (Faces{{0, 1, 2}, {0, 2, 3}}));
+    // Two triangles that run along an edge in the same direction, and three at one edge.
+    EXPECT_EQ(facesOf(merge({0, 1, 2, 0, 1, 3}, {}, identity(4))).size(), 2u);
+    EXPECT_EQ(facesOf(merge({0, 1, 2, 1, 0, 3, 0, 1, 4}, {}, identity(5))).size(), 3u);
+    // A fan round a vertex, and a ring whose boundary is two loops.
+    Polygons polygons = merge({0, 1, 2, 0, 2, 3, 0, 3, 1}, {}, identity(4));
+    EXPECT_EQ(facesOf(polygons), (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}));
+    EXPECT_EQ(polygons.brokenRegions, 1u);
+    EXPECT_EQ(merge({0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4, 2, 0, 5, 0, 3, 5}, {}, identity(6)).brokenRegions, 1u);
+    // The same strip, welded at its ends so that the boundary passes a vertex twice.
+    polygons = merge({0, 1, 2, 2, 1, 3, 2, 3, 4}, {}, {0, 1, 2, 3, 0});
+    EXPECT_EQ(polygons.brokenRegions, 1u);
+    EXPECT_EQ(polygons.faceCount(), 3u);
+    // Degenerate triangles go.
+    EXPECT_EQ(merge({0, 1, 2, 0, 2, 2, 0, 2, 3}, {}, identity(4)).degenerateTriangles, 1u);
+}
+
 TEST(Polygons, PairingTakesConsecutiveTrianglesOnly) {
     const auto yes = [](uint32_t, uint32_t) { return true; };
     const auto flat = [](const uint32_t*, const uint32_t*) { return true; };
