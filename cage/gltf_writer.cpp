@@ -363,7 +363,7 @@ Result<GlbFile> writeGlb(const Character& character) {
     try {
         GlbFile file = toGlb(character);
         for (std::string& warning : file.warnings) {
-            warning = oneLine(character.name + ": " + warning);
+            warning = oneLine(std::move(warning));
         }
         return file;
     } catch (const Refusal& refusal) {

@@ -14,7 +14,7 @@ namespace supple::cage {
 struct GlbFile {
     std::vector<std::byte> bytes;
     uint32_t vertexCount = 0;          ///< glTF vertices: cage vertices, split where corners differ
-    std::vector<std::string> warnings; ///< what was left out, one line each
+    std::vector<std::string> warnings; ///< what was left out or repaired, one line each
 };
 
 /// Everything a Character holds but P_m's crease scalars, as one GLB; the same bytes for the same character.

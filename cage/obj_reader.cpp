@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <new>
 #include <string_view>
@@ -554,9 +555,9 @@ Result<Character> readObj(std::span<const std::byte> bytes, const std::string& n
         character.polygonSource = PolygonSource::obj;
         character.weldSource = WeldSource::given;
         ObjParser(character).parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-        bindToOneJoint(character);
+        bindToOneJoint(character, std::filesystem::path(name).stem().string());
         for (std::string& warning : character.warnings) {
-            warning = oneLine(name + ": " + warning);
+            warning = oneLine(std::move(warning));
         }
         return character;
     } catch (const Refusal& refusal) {

@@ -10,7 +10,8 @@
 
 namespace supple::cage {
 
-/// Parses an OBJ held in memory. Its vertices and polygons are the cage, in the file's order; one joint carries it.
+/// Parses an OBJ held in memory. Its vertices and polygons are the cage, in the file's order; one joint, called as the
+/// file without folder and ending, carries it.
 ///
 /// Read: v, vt (per corner; OBJ counts v upwards, the cage as glTF downwards), f with any number of corners and with
 /// negative indices, usemtl (a material of that name; .mtl files are not read), and OpenSubdiv's tags
@@ -21,7 +22,8 @@ namespace supple::cage {
 /// faces that repeat a vertex, creases that are not edges, vertex colors, points and lines, boundary rules other than
 /// sharp corners, statements and tags of other kinds.
 ///
-/// `name` begins every message. Never throws. Errors are one line: "cube.obj: line 12: face corner 3: vertex 99 of 8".
+/// `name` begins every error and becomes Character::name; warnings are without it. Never throws. Errors are one line:
+/// "cube.obj: line 12: face corner 3: vertex 99 of 8".
 [[nodiscard]] Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name);
 
 } // namespace supple::cage

@@ -4,10 +4,10 @@
 
 namespace supple::cage {
 
-void bindToOneJoint(Character& character) {
+void bindToOneJoint(Character& character, const std::string& nodeName) {
     const size_t vertexCount = character.cage.positions.size();
     character.skeleton.nodes.assign(1, {});
-    character.skeleton.nodes[0].name = character.name;
+    character.skeleton.nodes[0].name = nodeName;
     character.skeleton.parentsFirst = {0};
     character.meshNode = 0;
     character.skin.joints = {0};

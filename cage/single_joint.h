@@ -3,10 +3,12 @@
 
 #include "cage/character.h"
 
+#include <string>
+
 namespace supple::cage {
 
-/// Gives the character one node, named after it, that carries the mesh and is the only joint; every cage vertex is
-/// bound to it.
-void bindToOneJoint(Character& character);
+/// Gives the character one node of that name, which carries the mesh and is the only joint; every cage vertex is bound
+/// to it.
+void bindToOneJoint(Character& character, const std::string& nodeName);
 
 } // namespace supple::cage

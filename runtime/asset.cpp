@@ -147,7 +147,7 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
     std::sort(cage.holes.begin(), cage.holes.end());
     cage.holes.erase(std::unique(cage.holes.begin(), cage.holes.end()), cage.holes.end());
 
-    cage::bindToOneJoint(character);
+    cage::bindToOneJoint(character, name);
     character.sourceVertexCount = desc.vertexCount;
     return character;
 }

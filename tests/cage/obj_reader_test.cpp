@@ -60,6 +60,7 @@ TEST(ObjReader, PolygonsOfAnySidesInTheFilesOrder) {
     EXPECT_TRUE(buildTopology(c.cage).ok());
 
     ASSERT_EQ(c.skeleton.nodes.size(), 1u);
+    EXPECT_EQ(c.skeleton.nodes[0].name, "t");
     EXPECT_EQ(c.skin.joints, (std::vector<uint32_t>{0}));
     ASSERT_EQ(c.weights.starts.size(), 7u);
     EXPECT_EQ(c.weights.starts[6], 6u);
@@ -103,7 +104,7 @@ TEST(ObjReader, MaterialsAreNames) {
     EXPECT_EQ(c.materials[0].baseColorFactor, glm::vec4(1.0f));
     EXPECT_EQ(c.materials[1].name, "");
     EXPECT_EQ(c.cage.faceMaterials, (std::vector<uint32_t>{kNone, kNone, 0, 1, 0}));
-    EXPECT_EQ(c.warnings, Strings{"t.obj: line 1: mtllib ignored"});
+    EXPECT_EQ(c.warnings, Strings{"line 1: mtllib ignored"});
 }
 
 TEST(ObjReader, CreasesAlongChains) {
@@ -147,21 +148,21 @@ TEST(ObjReader, UnusedVerticesGoAndTagsFollow) {
     ASSERT_EQ(c.cage.sharpVertices.size(), 1u);
     EXPECT_EQ(c.cage.sharpVertices[0].vertex, 3u);
     EXPECT_EQ(c.cage.holes, (std::vector<uint32_t>{0}));
-    EXPECT_EQ(c.warnings, (Strings{"t.obj: line 7: 1 face repeats a vertex; left out",
-                                   "t.obj: file: 2 vertices have no face; left out"}));
+    EXPECT_EQ(c.warnings,
+              (Strings{"line 7: 1 face repeats a vertex; left out", "file: 2 vertices have no face; left out"}));
 }
 
 TEST(ObjReader, SaysWhatItLeavesOut) {
     const Character c = readWell("v 0 0 0 1 1 1\nv 1 0 0 1 0.5 0.5 0.5\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 2\nl 2 3\n"
                                  "p 1\ncurv 0 1 1 2\nt crease 2/1/0 0 2 3\nt vertexedit 9/9/9 x\n"
                                  "t interpolateboundary 1/0/0 2\n");
-    EXPECT_EQ(c.warnings, (Strings{"t.obj: line 10: 1 crease is not an edge; left out",
-                                   "t.obj: line 1: colors of v ignored, here "
-                                   "and on 1 further line",
-                                   "t.obj: line 9: curv ignored",
-                                   "t.obj: line 6: l ignored, here and on 1 further line", "t.obj: line 8: p ignored",
-                                   "t.obj: line 12: t interpolateboundary other than 1 (edges and corners) ignored",
-                                   "t.obj: line 11: t vertexedit ignored"}));
+    EXPECT_EQ(c.warnings,
+              (Strings{"line 10: 1 crease is not an edge; left out",
+                       "line 1: colors of v ignored, here "
+                       "and on 1 further line",
+                       "line 9: curv ignored", "line 6: l ignored, here and on 1 further line", "line 8: p ignored",
+                       "line 12: t interpolateboundary other than 1 (edges and corners) ignored",
+                       "line 11: t vertexedit ignored"}));
     // However many kinds there are, the messages stay few.
     std::string many = kSquare;
     for (int i = 0; i < 1000; ++i) {
@@ -169,7 +170,7 @@ TEST(ObjReader, SaysWhatItLeavesOut) {
     }
     const Character d = readWell(many);
     ASSERT_EQ(d.warnings.size(), 9u);
-    EXPECT_EQ(d.warnings.back(), "t.obj: line 14: other statements ignored, here and on 991 further lines");
+    EXPECT_EQ(d.warnings.back(), "line 14: other statements ignored, here and on 991 further lines");
 }
 
 TEST(ObjReader, RefusalsNameLineElementAndReason) {

@@ -1,7 +1,8 @@
 // Runs the built supple command as a user would: exit codes, the one line on stderr, and what it writes.
+#include "tests/tools/command_runner.h"
+
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <glm/glm.hpp>
@@ -9,8 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <vector>
 
 namespace {
@@ -18,25 +17,9 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-struct Outcome {
-    int exitCode = -1;
-    std::string out;
-    std::string err;
-};
-
-std::string readText(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void writeText(const fs::path& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
-
-bool validationWanted() {
-    const char* value = std::getenv("SUPPLE_VALIDATION");
-    return value != nullptr && std::string(value) != "0";
-}
+using supple::test::Outcome;
+using supple::test::readText;
+using supple::test::writeText;
 
 /// A cube of edge 2 as glTF, its six quads as FB_ngon_encoding or as plain triangles, with a clip "Rise" that lifts it
 /// by 3 in 2 seconds.
@@ -135,41 +118,14 @@ Obj readObj(const fs::path& path) {
     return obj;
 }
 
-class Cli : public testing::Test {
+class Cli : public supple::test::CommandTest {
 protected:
     void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ =
-            fs::temp_directory_path() / ("supple_cli_" + std::string(test->name()) + "_" + std::to_string(getpid()));
-        fs::create_directories(folder_);
-        writeText(folder_ / "cube.bin", cubeBinary());
-        writeText(folder_ / "cube.gltf", cubeGltf("cube.bin", true));
-        writeText(folder_ / "triangles.gltf", cubeGltf("cube.bin", false));
+        CommandTest::SetUp();
+        writeText(file("cube.bin"), cubeBinary());
+        writeText(file("cube.gltf"), cubeGltf("cube.bin", true));
+        writeText(file("triangles.gltf"), cubeGltf("cube.bin", false));
     }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    /// Runs "supple arguments" in the test's own folder.
-    Outcome run(const std::string& arguments) {
-        const std::string command = "cd '" + folder_.string() + "' && '" + SUPPLE_COMMAND + "' " + arguments +
-                                    " >stdout.txt 2>stderr.txt </dev/null";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(folder_ / "stdout.txt"),
-                readText(folder_ / "stderr.txt")};
-    }
-    /// The same with the validation layer where the environment asks for it.
-    Outcome runOnDevice(const std::string& arguments) {
-        return run(arguments + (validationWanted() ? " --validate" : ""));
-    }
-    static void expectFailure(const Outcome& outcome, int exitCode, const std::string& said) {
-        EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
-        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-        EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
-        EXPECT_EQ(outcome.out, "");
-    }
-    fs::path file(const std::string& name) const { return folder_ / name; }
-
-private:
-    fs::path folder_;
 };
 
 TEST_F(Cli, HelpAndVersionSucceed) {

@@ -80,7 +80,7 @@ void report(const ConvertOptions& options, const cage::Character& character, con
     line("materials", std::to_string(character.materials.size()));
     for (const auto* warnings : {&character.warnings, &glb.warnings}) {
         for (const std::string& warning : *warnings) {
-            warn(warning);
+            warn(options.file + ": " + warning);
         }
     }
 }

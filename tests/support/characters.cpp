@@ -1,0 +1,166 @@
+#include "tests/support/characters.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <numeric>
+
+namespace supple::cage::test {
+namespace {
+
+/// Where each face of the cage goes when faces are grouped by material.
+std::vector<uint32_t> groupedFaces(const Cage& cage) {
+    const auto materialOf = [&](uint32_t f) { return cage.faceMaterials.empty() ? kNone : cage.faceMaterials[f]; };
+    std::vector<uint32_t> firsts;
+    for (uint32_t f = 0; f < cage.faceCount(); ++f)
+        if (std::find(firsts.begin(), firsts.end(), materialOf(f)) == firsts.end()) {
+            firsts.push_back(materialOf(f));
+        }
+    const auto rank = [&](uint32_t f) { return std::find(firsts.begin(), firsts.end(), materialOf(f)); };
+    std::vector<uint32_t> faces(cage.faceCount());
+    std::iota(faces.begin(), faces.end(), 0u);
+    std::stable_sort(faces.begin(), faces.end(), [&](uint32_t x, uint32_t y) { return rank(x) < rank(y); });
+    return faces;
+}
+
+void expectSameCage(const Cage& a, const Cage& b) {
+    EXPECT_TRUE(a.positions == b.positions);
+    ASSERT_EQ(a.faceCount(), b.faceCount());
+    ASSERT_EQ(a.cornerCount(), b.cornerCount());
+    ASSERT_EQ(a.cornerUvs.empty(), b.cornerUvs.empty());
+    ASSERT_EQ(a.cornerUvs1.empty(), b.cornerUvs1.empty());
+    ASSERT_EQ(a.cornerColors.empty(), b.cornerColors.empty());
+    const std::vector<uint32_t> order = groupedFaces(a);
+    std::vector<uint32_t> holes;
+    for (uint32_t f = 0; f < b.faceCount(); ++f) {
+        const uint32_t from = order[f];
+        ASSERT_EQ(a.sides(from), b.sides(f)) << "face " << from;
+        EXPECT_EQ(a.faceMaterials.empty() ? kNone : a.faceMaterials[from],
+                  b.faceMaterials.empty() ? kNone : b.faceMaterials[f]);
+        for (uint32_t k = 0; k < b.sides(f); ++k) {
+            const uint32_t x = a.faceStarts[from] + k;
+            const uint32_t y = b.faceStarts[f] + k;
+            ASSERT_EQ(a.faceVertices[x], b.faceVertices[y]) << "face " << from << " corner " << k;
+            if (!a.cornerUvs.empty()) {
+                ASSERT_EQ(a.cornerUvs[x], b.cornerUvs[y]) << "face " << from << " corner " << k;
+            }
+            if (!a.cornerUvs1.empty()) {
+                ASSERT_EQ(a.cornerUvs1[x], b.cornerUvs1[y]) << "face " << from << " corner " << k;
+            }
+            if (!a.cornerColors.empty()) {
+                ASSERT_EQ(a.cornerColors[x], b.cornerColors[y]) << "face " << from << " corner " << k;
+            }
+        }
+        if (std::binary_search(a.holes.begin(), a.holes.end(), from)) {
+            holes.push_back(f);
+        }
+    }
+    EXPECT_EQ(holes, b.holes);
+
+    const auto edges = [](const Cage& cage) {
+        std::vector<std::tuple<uint32_t, uint32_t, float>> list;
+        for (const Crease& crease : cage.creases) {
+            list.emplace_back(std::min(crease.a, crease.b), std::max(crease.a, crease.b), crease.sharpness);
+        }
+        std::sort(list.begin(), list.end());
+        return list;
+    };
+    EXPECT_EQ(edges(a), edges(b));
+    const auto vertices = [](const Cage& cage) {
+        std::vector<std::pair<uint32_t, float>> list;
+        for (const SharpVertex& sharp : cage.sharpVertices) {
+            list.emplace_back(sharp.vertex, sharp.sharpness);
+        }
+        std::sort(list.begin(), list.end());
+        return list;
+    };
+    EXPECT_EQ(vertices(a), vertices(b));
+}
+
+void expectSameSkin(const Character& a, const Character& b) {
+    ASSERT_EQ(a.skeleton.nodes.size(), b.skeleton.nodes.size());
+    for (size_t i = 0; i < a.skeleton.nodes.size(); ++i) {
+        SCOPED_TRACE("node " + std::to_string(i));
+        const Node& x = a.skeleton.nodes[i];
+        const Node& y = b.skeleton.nodes[i];
+        EXPECT_EQ(x.name, y.name);
+        EXPECT_EQ(x.parent, y.parent);
+        EXPECT_EQ(x.translation, y.translation);
+        EXPECT_EQ(x.rotation, y.rotation);
+        EXPECT_EQ(x.scale, y.scale);
+        EXPECT_EQ(x.hasMatrix, y.hasMatrix);
+        EXPECT_EQ(x.matrix, y.matrix);
+    }
+    EXPECT_EQ(a.meshNode, b.meshNode);
+    EXPECT_EQ(a.skin.joints, b.skin.joints);
+    EXPECT_EQ(a.skin.inverseBinds, b.skin.inverseBinds);
+    ASSERT_EQ(a.weights.starts, b.weights.starts);
+    for (size_t i = 0; i < a.weights.influences.size(); ++i) {
+        ASSERT_EQ(a.weights.influences[i].joint, b.weights.influences[i].joint) << "influence " << i;
+        ASSERT_NEAR(a.weights.influences[i].weight, b.weights.influences[i].weight, 1e-6f) << "influence " << i;
+    }
+}
+
+void expectSameMotion(const Character& a, const Character& b) {
+    ASSERT_EQ(a.morphs.targets.size(), b.morphs.targets.size());
+    EXPECT_EQ(a.morphs.weights, b.morphs.weights);
+    for (size_t t = 0; t < a.morphs.targets.size(); ++t) {
+        EXPECT_EQ(a.morphs.targets[t].name, b.morphs.targets[t].name);
+        EXPECT_EQ(a.morphs.targets[t].vertices, b.morphs.targets[t].vertices);
+        EXPECT_EQ(a.morphs.targets[t].deltas, b.morphs.targets[t].deltas);
+    }
+    ASSERT_EQ(a.clips.size(), b.clips.size());
+    for (size_t i = 0; i < a.clips.size(); ++i) {
+        SCOPED_TRACE("clip " + a.clips[i].name);
+        EXPECT_EQ(a.clips[i].name, b.clips[i].name);
+        EXPECT_EQ(a.clips[i].duration, b.clips[i].duration);
+        ASSERT_EQ(a.clips[i].channels.size(), b.clips[i].channels.size());
+        for (size_t k = 0; k < a.clips[i].channels.size(); ++k) {
+            const Channel& x = a.clips[i].channels[k];
+            const Channel& y = b.clips[i].channels[k];
+            EXPECT_EQ(x.node, y.node);
+            EXPECT_EQ(x.path, y.path);
+            EXPECT_EQ(x.interpolation, y.interpolation);
+            EXPECT_EQ(x.times, y.times);
+            EXPECT_EQ(x.values, y.values);
+        }
+    }
+}
+
+void expectSameMaterials(const Character& a, const Character& b) {
+    ASSERT_EQ(a.materials.size(), b.materials.size());
+    for (size_t i = 0; i < a.materials.size(); ++i) {
+        SCOPED_TRACE("material " + std::to_string(i));
+        const Material& x = a.materials[i];
+        const Material& y = b.materials[i];
+        EXPECT_EQ(x.name, y.name);
+        EXPECT_EQ(x.baseColorFactor, y.baseColorFactor);
+        EXPECT_EQ(x.alphaMode, y.alphaMode);
+        if (x.alphaMode == AlphaMode::mask) {
+            EXPECT_EQ(x.alphaCutoff, y.alphaCutoff);
+        }
+        EXPECT_EQ(x.doubleSided, y.doubleSided);
+        ASSERT_EQ(x.baseColorImage == kNone, y.baseColorImage == kNone);
+        if (x.baseColorImage == kNone) {
+            continue;
+        }
+        EXPECT_EQ(x.baseColorUvSet, y.baseColorUvSet);
+        EXPECT_EQ(x.wrapU, y.wrapU);
+        EXPECT_EQ(x.wrapV, y.wrapV);
+        const Image& from = a.images[x.baseColorImage];
+        const Image& to = b.images[y.baseColorImage];
+        EXPECT_EQ(from.name, to.name);
+        EXPECT_EQ(from.bytes, to.bytes);
+    }
+}
+
+} // namespace
+
+void expectSame(const Character& a, const Character& b) {
+    EXPECT_EQ(a.copyright, b.copyright);
+    expectSameCage(a.cage, b.cage);
+    expectSameSkin(a, b);
+    expectSameMotion(a, b);
+    expectSameMaterials(a, b);
+}
+
+} // namespace supple::cage::test

@@ -1,0 +1,157 @@
+// supple convert as a user runs it: what it writes reads back, poses alike and satisfies Khronos' validator.
+#include "cage/character_reader.h"
+#include "tests/support/characters.h"
+#include "tests/tools/command_runner.h"
+
+#include <cstdio>
+#include <glm/glm.hpp>
+#include <set>
+#include <span>
+#include <sstream>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using supple::cage::Character;
+using supple::cage::test::expectSame;
+using supple::test::Outcome;
+using supple::test::readText;
+using supple::test::writeText;
+
+const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
+
+/// A box without its lid, a pentagon beside it: two materials, a seam, a crease, a corner, a hole.
+const char* const kBox =
+    "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\nv 2 0.5 0\nv 2 0 0.5\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5 0.5\n"
+    "usemtl wood\n"
+    "f 1/1 2/2 3/3 4/4\n"
+    "f 2/5 1/1 5/2 6/3\n"
+    "f 4/1 3/2 7/3 8/4\n"
+    "f 1/1 4/2 8/3 5/4\n"
+    "usemtl glass\n"
+    "f 3/1 2/2 6/3 7/4\n"
+    "t crease 3/2/0 4 5 6 10 2.5\n"
+    "t corner 1/1/0 7 3\n"
+    "t hole 1/0/0 4\n";
+
+class Convert : public supple::test::CommandTest {
+protected:
+    [[nodiscard]] Character read(const fs::path& path) const {
+        const std::string text = readText(path);
+        const auto bytes = std::as_bytes(std::span(text));
+        supple::Result<Character> result =
+            supple::cage::readCharacter(bytes, path.string(), path.parent_path().string());
+        EXPECT_TRUE(result.ok()) << result.error().message;
+        return result.ok() ? std::move(*result) : Character{};
+    }
+};
+
+std::vector<glm::vec3> vertices(const fs::path& obj) {
+    std::vector<glm::vec3> list;
+    std::ifstream stream(obj);
+    for (std::string line; std::getline(stream, line);) {
+        std::istringstream words(line);
+        std::string keyword;
+        glm::vec3 v{};
+        if (words >> keyword >> v.x >> v.y >> v.z && keyword == "v") {
+            list.push_back(v);
+        }
+    }
+    return list;
+}
+
+TEST_F(Convert, ObjToGlbAndOn) {
+    writeText(file("box.obj"), kBox);
+    const Outcome outcome = run("convert box.obj -o box.glb");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "supple: warning: box.obj: file: 2 vertices have no face; left out\n");
+    for (const char* said : {"box.glb", "4: 5", "8 (", "2 edges, 1 of them hard; 1 sharp vertices; 1 holes"}) {
+        EXPECT_NE(outcome.out.find(said), std::string::npos) << said << "\n" << outcome.out;
+    }
+    const Character obj = read(file("box.obj"));
+    expectSame(obj, read(file("box.glb")));
+
+    ASSERT_EQ(run("convert box.glb -o again.glb").exitCode, 0);
+    EXPECT_TRUE(readText(file("again.glb")) == readText(file("box.glb")));
+}
+
+TEST_F(Convert, GlbToGlbPosesAlike) {
+    ASSERT_EQ(run("convert '" + kPip + "' -o pip.glb").exitCode, 0);
+    expectSame(read(kPip), read(file("pip.glb")));
+    for (const char* clip : {"idle", "walk"}) {
+        const std::string pose = std::string(" --scheme cage --time 0.7 --clip ") + clip;
+        ASSERT_EQ(runOnDevice("bake '" + kPip + "' -o before.obj" + pose).exitCode, 0);
+        ASSERT_EQ(runOnDevice("bake pip.glb -o after.obj" + pose).exitCode, 0);
+        const std::vector<glm::vec3> before = vertices(file("before.obj"));
+        const std::vector<glm::vec3> after = vertices(file("after.obj"));
+        ASSERT_GT(before.size(), 1000u);
+        ASSERT_EQ(before.size(), after.size());
+        for (size_t v = 0; v < before.size(); ++v) {
+            ASSERT_LT(glm::distance(before[v], after[v]), 1e-6f) << clip << " vertex " << v;
+        }
+    }
+}
+
+TEST_F(Convert, BadUsageIsTwo) {
+    writeText(file("box.obj"), kBox);
+    writeText(file("box.glb"), "not to be touched");
+    fs::create_symlink(file("box.glb"), file("link.glb"));
+    expectFailure(run("convert box.obj"), 2, "--output");
+    expectFailure(run("convert box.obj -o box.gltf"), 2, ".glb");
+    expectFailure(run("convert box.glb -o box.glb"), 2, "is the input itself");
+    expectFailure(run("convert link.glb -o ./box.glb"), 2, "is the input itself");
+    EXPECT_EQ(readText(file("box.glb")), "not to be touched");
+}
+
+TEST_F(Convert, BadInputIsOneAndWritesNothing) {
+    writeText(file("bad.obj"), "v 0 0 0\nf 1 2 3\n");
+    writeText(file("good.obj"), kBox);
+    writeText(file("out.glb"), "still here");
+    fs::create_directory(file("folder.glb"));
+    expectFailure(run("convert bad.obj -o out.glb"), 1, "bad.obj: line 2: face corner 2: vertex 2 of 1");
+    expectFailure(run("convert missing.obj -o out.glb"), 1, "missing.obj");
+    EXPECT_EQ(readText(file("out.glb")), "still here");
+    expectFailure(run("convert good.obj -o nowhere/out.glb"), 1, "nowhere/out.glb");
+    expectFailure(run("convert good.obj -o folder.glb"), 1, "folder.glb");
+    size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(file("."))) {
+        EXPECT_NE(entry.path().extension(), ".tmp");
+        ++files;
+    }
+    EXPECT_EQ(files, 6u) << "the four above, stdout.txt and stderr.txt";
+}
+
+TEST_F(Convert, KhronosValidatorFindsNoError) {
+    // The folder of the npm package gltf-validator; tools/test.sh installs it where there is npm.
+    const char* validator = std::getenv("SUPPLE_GLTF_VALIDATOR");
+    if (validator == nullptr || *validator == '\0' || runProgram("node --version").exitCode != 0) {
+        GTEST_SKIP() << "SUPPLE_GLTF_VALIDATOR does not name the npm package gltf-validator, or there is no node";
+    }
+    writeText(file("box.obj"), kBox);
+    std::vector<fs::path> inputs{kPip, file("box.obj")};
+    const fs::path shared = fs::path(SUPPLE_SHARED_DIR) / "assets";
+    if (fs::exists(shared)) {
+        for (const auto& entry : fs::recursive_directory_iterator(shared)) {
+            if (std::set<std::string>{".glb", ".gltf", ".obj"}.count(entry.path().extension().string()) != 0) {
+                inputs.push_back(entry.path());
+            }
+        }
+    } else {
+        std::printf("all shared characters and meshes left out: ../shared not present\n");
+    }
+    std::string outputs;
+    for (size_t i = 0; i < inputs.size(); ++i) {
+        const std::string output = std::to_string(i) + "_" + inputs[i].stem().string() + ".glb";
+        const Outcome outcome = run("convert '" + inputs[i].string() + "' -o " + output);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        outputs += " " + output;
+    }
+    const Outcome outcome =
+        runProgram("node " SUPPLE_TEST_SCRIPTS "/validate_gltf.mjs '" + std::string(validator) + "'" + outputs);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.out << outcome.err;
+    std::printf("%s", outcome.out.substr(outcome.out.rfind('\n', outcome.out.size() - 2) + 1).c_str());
+}
+
+} // namespace
