@@ -11,7 +11,6 @@ namespace supple::surface::pm {
 namespace {
 
 using cage::Cage;
-using cage::kNone;
 using cage::Topology;
 
 /// Cuts the fans into sectors and packs their slots.
@@ -46,6 +45,9 @@ public:
     }
 
 private:
+    /// Counted round the vertex, at most once.
+    [[nodiscard]] uint32_t wrapped(uint32_t spoke) const { return spoke < spokes_ ? spoke : spoke - spokes_; }
+
     [[nodiscard]] uint32_t edgeOf(uint32_t spoke) const {
         return cage::spokeEdge(mesh_.cage, mesh_.topology, base_ + spoke);
     }
@@ -60,7 +62,7 @@ private:
         sector.kind = kind;
         sector.pinned = pinned;
         for (uint32_t j = 0; j < sector.edges(); ++j) {
-            const uint32_t spoke = (first + j) % spokes_;
+            const uint32_t spoke = wrapped(first + j);
             const bool end = !sector.closed() && (j == 0 || j == facets);
             const double alpha = end ? kSmoothAlpha : alphaOf(spoke);
             sector.creased = sector.creased || alpha != kSmoothAlpha;
@@ -70,7 +72,7 @@ private:
         for (uint32_t j = 0; j < facets; ++j) {
             const uint32_t slot = sector.firstSlot;
             const uint32_t next = sector.closed() ? (j + 1) % facets : j + 1;
-            FacetCorner& corner = mesh_.corners[mesh_.topology.sectorCorners[base_ + (first + j) % spokes_]];
+            FacetCorner& corner = mesh_.corners[mesh_.topology.sectorCorners[base_ + wrapped(first + j)]];
             corner.sector = index;
             corner.slot = slot + j;
             corner.slotBack = slot + next;

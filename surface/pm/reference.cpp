@@ -16,17 +16,19 @@ using cage::kNone;
 template <class T>
 using Vec3 = glm::vec<3, T>;
 
-/// cos(2 pi k / n), exact at quarter turns: valence 4 must be a B-spline to the last bit.
+/// cos(2 pi k / n) for k < n, exact at quarter turns: valence 4 must be a B-spline to the last bit.
 double cosine(uint32_t k, uint32_t n) {
-    constexpr double kQuarterTurns[] = {1.0, 0.0, -1.0, 0.0};
-    k %= n;
-    return 4 * k % n == 0 ? kQuarterTurns[4 * k / n] : std::cos(2.0 * std::numbers::pi * k / n);
+    if (4 * k == n || 4 * k == 3 * n) {
+        return 0.0;
+    }
+    return k == 0 ? 1.0 : 2 * k == n ? -1.0 : std::cos(2.0 * std::numbers::pi * k / n);
 }
 
 double sine(uint32_t k, uint32_t n) {
-    constexpr double kQuarterTurns[] = {0.0, 1.0, 0.0, -1.0};
-    k %= n;
-    return 4 * k % n == 0 ? kQuarterTurns[4 * k / n] : std::sin(2.0 * std::numbers::pi * k / n);
+    if (k == 0 || 2 * k == n) {
+        return 0.0;
+    }
+    return 4 * k == n ? 1.0 : 4 * k == 3 * n ? -1.0 : std::sin(2.0 * std::numbers::pi * k / n);
 }
 
 /// Subdominant eigenvalue of Catmull-Clark subdivision, 1/2 for n = 4; in (15).
@@ -50,11 +52,11 @@ public:
         : mesh_(mesh), positions_(positions), sector_(sector), p_(positions[sector.vertex]) {
         const uint32_t facets = sector.facets;
         for (uint32_t j = 0; j < facets; ++j) {
-            f_.push_back(faceCoefficient(j, (j + 1) % sector.edges()));
+            f_.push_back(faceCoefficient(j, j + 1 < sector.edges() ? j + 1 : 0));
         }
-        for (uint32_t j = 0; j < sector.edges(); ++j) {
-            // The ends of an open sector are not used.
-            e_.push_back((f_[j % facets] + f_[(j + facets - 1) % facets]) / T(2));
+        e_.resize(facets); // of an open sector, e_0 is not used
+        for (uint32_t j = sector.closed() ? 0 : 1; j < facets; ++j) {
+            e_[j] = (f_[j] + f_[j > 0 ? j - 1 : facets - 1]) / T(2);
         }
         if (sector.closed()) {
             closedFrame();
@@ -209,10 +211,10 @@ void gatherPolar(const std::array<CornerView<T>, 3>& q, Patch<T>& patch) {
 
 /// What of P_m depends on m alone.
 struct SidesConstants {
-    explicit SidesConstants(uint32_t sides) : m(sides), mu(1.0 - cosine(1, sides)), k0(0.5 / mu), k1(1.0 - 2.0 * k0) {
-        constexpr double kCenterWeights[] = {2.0, 1.0, -3.0}; // w_3, w_4, w_5
-        w = kCenterWeights[sides - 3];
-    }
+    explicit SidesConstants(uint32_t sides)
+        : m(sides), mu(1.0 - cosine(1, sides)), k0(0.5 / mu), k1(1.0 - 2.0 * k0), w(sides == 3   ? 2.0
+                                                                                    : sides == 4 ? 1.0
+                                                                                                 : -3.0) {}
     uint32_t m;
     double mu, k0, k1, w;
 };

@@ -230,8 +230,8 @@ cage::Cage fanOverTriangles(uint32_t n) {
     for (uint32_t i = 0; i < n; ++i) { // foot i stands below the middle of rim 2 i and rim 2 i + 1
         add(std::numbers::pi * (2 * i + 0.5) / n, -0.5);
     }
-    const auto rim = [n](uint32_t i) { return 1 + i % (2 * n); };
-    const auto foot = [n](uint32_t i) { return 1 + 2 * n + i % n; };
+    const auto rim = [n](uint32_t i) { return 1 + (i == 2 * n ? 0 : i); };
+    const auto foot = [n](uint32_t i) { return 1 + 2 * n + (i == n ? 0 : i); };
     std::vector<uint32_t>& bottom = polygons.emplace_back();
     for (uint32_t i = n; i-- > 0;) {
         bottom.push_back(foot(i));

@@ -3,13 +3,18 @@
 #include "tests/support/pm_vectors.h"
 #include "tests/support/pm_zoo.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace supple::surface::pm {
 namespace {
@@ -234,6 +239,71 @@ TEST(PmContinuity, floatNormalsAgreeAcrossEdges) {
     }
     std::printf("float normals across edges: max %.1e degrees\n", worst);
     EXPECT_LE(worst, 0.01);
+}
+
+/// The OBJ files of the shared assets that P_m takes; says how many files there are and which it refuses.
+std::vector<std::pair<std::string, Mesh>> assetMeshes() {
+    namespace fs = std::filesystem;
+    const fs::path root = fs::path(SUPPLE_SHARED_DIR) / "assets/meshes";
+    std::vector<std::pair<std::string, Mesh>> all;
+    std::error_code error;
+    if (!fs::is_directory(root, error)) {
+        std::printf("left out: all OBJ assets, %s is absent\n", root.string().c_str());
+        return all;
+    }
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::recursive_directory_iterator(root, error)) {
+        if (entry.path().extension() == ".obj") {
+            paths.push_back(entry.path());
+        }
+    }
+    std::sort(paths.begin(), paths.end());
+    for (const fs::path& path : paths) {
+        const std::string name = path.filename().string();
+        const std::optional<cage::Cage> cage = test::readObj(path.string());
+        if (!cage) {
+            ADD_FAILURE() << name << " cannot be read";
+            continue;
+        }
+        Result<Mesh> mesh = buildMesh(*cage);
+        if (mesh.ok()) {
+            all.emplace_back(name, std::move(*mesh));
+        } else {
+            std::printf("refused: %s: %s\n", name.c_str(), mesh.error().message.c_str());
+        }
+    }
+    std::printf("%zu OBJ assets, %zu accepted\n", paths.size(), all.size());
+    return all;
+}
+
+TEST(PmContinuity, assets) {
+    const std::vector<std::pair<std::string, Mesh>> meshes = assetMeshes();
+    if (meshes.empty()) {
+        GTEST_SKIP() << "no OBJ assets";
+    }
+    constexpr uint32_t kRate = 8;
+    Angles angles;
+    for (const auto& [name, mesh] : meshes) {
+        const PmSurface<double> exact(mesh, test::doublePositions(mesh.cage));
+        const PmSurface<float> rounded(mesh, mesh.cage.positions);
+        for (uint32_t e = 0; e < mesh.topology.edges.size(); ++e) {
+            const cage::Topology::Edge& edge = mesh.topology.edges[e];
+            if (edge.twin == cage::kNone) {
+                continue;
+            }
+            ++angles.edges;
+            for (uint32_t k = 0; k <= kRate; ++k) {
+                const double angle = test::angleDegrees(exact.onEdge(edge.corner, k, kRate).normal,
+                                                        exact.onEdge(edge.twin, kRate - k, kRate).normal);
+                EXPECT_LE(angle, 1e-8) << name << ", edge " << e << ", at " << k;
+                raise(angles.worst, angle);
+                EXPECT_TRUE(sameBits(rounded.onEdge(edge.corner, k, kRate).position,
+                                     rounded.onEdge(edge.twin, kRate - k, kRate).position))
+                    << name << ", edge " << e << ", at " << k;
+            }
+        }
+    }
+    std::printf("%u edges, max %.1e degrees\n", angles.edges, angles.worst);
 }
 
 } // namespace

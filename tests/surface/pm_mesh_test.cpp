@@ -357,7 +357,7 @@ TEST(PmMesh, refusesAFaceWithoutAFreeSplit) {
 TEST(PmMesh, takesTheOneFreeSplit) {
     // Two triangles that share a diagonal of the hexagon become a quad: then that diagonal is free, and no other.
     const Polygons crowded = crowdedHexagon();
-    const std::vector<uint32_t> hexagon = crowded.back();
+    const std::vector<uint32_t>& hexagon = crowded.back();
     for (uint32_t d = 0; d < 3; ++d) {
         const uint32_t a = hexagon[d];
         const uint32_t b = hexagon[d + 3];

@@ -59,7 +59,7 @@ TEST(PmReference, torusIsTheBSpline) {
                         positions[(i + x - 1 + kAround) % kAround * kAcross + (j + y - 1 + kAcross) % kAcross];
                 }
             }
-            const auto facet = static_cast<size_t>(i * kAcross + j);
+            const auto facet = static_cast<uint32_t>(i * kAcross + j);
             ASSERT_EQ(surface.patches[facet].facetClass, FacetClass::ordinary);
             raise(worst, distance(surface.patches[facet], bezierOfBSpline(control)));
         }
@@ -88,7 +88,7 @@ TEST(PmReference, openGridIsTheBSplineOfTheMirroredGrid) {
             for (int k = 0; k < 16; ++k) {
                 window[k] = control(x - 1 + k % 4, y - 1 + k / 4);
             }
-            const auto facet = static_cast<size_t>(y * kColumns + x);
+            const auto facet = static_cast<uint32_t>(y * kColumns + x);
             ASSERT_EQ(surface.patches[facet].facetClass, FacetClass::ordinary);
             raise(worst, distance(surface.patches[facet], bezierOfBSpline(window)));
         }
@@ -241,7 +241,7 @@ TEST(PmReference, hardLoopIsTheBSplineOfItsPolygon) {
     }
 }
 
-/// Angle between the two sides of an edge at its start, in degrees.
+/// Angle between the two sides of an edge at sample k from its start, in degrees.
 double angleAt(const PmSurface<double>& surface, uint32_t from, uint32_t to, uint32_t k, uint32_t rate) {
     return test::angleDegrees(surface.onEdge(halfEdge(surface.mesh, from, to), k, rate).normal,
                               surface.onEdge(halfEdge(surface.mesh, to, from), rate - k, rate).normal);
@@ -267,6 +267,15 @@ TEST(PmReference, dartIsSmoothAtItsTip) {
     EXPECT_LE(angleAt(surface, 2 * kAcross, 3 * kAcross, 8, 8), 1e-8);
     EXPECT_GT(angleAt(surface, 0, kAcross, 8, 8), 1.0);
     EXPECT_GT(angleAt(surface, kAcross, 2 * kAcross, 4, 8), 1.0);
+}
+
+TEST(PmReference, aHardEdgeAloneMakesNoCrease) {
+    cage::Cage cage = test::perturbed(test::cube(), 0.1f, 4);
+    cage.creases.push_back({0, 1, cage::kHardSharpness});
+    const PmSurface<double> surface(test::pmMesh(cage), test::doublePositions(cage));
+    for (uint32_t k = 0; k <= 8; ++k) {
+        EXPECT_LE(angleAt(surface, 0, 1, k, 8), 1e-8);
+    }
 }
 
 TEST(PmReference, cornersInterpolate) {
