@@ -102,6 +102,19 @@ bool finite(const float* values, size_t count) {
     return std::all_of(values, values + count, [](float x) { return std::isfinite(x); });
 }
 
+supple::Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::string& path) {
+    SuppleFileBytes found{};
+    if (files.read(path.c_str(), &found, files.user) == 0) {
+        return Error{ErrorCode::io, "the host has no such file"};
+    }
+    const auto* first = static_cast<const std::byte*>(found.bytes);
+    std::vector<std::byte> bytes(first, first + (first != nullptr ? found.byteCount : 0));
+    if (files.release != nullptr) {
+        files.release(&found, files.user);
+    }
+    return bytes;
+}
+
 /// Copies as much of `source` as fits and reports the whole count.
 template <class T>
 SuppleResult fillArray(const T* source, size_t size, T* out, uint32_t* count) {
@@ -221,8 +234,14 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* desc
             }
             supple::cage::GltfOptions options;
             options.pairQuads = (desc->flags & SUPPLE_ASSET_PAIR_QUADS) != 0;
+            if (desc->files != nullptr) {
+                if (desc->files->read == nullptr) {
+                    return Error{ErrorCode::argument, "suppleCreateAsset: files->read is null"};
+                }
+                options.readFile = [files = *desc->files](const std::string& path) { return readThrough(files, path); };
+            }
             return supple::cage::readCharacter({static_cast<const std::byte*>(desc->bytes), desc->byteCount}, name,
-                                          desc->baseDirectory != nullptr ? desc->baseDirectory : "", options);
+                                               desc->baseDirectory != nullptr ? desc->baseDirectory : "", options);
         }();
         if (!character) {
             return report(context, character.error());

@@ -379,6 +379,66 @@ TEST(Contract, TheCageAloneNeedsNoScheme) {
     }
 }
 
+TEST(Contract, ExternalFilesComeThroughTheHost) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    host::ContextOptions contextOptions;
+    contextOptions.printWarnings = false;
+    Result<std::unique_ptr<host::Context>> created = host::Context::create(*device, contextOptions);
+    ASSERT_TRUE(created.ok());
+    // A triangle whose buffer lies in the host's own file system.
+    const std::string json = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "buffers": [{"uri": "parts/my%20shape.bin", "byteLength": 36}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                       "max": [1, 1, 0]}]})";
+    struct Files {
+        std::vector<std::string> asked;
+        std::array<float, 9> shape{0, 0, 0, 1, 0, 0, 0, 1, 0};
+        size_t byteCount = sizeof(shape);
+        bool present = true;
+        int released = 0;
+    } state;
+    SuppleFiles files{};
+    files.user = &state;
+    files.read = [](const char* path, SuppleFileBytes* out, void* user) {
+        Files& own = *static_cast<Files*>(user);
+        own.asked.emplace_back(path);
+        out->bytes = own.shape.data();
+        out->byteCount = own.byteCount;
+        out->handle = user;
+        return own.present ? 1 : 0;
+    };
+    files.release = [](SuppleFileBytes* bytes, void*) { ++static_cast<Files*>(bytes->handle)->released; };
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.name = "virtual.gltf";
+    desc.bytes = json.data();
+    desc.byteCount = json.size();
+    desc.baseDirectory = "/";
+    desc.files = &files;
+    SuppleAsset asset{};
+    EXPECT_EQ(suppleCreateAsset((*created)->handle(), &desc, &asset), SUPPLE_OK);
+    EXPECT_EQ(state.asked, std::vector<std::string>{"parts/my shape.bin"});
+    EXPECT_EQ(state.released, 1);
+    const auto refusal = [&] {
+        const SuppleResult result = suppleCreateAsset((*created)->handle(), &desc, &asset);
+        EXPECT_EQ(result, SUPPLE_ERROR_ASSET);
+        return (*created)->check(result, "create").error().message;
+    };
+    state.byteCount = 20;
+    const std::string truncated = refusal();
+    EXPECT_NE(truncated.find("virtual.gltf: buffer 0"), std::string::npos) << truncated;
+    EXPECT_EQ(state.released, 2);
+    state.present = false;
+    const std::string missing = refusal();
+    EXPECT_NE(missing.find("my shape.bin"), std::string::npos) << missing;
+    EXPECT_EQ(state.released, 2);
+    files.read = nullptr;
+    EXPECT_EQ(suppleCreateAsset((*created)->handle(), &desc, &asset), SUPPLE_ERROR_ARGUMENT);
+}
+
 TEST(Contract, CagesAreRefusedByName) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);

@@ -167,6 +167,21 @@ typedef enum SuppleAssetFlags {
     SUPPLE_ASSET_PAIR_QUADS = 1 /* plain triangles: merge consecutive pairs into quads */
 } SuppleAssetFlags;
 
+/* How an asset's external files (buffers, images) are found where a file system of the host's own holds them. */
+typedef struct SuppleFileBytes {
+    const void* bytes;
+    size_t byteCount;
+    void* handle; /* the host's */
+} SuppleFileBytes;
+typedef struct SuppleFiles {
+    /* Fills out, whose bytes stay valid until release, and returns non-zero; 0: there is no such file. path is relative
+     * to the asset, percent-decoded, with forward slashes, without "..", "." or a scheme. Called on the thread that calls
+     * suppleCreateAsset, before that returns. */
+    int (*read)(const char* path, SuppleFileBytes* out, void* user);
+    void (*release)(SuppleFileBytes* bytes, void* user); /* optional; once for every read that succeeded */
+    void* user;
+} SuppleFiles;
+
 /* Either a file in memory (bytes) or a cage as arrays. Everything is copied before the call returns. */
 typedef struct SuppleAssetDesc {
     uint32_t structSize;
@@ -175,6 +190,7 @@ typedef struct SuppleAssetDesc {
     const void* bytes; /* .glb or .gltf; .obj when `name` ends so */
     size_t byteCount;
     const char* baseDirectory; /* where the .gltf's external files lie; null allows none */
+    const SuppleFiles* files; /* optional: asked instead of baseDirectory; needed during the call only */
     const SuppleCageDesc* cage;
 } SuppleAssetDesc;
 
