@@ -60,11 +60,11 @@ const char* typeName(int type) {
 uint32_t componentBit(const Accessor& accessor) {
     switch (accessor.componentType) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return accessor.normalized ? kNormalizedS8 : 0u;
+        return accessor.normalized ? kNormalizedS8 : kS8;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
         return accessor.normalized ? kNormalizedU8 : kU8;
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return accessor.normalized ? kNormalizedS16 : 0u;
+        return accessor.normalized ? kNormalizedS16 : kS16;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
         return accessor.normalized ? kNormalizedU16 : kU16;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
@@ -190,26 +190,35 @@ std::vector<float> readFloats(const GltfDocument& document, int accessor, int ty
                               const std::string& element) {
     const std::vector<std::byte> bytes = packed(document, accessor, type, allowed, element, Sparse::applied);
     const int componentType = document.model.accessors[static_cast<size_t>(accessor)].componentType;
+    const bool normalized = document.model.accessors[static_cast<size_t>(accessor)].normalized;
     const size_t size = componentSize(componentType);
     std::vector<float> values(bytes.size() / size);
     for (size_t i = 0; i < values.size(); ++i) {
         const std::byte* from = bytes.data() + i * size;
+        float largest = 1.0f;
         switch (componentType) {
         case TINYGLTF_COMPONENT_TYPE_BYTE:
-            values[i] = std::max(static_cast<float>(load<int8_t>(from)) / 127.0f, -1.0f);
+            values[i] = load<int8_t>(from);
+            largest = 127.0f;
             break;
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            values[i] = static_cast<float>(load<uint8_t>(from)) / 255.0f;
+            values[i] = load<uint8_t>(from);
+            largest = 255.0f;
             break;
         case TINYGLTF_COMPONENT_TYPE_SHORT:
-            values[i] = std::max(static_cast<float>(load<int16_t>(from)) / 32767.0f, -1.0f);
+            values[i] = load<int16_t>(from);
+            largest = 32767.0f;
             break;
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            values[i] = static_cast<float>(load<uint16_t>(from)) / 65535.0f;
+            values[i] = load<uint16_t>(from);
+            largest = 65535.0f;
             break;
         default:
             values[i] = load<float>(from);
             break;
+        }
+        if (normalized) {
+            values[i] = std::max(values[i] / largest, -1.0f); // there is one more negative number than positive
         }
     }
     return values;

@@ -22,10 +22,17 @@ enum ComponentTypes : uint32_t {
     kU8 = 1u << 5,
     kU16 = 1u << 6,
     kU32 = 1u << 7,
+    kS8 = 1u << 8,
+    kS16 = 1u << 9,
 };
 
-/// Elements of `type` (TINYGLTF_TYPE_*) as floats, element after element; normalized integers are dequantised. Throws
-/// Refusal that names `element` when type or component type are not allowed there or the data is out of range.
+// What a use allows in files with KHR_mesh_quantization.
+inline constexpr uint32_t kQuantizedSigned = kNormalizedS8 | kNormalizedS16 | kS8 | kS16;
+inline constexpr uint32_t kQuantized = kQuantizedSigned | kNormalizedU8 | kNormalizedU16 | kU8 | kU16;
+
+/// Elements of `type` (TINYGLTF_TYPE_*) as floats, element after element; normalized integers are divided by their
+/// largest value, others are taken as they are. Throws Refusal that names `element` when type or component type are not
+/// allowed there or the data is out of range.
 [[nodiscard]] std::vector<float> readFloats(const GltfDocument& document, int accessor, int type, uint32_t allowed,
                                             const std::string& element);
 

@@ -2,6 +2,7 @@
 
 #include "cage/gltf_container.h"
 #include "cage/gltf_json.h"
+#include "cage/gltf_meshopt.h"
 #include "cage/gltf_refusal.h"
 #include "cage/gltf_resources.h"
 #include "cage/gltf_structure.h"
@@ -83,6 +84,11 @@ supple_tinygltf::Model toModel(json& root) {
 
 } // namespace
 
+bool isUsed(const GltfDocument& document, const char* extension) {
+    const auto& used = document.model.extensionsUsed;
+    return std::find(used.begin(), used.end(), extension) != used.end() || isRequired(document, extension);
+}
+
 bool isRequired(const GltfDocument& document, const char* extension) {
     const auto& required = document.model.extensionsRequired;
     return std::find(required.begin(), required.end(), extension) != required.end();
@@ -94,7 +100,8 @@ GltfDocument loadGltfDocument(std::span<const std::byte> bytes, const FileReader
     checkHeader(root);
 
     GltfDocument document;
-    loadBuffers(table(root, "buffers"), container, readFile, document);
+    loadBuffers(table(root, "buffers"), findPlaceholders(root), container, readFile, document);
+    decodeMeshopt(root, document);
     checkStructure(root, document.buffers);
     loadImages(table(root, "images"), table(root, "bufferViews"), readFile, document);
     document.meshes = table(root, "meshes");

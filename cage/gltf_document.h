@@ -19,13 +19,15 @@ struct GltfDocument {
     /// is in range, every number array has its right length and finite members.
     supple_tinygltf::Model model;
     json meshes; ///< as the file has them: with the extensions and extras that the model lacks, unchecked
-    std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each
+    std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each, or none
     std::vector<Image> images;                       ///< same indices as the file's; bytes empty where missing
     std::vector<std::string> warnings;
 
     std::vector<std::vector<std::byte>> owned; ///< behind the buffers that are not in the caller's bytes
 };
 
+/// Whether the file names an extension among those it uses or requires.
+[[nodiscard]] bool isUsed(const GltfDocument& document, const char* extension);
 /// Whether the file names an extension among those it requires.
 [[nodiscard]] bool isRequired(const GltfDocument& document, const char* extension);
 

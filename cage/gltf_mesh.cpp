@@ -24,7 +24,8 @@ constexpr uint64_t kMaxAttributeFloats = 1u << 27;
 class MeshReader {
 public:
     MeshReader(const GltfDocument& document, size_t jointCount, Warnings& warnings)
-        : document_(document), model_(document.model), jointCount_(jointCount), warnings_(warnings) {}
+        : document_(document), model_(document.model), jointCount_(jointCount),
+          quantized_(isUsed(document, "KHR_mesh_quantization")), warnings_(warnings) {}
 
     GltfMesh read(uint32_t meshNode) && {
         const auto meshIndex = static_cast<size_t>(model_.nodes[meshNode].mesh);
@@ -174,7 +175,8 @@ private:
         if (out_.positions.size() + count > kMaxVertices) {
             refuse(element, "more than " + std::to_string(kMaxVertices) + " vertices", ErrorCode::limit);
         }
-        const auto values = readFloats(document_, position, TINYGLTF_TYPE_VEC3, kFloat, element + " POSITION");
+        const auto values = readFloats(document_, position, TINYGLTF_TYPE_VEC3,
+                                       quantized_ ? kFloat | kQuantized : kFloat, element + " POSITION");
         for (size_t v = 0; v < count; ++v) {
             const glm::vec3 p(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
@@ -219,14 +221,14 @@ private:
 
     /// Reads TEXCOORD_0, TEXCOORD_1 and COLOR_0. What is not finite becomes 0: it spoils a texture, not the shape.
     void readCornerAttributes(const Primitive& primitive, const std::string& element, MeshPart& part) {
-        const auto read = [&](const char* attribute, int type) {
+        const auto read = [&](const char* attribute, int type, uint32_t allowed) {
             std::vector<float> values;
             const auto found = primitive.attributes.find(attribute);
             if (found == primitive.attributes.end()) {
                 return values;
             }
             const std::string name = element + " " + attribute;
-            values = readFloats(document_, found->second, type, kFloat | kNormalizedU8 | kNormalizedU16, name);
+            values = readFloats(document_, found->second, type, allowed, name);
             checkVertexCount(document_, found->second, part.vertexCount, name);
             attributeFloats_ += values.size();
             if (attributeFloats_ > kMaxAttributeFloats) {
@@ -246,8 +248,9 @@ private:
             }
             return values;
         };
-        part.uvs = read("TEXCOORD_0", TINYGLTF_TYPE_VEC2);
-        part.uvs1 = read("TEXCOORD_1", TINYGLTF_TYPE_VEC2);
+        constexpr uint32_t kCore = kFloat | kNormalizedU8 | kNormalizedU16;
+        part.uvs = read("TEXCOORD_0", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
+        part.uvs1 = read("TEXCOORD_1", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
         if (primitive.attributes.count("TEXCOORD_2") != 0) {
             warn(warnings_, element, "only TEXCOORD_0 and TEXCOORD_1 are read");
         }
@@ -256,10 +259,10 @@ private:
             return;
         }
         if (model_.accessors[static_cast<size_t>(color->second)].type != TINYGLTF_TYPE_VEC3) {
-            part.colors = read("COLOR_0", TINYGLTF_TYPE_VEC4);
+            part.colors = read("COLOR_0", TINYGLTF_TYPE_VEC4, kCore);
             return;
         }
-        const auto rgb = read("COLOR_0", TINYGLTF_TYPE_VEC3);
+        const auto rgb = read("COLOR_0", TINYGLTF_TYPE_VEC3, kCore);
         part.colors.resize(rgb.size() / 3 * 4, 1.0f);
         for (size_t i = 0; i < rgb.size(); ++i) {
             part.colors[i / 3 * 4 + i % 3] = rgb[i];
@@ -269,6 +272,7 @@ private:
     const GltfDocument& document_;
     const Model& model_;
     const size_t jointCount_;
+    const bool quantized_;
     Warnings& warnings_;
 
     GltfMesh out_;

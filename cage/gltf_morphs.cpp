@@ -66,6 +66,7 @@ void VertexMorphs::append(const GltfDocument& document, const std::vector<int>& 
                ErrorCode::limit);
     }
 
+    const uint32_t allowed = isUsed(document, "KHR_mesh_quantization") ? kFloat | kQuantizedSigned : kFloat;
     // Target by target as the file has them, then by vertex.
     std::vector<std::pair<uint32_t, MorphDelta>> read;
     std::vector<uint32_t> counts(count, 0);
@@ -75,7 +76,7 @@ void VertexMorphs::append(const GltfDocument& document, const std::vector<int>& 
         }
         const std::string name = element + " " + at("target", t) + " POSITION";
         checkVertexCount(document, targets[t], count, name);
-        const auto values = readFloats(document, targets[t], TINYGLTF_TYPE_VEC3, kFloat, name);
+        const auto values = readFloats(document, targets[t], TINYGLTF_TYPE_VEC3, allowed, name);
         for (uint32_t v = 0; v < count; ++v) {
             const glm::vec3 delta(values[3 * size_t{v}], values[3 * size_t{v} + 1], values[3 * size_t{v} + 2]);
             if (!std::isfinite(delta.x) || !std::isfinite(delta.y) || !std::isfinite(delta.z)) {

@@ -34,10 +34,14 @@ Result<DataUri> fetch(const std::string& uri, const FileReader& readFile) {
 
 } // namespace
 
-void loadBuffers(const json& buffers, const GltfContainer& container, const FileReader& readFile,
-                 GltfDocument& document) {
+void loadBuffers(const json& buffers, std::span<const uint8_t> placeholder, const GltfContainer& container,
+                 const FileReader& readFile, GltfDocument& document) {
     document.owned.resize(buffers.size());
     for (size_t i = 0; i < buffers.size(); ++i) {
+        if (placeholder[i] != 0) {
+            document.buffers.emplace_back();
+            continue;
+        }
         const std::string element = at("buffer", i);
         const uint64_t length = unsignedMember(buffers[i], "byteLength", element, std::nullopt);
         if (length == 0) {
@@ -46,10 +50,6 @@ void loadBuffers(const json& buffers, const GltfContainer& container, const File
         std::span<const std::byte> bytes;
         const json* uri = member(buffers[i], "uri");
         if (uri == nullptr) {
-            if (hasExtension(buffers[i], "EXT_meshopt_compression") ||
-                hasExtension(buffers[i], "KHR_meshopt_compression")) {
-                refuse(element, "is meshopt-compressed; export the mesh uncompressed");
-            }
             if (i != 0 || !container.isBinary) {
                 refuse(element, "no uri");
             }
