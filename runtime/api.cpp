@@ -3,6 +3,7 @@
 
 #include "cage/character_reader.h"
 #include "runtime/context.h"
+#include "runtime/pose_desc.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 
 using supple::Error;
 using supple::ErrorCode;
+using supple::runtime::Asset;
 using supple::runtime::Context;
 using supple::runtime::Group;
 
@@ -72,6 +74,17 @@ SuppleResult guarded(SuppleContext handle, const char* function, F&& body) noexc
             return SUPPLE_ERROR_VULKAN;
         }
     }
+}
+
+template <class Body>
+SuppleResult withAsset(SuppleContext handle, SuppleAsset asset, const char* function, Body&& body) noexcept {
+    return guarded(handle, function, [&](Context& context) {
+        const std::shared_ptr<Asset>& found = context.assets.find(asset.id);
+        if (found == nullptr) {
+            return refuse(context, function, "stale or foreign asset handle");
+        }
+        return body(context, *found);
+    });
 }
 
 template <class Body>
@@ -265,20 +278,17 @@ SuppleResult suppleDestroyAsset(SuppleContext handle, SuppleAsset asset) {
 }
 
 SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleAssetInfo* out) {
-    return guarded(handle, "suppleGetAssetInfo", [&](Context& context) {
-        const auto& found = context.assets.find(asset.id);
-        if (found == nullptr) {
-            return refuse(context, "suppleGetAssetInfo", "stale or foreign asset handle");
-        }
+    return withAsset(handle, asset, "suppleGetAssetInfo", [&](Context& context, const Asset& found) {
         if (out == nullptr || out->structSize != sizeof(SuppleAssetInfo)) {
             return refuse(context, "suppleGetAssetInfo", "out is null or its structSize is wrong");
         }
-        const supple::cage::Character& character = found->character;
+        const supple::cage::Character& character = found.character;
         out->cageVertexCount = character.cage.vertexCount();
         out->faceCount = character.cage.faceCount();
         out->jointCount = static_cast<uint32_t>(character.skin.joints.size());
         out->clipCount = static_cast<uint32_t>(character.clips.size());
         out->materialCount = static_cast<uint32_t>(character.materials.size());
+        out->morphTargetCount = static_cast<uint32_t>(character.morphs.targets.size());
         glm::vec3 low = character.cage.positions.front(), high = low;
         for (const glm::vec3& p : character.cage.positions) {
             low = glm::min(low, p);
@@ -293,19 +303,64 @@ SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleA
 }
 
 SuppleResult suppleGetClipInfo(SuppleContext handle, SuppleAsset asset, uint32_t clip, SuppleClipInfo* out) {
-    return guarded(handle, "suppleGetClipInfo", [&](Context& context) {
-        const auto& found = context.assets.find(asset.id);
-        if (found == nullptr) {
-            return refuse(context, "suppleGetClipInfo", "stale or foreign asset handle");
-        }
+    return withAsset(handle, asset, "suppleGetClipInfo", [&](Context& context, const Asset& found) {
         if (out == nullptr || out->structSize != sizeof(SuppleClipInfo)) {
             return refuse(context, "suppleGetClipInfo", "out is null or its structSize is wrong");
         }
-        if (clip >= found->character.clips.size()) {
+        if (clip >= found.character.clips.size()) {
             return refuse(context, "suppleGetClipInfo", "no such clip");
         }
-        out->name = found->character.clips[clip].name.c_str();
-        out->duration = found->character.clips[clip].duration;
+        out->name = found.character.clips[clip].name.c_str();
+        out->duration = found.character.clips[clip].duration;
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetJointInfo(SuppleContext handle, SuppleAsset asset, uint32_t joint, SuppleJointInfo* out) {
+    return withAsset(handle, asset, "suppleGetJointInfo", [&](Context& context, const Asset& found) {
+        if (out == nullptr || out->structSize != sizeof(SuppleJointInfo)) {
+            return refuse(context, "suppleGetJointInfo", "out is null or its structSize is wrong");
+        }
+        const supple::cage::Character& character = found.character;
+        if (joint >= character.skin.joints.size()) {
+            return refuse(context, "suppleGetJointInfo", "no such joint");
+        }
+        out->name = character.skeleton.nodes[character.skin.joints[joint]].name.c_str();
+        out->parent = found.rig.jointParents[joint];
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetMorphTargetInfo(SuppleContext handle, SuppleAsset asset, uint32_t target,
+                                      SuppleMorphTargetInfo* out) {
+    return withAsset(handle, asset, "suppleGetMorphTargetInfo", [&](Context& context, const Asset& found) {
+        if (out == nullptr || out->structSize != sizeof(SuppleMorphTargetInfo)) {
+            return refuse(context, "suppleGetMorphTargetInfo", "out is null or its structSize is wrong");
+        }
+        const supple::cage::Morphs& morphs = found.character.morphs;
+        if (target >= morphs.targets.size()) {
+            return refuse(context, "suppleGetMorphTargetInfo", "no such morph target");
+        }
+        out->name = morphs.targets[target].name.c_str();
+        out->weight = morphs.weights[target];
+        out->vertexCount = static_cast<uint32_t>(morphs.targets[target].vertices.size());
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleFillJointMask(SuppleContext handle, SuppleAsset asset, uint32_t joint, float value, float* mask,
+                                 uint32_t jointCount) {
+    return withAsset(handle, asset, "suppleFillJointMask", [&](Context& context, const Asset& found) {
+        if (mask == nullptr || jointCount != found.character.skin.joints.size()) {
+            return refuse(context, "suppleFillJointMask", "mask is null or jointCount is not the skin's");
+        }
+        if (joint >= jointCount) {
+            return refuse(context, "suppleFillJointMask", "no such joint");
+        }
+        if (!(value >= 0.0f && value <= 1.0f)) {
+            return refuse(context, "suppleFillJointMask", "value leaves 0..1");
+        }
+        supple::skinning::fillJointMask(found.rig, joint, value, {mask, jointCount});
         return SUPPLE_OK;
     });
 }
@@ -334,6 +389,9 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* desc
             static_cast<uint32_t>(desc->cornerRule) > SUPPLE_CORNERS_SMOOTH) {
             return refuse(context, "suppleCreateGroup", "no such vertexFormat, tangentMode or cornerRule");
         }
+        if (static_cast<uint32_t>(desc->skinning) > SUPPLE_SKINNING_DUAL_QUATERNION) {
+            return refuse(context, "suppleCreateGroup", "no such skinning");
+        }
         supple::Result<uint64_t> id = context.createGroup(*desc);
         if (!id) {
             return report(context, id.error());
@@ -353,7 +411,11 @@ SuppleResult suppleDestroyGroup(SuppleContext handle, SuppleGroup group) {
 SuppleResult suppleSetClipPose(SuppleContext handle, SuppleGroup group, uint32_t instance, uint32_t clip, double time) {
     return withInstance(handle, group, instance, "suppleSetClipPose", [&](Context& context, Group& found) {
         if (clip == SUPPLE_BIND_POSE) {
-            found.setBindPose(instance);
+            found.poses().setBindPose(instance);
+            return SUPPLE_OK;
+        }
+        if (clip == SUPPLE_REST_POSE) {
+            found.poses().setRestPose(instance);
             return SUPPLE_OK;
         }
         if (clip >= found.asset().character.clips.size()) {
@@ -362,7 +424,55 @@ SuppleResult suppleSetClipPose(SuppleContext handle, SuppleGroup group, uint32_t
         if (!std::isfinite(time)) {
             return refuse(context, "suppleSetClipPose", "time is not finite");
         }
-        found.setClipPose(instance, clip, time);
+        found.poses().setClipPose(instance, clip, time);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetPose(SuppleContext handle, SuppleGroup group, uint32_t instance, const SupplePoseDesc* pose) {
+    return withInstance(handle, group, instance, "suppleSetPose", [&](Context& context, Group& found) {
+        const supple::Status valid = supple::runtime::checkPose(found.asset(), pose);
+        if (!valid) {
+            return refuse(context, "suppleSetPose", valid.error().message.c_str());
+        }
+        found.poses().setLayers(instance, *pose);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetRootMotion(SuppleContext handle, SuppleAsset asset, const SupplePoseDesc* pose,
+                                 SuppleRootMotion* out) {
+    return withAsset(handle, asset, "suppleGetRootMotion", [&](Context& context, const Asset& found) {
+        if (out == nullptr || out->structSize != sizeof(SuppleRootMotion)) {
+            return refuse(context, "suppleGetRootMotion", "out is null or its structSize is wrong");
+        }
+        const supple::Status valid = supple::runtime::checkPose(found, pose);
+        if (!valid) {
+            return refuse(context, "suppleGetRootMotion", valid.error().message.c_str());
+        }
+        const supple::skinning::RootMotion motion = supple::runtime::rootMotionOf(found, *pose);
+        const glm::mat4 transform(supple::skinning::toMatrix(motion));
+        for (int axis = 0; axis < 3; ++axis) {
+            out->translation[axis] = transform[3][axis];
+        }
+        out->yaw = static_cast<float>(motion.yaw);
+        std::memcpy(out->transform, glm::value_ptr(transform), sizeof(out->transform));
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetMorphWeights(SuppleContext handle, SuppleGroup group, uint32_t instance, const float* weights,
+                                   uint32_t morphTargetCount) {
+    return withInstance(handle, group, instance, "suppleSetMorphWeights", [&](Context& context, Group& found) {
+        if (weights != nullptr) {
+            if (morphTargetCount != found.asset().character.morphs.targets.size()) {
+                return refuse(context, "suppleSetMorphWeights", "morphTargetCount is not the asset's");
+            }
+            if (!finite(weights, morphTargetCount)) {
+                return refuse(context, "suppleSetMorphWeights", "a weight is not finite");
+            }
+        }
+        found.poses().setMorphWeights(instance, weights);
         return SUPPLE_OK;
     });
 }
@@ -370,13 +480,13 @@ SuppleResult suppleSetClipPose(SuppleContext handle, SuppleGroup group, uint32_t
 SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleGroup group, uint32_t instance, const float* jointMatrices,
                                  uint32_t jointCount) {
     return withInstance(handle, group, instance, "suppleSetMatrixPose", [&](Context& context, Group& found) {
-        if (jointMatrices == nullptr || jointCount != found.jointCount()) {
+        if (jointMatrices == nullptr || jointCount != found.asset().character.skin.joints.size()) {
             return refuse(context, "suppleSetMatrixPose", "jointMatrices is null or jointCount is not the skin's");
         }
         if (!finite(jointMatrices, 16 * size_t{jointCount})) {
             return refuse(context, "suppleSetMatrixPose", "a joint matrix is not finite");
         }
-        found.setMatrixPose(instance, jointMatrices);
+        found.poses().setMatrixPose(instance, jointMatrices);
         return SUPPLE_OK;
     });
 }
@@ -389,7 +499,7 @@ SuppleResult suppleSetTransform(SuppleContext handle, SuppleGroup group, uint32_
         if (transform[3] != 0.0f || transform[7] != 0.0f || transform[11] != 0.0f || transform[15] != 1.0f) {
             return refuse(context, "suppleSetTransform", "the last row is not 0, 0, 0, 1");
         }
-        found.setTransform(instance, glm::make_mat4(transform));
+        found.poses().setTransform(instance, glm::make_mat4(transform));
         return SUPPLE_OK;
     });
 }

@@ -27,17 +27,19 @@ Status checkTableSize(const gpu::Device& device, const std::string& name, const 
 
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Character character) {
     auto asset = std::make_shared<Asset>();
-    const std::vector<uint32_t> table = skinning::buildDeformTable(character.cage, character.weights);
-    const Status fits = checkTableSize(device, character.name, "skin tables", table.size() * 4);
+    const skinning::DeformTable table = skinning::buildDeformTable(character.cage, character.weights, character.morphs);
+    const Status fits = checkTableSize(device, character.name, "skin tables", table.words.size() * 4);
     if (!fits) {
         return fits.error();
     }
-    const gpu::StaticRequest request{"supple deform table", kTableUsage, std::as_bytes(std::span(table))};
+    const gpu::StaticRequest request{"supple deform table", kTableUsage, std::as_bytes(std::span(table.words))};
     Result<gpu::StaticBuffers> buffers = gpu::StaticBuffers::create(device, {&request, 1});
     if (!buffers) {
         return buffers.error();
     }
     asset->buffers = std::move(*buffers);
+    asset->firstInfluences = table.firstInfluences;
+    asset->rig = skinning::makeRig(character);
     asset->character = std::move(character);
     return asset;
 }

@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "cage/character.h"
 #include "gpu/static_buffers.h"
+#include "skinning/layers.h"
 #include "supple/supple.h"
 #include "surface/schemes.h"
 
@@ -21,7 +22,9 @@ struct SchemeTables {
 
 struct Asset {
     cage::Character character;
-    gpu::StaticBuffers buffers; ///< 0: the deform table
+    gpu::StaticBuffers buffers;   ///< 0: the deform table
+    uint32_t firstInfluences = 0; ///< skinning::DeformTable
+    skinning::Rig rig;
     std::vector<std::shared_ptr<SchemeTables>> schemes;
 
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device, cage::Character character);

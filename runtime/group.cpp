@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <glm/gtc/type_ptr.hpp>
 
 namespace supple::runtime {
 
@@ -14,7 +12,7 @@ namespace {
 using namespace supple::shared;
 
 enum BufferIndex : size_t {
-    kPalettes,
+    kPoses,
     kDeformedCage,
     kPool,
     kSurface,
@@ -26,15 +24,13 @@ enum BufferIndex : size_t {
 enum StaticIndex : size_t { kGridIndices, kIndirect };
 
 constexpr VkDeviceSize kVec4Bytes = 16;
-constexpr VkDeviceSize kAffineBytes = sizeof(skinning::Affine);
-static_assert(kAffineBytes == 48);
 static_assert(surface::kMaxRate == SUPPLE_MAX_RATE);
 
 // Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits): instances of the pool, the deformed cage
 // and the surface vertices (16 or 24 bytes each) start on such multiples.
 constexpr uint32_t kCagePadding = 16;
 constexpr uint32_t kVertexPadding = 32;
-// Palettes are packed: sixteen of them end on a multiple of 256 bytes whatever the joint count.
+// Poses are packed: sixteen of them end on a multiple of 256 bytes whatever the joint count.
 constexpr uint32_t kDeformWindowMultiple = 16;
 
 uint32_t roundUp(uint32_t value, uint32_t multiple) {
@@ -43,17 +39,6 @@ uint32_t roundUp(uint32_t value, uint32_t multiple) {
 
 VkDescriptorBufferInfo range(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
     return {buffer, offset, size};
-}
-
-/// transform * palette, both affine.
-skinning::Affine placed(const glm::mat4& transform, const skinning::Affine& joint) {
-    skinning::Affine result;
-    for (int row = 0; row < 3; ++row) {
-        result.rows[row] =
-            transform[0][row] * joint.rows[0] + transform[1][row] * joint.rows[1] + transform[2][row] * joint.rows[2];
-        result.rows[row].w += transform[3][row];
-    }
-    return result;
 }
 
 } // namespace
@@ -81,7 +66,6 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     }
     group->asset_ = std::move(asset);
     group->instanceCount_ = desc.instanceCount;
-    group->jointCount_ = static_cast<uint32_t>(group->asset_->character.skin.joints.size());
 
     const uint32_t rate = desc.rate == 0 ? 8 : desc.rate;
     group->evaluation_.rate = rate;
@@ -97,12 +81,10 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->evaluation_.verticesPerInstance = roundUp(group->vertexCount_, kVertexPadding);
     group->evaluation_.cageStride = roundUp(group->asset_->character.cage.vertexCount(), kCagePadding);
 
-    group->transforms_.assign(desc.instanceCount, glm::mat4(1.0f));
-    group->palettes_.resize(size_t{desc.instanceCount} * group->jointCount_);
-    group->scratch_.resize(group->asset_->character.skeleton.nodes.size());
-    for (uint32_t instance = 0; instance < desc.instanceCount; ++instance) {
-        group->setBindPose(instance);
-    }
+    group->poses_ =
+        InstancePoses(*group->asset_, desc.instanceCount,
+                      desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION ? skinning::SkinningMode::dualQuaternion
+                                                                       : skinning::SkinningMode::linear);
 
     Status status = group->createBuffers(desc);
     if (status) {
@@ -126,8 +108,8 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     constexpr VkBufferUsageFlags kOutput = kStorage | kTexels | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
     std::vector<gpu::BufferRequest> requests(kBufferCount);
-    requests[kPalettes] = {"supple joint palettes", n * jointCount_ * kAffineBytes,
-                           kStorage | kTexels | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    requests[kPoses] = {"supple poses", n * poses_.instanceBytes(),
+                        kStorage | kTexels | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     requests[kDeformedCage] = {"supple deformed cage", n * evaluation_.cageStride * kVec4Bytes,
                                kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
     requests[kPool] = {"supple coefficient pool", n * tables.poolStride * kVec4Bytes,
@@ -152,7 +134,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     }
     buffers_ = std::move(*buffers);
 
-    const gpu::BufferRequest staging{"supple palette staging", requests[kPalettes].size * shared_.framesInFlight,
+    const gpu::BufferRequest staging{"supple pose staging", requests[kPoses].size * shared_.framesInFlight,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     Result<gpu::BufferSet> stagingSet = gpu::BufferSet::create(device, {&staging, 1}, gpu::MemoryKind::upload);
     if (!stagingSet) {
@@ -201,7 +183,7 @@ Status Group::createSets() {
     const gpu::Device& device = *shared_.device;
     const surface::Tables& tables = scheme_->tables;
     const VkDeviceSize vertexBytes = evaluation_.vertex24 ? 24 : 16;
-    const VkDeviceSize paletteBytes = jointCount_ * kAffineBytes;
+    const VkDeviceSize poseBytes = poses_.instanceBytes();
     const VkDeviceSize cageBytes = evaluation_.cageStride * kVec4Bytes;
     const VkDeviceSize poolBytes = tables.poolStride * kVec4Bytes;
     const VkDeviceSize surfaceBytes = evaluation_.verticesPerInstance * vertexBytes;
@@ -210,7 +192,7 @@ Status Group::createSets() {
 
     // As many instances a window as every bound range can hold.
     const VkDeviceSize texelLimit = device.bufferWindow(16), storageLimit = device.limits.maxStorageBufferRange;
-    VkDeviceSize deformFit = texelLimit / std::max(paletteBytes, cageBytes);
+    VkDeviceSize deformFit = texelLimit / std::max(poseBytes, cageBytes);
     if (deformFit < instanceCount_) {
         deformFit = deformFit / kDeformWindowMultiple * kDeformWindowMultiple;
     }
@@ -258,14 +240,12 @@ Status Group::createSets() {
         if (!set) {
             return set.error();
         }
-        const VkBuffer palettes = buffers_.buffer(kPalettes), deformed = buffers_.buffer(kDeformedCage);
+        const VkBuffer poses = buffers_.buffer(kPoses), deformed = buffers_.buffer(kDeformedCage);
         const gpu::BoundResource resources[] = {
             {kDeformTableBinding, range(deformTable, 0, deformTableBytes), VK_NULL_HANDLE},
             {kDeformTableTexelBinding, {}, deformTableView},
-            {kPaletteBinding, range(palettes, first * paletteBytes, count * paletteBytes), VK_NULL_HANDLE},
-            {kPaletteTexelBinding,
-             {},
-             view(palettes, kFloat4, first * paletteBytes, count * paletteBytes, "supple palette")},
+            {kPoseBinding, range(poses, first * poseBytes, count * poseBytes), VK_NULL_HANDLE},
+            {kPoseTexelBinding, {}, view(poses, kFloat4, first * poseBytes, count * poseBytes, "supple poses")},
             {kDeformedCageBinding, range(deformed, first * cageBytes, count * cageBytes), VK_NULL_HANDLE},
         };
         if (!status) {
@@ -352,31 +332,6 @@ void Group::fillOutput(const SuppleGroupDesc& desc) {
     o.deviceBytes = buffers_.allocatedBytes() + static_.deviceBytes();
 }
 
-void Group::setBindPose(uint32_t instance) {
-    const skinning::Affine identity = skinning::toAffine(glm::mat4(1.0f));
-    std::fill_n(palettes_.begin() + static_cast<ptrdiff_t>(size_t{instance} * jointCount_), jointCount_, identity);
-}
-
-void Group::setClipPose(uint32_t instance, uint32_t clip, double time) {
-    const cage::Character& character = asset_->character;
-    skinning::sampleClip(character.skeleton, character.clips[clip], time, scratch_);
-    skinning::globalTransforms(character.skeleton, scratch_, scratch_);
-    skinning::jointPalette(character.skin, scratch_, glm::mat4(1.0f),
-                           std::span(palettes_).subspan(size_t{instance} * jointCount_, jointCount_));
-}
-
-void Group::setMatrixPose(uint32_t instance, const float* jointMatrices) {
-    for (uint32_t j = 0; j < jointCount_; ++j) {
-        const glm::mat4 joint = glm::make_mat4(jointMatrices + 16 * size_t{j});
-        palettes_[size_t{instance} * jointCount_ + j] =
-            skinning::toAffine(joint * asset_->character.skin.inverseBinds[j]);
-    }
-}
-
-void Group::setTransform(uint32_t instance, const glm::mat4& transform) {
-    transforms_[instance] = transform;
-}
-
 Result<Group::PassCost> Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     const gpu::Device& device = *shared_.device;
     lastRecordedFrame_ = frame;
@@ -389,30 +344,16 @@ Result<Group::PassCost> Group::recordUpload(VkCommandBuffer commandBuffer, uint6
         device.vk.CmdFillBuffer(commandBuffer, buffers_.buffer(kPool), 0, VK_WHOLE_SIZE, 0);
         cleared_ = true;
     }
-    const VkDeviceSize bytes = palettes_.size() * kAffineBytes;
+    const VkDeviceSize bytes = buffers_.size(kPoses);
     const VkDeviceSize offset = frame % shared_.framesInFlight * bytes;
-    std::byte* target = staging_.mapped(0) + offset;
-    for (uint32_t instance = 0; instance < instanceCount_; ++instance) {
-        const glm::mat4& transform = transforms_[instance];
-        const skinning::Affine* source = palettes_.data() + size_t{instance} * jointCount_;
-        if (transform == glm::mat4(1.0f)) {
-            std::memcpy(target, source, jointCount_ * kAffineBytes);
-            target += jointCount_ * kAffineBytes;
-            continue;
-        }
-        for (uint32_t j = 0; j < jointCount_; ++j) {
-            const skinning::Affine joint = placed(transform, source[j]);
-            std::memcpy(target, &joint, kAffineBytes);
-            target += kAffineBytes;
-        }
-    }
+    poses_.write(staging_.mapped(0) + offset);
     const Status flushed = staging_.flush(0, offset, bytes);
     if (!flushed) {
         return flushed.error();
     }
     const VkBufferCopy copy{offset, 0, bytes};
-    device.vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kPalettes), 1, &copy);
-    cost.points = palettes_.size();
+    device.vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kPoses), 1, &copy);
+    cost.points = uint64_t{poses_.layout().jointCount} * instanceCount_;
     cost.bytes += bytes;
     return cost;
 }
@@ -427,9 +368,11 @@ Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
 }
 
 Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
+    const skinning::PoseLayout& layout = poses_.layout();
     for (const DeformWindow& window : deformWindows_) {
-        shared_.deform->record(commandBuffer, window.set,
-                               {output_.cageVertexCount, window.instanceCount, jointCount_, evaluation_.cageStride});
+        shared_.deform->record(commandBuffer, window.set, layout.mode,
+                               {output_.cageVertexCount, window.instanceCount, layout.stride, evaluation_.cageStride,
+                                layout.morphWeights, asset_->firstInfluences});
     }
     const uint64_t points = uint64_t{output_.cageVertexCount} * instanceCount_;
     return {points, points * kVec4Bytes};

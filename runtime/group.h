@@ -5,12 +5,11 @@
 #include "gpu/memory.h"
 #include "gpu/static_buffers.h"
 #include "runtime/asset.h"
+#include "runtime/instance_poses.h"
 #include "skinning/deform_pass.h"
-#include "skinning/pose.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
 
-#include <glm/glm.hpp>
 #include <memory>
 #include <vector>
 
@@ -32,23 +31,18 @@ public:
                                                                const SuppleGroupDesc& desc);
 
     [[nodiscard]] uint32_t instanceCount() const { return instanceCount_; }
-    [[nodiscard]] uint32_t jointCount() const { return jointCount_; }
     [[nodiscard]] const Asset& asset() const { return *asset_; }
     [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables; }
     [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
 
-    void setBindPose(uint32_t instance);
-    void setClipPose(uint32_t instance, uint32_t clip, double time);
-    /// jointCount() column-major model-space matrices.
-    void setMatrixPose(uint32_t instance, const float* jointMatrices);
-    void setTransform(uint32_t instance, const glm::mat4& transform);
+    [[nodiscard]] InstancePoses& poses() { return poses_; }
 
     // The passes of a frame, each recorded without barriers; runtime/frame.cpp puts them in order.
     struct PassCost {
         uint64_t points = 0;
         uint64_t bytes = 0;
     };
-    /// Static tables, first-use clears and this frame's palettes.
+    /// Static tables, first-use clears and this frame's poses.
     [[nodiscard]] Result<PassCost> recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
     PassCost recordAttributes(VkCommandBuffer commandBuffer); ///< nothing after the first time
     [[nodiscard]] bool attributesPending() const { return attributesPending_; }
@@ -70,16 +64,13 @@ private:
     std::shared_ptr<Asset> asset_;
     std::shared_ptr<SchemeTables> scheme_;
     uint32_t instanceCount_ = 0;
-    uint32_t jointCount_ = 0;
     uint32_t vertexCount_ = 0; ///< surface vertices an instance, without padding
     surface::Evaluation evaluation_;
 
-    std::vector<skinning::Affine> palettes_; ///< posed, not yet placed: jointCount_ an instance
-    std::vector<glm::mat4> transforms_;      ///< one an instance
-    std::vector<glm::mat4> scratch_;         ///< node transforms while posing
+    InstancePoses poses_;
 
     gpu::BufferSet buffers_;    ///< see the enumeration in group.cpp
-    gpu::BufferSet staging_;    ///< palettes, one run a frame in flight
+    gpu::BufferSet staging_;    ///< poses, one run a frame in flight
     gpu::StaticBuffers static_; ///< grid indices, indirect arguments
     gpu::DescriptorPoolHandle deformPool_, surfacePool_;
     std::vector<gpu::BufferViewHandle> views_;

@@ -2,41 +2,150 @@
 
 #include "shaders/deform_deform_comp.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstring>
 
 namespace supple::skinning {
+namespace {
 
-std::vector<uint32_t> buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights) {
-    const uint32_t vertexCount = cage.vertexCount();
-    std::vector<uint32_t> vertices, influences;
-    vertices.reserve(4 * (size_t{vertexCount} + 1));
-    influences.reserve(2 * weights.influences.size());
-    const auto nextElement = [&] { return static_cast<uint32_t>(vertexCount + 1 + influences.size() / 4); };
-    for (uint32_t v = 0; v < vertexCount; ++v) {
-        for (int axis = 0; axis < 3; ++axis) {
-            vertices.push_back(std::bit_cast<uint32_t>(cage.positions[v][axis]));
+using namespace shared;
+
+static_assert(sizeof(DeformPush) <= gpu::kPushConstantBytes);
+static_assert(sizeof(Affine) == 48);
+
+// Specialization constants of the pass (shaders/deform/deform.comp).
+constexpr uint32_t kMorphsConstant = gpu::kFirstPassConstant;
+constexpr uint32_t kDualQuaternionsConstant = kMorphsConstant + 1;
+
+constexpr size_t kElementBytes = 16;
+
+/// The displacements of every vertex, target by target.
+struct Displacements {
+    struct One {
+        uint32_t target = 0;
+        glm::vec3 delta{0.0f};
+    };
+    std::vector<uint32_t> starts; ///< vertexCount + 1 entries
+    std::vector<One> list;
+};
+
+Displacements displacementsOf(uint32_t vertexCount, const cage::Morphs& morphs) {
+    Displacements result;
+    result.starts.assign(size_t{vertexCount} + 1, 0);
+    for (const cage::MorphTarget& target : morphs.targets) {
+        for (const uint32_t vertex : target.vertices) {
+            ++result.starts[vertex + 1];
         }
-        vertices.push_back(nextElement());
-        const uint32_t end = weights.starts[v + 1];
-        for (uint32_t i = weights.starts[v]; i < end; i += 2) {
-            const cage::Influence first = weights.influences[i];
-            const cage::Influence second = i + 1 < end ? weights.influences[i + 1] : cage::Influence{first.joint, 0.0f};
-            influences.insert(influences.end(), {first.joint, std::bit_cast<uint32_t>(first.weight), second.joint,
-                                                 std::bit_cast<uint32_t>(second.weight)});
+    }
+    for (uint32_t v = 0; v < vertexCount; ++v) {
+        result.starts[v + 1] += result.starts[v];
+    }
+    result.list.resize(result.starts.back());
+    std::vector<uint32_t> next(result.starts.begin(), result.starts.end() - 1);
+    for (uint32_t t = 0; t < morphs.targets.size(); ++t) {
+        const cage::MorphTarget& target = morphs.targets[t];
+        for (size_t i = 0; i < target.vertices.size(); ++i) {
+            result.list[next[target.vertices[i]]++] = {t, target.deltas[i]};
+        }
+    }
+    return result;
+}
+
+/// transform * joint, both affine.
+Affine placed(const glm::mat4& transform, const Affine& joint) {
+    Affine result;
+    for (int row = 0; row < 3; ++row) {
+        result.rows[row] =
+            transform[0][row] * joint.rows[0] + transform[1][row] * joint.rows[1] + transform[2][row] * joint.rows[2];
+        result.rows[row].w += transform[3][row];
+    }
+    return result;
+}
+
+uint32_t bits(float value) {
+    return std::bit_cast<uint32_t>(value);
+}
+
+} // namespace
+
+DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights, const cage::Morphs& morphs) {
+    const uint32_t vertexCount = cage.vertexCount();
+    const Displacements displacements = displacementsOf(vertexCount, morphs);
+    std::vector<uint32_t> vertices, runs, firstInfluences;
+    vertices.reserve(4 * (size_t{vertexCount} + 1));
+    runs.reserve(4 * displacements.list.size() + 2 * weights.influences.size());
+    const auto nextElement = [&] { return static_cast<uint32_t>(vertexCount + 1 + runs.size() / 4); };
+    std::vector<cage::Influence> own;
+    for (uint32_t v = 0; v < vertexCount; ++v) {
+        const glm::vec3& p = cage.positions[v];
+        vertices.insert(vertices.end(), {bits(p.x), bits(p.y), bits(p.z), nextElement()});
+        for (uint32_t i = displacements.starts[v]; i < displacements.starts[v + 1]; ++i) {
+            const auto& [target, delta] = displacements.list[i];
+            runs.insert(runs.end(), {target, bits(delta.x), bits(delta.y), bits(delta.z)});
+        }
+        firstInfluences.push_back(nextElement());
+        own.assign(weights.influences.begin() + weights.starts[v], weights.influences.begin() + weights.starts[v + 1]);
+        const auto heaviest =
+            std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.weight < b.weight; });
+        std::rotate(own.begin(), heaviest, heaviest + 1);
+        for (size_t i = 0; i < own.size(); i += 2) {
+            const cage::Influence second = i + 1 < own.size() ? own[i + 1] : cage::Influence{own[i].joint, 0.0f};
+            runs.insert(runs.end(), {own[i].joint, bits(own[i].weight), second.joint, bits(second.weight)});
         }
     }
     vertices.insert(vertices.end(), {0u, 0u, 0u, nextElement()});
-    vertices.insert(vertices.end(), influences.begin(), influences.end());
-    return vertices;
+
+    DeformTable table;
+    table.words = std::move(vertices);
+    table.words.insert(table.words.end(), runs.begin(), runs.end());
+    if (!displacements.list.empty()) {
+        table.firstInfluences = static_cast<uint32_t>(table.words.size() / 4);
+        table.words.insert(table.words.end(), firstInfluences.begin(), firstInfluences.end());
+        table.words.resize((table.words.size() + 3) / 4 * 4, 0u);
+    }
+    return table;
+}
+
+PoseLayout PoseLayout::of(SkinningMode mode, uint32_t jointCount, uint32_t morphCount) {
+    PoseLayout layout{mode, jointCount, morphCount, 0, 0};
+    layout.morphWeights = mode == SkinningMode::linear
+                              ? kLinearElements * jointCount
+                              : kDualQuaternionTransform + kDualQuaternionElements * jointCount;
+    layout.stride = layout.morphWeights + (morphCount + 3) / 4;
+    return layout;
+}
+
+void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* target) {
+    const auto put = [&target](const void* source, size_t bytes) {
+        std::memcpy(target, source, bytes);
+        target += bytes;
+    };
+    if (layout.mode == SkinningMode::dualQuaternion) {
+        const Affine transform = toAffine(pose.transform);
+        put(&transform, sizeof(transform));
+        for (size_t j = 0; j < pose.palette.size(); ++j) {
+            put(&pose.palette[j], sizeof(Affine));
+            put(&pose.rotations[j], sizeof(glm::vec4));
+        }
+    } else if (pose.transform == glm::mat4(1.0f)) {
+        put(pose.palette.data(), pose.palette.size_bytes());
+    } else {
+        for (const Affine& own : pose.palette) {
+            const Affine joint = placed(pose.transform, own);
+            put(&joint, sizeof(joint));
+        }
+    }
+    put(pose.morphWeights.data(), layout.morphCount * sizeof(float));
+    std::memset(target, 0, (layout.stride - layout.morphWeights) * kElementBytes - layout.morphCount * sizeof(float));
 }
 
 Result<DeformPass> DeformPass::create(const gpu::Device& device) {
-    using namespace shared;
     const gpu::Binding bindings[] = {
         {kDeformTableBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
         {kDeformTableTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
-        {kPaletteBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-        {kPaletteTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
+        {kPoseBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+        {kPoseTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
         {kDeformedCageBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
     };
     DeformPass pass;
@@ -47,18 +156,28 @@ Result<DeformPass> DeformPass::create(const gpu::Device& device) {
         return layout.error();
     }
     pass.layout_ = std::move(*layout);
-    Result<gpu::PipelineHandle> pipeline =
-        gpu::createComputePipeline(device, pass.layout_, deform_deform_comp, {}, "supple deform");
-    if (!pipeline) {
-        return pipeline.error();
+    constexpr const char* kNames[2][2] = {
+        {"supple deform", "supple deform, morphs"},
+        {"supple deform, dual quaternions", "supple deform, dual quaternions, morphs"}};
+    for (uint32_t mode = 0; mode < 2; ++mode) {
+        for (uint32_t morphs = 0; morphs < 2; ++morphs) {
+            const gpu::Constant constants[] = {{kMorphsConstant, morphs}, {kDualQuaternionsConstant, mode}};
+            Result<gpu::PipelineHandle> pipeline =
+                gpu::createComputePipeline(device, pass.layout_, deform_deform_comp, constants, kNames[mode][morphs]);
+            if (!pipeline) {
+                return pipeline.error();
+            }
+            pass.pipelines_[mode][morphs] = std::move(*pipeline);
+        }
     }
-    pass.pipeline_ = std::move(*pipeline);
     return pass;
 }
 
-void DeformPass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::DeformPush& push) const {
+void DeformPass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
+                        const shared::DeformPush& push) const {
+    const gpu::PipelineHandle& pipeline = pipelines_[static_cast<size_t>(mode)][push.firstInfluences != 0 ? 1 : 0];
     const VkPipelineLayout layout = layout_.pipelineLayout.get();
-    device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
     device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
     device_->vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
     const uint64_t lanes = uint64_t{push.vertexCount} * push.instanceCount;

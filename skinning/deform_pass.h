@@ -1,33 +1,65 @@
-// The deform pass: linear blend skinning of the control cage in compute, with any number of influences a vertex.
+// The deform pass: morph targets, then linear blend or dual quaternion skinning of the control cage in compute, with
+// any number of targets and of influences a vertex.
 #pragma once
 
 #include "cage/character.h"
 #include "gpu/pipeline.h"
 #include "shaders/shared/deform.h"
+#include "skinning/pose.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace supple::skinning {
 
-/// Rest positions and influences in the layout of shaders/shared/deform.h; four words an element.
-[[nodiscard]] std::vector<uint32_t> buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights);
+enum class SkinningMode { linear, dualQuaternion };
 
-/// The pipeline of the pass. Palettes: three float4 rows a joint, instance-major (skinning::Affine). Output: float4
-/// (x, y, z, 1) a cage vertex, `cageStride` vertices an instance.
+/// Rest positions, displacements and influences in the layout of shaders/shared/deform.h.
+struct DeformTable {
+    std::vector<uint32_t> words;  ///< four an element
+    uint32_t firstInfluences = 0; ///< element where the first influences are listed; 0: no target moves a vertex
+};
+[[nodiscard]] DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights,
+                                           const cage::Morphs& morphs);
+
+/// Where things lie in an instance's pose, in vec4 elements (shaders/shared/deform.h).
+struct PoseLayout {
+    SkinningMode mode = SkinningMode::linear;
+    uint32_t jointCount = 0;
+    uint32_t morphCount = 0; ///< weights that the device needs
+    uint32_t morphWeights = 0;
+    uint32_t stride = 0;
+    [[nodiscard]] static PoseLayout of(SkinningMode mode, uint32_t jointCount, uint32_t morphCount);
+};
+
+/// One instance's pose before it is placed.
+struct InstancePose {
+    std::span<const Affine> palette;
+    std::span<const glm::vec4> rotations; ///< jointRotations(palette); dual quaternions only
+    std::span<const float> morphWeights;
+    glm::mat4 transform{1.0f};
+};
+/// Writes layout.stride elements. Linear blending takes the transform into the matrices; after dual quaternions the
+/// pass applies it to the blended vertex, for a blend followed by uneven scale is no blend of scaled joints.
+void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* target);
+
+/// The pipelines of the pass. Output: float4 (x, y, z, 1) a cage vertex, `cageStride` vertices an instance.
 class DeformPass {
 public:
     [[nodiscard]] static Result<DeformPass> create(const gpu::Device& device);
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
-    /// Records one dispatch over a window of instances; `set` binds the window's buffers.
-    void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::DeformPush& push) const;
+    /// Records one dispatch over a window of instances; `set` binds the window's buffers. `push.firstInfluences` as the
+    /// table has it.
+    void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
+                const shared::DeformPush& push) const;
 
 private:
     const gpu::Device* device_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::PipelineHandle pipeline_;
+    gpu::PipelineHandle pipelines_[2][2]; ///< by mode, and whether there are morph targets
 };
 
 } // namespace supple::skinning

@@ -1,7 +1,8 @@
 #include "skinning/pose.h"
 
+#include "skinning/rotation.h"
+
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -12,93 +13,119 @@ using cage::Channel;
 using cage::ChannelPath;
 using cage::Interpolation;
 
-/// A node's transform while it is put together; rotation as x, y, z, w, as clips store it.
-struct Transform {
-    glm::dvec3 translation{0.0};
-    glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};
-    glm::dvec3 scale{1.0};
-};
-
 Transform restTransform(const cage::Node& node) {
-    return {glm::dvec3(node.translation),
-            glm::dvec4(node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w), glm::dvec3(node.scale)};
+    return {glm::dvec3(node.translation), glm::dquat(node.rotation), glm::dvec3(node.scale)};
 }
 
-/// Translation * rotation * scale. The rotation need not be of unit length; a zero one (a spline may pass through it)
-/// counts as none.
-glm::mat4 compose(const Transform& t) {
-    const double squared = glm::dot(t.rotation, t.rotation);
+glm::dmat4 compose(const Transform& t) {
+    const double x = t.rotation.x, y = t.rotation.y, z = t.rotation.z, w = t.rotation.w;
+    const double squared = x * x + y * y + z * z + w * w;
     const double s = squared > 0.0 ? 2.0 / squared : 0.0;
-    const auto [x, y, z, w] = std::array{t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w};
     const glm::dvec3 columns[3] = {
         {1.0 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)},
         {s * (x * y - z * w), 1.0 - s * (x * x + z * z), s * (y * z + x * w)},
         {s * (x * z + y * w), s * (y * z - x * w), 1.0 - s * (x * x + y * y)},
     };
-    return glm::mat4(glm::vec4(glm::vec3(columns[0] * t.scale.x), 0.0f),
-                     glm::vec4(glm::vec3(columns[1] * t.scale.y), 0.0f),
-                     glm::vec4(glm::vec3(columns[2] * t.scale.z), 0.0f), glm::vec4(glm::vec3(t.translation), 1.0f));
+    return {glm::dvec4(columns[0] * t.scale.x, 0.0), glm::dvec4(columns[1] * t.scale.y, 0.0),
+            glm::dvec4(columns[2] * t.scale.z, 0.0), glm::dvec4(t.translation, 1.0)};
 }
 
-glm::mat4 restLocal(const cage::Node& node) {
-    return node.hasMatrix ? node.matrix : compose(restTransform(node));
-}
+/// Where a time falls among a channel's keys: at key `key`, or at fraction `t` of the `seconds` from it to the next
+/// one.
+struct KeySpan {
+    size_t key = 0;
+    double t = 0.0;
+    double seconds = 0.0; ///< 0: the key's own value
+};
 
-template <int N>
-using Vector = glm::vec<N, double, glm::defaultp>;
-
-template <int N>
-Vector<N> element(const Channel& channel, size_t index) {
-    Vector<N> v;
-    for (int k = 0; k < N; ++k) {
-        v[k] = static_cast<double>(channel.values[N * index + static_cast<size_t>(k)]);
-    }
-    return v;
-}
-
-Vector<3> mix(const Vector<3>& a, const Vector<3>& b, double t) {
-    return a + (b - a) * t;
-}
-
-/// Spherical, along the shorter way; straight where the arc is too short to divide by its sine.
-Vector<4> mix(const Vector<4>& a, const Vector<4>& b, double t) {
-    const double d = glm::dot(a, b);
-    const double sign = d < 0.0 ? -1.0 : 1.0;
-    const double cosine = std::min(std::abs(d), 1.0);
-    const double angle = std::acos(cosine);
-    const double sine = std::sin(angle);
-    if (sine < 1e-6) {
-        return a * (1.0 - t) + b * (sign * t);
-    }
-    return a * (std::sin((1.0 - t) * angle) / sine) + b * (sign * std::sin(t * angle) / sine);
-}
-
-template <int N>
-Vector<N> sample(const Channel& channel, double time) {
+KeySpan findKeys(const Channel& channel, double time) {
     const auto& times = channel.times;
-    const bool cubic = channel.interpolation == Interpolation::cubicSpline;
-    const auto key = [&](size_t k) { return element<N>(channel, cubic ? 3 * k + 1 : k); };
     // The first key later than `time`; a key's own time gives its value as it is.
     const auto later = std::upper_bound(times.begin(), times.end(), time,
                                         [](double t, float k) { return t < static_cast<double>(k); });
     if (later == times.begin()) {
-        return key(0);
+        return {};
     }
     const size_t k = static_cast<size_t>(later - times.begin()) - 1;
-    if (later == times.end() || channel.interpolation == Interpolation::step || static_cast<double>(times[k]) == time) {
-        return key(k);
+    const double begin = static_cast<double>(times[k]);
+    if (later == times.end() || channel.interpolation == Interpolation::step || begin == time) {
+        return {k, 0.0, 0.0};
     }
-    const double span = static_cast<double>(times[k + 1]) - static_cast<double>(times[k]);
-    const double t = (time - static_cast<double>(times[k])) / span;
+    const double seconds = static_cast<double>(times[k + 1]) - begin;
+    return {k, (time - begin) / seconds, seconds};
+}
+
+glm::dvec3 mix(const glm::dvec3& a, const glm::dvec3& b, double t) {
+    return a + (b - a) * t;
+}
+double mix(double a, double b, double t) {
+    return a + (b - a) * t;
+}
+glm::dvec4 mix(const glm::dvec4& a, const glm::dvec4& b, double t) {
+    const glm::dquat q = slerp(glm::dquat(a.w, a.x, a.y, a.z), glm::dquat(b.w, b.x, b.y, b.z), t);
+    return {q.x, q.y, q.z, q.w};
+}
+
+/// The value between the keys. `read(k)` gives the k-th value as stored.
+template <class Read>
+auto interpolate(const Channel& channel, const KeySpan& span, Read&& read) {
+    const bool cubic = channel.interpolation == Interpolation::cubicSpline;
+    const auto key = [&](size_t k) { return read(cubic ? 3 * k + 1 : k); };
+    if (span.seconds == 0.0) {
+        return key(span.key);
+    }
     if (!cubic) {
-        return mix(key(k), key(k + 1), t);
+        return mix(key(span.key), key(span.key + 1), span.t);
     }
-    const Vector<N> leaving = element<N>(channel, 3 * k + 2);
-    const Vector<N> arriving = element<N>(channel, 3 * (k + 1));
-    const double t2 = t * t;
-    const double t3 = t2 * t;
-    return key(k) * (2.0 * t3 - 3.0 * t2 + 1.0) + leaving * (span * (t3 - 2.0 * t2 + t)) +
-           key(k + 1) * (3.0 * t2 - 2.0 * t3) + arriving * (span * (t3 - t2));
+    const auto leaving = read(3 * span.key + 2);
+    const auto arriving = read(3 * (span.key + 1));
+    const double t = span.t, t2 = t * t, t3 = t2 * t;
+    return key(span.key) * (2.0 * t3 - 3.0 * t2 + 1.0) + leaving * (span.seconds * (t3 - 2.0 * t2 + t)) +
+           key(span.key + 1) * (3.0 * t2 - 2.0 * t3) + arriving * (span.seconds * (t3 - t2));
+}
+
+glm::dvec3 vectorAt(const Channel& channel, double time) {
+    return interpolate(channel, findKeys(channel, time), [&](size_t k) {
+        const float* v = &channel.values[3 * k];
+        return glm::dvec3(v[0], v[1], v[2]);
+    });
+}
+
+glm::dquat rotationAt(const Channel& channel, double time) {
+    const glm::dvec4 q = interpolate(channel, findKeys(channel, time), [&](size_t k) {
+        const float* v = &channel.values[4 * k];
+        return glm::dvec4(v[0], v[1], v[2], v[3]);
+    });
+    return {q.w, q.x, q.y, q.z};
+}
+
+void sampleTransform(const Channel& channel, double time, Transform& transform) {
+    switch (channel.path) {
+    case ChannelPath::translation:
+        transform.translation = vectorAt(channel, time);
+        break;
+    case ChannelPath::rotation:
+        transform.rotation = rotationAt(channel, time);
+        break;
+    case ChannelPath::scale:
+        transform.scale = vectorAt(channel, time);
+        break;
+    case ChannelPath::weights:
+        break; // not a transform
+    }
+}
+
+void sampleWeights(const Channel& channel, double time, std::span<double> weights) {
+    const KeySpan span = findKeys(channel, time);
+    for (size_t target = 0; target < weights.size(); ++target) {
+        weights[target] = interpolate(
+            channel, span, [&](size_t k) { return static_cast<double>(channel.values[weights.size() * k + target]); });
+    }
+}
+
+void restLocals(const cage::Skeleton& skeleton, std::vector<Transform>& locals) {
+    locals.resize(skeleton.nodes.size());
+    std::transform(skeleton.nodes.begin(), skeleton.nodes.end(), locals.begin(), restTransform);
 }
 
 } // namespace
@@ -111,48 +138,63 @@ Affine toAffine(const glm::mat4& matrix) {
     return affine;
 }
 
-void restPose(const cage::Skeleton& skeleton, std::span<glm::mat4> locals) {
-    assert(locals.size() == skeleton.nodes.size());
+void restPose(const cage::Character& character, Pose& pose) {
+    restLocals(character.skeleton, pose.locals);
+    pose.morphWeights.assign(character.morphs.weights.begin(), character.morphs.weights.end());
+}
+
+void sampleClip(const cage::Character& character, const cage::Clip& clip, double time, Pose& pose) {
+    restPose(character, pose);
+    for (const Channel& channel : clip.channels) {
+        if (channel.path == ChannelPath::weights) {
+            sampleWeights(channel, time, pose.morphWeights);
+        } else {
+            sampleTransform(channel, time, pose.locals[channel.node]);
+        }
+    }
+}
+
+Transform sampleNode(const cage::Skeleton& skeleton, const cage::Clip& clip, double time, uint32_t node) {
+    Transform transform = restTransform(skeleton.nodes[node]);
+    for (const Channel& channel : clip.channels) {
+        if (channel.node == node) {
+            sampleTransform(channel, time, transform);
+        }
+    }
+    return transform;
+}
+
+glm::dmat4 localMatrix(const cage::Node& node, const Transform& transform) {
+    return node.hasMatrix ? glm::dmat4(node.matrix) : compose(transform);
+}
+
+void localMatrices(const cage::Skeleton& skeleton, const Pose& pose, std::span<glm::mat4> locals) {
+    assert(locals.size() == skeleton.nodes.size() && pose.locals.size() == locals.size());
     for (size_t i = 0; i < locals.size(); ++i) {
-        locals[i] = restLocal(skeleton.nodes[i]);
+        locals[i] = glm::mat4(localMatrix(skeleton.nodes[i], pose.locals[i]));
     }
 }
 
 void sampleClip(const cage::Skeleton& skeleton, const cage::Clip& clip, double time, std::span<glm::mat4> locals) {
-    assert(locals.size() == skeleton.nodes.size());
-    std::vector<Transform> transforms;
-    transforms.reserve(skeleton.nodes.size());
-    for (const cage::Node& node : skeleton.nodes) {
-        transforms.push_back(restTransform(node));
-    }
-    std::vector<bool> animated(skeleton.nodes.size(), false);
+    Pose pose;
+    restLocals(skeleton, pose.locals);
     for (const Channel& channel : clip.channels) {
-        Transform& transform = transforms[channel.node];
-        animated[channel.node] = true;
-        switch (channel.path) {
-        case ChannelPath::translation:
-            transform.translation = sample<3>(channel, time);
-            break;
-        case ChannelPath::rotation:
-            transform.rotation = sample<4>(channel, time);
-            break;
-        case ChannelPath::scale:
-            transform.scale = sample<3>(channel, time);
-            break;
-        case ChannelPath::weights:
-            break; // not a transform
-        }
+        sampleTransform(channel, time, pose.locals[channel.node]);
     }
-    for (size_t i = 0; i < locals.size(); ++i) {
-        locals[i] = animated[i] ? compose(transforms[i]) : restLocal(skeleton.nodes[i]);
-    }
+    localMatrices(skeleton, pose, locals);
+}
+
+void restPose(const cage::Skeleton& skeleton, std::span<glm::mat4> locals) {
+    Pose pose;
+    restLocals(skeleton, pose.locals);
+    localMatrices(skeleton, pose, locals);
 }
 
 void globalTransforms(const cage::Skeleton& skeleton, std::span<const glm::mat4> locals, std::span<glm::mat4> globals) {
-    assert(locals.size() == skeleton.nodes.size() && globals.size() == skeleton.nodes.size());
-    for (const uint32_t i : skeleton.parentsFirst) {
-        const uint32_t parent = skeleton.nodes[i].parent;
-        globals[i] = parent == cage::kNone ? locals[i] : globals[parent] * locals[i];
+    assert(locals.size() == globals.size());
+    for (const uint32_t node : skeleton.parentsFirst) {
+        const uint32_t parent = skeleton.nodes[node].parent;
+        globals[node] = parent == cage::kNone ? locals[node] : globals[parent] * locals[node];
     }
 }
 
@@ -164,11 +206,36 @@ void jointPalette(const cage::Skin& skin, std::span<const glm::mat4> globals, co
     }
 }
 
-std::vector<glm::dvec3> deformOnCpu(const cage::Cage& cage, const cage::SkinWeights& weights,
+void jointRotations(std::span<const Affine> palette, std::span<glm::vec4> rotations) {
+    assert(palette.size() == rotations.size());
+    for (size_t j = 0; j < palette.size(); ++j) {
+        glm::dmat3 matrix;
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column) {
+                matrix[column][row] = static_cast<double>(palette[j].rows[row][column]);
+            }
+        }
+        const glm::dquat q = nearestRotation(matrix);
+        rotations[j] = glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w));
+    }
+}
+
+std::vector<glm::dvec3> morphOnCpu(const cage::Cage& cage, const cage::Morphs& morphs, std::span<const float> weights) {
+    std::vector<glm::dvec3> positions(cage.positions.begin(), cage.positions.end());
+    for (size_t t = 0; t < morphs.targets.size(); ++t) {
+        const cage::MorphTarget& target = morphs.targets[t];
+        for (size_t i = 0; i < target.vertices.size(); ++i) {
+            positions[target.vertices[i]] += static_cast<double>(weights[t]) * glm::dvec3(target.deltas[i]);
+        }
+    }
+    return positions;
+}
+
+std::vector<glm::dvec3> deformOnCpu(std::span<const glm::dvec3> positions, const cage::SkinWeights& weights,
                                     std::span<const Affine> palette) {
-    std::vector<glm::dvec3> deformed(cage.vertexCount(), glm::dvec3(0.0));
-    for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
-        const glm::dvec4 position(glm::dvec3(cage.positions[v]), 1.0);
+    std::vector<glm::dvec3> deformed(positions.size(), glm::dvec3(0.0));
+    for (size_t v = 0; v < positions.size(); ++v) {
+        const glm::dvec4 position(positions[v], 1.0);
         for (uint32_t i = weights.starts[v]; i < weights.starts[v + 1]; ++i) {
             const Affine& affine = palette[weights.influences[i].joint];
             const glm::dvec3 moved(glm::dot(glm::dvec4(affine.rows[0]), position),
@@ -178,6 +245,12 @@ std::vector<glm::dvec3> deformOnCpu(const cage::Cage& cage, const cage::SkinWeig
         }
     }
     return deformed;
+}
+
+std::vector<glm::dvec3> deformOnCpu(const cage::Cage& cage, const cage::SkinWeights& weights,
+                                    std::span<const Affine> palette) {
+    const std::vector<glm::dvec3> positions(cage.positions.begin(), cage.positions.end());
+    return deformOnCpu(positions, weights, palette);
 }
 
 } // namespace supple::skinning

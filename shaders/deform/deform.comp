@@ -1,13 +1,17 @@
-// Deform pass: linear blend skinning of the control cage. One invocation a cage vertex and instance.
+// Deform pass: morph targets, then skinning of the control cage. One invocation a cage vertex and instance.
+// Whatever feeds the position is `precise`: both mappings must give the same cage, bit for bit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/deform.h"
 #include "shaders/shared/mapping.glsl"
 
+layout(constant_id = 3) const bool kMorphs = false;
+layout(constant_id = 4) const bool kDualQuaternions = false; // else linear blending
+
 layout(set = 0, binding = kDeformTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
 layout(set = 0, binding = kDeformTableTexelBinding) uniform usamplerBuffer tableTexels;
-layout(set = 0, binding = kPaletteBinding, std430) readonly buffer Palette { vec4 paletteRows[]; };
-layout(set = 0, binding = kPaletteTexelBinding) uniform samplerBuffer paletteTexels;
+layout(set = 0, binding = kPoseBinding, std430) readonly buffer Poses { vec4 poseElements[]; };
+layout(set = 0, binding = kPoseTexelBinding) uniform samplerBuffer poseTexels;
 layout(set = 0, binding = kDeformedCageBinding, std430) writeonly buffer DeformedCage { vec4 deformedCage[]; };
 
 layout(push_constant) uniform Push { DeformPush push; };
@@ -16,18 +20,110 @@ uvec4 table(uint i) {
     if (kWide) return tableElements[i];
     return texelFetch(tableTexels, int(i));
 }
-vec4 paletteRow(uint i) {
-    if (kWide) return paletteRows[i];
-    return texelFetch(paletteTexels, int(i));
+vec4 pose(uint i) {
+    if (kWide) return poseElements[i];
+    return texelFetch(poseTexels, int(i));
 }
 
-// weight * (matrix * (p, 1)). `precise`: both mappings must give the same cage, bit for bit.
-vec3 transformed(uint joint, float weight, vec3 p) {
-    vec4 a = paletteRow(3u * joint), b = paletteRow(3u * joint + 1u), c = paletteRow(3u * joint + 2u);
+// The affine matrix whose rows begin at pose element `i`, applied to a point.
+vec3 transformed(uint i, vec3 p) {
+    vec4 a = pose(i), b = pose(i + 1u), c = pose(i + 2u);
     precise vec3 q = vec3((a.x * p.x + a.y * p.y) + (a.z * p.z + a.w), (b.x * p.x + b.y * p.y) + (b.z * p.z + b.w),
                           (c.x * p.x + c.y * p.y) + (c.z * p.z + c.w));
+    return q;
+}
+
+vec3 weighted(uint i, float weight, vec3 p) {
+    precise vec3 q = transformed(i, p);
     precise vec3 r = weight * q;
     return r;
+}
+
+// The rest position with the displacements of elements [first, end); `weights`: first element of the instance's weights.
+vec3 morphed(vec3 rest, uint first, uint end, uint weights) {
+    precise vec3 p = rest;
+    for (uint element = first; element < end; ++element) {
+        uvec4 displacement = table(element);
+        vec4 four = pose(weights + displacement.x / 4u);
+        vec2 two = (displacement.x & 2u) == 0u ? four.xy : four.zw;
+        float weight = (displacement.x & 1u) == 0u ? two.x : two.y;
+        precise vec3 moved = p + weight * uintBitsToFloat(displacement.yzw);
+        // A target at rest leaves the bits alone, also those of -0.
+        p = weight != 0.0 ? moved : p;
+    }
+    return p;
+}
+
+// sum_j weight_j * matrix_j * rest
+vec3 blendedLinearly(vec3 rest, uint first, uint end, uint joints) {
+    precise vec3 p = vec3(0.0);
+    // Tested at the top: in a do-while, Mesa 22.3's lavapipe goes on adding for lanes that have finished.
+    for (uint element = first; element < end; ++element) {
+        uvec4 pair = table(element);
+        precise vec3 a = weighted(joints + kLinearElements * pair.x, uintBitsToFloat(pair.y), rest);
+        precise vec3 b = weighted(joints + kLinearElements * pair.z, uintBitsToFloat(pair.w), rest);
+        p = p + (a + b);
+    }
+    return p;
+}
+
+float sum4(vec4 v) {
+    precise float s = (v.x + v.y) + (v.z + v.w);
+    return s;
+}
+
+vec3 crossed(vec3 a, vec3 b) {
+    precise vec3 c = a.yzx * b.zxy - a.zxy * b.yzx;
+    return c;
+}
+
+// What a joint adds: its rotation, and what it moves the vertex by from the anchor, times its rotation.
+struct Influence {
+    vec4 rotation;
+    vec4 moved;
+};
+Influence influence(uint joint, float weight, vec3 rest, vec3 anchor, vec4 hemisphere) {
+    vec4 rotation = pose(joint + 3u);
+    // q and -q are one rotation; the one on the heaviest joint's side goes the short way.
+    precise vec4 aligned = rotation * hemisphere;
+    precise float signedWeight = sum4(aligned) < 0.0 ? -weight : weight;
+    precise vec3 d = transformed(joint, rest) - anchor;
+    precise vec3 across = crossed(d, rotation.xyz);
+    precise vec3 products = d * rotation.xyz;
+    precise vec4 moved = vec4(rotation.w * d + across, -((products.x + products.y) + products.z));
+    precise Influence result;
+    result.rotation = signedWeight * rotation;
+    result.moved = signedWeight * moved;
+    return result;
+}
+
+// Dual quaternion linear blending (Kavan, Collins, Zara, O'Sullivan: Geometric Skinning with Approximate Dual Quaternion
+// Blending, ACM TOG 27(4), 2008), whose result does not depend on where the origin of the rest space lies: here it lies at
+// the vertex, so that joint j takes the origin to y_j = matrix_j * rest and the blend's translation is the result,
+// vec(sum_j w_j y_j q_j conj(q)) / |q|^2 with q = sum_j w_j q_j. Scale and shear move y_j and leave the rotation q_j alone:
+// the paper's scaling phase with the vertex as the fixed point of every joint's scaling, as Blender has it since its issue
+// 32022; scaled about any other point, neighbors of different scale and rotation pull the vertices between them away.
+// Points are taken from an anchor, the heaviest joint's y: one joint alone gives its matrix times the vertex.
+vec3 blendedAsDualQuaternions(vec3 rest, uint first, uint end, uint joints) {
+    uint heaviest = joints + kDualQuaternionElements * table(first).x;
+    precise vec3 anchor = transformed(heaviest, rest);
+    vec4 hemisphere = pose(heaviest + 3u);
+    precise vec4 q = vec4(0.0);
+    precise vec4 moved = vec4(0.0);
+    for (uint element = first; element < end; ++element) {
+        uvec4 pair = table(element);
+        precise Influence a =
+            influence(joints + kDualQuaternionElements * pair.x, uintBitsToFloat(pair.y), rest, anchor, hemisphere);
+        precise Influence b =
+            influence(joints + kDualQuaternionElements * pair.z, uintBitsToFloat(pair.w), rest, anchor, hemisphere);
+        q = q + (a.rotation + b.rotation);
+        moved = moved + (a.moved + b.moved);
+    }
+    precise vec3 across = crossed(q.xyz, moved.xyz);
+    precise vec3 turned = (q.w * moved.xyz - moved.w * q.xyz) + across;
+    precise vec4 squares = q * q;
+    precise vec3 p = anchor + turned / sum4(squares);
+    return p;
 }
 
 void main() {
@@ -37,16 +133,20 @@ void main() {
     uint index = id - instance * push.vertexCount;
     uvec4 vertex = table(index);
     vec3 rest = uintBitsToFloat(vertex.xyz);
-    uint joints = instance * push.jointCount;
+    uint first = vertex.w, end = table(index + 1u).w;
+    uint joints = instance * push.poseStride;
 
-    uint end = table(index + 1u).w;
-    precise vec3 p = vec3(0.0);
-    // Tested at the top: in a do-while, Mesa 22.3's lavapipe goes on adding for lanes that have finished.
-    for (uint element = vertex.w; element < end; ++element) {
-        uvec4 pair = table(element);
-        precise vec3 first = transformed(joints + pair.x, uintBitsToFloat(pair.y), rest);
-        precise vec3 second = transformed(joints + pair.z, uintBitsToFloat(pair.w), rest);
-        p = p + (first + second);
+    if (kMorphs) {
+        uint influences = table(push.firstInfluences + index / 4u)[index & 3u];
+        rest = morphed(rest, first, influences, joints + push.morphWeights);
+        first = influences;
+    }
+    precise vec3 p;
+    if (kDualQuaternions) {
+        p = blendedAsDualQuaternions(rest, first, end, joints + kDualQuaternionTransform);
+        p = transformed(joints, p);
+    } else {
+        p = blendedLinearly(rest, first, end, joints);
     }
     deformedCage[instance * push.cageStride + index] = vec4(p, 1.0);
 }

@@ -1,8 +1,17 @@
-// The deform pass: push constants and the layout of its static table.
+// The deform pass: push constants, the layout of its static table and of an instance's pose.
 //
-// Table (uvec4 elements): one record a cage vertex and one more, then the influences, two an element.
-//   vertex     (x, y, z as float bits; first influence element); a vertex's influences end where the next one's begin
-//   influences (joint, weight bits, joint, weight bits); an odd list is filled up with weight 0
+// Table (uvec4 elements): one record a cage vertex and one more, then every vertex's run of elements; where the cage has
+// morph targets, four words an element with the first influence of every vertex follow.
+//   vertex     (x, y, z as float bits; first element of its run); a run ends where the next vertex's begins
+//   run        displacements, one an element: (morph target, x, y, z as float bits); then
+//              influences, two an element: (joint, weight bits, joint, weight bits), the heaviest first; an odd list is
+//              filled up with weight 0
+//
+// Pose (vec4 elements, one run of `poseStride` an instance), uploaded every frame:
+//   linear blending    three rows a joint, of its matrix with the instance's transform before it
+//   dual quaternions   three rows of the instance's transform; then four elements a joint: the rows of its matrix, and
+//                      its rotation as a unit quaternion (x, y, z, w)
+//   then, where the cage has morph targets, their weights, four an element
 #ifndef SUPPLE_SHARED_DEFORM_H
 #define SUPPLE_SHARED_DEFORM_H
 
@@ -13,15 +22,21 @@ SUPPLE_SHARED_BEGIN
 // Descriptor bindings, set 0. Every table is bound twice: GPUs load it as a storage buffer, CPU devices as texels.
 SUPPLE_SHARED_CONST kDeformTableBinding = 0u;
 SUPPLE_SHARED_CONST kDeformTableTexelBinding = 1u;
-SUPPLE_SHARED_CONST kPaletteBinding = 2u;
-SUPPLE_SHARED_CONST kPaletteTexelBinding = 3u;
+SUPPLE_SHARED_CONST kPoseBinding = 2u;
+SUPPLE_SHARED_CONST kPoseTexelBinding = 3u;
 SUPPLE_SHARED_CONST kDeformedCageBinding = 4u;
+
+SUPPLE_SHARED_CONST kLinearElements = 3u;          // pose elements a joint
+SUPPLE_SHARED_CONST kDualQuaternionElements = 4u;  // and with dual quaternions,
+SUPPLE_SHARED_CONST kDualQuaternionTransform = 3u; // behind the instance's transform
 
 struct DeformPush {
     uint vertexCount;
     uint instanceCount; // of this window
-    uint jointCount;
-    uint cageStride; // vertices an instance in the deformed cage
+    uint poseStride;
+    uint cageStride;      // vertices an instance in the deformed cage
+    uint morphWeights;    // first element of the weights in an instance's pose
+    uint firstInfluences; // table element of the vertices' first influences
 };
 
 SUPPLE_SHARED_END

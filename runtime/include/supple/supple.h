@@ -44,8 +44,10 @@ extern "C" {
 #define SUPPLE_VERSION_MINOR 1
 #define SUPPLE_VERSION_PATCH 0
 
-#define SUPPLE_BIND_POSE 0xFFFFFFFFu /* clip index that means: the cage as modelled */
+#define SUPPLE_BIND_POSE 0xFFFFFFFFu /* clip index that means: the cage as modelled, without morph targets */
+#define SUPPLE_REST_POSE 0xFFFFFFFEu /* clip index that means: the file's node transforms and morph weights */
 #define SUPPLE_NO_MATERIAL 0xFFFFFFFFu
+#define SUPPLE_NO_JOINT 0xFFFFFFFFu
 #define SUPPLE_MAX_RATE 64u
 #define SUPPLE_MAX_TIMINGS 512u /* entries a frame: passes x groups; what goes beyond is not timed */
 
@@ -201,6 +203,7 @@ typedef struct SuppleAssetInfo {
     uint32_t jointCount;
     uint32_t clipCount;
     uint32_t materialCount;
+    uint32_t morphTargetCount;
     float boundsMin[3]; /* of the rest cage */
     float boundsMax[3];
 } SuppleAssetInfo;
@@ -211,6 +214,19 @@ typedef struct SuppleClipInfo {
     double duration;  /* seconds */
 } SuppleClipInfo;
 
+typedef struct SuppleJointInfo {
+    uint32_t structSize;
+    const char* name; /* lives as long as the asset */
+    uint32_t parent;  /* the nearest joint above it, or SUPPLE_NO_JOINT */
+} SuppleJointInfo;
+
+typedef struct SuppleMorphTargetInfo {
+    uint32_t structSize;
+    const char* name;     /* lives as long as the asset; empty where the file has none */
+    float weight;         /* the file's */
+    uint32_t vertexCount; /* cage vertices it moves */
+} SuppleMorphTargetInfo;
+
 /* Refuses malformed files and arrays. What only a surface cannot take (a non-manifold edge, a face that is no quad) is
  * refused by suppleCreateGroup, so that the cage alone can still be had. */
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
@@ -218,6 +234,14 @@ SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAss
 SUPPLE_API SuppleResult suppleDestroyAsset(SuppleContext context, SuppleAsset asset);
 SUPPLE_API SuppleResult suppleGetAssetInfo(SuppleContext context, SuppleAsset asset, SuppleAssetInfo* out);
 SUPPLE_API SuppleResult suppleGetClipInfo(SuppleContext context, SuppleAsset asset, uint32_t clip, SuppleClipInfo* out);
+/* Joints are numbered as the file's skin numbers them. */
+SUPPLE_API SuppleResult suppleGetJointInfo(SuppleContext context, SuppleAsset asset, uint32_t joint,
+                                           SuppleJointInfo* out);
+SUPPLE_API SuppleResult suppleGetMorphTargetInfo(SuppleContext context, SuppleAsset asset, uint32_t target,
+                                                 SuppleMorphTargetInfo* out);
+/* Sets mask[joint] and mask of every joint below it to value; the others stay. mask has jointCount values. */
+SUPPLE_API SuppleResult suppleFillJointMask(SuppleContext context, SuppleAsset asset, uint32_t joint, float value,
+                                            float* mask, uint32_t jointCount);
 
 /* ---------------------------------------------------------------------------------------------------- groups */
 
@@ -236,6 +260,10 @@ typedef enum SuppleVertexFormat {
 typedef enum SuppleTangentMode { SUPPLE_TANGENTS_DEFAULT = 0, SUPPLE_TANGENTS_PRINTED = 1 } SuppleTangentMode;
 typedef enum SuppleCornerRule { SUPPLE_CORNERS_SHARP = 0, SUPPLE_CORNERS_SMOOTH = 1 } SuppleCornerRule;
 
+/* How joints move the vertices between them. DUAL_QUATERNION keeps the girth of a limb that twists or bends; joints may
+ * scale and shear, and a vertex of one joint moves as with LINEAR. */
+typedef enum SuppleSkinning { SUPPLE_SKINNING_LINEAR = 0, SUPPLE_SKINNING_DUAL_QUATERNION = 1 } SuppleSkinning;
+
 typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,   /* also write the patch coefficients (for inspection) */
     SUPPLE_GROUP_ATTRIBUTES = 2 /* also write the static surface attributes: UV and color */
@@ -252,6 +280,7 @@ typedef struct SuppleGroupDesc {
     SuppleVertexFormat vertexFormat;
     SuppleTangentMode tangentMode;
     SuppleCornerRule cornerRule;
+    SuppleSkinning skinning;
 } SuppleGroupDesc;
 
 /* Instances start in the bind pose with the identity transform. */
@@ -259,11 +288,91 @@ SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGro
 /* The handle is dead at once; memory is freed once the frames that used the group are completed (suppleBeginFrame). */
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
 
-/* Poses an instance from a clip at a time (clamped to the clip), or SUPPLE_BIND_POSE. */
+/* ---------------------------------------------------------------------------------------------------- poses */
+
+/* What crosses to the device each frame: one copy of instanceCount poses. A pose is 48 bytes a joint, or with dual
+ * quaternions 64 bytes a joint and 48 more; and with morph targets 4 bytes a target, rounded up to 16. */
+
+/* Poses an instance from a clip at a time (clamped to the clip), or SUPPLE_BIND_POSE or SUPPLE_REST_POSE. What the clip
+ * does not animate is as in the rest pose. */
 SUPPLE_API SuppleResult suppleSetClipPose(SuppleContext context, SuppleGroup group, uint32_t instance, uint32_t clip,
                                           double time);
+
+typedef enum SuppleLayerMode {
+    SUPPLE_LAYER_BLEND = 0,   /* the pose moves towards the clip's by the weight, 0..1: rotations along the shorter arc,
+                               * all   else straight. Weight 1 replaces the pose, weight 0 leaves it */
+    SUPPLE_LAYER_ADDITIVE = 1 /* what the clip differs by from its own pose at referenceTime is added, times the weight
+                               * (of any size and sign): rotations in the joint's own frame, pose * (reference^-1 *
+                               * clip)^w, scales as factors, translations and morph weights as sums */
+} SuppleLayerMode;
+
+typedef enum SuppleLayerFlags {
+    SUPPLE_LAYER_LOOP = 1 /* times wrap round at the clip's duration; else they are clamped to the clip */
+} SuppleLayerFlags;
+
+/* One clip of a pose. */
+typedef struct SuppleClipLayer {
+    uint32_t clip;
+    uint32_t flags; /* SuppleLayerFlags */
+    SuppleLayerMode mode;
+    float weight;           /* 0 leaves the layer out */
+    double time;            /* seconds */
+    double previousTime;    /* suppleGetRootMotion: the movement from here to time */
+    double referenceTime;   /* additive: 0 is the clip's first pose */
+    const float* jointMask; /* optional: a value a joint, 0..1, that multiplies the weight. Nodes that are no joints
+                             * follow the joint above them, or if there is none the first below */
+    uint32_t jointMaskCount;
+    uint32_t morphMaskCount;
+    const float* morphMask; /* optional: a value a morph target, 0..1; null: 1, but 0 where there is a jointMask */
+} SuppleClipLayer;
+
+/* What of the root's movement is the character's, not the pose's; in model space, where +Y is up. */
+typedef enum SuppleRootMotionFlags {
+    SUPPLE_ROOT_MOTION_GROUND = 1, /* translation along x and z */
+    SUPPLE_ROOT_MOTION_HEIGHT = 2, /* translation along y */
+    SUPPLE_ROOT_MOTION_YAW = 4     /* the turn about +Y */
+} SuppleRootMotionFlags;
+
+typedef enum SupplePoseFlags {
+    SUPPLE_POSE_ROOT_JOINT = 1 /* rootJoint names the root; else it is the topmost node that the clips move */
+} SupplePoseFlags;
+
+/* Layers are applied in order to the rest pose. A crossfade is two layers: the old clip with weight 1, then the new one
+ * with a weight that rises from 0 to 1. */
+typedef struct SupplePoseDesc {
+    uint32_t structSize;
+    uint32_t flags; /* SupplePoseFlags */
+    const SuppleClipLayer* layers;
+    uint32_t layerCount;
+    uint32_t rootMotion; /* SuppleRootMotionFlags: what is taken out of every layer's clip; the root stays where the
+                          * clip starts */
+    uint32_t rootJoint;
+} SupplePoseDesc;
+
+/* The arrays are read during the call. */
+SUPPLE_API SuppleResult suppleSetPose(SuppleContext context, SuppleGroup group, uint32_t instance,
+                                      const SupplePoseDesc* pose);
+
+typedef struct SuppleRootMotion {
+    uint32_t structSize;
+    float translation[3];
+    float yaw;           /* radians about +Y, the shorter way */
+    float transform[16]; /* column-major: turns by yaw, then translates */
+} SuppleRootMotion;
+
+/* How far the root moves under pose from every layer's previousTime to its time, in the frame the character has at
+ * previousTime: an instance placed by T comes to T * transform (suppleSetTransform). Runs on over the ends of looping
+ * clips. Blend layers blend their movements as their poses, by the mask's value at the root; additive layers add
+ * theirs. With the pose set as given, clip and host together move the character as the clip alone did. */
+SUPPLE_API SuppleResult suppleGetRootMotion(SuppleContext context, SuppleAsset asset, const SupplePoseDesc* pose,
+                                            SuppleRootMotion* out);
+
+/* Sets an instance's morph weights (morphTargetCount values), which stand whatever its poses say; null: the poses' own
+ * again. */
+SUPPLE_API SuppleResult suppleSetMorphWeights(SuppleContext context, SuppleGroup group, uint32_t instance,
+                                              const float* weights, uint32_t morphTargetCount);
 /* Poses an instance from the host's own animation: jointCount model-space joint matrices (float[16] each), in the order
- * of the skin's joints; Supple applies the inverse bind matrices. */
+ * of the skin's joints; Supple applies the inverse bind matrices. Morph weights are the file's. */
 SUPPLE_API SuppleResult suppleSetMatrixPose(SuppleContext context, SuppleGroup group, uint32_t instance,
                                             const float* jointMatrices, uint32_t jointCount);
 /* Places an instance: an affine float[16] (last row 0, 0, 0, 1) applied after the pose, so that surface vertices come

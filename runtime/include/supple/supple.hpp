@@ -106,6 +106,25 @@ public:
         out = sized<SuppleAssetInfo>();
         return suppleGetAssetInfo(context_, handle_, &out);
     }
+    [[nodiscard]] SuppleResult clipInfo(uint32_t clip, SuppleClipInfo& out) const {
+        out = sized<SuppleClipInfo>();
+        return suppleGetClipInfo(context_, handle_, clip, &out);
+    }
+    [[nodiscard]] SuppleResult jointInfo(uint32_t joint, SuppleJointInfo& out) const {
+        out = sized<SuppleJointInfo>();
+        return suppleGetJointInfo(context_, handle_, joint, &out);
+    }
+    [[nodiscard]] SuppleResult morphTargetInfo(uint32_t target, SuppleMorphTargetInfo& out) const {
+        out = sized<SuppleMorphTargetInfo>();
+        return suppleGetMorphTargetInfo(context_, handle_, target, &out);
+    }
+    [[nodiscard]] SuppleResult fillJointMask(uint32_t joint, float value, std::span<float> mask) const {
+        return suppleFillJointMask(context_, handle_, joint, value, mask.data(), static_cast<uint32_t>(mask.size()));
+    }
+    [[nodiscard]] SuppleResult rootMotion(const SupplePoseDesc& pose, SuppleRootMotion& out) const {
+        out = sized<SuppleRootMotion>();
+        return suppleGetRootMotion(context_, handle_, &pose, &out);
+    }
 
 private:
     SuppleContext context_ = nullptr;
@@ -145,6 +164,21 @@ public:
     [[nodiscard]] SuppleGroup handle() const { return handle_; }
     [[nodiscard]] SuppleResult setClipPose(uint32_t instance, uint32_t clip, double time) const {
         return suppleSetClipPose(context_, handle_, instance, clip, time);
+    }
+    [[nodiscard]] SuppleResult setPose(uint32_t instance, const SupplePoseDesc& pose) const {
+        return suppleSetPose(context_, handle_, instance, &pose);
+    }
+    /// Crossfades and plain layers without root motion.
+    [[nodiscard]] SuppleResult setPose(uint32_t instance, std::span<const SuppleClipLayer> layers) const {
+        SupplePoseDesc pose = sized<SupplePoseDesc>();
+        pose.layers = layers.data();
+        pose.layerCount = static_cast<uint32_t>(layers.size());
+        return suppleSetPose(context_, handle_, instance, &pose);
+    }
+    /// Empty: the poses' own again.
+    [[nodiscard]] SuppleResult setMorphWeights(uint32_t instance, std::span<const float> weights) const {
+        return suppleSetMorphWeights(context_, handle_, instance, weights.empty() ? nullptr : weights.data(),
+                                     static_cast<uint32_t>(weights.size()));
     }
     [[nodiscard]] SuppleResult setMatrixPose(uint32_t instance, std::span<const float> jointMatrices) const {
         return suppleSetMatrixPose(context_, handle_, instance, jointMatrices.data(),

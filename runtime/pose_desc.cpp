@@ -1,0 +1,120 @@
+#include "runtime/pose_desc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace supple::runtime {
+
+namespace {
+
+static_assert(uint32_t{SUPPLE_ROOT_MOTION_GROUND} == uint32_t{skinning::kRootGround});
+static_assert(uint32_t{SUPPLE_ROOT_MOTION_HEIGHT} == uint32_t{skinning::kRootHeight});
+static_assert(uint32_t{SUPPLE_ROOT_MOTION_YAW} == uint32_t{skinning::kRootYaw});
+constexpr uint32_t kRootFlags = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_HEIGHT | SUPPLE_ROOT_MOTION_YAW;
+
+/// What is wrong with a mask, or null.
+const char* maskFault(const float* mask, uint32_t count, size_t wanted) {
+    if (mask == nullptr) {
+        return count == 0 ? nullptr : "is null, but its count is not 0";
+    }
+    if (count != wanted) {
+        return "has not one value for each";
+    }
+    const bool inside = std::all_of(mask, mask + count, [](float x) { return x >= 0.0f && x <= 1.0f; });
+    return inside ? nullptr : "leaves 0..1";
+}
+
+/// What is wrong with a layer, or an empty string.
+std::string layerFault(const cage::Character& character, const SuppleClipLayer& layer) {
+    if (layer.clip >= character.clips.size()) {
+        return "no such clip";
+    }
+    if (static_cast<uint32_t>(layer.mode) > SUPPLE_LAYER_ADDITIVE) {
+        return "no such mode";
+    }
+    if ((layer.flags & ~uint32_t{SUPPLE_LAYER_LOOP}) != 0) {
+        return "unknown flags";
+    }
+    if (!std::isfinite(layer.time) || !std::isfinite(layer.previousTime) || !std::isfinite(layer.referenceTime)) {
+        return "a time is not finite";
+    }
+    if (!std::isfinite(layer.weight)) {
+        return "weight is not finite";
+    }
+    if (layer.mode == SUPPLE_LAYER_BLEND && (layer.weight < 0.0f || layer.weight > 1.0f)) {
+        return "weight leaves 0..1";
+    }
+    if (const char* fault = maskFault(layer.jointMask, layer.jointMaskCount, character.skin.joints.size())) {
+        return std::string("jointMask ") + fault;
+    }
+    if (const char* fault = maskFault(layer.morphMask, layer.morphMaskCount, character.morphs.targets.size())) {
+        return std::string("morphMask ") + fault;
+    }
+    return {};
+}
+
+} // namespace
+
+Status checkPose(const Asset& asset, const SupplePoseDesc* desc) {
+    const cage::Character& character = asset.character;
+    const auto refuse = [](const std::string& reason) { return Error{ErrorCode::argument, reason}; };
+    if (desc == nullptr || desc->structSize != sizeof(SupplePoseDesc)) {
+        return refuse("pose is null or its structSize is wrong");
+    }
+    if (desc->layerCount > 0 && desc->layers == nullptr) {
+        return refuse("layers is null");
+    }
+    if ((desc->flags & ~uint32_t{SUPPLE_POSE_ROOT_JOINT}) != 0 || (desc->rootMotion & ~kRootFlags) != 0) {
+        return refuse("unknown flags");
+    }
+    if ((desc->flags & SUPPLE_POSE_ROOT_JOINT) != 0) {
+        if (desc->rootJoint >= character.skin.joints.size()) {
+            return refuse("rootJoint: no such joint");
+        }
+        if (character.skeleton.nodes[character.skin.joints[desc->rootJoint]].hasMatrix) {
+            return refuse("rootJoint has a fixed matrix");
+        }
+    }
+    for (uint32_t i = 0; i < desc->layerCount; ++i) {
+        const std::string fault = layerFault(character, desc->layers[i]);
+        if (!fault.empty()) {
+            return refuse("layer " + std::to_string(i) + ": " + fault);
+        }
+    }
+    return success();
+}
+
+skinning::Layer layerOf(const Asset& asset, const SuppleClipLayer& layer) {
+    skinning::Layer result;
+    result.clip = &asset.character.clips[layer.clip];
+    result.time = layer.time;
+    result.previousTime = layer.previousTime;
+    result.referenceTime = layer.referenceTime;
+    result.weight = static_cast<double>(layer.weight);
+    result.mode = layer.mode == SUPPLE_LAYER_ADDITIVE ? skinning::LayerMode::additive : skinning::LayerMode::blend;
+    result.loop = (layer.flags & SUPPLE_LAYER_LOOP) != 0;
+    if (layer.jointMask != nullptr) {
+        result.jointMask = {layer.jointMask, layer.jointMaskCount};
+    }
+    if (layer.morphMask != nullptr) {
+        result.morphMask = {layer.morphMask, layer.morphMaskCount};
+    }
+    return result;
+}
+
+skinning::RootSelection rootSelection(const Asset& asset, const SupplePoseDesc& desc) {
+    const bool named = (desc.flags & SUPPLE_POSE_ROOT_JOINT) != 0;
+    return {named ? asset.character.skin.joints[desc.rootJoint] : asset.rig.root, desc.rootMotion};
+}
+
+skinning::RootMotion rootMotionOf(const Asset& asset, const SupplePoseDesc& desc) {
+    const skinning::RootSelection root = rootSelection(asset, desc);
+    skinning::RootMotion motion;
+    for (uint32_t i = 0; i < desc.layerCount; ++i) {
+        motion = skinning::layerRootMotion(asset.character, asset.rig, layerOf(asset, desc.layers[i]), root, motion);
+    }
+    return motion;
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,20 @@
+// Rotations as unit quaternions, in double.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace supple::skinning {
+
+/// Of unit length; a zero quaternion counts as no rotation.
+[[nodiscard]] glm::dquat unit(const glm::dquat& q);
+
+/// Spherical, along the shorter way; straight where the arc is too short to divide by its sine. t may leave [0, 1].
+[[nodiscard]] glm::dquat slerp(const glm::dquat& a, const glm::dquat& b, double t);
+
+/// The rotation of `matrix`: its polar factor R in matrix = R * S with S symmetric, that is, the nearest rotation. A
+/// mirroring matrix is -R * S: then all of a mirrored skeleton turns alike, whatever it is mirrored at. Where the
+/// matrix is singular, one of the nearest rotations; of a zero matrix, none.
+[[nodiscard]] glm::dquat nearestRotation(const glm::dmat3& matrix);
+
+} // namespace supple::skinning
