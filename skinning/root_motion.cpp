@@ -76,8 +76,11 @@ bool moves(const cage::Channel& channel) {
         return false;
     }
     const size_t width = channel.path == cage::ChannelPath::rotation ? 4 : 3;
-    for (size_t i = width; i < channel.values.size(); ++i) {
-        if (channel.values[i] != channel.values[i - width]) {
+    const bool cubic = channel.interpolation == cage::Interpolation::cubicSpline;
+    for (size_t i = 0; i < channel.values.size(); ++i) {
+        const bool tangent = cubic && i / width % 3 != 1;
+        const float still = tangent ? 0.0f : channel.values[(cubic ? width : 0) + i % width];
+        if (channel.values[i] != still) {
             return true;
         }
     }
