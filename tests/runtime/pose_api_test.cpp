@@ -1,0 +1,520 @@
+// Posing through the public interface: layers, masks, root motion, morph weights; what it refuses, what it allocates
+// and what crosses to the device.
+#include "cage/gltf_reader.h"
+#include "skinning/layers.h"
+#include "tests/support/gpu_surface.h"
+#include "tests/support/posed_group.h"
+#include "tests/support/rigged_tube.h"
+#include "tests/support/wrapped_vulkan.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <glm/gtc/type_ptr.hpp>
+#include <gtest/gtest.h>
+#include <limits>
+#include <new>
+#include <supple/supple.hpp>
+
+namespace {
+bool countingAllocations = false;
+uint64_t allocations = 0;
+} // namespace
+
+// Every allocation of the program passes here; only the test of steady state looks. Not inlined: GCC would take the
+// malloc in the one for a mismatch of the other.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    allocations += countingAllocations ? 1 : 0;
+    if (void* memory = std::malloc(size == 0 ? 1 : size)) {
+        return memory;
+    }
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace supple::test {
+namespace {
+
+const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
+const float kNan = std::numeric_limits<float>::quiet_NaN();
+const double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The demo character in the public interface's hands, and as the reader gives it.
+class PoseApi : public testing::Test {
+protected:
+    void SetUp() override {
+        host::Device* device = testDevice();
+        ASSERT_NE(device, nullptr);
+        host::ContextOptions options;
+        options.printWarnings = false;
+        Result<std::unique_ptr<host::Context>> created = host::Context::create(*device, options);
+        ASSERT_TRUE(created.ok()) << created.error().message;
+        context_ = std::move(*created);
+        std::ifstream file(kPip, std::ios::binary);
+        const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+        SuppleAssetDesc assetDesc{};
+        assetDesc.structSize = sizeof(assetDesc);
+        assetDesc.name = "pip";
+        assetDesc.bytes = bytes.data();
+        assetDesc.byteCount = bytes.size();
+        ASSERT_EQ(suppleCreateAsset(handle(), &assetDesc, &asset), SUPPLE_OK);
+        Result<cage::Character> read = cage::readGltfFile(kPip);
+        ASSERT_TRUE(read.ok());
+        character = std::move(*read);
+        rig = skinning::makeRig(character);
+        info.structSize = sizeof(info);
+        ASSERT_EQ(suppleGetAssetInfo(handle(), asset, &info), SUPPLE_OK);
+        group = makeGroup(SUPPLE_SKINNING_LINEAR);
+    }
+
+    [[nodiscard]] SuppleContext handle() const { return context_->handle(); }
+    [[nodiscard]] SuppleGroup makeGroup(SuppleSkinning skinning) {
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.asset = asset;
+        desc.instanceCount = 3;
+        desc.scheme = SUPPLE_SCHEME_CAGE;
+        desc.skinning = skinning;
+        SuppleGroup result{};
+        EXPECT_EQ(suppleCreateGroup(handle(), &desc, &result), SUPPLE_OK);
+        return result;
+    }
+    /// The cages of all instances as the device has them, without the padding between them.
+    [[nodiscard]] std::vector<std::vector<std::byte>> cages() {
+        EXPECT_TRUE(context_->evaluate({&group, 1}).ok());
+        SuppleGroupOutput output{};
+        output.structSize = sizeof(output);
+        EXPECT_EQ(suppleGetGroupOutput(handle(), group, &output), SUPPLE_OK);
+        const Result<std::vector<std::byte>> bytes = context_->device().readBuffer(output.deformedCage);
+        EXPECT_TRUE(bytes.ok());
+        std::vector<std::vector<std::byte>> result;
+        for (uint32_t i = 0; i < output.instanceCount && bytes.ok(); ++i) {
+            const auto begin = bytes->begin() + static_cast<ptrdiff_t>(16 * size_t{i} * output.cageVerticesPerInstance);
+            result.emplace_back(begin, begin + static_cast<ptrdiff_t>(16 * size_t{output.cageVertexCount}));
+        }
+        return result;
+    }
+    /// The line Supple logged about a refused call.
+    [[nodiscard]] std::string refusal(SuppleResult result) {
+        EXPECT_EQ(result, SUPPLE_ERROR_ARGUMENT);
+        const Status status = context_->check(result, "call");
+        return status.ok() ? std::string() : status.error().message;
+    }
+    static SuppleClipLayer layer(uint32_t clip, double time, float weight = 1.0f) {
+        SuppleClipLayer result{};
+        result.clip = clip;
+        result.time = time;
+        result.weight = weight;
+        return result;
+    }
+    static SupplePoseDesc poseOf(std::span<const SuppleClipLayer> layers) {
+        auto pose = sized<SupplePoseDesc>();
+        pose.layers = layers.data();
+        pose.layerCount = static_cast<uint32_t>(layers.size());
+        return pose;
+    }
+
+    std::unique_ptr<host::Context> context_; ///< declared first: goes last, and frees the rest
+    SuppleAsset asset{};
+    SuppleGroup group{};
+    SuppleAssetInfo info{};
+    cage::Character character;
+    skinning::Rig rig;
+};
+
+TEST_F(PoseApi, TellsJointsAndTargets) {
+    ASSERT_EQ(info.jointCount, character.skin.joints.size());
+    EXPECT_EQ(info.morphTargetCount, character.morphs.targets.size());
+    uint32_t roots = 0;
+    for (uint32_t j = 0; j < info.jointCount; ++j) {
+        auto joint = sized<SuppleJointInfo>();
+        ASSERT_EQ(suppleGetJointInfo(handle(), asset, j, &joint), SUPPLE_OK);
+        EXPECT_EQ(joint.name, character.skeleton.nodes[character.skin.joints[j]].name);
+        if (joint.parent == SUPPLE_NO_JOINT) {
+            ++roots;
+            continue;
+        }
+        ASSERT_LT(joint.parent, info.jointCount);
+        EXPECT_EQ(character.skeleton.nodes[character.skin.joints[j]].parent, character.skin.joints[joint.parent]);
+    }
+    EXPECT_EQ(roots, 1u);
+    auto joint = sized<SuppleJointInfo>();
+    EXPECT_NE(refusal(suppleGetJointInfo(handle(), asset, info.jointCount, &joint)).find("no such joint"),
+              std::string::npos);
+    joint.structSize = 1;
+    EXPECT_NE(refusal(suppleGetJointInfo(handle(), asset, 0, &joint)).find("structSize"), std::string::npos);
+    EXPECT_NE(refusal(suppleGetJointInfo(handle(), SuppleAsset{77}, 0, &joint)).find("asset handle"),
+              std::string::npos);
+    auto target = sized<SuppleMorphTargetInfo>();
+    EXPECT_NE(refusal(suppleGetMorphTargetInfo(handle(), asset, info.morphTargetCount, &target)).find("no such morph"),
+              std::string::npos);
+    EXPECT_NE(refusal(suppleGetMorphTargetInfo(handle(), asset, 0, nullptr)).find("null"), std::string::npos);
+}
+
+TEST_F(PoseApi, EndsOfACrossfadeAreTheClips) {
+    const ValidationGuard guard;
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 0, 0, 0.4), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, 1, 0.9), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 2, SUPPLE_REST_POSE, 0.0), SUPPLE_OK);
+    const auto clips = cages();
+    const SuppleClipLayer alone[] = {layer(0, 0.4)};
+    const SuppleClipLayer begin[] = {layer(0, 0.4), layer(1, 0.9, 0.0f)};
+    const SuppleClipLayer end[] = {layer(0, 0.4), layer(1, 0.9, 1.0f)};
+    const SuppleClipLayer between[] = {layer(0, 0.4), layer(1, 0.9, 0.5f)};
+    const auto set = [&](uint32_t instance, std::span<const SuppleClipLayer> layers) {
+        const SupplePoseDesc pose = poseOf(layers);
+        ASSERT_EQ(suppleSetPose(handle(), group, instance, &pose), SUPPLE_OK);
+    };
+    set(0, alone);
+    set(1, end);
+    set(2, {});
+    EXPECT_TRUE(cages() == clips) << "one layer; weight 1; no layers";
+    set(0, begin);
+    EXPECT_TRUE(cages()[0] == clips[0]) << "weight 0";
+    set(0, between);
+    EXPECT_FALSE(cages()[0] == clips[0]);
+    EXPECT_FALSE(cages()[0] == clips[1]);
+}
+
+TEST_F(PoseApi, LayersAreThoseOfTheSkinningFloor) {
+    const ValidationGuard guard;
+    std::vector<float> mask(info.jointCount, 0.0f);
+    ASSERT_EQ(suppleFillJointMask(handle(), asset, info.jointCount / 3, 1.0f, mask.data(), info.jointCount), SUPPLE_OK);
+    SuppleClipLayer layers[] = {layer(0, 7.3), layer(1, -0.2, 0.6f), layer(2, 1.3, -0.8f)};
+    layers[0].flags = SUPPLE_LAYER_LOOP;
+    layers[1].jointMask = mask.data();
+    layers[1].jointMaskCount = info.jointCount;
+    layers[2].mode = SUPPLE_LAYER_ADDITIVE;
+    layers[2].referenceTime = 0.4;
+    SupplePoseDesc pose = poseOf(layers);
+    pose.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
+    pose.flags = SUPPLE_POSE_ROOT_JOINT;
+    pose.rootJoint = 1;
+    ASSERT_EQ(suppleSetPose(handle(), group, 1, &pose), SUPPLE_OK);
+
+    skinning::Pose wanted;
+    skinning::LayerScratch scratch;
+    skinning::restPose(character, wanted);
+    const skinning::RootSelection root{character.skin.joints[1], skinning::kRootGround | skinning::kRootYaw};
+    for (const SuppleClipLayer& own : layers) {
+        skinning::Layer l;
+        l.clip = &character.clips[own.clip];
+        l.time = own.time;
+        l.weight = static_cast<double>(own.weight);
+        l.referenceTime = own.referenceTime;
+        l.mode = own.mode == SUPPLE_LAYER_ADDITIVE ? skinning::LayerMode::additive : skinning::LayerMode::blend;
+        l.loop = own.flags == SUPPLE_LAYER_LOOP;
+        l.jointMask = {own.jointMask, own.jointMaskCount};
+        applyLayer(character, rig, l, root, scratch, wanted);
+    }
+    std::vector<glm::mat4> nodes(character.skeleton.nodes.size());
+    skinning::localMatrices(character.skeleton, wanted, nodes);
+    skinning::globalTransforms(character.skeleton, nodes, nodes);
+    std::vector<skinning::Affine> palette(info.jointCount);
+    skinning::jointPalette(character.skin, nodes, glm::mat4(1.0f), palette);
+    const std::vector<glm::dvec3> deformed = skinning::deformOnCpu(character.cage, character.weights, palette);
+    const std::vector<std::byte> cage = cages()[1];
+    double worst = 0.0;
+    for (uint32_t v = 0; v < info.cageVertexCount; ++v) {
+        glm::vec3 p;
+        std::memcpy(&p, cage.data() + 16 * size_t{v}, 12);
+        worst = std::max(worst, glm::length(glm::dvec3(p) - deformed[v]));
+    }
+    EXPECT_LT(worst, 1e-5);
+}
+
+TEST_F(PoseApi, DualQuaternionsAreASwitchOfTheGroup) {
+    const ValidationGuard guard;
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, 2, 1.1), SUPPLE_OK);
+    const auto linear = cages();
+    ASSERT_EQ(suppleDestroyGroup(handle(), group), SUPPLE_OK);
+    group = makeGroup(SUPPLE_SKINNING_DUAL_QUATERNION);
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, 2, 1.1), SUPPLE_OK);
+    const auto dual = cages();
+    for (uint32_t v = 0; v < info.cageVertexCount; ++v) {
+        ASSERT_EQ(std::memcmp(dual[0].data() + 16 * size_t{v}, &character.cage.positions[v], 12), 0)
+            << "the bind pose is the cage, whatever the weights add up to";
+    }
+    EXPECT_FALSE(linear[1] == dual[1]);
+}
+
+TEST_F(PoseApi, RootMotionIsReported) {
+    // A foot, taken for the root: it moves in all directions.
+    uint32_t foot = 0;
+    for (uint32_t j = 0; j < info.jointCount; ++j) {
+        foot = character.skeleton.nodes[character.skin.joints[j]].name.find("foot") != std::string::npos ? j : foot;
+    }
+    ASSERT_NE(foot, 0u);
+    SuppleClipLayer walk = layer(1, 1e3 + 0.9);
+    walk.previousTime = 1e3 + 0.2;
+    walk.flags = SUPPLE_LAYER_LOOP;
+    SupplePoseDesc pose = poseOf({&walk, 1});
+    pose.flags = SUPPLE_POSE_ROOT_JOINT;
+    pose.rootJoint = foot;
+    pose.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_HEIGHT | SUPPLE_ROOT_MOTION_YAW;
+    auto motion = sized<SuppleRootMotion>();
+    ASSERT_EQ(suppleGetRootMotion(handle(), asset, &pose, &motion), SUPPLE_OK);
+    const skinning::RootMotion wanted =
+        skinning::rootMotionBetween(character, character.clips[1], {character.skin.joints[foot], pose.rootMotion},
+                                    walk.previousTime, walk.time, true);
+    EXPECT_GT(glm::length(wanted.translation), 0.05);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_FLOAT_EQ(motion.translation[axis], static_cast<float>(wanted.translation[axis]));
+        EXPECT_EQ(motion.transform[12 + axis], motion.translation[axis]);
+    }
+    EXPECT_FLOAT_EQ(motion.yaw, static_cast<float>(wanted.yaw));
+    EXPECT_FLOAT_EQ(motion.transform[0], std::cos(motion.yaw));
+    EXPECT_FLOAT_EQ(motion.transform[8], std::sin(motion.yaw));
+    EXPECT_EQ(suppleSetTransform(handle(), group, 0, motion.transform), SUPPLE_OK) << "it is a transform";
+    // Nothing asked for, nothing moves; the automatic root of clips that walk on the spot comes back after a loop.
+    pose.rootMotion = 0;
+    ASSERT_EQ(suppleGetRootMotion(handle(), asset, &pose, &motion), SUPPLE_OK);
+    EXPECT_EQ(motion.translation[0], 0.0f);
+    EXPECT_EQ(motion.transform[0], 1.0f);
+    pose.flags = 0;
+    pose.rootMotion = SUPPLE_ROOT_MOTION_GROUND;
+    walk.previousTime = walk.time - character.clips[1].duration;
+    ASSERT_EQ(suppleGetRootMotion(handle(), asset, &pose, &motion), SUPPLE_OK);
+    EXPECT_NEAR(motion.translation[2], 0.0f, 1e-6f);
+
+    motion.structSize = 3;
+    EXPECT_NE(refusal(suppleGetRootMotion(handle(), asset, &pose, &motion)).find("structSize"), std::string::npos);
+    EXPECT_NE(refusal(suppleGetRootMotion(handle(), asset, &pose, nullptr)).find("null"), std::string::npos);
+    motion.structSize = sizeof(motion);
+    EXPECT_NE(refusal(suppleGetRootMotion(handle(), asset, nullptr, &motion)).find("null"), std::string::npos);
+    walk.time = kInfinity;
+    EXPECT_NE(refusal(suppleGetRootMotion(handle(), asset, &pose, &motion)).find("layer 0"), std::string::npos);
+}
+
+TEST_F(PoseApi, WrongPosesAreRefusedByNameAndChangeNothing) {
+    const ValidationGuard guard;
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 0, 1, 0.5), SUPPLE_OK);
+    const auto before = cages();
+    const std::vector<float> mask(info.jointCount + 1, 0.5f), outside(info.jointCount, 1.5f),
+        nan(info.jointCount, kNan);
+    struct Pose {
+        SuppleClipLayer layers[2] = {layer(0, 0.1), layer(1, 0.2, 0.5f)};
+        SupplePoseDesc desc = poseOf(layers);
+    };
+    struct Case {
+        std::function<void(Pose&)> spoil;
+        const char* reason;
+    };
+    const Case cases[] = {
+        {[](Pose& p) { p.desc.structSize = 4; }, "structSize"},
+        {[](Pose& p) { p.desc.layers = nullptr; }, "layers is null"},
+        {[](Pose& p) { p.desc.flags = 8; }, "unknown flags"},
+        {[](Pose& p) { p.desc.rootMotion = 8; }, "unknown flags"},
+        {[&](Pose& p) {
+             p.desc.flags = SUPPLE_POSE_ROOT_JOINT;
+             p.desc.rootJoint = info.jointCount;
+         },
+         "rootJoint: no such joint"},
+        {[](Pose& p) { p.layers[1].clip = 3; }, "layer 1: no such clip"},
+        {[](Pose& p) { p.layers[1].clip = SUPPLE_REST_POSE; }, "layer 1: no such clip"},
+        {[](Pose& p) { p.layers[0].mode = static_cast<SuppleLayerMode>(2); }, "layer 0: no such mode"},
+        {[](Pose& p) { p.layers[0].flags = 2; }, "layer 0: unknown flags"},
+        {[](Pose& p) { p.layers[0].time = kInfinity; }, "layer 0: a time is not finite"},
+        {[](Pose& p) { p.layers[0].previousTime = -kInfinity; }, "layer 0: a time is not finite"},
+        {[](Pose& p) { p.layers[0].referenceTime = std::nan(""); }, "layer 0: a time is not finite"},
+        {[](Pose& p) { p.layers[1].weight = kNan; }, "layer 1: weight is not finite"},
+        {[](Pose& p) { p.layers[1].weight = 1.01f; }, "layer 1: weight leaves 0..1"},
+        {[](Pose& p) { p.layers[1].weight = -0.01f; }, "layer 1: weight leaves 0..1"},
+        {[&](Pose& p) {
+             p.layers[1].jointMask = mask.data();
+             p.layers[1].jointMaskCount = info.jointCount + 1;
+         },
+         "layer 1: jointMask has not one value for each"},
+        {[&](Pose& p) { p.layers[1].jointMaskCount = info.jointCount; }, "layer 1: jointMask is null"},
+        {[&](Pose& p) {
+             p.layers[1].jointMask = outside.data();
+             p.layers[1].jointMaskCount = info.jointCount;
+         },
+         "layer 1: jointMask leaves 0..1"},
+        {[&](Pose& p) {
+             p.layers[1].jointMask = nan.data();
+             p.layers[1].jointMaskCount = info.jointCount;
+         },
+         "layer 1: jointMask leaves 0..1"},
+        {[&](Pose& p) {
+             p.layers[1].morphMask = mask.data();
+             p.layers[1].morphMaskCount = info.morphTargetCount + 1;
+         },
+         "layer 1: morphMask has not one value for each"},
+    };
+    for (const Case& c : cases) {
+        Pose pose;
+        c.spoil(pose);
+        const std::string line = refusal(suppleSetPose(handle(), group, 0, &pose.desc));
+        EXPECT_NE(line.find("suppleSetPose: "), std::string::npos) << line;
+        EXPECT_NE(line.find(c.reason), std::string::npos) << line;
+    }
+    const Pose good;
+    EXPECT_NE(refusal(suppleSetPose(handle(), group, 0, nullptr)).find("pose is null"), std::string::npos);
+    EXPECT_NE(refusal(suppleSetPose(handle(), group, 3, &good.desc)).find("instance 3 of 3"), std::string::npos);
+    EXPECT_NE(refusal(suppleSetPose(handle(), SuppleGroup{99}, 0, &good.desc)).find("group handle"), std::string::npos);
+    EXPECT_NE(refusal(suppleSetClipPose(handle(), group, 0, 0, kInfinity)).find("not finite"), std::string::npos);
+
+    const float weights[] = {0.5f, kNan};
+    EXPECT_NE(
+        refusal(suppleSetMorphWeights(handle(), group, 0, weights, info.morphTargetCount + 1)).find("not the asset's"),
+        std::string::npos);
+    EXPECT_EQ(suppleSetMorphWeights(handle(), group, 0, nullptr, 12), SUPPLE_OK) << "null needs no count";
+    EXPECT_EQ(suppleSetMorphWeights(handle(), group, 0, weights, 0), SUPPLE_OK) << "no targets, no weights";
+
+    std::vector<float> written(info.jointCount, 0.25f);
+    EXPECT_NE(refusal(suppleFillJointMask(handle(), asset, 0, 1.0f, nullptr, info.jointCount)).find("null"),
+              std::string::npos);
+    EXPECT_NE(refusal(suppleFillJointMask(handle(), asset, 0, 1.0f, written.data(), 1)).find("jointCount"),
+              std::string::npos);
+    EXPECT_NE(refusal(suppleFillJointMask(handle(), asset, info.jointCount, 1.0f, written.data(), info.jointCount))
+                  .find("joint"),
+              std::string::npos);
+    EXPECT_NE(refusal(suppleFillJointMask(handle(), asset, 0, kNan, written.data(), info.jointCount)).find("0..1"),
+              std::string::npos);
+    EXPECT_EQ(written, std::vector<float>(info.jointCount, 0.25f));
+
+    auto groupDesc = sized<SuppleGroupDesc>();
+    groupDesc.asset = asset;
+    groupDesc.instanceCount = 1;
+    groupDesc.skinning = static_cast<SuppleSkinning>(2);
+    SuppleGroup none{};
+    EXPECT_NE(refusal(suppleCreateGroup(handle(), &groupDesc, &none)).find("no such skinning"), std::string::npos);
+    EXPECT_TRUE(cages() == before);
+}
+
+TEST_F(PoseApi, PosingAllocatesNothing) {
+    std::vector<float> mask(info.jointCount, 0.5f);
+    SuppleClipLayer layers[] = {layer(0, 0.0), layer(1, 0.0, 0.6f), layer(2, 0.0, 0.8f)};
+    layers[1].jointMask = mask.data();
+    layers[1].jointMaskCount = info.jointCount;
+    layers[1].flags = SUPPLE_LAYER_LOOP;
+    layers[2].mode = SUPPLE_LAYER_ADDITIVE;
+    SupplePoseDesc pose = poseOf(layers);
+    pose.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
+    auto motion = sized<SuppleRootMotion>();
+    const SuppleGroup groups[] = {group, makeGroup(SUPPLE_SKINNING_DUAL_QUATERNION)};
+    bool good = true;
+    allocations = 0;
+    countingAllocations = true;
+    for (int i = 0; i < 100; ++i) {
+        for (SuppleClipLayer& own : layers) {
+            own.previousTime = own.time;
+            own.time += 0.05;
+        }
+        for (const SuppleGroup& own : groups) {
+            good = good && suppleSetPose(handle(), own, 0, &pose) == SUPPLE_OK;
+            good = good && suppleSetClipPose(handle(), own, 1, 1, 0.05 * i) == SUPPLE_OK;
+            good = good && suppleSetClipPose(handle(), own, 2, SUPPLE_REST_POSE, 0.0) == SUPPLE_OK;
+            good = good && suppleSetMorphWeights(handle(), own, 2, nullptr, 0) == SUPPLE_OK;
+        }
+        good = good && suppleGetRootMotion(handle(), asset, &pose, &motion) == SUPPLE_OK;
+        good = good && suppleFillJointMask(handle(), asset, 1, 0.01f * static_cast<float>(i), mask.data(),
+                                           info.jointCount) == SUPPLE_OK;
+    }
+    countingAllocations = false;
+    EXPECT_TRUE(good);
+    EXPECT_EQ(allocations, 0u);
+    countingAllocations = true;
+    ::operator delete(::operator new(1)); // and the count counts
+    countingAllocations = false;
+    EXPECT_GE(allocations, 1u);
+}
+
+TEST_F(PoseApi, TheCppLayerPosesToo) {
+    const ValidationGuard guard;
+    supple::Context context;
+    auto contextDesc = sized<SuppleContextDesc>();
+    host::Device& device = *testDevice();
+    contextDesc.instance = device.instance();
+    contextDesc.physicalDevice = device.physicalDevice();
+    contextDesc.device = device.handle();
+    contextDesc.queueFamily = device.queueFamily();
+    contextDesc.getInstanceProcAddr = device.getInstanceProcAddr();
+    ASSERT_EQ(supple::Context::create(contextDesc, context), SUPPLE_OK);
+    std::ifstream file(kPip, std::ios::binary);
+    const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    auto assetDesc = sized<SuppleAssetDesc>();
+    assetDesc.bytes = bytes.data();
+    assetDesc.byteCount = bytes.size();
+    supple::Asset own;
+    ASSERT_EQ(supple::Asset::create(context, assetDesc, own), SUPPLE_OK);
+    auto groupDesc = sized<SuppleGroupDesc>();
+    groupDesc.asset = own.handle();
+    groupDesc.instanceCount = 1;
+    groupDesc.skinning = SUPPLE_SKINNING_DUAL_QUATERNION;
+    supple::Group dual;
+    ASSERT_EQ(supple::Group::create(context, groupDesc, dual), SUPPLE_OK);
+
+    SuppleClipInfo clip;
+    EXPECT_EQ(own.clipInfo(1, clip), SUPPLE_OK);
+    EXPECT_EQ(clip.name, character.clips[1].name);
+    SuppleJointInfo joint;
+    EXPECT_EQ(own.jointInfo(0, joint), SUPPLE_OK);
+    SuppleMorphTargetInfo target;
+    EXPECT_EQ(own.morphTargetInfo(0, target), SUPPLE_ERROR_ARGUMENT) << "it has none";
+    std::vector<float> mask(info.jointCount);
+    EXPECT_EQ(own.fillJointMask(0, 1.0f, mask), SUPPLE_OK);
+    EXPECT_EQ(mask, std::vector<float>(info.jointCount, 1.0f)) << "joint 0 is the root of all";
+    SuppleClipLayer layers[] = {layer(0, 0.1), layer(1, 0.2, 0.5f)};
+    layers[1].jointMask = mask.data();
+    layers[1].jointMaskCount = info.jointCount;
+    EXPECT_EQ(dual.setPose(0, layers), SUPPLE_OK);
+    EXPECT_EQ(dual.setPose(0, poseOf(layers)), SUPPLE_OK);
+    EXPECT_EQ(dual.setMorphWeights(0, {}), SUPPLE_OK);
+    SuppleRootMotion motion;
+    EXPECT_EQ(own.rootMotion(poseOf(layers), motion), SUPPLE_OK);
+    EXPECT_EQ(motion.transform[15], 1.0f);
+}
+
+TEST(PoseUpload, OneCopyOfPosesAFrame) {
+    struct Case {
+        SuppleSkinning skinning;
+        uint32_t targets;
+        uint64_t bytes; ///< an instance
+    };
+    // Three joints. Targets 2 and 5 of six move nothing; their weights are uploaded all the same.
+    const Case cases[] = {{SUPPLE_SKINNING_LINEAR, 0, 3 * 48},
+                          {SUPPLE_SKINNING_LINEAR, 6, 3 * 48 + 2 * 16},
+                          {SUPPLE_SKINNING_DUAL_QUATERNION, 0, 48 + 3 * 64},
+                          {SUPPLE_SKINNING_DUAL_QUATERNION, 4, 48 + 3 * 64 + 16}};
+    wrappedVulkan();
+    host::DeviceOptions deviceOptions;
+    deviceOptions.validation = true;
+    deviceOptions.suppleGetInstanceProcAddr = &wrappedGetInstanceProcAddr;
+    Result<std::unique_ptr<host::Device>> device = host::Device::create(deviceOptions);
+    ASSERT_TRUE(device.ok()) << device.error().message;
+    {
+        PosedContext context(**device, SUPPLE_MAPPING_AUTO);
+        constexpr uint32_t kInstances = 5;
+        for (const Case& c : cases) {
+            PosedGroup gpu(context, riggedTube({.morphTargets = c.targets}), {c.skinning, kInstances});
+            ASSERT_TRUE(gpu.valid());
+            gpu.deform(); // the first frame uploads the static tables
+            const std::vector<float> weights(c.targets, 0.5f);
+            for (int frame = 0; frame < 3; ++frame) {
+                const WrappedVulkan& counts = wrappedVulkan();
+                gpu.poses().setMorphWeights(1, weights.data());
+                gpu.deform();
+                EXPECT_EQ(counts.copies, 1u);
+                EXPECT_EQ(counts.copiedBytes, kInstances * c.bytes);
+                EXPECT_EQ(counts.maps + counts.updates + counts.fills + counts.invalidates, 0u);
+                EXPECT_LE(counts.flushes, 1u);
+            }
+            std::printf("%s, %u morph targets: %llu bytes a pose of 3 joints\n",
+                        c.skinning == SUPPLE_SKINNING_LINEAR ? "linear" : "dual quaternions", c.targets,
+                        static_cast<unsigned long long>(c.bytes));
+        }
+    }
+    EXPECT_EQ((*device)->validationMessageCount(), 0u);
+}
+
+} // namespace
+} // namespace supple::test

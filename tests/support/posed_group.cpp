@@ -1,0 +1,77 @@
+#include "tests/support/posed_group.h"
+
+#include <cstring>
+#include <gtest/gtest.h>
+
+namespace supple::test {
+
+PosedContext::PosedContext(host::Device& device, SuppleMapping mapping) : device(device) {
+    SuppleContextDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.instance = device.instance();
+    desc.physicalDevice = device.physicalDevice();
+    desc.device = device.handle();
+    desc.queueFamily = device.queueFamily();
+    desc.getInstanceProcAddr = device.getInstanceProcAddr();
+    desc.mapping = mapping;
+    Result<std::unique_ptr<runtime::Context>> created = runtime::Context::create(desc);
+    EXPECT_TRUE(created.ok()) << created.error().message;
+    context = created ? std::move(*created) : nullptr;
+}
+
+PosedGroup::PosedGroup(PosedContext& context, cage::Character character, const PosedOptions& options)
+    : shared_(context) {
+    create(std::move(character), options);
+}
+
+PosedGroup::~PosedGroup() {
+    group_ = nullptr;
+    if (handle_.id != 0) {
+        EXPECT_TRUE(shared_.context->destroyGroup(handle_.id));
+    }
+    if (assetId_ != 0) {
+        EXPECT_NE(shared_.context->assets.remove(assetId_), nullptr);
+    }
+}
+
+void PosedGroup::create(cage::Character character, const PosedOptions& options) {
+    ASSERT_NE(shared_.context, nullptr);
+    const Result<uint64_t> asset = shared_.context->createAsset(std::move(character));
+    ASSERT_TRUE(asset.ok()) << asset.error().message;
+    assetId_ = *asset;
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.asset = {assetId_};
+    desc.instanceCount = options.instanceCount;
+    desc.scheme = SUPPLE_SCHEME_CAGE;
+    desc.skinning = options.skinning;
+    const Result<uint64_t> group = shared_.context->createGroup(desc);
+    ASSERT_TRUE(group.ok()) << group.error().message;
+    handle_ = {*group};
+    group_ = shared_.context->groups.find(*group);
+}
+
+void PosedGroup::deform() {
+    ASSERT_TRUE(valid());
+    SuppleRecordDesc record{};
+    record.structSize = sizeof(record);
+    record.groups = &handle_;
+    record.groupCount = 1;
+    record.after = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+    ++shared_.frame;
+    ASSERT_TRUE(shared_.context->beginFrame(shared_.frame, shared_.frame - 1).ok());
+    const Status submitted = shared_.device.submitAndWait(
+        [&](VkCommandBuffer commands) { EXPECT_TRUE(shared_.context->record(commands, record).ok()); });
+    ASSERT_TRUE(submitted.ok()) << submitted.error().message;
+    const SuppleGroupOutput& output = group_->output();
+    const Result<std::vector<std::byte>> bytes = shared_.device.readBuffer(output.deformedCage);
+    ASSERT_TRUE(bytes.ok());
+    cages_.assign(output.instanceCount, std::vector<glm::vec3>(output.cageVertexCount));
+    for (uint32_t i = 0; i < output.instanceCount; ++i) {
+        for (uint32_t v = 0; v < output.cageVertexCount; ++v) {
+            std::memcpy(&cages_[i][v], bytes->data() + 16 * (size_t{i} * output.cageVerticesPerInstance + v), 12);
+        }
+    }
+}
+
+} // namespace supple::test
