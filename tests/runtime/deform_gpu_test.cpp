@@ -4,6 +4,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/posed_group.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/spirv_precise.h"
 #include "tests/support/wrapped_vulkan.h"
 
 #include <array>
@@ -416,6 +417,17 @@ TEST_F(DeformOnGpu, LargeGroupsAreWindowsOfInstances) {
         for (uint32_t i = 0; i < kInstances; ++i) {
             EXPECT_TRUE(sameBits(cages[0][i], cages[1][i])) << "mapping " << mapping << ", instance " << i;
         }
+    }
+}
+
+TEST(DeformShader, EveryHelperMustBePrecise) {
+    // What makes the mappings agree: the static check must see `precise` go from any helper on the way to the position.
+    for (const char* helper : {"transformed", "weighted", "morphed", "blendedLinearly", "sum4", "crossed", "influence",
+                               "blendedAsDualQuaternions"}) {
+        const std::vector<uint32_t> spirv = compileShader("deform/deform.comp", helper);
+        ASSERT_FALSE(spirv.empty());
+        uint32_t checked = 0;
+        EXPECT_FALSE(imprecisePositionArithmetic(spirv, "p", checked).empty()) << helper;
     }
 }
 
