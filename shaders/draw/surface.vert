@@ -5,6 +5,7 @@
 #include "shaders/draw/surface_input.glsl"
 
 layout(set = 1, binding = kSurfaceAttributeBinding, std430) readonly buffer Attributes { uvec4 attributes[]; };
+layout(set = 1, binding = kSurfaceUv1Binding, std430) readonly buffer Uvs1 { vec2 uvs1[]; };
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
@@ -46,7 +47,7 @@ void main() {
     outColor = vec4(1.0);
     if ((push.flags & kDrawAttributes) != 0u) {
         uvec4 packed = attributes[surfaceVertex()];
-        outUv = uintBitsToFloat(packed.xy);
+        outUv = (push.flags & kDrawUv1) != 0u ? uvs1[surfaceVertex()] : uintBitsToFloat(packed.xy);
         outColor = vec4(unpackUnorm2x16(packed.z), unpackUnorm2x16(packed.w));
     }
     outSky = vec3(0.0);

@@ -25,6 +25,7 @@ SUPPLE_SHARED_CONST kPatchClassBinding = 2u;
 SUPPLE_SHARED_CONST kDeformedCageBinding = 3u;
 SUPPLE_SHARED_CONST kCageCornerBinding = 4u;
 SUPPLE_SHARED_CONST kCageEdgeBinding = 5u;
+SUPPLE_SHARED_CONST kSurfaceUv1Binding = 6u;
 // Set 2, the material.
 SUPPLE_SHARED_CONST kBaseColorBinding = 0u;
 
@@ -49,6 +50,7 @@ SUPPLE_SHARED_CONST kDrawDoubleSided = 2u;  // back faces are meant to be seen
 SUPPLE_SHARED_CONST kDrawMask = 4u;         // alpha below the cutoff is a hole
 SUPPLE_SHARED_CONST kDrawTranslucent = 8u;  // alpha is coverage
 SUPPLE_SHARED_CONST kDrawAttributes = 16u;  // the group has UV and color
+SUPPLE_SHARED_CONST kDrawUv1 = 32u;         // the material's texture lies on the second UV set
 
 // Which part of the rig a light belongs to; in Light::color.w.
 SUPPLE_SHARED_CONST kLightKey = 0u;

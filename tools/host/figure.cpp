@@ -114,10 +114,14 @@ Status Figure::uploadCage() {
         if (cageRanges_.empty() || cageRanges_.back().material != materialOf(face))
             cageRanges_.push_back({static_cast<uint32_t>(corners.size()), 0, materialOf(face)});
         const uint32_t start = cage.faceStarts[face];
+        const uint32_t material = materialOf(face);
+        const bool second =
+            material < character_.materials.size() && character_.materials[material].baseColorUvSet == 1;
+        const std::vector<glm::vec2>& uvs = second ? cage.cornerUvs1 : cage.cornerUvs;
         for (uint32_t i = 1; i + 1 < cage.sides(face); ++i) {
             for (const uint32_t corner : {start, start + i, start + i + 1}) {
                 const glm::vec4 color = cage.cornerColors.empty() ? glm::vec4(1.0f) : cage.cornerColors[corner];
-                const glm::vec2 uv = cage.cornerUvs.empty() ? glm::vec2(0.0f) : cage.cornerUvs[corner];
+                const glm::vec2 uv = uvs.empty() ? glm::vec2(0.0f) : uvs[corner];
                 corners.push_back(
                     {cage.faceVertices[corner], lists + start, cage.sides(face), glm::packUnorm4x8(color), uv.x, uv.y});
             }

@@ -67,6 +67,7 @@ struct GroupOptions {
     SuppleScheme scheme = SUPPLE_SCHEME_AUTO;
     uint32_t rate = 8;
     SuppleVertexFormat vertexFormat = SUPPLE_VERTEX_16;
+    SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR;
 };
 
 /// A Supple group with what drawing it needs besides Supple's buffers. May be destroyed only when no pending frame uses

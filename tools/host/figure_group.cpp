@@ -50,6 +50,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     desc.scheme = options.scheme;
     desc.rate = options.rate;
     desc.vertexFormat = options.vertexFormat;
+    desc.skinning = options.skinning;
     if (const Status status =
             context.check(suppleCreateGroup(context.handle(), &desc, &group->group_), "suppleCreateGroup");
         !status)

@@ -55,6 +55,8 @@ void applyMaterial(const cage::Character& character, uint32_t index, shared::Dra
     const cage::Material& material = character.materials[index];
     push.baseColor = material.baseColorFactor;
     push.alphaCutoff = material.alphaCutoff;
+    if (material.baseColorUvSet == 1 && !character.cage.cornerUvs1.empty())
+        push.flags |= shared::kDrawUv1;
     if (material.doubleSided)
         push.flags |= shared::kDrawDoubleSided;
     if (material.alphaMode == cage::AlphaMode::mask)
@@ -216,7 +218,7 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
 Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
     const Figure& figure = group.figure();
     const auto materialCount = static_cast<uint32_t>(figure.baseColors().size());
-    constexpr uint32_t kFigureBuffers = 6;
+    constexpr uint32_t kFigureBuffers = 7;
     FigureBinding binding;
     binding.device_ = device_.handle();
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers},
@@ -247,12 +249,14 @@ Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
     const auto wholeInfo = [](const Buffer& buffer) {
         return VkDescriptorBufferInfo{buffer.handle(), 0, VK_WHOLE_SIZE};
     };
-    // Without attributes the shader does not look at them; something valid has to be bound all the same.
-    const SuppleBufferView& attributes =
-        output.attributes.buffer != VK_NULL_HANDLE ? output.attributes : output.surfaceVertices;
+    // What the group is without the shaders do not look at; something valid has to be bound all the same.
+    const auto orCage = [&](const SuppleBufferView& view) {
+        return viewInfo(view.buffer != VK_NULL_HANDLE ? view : output.deformedCage);
+    };
     const std::pair<uint32_t, VkDescriptorBufferInfo> buffers[kFigureBuffers] = {
-        {shared::kSurfaceVertexBinding, viewInfo(output.surfaceVertices)},
-        {shared::kSurfaceAttributeBinding, viewInfo(attributes)},
+        {shared::kSurfaceVertexBinding, orCage(output.surfaceVertices)},
+        {shared::kSurfaceAttributeBinding, orCage(output.attributes)},
+        {shared::kSurfaceUv1Binding, orCage(output.uvs1)},
         {shared::kPatchClassBinding, wholeInfo(group.patchClasses())},
         {shared::kDeformedCageBinding, viewInfo(output.deformedCage)},
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},

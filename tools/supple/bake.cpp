@@ -192,11 +192,12 @@ Result<Baked> evaluate(Session& session, const BakeOptions& options, const host:
     desc.flags = groupFlags;
     desc.asset = *asset;
     desc.instanceCount = 1;
-    desc.scheme = options.surface.scheme == kCageScheme ? SUPPLE_SCHEME_CAGE : schemeOf(options.surface.scheme);
+    desc.scheme = schemeOf(options.surface.scheme);
     desc.rate = options.surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
     desc.tangentMode = tangentsOf(options.surface);
     desc.cornerRule = cornersOf(options.surface);
+    desc.skinning = skinningOf(options.surface.skinning);
     SuppleGroup group{};
     Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
     if (status) {

@@ -123,8 +123,32 @@ struct Subject {
 
 constexpr SuppleSyncScope kNoScope{VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
 
-Result<Subject> makeSubject(runtime::Context& context, const std::string& name, const cage::Cage& cage, uint32_t rate,
-                            SuppleVertexFormat format) {
+/// A cage under a scheme.
+struct Course {
+    const char* name;
+    cage::Cage cage;
+    SuppleScheme scheme;
+};
+
+/// Every quad cut along a diagonal: what P_m makes P_3 patches of.
+cage::Cage triangulated(const cage::Cage& quads) {
+    cage::Cage cage;
+    cage.positions = quads.positions;
+    cage.faceStarts.push_back(0);
+    for (uint32_t f = 0; f < quads.faceCount(); ++f) {
+        const uint32_t* v = &quads.faceVertices[quads.faceStarts[f]];
+        for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) {
+            cage.faceVertices.push_back(v[corner]);
+        }
+        cage.faceStarts.push_back(cage.faceStarts.back() + 3);
+        cage.faceStarts.push_back(cage.faceStarts.back() + 3);
+    }
+    return cage;
+}
+
+Result<Subject> makeSubject(runtime::Context& context, const Course& course, uint32_t rate, SuppleVertexFormat format) {
+    const std::string name = course.name;
+    const cage::Cage& cage = course.cage;
     const host::CageArrays arrays(cage);
     Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, name);
     if (!character) {
@@ -139,7 +163,7 @@ Result<Subject> makeSubject(runtime::Context& context, const std::string& name, 
     groupDesc.flags = SUPPLE_GROUP_PATCHES;
     groupDesc.asset = {*asset};
     groupDesc.instanceCount = 1;
-    groupDesc.scheme = SUPPLE_SCHEME_PREP;
+    groupDesc.scheme = course.scheme;
     groupDesc.rate = rate;
     groupDesc.vertexFormat = format;
     Result<uint64_t> group = context.createGroup(groupDesc);
@@ -227,15 +251,20 @@ private:
             SuppleVertexFormat format;
         };
         const Form forms[] = {{"24 B", SUPPLE_VERTEX_24}, {"16 B", SUPPLE_VERTEX_16}};
-        const std::pair<const char*, cage::Cage> cages[] = {{"cube sphere 1350", cage::makeCubeSphere(15)},
-                                                            {"irregular 1296", cage::makeSplitTorus(18, 12)}};
+        const Course courses[] = {
+            {"cube sphere 1350", cage::makeCubeSphere(15), SUPPLE_SCHEME_PREP},
+            {"irregular 1296", cage::makeSplitTorus(18, 12), SUPPLE_SCHEME_PREP},
+            {"P_m irregular 1296", cage::makeSplitTorus(18, 12), SUPPLE_SCHEME_PM},
+            {"P_m triangles 2700", triangulated(cage::makeCubeSphere(15)), SUPPLE_SCHEME_PM},
+        };
         std::vector<std::unique_ptr<Replay>> replays;
         std::vector<Subject> subjects;
         Row row;
         row.rate = rate;
-        for (const auto& [name, cage] : cages) {
+        for (const Course& course : courses) {
+            const std::string name = course.name;
             for (const Form& form : forms) {
-                Result<Subject> subject = makeSubject(*context_, name, cage, rate, form.format);
+                Result<Subject> subject = makeSubject(*context_, course, rate, form.format);
                 if (!subject) {
                     return subject.error();
                 }
@@ -256,19 +285,15 @@ private:
                 if (!recorded) {
                     return recorded;
                 }
-                const uint64_t points = uint64_t{cage.faceCount()} * samples;
-                row.contestants.push_back({std::string(name) + ", evaluate " + form.name,
+                const uint64_t points = group.output().vertexCount;
+                row.contestants.push_back({name + ", evaluate " + form.name,
                                            points,
                                            [evaluate](uint32_t n) { return evaluate->run(n); },
                                            1,
                                            {},
                                            {}});
-                row.contestants.push_back({std::string(name) + ", frame " + form.name,
-                                           points,
-                                           [frame](uint32_t n) { return frame->run(n); },
-                                           1,
-                                           {},
-                                           {}});
+                row.contestants.push_back(
+                    {name + ", frame " + form.name, points, [frame](uint32_t n) { return frame->run(n); }, 1, {}, {}});
             }
         }
         // The yardstick evaluates the sphere's patches from the coefficients the GPU gathered.
@@ -369,12 +394,18 @@ private:
     };
     static std::vector<NamedRatio> ratios() {
         const std::string sphere = "cube sphere 1350, ", irregular = "irregular 1296, ";
+        const std::string quads = "P_m irregular 1296, ", triangles = "P_m triangles 2700, ";
         return {{"frame / evaluate, cube sphere, 24 B", sphere + "frame 24 B", sphere + "evaluate 24 B"},
                 {"frame / evaluate, cube sphere, 16 B", sphere + "frame 16 B", sphere + "evaluate 16 B"},
                 {"frame / evaluate, irregular, 24 B", irregular + "frame 24 B", irregular + "evaluate 24 B"},
                 {"frame / evaluate, irregular, 16 B", irregular + "frame 16 B", irregular + "evaluate 16 B"},
                 {"bi-5 / bi-3 evaluation, 24 B", irregular + "evaluate 24 B", sphere + "evaluate 24 B"},
                 {"bi-5 / bi-3 evaluation, 16 B", irregular + "evaluate 16 B", sphere + "evaluate 16 B"},
+                {"P_4 / bi-3 evaluation, 24 B", quads + "evaluate 24 B", sphere + "evaluate 24 B"},
+                {"P_4 / bi-3 evaluation, 16 B", quads + "evaluate 16 B", sphere + "evaluate 16 B"},
+                {"P_3 / bi-3 evaluation, 24 B", triangles + "evaluate 24 B", sphere + "evaluate 24 B"},
+                {"frame / evaluate, P_m irregular, 24 B", quads + "frame 24 B", quads + "evaluate 24 B"},
+                {"frame / evaluate, P_m triangles, 24 B", triangles + "frame 24 B", triangles + "evaluate 24 B"},
                 {"bi-3 evaluation 24 B / plain C++", sphere + "evaluate 24 B", sphere + "plain C++ bi-3 24 B"},
                 {"bi-3 evaluation 16 B / plain C++", sphere + "evaluate 16 B", sphere + "plain C++ bi-3 24 B"}};
     }

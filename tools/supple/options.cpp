@@ -31,7 +31,7 @@ SuppleMapping mappingOf(const DeviceFlags& flags) {
                                      : SUPPLE_MAPPING_AUTO;
 }
 
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, bool& pairQuads,
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, bool& pairQuads,
                 const std::vector<std::string>& extraSchemes) {
     std::vector<std::string> names{"auto"};
     for (const Scheme& known : schemes()) {
@@ -42,11 +42,14 @@ void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, bool& pa
     command.add_option("--rate", rate, "Segments along a patch edge")
         ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
         ->capture_default_str();
+    command.add_option("--skinning", skinning, "How joints move the cage")
+        ->check(CLI::IsMember({"linear", "dual-quaternion"}))
+        ->capture_default_str();
     command.add_flag("--pair-quads", pairQuads, "Merge consecutive triangle pairs of plain triangles to quads");
 }
 
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes) {
-    bindScheme(command, flags.scheme, flags.rate, flags.pairQuads, extraSchemes);
+    bindScheme(command, flags.scheme, flags.rate, flags.skinning, flags.pairQuads, extraSchemes);
     command.add_option("--tangents", flags.tangents, "Tangent length at extraordinary vertices")
         ->check(CLI::IsMember({"default", "printed"}))
         ->capture_default_str();
@@ -61,6 +64,10 @@ SuppleTangentMode tangentsOf(const SurfaceFlags& flags) {
 
 SuppleCornerRule cornersOf(const SurfaceFlags& flags) {
     return flags.corners == "smooth" ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP;
+}
+
+SuppleSkinning skinningOf(const std::string& name) {
+    return name == "dual-quaternion" ? SUPPLE_SKINNING_DUAL_QUATERNION : SUPPLE_SKINNING_LINEAR;
 }
 
 void bindPose(CLI::App& command, std::string& clip, double& time) {
@@ -81,7 +88,7 @@ SuppleScheme schemeOf(const std::string& name) {
             return scheme.scheme;
         }
     }
-    return SUPPLE_SCHEME_AUTO;
+    return name == "cage" ? SUPPLE_SCHEME_CAGE : SUPPLE_SCHEME_AUTO;
 }
 
 std::string resolvedScheme(const std::string& name) {

@@ -31,14 +31,18 @@ struct SurfaceFlags {
     uint32_t rate = 8;
     std::string tangents = "default";
     std::string corners = "sharp";
+    std::string skinning = "linear";
     bool pairQuads = false;
 };
 /// `extraSchemes`: what --scheme also takes here, such as "cage".
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, bool& pairQuads,
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, bool& pairQuads,
                 const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
 [[nodiscard]] SuppleTangentMode tangentsOf(const SurfaceFlags& flags);
 [[nodiscard]] SuppleCornerRule cornersOf(const SurfaceFlags& flags);
+
+/// --skinning: "linear" or "dual-quaternion".
+[[nodiscard]] SuppleSkinning skinningOf(const std::string& name);
 
 /// --clip, a name or index, empty for the bind pose; --time in seconds.
 void bindPose(CLI::App& command, std::string& clip, double& time);
@@ -49,7 +53,7 @@ struct Scheme {
     SuppleScheme scheme;
 };
 [[nodiscard]] std::span<const Scheme> schemes();
-/// "auto" and the names above; anything else is auto.
+/// "auto", "cage" (no surface) and the names above; anything else is auto.
 [[nodiscard]] SuppleScheme schemeOf(const std::string& name);
 /// The scheme behind a name: "auto" becomes the one it chooses.
 [[nodiscard]] std::string resolvedScheme(const std::string& name);

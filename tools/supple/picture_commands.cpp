@@ -25,8 +25,8 @@ CLI::Validator sizeValidator() {
     return {size, "WxH"};
 }
 
-void bindDraw(CLI::App& command, DrawOptions& draw) {
-    bindScheme(command, draw.scheme, draw.rate, draw.pairQuads, {"cage"});
+void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::string>& extraSchemes = {"cage"}) {
+    bindScheme(command, draw.scheme, draw.rate, draw.skinning, draw.pairQuads, extraSchemes);
     command.add_option("--view", draw.view, "What is shown")
         ->check(CLI::IsMember({"shaded", "wire", "patches", "normals", "zebra"}))
         ->capture_default_str();
@@ -68,7 +68,7 @@ void bindSheet(CLI::App& app, int& exitCode) {
         ->check(sizeValidator())
         ->capture_default_str();
     command->add_flag("--labels,!--no-labels", options->labels, "Write clip and time (on unless --no-labels)");
-    bindDraw(*command, options->draw);
+    bindDraw(*command, options->draw, {});
     command->callback([options, &exitCode] { exitCode = runContactSheet(*options); });
 }
 

@@ -179,6 +179,7 @@ private:
         desc.rate = options_.surface.rate;
         desc.tangentMode = tangentsOf(options_.surface);
         desc.cornerRule = cornersOf(options_.surface);
+        desc.skinning = skinningOf(options_.surface.skinning);
         Status status = check(suppleCreateGroup(context(), &desc, &group_), "suppleCreateGroup");
         if (status) {
             SuppleGroupOutput output{};

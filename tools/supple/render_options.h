@@ -8,11 +8,12 @@
 namespace supple::tools {
 
 struct DrawOptions {
-    std::string scheme = "auto"; ///< auto | prep | cage (the deformed cage itself)
-    uint32_t rate = 8;           ///< segments along a patch edge, 1..64
-    std::string view = "shaded"; ///< shaded | wire | patches | normals | zebra
-    bool cageOverlay = false;    ///< the cage's edges drawn over the surface
-    bool ground = true;          ///< a floor that takes shadows
+    std::string scheme = "auto";     ///< auto | pm | prep | cage (the deformed cage itself)
+    std::string skinning = "linear"; ///< linear | dual-quaternion
+    uint32_t rate = 8;               ///< segments along a patch edge, 1..64
+    std::string view = "shaded";     ///< shaded | wire | patches | normals | zebra
+    bool cageOverlay = false;        ///< the cage's edges drawn over the surface
+    bool ground = true;              ///< a floor that takes shadows
     double yaw = 35.0;      ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
     double pitch = 12.0;    ///< degrees; positive looks down
     bool pairQuads = false; ///< SUPPLE_ASSET_PAIR_QUADS

@@ -27,7 +27,9 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->settings.cageFaces = options.scheme == "cage";
     stage->settings.cageOverlay = options.cageOverlay;
     stage->settings.ground = options.ground;
-    stage->scheme_ = schemeOf(options.scheme);
+    // The cage is only the first thing shown: the surface is a key away.
+    stage->scheme_ = options.scheme == "cage" ? SUPPLE_SCHEME_AUTO : schemeOf(options.scheme);
+    stage->skinning_ = skinningOf(options.skinning);
     stage->pairQuads_ = options.pairQuads;
     stage->startYaw_ = radians(options.yaw);
     stage->startPitch_ = radians(options.pitch);
@@ -41,8 +43,8 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     const Result<uint32_t> chosen = (*figure)->findClip(clip);
     if (!chosen)
         return chosen.error();
-    Result<std::unique_ptr<host::FigureGroup>> group =
-        host::FigureGroup::create(**figure, {.scheme = scheme_, .rate = static_cast<uint32_t>(settings.rate)});
+    Result<std::unique_ptr<host::FigureGroup>> group = host::FigureGroup::create(
+        **figure, {.scheme = scheme_, .rate = static_cast<uint32_t>(settings.rate), .skinning = skinning_});
     if (!group)
         return group.error();
     std::vector<ClipTime> poses;
@@ -74,7 +76,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
 
 Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
     Result<std::unique_ptr<host::FigureGroup>> group =
-        host::FigureGroup::create(*figure_, {.scheme = scheme_, .rate = rate});
+        host::FigureGroup::create(*figure_, {.scheme = scheme_, .rate = rate, .skinning = skinning_});
     if (!group)
         return group.error();
     Result<host::FigureBinding> binding = renderer_.bind(**group);

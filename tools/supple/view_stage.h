@@ -74,6 +74,7 @@ private:
     host::Context& context_;
     host::SurfaceRenderer& renderer_;
     SuppleScheme scheme_ = SUPPLE_SCHEME_AUTO;
+    SuppleSkinning skinning_ = SUPPLE_SKINNING_LINEAR;
     bool pairQuads_ = false;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
