@@ -54,15 +54,16 @@ Polygons readCagePolygons(const GltfDocument& document, const CageExtension& ext
 
 std::vector<uint32_t> readHoles(const GltfDocument& document, const CageExtension& extension, size_t faceCount) {
     const std::string name = extension.element + " holeIndices";
-    auto holes = readIntegers(document, extension.holeIndices, TINYGLTF_TYPE_SCALAR, kIntegers, name);
+    const auto holes = readIntegers(document, extension.holeIndices, TINYGLTF_TYPE_SCALAR, kIntegers, name);
     for (size_t i = 0; i < holes.size(); ++i) {
         if (holes[i] >= faceCount) {
             refuse(item(name, i), "face " + std::to_string(holes[i]) + " is out of range: the primitive has " +
                                       std::to_string(faceCount));
         }
+        if (i > 0 && holes[i] <= holes[i - 1]) {
+            refuse(item(name, i), "not more than the one before it");
+        }
     }
-    std::sort(holes.begin(), holes.end());
-    holes.erase(std::unique(holes.begin(), holes.end()), holes.end());
     return holes;
 }
 

@@ -87,7 +87,7 @@ TEST(GltfPolygons, CageExtension) {
         const std::string counts = patch.list("faceVertexCounts", kCounts, componentType);
         const std::string corners = patch.list("faceVertexIndices", kCorners, componentType);
         const Character c =
-            readWell(patch.with(cageExtension({counts, corners, patch.list("holeIndices", {2, 1, 2}, componentType)})));
+            readWell(patch.with(cageExtension({counts, corners, patch.list("holeIndices", {1, 2}, componentType)})));
         EXPECT_EQ(c.warnings, Strings());
         EXPECT_EQ(c.polygonSource, PolygonSource::cageExtension);
         EXPECT_EQ(c.weldSource, WeldSource::equality);
@@ -152,6 +152,11 @@ TEST(GltfPolygons, CageExtensionRefusals) {
                                  p.list("holeIndices", {3})};
               }),
               name + " holeIndices[0]: face 3 is out of range: the primitive has 3");
+    EXPECT_EQ(with([](Patch& p) {
+                  return Strings{p.list("faceVertexCounts", kCounts), p.list("faceVertexIndices", kCorners),
+                                 p.list("holeIndices", {2, 1})};
+              }),
+              name + " holeIndices[1]: not more than the one before it");
     EXPECT_EQ(with([](Patch&) { return Strings{R"("scheme":"quadratic")"}; }),
               name + " scheme: \"quadratic\" is not allowed");
     EXPECT_EQ(with([](Patch&) { return Strings{R"("scheme":3)"}; }), name + " scheme: not a string");
