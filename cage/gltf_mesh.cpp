@@ -45,7 +45,14 @@ public:
             } else {
                 static constexpr const char* kModes[] = {"POINTS", "LINES",          "LINE_LOOP",   "LINE_STRIP",
                                                          "",       "TRIANGLE_STRIP", "TRIANGLE_FAN"};
-                warn(warnings_, element, std::string(kModes[primitive.mode]) + " instead of TRIANGLES; left out");
+                const bool polygons = primitive.extensions.count("EXT_mesh_polygon") != 0;
+                const std::string reason =
+                    std::string(kModes[primitive.mode]) + " instead of TRIANGLES" +
+                    (polygons ? ", with EXT_mesh_polygon in a form of the draft that is not understood" : "");
+                if (polygons && isRequired(document_, "EXT_mesh_polygon")) {
+                    refuse(element, reason);
+                }
+                warn(warnings_, element, reason + "; left out");
             }
         }
         if (out_.parts.empty()) {

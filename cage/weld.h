@@ -1,5 +1,6 @@
 // Welding: glTF splits a vertex wherever UVs, colors or normals differ from corner to corner, and often everywhere; a
-// cage needs it whole. Vertices are candidates when their positions (bit by bit, with -0 = 0) and skin agree.
+// cage needs it whole. Vertices are candidates when their positions (bit by bit, with -0 = 0), skin
+// and morph targets agree.
 //
 // Agreement is not enough: two surfaces may touch in a vertex or along an edge, and merging what merely touches turns a
 // fine mesh into a non-manifold one. So vertices are merged by sewing edges: two candidates become one where an edge

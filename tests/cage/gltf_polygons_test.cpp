@@ -331,6 +331,21 @@ TEST(GltfPolygons, MeshPolygonThatCannotBeUsed) {
                                    "without count; not used"}));
 }
 
+TEST(GltfPolygons, MeshPolygonOfTheLaterDraft) {
+    Patch patch;
+    patch.b.meshes =
+        R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1},{"attributes":{"POSITION":0},"indices":1,)"
+        R"("mode":2,"extensions":{"EXT_mesh_polygon":{"triangleIndices":1,"triangleIndicesOffsets":1}}}]}])";
+    EXPECT_EQ(
+        readWell(patch.b).warnings,
+        (Strings{"mesh 0 primitive 1: LINE_LOOP instead of TRIANGLES, with EXT_mesh_polygon in a form of the draft "
+                 "that is not understood; left out"}));
+    patch.b.more = R"(,"extensionsRequired":["EXT_mesh_polygon"])";
+    EXPECT_EQ(messageOf(patch.b),
+              "t.glb: mesh 0 primitive 1: LINE_LOOP instead of TRIANGLES, with EXT_mesh_polygon in a "
+              "form of the draft that is not understood");
+}
+
 TEST(GltfPolygons, MeshPolygonRefusals) {
     const auto with = [](const std::vector<uint32_t>& loops, const std::vector<uint32_t>& loopOffsets,
                          const std::vector<uint32_t>& offsets) {
