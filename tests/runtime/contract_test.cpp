@@ -16,7 +16,7 @@
 namespace supple::test {
 namespace {
 
-const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
+const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb";
 
 /// A device of its own whose Supple calls go through the wrapped table, validation on.
 std::unique_ptr<host::Device> wrappedDevice(bool validation = true) {

@@ -29,7 +29,7 @@ inline std::vector<std::string> allQuadCharacters() {
     std::vector<std::string> paths = sharedAssets(
         {"characters/man_casual_quads.glb", "characters/mh_female1605.glb", "characters/mh_female1605_morph.glb",
          "characters/mh_body_13k_infl8.glb", "characters/mh_proxy741.glb", "characters/pawn_creased.glb"});
-    paths.insert(paths.begin(), std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
+    paths.insert(paths.begin(), std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb");
     return paths;
 }
 

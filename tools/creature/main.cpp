@@ -1,43 +1,71 @@
-// supple_creature OUT.glb: makes the sample character, always to the same bytes.
+// supple_creature [--quads] OUT.glb: makes the sample character, always to the same bytes.
 
-#include "clips.h"
-#include "glb_writer.h"
+#include "assemble.h"
 #include "paint.h"
 #include "pip_model.h"
 #include "skeleton.h"
-#include "uv.h"
-#include "weights.h"
+
+#include "cage/gltf_writer.h"
+#include "surface/pm/mesh.h"
 
 #include <cstdio>
+#include <cstring>
+#include <fstream>
 #include <map>
 
 using namespace supple::creature;
 
+namespace {
+
+int fail(const std::string& message) {
+    std::fprintf(stderr, "supple_creature: %s\n", message.c_str());
+    return 1;
+}
+
+bool writeFile(const char* path, const std::vector<std::byte>& bytes) {
+    std::ofstream out(path, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    return static_cast<bool>(out.flush());
+}
+
+} // namespace
+
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::fprintf(stderr, "usage: supple_creature OUT.glb\n");
+    const bool quads = argc == 3 && std::strcmp(argv[1], "--quads") == 0;
+    if (argc != 2 && !quads) {
+        std::fprintf(stderr, "usage: supple_creature [--quads] OUT.glb\n");
         return 2;
     }
-    const Cage cage = modelPip();
-    if (const char* fault = faultOf(cage)) {
-        std::fprintf(stderr, "supple_creature: %s\n", fault);
-        return 1;
+    const char* path = argv[argc - 1];
+    const Cage model = modelPip(quads ? Variant::quads : Variant::mixed);
+    if (hasCoincidentPoints(model)) {
+        return fail("two points coincide");
     }
     const Skeleton skeleton = makeSkeleton();
-    const std::vector<Influences> influences = skinWeights(cage, skeleton);
-    const std::vector<Clip> clips = makeClips(skeleton);
-    if (!writeGlb(argv[1], cage, skeleton, influences, paint(cage), unwrap(cage), clips)) {
-        std::fprintf(stderr, "supple_creature: cannot write %s\n", argv[1]);
-        return 1;
+    const supple::cage::Character character =
+        assemble(model, skeleton, skinWeights(model, skeleton), paint(model), unwrap(model), makeClips(skeleton));
+    const auto mesh = supple::surface::pm::buildMesh(character.cage);
+    if (!mesh) {
+        return fail(mesh.error().message);
     }
-    std::map<size_t, int> valences;
-    for (const std::vector<int>& list : cage.neighbours()) {
-        ++valences[list.size()];
+    const auto file = supple::cage::writeGlb(character);
+    if (!file) {
+        return fail(file.error().message);
     }
-    std::printf("%zu quads, %zu points, %zu joints; valences", cage.quads.size(), cage.points.size(),
-                skeleton.joints.size());
-    for (const auto& [valence, count] : valences) {
-        std::printf(" %zu:%d", valence, count);
+    for (const std::string& warning : file->warnings) {
+        return fail(warning);
+    }
+    if (!writeFile(path, file->bytes)) {
+        return fail(std::string("cannot write ") + path);
+    }
+    std::map<size_t, int> sides;
+    for (const Face& face : model.faces) {
+        ++sides[face.points.size()];
+    }
+    std::printf("%zu points, %zu creases, %zu joints, %zu faces; by sides", model.points.size(), model.creases.size(),
+                skeleton.joints.size(), model.faces.size());
+    for (const auto& [count, faces] : sides) {
+        std::printf(" %zu:%d", count, faces);
     }
     std::printf("\n");
     return 0;

@@ -44,7 +44,7 @@ int Cage::addPoint(const Vec3& position) {
 }
 
 void Cage::addQuad(int a, int b, int c, int d) {
-    quads.push_back({{a, b, c, d}, part});
+    faces.push_back({{a, b, c, d}, part});
 }
 
 Patch Cage::seed(int columns, int rows, bool half, Patch& underside) {
@@ -71,17 +71,17 @@ Patch Cage::seed(int columns, int rows, bool half, Patch& underside) {
     for (size_t i = 0; i < top.points.size(); ++i) {
         fresh[i] = addPoint(position(top.points[i]));
     }
-    const size_t firstTop = quads.size() - 2 * static_cast<size_t>(columns * rows);
+    const size_t firstTop = faces.size() - 2 * static_cast<size_t>(columns * rows);
     std::map<int, int> renamed;
     for (size_t i = 0; i < fresh.size(); ++i) {
         renamed[top.points[i]] = fresh[i];
     }
     std::set<std::pair<int, int>> directed;
     for (size_t q = firstTop; q < firstTop + static_cast<size_t>(columns * rows); ++q) {
-        for (int i = 0; i < 4; ++i) {
-            directed.insert({quads[q].points[i], quads[q].points[(i + 1) % 4]});
+        for (size_t i = 0; i < 4; ++i) {
+            directed.insert({faces[q].points[i], faces[q].points[(i + 1) % 4]});
         }
-        for (int& point : quads[q].points) {
+        for (int& point : faces[q].points) {
             point = renamed[point];
         }
     }
@@ -99,10 +99,10 @@ Patch Cage::seed(int columns, int rows, bool half, Patch& underside) {
 int Cage::findQuad(const std::array<int, 4>& corners) const {
     std::array<int, 4> wanted = corners;
     std::sort(wanted.begin(), wanted.end());
-    for (size_t q = 0; q < quads.size(); ++q) {
-        std::array<int, 4> have = quads[q].points;
+    for (size_t q = 0; q < faces.size(); ++q) {
+        std::vector<int> have = faces[q].points;
         std::sort(have.begin(), have.end());
-        if (have == wanted) {
+        if (std::equal(have.begin(), have.end(), wanted.begin(), wanted.end())) {
             return static_cast<int>(q);
         }
     }
@@ -141,15 +141,15 @@ Patch Cage::extrude(const Patch& from) {
         for (int column = 0; column < from.columns; ++column) {
             const int q = findQuad({from.at(column, row), from.at(column + 1, row), from.at(column + 1, row + 1),
                                     from.at(column, row + 1)});
-            Quad& quad = quads[static_cast<size_t>(q)];
-            for (int i = 0; i < 4; ++i) {
-                edges.push_back({quad.points[i], quad.points[(i + 1) % 4]});
+            Face& face = faces[static_cast<size_t>(q)];
+            for (size_t i = 0; i < 4; ++i) {
+                edges.push_back({face.points[i], face.points[(i + 1) % 4]});
                 directed.insert(edges.back());
             }
-            for (int& point : quad.points) {
+            for (int& point : face.points) {
                 point = renamed[point];
             }
-            quad.part = part;
+            face.part = part;
         }
     }
     for (const auto& [a, b] : edges) {
@@ -201,6 +201,96 @@ Patch Cage::beginShell(int columns, int rows, const Frame& frame, double radiusA
     return top;
 }
 
+std::vector<int> Cage::rimOf(const Patch& patch) {
+    std::vector<int> rim;
+    for (int column = 0; column < patch.columns; ++column) {
+        rim.push_back(patch.at(column, 0));
+    }
+    for (int row = 0; row < patch.rows; ++row) {
+        rim.push_back(patch.at(patch.columns, row));
+    }
+    for (int column = patch.columns; column > 0; --column) {
+        rim.push_back(patch.at(column, patch.rows));
+    }
+    if (patch.half) {
+        rim.push_back(patch.at(0, patch.rows));
+        return rim;
+    }
+    for (int row = patch.rows; row > 0; --row) {
+        rim.push_back(patch.at(0, row));
+    }
+    return rim;
+}
+
+int Cage::fan(const Patch& patch, const Vec3& tip) {
+    open(patch);
+    const int apex = addPoint(tip);
+    points.back().along = points[static_cast<size_t>(patch.points.front())].along;
+    const std::vector<int> rim = rimOf(patch);
+    for (size_t i = 0; i + (patch.half ? 1 : 0) < rim.size(); ++i) {
+        faces.push_back({{rim[i], rim[(i + 1) % rim.size()], apex}, part});
+    }
+    return apex;
+}
+
+void Cage::open(const Patch& patch) {
+    std::set<size_t> gone;
+    for (int row = 0; row < patch.rows; ++row) {
+        for (int column = 0; column < patch.columns; ++column) {
+            gone.insert(static_cast<size_t>(findQuad({patch.at(column, row), patch.at(column + 1, row),
+                                                      patch.at(column + 1, row + 1), patch.at(column, row + 1)})));
+        }
+    }
+    for (auto it = gone.rbegin(); it != gone.rend(); ++it) {
+        faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(*it));
+    }
+}
+
+size_t Cage::faceAlong(int a, int b) const {
+    for (size_t f = 0; f < faces.size(); ++f) {
+        const std::vector<int>& p = faces[f].points;
+        for (size_t i = 0; i < p.size(); ++i) {
+            if (p[i] == a && p[(i + 1) % p.size()] == b) {
+                return f;
+            }
+        }
+    }
+    fail("an edge is named that the cage has not got");
+}
+
+void Cage::dissolve(const std::vector<int>& chain) {
+    for (size_t i = 0; i + 1 < chain.size(); ++i) {
+        const size_t keep = faceAlong(chain[i], chain[i + 1]);
+        const size_t lose = faceAlong(chain[i + 1], chain[i]);
+        // Each from the far end of the edge round to its near end; the shared ends once.
+        std::vector<int> merged = faces[keep].points;
+        std::rotate(merged.begin(), std::find(merged.begin(), merged.end(), chain[i + 1]), merged.end());
+        std::vector<int> rest = faces[lose].points;
+        std::rotate(rest.begin(), std::find(rest.begin(), rest.end(), chain[i]), rest.end());
+        merged.insert(merged.end(), rest.begin() + 1, rest.end() - 1);
+        faces[keep].points = merged;
+        faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(lose));
+    }
+    const std::vector<std::vector<int>> around = neighbours();
+    for (int point : chain) {
+        if (around[static_cast<size_t>(point)].size() == 2) {
+            for (Face& face : faces) {
+                std::erase(face.points, point);
+            }
+        }
+    }
+}
+
+void Cage::crease(int a, int b, float sharpness) {
+    creases[{std::min(a, b), std::max(a, b)}] = sharpness;
+}
+
+void Cage::creaseChain(const std::vector<int>& chain, float sharpness) {
+    for (size_t i = 0; i + 1 < chain.size(); ++i) {
+        crease(chain[i], chain[i + 1], sharpness);
+    }
+}
+
 void Cage::mirror() {
     const size_t count = points.size();
     std::vector<int> image(count);
@@ -219,20 +309,25 @@ void Cage::mirror() {
         image[i] = static_cast<int>(points.size());
         points.push_back(reflected);
     }
-    const size_t quadCount = quads.size();
-    for (size_t q = 0; q < quadCount; ++q) {
-        Quad reflected = quads[q];
-        for (int i = 0; i < 4; ++i) {
-            reflected.points[i] = image[static_cast<size_t>(quads[q].points[3 - i])];
+    const size_t faceCount = faces.size();
+    for (size_t q = 0; q < faceCount; ++q) {
+        Face reflected = faces[q];
+        std::reverse(reflected.points.begin(), reflected.points.end());
+        for (int& point : reflected.points) {
+            point = image[static_cast<size_t>(point)];
         }
-        quads.push_back(reflected);
+        faces.push_back(reflected);
+    }
+    const std::map<std::pair<int, int>, float> half = creases;
+    for (const auto& [edge, sharpness] : half) {
+        crease(image[static_cast<size_t>(edge.first)], image[static_cast<size_t>(edge.second)], sharpness);
     }
 }
 
 void Cage::compact() {
     std::vector<int> place(points.size(), -1);
-    for (const Quad& quad : quads) {
-        for (int point : quad.points) {
+    for (const Face& face : faces) {
+        for (int point : face.points) {
             place[static_cast<size_t>(point)] = 0;
         }
     }
@@ -243,97 +338,109 @@ void Cage::compact() {
             kept.push_back(points[i]);
         }
     }
-    for (Quad& quad : quads) {
-        for (int& point : quad.points) {
+    for (Face& face : faces) {
+        for (int& point : face.points) {
             point = place[static_cast<size_t>(point)];
         }
     }
     points = kept;
+    std::map<std::pair<int, int>, float> renamed;
+    for (const auto& [edge, sharpness] : creases) {
+        renamed[{place[static_cast<size_t>(edge.first)], place[static_cast<size_t>(edge.second)]}] = sharpness;
+    }
+    creases = renamed;
 }
 
 std::vector<Vec3> Cage::limits() const {
-    // (n^2 v + 4 sum(edge neighbours) + sum(face diagonals)) / (n (n + 5)); each quad at a corner adds its diagonal
-    // once and half of each of its two edge neighbours.
+    // Inside (n^2 v + sum(2 (neighbour + neighbour) + far)) / (n (n + 5)), a term for each face at the point; far is
+    // the mean of the corners two on and two back. On a boundary the cubic B-spline of its polygon.
     std::vector<Vec3> sum(points.size(), Vec3(0));
     std::vector<int> valence(points.size(), 0);
-    for (const Quad& quad : quads) {
-        for (size_t i = 0; i < 4; ++i) {
-            const size_t p = static_cast<size_t>(quad.points[i]);
-            sum[p] += 2.0 * (position(quad.points[(i + 1) % 4]) + position(quad.points[(i + 3) % 4])) +
-                      position(quad.points[(i + 2) % 4]);
+    std::map<int, int> next;
+    std::map<int, int> previous;
+    const std::map<std::pair<int, int>, size_t> edges = directedEdges();
+    for (const auto& [edge, face] : edges) {
+        if (!edges.count({edge.second, edge.first})) {
+            next[edge.first] = edge.second;
+            previous[edge.second] = edge.first;
+        }
+    }
+    for (const Face& face : faces) {
+        const size_t sides = face.points.size();
+        for (size_t i = 0; i < sides; ++i) {
+            const size_t p = static_cast<size_t>(face.points[i]);
+            sum[p] += 2.0 * (position(face.points[(i + 1) % sides]) + position(face.points[(i + sides - 1) % sides])) +
+                      0.5 * (position(face.points[(i + 2) % sides]) + position(face.points[(i + sides - 2) % sides]));
             ++valence[p];
         }
     }
     std::vector<Vec3> result(points.size());
     for (size_t i = 0; i < points.size(); ++i) {
+        const int point = static_cast<int>(i);
+        if (next.count(point)) {
+            result[i] = (position(next.at(point)) + position(previous.at(point)) + 4.0 * points[i].position) / 6.0;
+            continue;
+        }
         const double n = valence[i];
         result[i] = (n * n * points[i].position + sum[i]) / (n * (n + 5));
     }
     return result;
 }
 
-std::vector<std::vector<int>> Cage::neighbours() const {
-    std::vector<std::vector<int>> lists(points.size());
-    for (const Quad& quad : quads) {
-        for (size_t i = 0; i < 4; ++i) {
-            lists[static_cast<size_t>(quad.points[i])].push_back(quad.points[(i + 1) % 4]);
+std::map<std::pair<int, int>, size_t> Cage::directedEdges() const {
+    std::map<std::pair<int, int>, size_t> edges;
+    for (size_t f = 0; f < faces.size(); ++f) {
+        const std::vector<int>& p = faces[f].points;
+        for (size_t i = 0; i < p.size(); ++i) {
+            edges[{p[i], p[(i + 1) % p.size()]}] = f;
         }
     }
-    for (std::vector<int>& list : lists) {
-        std::sort(list.begin(), list.end());
+    return edges;
+}
+
+Vec3 Cage::normal(const Face& face) const {
+    const std::vector<int>& p = face.points;
+    if (p.size() == 4) {
+        return glm::cross(position(p[2]) - position(p[0]), position(p[3]) - position(p[1]));
+    }
+    Vec3 sum{0};
+    for (size_t i = 2; i < p.size(); ++i) {
+        sum += glm::cross(position(p[i - 1]) - position(p[0]), position(p[i]) - position(p[0]));
+    }
+    return sum;
+}
+
+Vec3 Cage::centre(const Face& face) const {
+    Vec3 sum{0};
+    for (int point : face.points) {
+        sum += position(point) * (1.0 / static_cast<double>(face.points.size()));
+    }
+    return sum;
+}
+
+std::vector<std::vector<int>> Cage::neighbours() const {
+    std::vector<std::set<int>> sets(points.size());
+    for (const auto& [edge, face] : directedEdges()) {
+        sets[static_cast<size_t>(edge.first)].insert(edge.second);
+        sets[static_cast<size_t>(edge.second)].insert(edge.first);
+    }
+    std::vector<std::vector<int>> lists;
+    for (const std::set<int>& set : sets) {
+        lists.emplace_back(set.begin(), set.end());
     }
     return lists;
 }
 
-const char* faultOf(const Cage& cage) {
-    std::map<std::pair<int, int>, int> next;
-    for (const Quad& quad : cage.quads) {
-        for (size_t i = 0; i < 4; ++i) {
-            const int a = quad.points[i];
-            const int b = quad.points[(i + 1) % 4];
-            if (a == b || a == quad.points[(i + 2) % 4]) {
-                return "a quad repeats a point";
-            }
-            if (++next[{a, b}] > 1) {
-                return "an edge is used twice in one direction";
-            }
-        }
-    }
-    for (const auto& [edge, count] : next) {
-        if (!next.count({edge.second, edge.first})) {
-            return "the cage is open";
-        }
-    }
-    // Walking round a point must meet all its quads, or it is a bow tie.
-    std::vector<std::map<int, int>> turn(cage.points.size());
-    for (const Quad& quad : cage.quads) {
-        for (size_t i = 0; i < 4; ++i) {
-            turn[static_cast<size_t>(quad.points[i])][quad.points[(i + 1) % 4]] = quad.points[(i + 3) % 4];
-        }
-    }
-    for (const auto& fan : turn) {
-        if (fan.size() < 3) {
-            return "a point has fewer than three quads";
-        }
-        size_t steps = 0;
-        int at = fan.begin()->first;
-        do {
-            at = fan.at(at);
-            ++steps;
-        } while (at != fan.begin()->first && steps <= fan.size());
-        if (steps != fan.size()) {
-            return "a point is a bow tie";
-        }
-    }
+bool hasCoincidentPoints(const Cage& cage) {
     for (size_t i = 0; i < cage.points.size(); ++i) {
         for (size_t k = i + 1; k < cage.points.size(); ++k) {
             const Vec3 d = cage.points[i].position - cage.points[k].position;
             if (glm::dot(d, d) < 1e-9) {
-                return "two points coincide";
+                return true;
             }
         }
     }
-    return nullptr;
+    return false;
 }
 
 } // namespace supple::creature

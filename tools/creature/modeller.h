@@ -1,4 +1,5 @@
-// Quad modelling by extruding grids of faces: every operation keeps the cage all-quad and oriented.
+// Modelling by extruding grids of quads, which keeps the cage all-quad, and by the operations that end this: fans,
+// dissolved loops, openings. All keep it oriented.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -6,6 +7,8 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace supple::creature {
@@ -16,7 +19,7 @@ using Quat = glm::dquat;
 
 constexpr double kPi = 3.14159265358979323846;
 
-// What a point or a quad belongs to; weights, paint and charts are decided by it.
+// What a point or a face belongs to; weights, paint and charts are decided by it.
 enum class Part {
     Torso,
     Head,
@@ -54,8 +57,8 @@ struct Point {
     double rib = 0;   // share of a wing's bone in its membrane, for painting
 };
 
-struct Quad {
-    std::array<int, 4> points{};
+struct Face {
+    std::vector<int> points;
     Part part = Part::Torso;
 };
 
@@ -83,8 +86,9 @@ Frame frameFrom(const Vec3& origin, const Vec3& out, const Vec3& hint);
 
 struct Cage {
     std::vector<Point> points;
-    std::vector<Quad> quads;
-    Part part = Part::Torso; // given to whatever is made next
+    std::vector<Face> faces;
+    std::map<std::pair<int, int>, float> creases; // by points, the smaller first; sharpness as in cage::Crease
+    Part part = Part::Torso;                      // given to whatever is made next
     int shell = 0;
     int shells = 0;
 
@@ -113,22 +117,43 @@ struct Cage {
     Patch beginShell(int columns, int rows, const Frame& frame, double radiusAcross, double radiusAlong, double dome);
     void endShell() { shell = 0; }
 
+    // What lies along the rim of a patch, counter-clockwise from its first point; on a half model from plane to plane.
+    static std::vector<int> rimOf(const Patch& patch);
+
+    // Instead of the patch's faces, triangles from its rim to one new point at `tip`.
+    int fan(const Patch& patch, const Vec3& tip);
+
+    // Takes the patch's faces away.
+    void open(const Patch& patch);
+
+    // Takes away the edges between consecutive points, and those of the points that then have only two edges.
+    void dissolve(const std::vector<int>& chain);
+
+    void crease(int a, int b, float sharpness);
+    void creaseChain(const std::vector<int>& chain, float sharpness);
+
     // Reflects the half model in x = 0 and welds it there.
     void mirror();
-    // Drops points no quad uses.
+    // Drops points no face uses.
     void compact();
 
-    // Catmull-Clark limit positions of all points (closed cage).
+    // Where the surface meets each point: Catmull-Clark's limit on quads, P_m's on all faces. Creases do not count.
     std::vector<Vec3> limits() const;
 
     std::vector<std::vector<int>> neighbours() const;
+    // The face on the left of each edge.
+    std::map<std::pair<int, int>, size_t> directedEdges() const;
+    // Twice the face's area long.
+    Vec3 normal(const Face& face) const;
+    Vec3 centre(const Face& face) const;
 
 private:
     int findQuad(const std::array<int, 4>& corners) const;
+    // The face that runs from a to b.
+    size_t faceAlong(int a, int b) const;
 };
 
-// Empty when the cage is one or more closed oriented manifolds of quads without doubled points or bow ties; otherwise
-// what is wrong.
-const char* faultOf(const Cage& cage);
+// Whether some two points are so close that a reader could weld them.
+bool hasCoincidentPoints(const Cage& cage);
 
 } // namespace supple::creature

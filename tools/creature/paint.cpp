@@ -57,10 +57,9 @@ bool odd(double ring) {
 
 std::vector<Vec3> paint(const Cage& cage) {
     std::vector<Vec3> normals(cage.points.size(), Vec3(0));
-    for (const Quad& quad : cage.quads) {
-        const Vec3 normal = glm::cross(cage.position(quad.points[2]) - cage.position(quad.points[0]),
-                                       cage.position(quad.points[3]) - cage.position(quad.points[1]));
-        for (int point : quad.points) {
+    for (const Face& face : cage.faces) {
+        const Vec3 normal = cage.normal(face);
+        for (int point : face.points) {
             normals[static_cast<size_t>(point)] += normal;
         }
     }

@@ -57,14 +57,14 @@ void fitToSphere(Cage& cage, int shell, const Vec3& centre, double radius) {
 Vec3 castToBody(const Cage& cage, const Vec3& from, const Vec3& along) {
     const std::vector<Vec3> limits = cage.limits();
     double nearest = 1e30;
-    for (const Quad& quad : cage.quads) {
-        if (cage.points[static_cast<size_t>(quad.points[0])].shell != 0) {
+    for (const Face& face : cage.faces) {
+        if (cage.points[static_cast<size_t>(face.points[0])].shell != 0) {
             continue;
         }
         for (const auto& [i, k] : {std::pair<size_t, size_t>{1, 2}, {2, 3}}) {
-            const Vec3& a = limits[static_cast<size_t>(quad.points[0])];
-            const Vec3 u = limits[static_cast<size_t>(quad.points[i])] - a;
-            const Vec3 v = limits[static_cast<size_t>(quad.points[k])] - a;
+            const Vec3& a = limits[static_cast<size_t>(face.points[0])];
+            const Vec3 u = limits[static_cast<size_t>(face.points[i])] - a;
+            const Vec3 v = limits[static_cast<size_t>(face.points[k])] - a;
             const Vec3 normal = glm::cross(u, v);
             const double facing = glm::dot(normal, along);
             if (facing > -1e-12) {
@@ -134,7 +134,7 @@ void glints(Cage& cage) {
 
 } // namespace
 
-void addPairedDetails(Cage& cage) {
+void addPairedDetails(Cage& cage, [[maybe_unused]] Variant variant) {
     Cage whole = cage;
     whole.compact();
     whole.mirror();
@@ -167,7 +167,7 @@ void addPairedDetails(Cage& cage) {
     }
 }
 
-void addMiddleDetails(Cage& cage) {
+void addMiddleDetails(Cage& cage, [[maybe_unused]] Variant variant) {
     glints(cage);
 
     // A tongue, its root in the throat.

@@ -79,6 +79,7 @@ namespace {
 
 class Builder {
 public:
+    explicit Builder(Variant variant) : variant(variant) {}
     Cage build();
 
 private:
@@ -97,6 +98,7 @@ private:
     std::vector<int> rim(const std::vector<std::vector<int>>& rims, std::initializer_list<int> levels, int first,
                          int last) const;
 
+    const Variant variant;
     Cage cage;
     Patch bottom;
     std::vector<std::vector<int>> body; // rims of the torso, from below
@@ -218,12 +220,12 @@ void Builder::mouth() {
             }
         }
     }
-    for (Quad& quad : cage.quads) {
-        const bool inside = std::all_of(quad.points.begin(), quad.points.end(), [&](int point) {
+    for (Face& face : cage.faces) {
+        const bool inside = std::all_of(face.points.begin(), face.points.end(), [&](int point) {
             return std::find(slit.points.begin(), slit.points.end(), point) != slit.points.end();
         });
         if (inside) {
-            quad.part = Part::Mouth;
+            face.part = Part::Mouth;
         }
     }
 }
@@ -530,18 +532,18 @@ Cage Builder::build() {
     tail();
     wing();
     rigJaw();
-    addPairedDetails(cage);
+    addPairedDetails(cage, variant);
     cage.compact();
     cage.mirror();
-    addMiddleDetails(cage);
+    addMiddleDetails(cage, variant);
     cage.compact();
     return cage;
 }
 
 } // namespace
 
-Cage modelPip() {
-    return Builder().build();
+Cage modelPip(Variant variant) {
+    return Builder(variant).build();
 }
 
 } // namespace supple::creature

@@ -44,10 +44,15 @@ struct FingerLine {
 };
 std::array<FingerLine, 4> fingerLines();
 
-Cage modelPip();
+enum class Variant {
+    mixed, // triangles, quads and pentagons, polar tips, creases, open eyes
+    quads
+};
 
-// Eyes, teeth, horns, claws: closed shells beside the body. The first is called on the half model.
-void addPairedDetails(Cage& cage);
-void addMiddleDetails(Cage& cage);
+Cage modelPip(Variant variant);
+
+// Eyes, teeth, horns, claws: shells beside the body. The first is called on the half model.
+void addPairedDetails(Cage& cage, Variant variant);
+void addMiddleDetails(Cage& cage, Variant variant);
 
 } // namespace supple::creature

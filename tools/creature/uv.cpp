@@ -12,14 +12,10 @@ namespace supple::creature {
 namespace {
 
 // Which side of its part's seam a quad is on: tubes are cut into two halves.
-int side(const Cage& cage, const Quad& quad) {
-    Vec3 centre{0};
-    for (int point : quad.points) {
-        centre += cage.position(point) * 0.25;
-    }
-    const Vec3 normal = glm::cross(cage.position(quad.points[2]) - cage.position(quad.points[0]),
-                                   cage.position(quad.points[3]) - cage.position(quad.points[1]));
-    switch (quad.part) {
+int side(const Cage& cage, const Face& face) {
+    const Vec3 centre = cage.centre(face);
+    const Vec3 normal = cage.normal(face);
+    switch (face.part) {
     case Part::Torso:
     case Part::Head:
         return centre.z > 0 ? 1 : 0;
@@ -45,13 +41,13 @@ struct Spring {
     double length;
 };
 
-// The longest loop of edges that only one of the quads has, in their winding.
-std::vector<int> rim(const Cage& cage, const std::vector<size_t>& quads) {
+// The longest loop of edges that only one of the faces has, in their winding.
+std::vector<int> rim(const Cage& cage, const std::vector<size_t>& faces) {
     std::map<std::pair<int, int>, bool> edges;
-    for (size_t q : quads) {
-        const auto& p = cage.quads[q].points;
-        for (size_t i = 0; i < 4; ++i) {
-            edges[{p[i], p[(i + 1) % 4]}] = true;
+    for (size_t q : faces) {
+        const auto& p = cage.faces[q].points;
+        for (size_t i = 0; i < p.size(); ++i) {
+            edges[{p[i], p[(i + 1) % p.size()]}] = true;
         }
     }
     std::map<int, int> next;
@@ -75,40 +71,42 @@ std::vector<int> rim(const Cage& cage, const std::vector<size_t>& quads) {
     return longest;
 }
 
-size_t folds(const Cage& cage, const std::vector<size_t>& quads, const std::map<int, Vec2>& at) {
+size_t folds(const Cage& cage, const std::vector<size_t>& faces, const std::map<int, Vec2>& at) {
     size_t count = 0;
-    for (size_t q : quads) {
-        const auto& p = cage.quads[q].points;
-        for (size_t i = 0; i < 4; ++i) {
-            const Vec2 u = at.at(p[(i + 1) % 4]) - at.at(p[i]);
-            const Vec2 v = at.at(p[(i + 3) % 4]) - at.at(p[i]);
+    for (size_t q : faces) {
+        const auto& p = cage.faces[q].points;
+        for (size_t i = 0; i < p.size(); ++i) {
+            const Vec2 u = at.at(p[(i + 1) % p.size()]) - at.at(p[i]);
+            const Vec2 v = at.at(p[(i + p.size() - 1) % p.size()]) - at.at(p[i]);
             count += u.x * v.y - u.y * v.x <= 0;
         }
     }
     return count;
 }
 
-Flat flatten(const Cage& cage, const std::vector<size_t>& quads) {
+Flat flatten(const Cage& cage, const std::vector<size_t>& faces) {
     std::vector<Spring> springs;
     std::map<int, std::vector<int>> around;
     double area = 0;
-    for (size_t q : quads) {
-        const auto& p = cage.quads[q].points;
-        for (size_t i = 0; i < 4; ++i) {
-            springs.push_back({p[i], p[(i + 1) % 4], glm::length(cage.position(p[(i + 1) % 4]) - cage.position(p[i]))});
-            around[p[i]].push_back(p[(i + 1) % 4]);
-            around[p[(i + 1) % 4]].push_back(p[i]);
+    for (size_t q : faces) {
+        const auto& p = cage.faces[q].points;
+        for (size_t i = 0; i < p.size(); ++i) {
+            const int next = p[(i + 1) % p.size()];
+            springs.push_back({p[i], next, glm::length(cage.position(next) - cage.position(p[i]))});
+            around[p[i]].push_back(next);
+            around[next].push_back(p[i]);
         }
-        for (size_t i = 0; i < 2; ++i) {
-            springs.push_back({p[i], p[i + 2], glm::length(cage.position(p[i + 2]) - cage.position(p[i]))});
+        for (size_t i = 0; i < p.size(); ++i) {
+            for (size_t k = i + 2; k < p.size() - (i == 0); ++k) {
+                springs.push_back({p[i], p[k], glm::length(cage.position(p[k]) - cage.position(p[i]))});
+            }
         }
-        area += 0.5 * glm::length(glm::cross(cage.position(p[2]) - cage.position(p[0]),
-                                             cage.position(p[3]) - cage.position(p[1])));
+        area += 0.5 * glm::length(cage.normal(cage.faces[q]));
     }
 
     // First stretched in a round hoop, which cannot fold.
     Flat flat;
-    const std::vector<int> hoop = rim(cage, quads);
+    const std::vector<int> hoop = rim(cage, faces);
     double round = 0;
     for (size_t i = 0; i < hoop.size(); ++i) {
         round += glm::length(cage.position(hoop[(i + 1) % hoop.size()]) - cage.position(hoop[i]));
@@ -136,7 +134,7 @@ Flat flatten(const Cage& cage, const std::vector<size_t>& quads) {
     }
 
     // Then springs along edges and diagonals pull it to its true lengths, as far as that folds nothing.
-    size_t leastFolds = folds(cage, quads, flat.at);
+    size_t leastFolds = folds(cage, faces, flat.at);
     std::map<int, Vec2> best = flat.at;
     for (int pass = 1; pass <= 400; ++pass) {
         for (const Spring& spring : springs) {
@@ -149,7 +147,7 @@ Flat flatten(const Cage& cage, const std::vector<size_t>& quads) {
             b -= move;
         }
         if (pass % 10 == 0) {
-            const size_t now = folds(cage, quads, flat.at);
+            const size_t now = folds(cage, faces, flat.at);
             if (now <= leastFolds) {
                 leastFolds = now;
                 best = flat.at;
@@ -187,19 +185,14 @@ Flat flatten(const Cage& cage, const std::vector<size_t>& quads) {
 
 Atlas unwrap(const Cage& cage) {
     Atlas atlas;
-    atlas.chart.assign(cage.quads.size(), -1);
-    atlas.corners.resize(cage.quads.size());
+    atlas.chart.assign(cage.faces.size(), -1);
+    atlas.corners.resize(cage.faces.size());
 
-    // Charts are the connected runs of quads of one part, shell and side.
-    std::map<std::pair<int, int>, size_t> owner;
-    for (size_t q = 0; q < cage.quads.size(); ++q) {
-        for (size_t i = 0; i < 4; ++i) {
-            owner[{cage.quads[q].points[i], cage.quads[q].points[(i + 1) % 4]}] = q;
-        }
-    }
+    // Charts are the connected runs of faces of one part, shell and side.
+    const std::map<std::pair<int, int>, size_t> owner = cage.directedEdges();
     std::vector<Flat> flats;
     std::vector<std::vector<size_t>> members;
-    for (size_t first = 0; first < cage.quads.size(); ++first) {
+    for (size_t first = 0; first < cage.faces.size(); ++first) {
         if (atlas.chart[first] >= 0) {
             continue;
         }
@@ -207,11 +200,15 @@ Atlas unwrap(const Cage& cage) {
         std::vector<size_t> found{first};
         atlas.chart[first] = chart;
         for (size_t k = 0; k < found.size(); ++k) {
-            const Quad& quad = cage.quads[found[k]];
-            for (size_t i = 0; i < 4; ++i) {
-                const size_t next = owner.at({quad.points[(i + 1) % 4], quad.points[i]});
-                if (atlas.chart[next] < 0 && cage.quads[next].part == quad.part &&
-                    side(cage, cage.quads[next]) == side(cage, quad)) {
+            const Face& face = cage.faces[found[k]];
+            for (size_t i = 0; i < face.points.size(); ++i) {
+                const auto across = owner.find({face.points[(i + 1) % face.points.size()], face.points[i]});
+                if (across == owner.end()) {
+                    continue;
+                }
+                const size_t next = across->second;
+                if (atlas.chart[next] < 0 && cage.faces[next].part == face.part &&
+                    side(cage, cage.faces[next]) == side(cage, face)) {
                     atlas.chart[next] = chart;
                     found.push_back(next);
                 }
@@ -245,11 +242,11 @@ Atlas unwrap(const Cage& cage) {
         shelf = std::max(shelf, flats[c].size.y);
         used = std::max({used, pen.x, pen.y + shelf + margin});
     }
-    for (size_t q = 0; q < cage.quads.size(); ++q) {
+    for (size_t q = 0; q < cage.faces.size(); ++q) {
         const size_t c = static_cast<size_t>(atlas.chart[q]);
-        for (size_t i = 0; i < 4; ++i) {
-            const Vec2 at = (corner[c] + flats[c].at.at(cage.quads[q].points[i])) / used;
-            atlas.corners[q][i] = {at.x, 1 - at.y};
+        for (int point : cage.faces[q].points) {
+            const Vec2 at = (corner[c] + flats[c].at.at(point)) / used;
+            atlas.corners[q].push_back({at.x, 1 - at.y});
         }
     }
     return atlas;

@@ -3,14 +3,13 @@
 
 #include "modeller.h"
 
-#include <array>
 #include <vector>
 
 namespace supple::creature {
 
 struct Atlas {
-    std::vector<int> chart;                   // of each quad
-    std::vector<std::array<Vec2, 4>> corners; // of each quad, in [0, 1]
+    std::vector<int> chart;                 // of each face
+    std::vector<std::vector<Vec2>> corners; // of each face, in [0, 1]
 };
 
 Atlas unwrap(const Cage& cage);

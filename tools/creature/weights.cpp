@@ -217,12 +217,17 @@ std::vector<Influences> skinWeights(const Cage& cage, const Skeleton& skeleton) 
         if (members.empty()) {
             continue;
         }
-        const size_t rootCount = std::min<size_t>(members.size(), 4);
-        for (size_t i = 0; i < rootCount; ++i) {
-            root += cage.points[members[i]].position / static_cast<double>(rootCount);
+        double rootCount = 0;
+        for (size_t i : members) {
+            rootCount += cage.points[i].along == 0;
+        }
+        for (size_t i : members) {
+            if (cage.points[i].along == 0) {
+                root += cage.points[i].position / rootCount;
+            }
         }
         const Part part = cage.points[members[0]].part;
-        const std::string suffix = root.x > 0 ? ".L" : ".R";
+        const std::string suffix = cage.points[members[0]].position.x > 0 ? ".L" : ".R";
         Influences shared;
         shared.weights[0] = 1;
         if (part == Part::Claw || part == Part::Spike) {
