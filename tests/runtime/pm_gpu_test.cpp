@@ -1,7 +1,7 @@
 // P_m on the device: against the stored vectors, against the reference, and the bits its patches share.
 #include "cage/procedural.h"
 #include "surface/pm/reference.h"
-#include "tests/support/gpu_surface.h"
+#include "tests/support/pm_gpu.h"
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_vectors.h"
 #include "tests/support/pm_zoo.h"
@@ -15,39 +15,7 @@
 namespace supple::test {
 namespace {
 
-using surface::Domain;
 using surface::pm::FacetClass;
-
-GpuOptions pmOptions(SuppleMapping mapping, uint32_t rate) {
-    GpuOptions options;
-    options.scheme = SUPPLE_SCHEME_PM;
-    options.mapping = mapping;
-    options.rate = rate;
-    return options;
-}
-
-/// The patch of every facet of the mesh: patches come by class, then by facet, as the mesh's own order within a class.
-std::vector<uint32_t> facetsOf(const GpuSurface& gpu, const surface::pm::Mesh& mesh) {
-    constexpr SupplePatchClass kClasses[] = {SUPPLE_PATCH_REGULAR, SUPPLE_PATCH_POLAR, SUPPLE_PATCH_P3, SUPPLE_PATCH_P4,
-                                             SUPPLE_PATCH_P5};
-    std::vector<uint32_t> facets;
-    for (const SupplePatchClass patchClass : kClasses) {
-        for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-            if (kClasses[static_cast<size_t>(mesh.classes[f])] == patchClass) {
-                facets.push_back(f);
-            }
-        }
-    }
-    EXPECT_EQ(facets.size(), gpu.patches().size());
-    for (uint32_t p = 0; p < facets.size(); ++p) {
-        EXPECT_EQ(gpu.patches()[p].face, mesh.sourceFaces[facets[p]]);
-        EXPECT_EQ(gpu.patches()[p].cornerCount, mesh.cage.sides(facets[p]));
-        for (uint32_t i = 0; i < gpu.patches()[p].cornerCount; ++i) {
-            EXPECT_EQ(gpu.patches()[p].corners[i], mesh.cage.faceVertices[mesh.corner(facets[p], i)]);
-        }
-    }
-    return facets;
-}
 
 class PmOnGpu : public testing::TestWithParam<SuppleMapping> {};
 INSTANTIATE_TEST_SUITE_P(Mappings, PmOnGpu, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
@@ -63,17 +31,18 @@ TEST_P(PmOnGpu, CoefficientsMatchTheStoredVectors) {
         GpuSurface gpu(*device, v.cage, pmOptions(GetParam(), 4));
         ASSERT_TRUE(gpu.valid());
         gpu.evaluate();
-        const std::vector<uint32_t> facets = facetsOf(gpu, v.mesh());
+        const surface::pm::Mesh mesh = v.mesh();
+        const PmPatches patches(gpu, mesh);
         double worst = 0.0;
-        for (uint32_t p = 0; p < facets.size(); ++p) {
-            const std::vector<glm::dvec3>& expected = v.patches[facets[p]].coefficients;
+        for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
+            const std::vector<glm::dvec3>& expected = v.patches[patches.facet(p)].coefficients;
             ASSERT_EQ(gpu.patches()[p].coefficientCount, expected.size());
             for (uint32_t k = 0; k < expected.size(); ++k) {
                 raise(worst, glm::length(glm::dvec3(gpu.coefficient(0, p, k)) - expected[k]) / extent(v.positions));
             }
         }
-        std::printf("%-24s %3zu patches, coefficients within %.1e of the extent\n", v.name.c_str(), facets.size(),
-                    worst);
+        std::printf("%-24s %3zu patches, coefficients within %.1e of the extent\n", v.name.c_str(),
+                    gpu.patches().size(), worst);
         EXPECT_LE(worst, 1e-5) << v.name;
     }
 }
@@ -91,11 +60,11 @@ TEST_P(PmOnGpu, SurfaceMatchesTheReference) {
             gpu.evaluate();
             const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(zoo.cage);
             ASSERT_TRUE(mesh.ok());
-            const std::vector<uint32_t> facets = facetsOf(gpu, *mesh);
+            const PmPatches patches(gpu, *mesh);
             std::vector<glm::dvec3> positions(zoo.cage.positions.begin(), zoo.cage.positions.end());
             const auto coefficients = surface::pm::construct<double>(*mesh, positions);
-            for (uint32_t p = 0; p < facets.size(); ++p) {
-                const auto patch = surface::pm::gatherPatch<double>(*mesh, coefficients, facets[p]);
+            for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
+                const auto patch = surface::pm::gatherPatch<double>(*mesh, coefficients, patches.facet(p));
                 for (uint32_t s = 0; s < gpu.sampleCount(p); ++s) {
                     const auto expected =
                         surface::pm::evaluate(patch, surface::pm::domainPoint<double>(patch.facetClass, rate, s));
@@ -126,12 +95,8 @@ TEST_P(PmOnGpu, BordersAgreeBitForBit) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    struct Bits {
-        uint64_t samples = 0;
-        uint64_t different = 0;
-    };
-    std::map<std::pair<FacetClass, FacetClass>, Bits> pairs;
-    Bits hard;
+    std::map<std::pair<FacetClass, FacetClass>, SharedBits> pairs;
+    SharedBits hard;
     for (const PmCage& zoo : pmZoo()) {
         const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(zoo.cage);
         ASSERT_TRUE(mesh.ok());
@@ -139,30 +104,16 @@ TEST_P(PmOnGpu, BordersAgreeBitForBit) {
             GpuSurface gpu(*device, zoo.cage, pmOptions(GetParam(), rate));
             ASSERT_TRUE(gpu.valid());
             gpu.evaluate();
-            const std::vector<uint32_t> facets = facetsOf(gpu, *mesh);
-            std::vector<uint32_t> patchOfFacet(facets.size());
-            for (uint32_t p = 0; p < facets.size(); ++p) {
-                patchOfFacet[facets[p]] = p;
-            }
-            const auto position = [&](uint32_t corner, uint32_t k) {
-                const uint32_t f = mesh->topology.cornerFaces[corner], m = mesh->cage.sides(f);
-                const uint32_t edge = (corner - mesh->cage.faceStarts[f] + m - mesh->firstCorners[f]) % m;
-                const Domain domain = surface::pm::domainOf(mesh->classes[f]);
-                return gpu.vertex(0, patchOfFacet[f], surface::edgeSample(domain, rate, edge, k)).position;
-            };
+            const PmPatches patches(gpu, *mesh);
             for (uint32_t e = 0; e < mesh->topology.edges.size(); ++e) {
                 const cage::Topology::Edge& edge = mesh->topology.edges[e];
-                if (edge.twin == cage::kNone) {
+                if (!patches.shared(edge)) {
                     continue;
                 }
-                FacetClass a = mesh->classes[mesh->topology.cornerFaces[edge.corner]];
-                FacetClass b = mesh->classes[mesh->topology.cornerFaces[edge.twin]];
-                Bits& bits = mesh->edgeCut[e] != 0 ? hard : pairs[std::minmax(a, b)];
-                for (uint32_t k = 0; k <= rate; ++k) {
-                    const glm::vec3 x = position(edge.corner, k), y = position(edge.twin, rate - k);
-                    ++bits.samples;
-                    bits.different += std::memcmp(&x, &y, sizeof(x)) != 0 ? 1 : 0;
-                }
+                const FacetClass a = mesh->classes[mesh->topology.cornerFaces[edge.corner]];
+                const FacetClass b = mesh->classes[mesh->topology.cornerFaces[edge.twin]];
+                SharedBits& bits = mesh->edgeCut[e] != 0 ? hard : pairs[std::minmax(a, b)];
+                bits.add(patches.sharedBits(0, edge));
             }
         }
     }

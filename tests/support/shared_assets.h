@@ -1,6 +1,7 @@
 // Assets that lie beside the checkout on some machines. Where they are absent a test says how many cases it left out.
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -30,6 +31,21 @@ inline std::vector<std::string> allQuadCharacters() {
         {"characters/man_casual_quads.glb", "characters/mh_female1605.glb", "characters/mh_female1605_morph.glb",
          "characters/mh_body_13k_infl8.glb", "characters/mh_proxy741.glb", "characters/pawn_creased.glb"});
     paths.insert(paths.begin(), std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb");
+    return paths;
+}
+
+/// Every file in and below a folder whose name ends as one of `endings` says (".glb"), sorted; none where the folder is
+/// absent.
+inline std::vector<std::string> filesBelow(const std::filesystem::path& folder,
+                                           const std::vector<std::string>& endings) {
+    std::vector<std::string> paths;
+    std::error_code absent;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, absent)) {
+        if (std::find(endings.begin(), endings.end(), entry.path().extension().string()) != endings.end()) {
+            paths.push_back(entry.path().string());
+        }
+    }
+    std::sort(paths.begin(), paths.end());
     return paths;
 }
 
