@@ -1,13 +1,14 @@
-// Whole characters on the GPU: skinning against the CPU skinner, surfaces against the double-precision reference, and
-// what neighbouring patches share: position bits and normals.
+// Whole characters on the GPU under p-rep and P_m: skinning against the CPU skinner, surfaces against the
+// double-precision reference, and what neighbouring patches share: position bits and normals.
 #include "cage/gltf_reader.h"
 #include "skinning/pose.h"
-#include "surface/prep/reference.h"
-#include "tests/support/gpu_surface.h"
 #include "tests/support/meshes.h"
+#include "tests/support/pm_gpu.h"
+#include "tests/support/pm_surface.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
 
+#include <array>
 #include <cstring>
 #include <gtest/gtest.h>
 
@@ -57,115 +58,326 @@ struct Angles {
     }
 };
 
-TEST(CharactersOnGpu, SkinSurfaceAndBorders) {
+constexpr uint32_t kRate = 8;
+
+/// A scheme's surface in double. Facets are those of its cage, samples are numbered as the device does.
+class PrepReference {
+public:
+    static constexpr SuppleScheme kScheme = SUPPLE_SCHEME_PREP;
+    struct Sample {
+        glm::dvec3 position, normal;
+    };
+
+    PrepReference(const cage::Cage& cage, const std::vector<glm::dvec3>& positions) : surface_(cage, positions) {}
+
+    [[nodiscard]] const cage::Cage& cage() const { return surface_.cage; }
+    [[nodiscard]] const cage::Topology& topology() const { return surface_.topology; }
+    [[nodiscard]] bool smooth(uint32_t /*edge*/) const { return true; }
+    [[nodiscard]] bool creased(uint32_t /*facet*/) const { return false; }
+    [[nodiscard]] std::vector<uint32_t> patches(const GpuSurface& gpu) const {
+        std::vector<uint32_t> patches(cage().faceCount());
+        for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
+            patches[gpu.patches()[p].face] = p;
+        }
+        return patches;
+    }
+    [[nodiscard]] surface::Domain domain(uint32_t /*facet*/) const { return surface::Domain::quad; }
+    [[nodiscard]] uint32_t patchEdge(uint32_t corner) const {
+        return corner - cage().faceStarts[topology().cornerFaces[corner]];
+    }
+    [[nodiscard]] Sample at(uint32_t facet, uint32_t sample) const {
+        const auto s = surface_.at(facet, sample % (kRate + 1), sample / (kRate + 1), kRate);
+        return {s.position, s.normal};
+    }
+
+private:
+    PrepSurface<double> surface_;
+};
+
+class PmReference {
+public:
+    static constexpr SuppleScheme kScheme = SUPPLE_SCHEME_PM;
+
+    PmReference(const cage::Cage& cage, const std::vector<glm::dvec3>& positions) : surface_(pmMesh(cage), positions) {
+        const auto roundAll = [](std::vector<glm::dvec3>& points) {
+            for (glm::dvec3& p : points) {
+                p = glm::dvec3(glm::vec3(p));
+            }
+        };
+        rounded_ = surface_.coefficients;
+        roundAll(rounded_.limitPoints);
+        roundAll(rounded_.tangents);
+        roundAll(rounded_.faceCoefficients);
+    }
+
+    [[nodiscard]] const cage::Cage& cage() const { return surface_.mesh.cage; }
+    [[nodiscard]] const cage::Topology& topology() const { return surface_.mesh.topology; }
+    [[nodiscard]] bool smooth(uint32_t edge) const { return surface_.mesh.edgeCut[edge] == 0; }
+    /// Whether semi-sharp creases shape the facet.
+    [[nodiscard]] bool creased(uint32_t facet) const {
+        const surface::pm::Mesh& mesh = surface_.mesh;
+        const auto first = mesh.corners.begin() + mesh.cage.faceStarts[facet];
+        return std::any_of(first, first + mesh.cage.sides(facet),
+                           [&](const surface::pm::FacetCorner& c) { return mesh.sectors[c.sector].creased; });
+    }
+    [[nodiscard]] std::vector<uint32_t> patches(const GpuSurface& gpu) const {
+        const PmPatches found(gpu, surface_.mesh);
+        std::vector<uint32_t> patches;
+        for (uint32_t f = 0; f < cage().faceCount(); ++f) {
+            patches.push_back(found.patch(f));
+        }
+        return patches;
+    }
+    [[nodiscard]] surface::Domain domain(uint32_t facet) const {
+        return surface::pm::domainOf(surface_.mesh.classes[facet]);
+    }
+    [[nodiscard]] uint32_t patchEdge(uint32_t corner) const { return surface_.patchEdge(corner); }
+    [[nodiscard]] surface::pm::Sample<double> at(uint32_t facet, uint32_t sample) const {
+        return surface_.at(facet, kRate, sample);
+    }
+    /// From v, t and f rounded to float, all else exact: what can be had of coefficients in float.
+    [[nodiscard]] surface::pm::Sample<double> roundedAt(uint32_t facet, uint32_t sample) const {
+        return surface::pm::evaluate(surface::pm::gatherPatch<double>(surface_.mesh, rounded_, facet),
+                                     surface::pm::domainPoint<double>(surface_.mesh.classes[facet], kRate, sample));
+    }
+
+private:
+    PmSurface<double> surface_;
+    surface::pm::Coefficients<double> rounded_;
+};
+
+/// A character's group beside its reference in one pose.
+template <class Reference>
+struct Posed {
+    const GpuSurface& gpu;
+    const std::vector<uint32_t>& patches; ///< per facet
+    uint32_t instance;
+    Reference reference;
+
+    [[nodiscard]] uint32_t facet(uint32_t corner) const { return reference.topology().cornerFaces[corner]; }
+    [[nodiscard]] uint32_t edgeSample(uint32_t corner, uint32_t k) const {
+        return surface::edgeSample(reference.domain(facet(corner)), kRate, reference.patchEdge(corner), k);
+    }
+    [[nodiscard]] const GpuSurface::Vertex& vertex(uint32_t f, uint32_t sample) const {
+        return gpu.vertex(instance, patches[f], sample);
+    }
+    [[nodiscard]] const GpuSurface::Vertex& onEdge(uint32_t corner, uint32_t k) const {
+        return vertex(facet(corner), edgeSample(corner, k));
+    }
+    /// Degrees between the device's normal and the reference's.
+    [[nodiscard]] double normalError(uint32_t corner, uint32_t k) const {
+        return angleDegrees(onEdge(corner, k).normal, reference.at(facet(corner), edgeSample(corner, k)).normal);
+    }
+
+    /// Areas of the grid's triangles: the smallest at a sample, and the mean over all.
+    [[nodiscard]] double smallestTriangle(uint32_t f, uint32_t sample) const {
+        double smallest = std::numeric_limits<double>::infinity();
+        forTriangles(f, [&](const std::array<uint32_t, 3>& corners, double area) {
+            if (std::find(corners.begin(), corners.end(), sample) != corners.end()) {
+                smallest = std::min(smallest, area);
+            }
+        });
+        return smallest;
+    }
+    [[nodiscard]] double meanTriangle() const {
+        double sum = 0.0;
+        uint64_t count = 0;
+        for (uint32_t f = 0; f < reference.cage().faceCount(); ++f) {
+            forTriangles(f, [&](const std::array<uint32_t, 3>&, double area) {
+                sum += area;
+                ++count;
+            });
+        }
+        return sum / static_cast<double>(count);
+    }
+
+private:
+    template <class Visit>
+    void forTriangles(uint32_t f, const Visit& visit) const {
+        const std::vector<uint16_t> indices = surface::gridIndices(reference.domain(f), kRate);
+        for (size_t i = 0; i < indices.size(); i += 3) {
+            const std::array<uint32_t, 3> corners = {indices[i], indices[i + 1], indices[i + 2]};
+            const glm::dvec3 a = vertex(f, corners[0]).position;
+            visit(corners, 0.5 * glm::length(glm::cross(glm::dvec3(vertex(f, corners[1]).position) - a,
+                                                        glm::dvec3(vertex(f, corners[2]).position) - a)));
+        }
+    }
+};
+
+/// Where semi-sharp creases shape a facet its normals are counted apart: they turn within alpha of an edge's length,
+/// and the offsets of f_j that make them turn are as small beside the coordinates that float must hold.
+struct Comparison {
+    double skin = 0.0, positions = 0.0; ///< of the extent
+    Angles normals;                     ///< all samples compared, against the reference
+    Angles borders;                     ///< those of them that two patches share over a smooth edge
+    Angles across;                      ///< between the two sides, on all smooth edges
+    Angles creased, creasedRounded;     ///< the same beside creases: the device's, and PmReference::roundedAt()'s
+    SharedBits bits;                    ///< on all edges, hard ones too
+    std::string listed;                 ///< the samples above
+};
+
+/// A large cage's reference is slow: every eighth facet then.
+template <class Reference>
+void compareFacets(const Posed<Reference>& posed, double size, Comparison& result) {
+    const Reference& reference = posed.reference;
+    const cage::Cage& cage = reference.cage();
+    const cage::Topology& topology = reference.topology();
+    for (uint32_t f = 0; f<cage.faceCount(); f += cage.faceCount()> 4000 ? 8 : 1) {
+        const uint32_t samples = surface::sampleCount(reference.domain(f), kRate);
+        std::vector<uint8_t> shared(samples, 0);
+        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
+            const bool border = topology.twins[c] != cage::kNone && reference.smooth(topology.cornerEdges[c]);
+            for (uint32_t k = 0; k <= kRate && border; ++k) {
+                shared[posed.edgeSample(c, k)] = 1;
+            }
+        }
+        for (uint32_t s = 0; s < samples; ++s) {
+            const auto expected = reference.at(f, s);
+            const GpuSurface::Vertex& vertex = posed.vertex(f, s);
+            raise(result.positions, glm::length(glm::dvec3(vertex.position) - expected.position) / size);
+            if (reference.creased(f)) {
+                continue;
+            }
+            const double angle = angleDegrees(vertex.normal, expected.normal);
+            result.normals.add(angle);
+            if (shared[s] != 0) {
+                result.borders.add(angle);
+            }
+        }
+    }
+}
+
+template <class Reference>
+void compareSides(const Posed<Reference>& posed, Comparison& result) {
+    const cage::Topology& topology = posed.reference.topology();
+    double meanTriangle = 0.0;
+    for (uint32_t e = 0; e < topology.edges.size(); ++e) {
+        const cage::Topology::Edge& edge = topology.edges[e];
+        if (edge.twin == cage::kNone) {
+            continue;
+        }
+        const bool creased =
+            posed.reference.creased(posed.facet(edge.corner)) || posed.reference.creased(posed.facet(edge.twin));
+        for (uint32_t k = 0; k <= kRate; ++k) {
+            const GpuSurface::Vertex& a = posed.onEdge(edge.corner, k);
+            const GpuSurface::Vertex& b = posed.onEdge(edge.twin, kRate - k);
+            ++result.bits.samples;
+            result.bits.different += std::memcmp(&a.position, &b.position, sizeof(a.position)) != 0 ? 1 : 0;
+            if (!posed.reference.smooth(e)) {
+                continue;
+            }
+            const double angle = angleDegrees(a.normal, b.normal);
+            (creased ? result.creased : result.across).add(angle);
+            if constexpr (Reference::kScheme == SUPPLE_SCHEME_PM) {
+                const auto rounded = [&](uint32_t corner, uint32_t sample) {
+                    return posed.reference.roundedAt(posed.facet(corner), posed.edgeSample(corner, sample)).normal;
+                };
+                if (creased) {
+                    result.creasedRounded.add(angleDegrees(rounded(edge.corner, k), rounded(edge.twin, kRate - k)));
+                }
+            }
+            if (angle > 0.05 && result.listed.size() < 20000) {
+                meanTriangle = meanTriangle > 0.0 ? meanTriangle : posed.meanTriangle();
+                const uint32_t f = posed.facet(edge.corner);
+                char line[200];
+                std::snprintf(line, sizeof(line),
+                              "    pose %u, face %u, edge %u, sample %u: %.3f degrees, %.3f and %.3f off the "
+                              "reference, smallest triangle there %.1e of the mean\n",
+                              posed.instance, posed.gpu.patches()[posed.patches[f]].face, e, k, angle,
+                              posed.normalError(edge.corner, k), posed.normalError(edge.twin, kRate - k),
+                              posed.smallestTriangle(f, posed.edgeSample(edge.corner, k)) / meanTriangle);
+                result.listed += line;
+            }
+        }
+    }
+}
+
+template <class Reference>
+void compareCharacter(host::Device& device, const std::string& path, const cage::Character& character) {
+    const std::string name = std::filesystem::path(path).filename();
+    const std::vector<Pose> poses = posesOf(character);
+    GpuOptions options;
+    options.scheme = Reference::kScheme;
+    options.instanceCount = static_cast<uint32_t>(poses.size());
+    options.rate = kRate;
+    options.flags = 0;
+    GpuSurface gpu(device, path, options);
+    ASSERT_TRUE(gpu.valid());
+    for (uint32_t i = 0; i < poses.size(); ++i) {
+        ASSERT_EQ(suppleSetClipPose(gpu.context().handle(), gpu.group(), i, poses[i].clip, poses[i].time), SUPPLE_OK);
+    }
+    gpu.evaluate();
+
+    Comparison result;
+    std::vector<uint32_t> patches;
+    for (uint32_t instance = 0; instance < poses.size(); ++instance) {
+        const std::vector<glm::dvec3> deformed = deformedOnCpu(character, poses[instance]);
+        const double size = extent(deformed);
+        for (uint32_t v = 0; v < deformed.size(); ++v) {
+            raise(result.skin, glm::length(glm::dvec3(gpu.deformed(instance, v)) - deformed[v]) / size);
+        }
+        const Posed<Reference> posed{gpu, patches, instance, Reference(character.cage, deformed)};
+        if (instance == 0) {
+            patches = posed.reference.patches(gpu);
+        }
+        compareFacets(posed, size, result);
+        compareSides(posed, result);
+    }
+    std::printf("%-24s %2zu poses: skin %.1e, positions %.1e of the extent; normals %.4f %% within 0.05, max %.3f, on "
+                "borders %.4f %%; across borders %.4f %% within 0.05, mean %.5f, max %.3f degrees; %llu of %llu border "
+                "samples differ\n",
+                name.c_str(), poses.size(), result.skin, result.positions, 100.0 * result.normals.withinShare(),
+                result.normals.worst, 100.0 * result.borders.withinShare(), 100.0 * result.across.withinShare(),
+                result.across.mean(), result.across.worst, static_cast<unsigned long long>(result.bits.different),
+                static_cast<unsigned long long>(result.bits.samples));
+    if (result.creased.samples > 0) {
+        std::printf(
+            "  beside creases %.4f %% within 0.05, mean %.5f, max %.3f degrees; coefficients rounded to float and "
+            "all else exact: %.4f %%, mean %.5f, max %.3f degrees\n",
+            100.0 * result.creased.withinShare(), result.creased.mean(), result.creased.worst,
+            100.0 * result.creasedRounded.withinShare(), result.creasedRounded.mean(), result.creasedRounded.worst);
+    }
+    if (!result.listed.empty()) {
+        std::printf("  %llu samples above 0.05 degrees across borders:\n%s",
+                    static_cast<unsigned long long>(result.across.above + result.creased.above), result.listed.c_str());
+    }
+    EXPECT_LE(result.skin, 1e-5);
+    EXPECT_LE(result.positions, 1e-5);
+    EXPECT_GE(result.normals.withinShare(), 0.999);
+    EXPECT_GE(result.borders.withinShare(), 0.999);
+    EXPECT_GE(result.across.withinShare(), 0.999);
+    EXPECT_LE(result.across.mean(), 0.003);
+    EXPECT_LE(result.creased.mean(), 4.0 * result.creasedRounded.mean());
+    EXPECT_EQ(result.bits.different, 0u);
+}
+
+TEST(CharactersOnGpu, Prep) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    constexpr uint32_t kRate = 8;
     for (const std::string& path : allQuadCharacters()) {
-        const std::string name = std::filesystem::path(path).filename();
-        Result<cage::Character> character = cage::readGltfFile(path);
+        SCOPED_TRACE(path);
+        const Result<cage::Character> character = cage::readGltfFile(path);
         ASSERT_TRUE(character.ok()) << character.error().message;
-        const cage::Cage& cage = character->cage;
-        Result<cage::Topology> topology = cage::buildTopology(cage);
-        ASSERT_TRUE(topology.ok()) << name << ": " << topology.error().message;
+        ASSERT_NO_FATAL_FAILURE(compareCharacter<PrepReference>(*device, path, *character));
+    }
+}
 
-        const std::vector<Pose> poses = posesOf(*character);
-        GpuOptions options;
-        options.instanceCount = static_cast<uint32_t>(poses.size());
-        options.rate = kRate;
-        options.flags = 0;
-        GpuSurface gpu(*device, path, options);
-        ASSERT_TRUE(gpu.valid()) << name;
-        for (uint32_t i = 0; i < poses.size(); ++i) {
-            ASSERT_EQ(suppleSetClipPose(gpu.context().handle(), gpu.group(), i, poses[i].clip, poses[i].time),
-                      SUPPLE_OK);
+/// Whatever their polygons and creases.
+TEST(CharactersOnGpu, Pm) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    for (const std::string& path : allCharacters()) {
+        SCOPED_TRACE(path);
+        const Result<cage::Character> character = cage::readGltfFile(path);
+        ASSERT_TRUE(character.ok()) << character.error().message;
+        const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(character->cage);
+        if (!mesh.ok()) { // tests/runtime/assets_table_test.cpp says which these are
+            std::printf("refused: %s: %s\n", path.c_str(), mesh.error().message.c_str());
+            continue;
         }
-        gpu.evaluate();
-
-        std::vector<uint32_t> patchOfFace(cage.faceCount());
-        for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
-            patchOfFace[gpu.patches()[p].face] = p;
-        }
-        // The reference is slow; a large cage is compared at every eighth patch, its borders everywhere.
-        const uint32_t step = cage.faceCount() > 4000 ? 8 : 1;
-        double skin = 0.0, positions = 0.0;
-        uint64_t differentBits = 0, borderSamples = 0;
-        Angles normals, across;
-        std::string listed;
-        for (uint32_t instance = 0; instance < poses.size(); ++instance) {
-            const std::vector<glm::dvec3> deformed = deformedOnCpu(*character, poses[instance]);
-            const double size = extent(deformed);
-            for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
-                raise(skin, glm::length(glm::dvec3(gpu.deformed(instance, v)) - deformed[v]) / size);
-            }
-
-            const auto coefficients = surface::prep::construct<double>(cage, *topology, deformed, {});
-            double area = 0.0;
-            uint64_t areaSamples = 0;
-            for (uint32_t face = 0; face < cage.faceCount(); face += step) {
-                const auto patch = surface::prep::gatherPatch<double>(cage, *topology, coefficients, face, {});
-                for (uint32_t j = 0; j <= kRate; ++j) {
-                    for (uint32_t i = 0; i <= kRate; ++i) {
-                        const auto sample = surface::prep::evaluate<double>(patch, parameterPair<double>(i, kRate),
-                                                                            parameterPair<double>(j, kRate));
-                        const GpuSurface::Vertex& vertex = gpu.vertex(instance, patchOfFace[face], i, j);
-                        raise(positions, glm::length(glm::dvec3(vertex.position) - sample.position) / size);
-                        normals.add(angleDegrees(vertex.normal, sample.normal));
-                        area += glm::length(glm::cross(sample.du, sample.dv));
-                        ++areaSamples;
-                    }
-                }
-            }
-            const double meanArea = area / static_cast<double>(areaSamples);
-
-            for (const cage::Topology::Edge& edge : topology->edges) {
-                if (edge.twin == cage::kNone) {
-                    continue;
-                }
-                for (uint32_t k = 0; k <= kRate; ++k) {
-                    const auto at = [&](uint32_t corner, uint32_t sample) -> const GpuSurface::Vertex& {
-                        const uint32_t face = topology->cornerFaces[corner];
-                        const glm::uvec2 grid = edgeSample(corner - cage.faceStarts[face], sample, kRate);
-                        return gpu.vertex(instance, patchOfFace[face], grid.x, grid.y);
-                    };
-                    const GpuSurface::Vertex &a = at(edge.corner, k), &b = at(edge.twin, kRate - k);
-                    ++borderSamples;
-                    differentBits += std::memcmp(&a.position, &b.position, sizeof(a.position)) != 0 ? 1 : 0;
-                    const double angle = angleDegrees(a.normal, b.normal);
-                    across.add(angle);
-                    if (angle > 0.05 && listed.size() < 20000) {
-                        const uint32_t face = topology->cornerFaces[edge.corner];
-                        const auto patch = surface::prep::gatherPatch<double>(cage, *topology, coefficients, face, {});
-                        const glm::uvec2 grid = edgeSample(edge.corner - cage.faceStarts[face], k, kRate);
-                        const auto sample = surface::prep::evaluate<double>(patch, parameterPair<double>(grid.x, kRate),
-                                                                            parameterPair<double>(grid.y, kRate));
-                        char line[160];
-                        std::snprintf(line, sizeof(line),
-                                      "    pose %u, face %u, sample %u: %.3f degrees, |Du x Dv| %.1e of the mean\n",
-                                      instance, face, k, angle,
-                                      glm::length(glm::cross(sample.du, sample.dv)) / meanArea);
-                        listed += line;
-                    }
-                }
-            }
-        }
-        std::printf(
-            "%-24s %2zu poses: skin %.1e, positions %.1e of the extent; normals %.4f %% within 0.05, max %.3f; across "
-            "borders %.4f %% within 0.05, mean %.5f, max %.3f degrees; %llu of %llu border samples differ\n",
-            name.c_str(), poses.size(), skin, positions, 100.0 * normals.withinShare(), normals.worst,
-            100.0 * across.withinShare(), across.mean(), across.worst, static_cast<unsigned long long>(differentBits),
-            static_cast<unsigned long long>(borderSamples));
-        if (!listed.empty()) {
-            std::printf("  %llu samples above 0.05 degrees across borders:\n%s",
-                        static_cast<unsigned long long>(across.above), listed.c_str());
-        }
-        EXPECT_LE(skin, 1e-5) << name;
-        EXPECT_LE(positions, 1e-5) << name;
-        EXPECT_GE(normals.withinShare(), 0.999) << name;
-        EXPECT_GE(across.withinShare(), 0.999) << name;
-        EXPECT_LE(across.mean(), 0.003) << name;
-        EXPECT_EQ(differentBits, 0u) << name;
+        ASSERT_NO_FATAL_FAILURE(compareCharacter<PmReference>(*device, path, *character));
     }
 }
 

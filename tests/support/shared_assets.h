@@ -49,4 +49,16 @@ inline std::vector<std::string> filesBelow(const std::filesystem::path& folder,
     return paths;
 }
 
+/// The shared characters and the repository's own, which are always there.
+inline std::vector<std::string> allCharacters() {
+    const std::string folder = std::string(SUPPLE_SHARED_DIR) + "/assets/characters";
+    std::vector<std::string> paths = filesBelow(folder, {".glb"});
+    if (paths.empty()) {
+        std::printf("all shared characters left out: %s is not present\n", folder.c_str());
+    }
+    const std::vector<std::string> own = filesBelow(SUPPLE_SAMPLE_ASSETS, {".glb"});
+    paths.insert(paths.begin(), own.begin(), own.end());
+    return paths;
+}
+
 } // namespace supple::test
