@@ -134,16 +134,16 @@ SUPPLE_API void suppleDestroyContext(SuppleContext context);
 
 /* ---------------------------------------------------------------------------------------------------- assets */
 
-/* P_m's own crease control: alpha of the edge vertex -> toward at its end `vertex`, in (0, 1]: 2/3 is smooth, smaller is
- * sharper. Overrides what follows from a crease's sharpness there. */
+/* P_m's own crease control: alpha of the edge vertex -> toward at its end `vertex`, in (0, 1]: 2/3 is smooth, smaller
+ * is sharper. Overrides what follows from a crease's sharpness there. */
 typedef struct SuppleCreaseScalar {
     uint32_t vertex;
     uint32_t toward;
     float alpha;
 } SuppleCreaseScalar;
 
-/* A control cage given as arrays (copied). Polygons are oriented counter-clockwise seen from outside. Sharpness counts as
- * in OpenSubdiv and USD: 0 is smooth, 10 and more infinitely sharp. */
+/* A control cage given as arrays (copied). Polygons are oriented counter-clockwise seen from outside. Sharpness counts
+ * as in OpenSubdiv and USD: 0 is smooth, 10 and more infinitely sharp. */
 typedef struct SuppleCageDesc {
     uint32_t structSize;
     uint32_t vertexCount;
@@ -177,8 +177,8 @@ typedef struct SuppleFileBytes {
 } SuppleFileBytes;
 typedef struct SuppleFiles {
     /* Fills out, whose bytes stay valid until release, and returns non-zero; 0: there is no such file. path is relative
-     * to the asset, percent-decoded, with forward slashes, without "..", "." or a scheme. Called on the thread that calls
-     * suppleCreateAsset, before that returns. */
+     * to the asset, percent-decoded, with forward slashes, without "..", "." or a scheme. Called on the thread that
+     * calls suppleCreateAsset, before that returns. */
     int (*read)(const char* path, SuppleFileBytes* out, void* user);
     void (*release)(SuppleFileBytes* bytes, void* user); /* optional; once for every read that succeeded */
     void* user;
@@ -192,7 +192,7 @@ typedef struct SuppleAssetDesc {
     const void* bytes; /* .glb or .gltf; .obj when `name` ends so */
     size_t byteCount;
     const char* baseDirectory; /* where the .gltf's external files lie; null allows none */
-    const SuppleFiles* files; /* optional: asked instead of baseDirectory; needed during the call only */
+    const SuppleFiles* files;  /* optional: asked instead of baseDirectory; needed during the call only */
     const SuppleCageDesc* cage;
 } SuppleAssetDesc;
 
@@ -424,8 +424,8 @@ typedef struct SuppleBufferView {
  * QUAD      (R+1)^2: (i, j) at j (R+1) + i, u = i/R from corner 0 to 1, v = j/R from corner 0 to 3
  * POLAR     the same samples; the row j = R is one point, corner 2
  * TRIANGLE  (R+1)(R+2)/2: rows j = 0..R from the edge 0-1 towards corner 2, each i = 0..R-j
- * PENTAGON  5 R(R+1)/2 + 1: for each edge s-(s+1) rows j = 0..R-1 from the edge towards the centre, each i = 0..R-j-1 (the
- *           row's last point is the next edge's first); then the centre */
+ * PENTAGON  5 R(R+1)/2 + 1: for each edge s-(s+1) rows j = 0..R-1 from the edge towards the centre, each i = 0..R-j-1
+ * (the row's last point is the next edge's first); then the centre */
 typedef enum SuppleDomain {
     SUPPLE_DOMAIN_QUAD = 0,
     SUPPLE_DOMAIN_POLAR = 1,
@@ -433,8 +433,8 @@ typedef enum SuppleDomain {
     SUPPLE_DOMAIN_PENTAGON = 3
 } SuppleDomain;
 
-/* A run of patches of one domain and material; ranges follow each other without gaps. Draw instance i (0 .. patchCount *
- * instanceCount - 1) is patch firstPatch + i % patchCount of character instance i / patchCount. */
+/* A run of patches of one domain and material; ranges follow each other without gaps. Draw instance i (0 .. patchCount
+ * * instanceCount - 1) is patch firstPatch + i % patchCount of character instance i / patchCount. */
 typedef struct SuppleDrawRange {
     uint32_t firstPatch;
     uint32_t patchCount;
@@ -468,8 +468,8 @@ typedef struct SuppleGroupOutput {
         deformedCage; /* float4 (x, y, z, 1) per cage vertex: instance * cageVerticesPerInstance + vertex */
     SuppleBufferView patchCoefficients; /* float4 per coefficient, SUPPLE_PATCH_STRIDE per patch, instance-major; see
                                          * SupplePatchInfo */
-    SuppleBufferView gridIndices; /* uint16: see SuppleDrawRange */
-    SuppleBufferView indirect; /* VkDrawIndexedIndirectCommand per draw range */
+    SuppleBufferView gridIndices;       /* uint16: see SuppleDrawRange */
+    SuppleBufferView indirect;          /* VkDrawIndexedIndirectCommand per draw range */
     const SuppleDrawRange* drawRanges;
     uint32_t drawRangeCount;
     VkDeviceSize deviceBytes; /* device memory held by this group, its share of the asset's tables not counted */
@@ -504,7 +504,7 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 /* ---------------------------------------------------------------------------------------------------- timings */
 
 typedef struct SuppleTiming {
-    const char* pass; /* static: upload, deform, vertex, edge, patch, evaluate, attributes */
+    const char* pass; /* static: upload, attributes, deform, vertex, edge (P_m: its facets), patch, evaluate */
     uint32_t group;   /* index of the group in suppleRecord's array */
     uint64_t frame;
     double gpuBegin; /* nanoseconds since the context's first timestamp; 0 where the queue has none */
