@@ -45,10 +45,7 @@ void InstancePoses::finishPalette(uint32_t instance) {
 }
 
 void InstancePoses::setPose(uint32_t instance) {
-    const cage::Character& character = asset_->character;
-    skinning::localMatrices(character.skeleton, pose_, nodes_);
-    skinning::globalTransforms(character.skeleton, nodes_, nodes_);
-    skinning::jointPalette(character.skin, nodes_, glm::mat4(1.0f), palette(instance));
+    skinning::posePalette(asset_->character, pose_, nodes_, palette(instance));
     std::transform(pose_.morphWeights.begin(), pose_.morphWeights.end(),
                    poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_),
                    [](double weight) { return static_cast<float>(weight); });

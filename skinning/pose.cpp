@@ -206,6 +206,13 @@ void jointPalette(const cage::Skin& skin, std::span<const glm::mat4> globals, co
     }
 }
 
+void posePalette(const cage::Character& character, const Pose& pose, std::span<glm::mat4> nodes,
+                 std::span<Affine> palette) {
+    localMatrices(character.skeleton, pose, nodes);
+    globalTransforms(character.skeleton, nodes, nodes);
+    jointPalette(character.skin, nodes, glm::mat4(1.0f), palette);
+}
+
 void jointRotations(std::span<const Affine> palette, std::span<glm::vec4> rotations) {
     assert(palette.size() == rotations.size());
     for (size_t j = 0; j < palette.size(); ++j) {
@@ -251,6 +258,14 @@ std::vector<glm::dvec3> deformOnCpu(const cage::Cage& cage, const cage::SkinWeig
                                     std::span<const Affine> palette) {
     const std::vector<glm::dvec3> positions(cage.positions.begin(), cage.positions.end());
     return deformOnCpu(positions, weights, palette);
+}
+
+std::vector<glm::dvec3> deformOnCpu(const cage::Character& character, const Pose& pose) {
+    std::vector<glm::mat4> nodes(character.skeleton.nodes.size());
+    std::vector<Affine> palette(character.skin.joints.size());
+    posePalette(character, pose, nodes, palette);
+    const std::vector<float> weights(pose.morphWeights.begin(), pose.morphWeights.end());
+    return deformOnCpu(morphOnCpu(character.cage, character.morphs, weights), character.weights, palette);
 }
 
 } // namespace supple::skinning

@@ -57,6 +57,10 @@ void globalTransforms(const cage::Skeleton& skeleton, std::span<const glm::mat4>
 void jointPalette(const cage::Skin& skin, std::span<const glm::mat4> globals, const glm::mat4& transform,
                   std::span<Affine> palette);
 
+/// The palette of a pose in model space; `nodes` is memory for its node transforms.
+void posePalette(const cage::Character& character, const Pose& pose, std::span<glm::mat4> nodes,
+                 std::span<Affine> palette);
+
 /// The rotation of every joint's matrix (skinning/rotation.h) as x, y, z, w: what dual quaternion skinning blends.
 void jointRotations(std::span<const Affine> palette, std::span<glm::vec4> rotations);
 
@@ -69,5 +73,7 @@ void jointRotations(std::span<const Affine> palette, std::span<glm::vec4> rotati
                                                   const cage::SkinWeights& weights, std::span<const Affine> palette);
 [[nodiscard]] std::vector<glm::dvec3> deformOnCpu(const cage::Cage& cage, const cage::SkinWeights& weights,
                                                   std::span<const Affine> palette);
+/// Both, of a pose.
+[[nodiscard]] std::vector<glm::dvec3> deformOnCpu(const cage::Character& character, const Pose& pose);
 
 } // namespace supple::skinning

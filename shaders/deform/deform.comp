@@ -40,6 +40,7 @@ vec3 weighted(uint i, float weight, vec3 p) {
 }
 
 // The rest position with the displacements of elements [first, end); `weights`: first element of the instance's weights.
+// Weights of zero leave the bits but for the sign of a zero, which no sum of skinning keeps.
 vec3 morphed(vec3 rest, uint first, uint end, uint weights) {
     precise vec3 p = rest;
     for (uint element = first; element < end; ++element) {
@@ -47,9 +48,7 @@ vec3 morphed(vec3 rest, uint first, uint end, uint weights) {
         vec4 four = pose(weights + displacement.x / 4u);
         vec2 two = (displacement.x & 2u) == 0u ? four.xy : four.zw;
         float weight = (displacement.x & 1u) == 0u ? two.x : two.y;
-        precise vec3 moved = p + weight * uintBitsToFloat(displacement.yzw);
-        // A target at rest leaves the bits alone, also those of -0.
-        p = weight != 0.0 ? moved : p;
+        p = p + weight * uintBitsToFloat(displacement.yzw);
     }
     return p;
 }

@@ -32,14 +32,12 @@ std::vector<Pose> posesOf(const cage::Character& character) {
 }
 
 std::vector<glm::dvec3> deformedOnCpu(const cage::Character& character, const Pose& pose) {
-    std::vector<skinning::Affine> palette(character.skin.joints.size(), skinning::toAffine(glm::mat4(1.0f)));
-    if (pose.clip != SUPPLE_BIND_POSE) {
-        std::vector<glm::mat4> nodes(character.skeleton.nodes.size());
-        skinning::sampleClip(character.skeleton, character.clips[pose.clip], pose.time, nodes);
-        skinning::globalTransforms(character.skeleton, nodes, nodes);
-        skinning::jointPalette(character.skin, nodes, glm::mat4(1.0f), palette);
+    if (pose.clip == SUPPLE_BIND_POSE) {
+        return doublePositions(character.cage);
     }
-    return skinning::deformOnCpu(character.cage, character.weights, palette);
+    skinning::Pose sampled;
+    skinning::sampleClip(character, character.clips[pose.clip], pose.time, sampled);
+    return skinning::deformOnCpu(character, sampled);
 }
 
 /// How many of many small angles exceed a bound, and which is the largest.

@@ -1,12 +1,15 @@
 // Morph targets and both ways of skinning on the device, against double precision on the CPU.
+#include "cage/gltf_reader.h"
 #include "skinning/rotation.h"
 #include "tests/support/dual_quaternion_reference.h"
 #include "tests/support/meshes.h"
 #include "tests/support/posed_group.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/shared_assets.h"
 #include "tests/support/spirv_precise.h"
 #include "tests/support/wrapped_vulkan.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
@@ -55,21 +58,24 @@ bool sameBits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) 
     return std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec3)) == 0;
 }
 
-/// Model-space joint matrices: a chain that turns by noise, and with `stretch` scales and shears; the mirrored ones
-/// too.
-std::vector<glm::mat4> noisyJoints(const cage::Character& character, uint32_t seed, float stretch,
-                                   float mirror = 1.0f) {
+struct JointNoise {
+    float stretch = 0.0f; ///< scales and shears
+    float mirror = 1.0f;  ///< along x
+    float upright = 1.5f; ///< what rotations lean to: 0 turns any way
+};
+/// Model-space joint matrices of a chain that turns and moves by noise.
+std::vector<glm::mat4> noisyJoints(const cage::Character& character, uint32_t seed, const JointNoise& own) {
     Noise noise(seed);
     std::vector<glm::mat4> joints;
     for (size_t j = 0; j < character.skin.joints.size(); ++j) {
         const glm::mat4 bind = glm::inverse(character.skin.inverseBinds[j]);
-        glm::mat4 turn(glm::mat3_cast(skinning::unit({noise() + 1.5f, noise(), noise(), noise()})));
+        glm::mat4 turn(glm::mat3_cast(skinning::unit({noise() + own.upright, noise(), noise(), noise()})));
         turn[3] = glm::vec4(0.3f * noise.vector(), 1.0f);
         glm::mat4 shape(1.0f);
         for (int c = 0; c < 3; ++c) {
-            shape[c] += glm::vec4(stretch * 0.4f * noise.vector(), 0.0f);
+            shape[c] += glm::vec4(own.stretch * 0.4f * noise.vector(), 0.0f);
         }
-        joints.push_back(glm::scale(glm::mat4(1.0f), {mirror, 1.0f, 1.0f}) * bind * turn * shape);
+        joints.push_back(glm::scale(glm::mat4(1.0f), {own.mirror, 1.0f, 1.0f}) * bind * turn * shape);
     }
     return joints;
 }
@@ -82,8 +88,22 @@ std::vector<skinning::Affine> paletteOf(const cage::Character& character, const 
     return palette;
 }
 
-std::vector<glm::dvec3> doubled(const cage::Cage& cage) {
-    return {cage.positions.begin(), cage.positions.end()};
+/// Influences whose quaternion lies on the other side from that of their vertex' heaviest joint.
+uint32_t flippedInfluences(const cage::Character& character, const std::vector<glm::mat4>& joints) {
+    std::vector<glm::vec4> rotations(joints.size());
+    skinning::jointRotations(paletteOf(character, joints), rotations);
+    const cage::SkinWeights& weights = character.weights;
+    uint32_t flips = 0;
+    for (uint32_t v = 0; v < character.cage.vertexCount(); ++v) {
+        const auto own =
+            std::span(weights.influences).subspan(weights.starts[v], weights.starts[v + 1] - weights.starts[v]);
+        const auto heaviest =
+            std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.weight < b.weight; });
+        for (const cage::Influence& influence : own) {
+            flips += glm::dot(rotations[influence.joint], rotations[heaviest->joint]) < 0.0f ? 1 : 0;
+        }
+    }
+    return flips;
 }
 
 TEST_F(DeformOnGpu, MorphsAgreeWithTheCpuAndBetweenMappings) {
@@ -103,7 +123,7 @@ TEST_F(DeformOnGpu, MorphsAgreeWithTheCpuAndBetweenMappings) {
                 for (int t = 0; t < 7; ++t) {
                     weights.push_back(2.0f * noise());
                 }
-                const std::vector<glm::mat4> joints = noisyJoints(character, i, 0.5f);
+                const std::vector<glm::mat4> joints = noisyJoints(character, i, {.stretch = 0.5f});
                 gpu.poses().setMatrixPose(i, glm::value_ptr(joints[0]));
                 gpu.poses().setMorphWeights(i, weights.data());
                 const auto morphed = skinning::morphOnCpu(character.cage, character.morphs, weights);
@@ -136,7 +156,7 @@ TEST_F(DeformOnGpu, WeightsOfZeroLeaveTheBits) {
             PosedGroup with(context(mapping), riggedTube({.morphTargets = 4}), {skinning, 2});
             PosedGroup without(context(mapping), riggedTube(), {skinning, 2});
             ASSERT_TRUE(with.valid() && without.valid());
-            const std::vector<glm::mat4> joints = noisyJoints(with.character(), 3, 0.5f);
+            const std::vector<glm::mat4> joints = noisyJoints(with.character(), 3, {.stretch = 0.5f});
             const std::vector<float> others = {1, 1, 1, 1};
             for (PosedGroup* gpu : {&with, &without}) {
                 gpu->poses().setMatrixPose(1, glm::value_ptr(joints[0]));
@@ -182,17 +202,19 @@ TEST_F(DeformOnGpu, DualQuaternionsAgreeWithThePapers) {
     const ValidationGuard guard;
     struct Case {
         const char* name;
-        float stretch, mirror;
+        JointNoise noise;
         glm::mat4 transform;
     };
     glm::mat4 placed = glm::rotate(glm::translate(glm::mat4(1.0f), {3, 1, -2}), 0.7f, {0, 1, 0});
     const Case cases[] = {
-        {"rigid", 0.0f, 1.0f, glm::mat4(1.0f)},
-        {"scaled and sheared", 1.0f, 1.0f, glm::mat4(1.0f)},
-        {"mirrored", 1.0f, -1.0f, glm::mat4(1.0f)},
-        {"placed by a rigid transform", 1.0f, 1.0f, placed},
-        {"placed by an uneven, mirroring one", 1.0f, 1.0f, glm::scale(placed, {2.0f, -0.5f, 1.0f})},
+        {"rigid", {}, glm::mat4(1.0f)},
+        {"turned any way", {.upright = 0.0f}, glm::mat4(1.0f)},
+        {"scaled and sheared", {.stretch = 1.0f, .upright = 0.0f}, glm::mat4(1.0f)},
+        {"mirrored", {.stretch = 1.0f, .mirror = -1.0f, .upright = 0.0f}, glm::mat4(1.0f)},
+        {"placed by a rigid transform", {.stretch = 1.0f}, placed},
+        {"placed by an uneven, mirroring one", {.stretch = 1.0f}, glm::scale(placed, {2.0f, -0.5f, 1.0f})},
     };
+    uint32_t flips = 0;
     for (const Case& c : cases) {
         std::vector<glm::vec3> narrow[2];
         for (const SuppleMapping mapping : kMappings) {
@@ -218,12 +240,13 @@ TEST_F(DeformOnGpu, DualQuaternionsAgreeWithThePapers) {
                 }
                 PosedGroup gpu(context(mapping), std::move(character), {SUPPLE_SKINNING_DUAL_QUATERNION, 1});
                 ASSERT_TRUE(gpu.valid());
-                const std::vector<glm::mat4> joints = noisyJoints(gpu.character(), 21, c.stretch, c.mirror);
+                const std::vector<glm::mat4> joints = noisyJoints(gpu.character(), 21, c.noise);
                 gpu.poses().setMatrixPose(0, glm::value_ptr(joints[0]));
                 gpu.poses().setTransform(0, c.transform);
                 gpu.deform();
+                flips += flippedInfluences(gpu.character(), joints);
                 const std::vector<glm::dvec3> wanted =
-                    skinWithDualQuaternions(doubled(gpu.character().cage), gpu.character().weights,
+                    skinWithDualQuaternions(doublePositions(gpu.character().cage), gpu.character().weights,
                                             paletteOf(gpu.character(), joints), glm::dmat4(c.transform));
                 const double worst = worstError(gpu.cage(0), wanted);
                 std::printf("%-36s mapping %d, %s influences: within %.1e of the extent\n", c.name, mapping,
@@ -237,6 +260,8 @@ TEST_F(DeformOnGpu, DualQuaternionsAgreeWithThePapers) {
             }
         }
     }
+    std::printf("%u influences are taken with the other sign of their quaternion\n", flips);
+    EXPECT_GT(flips, 500u);
 }
 
 TEST_F(DeformOnGpu, VerticesOfOneJointMoveAlikeWithBothSkinnings) {
@@ -245,7 +270,7 @@ TEST_F(DeformOnGpu, VerticesOfOneJointMoveAlikeWithBothSkinnings) {
         PosedGroup linear(context(mapping), riggedTube(), {SUPPLE_SKINNING_LINEAR, 1});
         PosedGroup dual(context(mapping), riggedTube(), {SUPPLE_SKINNING_DUAL_QUATERNION, 1});
         ASSERT_TRUE(linear.valid() && dual.valid());
-        const std::vector<glm::mat4> joints = noisyJoints(linear.character(), 5, 1.0f);
+        const std::vector<glm::mat4> joints = noisyJoints(linear.character(), 5, {.stretch = 1.0f});
         for (PosedGroup* gpu : {&linear, &dual}) {
             gpu->poses().setMatrixPose(0, glm::value_ptr(joints[0]));
             gpu->deform();
@@ -364,7 +389,7 @@ TEST_F(DeformOnGpu, EvenScaleOfTheWholeScalesTheShape) {
     const ValidationGuard guard;
     PosedGroup gpu(context(SUPPLE_MAPPING_AUTO), riggedTube({.joints = 4}), {SUPPLE_SKINNING_DUAL_QUATERNION, 3});
     ASSERT_TRUE(gpu.valid());
-    const std::vector<glm::mat4> joints = noisyJoints(gpu.character(), 31, 0.0f);
+    const std::vector<glm::mat4> joints = noisyJoints(gpu.character(), 31, {});
     const glm::mat4 whole[3] = {glm::mat4(1.0f), glm::scale(glm::mat4(1.0f), glm::vec3(0.01f)),
                                 glm::scale(glm::mat4(1.0f), {-3.0f, 3.0f, 3.0f})};
     for (uint32_t i = 0; i < 3; ++i) {
@@ -381,6 +406,65 @@ TEST_F(DeformOnGpu, EvenScaleOfTheWholeScalesTheShape) {
             wanted.emplace_back(whole[i] * glm::vec4(p, 1.0f));
         }
         EXPECT_LT(worstError(gpu.cage(i), wanted), 1e-6);
+    }
+}
+
+TEST_F(DeformOnGpu, CharactersWithMorphTargets) {
+    const ValidationGuard guard;
+    for (const std::string& path :
+         sharedAssets({"khronos/SimpleMorph/SimpleMorph.gltf", "khronos/AnimatedMorphCube/AnimatedMorphCube.gltf",
+                       "khronos/MorphStressTest.gltf", "characters/mh_female1605_morph.glb"})) {
+        const std::string name = std::filesystem::path(path).filename();
+        const Result<cage::Character> character = cage::readGltfFile(path);
+        ASSERT_TRUE(character.ok()) << character.error().message;
+        const auto targets = static_cast<uint32_t>(character->morphs.targets.size());
+        ASSERT_GT(targets, 0u) << name;
+        ASSERT_GT(character->clips.size(), 0u) << name;
+        const auto clips = static_cast<uint32_t>(character->clips.size());
+        // Every clip at four times, then every target alone.
+        const uint32_t instances = 4 * clips + targets;
+        double worst = 0.0, moved = 0.0;
+        std::vector<std::vector<glm::vec3>> narrow;
+        for (const SuppleMapping mapping : kMappings) {
+            PosedGroup gpu(context(mapping), *character, {SUPPLE_SKINNING_LINEAR, instances});
+            ASSERT_TRUE(gpu.valid()) << name;
+            std::vector<std::vector<glm::dvec3>> wanted;
+            for (uint32_t i = 0; i < instances; ++i) {
+                skinning::Pose pose;
+                if (i < 4 * clips) {
+                    const double time = 0.31 * (i % 4) * character->clips[i / 4].duration;
+                    skinning::sampleClip(*character, character->clips[i / 4], time, pose);
+                    gpu.poses().setClipPose(i, i / 4, time);
+                } else {
+                    std::vector<float> weights(targets, 0.0f);
+                    weights[i - 4 * clips] = 1.0f;
+                    skinning::restPose(*character, pose);
+                    pose.morphWeights.assign(weights.begin(), weights.end());
+                    gpu.poses().setRestPose(i);
+                    gpu.poses().setMorphWeights(i, weights.data());
+                }
+                wanted.push_back(skinning::deformOnCpu(*character, pose));
+                pose.morphWeights.assign(targets, 0.0);
+                const std::vector<glm::dvec3> without = skinning::deformOnCpu(*character, pose);
+                for (size_t v = 0; v < without.size(); ++v) {
+                    moved = std::max(moved, glm::length(without[v] - wanted[i][v]) / extent(without));
+                }
+            }
+            gpu.deform();
+            for (uint32_t i = 0; i < instances; ++i) {
+                worst = std::max(worst, worstError(gpu.cage(i), wanted[i]));
+                if (mapping == SUPPLE_MAPPING_NARROW) {
+                    narrow.push_back(gpu.cage(i));
+                } else {
+                    EXPECT_TRUE(sameBits(gpu.cage(i), narrow[i])) << name << ": mappings differ, instance " << i;
+                }
+            }
+        }
+        std::printf(
+            "%-24s %2u targets, %u poses: within %.1e of the extent; targets move vertices by up to %.2f of it\n",
+            name.c_str(), targets, instances, worst, moved);
+        EXPECT_LT(worst, 1e-6) << name;
+        EXPECT_GT(moved, 1e-3) << name;
     }
 }
 
@@ -402,7 +486,7 @@ TEST_F(DeformOnGpu, LargeGroupsAreWindowsOfInstances) {
                 PosedGroup gpu(own, riggedTube({.morphTargets = 4}), {SUPPLE_SKINNING_DUAL_QUATERNION, kInstances});
                 ASSERT_TRUE(gpu.valid());
                 for (uint32_t i = 0; i < kInstances; ++i) {
-                    const std::vector<glm::mat4> joints = noisyJoints(gpu.character(), i, 1.0f);
+                    const std::vector<glm::mat4> joints = noisyJoints(gpu.character(), i, {.stretch = 1.0f});
                     const float weights[] = {0.1f * static_cast<float>(i), 1, 0, -1};
                     gpu.poses().setMatrixPose(i, glm::value_ptr(joints[0]));
                     gpu.poses().setMorphWeights(i, weights);

@@ -1,6 +1,7 @@
 // Posing through the public interface: layers, masks, root motion, morph weights; what it refuses, what it allocates
 // and what crosses to the device.
 #include "cage/gltf_reader.h"
+#include "cage/gltf_writer.h"
 #include "skinning/layers.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/posed_group.h"
@@ -46,7 +47,26 @@ const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
 const float kNan = std::numeric_limits<float>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The demo character in the public interface's hands, and as the reader gives it.
+std::vector<std::byte> bytesOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> chars((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    std::vector<std::byte> bytes(chars.size());
+    std::memcpy(bytes.data(), chars.data(), chars.size());
+    return bytes;
+}
+
+/// The largest distance of an instance's cage from the wanted one.
+double worstDistance(const std::vector<std::byte>& cage, const std::vector<glm::dvec3>& wanted) {
+    double worst = 0.0;
+    for (size_t v = 0; v < wanted.size(); ++v) {
+        glm::vec3 p;
+        std::memcpy(&p, cage.data() + 16 * v, 12);
+        worst = std::max(worst, glm::length(glm::dvec3(p) - wanted[v]));
+    }
+    return worst;
+}
+
+/// A character in the public interface's hands, and as the reader gives it: the demo character unless load() is called.
 class PoseApi : public testing::Test {
 protected:
     void SetUp() override {
@@ -57,16 +77,18 @@ protected:
         Result<std::unique_ptr<host::Context>> created = host::Context::create(*device, options);
         ASSERT_TRUE(created.ok()) << created.error().message;
         context_ = std::move(*created);
-        std::ifstream file(kPip, std::ios::binary);
-        const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+        load(bytesOf(kPip));
+    }
+
+    void load(const std::vector<std::byte>& bytes) {
         SuppleAssetDesc assetDesc{};
         assetDesc.structSize = sizeof(assetDesc);
-        assetDesc.name = "pip";
+        assetDesc.name = "loaded";
         assetDesc.bytes = bytes.data();
         assetDesc.byteCount = bytes.size();
         ASSERT_EQ(suppleCreateAsset(handle(), &assetDesc, &asset), SUPPLE_OK);
-        Result<cage::Character> read = cage::readGltfFile(kPip);
-        ASSERT_TRUE(read.ok());
+        Result<cage::Character> read = cage::readGltf(bytes, "loaded", "");
+        ASSERT_TRUE(read.ok()) << read.error().message;
         character = std::move(*read);
         rig = skinning::makeRig(character);
         info.structSize = sizeof(info);
@@ -214,20 +236,8 @@ TEST_F(PoseApi, LayersAreThoseOfTheSkinningFloor) {
         l.jointMask = {own.jointMask, own.jointMaskCount};
         applyLayer(character, rig, l, root, scratch, wanted);
     }
-    std::vector<glm::mat4> nodes(character.skeleton.nodes.size());
-    skinning::localMatrices(character.skeleton, wanted, nodes);
-    skinning::globalTransforms(character.skeleton, nodes, nodes);
-    std::vector<skinning::Affine> palette(info.jointCount);
-    skinning::jointPalette(character.skin, nodes, glm::mat4(1.0f), palette);
-    const std::vector<glm::dvec3> deformed = skinning::deformOnCpu(character.cage, character.weights, palette);
-    const std::vector<std::byte> cage = cages()[1];
-    double worst = 0.0;
-    for (uint32_t v = 0; v < info.cageVertexCount; ++v) {
-        glm::vec3 p;
-        std::memcpy(&p, cage.data() + 16 * size_t{v}, 12);
-        worst = std::max(worst, glm::length(glm::dvec3(p) - deformed[v]));
-    }
-    EXPECT_LT(worst, 1e-5);
+    const std::vector<glm::dvec3> deformed = skinning::deformOnCpu(character, wanted);
+    EXPECT_LT(worstDistance(cages()[1], deformed), 1e-5);
 }
 
 TEST_F(PoseApi, DualQuaternionsAreASwitchOfTheGroup) {
@@ -291,6 +301,103 @@ TEST_F(PoseApi, RootMotionIsReported) {
     EXPECT_NE(refusal(suppleGetRootMotion(handle(), asset, nullptr, &motion)).find("null"), std::string::npos);
     walk.time = kInfinity;
     EXPECT_NE(refusal(suppleGetRootMotion(handle(), asset, &pose, &motion)).find("layer 0"), std::string::npos);
+}
+
+/// A tube in a file: morph targets with weights of their own and animated ones, and a root that walks along -x.
+std::vector<std::byte> walkingTube() {
+    cage::Character tube = riggedTube({.morphTargets = 4});
+    tube.morphs.weights = {0.25f, 0.0f, 1.0f, -0.5f};
+    tube.clips.push_back(
+        clipOf({channel(1, cage::ChannelPath::translation, {0, 1, 2}, {0, 0, 0, -1, 0.5f, 0, -2, 0, 0}),
+                channel(tube.meshNode, cage::ChannelPath::weights, {0, 2}, {0, 0, 0, 0, 1, -1, 2, 0.5f})}));
+    tube.clips[0].name = "walk";
+    const Result<cage::GlbFile> file = cage::writeGlb(tube);
+    EXPECT_TRUE(file.ok());
+    return file.ok() ? file->bytes : std::vector<std::byte>();
+}
+
+TEST_F(PoseApi, MorphWeightsComeFromClipsUntilTheHostSetsThem) {
+    const ValidationGuard guard;
+    load(walkingTube());
+    ASSERT_EQ(info.morphTargetCount, 4u);
+    auto target = sized<SuppleMorphTargetInfo>();
+    ASSERT_EQ(suppleGetMorphTargetInfo(handle(), asset, 3, &target), SUPPLE_OK);
+    EXPECT_STREQ(target.name, "target 3");
+    EXPECT_EQ(target.weight, -0.5f);
+    EXPECT_EQ(target.vertexCount, info.cageVertexCount);
+    ASSERT_EQ(suppleGetMorphTargetInfo(handle(), asset, 2, &target), SUPPLE_OK);
+    EXPECT_EQ(target.vertexCount, 0u);
+
+    skinning::Pose rest, walk;
+    skinning::restPose(character, rest);
+    skinning::sampleClip(character, character.clips[0], 0.5, walk);
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 0, SUPPLE_BIND_POSE, 0.0), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, SUPPLE_REST_POSE, 0.0), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 2, 0, 0.5), SUPPLE_OK);
+    auto now = cages();
+    EXPECT_LT(worstDistance(now[0], {character.cage.positions.begin(), character.cage.positions.end()}), 1e-6);
+    EXPECT_LT(worstDistance(now[1], skinning::deformOnCpu(character, rest)), 1e-6);
+    EXPECT_LT(worstDistance(now[2], skinning::deformOnCpu(character, walk)), 2e-6);
+
+    // The host's weights stand, whatever pose comes; given back, the pose's are there again.
+    const float weights[] = {1.0f, 0.5f, 0.0f, 2.0f};
+    for (uint32_t i = 0; i < 3; ++i) {
+        ASSERT_EQ(suppleSetMorphWeights(handle(), group, i, weights, 4), SUPPLE_OK);
+    }
+    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, 0, 0.5), SUPPLE_OK);
+    skinning::Pose host = walk;
+    host.morphWeights = {1.0, 0.5, 0.0, 2.0};
+    now = cages();
+    EXPECT_LT(worstDistance(now[1], skinning::deformOnCpu(character, host)), 2e-6);
+    EXPECT_TRUE(now[1] == now[2]);
+    ASSERT_EQ(suppleSetMorphWeights(handle(), group, 1, nullptr, 0), SUPPLE_OK);
+    EXPECT_LT(worstDistance(cages()[1], skinning::deformOnCpu(character, walk)), 2e-6);
+
+    // Two clips' weights, crossfaded; a masked layer spares them unless it says otherwise.
+    const std::vector<float> mask(info.jointCount, 0.0f), morphMask = {0, 1, 0, 0};
+    SuppleClipLayer layers[] = {layer(0, 0.5), layer(0, 2.0)};
+    layers[1].jointMask = mask.data();
+    layers[1].jointMaskCount = info.jointCount;
+    const SupplePoseDesc pose = poseOf(layers);
+    ASSERT_EQ(suppleSetPose(handle(), group, 1, &pose), SUPPLE_OK);
+    EXPECT_LT(worstDistance(cages()[1], skinning::deformOnCpu(character, walk)), 2e-6);
+    layers[1].morphMask = morphMask.data();
+    layers[1].morphMaskCount = 4;
+    ASSERT_EQ(suppleSetPose(handle(), group, 1, &pose), SUPPLE_OK);
+    skinning::Pose masked = walk;
+    masked.morphWeights[1] = -1.0;
+    EXPECT_LT(worstDistance(cages()[1], skinning::deformOnCpu(character, masked)), 2e-6);
+
+    const float bad[] = {0, 0, kNan, 0};
+    EXPECT_NE(refusal(suppleSetMorphWeights(handle(), group, 0, bad, 4)).find("not finite"), std::string::npos);
+    EXPECT_NE(refusal(suppleSetMorphWeights(handle(), group, 0, weights, 3)).find("not the asset's"),
+              std::string::npos);
+}
+
+TEST_F(PoseApi, AHostThatFollowsTheRootSeesTheClip) {
+    // Frame by frame over several loops: instance 0 walks in place and is moved by what is reported; its root stays on
+    // the line that the clip, repeated, draws.
+    const ValidationGuard guard;
+    load(walkingTube());
+    SuppleClipLayer walk = layer(0, 0.0);
+    walk.flags = SUPPLE_LAYER_LOOP;
+    SupplePoseDesc pose = poseOf({&walk, 1});
+    pose.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
+    glm::mat4 placed(1.0f);
+    for (int frame = 1; frame <= 330; ++frame) {
+        walk.previousTime = walk.time;
+        walk.time = frame / 60.0;
+        auto motion = sized<SuppleRootMotion>();
+        ASSERT_EQ(suppleGetRootMotion(handle(), asset, &pose, &motion), SUPPLE_OK);
+        placed = placed * glm::make_mat4(motion.transform);
+    }
+    ASSERT_EQ(suppleSetPose(handle(), group, 0, &pose), SUPPLE_OK);
+    ASSERT_EQ(suppleSetTransform(handle(), group, 0, glm::value_ptr(placed)), SUPPLE_OK);
+    skinning::Pose wanted;
+    skinning::sampleClip(character, character.clips[0], 1.5, wanted); // 5.5 s: two loops of 2 s and three quarters
+    wanted.locals[1].translation.x -= 4.0;
+    EXPECT_NEAR(placed[3].x, -5.5f, 1e-4f);
+    EXPECT_LT(worstDistance(cages()[0], skinning::deformOnCpu(character, wanted)), 1e-4);
 }
 
 TEST_F(PoseApi, WrongPosesAreRefusedByNameAndChangeNothing) {
@@ -439,8 +546,7 @@ TEST_F(PoseApi, TheCppLayerPosesToo) {
     contextDesc.queueFamily = device.queueFamily();
     contextDesc.getInstanceProcAddr = device.getInstanceProcAddr();
     ASSERT_EQ(supple::Context::create(contextDesc, context), SUPPLE_OK);
-    std::ifstream file(kPip, std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const std::vector<std::byte> bytes = bytesOf(kPip);
     auto assetDesc = sized<SuppleAssetDesc>();
     assetDesc.bytes = bytes.data();
     assetDesc.byteCount = bytes.size();
