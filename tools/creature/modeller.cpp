@@ -281,6 +281,55 @@ void Cage::dissolve(const std::vector<int>& chain) {
     }
 }
 
+void Cage::widen(int before, int a, int b, int after, double width) {
+    const size_t right = faceAlong(b, a);
+    const Vec3 across = glm::normalize(centre(faces[right]) - centre(faces[faceAlong(a, b)])) * (width / 2);
+    const auto twin = [&](int point) {
+        points.push_back(points[static_cast<size_t>(point)]);
+        points.back().position += across;
+        position(point) -= across;
+        return static_cast<int>(points.size()) - 1;
+    };
+    // All faces on the right, from the edge round to its continuation.
+    std::vector<size_t> atA;
+    std::vector<size_t> atB;
+    const auto beside = [&](size_t face, int point, size_t step) {
+        const std::vector<int>& p = faces[face].points;
+        const size_t i = static_cast<size_t>(std::find(p.begin(), p.end(), point) - p.begin());
+        return p[(i + step) % p.size()];
+    };
+    size_t face = right;
+    for (int spoke = beside(face, a, 1); atA.push_back(face), spoke != before; spoke = beside(face, a, 1)) {
+        face = faceAlong(spoke, a);
+    }
+    face = right;
+    for (int spoke = beside(face, b, faces[face].points.size() - 1); atB.push_back(face), spoke != after;
+         spoke = beside(face, b, faces[face].points.size() - 1)) {
+        face = faceAlong(b, spoke);
+    }
+    const int a2 = twin(a);
+    const int b2 = twin(b);
+    for (const size_t f : atA) {
+        std::replace(faces[f].points.begin(), faces[f].points.end(), a, a2);
+    }
+    for (const size_t f : atB) {
+        std::replace(faces[f].points.begin(), faces[f].points.end(), b, b2);
+    }
+    addQuad(b, a, a2, b2);
+    faces.push_back({{a, before, a2}, part});
+    faces.push_back({{after, b, b2}, part});
+}
+
+void Cage::collapse(int a, int b) {
+    position(a) = (position(a) + position(b)) * 0.5;
+    for (const size_t f : {faceAlong(a, b), faceAlong(b, a)}) {
+        std::erase(faces[f].points, b);
+    }
+    for (Face& face : faces) {
+        std::replace(face.points.begin(), face.points.end(), b, a);
+    }
+}
+
 void Cage::crease(int a, int b, float sharpness) {
     creases[{std::min(a, b), std::max(a, b)}] = sharpness;
 }

@@ -22,6 +22,7 @@ constexpr double kPi = 3.14159265358979323846;
 // What a point or a face belongs to; weights, paint and charts are decided by it.
 enum class Part {
     Torso,
+    Belly, // the mixed variant's plate
     Head,
     Mouth,
     Lid,
@@ -128,6 +129,13 @@ struct Cage {
 
     // Takes away the edges between consecutive points, and those of the points that then have only two edges.
     void dissolve(const std::vector<int>& chain);
+
+    // Opens the edge a-b into a strip `width` wide, which runs out in a triangle at each end: at `before` on a's side
+    // and at `after` on b's.
+    void widen(int before, int a, int b, int after, double width);
+
+    // Draws an edge together into its middle; the faces along it lose a side. The point that stays is a.
+    void collapse(int a, int b);
 
     void crease(int a, int b, float sharpness);
     void creaseChain(const std::vector<int>& chain, float sharpness);

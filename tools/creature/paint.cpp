@@ -77,6 +77,9 @@ std::vector<Vec3> paint(const Cage& cage) {
             c = odd(point.along) ? mixed(skin, kBack, 0.75 * ramp(0.45, 0.0, n.z)) : mixed(skin, kSkin, 0.6);
             c = mixed(c, odd(point.along) ? kBellyBand : kBelly, ramp(0.50, 0.80, n.z) * ramp(0.95, 0.85, p.y));
             break;
+        case Part::Belly:
+            c = odd(point.along) ? kBellyBand : kBelly;
+            break;
         case Part::Head:
         case Part::Lid: {
             // The stripes of the back go on over the back of the head.

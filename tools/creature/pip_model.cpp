@@ -94,6 +94,13 @@ private:
     void tail();
     void wing();
     void rigJaw();
+    // What only the mixed variant has.
+    void tip(const Patch& patch, const Vec3& at);
+    void crown();
+    void belly();
+    void webs();
+    void brow();
+    void easeLoops();
 
     std::vector<int> rim(const std::vector<std::vector<int>>& rims, std::initializer_list<int> levels, int first,
                          int last) const;
@@ -101,6 +108,13 @@ private:
     const Variant variant;
     Cage cage;
     Patch bottom;
+    Patch top;
+    Patch orbit, socket;
+    Patch wrist, palm, knuckles;   // rings of the hand
+    Patch knee, shin, ankle, sole; // and of the leg
+    std::array<Patch, 2> foot;
+    std::vector<Patch> tailRings; // its fin's among them
+    int tailTip = 0;
     std::vector<std::vector<int>> body; // rims of the torso, from below
     std::vector<std::vector<int>> head; // rims of the head, from below
     std::vector<std::vector<int>> muzzleRings;
@@ -126,7 +140,7 @@ void Builder::torsoAndHead() {
         {0.645, -0.02, 0.262, 0.262, 0.200}, {0.755, -0.02, 0.212, 0.198, 0.172}, {0.850, -0.02, 0.172, 0.150, 0.145},
         {0.896, -0.01, 0.145, 0.138, 0.130},
     };
-    Patch top = cage.seed(2, 4, true, bottom);
+    top = cage.seed(2, 4, true, bottom);
     placeSlice(cage, bottom, torso[0], -0.045);
     body.push_back(halfRim(bottom));
     for (size_t i = 1; i < std::size(torso); ++i) {
@@ -243,7 +257,7 @@ void Builder::eye() {
     // just outside the eyeball so that they slide over it.
     const Ring rings[] = {{1.24, 0.38, 0.0}, {1.16, 0.58, 0.36}, {1.06, 0.72, 0.72},
                           {0.95, 0.78, 1.0}, {0.87, 0.62, 1.0},  {0.70, -0.2, 0}};
-    const Patch orbit = patch;
+    orbit = patch;
     for (int row = 0; row <= 2; ++row) {
         for (int column = 0; column <= 2; ++column) {
             if (column != 1 || row != 1) {
@@ -274,6 +288,7 @@ void Builder::eye() {
             }
         }
     }
+    socket = patch;
 }
 
 void Builder::ear() {
@@ -304,6 +319,7 @@ void Builder::ear() {
             placeSheet(cage, step, {centre + (low - middle) * width, centre + (high - middle) * width}, normal,
                        0.045 - 0.02 * t);
         }
+        tip(step, middle + (tips[row] - middle) * 1.06);
     }
 }
 
@@ -323,6 +339,7 @@ void Builder::finger(const Patch& base, const FingerLine& line, double radius) {
         at.origin += frame.out * (length * steps[i]);
         cage.placeDisk(patch, at, radius * widths[i], radius * widths[i]);
     }
+    tip(patch, frame.origin + frame.out * (length * 1.10));
 }
 
 void Builder::arm() {
@@ -342,13 +359,14 @@ void Builder::arm() {
     ring(kElbow, bend, 0.077, 0.079);
     ring(kElbow + lower * 0.24, lower, 0.077, 0.077);
     ring(kElbow + lower * 0.90, lower, 0.064, 0.058);
-    const Vec3 palm = kKnuckles - kWrist;
-    ring(kWrist + palm * 0.38, palm, 0.080, 0.052);
-    const Patch heel = patch;
-    ring(kWrist + palm * 1.0, palm, 0.094, 0.050);
-    const Patch knuckles = patch;
+    wrist = patch;
+    const Vec3 hand = kKnuckles - kWrist;
+    ring(kWrist + hand * 0.38, hand, 0.080, 0.052);
+    palm = patch;
+    ring(kWrist + hand * 1.0, hand, 0.094, 0.050);
+    knuckles = patch;
 
-    const Patch side = cage.patch(1, 1, false, {heel.at(0, 1), heel.at(0, 0), knuckles.at(0, 1), knuckles.at(0, 0)});
+    const Patch side = cage.patch(1, 1, false, {palm.at(0, 1), palm.at(0, 0), knuckles.at(0, 1), knuckles.at(0, 0)});
     const std::array<FingerLine, 4> lines = fingerLines();
     for (int i = 0; i < 3; ++i) {
         finger(cage.cell(knuckles, i, 0), lines[static_cast<size_t>(i)], 0.043);
@@ -379,12 +397,14 @@ void Builder::leg() {
     ring(kThigh + upper * 0.46, upper, 0.142, 0.162);
     ring(kThigh + upper * 0.82, upper, 0.114, 0.124);
     ring(kKnee, upper + lower, 0.098, 0.104);
+    knee = patch;
     ring(kKnee + lower * 0.36, lower, 0.088, 0.092);
+    shin = patch;
     cage.part = Part::Foot;
     ring({kAnkle.x, 0.100, kAnkle.z}, {0, -1, 0}, 0.094, 0.104);
-    const Patch ankle = patch;
+    ankle = patch;
     ring({kAnkle.x + 0.004, 0.004, kAnkle.z - 0.004}, {0, -1, 0}, 0.108, 0.118);
-    const Patch sole = patch;
+    sole = patch;
 
     std::vector<int> front;
     for (const Patch* edge : {&ankle, &sole}) {
@@ -392,22 +412,23 @@ void Builder::leg() {
             front.push_back(edge->at(column, 0));
         }
     }
-    Patch foot = cage.patch(3, 1, false, front);
+    patch = cage.patch(3, 1, false, front);
     // Columns run from the outside of the foot to the inside.
     const double reach[] = {0.120, 0.170};
     for (int step = 0; step < 2; ++step) {
-        foot = cage.extrude(foot);
+        patch = cage.extrude(patch);
+        foot[static_cast<size_t>(step)] = patch;
         for (int column = 0; column <= 3; ++column) {
             const double s = 1 - 2.0 * column / 3;
             const double width = step == 0 ? 0.122 : 0.138;
             const double bow = 0.030 * (1 - s * s);
             const double z = reach[step] + bow - 0.012;
-            cage.position(foot.at(column, 0)) = {kBall.x + 0.93 * width * s, step == 0 ? 0.104 : 0.090, z - 0.012};
-            cage.position(foot.at(column, 1)) = {kBall.x + width * s, 0.002, z};
+            cage.position(patch.at(column, 0)) = {kBall.x + 0.93 * width * s, step == 0 ? 0.104 : 0.090, z - 0.012};
+            cage.position(patch.at(column, 1)) = {kBall.x + width * s, 0.002, z};
         }
     }
     for (int toe = 0; toe < 3; ++toe) {
-        Patch step = cage.cell(foot, toe, 0);
+        Patch step = cage.cell(patch, toe, 0);
         Vec3 middle{0};
         for (int point : step.points) {
             middle += cage.position(point) * 0.25;
@@ -423,6 +444,7 @@ void Builder::leg() {
                                           cage.position(step.at(1, 0)) - cage.position(step.at(0, 0)));
             cage.placeDisk(step, frame, radius, radius);
         }
+        tip(step, Vec3{middle.x, 0.036, middle.z} + direction * Vec3{1, 0, 1} * 0.108);
     }
 }
 
@@ -445,6 +467,7 @@ void Builder::tail() {
             cage.placeDisk(patch, frameFrom(kTail[i], glm::normalize(before) + glm::normalize(after), {1, 0, 0}),
                            radii[i], radii[i]);
             setAlong(cage, patch, ring++);
+            tailRings.push_back(patch);
         }
         if (i == 0) {
             patch = cage.extrude(patch);
@@ -455,13 +478,16 @@ void Builder::tail() {
     }
     // A leaf of a fin stands up and down from the tip.
     cage.part = Part::TailFin;
-    const Vec3 tip = kTail[kTailJoints] - kTail[kTailJoints - 1];
+    const Vec3 end = kTail[kTailJoints] - kTail[kTailJoints - 1];
     const double leaf[][3] = {{0.25, 0.034, 0.080}, {0.70, 0.032, 0.165}, {1.20, 0.026, 0.115}, {1.7, 0.014, 0.020}};
     for (const auto& [along, thin, wide] : leaf) {
         patch = cage.extrude(patch);
         setAlong(cage, patch, along / 1.5);
-        cage.placeDisk(patch, frameFrom(kTail[kTailJoints - 1] + tip * along, tip, {1, 0, 0}), thin, wide);
+        cage.placeDisk(patch, frameFrom(kTail[kTailJoints - 1] + end * along, end, {1, 0, 0}), thin, wide);
+        tailRings.push_back(patch);
     }
+    tip(patch, kTail[kTailJoints - 1] + end * 1.77);
+    tailTip = static_cast<int>(cage.points.size()) - 1;
 }
 
 void Builder::wing() {
@@ -503,6 +529,7 @@ void Builder::wing() {
                 setRib(step);
             }
         }
+        tip(step, middle + (tips[row] - middle) * 1.07);
     }
 }
 
@@ -521,6 +548,112 @@ void Builder::rigJaw() {
     }
 }
 
+// Draws the last ring of a limb together round its tip, in triangles; the quads keep their blunt end.
+void Builder::tip(const Patch& patch, const Vec3& at) {
+    if (variant == Variant::mixed) {
+        cage.fan(patch, at);
+    }
+}
+
+// Half as many columns go over the top of the head, and meet in one point.
+void Builder::crown() {
+    cage.part = Part::Head;
+    cage.open(top);
+    const std::vector<int>& rim = head.back();
+    std::vector<int> inner;
+    for (size_t i = 0; i < rim.size(); i += 2) {
+        const Vec3 p = cage.position(rim[i]);
+        inner.push_back(cage.addPoint({p.x * 0.5, 1.589, p.z * 0.5}));
+        cage.points.back().along = cage.points[static_cast<size_t>(rim[i])].along;
+    }
+    const int pole = cage.addPoint({0, 1.606, 0});
+    for (size_t k = 0; k + 1 < inner.size(); ++k) {
+        cage.faces.push_back({{rim[2 * k], rim[2 * k + 1], rim[2 * k + 2], inner[k + 1], inner[k]}, cage.part});
+        cage.faces.push_back({{inner[k], inner[k + 1], pole}, cage.part});
+    }
+}
+
+// A plate of three scutes over the belly, its edge crisp.
+void Builder::belly() {
+    cage.part = Part::Belly;
+    const Patch base = cage.patch(2, 3, true, rim(body, {1, 2, 3, 4}, 0, 2));
+    const Patch plate = cage.extrude(base);
+    const Vec3 middle{0, 0.58, -0.02};
+    for (int row = 0; row <= plate.rows; ++row) {
+        for (int column = 0; column <= plate.columns; ++column) {
+            Point& point = cage.points[static_cast<size_t>(plate.at(column, row))];
+            const bool edge = row == 0 || row == plate.rows || column == plate.columns;
+            const Vec3 out = point.position - middle;
+            point.position = middle + out * (edge ? 1.040 : 1.030);
+            point.position.x *= 0.96;
+            point.along = row;
+        }
+    }
+    cage.creaseChain(Cage::rimOf(base), 3);
+    cage.creaseChain(Cage::rimOf(plate), 2.5f);
+    // The furrows between the scutes.
+    for (const int row : {1, 2}) {
+        cage.creaseChain({plate.at(0, row), plate.at(1, row), plate.at(2, row)}, 3);
+    }
+}
+
+// Room between fingers and between toes.
+void Builder::webs() {
+    for (const int column : {1, 2}) {
+        cage.part = Part::Arm;
+        cage.widen(palm.at(column, 0), knuckles.at(column, 0), knuckles.at(column, 1), palm.at(column, 1), 0.012);
+        cage.part = Part::Foot;
+        cage.widen(foot[0].at(column, 0), foot[1].at(column, 0), foot[1].at(column, 1), foot[0].at(column, 1), 0.016);
+    }
+}
+
+// A fold over the eye that runs out on both sides.
+void Builder::brow() {
+    cage.creaseChain({orbit.at(0, 2), orbit.at(1, 2), orbit.at(2, 2)}, 2.5f);
+}
+
+// Ends loops of edges where they are needed no more. From pole to pole that leaves a pentagon and a regular point for
+// each pole.
+void Builder::easeLoops() {
+    // Over the crown, from the corners of the eye and the ear.
+    for (const size_t i : {1u, 3u, 5u}) {
+        cage.dissolve({head[6][i], head[7][i]});
+    }
+    // Down the back of the head to the wing.
+    std::vector<int> nape;
+    for (size_t level = head.size(); level-- > 0;) {
+        nape.push_back(head[level][7]);
+    }
+    nape.push_back(body[6][7]);
+    cage.dissolve(nape);
+    // From the neck to the arm, and from the arm to the leg.
+    cage.dissolve({head[0][5], body[6][5], body[5][5]});
+    cage.dissolve({body[4][5], body[3][5], body[2][5]});
+    cage.dissolve({body[4][3], body[3][3], body[2][3]});
+    // From the inside of the knee under the foot to its outside.
+    cage.dissolve({knee.at(0, 1), shin.at(0, 1), ankle.at(0, 1), sole.at(0, 1), sole.at(1, 1), sole.at(2, 1),
+                   sole.at(3, 1), ankle.at(3, 1), shin.at(3, 1), knee.at(3, 1)});
+    // The sole is flat: one hexagon.
+    cage.dissolve({sole.at(2, 0), sole.at(2, 2)});
+    // The end of the tail is a tube of six.
+    std::vector<int> flank;
+    for (size_t ring = 2; ring < tailRings.size(); ++ring) {
+        flank.push_back(tailRings[ring].at(1, 1));
+        if (ring > 2) {
+            const Vec3 middle =
+                (cage.position(tailRings[ring].at(0, 0)) + cage.position(tailRings[ring].at(0, 2))) * 0.5;
+            for (const int row : {0, 2}) {
+                Vec3& p = cage.position(tailRings[ring].at(1, row));
+                const double x = p.x * std::sqrt(1.5);
+                p = middle + (p - middle) * std::sqrt(0.5);
+                p.x = x;
+            }
+        }
+    }
+    flank.push_back(tailTip);
+    cage.dissolve(flank);
+}
+
 Cage Builder::build() {
     torsoAndHead();
     muzzle();
@@ -531,6 +664,14 @@ Cage Builder::build() {
     leg();
     tail();
     wing();
+    if (variant == Variant::mixed) {
+        crown();
+        easeLoops();
+        belly();
+        webs();
+        brow();
+        cage.open(socket);
+    }
     rigJaw();
     addPairedDetails(cage, variant);
     cage.compact();

@@ -25,6 +25,7 @@ int side(const Cage& cage, const Face& face) {
         return centre.x > 0 ? 1 : 0;
     case Part::Mouth:
     case Part::Lid:
+    case Part::Belly:
         return 0;
     default:
         return normal.z > 0 ? 1 : 0;

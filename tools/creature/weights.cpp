@@ -22,6 +22,7 @@ double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
 std::vector<std::string> candidates(Part part) {
     switch (part) {
     case Part::Torso:
+    case Part::Belly:
         return {"hips", "spine", "chest", "neck"};
     case Part::Head:
     case Part::Mouth:
@@ -62,6 +63,7 @@ double reach(Part part) {
     case Part::Lid:
         return 0.07;
     case Part::Torso:
+    case Part::Belly:
         return 0.13;
     case Part::Leg:
         return 0.075;
