@@ -156,6 +156,55 @@ TEST(PmMappings, GiveTheSamePositionBits) {
     EXPECT_EQ(different, 0u);
 }
 
+/// UV sets and colors of every class of patch, against weights computed from the grid's own numbers.
+TEST_P(PmOnGpu, AttributesReachTheSurfaceVertices) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    std::map<SuppleDomain, uint64_t> domains;
+    for (const PmCage& zoo : pmZoo()) {
+        if (zoo.variant != PmVariant::plain) {
+            continue;
+        }
+        cage::Cage cage = zoo.cage;
+        for (uint32_t c = 0; c < cage.cornerCount(); ++c) { // a seam at every edge
+            const auto x = static_cast<float>(c % 97) / 97.0f;
+            cage.cornerUvs.emplace_back(x, 1.0f - x * x);
+            cage.cornerUvs1.emplace_back(3.0f * x, -x);
+        }
+        for (const uint32_t rate : {1u, 3u, 8u}) {
+            GpuSurface gpu(*device, cage, pmOptions(GetParam(), rate));
+            ASSERT_TRUE(gpu.valid());
+            gpu.evaluate();
+            const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(cage);
+            ASSERT_TRUE(mesh.ok());
+            const PmPatches patches(gpu, *mesh);
+            ASSERT_EQ(gpu.output().uvs1.size, VkDeviceSize{gpu.output().vertexCount} * 8);
+            const Result<std::vector<std::byte>> bytes = device->readBuffer(gpu.output().attributes);
+            const Result<std::vector<std::byte>> bytes1 = device->readBuffer(gpu.output().uvs1);
+            ASSERT_TRUE(bytes.ok() && bytes1.ok());
+            for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
+                const SuppleDomain domain = gpu.rangeOf(p).domain;
+                for (uint32_t s = 0; s < gpu.sampleCount(p); ++s) {
+                    const auto weights = surface::cornerWeights(static_cast<Domain>(domain), rate, s);
+                    glm::vec2 uv(0.0f), uv1(0.0f), read, read1;
+                    for (uint32_t i = 0; i < gpu.patches()[p].cornerCount; ++i) {
+                        const uint32_t corner = mesh->corner(patches.facet(p), i);
+                        uv += weights[i] * mesh->cage.cornerUvs[corner];
+                        uv1 += weights[i] * mesh->cage.cornerUvs1[corner];
+                    }
+                    std::memcpy(&read, bytes->data() + size_t{16} * gpu.vertexIndex(p, s), sizeof(read));
+                    std::memcpy(&read1, bytes1->data() + size_t{8} * gpu.vertexIndex(p, s), sizeof(read1));
+                    ASSERT_LE(glm::length(read - uv), 1e-5f) << zoo.name << " rate " << rate << " patch " << p;
+                    ASSERT_LE(glm::length(read1 - uv1), 1e-5f) << zoo.name << " rate " << rate << " patch " << p;
+                    ++domains[domain];
+                }
+            }
+        }
+    }
+    EXPECT_EQ(domains.size(), 4u) << "every domain";
+}
+
 TEST(PmAndPrep, RegularQuadsHaveTheSameBits) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
