@@ -30,7 +30,7 @@ struct SharpVertex {
     float sharpness = 0.0f;
 };
 
-/// P_m's own crease control: alpha of the edge vertex -> toward at `vertex`, in (0, 2/3]; 2/3 is smooth. Overrides what
+/// P_m's own crease control: alpha of the edge vertex -> toward at `vertex`, in [0, 1]; 2/3 is smooth. Overrides what
 /// follows from sharpness at that end of the edge.
 struct CreaseScalar {
     uint32_t vertex = 0;

@@ -186,7 +186,7 @@ TEST_P(PmOnGpu, AttributesReachTheSurfaceVertices) {
             for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
                 const SuppleDomain domain = gpu.rangeOf(p).domain;
                 for (uint32_t s = 0; s < gpu.sampleCount(p); ++s) {
-                    const auto weights = surface::cornerWeights(static_cast<Domain>(domain), rate, s);
+                    const auto weights = surface::cornerWeights(static_cast<surface::Domain>(domain), rate, s);
                     glm::vec2 uv(0.0f), uv1(0.0f), read, read1;
                     for (uint32_t i = 0; i < gpu.patches()[p].cornerCount; ++i) {
                         const uint32_t corner = mesh->corner(patches.facet(p), i);
