@@ -1,6 +1,7 @@
 #include "cage/gltf_mesh_writer.h"
 
 #include "cage/corner_normals.h"
+#include "cage/gltf_message.h"
 #include "cage/ngon_fans.h"
 
 #include <algorithm>
@@ -138,18 +139,18 @@ public:
         }
     }
 
-    WrittenMesh write(Warnings& warnings) {
-        WrittenMesh written;
+    json write(GlbFile& file) {
+        json mesh;
         json primitives = json::array();
         for (Part& part : partsOf(cage_)) {
             splitVertices(cage_, values_, part);
             primitives.push_back(writePrimitive(part));
-            written.vertexCount += static_cast<uint32_t>(part.corners.size());
+            file.vertexCount += static_cast<uint32_t>(part.corners.size());
         }
-        written.mesh["primitives"] = std::move(primitives);
+        mesh["primitives"] = std::move(primitives);
         const Morphs& morphs = character_.morphs;
         if (!morphs.targets.empty()) {
-            written.mesh["weights"] = morphs.weights;
+            mesh["weights"] = morphs.weights;
             json names = json::array();
             bool named = false;
             for (const MorphTarget& target : morphs.targets) {
@@ -157,11 +158,11 @@ public:
                 named = named || !target.name.empty();
             }
             if (named) {
-                written.mesh["extras"]["targetNames"] = std::move(names);
+                mesh["extras"]["targetNames"] = std::move(names);
             }
         }
-        report(warnings);
-        return written;
+        report(file.warnings);
+        return mesh;
     }
 
 private:
@@ -355,8 +356,8 @@ private:
 
 } // namespace
 
-WrittenMesh writeMesh(const Character& character, bool skinned, GltfPacker& packer, Warnings& warnings) {
-    return MeshWriter(character, skinned, packer).write(warnings);
+json writeMesh(const Character& character, bool skinned, GltfPacker& packer, GlbFile& file) {
+    return MeshWriter(character, skinned, packer).write(file);
 }
 
 } // namespace supple::cage

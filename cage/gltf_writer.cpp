@@ -1,6 +1,7 @@
 #include "cage/gltf_writer.h"
 
 #include "cage/gltf_mesh_writer.h"
+#include "cage/gltf_message.h"
 #include "cage/gltf_packer.h"
 #include "cage/gltf_refusal.h"
 
@@ -335,13 +336,12 @@ GlbFile toGlb(const Character& character) {
     }
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
     writeNodes(character, skinned, root, file.warnings);
-    WrittenMesh written = writeMesh(character, skinned, packer, file.warnings);
-    file.vertexCount = written.vertexCount;
+    json mesh = writeMesh(character, skinned, packer, file);
     const std::string& meshName = character.skeleton.nodes[character.meshNode].name;
     if (!meshName.empty()) {
-        written.mesh["name"] = meshName;
+        mesh["name"] = meshName;
     }
-    root["meshes"] = json::array({std::move(written.mesh)});
+    root["meshes"] = json::array({std::move(mesh)});
     if (skinned) {
         root["skins"] = json::array({writeSkin(character.skin, packer)});
     }

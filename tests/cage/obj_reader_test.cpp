@@ -10,6 +10,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
+#include <random>
 
 namespace supple::cage {
 namespace {
@@ -156,13 +157,11 @@ TEST(ObjReader, SaysWhatItLeavesOut) {
     const Character c = readWell("v 0 0 0 1 1 1\nv 1 0 0 1 0.5 0.5 0.5\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 2\nl 2 3\n"
                                  "p 1\ncurv 0 1 1 2\nt crease 2/1/0 0 2 3\nt vertexedit 9/9/9 x\n"
                                  "t interpolateboundary 1/0/0 2\n");
-    EXPECT_EQ(c.warnings,
-              (Strings{"line 10: 1 crease is not an edge; left out",
-                       "line 1: colors of v ignored, here "
-                       "and on 1 further line",
-                       "line 9: curv ignored", "line 6: l ignored, here and on 1 further line", "line 8: p ignored",
-                       "line 12: t interpolateboundary other than 1 (edges and corners) ignored",
-                       "line 11: t vertexedit ignored"}));
+    EXPECT_EQ(c.warnings, (Strings{"line 10: 1 crease is not an edge; left out",
+                                   "line 1: colors of v ignored, here and on 1 further line", "line 9: curv ignored",
+                                   "line 6: l ignored, here and on 1 further line", "line 8: p ignored",
+                                   "line 12: t interpolateboundary other than 1 (edges and corners) ignored",
+                                   "line 11: t vertexedit ignored"}));
     // However many kinds there are, the messages stay few.
     std::string many = kSquare;
     for (int i = 0; i < 1000; ++i) {
@@ -225,6 +224,45 @@ TEST(ObjReader, NoPrefixOfAFileBreaksIt) {
         }
     }
     EXPECT_GT(accepted, 10u);
+}
+
+TEST(ObjReader, DamagedFilesAreReadOrRefused) {
+    const std::string text =
+        kTwoQuads + "vt 0 1\nvt 1 1\nusemtl b\nf 1/1 4/1/2 2/1 \\\n 3\nf -1 -2 -3\nt crease 3/2/0 0 1 2 1 10\n" +
+        "t corner 1/1/0 4 3\nt hole 1/0/0 1\nt interpolateboundary 1/0/0 2\n";
+    const std::string pieces = "0123456789-+./# \n\r\t\\fvtexn\xFF";
+    std::mt19937 random(11); // NOLINT: the same damage every time
+    size_t accepted = 0;
+    for (int round = 0; round < 20000; ++round) {
+        std::string damaged = text;
+        for (uint32_t k = 1 + random() % 4; k > 0; --k) {
+            damaged[random() % damaged.size()] = pieces[random() % pieces.size()];
+        }
+        const Result<Character> result = read(damaged);
+        if (!result.ok()) {
+            ASSERT_EQ(result.error().message.rfind("t.obj: ", 0), 0u);
+            ASSERT_EQ(result.error().message.find('\n'), std::string::npos);
+            continue;
+        }
+        ++accepted;
+        const Cage& cage = result->cage;
+        ASSERT_EQ(cage.faceStarts.back(), cage.cornerCount());
+        ASSERT_TRUE(cage.cornerUvs.empty() || cage.cornerUvs.size() == cage.cornerCount());
+        ASSERT_EQ(cage.faceMaterials.size(), cage.faceCount());
+        for (const uint32_t v : cage.faceVertices) {
+            ASSERT_LT(v, cage.vertexCount());
+        }
+        for (const Crease& crease : cage.creases) {
+            ASSERT_LT(std::max(crease.a, crease.b), cage.vertexCount());
+        }
+        for (const SharpVertex& sharp : cage.sharpVertices) {
+            ASSERT_LT(sharp.vertex, cage.vertexCount());
+        }
+        for (const uint32_t hole : cage.holes) {
+            ASSERT_LT(hole, cage.faceCount());
+        }
+    }
+    EXPECT_GT(accepted, 1000u);
 }
 
 TEST(CharacterReader, TellsTheFormatsApart) {

@@ -78,12 +78,13 @@ TEST_F(Convert, ObjToGlbAndOn) {
 }
 
 TEST_F(Convert, GlbToGlbPosesAlike) {
-    ASSERT_EQ(run("convert '" + kPip + "' -o pip.glb").exitCode, 0);
-    expectSame(read(kPip), read(file("pip.glb")));
+    fs::copy_file(kPip, file("before.glb"));
+    ASSERT_EQ(run("convert before.glb -o after.glb").exitCode, 0);
+    expectSame(read(file("before.glb")), read(file("after.glb")));
     for (const char* clip : {"idle", "walk"}) {
         const std::string pose = std::string(" --scheme cage --time 0.7 --clip ") + clip;
-        ASSERT_EQ(runOnDevice("bake '" + kPip + "' -o before.obj" + pose).exitCode, 0);
-        ASSERT_EQ(runOnDevice("bake pip.glb -o after.obj" + pose).exitCode, 0);
+        ASSERT_EQ(runOnDevice("bake before.glb -o before.obj" + pose).exitCode, 0);
+        ASSERT_EQ(runOnDevice("bake after.glb -o after.obj" + pose).exitCode, 0);
         const std::vector<glm::vec3> before = vertices(file("before.obj"));
         const std::vector<glm::vec3> after = vertices(file("after.obj"));
         ASSERT_GT(before.size(), 1000u);
@@ -92,6 +93,18 @@ TEST_F(Convert, GlbToGlbPosesAlike) {
             ASSERT_LT(glm::distance(before[v], after[v]), 1e-6f) << clip << " vertex " << v;
         }
     }
+}
+
+TEST_F(Convert, OtherSubcommandsOpenObjToo) {
+    writeText(file("box.obj"), kBox);
+    ASSERT_EQ(run("convert box.obj -o box.glb").exitCode, 0);
+    ASSERT_EQ(runOnDevice("bake box.obj -o from_obj.obj --scheme cage").exitCode, 0);
+    ASSERT_EQ(runOnDevice("bake box.glb -o from_glb.obj --scheme cage").exitCode, 0);
+    EXPECT_EQ(vertices(file("from_obj.obj")).size(), 8u);
+    EXPECT_EQ(readText(file("from_obj.obj")), readText(file("from_glb.obj")));
+    const Outcome inspected = run("inspect box.obj");
+    EXPECT_EQ(inspected.exitCode, 0) << inspected.err;
+    EXPECT_NE(inspected.out.find("OBJ"), std::string::npos) << inspected.out;
 }
 
 TEST_F(Convert, BadUsageIsTwo) {
