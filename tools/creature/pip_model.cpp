@@ -589,8 +589,14 @@ void Builder::belly() {
             point.along = row;
         }
     }
+    // Its corners are cut, to a triangle on the plate and a pentagon in the wall below.
+    std::vector<int> edge = Cage::rimOf(plate);
+    for (const int row : {0, plate.rows}) {
+        cage.dissolve({base.at(base.columns, row), plate.at(plate.columns, row)});
+        std::erase(edge, plate.at(plate.columns, row));
+    }
     cage.creaseChain(Cage::rimOf(base), 3);
-    cage.creaseChain(Cage::rimOf(plate), 2.5f);
+    cage.creaseChain(edge, 2.5f);
     // The furrows between the scutes.
     for (const int row : {1, 2}) {
         cage.creaseChain({plate.at(0, row), plate.at(1, row), plate.at(2, row)}, 3);
@@ -609,7 +615,7 @@ void Builder::webs() {
 
 // A fold over the eye that runs out on both sides.
 void Builder::brow() {
-    cage.creaseChain({orbit.at(0, 2), orbit.at(1, 2), orbit.at(2, 2)}, 2.5f);
+    cage.creaseChain({orbit.at(0, 2), orbit.at(1, 2), orbit.at(2, 2)}, 2);
 }
 
 // Ends loops of edges where they are needed no more. From pole to pole that leaves a pentagon and a regular point for
