@@ -79,6 +79,91 @@ cage::Cage torus(uint32_t around, uint32_t across) {
     return makeCage(std::move(positions), polygons);
 }
 
+cage::Cage dodecahedron() {
+    const float golden = std::numbers::phi_v<float>;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> axes; // of the faces: the vertices of an icosahedron
+    for (const float a : {-1.0f, 1.0f}) {
+        for (const float b : {-1.0f, 1.0f}) {
+            for (const float c : {-1.0f, 1.0f}) {
+                positions.push_back({a, b, c});
+            }
+            for (int turn = 0; turn < 3; ++turn) {
+                const auto turned = [turn](float x, float y, float z) {
+                    return turn == 0 ? glm::vec3(x, y, z) : turn == 1 ? glm::vec3(y, z, x) : glm::vec3(z, x, y);
+                };
+                positions.push_back(turned(0.0f, a / golden, b * golden));
+                axes.push_back(turned(0.0f, b * golden, a));
+            }
+        }
+    }
+    Polygons polygons;
+    for (const glm::vec3& axis : axes) {
+        std::vector<std::pair<double, uint32_t>> around; // angle about the axis, vertex
+        const glm::vec3 e1 = glm::cross(axis, glm::vec3(0.3f, 0.5f, 0.7f));
+        const glm::vec3 e2 = glm::cross(axis, e1) / glm::length(axis);
+        for (uint32_t v = 0; v < positions.size(); ++v) {
+            if (glm::dot(positions[v], axis) > 2.0f) {
+                around.push_back({std::atan2(glm::dot(positions[v], e2), glm::dot(positions[v], e1)), v});
+            }
+        }
+        std::sort(around.begin(), around.end());
+        std::vector<uint32_t>& polygon = polygons.emplace_back();
+        for (const auto& [angle, v] : around) {
+            polygon.push_back(v);
+        }
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage voxels(const std::vector<glm::ivec3>& cubes) {
+    std::vector<glm::vec3> positions;
+    Polygons polygons;
+    const auto vertex = [&](const glm::ivec3& p) {
+        const auto found = std::find(positions.begin(), positions.end(), glm::vec3(p));
+        const auto index = static_cast<uint32_t>(found - positions.begin());
+        if (found == positions.end()) {
+            positions.emplace_back(p);
+        }
+        return index;
+    };
+    for (const glm::ivec3& cube : cubes) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const int side : {0, 1}) {
+                glm::ivec3 outward(0), u(0), v(0);
+                outward[axis] = side == 1 ? 1 : -1;
+                u[(axis + 1) % 3] = 1;
+                v[(axis + 2) % 3] = 1;
+                if (std::find(cubes.begin(), cubes.end(), cube + outward) != cubes.end()) {
+                    continue;
+                }
+                const glm::ivec3 first = side == 1 ? cube + outward : cube;
+                const glm::ivec3 second = side == 1 ? first + u : first + v, last = side == 1 ? first + v : first + u;
+                polygons.push_back({vertex(first), vertex(second), vertex(first + u + v), vertex(last)});
+            }
+        }
+    }
+    return makeCage(std::move(positions), polygons);
+}
+
+cage::Cage jack() {
+    return voxels({{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
+}
+
+cage::Cage biped() {
+    std::vector<glm::ivec3> cubes;
+    for (const int x : {0, 1}) {
+        for (const int z : {2, 3, 4}) {
+            cubes.insert(cubes.end(), {{x, 0, z}, {x, 1, z}});
+        }
+        cubes.insert(cubes.end(), {{x, 0, 5}, {x, 0, 6}});
+    }
+    for (const int i : {0, 1, 2}) {
+        cubes.insert(cubes.end(), {{-1 - i, 0, 4}, {2 + i, 0, 4}, {-1, 0, i}, {2, 0, i}});
+    }
+    return voxels(cubes);
+}
+
 cage::Cage trapezohedron(uint32_t n) {
     std::vector<glm::vec3> positions{{0.0f, 0.0f, -1.3f}, {0.0f, 0.0f, 1.3f}};
     Polygons polygons;

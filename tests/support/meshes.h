@@ -22,6 +22,15 @@ using Polygons = std::vector<std::vector<uint32_t>>;
 [[nodiscard]] cage::Cage grid(uint32_t columns, uint32_t rows);
 /// around x across quads, all of valence 4.
 [[nodiscard]] cage::Cage torus(uint32_t around, uint32_t across);
+/// Twelve pentagons.
+[[nodiscard]] cage::Cage dodecahedron();
+/// The outer squares of unit cubes, each named by its corner of least coordinates; no two may meet in an edge or a
+/// vertex alone.
+[[nodiscard]] cage::Cage voxels(const std::vector<glm::ivec3>& cubes);
+/// Seven cubes: a middle and six arms; valences 3, 4 and 6.
+[[nodiscard]] cage::Cage jack();
+/// 92 quads, valences 3 to 6: legs, a torso two cubes deep, arms, and a head that stands on the torso at z = 5.
+[[nodiscard]] cage::Cage biped();
 /// 2 n quads between two poles of valence n; the other vertices have valence 3.
 [[nodiscard]] cage::Cage trapezohedron(uint32_t n);
 /// A flat disk (angle = whole turn: n interior quads round a vertex) or sector of quads round vertex 0: `sectors`
