@@ -2,12 +2,14 @@
 #include "tests/tools/command_runner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -214,6 +216,61 @@ TEST_F(Cli, InspectSaysWhyASchemeRefuses) {
     EXPECT_EQ(triangles["schemes"]["pm"]["accepted"], true);
     EXPECT_EQ(triangles["schemes"]["pm"]["patches"], Json({{"p3", 12}}));
     expectFailure(run("bake triangles.gltf -o out.obj --scheme prep"), 1, "3 sides");
+}
+
+/// Two flat fans of ten triangles back to back, every other triangle above cut into three round its middle.
+std::string flatFans() {
+    constexpr int kSpokes = 10;
+    std::ostringstream obj, faces;
+    const auto add = [&](glm::dvec2 p, double z) { obj << "v " << p.x << " " << p.y << " " << z << "\n"; };
+    const auto rim = [](int i) {
+        const double angle = 2.0 * std::numbers::pi * i / kSpokes;
+        return glm::dvec2(std::cos(angle), std::sin(angle));
+    };
+    add({0, 0}, 0.1);
+    add({0, 0}, -0.1);
+    for (int i = 0; i < kSpokes; ++i) {
+        add(rim(i), 0.0);
+    }
+    int middle = 2 + kSpokes; // vertices count from 1
+    for (int i = 0; i < kSpokes; ++i) {
+        const int a = 3 + i, b = 3 + (i + 1) % kSpokes;
+        faces << "f 2 " << b << " " << a << "\n";
+        if (i % 2 == 1) {
+            faces << "f 1 " << a << " " << b << "\n";
+            continue;
+        }
+        add((rim(i) + rim(i + 1)) / 3.0, 0.1 / 3.0);
+        ++middle;
+        faces << "f 1 " << a << " " << middle << "\nf 1 " << middle << " " << b << "\nf " << a << " " << b << " "
+              << middle << "\n";
+    }
+    return obj.str() + faces.str();
+}
+
+TEST_F(Cli, InspectReportsFolds) {
+    writeText(file("fans.obj"), flatFans());
+    const Json json = Json::parse(run("inspect fans.obj --json").out);
+    ASSERT_EQ(json["faces"], 30);
+    const Json& folds = json["schemes"]["pm"]["folds"];
+    ASSERT_TRUE(folds.is_object()) << json.dump();
+    EXPECT_GE(folds["faces"], 1);
+    EXPECT_GT(folds["flippedShare"], 0.01);
+    EXPECT_LT(folds["flippedShare"], 0.1);
+    ASSERT_EQ(folds["worst"].size(), std::min<size_t>(5, folds["faces"]));
+    double last = 1.0;
+    for (const Json& face : folds["worst"]) {
+        EXPECT_LT(face["face"], 30);
+        EXPECT_GT(face["flippedShare"], 0.0);
+        EXPECT_LE(face["flippedShare"], last);
+        last = face["flippedShare"];
+    }
+    const std::string text = run("inspect fans.obj").out;
+    EXPECT_NE(text.find("folds"), std::string::npos) << text;
+    EXPECT_NE(text.find("face " + folds["worst"][0]["face"].dump() + " ("), std::string::npos) << text;
+
+    EXPECT_FALSE(Json::parse(run("inspect cube.gltf --json").out)["schemes"]["pm"].contains("folds"));
+    EXPECT_EQ(run("inspect cube.gltf").out.find("folds"), std::string::npos);
 }
 
 TEST_F(Cli, BakeWritesOneGroupAPatch) {

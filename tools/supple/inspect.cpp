@@ -3,6 +3,7 @@
 #include "surface/schemes.h"
 #include "tools/host/character_file.h"
 #include "tools/supple/command.h"
+#include "tools/supple/folds.h"
 #include "tools/supple/options.h"
 
 #include <CLI/CLI.hpp>
@@ -28,6 +29,7 @@ struct SchemeVerdict {
     std::string refusal;                     ///< empty: accepted
     std::map<std::string, uint32_t> patches; ///< class -> how many
     std::vector<std::string> notes;
+    Folds folds; ///< P_m
 };
 
 /// What is not stored in the character itself but counted from it.
@@ -43,7 +45,7 @@ struct Findings {
 };
 
 SchemeVerdict judge(const Scheme& scheme, const cage::Cage& cage) {
-    SchemeVerdict verdict{scheme.name, "", {}, {}};
+    SchemeVerdict verdict{scheme.name, "", {}, {}, {}};
     surface::Recipe recipe;
     recipe.scheme = static_cast<surface::SchemeId>(scheme.scheme);
     const Result<surface::Tables> tables = surface::buildTables(recipe, cage);
@@ -55,6 +57,11 @@ SchemeVerdict judge(const Scheme& scheme, const cage::Cage& cage) {
         ++verdict.patches[surface::className(patch.patchClass)];
     }
     verdict.notes = tables->notes;
+    if (scheme.scheme == SUPPLE_SCHEME_PM) {
+        if (const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(cage)) {
+            verdict.folds = findFolds(*mesh);
+        }
+    }
     return verdict;
 }
 
@@ -86,6 +93,25 @@ Findings examine(const cage::Character& character) {
         findings.schemes.push_back(judge(scheme, cage));
     }
     return findings;
+}
+
+double share(uint64_t part, uint64_t whole) {
+    return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// Faces named in the report of folds.
+constexpr size_t kWorstFaces = 5;
+
+nlohmann::ordered_json toJson(const Folds& folds) {
+    nlohmann::ordered_json json;
+    json["faces"] = folds.faces.size();
+    json["flippedShare"] = share(folds.flipped, folds.triangles);
+    json["worst"] = nlohmann::ordered_json::array();
+    for (size_t i = 0; i < std::min(kWorstFaces, folds.faces.size()); ++i) {
+        const Folds::Face& face = folds.faces[i];
+        json["worst"].push_back({{"face", face.face}, {"flippedShare", share(face.flipped, face.triangles)}});
+    }
+    return json;
 }
 
 nlohmann::ordered_json toJson(const Histogram& histogram) {
@@ -158,6 +184,9 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
             entry["patches"][name] = count;
         }
         entry["notes"] = verdict.notes;
+        if (!verdict.folds.faces.empty()) {
+            entry["folds"] = toJson(verdict.folds);
+        }
     }
     // Names come from the file as they are: replace what is not UTF-8 rather than refuse to print it.
     std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
@@ -169,6 +198,23 @@ std::string toText(const Histogram& histogram) {
         text += (text.empty() ? "" : ", ") + std::to_string(value) + ": " + std::to_string(count);
     }
     return text.empty() ? "none" : text;
+}
+
+std::string percent(uint64_t part, uint64_t whole) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share(part, whole));
+    return text;
+}
+
+std::string toText(const Folds& folds) {
+    std::string text = std::to_string(folds.faces.size()) + (folds.faces.size() == 1 ? " face, " : " faces, ") +
+                       percent(folds.flipped, folds.triangles) + " of the surface's grid turned over; worst:";
+    for (size_t i = 0; i < std::min(kWorstFaces, folds.faces.size()); ++i) {
+        const Folds::Face& face = folds.faces[i];
+        text += (i == 0 ? " face " : ", face ") + std::to_string(face.face) + " (" +
+                percent(face.flipped, face.triangles) + ")";
+    }
+    return text;
 }
 
 void printLine(const char* label, const std::string& text) {
@@ -223,6 +269,9 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         printLine((std::string("scheme ") + verdict.scheme).c_str(), text);
         for (const std::string& note : verdict.notes) {
             printLine("", note);
+        }
+        if (!verdict.folds.faces.empty()) {
+            printLine("  folds", toText(verdict.folds));
         }
     }
 }
