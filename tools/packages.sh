@@ -12,6 +12,7 @@ supple_packages=(
 # To test as well.
 supple_test_packages=(
     libgtest-dev vulkan-validationlayers
+    libosd-dev
     xvfb xauth
 )
 
