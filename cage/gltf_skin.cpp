@@ -10,6 +10,9 @@
 namespace supple::cage {
 namespace {
 
+/// Half a unit in the last place of a weight near 1, as floats round.
+constexpr double kFloatRounding = 1.0 / (1u << 24);
+
 constexpr size_t kMaxSkinSets = 16; // of four influences each
 
 /// What JOINTS_n and WEIGHTS_n hold, by n; four values a vertex.
@@ -171,6 +174,10 @@ void VertexWeights::append(const GltfDocument& document, const SkinSets& sets, s
         if (deviation > std::max(1e-4, values.rounding * static_cast<double>(own.size()) * 1.001)) {
             ++renormalised_;
             largestDeviation_ = std::max(largestDeviation_, deviation);
+        }
+        // As they are where only their own rounding keeps floats from a sum of 1: what was read once is then read alike.
+        if (deviation <= kFloatRounding * static_cast<double>(own.size())) {
+            sum = 1.0;
         }
         std::sort(own.begin(), own.end(), [](const Influence& a, const Influence& b) { return a.joint < b.joint; });
         for (size_t i = 0; i < own.size();) {
