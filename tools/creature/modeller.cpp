@@ -320,16 +320,6 @@ void Cage::widen(int before, int a, int b, int after, double width) {
     faces.push_back({{after, b, b2}, part});
 }
 
-void Cage::collapse(int a, int b) {
-    position(a) = (position(a) + position(b)) * 0.5;
-    for (const size_t f : {faceAlong(a, b), faceAlong(b, a)}) {
-        std::erase(faces[f].points, b);
-    }
-    for (Face& face : faces) {
-        std::replace(face.points.begin(), face.points.end(), b, a);
-    }
-}
-
 void Cage::crease(int a, int b, float sharpness) {
     creases[{std::min(a, b), std::max(a, b)}] = sharpness;
 }

@@ -32,6 +32,7 @@ enum class Part {
     Finger1,
     Finger2,
     Finger3,
+    Web, // faces only: their points are the hand's and the foot's
     Leg,
     Foot,
     Tail,
@@ -133,9 +134,6 @@ struct Cage {
     // Opens the edge a-b into a strip `width` wide, which runs out in a triangle at each end: at `before` on a's side
     // and at `after` on b's.
     void widen(int before, int a, int b, int after, double width);
-
-    // Draws an edge together into its middle; the faces along it lose a side. The point that stays is a.
-    void collapse(int a, int b);
 
     void crease(int a, int b, float sharpness);
     void creaseChain(const std::vector<int>& chain, float sharpness);

@@ -117,6 +117,7 @@ std::vector<Vec3> paint(const Cage& cage) {
             c = mixed(skin, kBack, 0.4 * ramp(0.25, 0.10, p.y));
             break;
         case Part::Foot:
+        case Part::Web: // no point's
             c = mixed(skin, kBack, 0.5);
             break;
         case Part::Tail:

@@ -110,7 +110,7 @@ private:
     Patch bottom;
     Patch top;
     Patch orbit, socket;
-    Patch wrist, palm, knuckles;   // rings of the hand
+    Patch palm, knuckles;          // rings of the hand
     Patch knee, shin, ankle, sole; // and of the leg
     std::array<Patch, 2> foot;
     std::vector<Patch> tailRings; // its fin's among them
@@ -359,7 +359,6 @@ void Builder::arm() {
     ring(kElbow, bend, 0.077, 0.079);
     ring(kElbow + lower * 0.24, lower, 0.077, 0.077);
     ring(kElbow + lower * 0.90, lower, 0.064, 0.058);
-    wrist = patch;
     const Vec3 hand = kKnuckles - kWrist;
     ring(kWrist + hand * 0.38, hand, 0.080, 0.052);
     palm = patch;
@@ -584,7 +583,7 @@ void Builder::belly() {
             Point& point = cage.points[static_cast<size_t>(plate.at(column, row))];
             const bool edge = row == 0 || row == plate.rows || column == plate.columns;
             const Vec3 out = point.position - middle;
-            point.position = middle + out * (edge ? 1.040 : 1.030);
+            point.position = middle + out * (edge ? 1.050 : 1.040);
             point.position.x *= 0.96;
             point.along = row;
         }
@@ -595,8 +594,7 @@ void Builder::belly() {
         cage.dissolve({base.at(base.columns, row), plate.at(plate.columns, row)});
         std::erase(edge, plate.at(plate.columns, row));
     }
-    cage.creaseChain(Cage::rimOf(base), 3);
-    cage.creaseChain(edge, 2.5f);
+    cage.creaseChain(edge, 3);
     // The furrows between the scutes.
     for (const int row : {1, 2}) {
         cage.creaseChain({plate.at(0, row), plate.at(1, row), plate.at(2, row)}, 3);
@@ -605,10 +603,9 @@ void Builder::belly() {
 
 // Room between fingers and between toes.
 void Builder::webs() {
+    cage.part = Part::Web;
     for (const int column : {1, 2}) {
-        cage.part = Part::Arm;
         cage.widen(palm.at(column, 0), knuckles.at(column, 0), knuckles.at(column, 1), palm.at(column, 1), 0.012);
-        cage.part = Part::Foot;
         cage.widen(foot[0].at(column, 0), foot[1].at(column, 0), foot[1].at(column, 1), foot[0].at(column, 1), 0.016);
     }
 }

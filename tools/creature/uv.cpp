@@ -26,6 +26,7 @@ int side(const Cage& cage, const Face& face) {
     case Part::Mouth:
     case Part::Lid:
     case Part::Belly:
+    case Part::Web:
         return 0;
     default:
         return normal.z > 0 ? 1 : 0;
