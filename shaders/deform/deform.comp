@@ -100,8 +100,8 @@ Influence influence(uint joint, float weight, vec3 rest, vec3 anchor, vec4 hemis
 // Blending, ACM TOG 27(4), 2008), whose result does not depend on where the origin of the rest space lies: here it lies at
 // the vertex, so that joint j takes the origin to y_j = matrix_j * rest and the blend's translation is the result,
 // vec(sum_j w_j y_j q_j conj(q)) / |q|^2 with q = sum_j w_j q_j. Scale and shear move y_j and leave the rotation q_j alone:
-// the paper's scaling phase with the vertex as the fixed point of every joint's scaling, as Blender has it since its issue
-// 32022; scaled about any other point, neighbors of different scale and rotation pull the vertices between them away.
+// the paper's scaling phase with the vertex as the fixed point of every joint's scaling, as in Blender (issues 32022, 43188,
+// 100373); scaled about any other point, neighbors of different scale and rotation pull the vertices between them away.
 // Points are taken from an anchor, the heaviest joint's y: one joint alone gives its matrix times the vertex.
 vec3 blendedAsDualQuaternions(vec3 rest, uint first, uint end, uint joints) {
     uint heaviest = joints + kDualQuaternionElements * table(first).x;

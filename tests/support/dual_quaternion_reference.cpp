@@ -57,7 +57,8 @@ std::vector<glm::dvec3> skinWithDualQuaternions(std::span<const glm::dvec3> posi
         DualQuaternion blend;
         for (const cage::Influence& i : influences) {
             const Joint& joint = joints[i.joint];
-            // stretched: x -> stretch (x - p) + p is undone by nothing at p; what it moved elsewhere is a translation.
+            // Stretched about itself the vertex stays; this translation and the rotation then take it where the joint
+            // does.
             const glm::dvec3 translation = joint.translation + joint.rotation * (joint.stretch * p - p);
             const glm::dquat real = glm::quat_cast(joint.rotation);
             const glm::dquat dual = 0.5 * (glm::dquat(0.0, translation.x, translation.y, translation.z) * real);

@@ -298,13 +298,12 @@ SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup gr
 SUPPLE_API SuppleResult suppleSetClipPose(SuppleContext context, SuppleGroup group, uint32_t instance, uint32_t clip,
                                           double time);
 
-typedef enum SuppleLayerMode {
-    SUPPLE_LAYER_BLEND = 0,   /* the pose moves towards the clip's by the weight, 0..1: rotations along the shorter arc,
-                               * all   else straight. Weight 1 replaces the pose, weight 0 leaves it */
-    SUPPLE_LAYER_ADDITIVE = 1 /* what the clip differs by from its own pose at referenceTime is added, times the weight
-                               * (of any size and sign): rotations in the joint's own frame, pose * (reference^-1 *
-                               * clip)^w, scales as factors, translations and morph weights as sums */
-} SuppleLayerMode;
+/* BLEND: the pose moves towards the clip's by the weight, 0..1: rotations along the shorter arc, all else straight.
+ * Weight 1 replaces the pose, weight 0 leaves it, both to the bit.
+ * ADDITIVE: what the clip differs by from its own pose at referenceTime is added, times the weight w, of any size and
+ * sign: rotations in the joint's own frame, pose * (reference^-1 * clip)^w; scales as factors; translations and morph
+ * weights as sums. */
+typedef enum SuppleLayerMode { SUPPLE_LAYER_BLEND = 0, SUPPLE_LAYER_ADDITIVE = 1 } SuppleLayerMode;
 
 typedef enum SuppleLayerFlags {
     SUPPLE_LAYER_LOOP = 1 /* times wrap round at the clip's duration; else they are clamped to the clip */
@@ -334,7 +333,8 @@ typedef enum SuppleRootMotionFlags {
 } SuppleRootMotionFlags;
 
 typedef enum SupplePoseFlags {
-    SUPPLE_POSE_ROOT_JOINT = 1 /* rootJoint names the root; else it is the topmost node that the clips move */
+    SUPPLE_POSE_ROOT_JOINT = 1 /* rootJoint names the root; else it is the topmost node that clips move or turn, of
+                                * several the one above most joints */
 } SupplePoseFlags;
 
 /* Layers are applied in order to the rest pose. A crossfade is two layers: the old clip with weight 1, then the new one
