@@ -433,7 +433,7 @@ TEST(Contract, ExternalFilesComeThroughTheHost) {
     EXPECT_EQ(state.released, 2);
     state.present = false;
     const std::string missing = refusal();
-    EXPECT_NE(missing.find("my shape.bin"), std::string::npos) << missing;
+    EXPECT_NE(missing.find("my%20shape.bin"), std::string::npos) << missing;
     EXPECT_EQ(state.released, 2);
     files.read = nullptr;
     EXPECT_EQ(suppleCreateAsset((*created)->handle(), &desc, &asset), SUPPLE_ERROR_ARGUMENT);
