@@ -54,7 +54,7 @@ Polygons readCagePolygons(const GltfDocument& document, const CageExtension& ext
 
 std::vector<uint32_t> readHoles(const GltfDocument& document, const CageExtension& extension, size_t faceCount) {
     const std::string name = extension.element + " holeIndices";
-    const auto holes = readIntegers(document, extension.holeIndices, TINYGLTF_TYPE_SCALAR, kIntegers, name);
+    auto holes = readIntegers(document, extension.holeIndices, TINYGLTF_TYPE_SCALAR, kIntegers, name);
     for (size_t i = 0; i < holes.size(); ++i) {
         if (holes[i] >= faceCount) {
             refuse(item(name, i), "face " + std::to_string(holes[i]) + " is out of range: the primitive has " +
@@ -71,7 +71,7 @@ std::vector<uint32_t> readHoles(const GltfDocument& document, const CageExtensio
 std::vector<uint32_t> readOffsets(const GltfDocument& document, const json& object, const char* key, size_t count,
                                   size_t length, const std::string& element) {
     const std::string name = element + " " + key;
-    const auto offsets = readIntegers(document, object.at(key).get<int>(), TINYGLTF_TYPE_SCALAR, kIntegers, name);
+    auto offsets = readIntegers(document, object.at(key).get<int>(), TINYGLTF_TYPE_SCALAR, kIntegers, name);
     if (offsets.size() != count) {
         refuse(name, counted(offsets.size(), "offset", "offsets") + " for " + counted(count, "polygon", "polygons"));
     }

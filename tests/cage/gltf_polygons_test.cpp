@@ -475,7 +475,8 @@ TEST(GltfPolygons, SourcesInOrder) {
     for (size_t first = 0; first < 5; ++first) {
         std::string extensions;
         for (size_t i = first; i < 4; ++i) {
-            extensions = extensions.empty() ? all[i] : all[i] + "," + extensions; // the file's order does not matter
+            // Last first: the order in the file does not matter.
+            extensions.insert(0, extensions.empty() ? all[i] : all[i] + ",");
         }
         const Character c = readWell(patch.with(extensions), {.pairQuads = true});
         EXPECT_EQ(c.polygonSource, sources[first]);

@@ -218,6 +218,8 @@ TEST(SharedAssets, UvSplitSpotIsTheSameCage) {
 
 /// A GLB or glTF as JSON and the bytes of its buffers; an empty JSON where the file is absent.
 struct RawFile {
+    explicit RawFile(const std::string& name);
+
     nlohmann::json json;
     std::vector<std::string> buffers;
 
@@ -235,35 +237,33 @@ struct RawFile {
     }
 };
 
-RawFile rawFile(const std::string& name) {
+RawFile::RawFile(const std::string& name) {
     const auto textOf = [](const fs::path& path) {
         std::ifstream stream(path, std::ios::binary);
         return std::string((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
     };
     const std::string text = textOf(assets() + name);
-    RawFile file;
     if (text.empty()) {
-        return file;
+        return;
     }
     if (text.starts_with("glTF")) {
         uint32_t length = 0;
         std::memcpy(&length, text.data() + 12, 4);
-        file.json = nlohmann::json::parse(text.substr(20, length));
-        file.buffers = {text.substr(28 + size_t{length})};
-        return file;
+        json = nlohmann::json::parse(text.substr(20, length));
+        buffers = {text.substr(28 + size_t{length})};
+        return;
     }
-    file.json = nlohmann::json::parse(text);
-    for (const nlohmann::json& buffer : file.json.at("buffers")) {
+    json = nlohmann::json::parse(text);
+    for (const nlohmann::json& buffer : json.at("buffers")) {
         const std::string uri = buffer.at("uri");
         if (isDataUri(uri)) {
             const Result<DataUri> data = decodeDataUri(uri);
             EXPECT_TRUE(data.ok());
-            file.buffers.emplace_back(reinterpret_cast<const char*>(data->bytes.data()), data->bytes.size());
+            buffers.emplace_back(reinterpret_cast<const char*>(data->bytes.data()), data->bytes.size());
         } else {
-            file.buffers.push_back(textOf(fs::path(assets() + name).parent_path() / uri));
+            buffers.push_back(textOf(fs::path(assets() + name).parent_path() / uri));
         }
     }
-    return file;
 }
 
 TEST(SharedAssets, MorphTargetsAreTheFiles) {
@@ -272,7 +272,7 @@ TEST(SharedAssets, MorphTargetsAreTheFiles) {
          {"khronos/SimpleMorph/SimpleMorph.gltf", "khronos/AnimatedMorphCube/AnimatedMorphCube.gltf",
           "khronos/MorphStressTest.gltf", "characters/mh_female1605_morph.glb"}) {
         SCOPED_TRACE(name);
-        const RawFile file = rawFile(name);
+        const RawFile file(name);
         if (file.json.is_null()) {
             ++leftOut;
             continue;
@@ -338,7 +338,7 @@ TEST(SharedAssets, CreasesAreTheFiles) {
     size_t leftOut = 0;
     for (const auto& [name, count] : counts) {
         SCOPED_TRACE(name);
-        const RawFile file = rawFile(name);
+        const RawFile file(name);
         if (file.json.is_null()) {
             ++leftOut;
             continue;
