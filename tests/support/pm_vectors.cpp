@@ -1,8 +1,8 @@
 #include "tests/support/pm_vectors.h"
 
+#include "tests/support/json_vectors.h"
 #include "tests/support/pm_surface.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -15,18 +15,6 @@ using nlohmann::json;
 using surface::pm::FacetClass;
 using surface::pm::SectorKind;
 
-glm::dvec3 vector(const json& j) {
-    return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
-}
-
-std::vector<glm::dvec3> vectors(const json& j) {
-    std::vector<glm::dvec3> result;
-    for (const json& v : j) {
-        result.push_back(vector(v));
-    }
-    return result;
-}
-
 PmVectors::Sector readSector(const json& j) {
     static const std::map<std::string, SectorKind> kKinds{
         {"interior", SectorKind::interior}, {"crease", SectorKind::crease}, {"corner", SectorKind::corner}};
@@ -36,11 +24,11 @@ PmVectors::Sector readSector(const json& j) {
     sector.valence = j.at("N");
     sector.edges = j.at("edges").get<std::vector<uint32_t>>();
     sector.faces = j.at("faces").get<std::vector<uint32_t>>();
-    sector.v = vector(j.at("v"));
-    sector.tau1 = vector(j.at("tau1"));
-    sector.tau2 = vector(j.at("tau2"));
-    sector.t = vectors(j.at("t"));
-    sector.f = vectors(j.at("f"));
+    sector.v = jsonVector(j.at("v"));
+    sector.tau1 = jsonVector(j.at("tau1"));
+    sector.tau2 = jsonVector(j.at("tau2"));
+    sector.t = jsonVectors(j.at("t"));
+    sector.f = jsonVectors(j.at("f"));
     return sector;
 }
 
@@ -53,9 +41,9 @@ PmVectors::Patch readPatch(const json& j) {
     PmVectors::Patch patch;
     patch.facetClass = kClasses.at(j.at("type"));
     patch.corners = j.at("corners").get<std::vector<uint32_t>>();
-    patch.coefficients = vectors(j.at("coef"));
+    patch.coefficients = jsonVectors(j.at("coef"));
     for (const json& s : j.at("samples")) {
-        patch.samples.push_back({s.at("at").get<std::vector<double>>(), vector(s.at("P")), vector(s.at("N"))});
+        patch.samples.push_back({s.at("at").get<std::vector<double>>(), jsonVector(s.at("P")), jsonVector(s.at("N"))});
     }
     return patch;
 }
@@ -65,7 +53,7 @@ PmVectors read(const std::filesystem::path& path) {
     const json j = json::parse(file);
     PmVectors v;
     v.name = j.at("name").get<std::string>();
-    v.positions = vectors(j.at("vertices"));
+    v.positions = jsonVectors(j.at("vertices"));
     v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces_in").get<Polygons>());
     for (const json& s : j.at("sharp")) {
         v.cage.creases.push_back({s.at(0), s.at(1), s.at(2)});
@@ -105,20 +93,7 @@ surface::pm::Mesh PmVectors::mesh() const {
 }
 
 const std::vector<PmVectors>& pmVectors() {
-    static const std::vector<PmVectors> kAll = [] {
-        std::vector<std::filesystem::path> paths;
-        for (const auto& entry : std::filesystem::directory_iterator(SUPPLE_TEST_DATA "/pm")) {
-            if (entry.path().extension() == ".json") {
-                paths.push_back(entry.path());
-            }
-        }
-        std::sort(paths.begin(), paths.end());
-        std::vector<PmVectors> all;
-        for (const auto& path : paths) {
-            all.push_back(read(path));
-        }
-        return all;
-    }();
+    static const std::vector<PmVectors> kAll = readJsonFolder("pm", read);
     return kAll;
 }
 
