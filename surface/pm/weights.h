@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,9 @@ struct EdgeClass {
     bool cut = false;
     std::array<bool, 2> ends{};
 
-    auto operator<=>(const EdgeClass&) const = default;
+    bool operator<(const EdgeClass& other) const {
+        return std::tie(sides, valences, cut, ends) < std::tie(other.sides, other.valences, other.cut, other.ends);
+    }
 };
 /// Factors of T1 - t0, of the end's own t - v, and of f - f_across (f - t where the edge ends the sector), for b211 (at
 /// v0) and b121 (at v1).
