@@ -118,7 +118,9 @@ PoseLayout PoseLayout::of(SkinningMode mode, uint32_t jointCount, uint32_t morph
 
 void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* target) {
     const auto put = [&target](const void* source, size_t bytes) {
-        std::memcpy(target, source, bytes);
+        if (bytes > 0) { // an empty list has no address to copy from
+            std::memcpy(target, source, bytes);
+        }
         target += bytes;
     };
     if (layout.mode == SkinningMode::dualQuaternion) {
