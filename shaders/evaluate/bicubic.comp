@@ -14,41 +14,51 @@
 
 const bool kPerturbed = kClass == kPerturbedPatch;
 const bool kPolar = kClass == kPolarPatch;
-const uint kCoefficients = kPerturbed ? 32u : 16u;
+
+// Positions come from the coefficients as they are, so that neighbours, whose g00 differ, agree bit for bit. Derivatives
+// come from coefficients relative to g00: far from the origin that keeps normals many times more exact.
+// Order of the 16 perturbation coefficients: h_2j then h_3j for j = 0, 1, 4, 5, then h_i2, h_i3 for i = 0, 1, 4, 5.
+struct Patch {
+    vec3 g[16], relative[16], h[16];
+};
+
+vec3 placed(vec3 corner, vec3 offset) {
+    precise vec3 p = corner + offset;
+    return p;
+}
+vec3 relativeTo(vec3 first, vec3 corner, vec3 offset) {
+    precise vec3 p = (corner - first) + offset;
+    return p;
+}
 
 // A row of the patch at one v: the cubic row points and their v-derivatives, and the same for the perturbation.
-// The perturbation rows are h_i., i = 0, 1, 4, 5 (outer) and 2, 3 (inner). Derivatives come from coefficients relative to g00:
-// far from the origin that keeps normals several times more exact. Positions come from the coefficients as they are, so
-// that neighbours, whose g00 differ, agree bit for bit.
+// The perturbation rows are h_i., i = 0, 1, 4, 5 (outer) and 2, 3 (inner).
 struct Row {
     vec3 g[4], relative[4], gv[4];
     vec3 outer[4], outerV[4];
     vec3 inner[2], innerV[2];
 };
 
-// Order of the 16 perturbation coefficients (pool gather and shared memory): h_2j then h_3j for j = 0, 1, 4, 5, then
-// h_i2, h_i3 for i = 0, 1, 4, 5.
-Row collapse(vec3 c[32], vec2 v) {
+Row collapse(Patch c, vec2 v) {
     Row row;
     vec4 b = bernstein3(v), d = bernsteinDerivative3(v);
     // Du of a polar patch has the factor 1 - v, which vanishes at the apex: it is left out.
     vec4 along = kPolar ? vec4(v.y * v.y, 3.0 * (v.x * v.y), 3.0 * (v.x * v.x), 0.0) : b;
     for (uint i = 0u; i < 4u; ++i) {
-        precise vec3 g = sum4(b, c[i], c[4u + i], c[8u + i], c[12u + i]);
+        precise vec3 g = sum4(b, c.g[i], c.g[4u + i], c.g[8u + i], c.g[12u + i]);
         row.g[i] = g;
-        vec3 r0 = c[i] - c[0], r1 = c[4u + i] - c[0], r2 = c[8u + i] - c[0], r3 = c[12u + i] - c[0];
-        row.relative[i] = blend4(along, r0, r1, r2, r3);
-        row.gv[i] = blend4(d, r0, r1, r2, r3);
+        row.relative[i] = blend4(along, c.relative[i], c.relative[4u + i], c.relative[8u + i], c.relative[12u + i]);
+        row.gv[i] = blend4(d, c.relative[i], c.relative[4u + i], c.relative[8u + i], c.relative[12u + i]);
     }
     if (kPerturbed) {
         Basis5 b5 = bernstein5(v), d5 = bernsteinDerivative5(v);
         for (uint i = 0u; i < 2u; ++i) {
-            row.inner[i] = sum4(b5.outer, c[16u + 4u * i], c[17u + 4u * i], c[18u + 4u * i], c[19u + 4u * i]);
-            row.innerV[i] = blend4(d5.outer, c[16u + 4u * i], c[17u + 4u * i], c[18u + 4u * i], c[19u + 4u * i]);
+            row.inner[i] = sum4(b5.outer, c.h[4u * i], c.h[4u * i + 1u], c.h[4u * i + 2u], c.h[4u * i + 3u]);
+            row.innerV[i] = blend4(d5.outer, c.h[4u * i], c.h[4u * i + 1u], c.h[4u * i + 2u], c.h[4u * i + 3u]);
         }
         for (uint i = 0u; i < 4u; ++i) {
-            row.outer[i] = sum2(b5.inner, c[24u + 2u * i], c[25u + 2u * i]);
-            row.outerV[i] = blend2(d5.inner, c[24u + 2u * i], c[25u + 2u * i]);
+            row.outer[i] = sum2(b5.inner, c.h[8u + 2u * i], c.h[9u + 2u * i]);
+            row.outerV[i] = blend2(d5.inner, c.h[8u + 2u * i], c.h[9u + 2u * i]);
         }
     }
     return row;
@@ -87,13 +97,26 @@ void evaluateNarrow() {
     uint patchIndex = id - instance * push.count;
     uint record = push.table + patchIndex * recordElements();
     uint base = instance * push.poolStride;
-    vec3 c[32];
-    for (uint k = 0u; k < kCoefficients / 4u; ++k) {
+    Patch c;
+    for (uint k = 0u; k < 4u; ++k) {
         uvec4 indices = base + tableElement(record + k);
-        c[4u * k] = poolVector(indices.x);
-        c[4u * k + 1u] = poolVector(indices.y);
-        c[4u * k + 2u] = poolVector(indices.z);
-        c[4u * k + 3u] = poolVector(indices.w);
+        c.g[4u * k] = poolVector(indices.x);
+        c.g[4u * k + 1u] = poolVector(indices.y);
+        c.g[4u * k + 2u] = poolVector(indices.z);
+        c.g[4u * k + 3u] = poolVector(indices.w);
+        if (kPerturbed) {
+            indices = base + tableElement(record + 4u + k);
+            c.h[4u * k] = poolVector(indices.x);
+            c.h[4u * k + 1u] = poolVector(indices.y);
+            c.h[4u * k + 2u] = poolVector(indices.z);
+            c.h[4u * k + 3u] = poolVector(indices.w);
+        }
+    }
+    for (uint k = 0u; k < 16u; ++k) {
+        uint corner = cornerOf(k);
+        vec3 offset = k == corner ? vec3(0.0) : c.g[k];
+        c.relative[k] = relativeTo(c.g[0], c.g[corner], offset);
+        if (k != corner) c.g[k] = placed(c.g[corner], offset);
     }
     uvec4 normalSlots = uvec4(kNoNormal);
     if (kCornerNormals) normalSlots = tableElement(record + recordElements() - 1u);
@@ -105,7 +128,7 @@ void evaluateNarrow() {
         for (uint i = 0u; i < side; ++i) {
             vec3 position, normal;
             finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
-            if (kPolar && j == push.rate) position = c[12]; // the apex itself, from every patch round it
+            if (kPolar && j == push.rate) position = c.g[12]; // the apex itself, from every patch round it
             if (kCornerNormals) normal = cornerNormal(normal, i, j, normalSlots, base);
             storeSurfaceVertex(vertex, position, normal);
             ++vertex;
@@ -113,19 +136,25 @@ void evaluateNarrow() {
     }
 }
 
-shared vec4 sharedCoefficients[kMaxPatchesPerGroup * 32u];
+const uint kSharedStride = kPerturbed ? 48u : 32u; // g, relative, h
+shared vec4 sharedCoefficients[kMaxPatchesPerGroup * kSharedStride];
 
 void evaluateWide() {
     uint total = push.count * push.instanceCount;
     uint first = workgroupIndex() * push.patchesPerGroup;
     uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
-    for (uint k = gl_LocalInvocationID.x; k < here * kCoefficients; k += gl_WorkGroupSize.x) {
-        uint slot = k / kCoefficients, coefficient = k - slot * kCoefficients;
+    for (uint n = gl_LocalInvocationID.x; n < here * 16u; n += gl_WorkGroupSize.x) {
+        uint slot = n / 16u, k = n - slot * 16u, corner = cornerOf(k);
         uint id = first + slot;
         uint instance = id / push.count;
-        uint record = push.table + (id - instance * push.count) * recordElements();
-        uint index = instance * push.poolStride + tableWord(4u * record + coefficient);
-        sharedCoefficients[slot * 32u + coefficient] = vec4(poolVector(index), 0.0);
+        uint words = 4u * (push.table + (id - instance * push.count) * recordElements()), base = instance * push.poolStride;
+        vec3 origin = poolVector(base + tableWord(words)), v = poolVector(base + tableWord(words + corner));
+        vec3 offset = vec3(0.0);
+        if (k != corner) offset = poolVector(base + tableWord(words + k));
+        uint to = slot * kSharedStride + k;
+        sharedCoefficients[to] = vec4(k == corner ? v : placed(v, offset), 0.0);
+        sharedCoefficients[to + 16u] = vec4(relativeTo(origin, v, offset), 0.0);
+        if (kPerturbed) sharedCoefficients[to + 32u] = vec4(poolVector(base + tableWord(words + 16u + k)), 0.0);
     }
     barrier();
     uint side = push.rate + 1u, samples = side * side;
@@ -135,12 +164,17 @@ void evaluateWide() {
         uint id = first + slot;
         uint instance = id / push.count;
         uint patchIndex = id - instance * push.count;
-        vec3 c[32];
-        for (uint n = 0u; n < kCoefficients; ++n) c[n] = sharedCoefficients[slot * 32u + n].xyz;
+        Patch c;
+        for (uint n = 0u; n < 16u; ++n) {
+            uint from = slot * kSharedStride + n;
+            c.g[n] = sharedCoefficients[from].xyz;
+            c.relative[n] = sharedCoefficients[from + 16u].xyz;
+            if (kPerturbed) c.h[n] = sharedCoefficients[from + 32u].xyz;
+        }
         Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
         vec3 position, normal;
         finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
-        if (kPolar && j == push.rate) position = c[12];
+        if (kPolar && j == push.rate) position = c.g[12];
         if (kCornerNormals) {
             uvec4 slots = tableElement(push.table + patchIndex * recordElements() + recordElements() - 1u);
             normal = cornerNormal(normal, i, j, slots, instance * push.poolStride);

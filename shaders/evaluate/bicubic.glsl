@@ -2,4 +2,10 @@
 layout(constant_id = 3) const uint kClass = kRegularPatch;
 layout(constant_id = 5) const bool kCornerNormals = false; // smooth one-face corners of p-rep: Du x Dv vanishes there
 
+// The corner that a bicubic coefficient is an offset from: itself where it is one, as is the apex all along row 3.
+uint cornerOf(uint k) {
+    if (kClass == kPolarPatch && k > 12u) return k;
+    return (k & 12u) / 8u * 12u + (k & 3u) / 2u * 3u;
+}
+
 uint recordElements() { return (kClass == kPerturbedPatch ? 8u : 4u) + (kCornerNormals ? 1u : 0u); }

@@ -21,7 +21,10 @@ void main() {
     uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
     for (uint k = 0u; k < 16u; ++k) {
         bool past = kClass == kPolarPatch && k > 12u;
-        vec3 g = past ? vec3(0.0) : poolVector(instance * push.poolStride + tableWord(4u * record + k));
+        uint corner = cornerOf(k);
+        vec3 g = vec3(0.0);
+        if (!past) g = poolVector(instance * push.poolStride + tableWord(4u * record + corner));
+        if (!past && k != corner) g += poolVector(instance * push.poolStride + tableWord(4u * record + k));
         coefficients[target + k] = vec4(g, 0.0);
         vec3 h = vec3(0.0);
         if (kClass == kPerturbedPatch) h = poolVector(instance * push.poolStride + tableWord(4u * record + 16u + k));

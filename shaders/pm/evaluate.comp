@@ -35,11 +35,6 @@ vec3[3] rayPoints(vec3 v, vec3 p310, vec3 p130, vec3 p211, vec3 p121, vec3 after
     return vec3[3](x1, x2, x3);
 }
 
-vec3 third(vec3 near, vec3 far) {
-    precise vec3 r = (near + 3.0 * far) * 0.25;
-    return r;
-}
-
 Sector loadSector(uint record, uint base, uint i) {
     const uint m = kSides;
     uint n = i + 1u == m ? 0u : i + 1u, l = i == 0u ? m - 1u : i - 1u;
@@ -48,17 +43,18 @@ Sector loadSector(uint record, uint base, uint i) {
     Sector s;
     s.centre = poolVector(inner);
     vec3 v0 = poolVector(own.x), t0 = poolVector(own.y), t1 = poolVector(own.z), v1 = poolVector(next.x);
-    s.border = vec3[4](v0, t0, t1, v1);
-    precise vec3 a = v0 - s.centre, b = t0 - s.centre, c = t1 - s.centre, d = v1 - s.centre;
-    precise vec3 nextTangent = poolVector(next.y) - s.centre, lastTangent = poolVector(last.z) - s.centre;
+    precise vec3 border1 = v0 + t0, border2 = v1 + t1;
+    s.border = vec3[4](v0, border1, border2, v1);
+    precise vec3 a = v0 - s.centre, d = v1 - s.centre;
     uint at = inner + 1u + 3u * i, atNext = inner + 1u + 3u * n, atLast = inner + 1u + 3u * l;
-    precise vec3 p211 = poolVector(at) - s.centre, p121 = poolVector(at + 1u) - s.centre, p112 = poolVector(at + 2u) - s.centre;
-    precise vec3 last121 = poolVector(atLast + 1u) - s.centre, last112 = poolVector(atLast + 2u) - s.centre;
-    precise vec3 next211 = poolVector(atNext) - s.centre, next112 = poolVector(atNext + 2u) - s.centre;
-    vec3 p310 = third(a, b), p130 = third(d, c);
-    precise vec3 p220 = (b + c) * 0.5;
-    vec3 left[3] = rayPoints(a, p310, third(a, lastTangent), p211, last121, p112, last112);
-    vec3 right[3] = rayPoints(d, third(d, nextTangent), p130, next211, p121, next112, p112);
+    precise vec3 p211 = a + poolVector(at), p121 = d + poolVector(at + 1u), p112 = poolVector(at + 2u);
+    precise vec3 last121 = a + poolVector(atLast + 1u), last112 = poolVector(atLast + 2u);
+    precise vec3 next211 = d + poolVector(atNext), next112 = poolVector(atNext + 2u);
+    precise vec3 p310 = a + 0.75 * t0, p130 = d + 0.75 * t1;
+    precise vec3 last130 = a + 0.75 * poolVector(last.z), next310 = d + 0.75 * poolVector(next.y);
+    precise vec3 p220 = ((a + t0) + (d + t1)) * 0.5;
+    vec3 left[3] = rayPoints(a, p310, last130, p211, last121, p112, last112);
+    vec3 right[3] = rayPoints(d, next310, p130, next211, p121, next112, p112);
     s.c = vec3[15](a, p310, p220, p130, d, left[0], p211, p121, right[0], left[1], p112, right[1], left[2], right[2], vec3(0.0));
     return s;
 }

@@ -1,6 +1,7 @@
 // Facet stage of P_m: the coefficients inside a patch that no other patch shares (docs/pm.md, (18)-(22)). One invocation a
 // facet and instance; polar facets get h12 and h22, triangles, quads and pentagons b004 and b211, b121, b112 a sector.
-// Summed relative to the first corner's limit point: all formulas are affine.
+// Summed relative to the first corner's limit point: all formulas are affine. Like the tangents, all but b004 are stored
+// as offsets: h12, h22 from the apex, b211 from v_i, b121 from v_i+1, b112 from b004.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
@@ -8,40 +9,35 @@
 #include "shaders/surface/store.glsl"
 #include "shaders/pm/pm.glsl"
 
-void storeInner(uint i, vec3 origin, vec3 relative) {
-    precise vec3 p = origin + relative;
-    storePool(i, p);
-}
-
 void polarFacet(uint record, uint base) {
     uvec4 points = base + tableElement(record);
     vec4 w = uintBitsToFloat(tableElement(record + 1u));
-    vec3 v = poolVector(points.x);
-    precise vec3 h02 = poolVector(points.y) - v, h32 = poolVector(points.z) - v;
+    vec3 h02 = poolVector(points.y), h32 = poolVector(points.z);
     precise float scale = 1.0 / (2.0 + w.x);
     precise vec3 h12 = (2.0 * h02 + h32) * scale, h22 = (h02 + 2.0 * h32) * scale;          // (18)
     precise vec3 creased12 = w.y * h12 + (1.0 - w.y) * h02, creased22 = w.z * h22 + (1.0 - w.z) * h32; // (19)
-    storeInner(points.w, v, creased12);
-    storeInner(points.w + 1u, v, creased22);
+    storePool(points.w, creased12);
+    storePool(points.w + 1u, creased22);
 }
 
 void innerFacet(uint record, uint base) {
     const uint m = kSides;
     vec3 origin = poolVector(base + tableElement(record).x);
-    vec3 v[kSides], t0[kSides], t1[kSides];
+    vec3 v[kSides];
+    vec3 t0[kSides], t1[kSides];    // from v_i
     vec3 own[kSides], back[kSides]; // f - f_across over edge i and over edge i - 1, or f - t where the edge ends the sector
     uint edgeClass[kSides];
     precise vec3 centre = vec3(0.0);
     uint target = 0u;
     for (uint i = 0u; i < m; ++i) {
         uvec4 points = tableElement(record + 2u * i), across = tableElement(record + 2u * i + 1u);
-        precise vec3 vi = poolVector(base + points.x) - origin, a = poolVector(base + points.y) - origin;
-        precise vec3 b = poolVector(base + points.z) - origin, f = poolVector(base + points.w) - origin;
-        precise vec3 fa = poolVector(base + across.x) - origin, fb = poolVector(base + across.y) - origin;
+        precise vec3 vi = poolVector(base + points.x) - origin;
+        vec3 a = poolVector(base + points.y), b = poolVector(base + points.z), f = poolVector(base + points.w);
+        vec3 fa = poolVector(base + across.x), fb = poolVector(base + across.y);
         precise vec3 ea = (f + fa) * 0.5, eb = (f + fb) * 0.5;
         if (across.x == points.y) ea = a;
         if (across.y == points.z) eb = b;
-        centre = centre + ((kCentreWeight * vi + 3.0 * (ea + eb)) + 9.0 * f); // (20)
+        centre = centre + ((kCentreWeight + 15.0) * vi + (3.0 * (ea + eb) + 9.0 * f)); // (20)
         v[i] = vi;
         t0[i] = a;
         t1[i] = b;
@@ -51,16 +47,21 @@ void innerFacet(uint record, uint base) {
         target = base + across.w;
     }
     precise vec3 b004 = centre * kCentreScale;
-    storeInner(target, origin, b004);
+    precise vec3 centrePoint = origin + b004;
+    storePool(target, centrePoint);
 
     vec3 b211[kSides], b121[kSides], b202[kSides], b310[kSides], b130[kSides];
     for (uint i = 0u; i < m; ++i) { // (20)
         uint n = i + 1u == m ? 0u : i + 1u;
         vec4 w0 = uintBitsToFloat(tableElement(edgeClass[i])), w1 = uintBitsToFloat(tableElement(edgeClass[i] + 1u));
-        precise vec3 p310 = (v[i] + 3.0 * t0[i]) * 0.25, p130 = (3.0 * t1[n] + v[n]) * 0.25;
-        precise vec3 along = t1[n] - t0[i];
-        precise vec3 p211 = p310 + ((w0.x * along + w0.y * (t0[i] - v[i])) + w0.z * own[i]);
-        precise vec3 p121 = p130 + ((w1.y * (t1[n] - v[n]) - w1.x * along) + w0.w * back[n]);
+        precise vec3 o310 = 0.75 * t0[i], o130 = 0.75 * t1[n];
+        precise vec3 along = (v[n] - v[i]) + (t1[n] - t0[i]);
+        precise vec3 o211 = o310 + ((w0.x * along + w0.y * t0[i]) + w0.z * own[i]);
+        precise vec3 o121 = o130 + ((w1.y * t1[n] - w1.x * along) + w0.w * back[n]);
+        uint slot = target + 1u + 3u * i;
+        storePool(slot, o211);
+        storePool(slot + 1u, o121);
+        precise vec3 p310 = v[i] + o310, p130 = v[n] + o130, p211 = v[i] + o211, p121 = v[n] + o121;
         b310[i] = p310;
         b130[i] = p130;
         b211[i] = p211;
@@ -74,20 +75,17 @@ void innerFacet(uint record, uint base) {
     }
     for (uint i = 0u; i < m; ++i) {
         uint n1 = (i + 1u) % m, n2 = (i + 2u) % m, n3 = (i + 3u) % m, n4 = (i + 4u) % m;
-        precise vec3 b112;
+        precise vec3 o112;
         if (m == 3u) {
-            b112 = 1.5 * b004 - 0.5 * b202[n2];
+            o112 = 0.5 * (b004 - b202[n2]);
         } else if (m == 4u) { // (21); n3 is the side before
-            b112 = b004 + (3.0 / 16.0) * ((b211[i] + b121[i]) - (b121[n1] + b211[n3])) +
+            o112 = (3.0 / 16.0) * ((b211[i] + b121[i]) - (b121[n1] + b211[n3])) +
                    (1.0 / 16.0) * ((b211[n1] + b121[n3]) - (b211[n2] + b121[n2]));
         } else { // (22)
             precise vec3 sum = b202[n3] - 4.0 * kD * (b202[i] + b202[n1]) - 4.0 * kD * kD * (b202[n2] + b202[n4]);
-            b112 = kMu * (b004 + 0.2 * sum);
+            o112 = (kMu - 1.0) * b004 + (kMu * 0.2) * sum;
         }
-        uint slot = target + 1u + 3u * i;
-        storeInner(slot, origin, b211[i]);
-        storeInner(slot + 1u, origin, b121[i]);
-        storeInner(slot + 2u, origin, b112);
+        storePool(target + 3u + 3u * i, o112);
     }
 }
 

@@ -16,13 +16,17 @@ void main() {
     uint record = push.table + kSides * patchIndex;
     uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
     uint inner = base + tableElement(record).w;
-    coefficients[target] = vec4(poolVector(inner), 0.0);
+    vec3 centre = poolVector(inner);
+    coefficients[target] = vec4(centre, 0.0);
     for (uint i = 0u; i < kSides; ++i) {
         uvec4 border = base + tableElement(record + i);
         uint to = target + 1u + 6u * i, from = inner + 1u + 3u * i;
-        coefficients[to] = vec4(poolVector(border.x), 0.0);
-        coefficients[to + 1u] = vec4(poolVector(border.y), 0.0);
-        coefficients[to + 2u] = vec4(poolVector(border.z), 0.0);
-        for (uint k = 0u; k < 3u; ++k) coefficients[to + 3u + k] = vec4(poolVector(from + k), 0.0);
+        vec3 v = poolVector(border.x), next = poolVector(base + tableElement(record + (i + 1u) % kSides).x);
+        coefficients[to] = vec4(v, 0.0);
+        coefficients[to + 1u] = vec4(v + poolVector(border.y), 0.0);
+        coefficients[to + 2u] = vec4(next + poolVector(border.z), 0.0);
+        coefficients[to + 3u] = vec4(v + poolVector(from), 0.0);
+        coefficients[to + 4u] = vec4(next + poolVector(from + 1u), 0.0);
+        coefficients[to + 5u] = vec4(centre + poolVector(from + 2u), 0.0);
     }
 }

@@ -48,7 +48,6 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
             firstAlpha = w.x;
         } else {
             vec3 f = creasedFace(lastAlpha, w.x, lastSpoke, spoke, lastDiagonal);
-            storePoint(face + k - 1u, p0, f);
             sum = sum + f;
             if (k == 1u) {
                 firstFace = f;
@@ -78,29 +77,26 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
         e1 = tangentScale * (cosines + w.y * e);
         e2 = tangentScale * (sines + w.z * e);
     }
-    if ((header.x & kPinnedSector) != 0u) {
-        // v, t_j and f_j move by p - v. The f_j are computed once more: v was not known when they were stored.
-        for (uint k = 0u; k < facets; ++k) {
-            uint n = k + 1u == edges ? 0u : k + 1u;
-            precise vec3 a = ringSpoke(words, k, cageBase) - p0, b = ringSpoke(words, n, cageBase) - p0;
-            float alpha = uintBitsToFloat(tableElement(weights + 1u + k).x);
-            float next = uintBitsToFloat(tableElement(weights + 1u + n).x);
-            precise vec3 f = creasedFace(alpha, next, a, b, ringDiagonal(words, k, cageBase, p0)) - x;
-            storePoint(face + k, p0, f);
-        }
-        x = vec3(0.0);
-    }
-    storePoint(limit, p0, x);
+    // A pinned sector's v moves to the vertex, and all else with it: the offsets stay.
+    storeLimit(limit, p0, (header.x & kPinnedSector) != 0u ? vec3(0.0) : x);
+    vec3 near = firstSpoke;
     for (uint k = 0u; k < edges; ++k) {
         vec4 w = uintBitsToFloat(tableElement(weights + 1u + k));
-        precise vec3 t = x + (e1 * w.y + e2 * w.z);
-        storePoint(tangent + k, p0, t);
+        precise vec3 t = e1 * w.y + e2 * w.z;
+        storePool(tangent + k, t);
+        if (k < facets) { // once more: v was not known above
+            uint n = k + 1u == edges ? 0u : k + 1u;
+            precise vec3 far = ringSpoke(words, n, cageBase) - p0;
+            float next = uintBitsToFloat(tableElement(weights + 1u + n).x);
+            storeOffset(face + k, creasedFace(w.x, next, near, far, ringDiagonal(words, k, cageBase, p0)), x);
+            near = far;
+        }
     }
     if (open) {
         precise vec3 first = firstSpoke * (1.0 / 3.0);
         precise vec3 last = lastSpoke * (1.0 / 3.0);
-        storePoint(tangent, p0, first);
-        storePoint(tangent + facets, p0, last);
+        storeOffset(tangent, first, x);
+        storeOffset(tangent + facets, last, x);
     }
 }
 

@@ -23,10 +23,10 @@ void main() {
     uvec4 sums = base + tableElement(record + 1u);
     uvec4 edge = tableElement(record + 2u);
 
-    vec3 A = poolVector(curve.x);
-    precise vec3 tA = poolVector(curve.y) - A, tB = poolVector(curve.z) - A, B = poolVector(curve.w) - A;
-    precise vec3 SA = (poolVector(sums.x) - A) + (poolVector(sums.y) - A);
-    precise vec3 SB = (poolVector(sums.z) - A) + (poolVector(sums.w) - A);
+    vec3 tA = poolVector(curve.y);
+    precise vec3 B = poolVector(curve.w) - poolVector(curve.x), tB = B + poolVector(curve.z);
+    precise vec3 SA = poolVector(sums.x) + poolVector(sums.y);
+    precise vec3 SB = (B + poolVector(sums.z)) + (B + poolVector(sums.w));
     vec4 w[6];
     for (uint k = 0u; k < 6u; ++k) w[k] = uintBitsToFloat(tableElement(edge.y + k));
     for (uint row = 0u; row < 4u; ++row)

@@ -1,7 +1,10 @@
 // What the passes of all surface schemes share: descriptor bindings, push constants, the records evaluation reads.
 //
 // Coefficient pool: vec4 elements, one run of `poolStride` an instance; what lies where is the scheme's (shared/prep.h,
-// shared/pm.h), but every scheme stores canonical values: no -0.
+// shared/pm.h), but every scheme stores canonical values: no -0. Limit points are positions; tangents and face
+// coefficients are offsets from their corner's limit point, so that beside sharp creases, where they are small, they
+// keep all of float's digits however far from the origin the patch lies. A coefficient's position is always the one sum
+// limit point + offset, so that both sides of a border see the same bits.
 //
 // Tables (one buffer, read as uvec4 or as uint) begin with what the scheme's construction needs and end with
 //   patch records    bicubic (regular, polar): 16 pool indices, row by row in v; polar patches repeat the apex in row 3

@@ -12,9 +12,15 @@ vec3 faceCoefficient(vec3 spoke, vec3 nextSpoke, vec3 diagonal) {
     return r;
 }
 
-void storePoint(uint i, vec3 p0, vec3 relative) {
+void storeLimit(uint i, vec3 p0, vec3 relative) {
     precise vec3 p = p0 + relative;
     storePool(i, p);
+}
+
+// An offset from the limit point, of a point given relative to p0 as the limit point is.
+void storeOffset(uint i, vec3 point, vec3 limit) {
+    precise vec3 offset = point - limit;
+    storePool(i, offset);
 }
 
 // A closed fan of four: the uniform bicubic B-spline.
@@ -27,10 +33,12 @@ void regularFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
     precise vec3 x = (4.0 * ((e[0] + e[2]) + (e[1] + e[3])) + ((d[0] + d[2]) + (d[1] + d[3]))) * (1.0 / 36.0);
     precise vec3 e1 = (4.0 * (e[0] - e[2]) + ((d[0] - d[2]) + (d[3] - d[1]))) * (1.0 / 36.0);
     precise vec3 e2 = (4.0 * (e[1] - e[3]) + ((d[0] - d[2]) + (d[1] - d[3]))) * (1.0 / 36.0);
-    storePoint(limit, p0, x);
-    precise vec3 t[4] = vec3[4](x + e1, x + e2, x - e1, x - e2);
-    for (uint k = 0u; k < 4u; ++k) storePoint(tangent + k, p0, t[k]);
-    for (uint k = 0u; k < 4u; ++k) storePoint(face + k, p0, faceCoefficient(e[k], e[(k + 1u) & 3u], d[k]));
+    storeLimit(limit, p0, x);
+    storePool(tangent, e1);
+    storePool(tangent + 1u, e2);
+    storePool(tangent + 2u, -e1);
+    storePool(tangent + 3u, -e2);
+    for (uint k = 0u; k < 4u; ++k) storeOffset(face + k, faceCoefficient(e[k], e[(k + 1u) & 3u], d[k]), x);
 }
 
 // Any fan, with the weights of its class (two elements a spoke from `weights` on). Gives e1 x e2.
@@ -38,7 +46,7 @@ vec3 weightedFan(uint limit, uint tangent, uint face, uint words, uint cageBase,
                  bool open) {
     uint spokes = open ? sectors + 1u : sectors;
     precise vec3 x = vec3(0.0), e1 = vec3(0.0), e2 = vec3(0.0);
-    vec3 firstSpoke = vec3(0.0), lastSpoke = vec3(0.0), lastDiagonal = vec3(0.0);
+    vec3 firstSpoke = vec3(0.0), lastSpoke = vec3(0.0);
     for (uint k = 0u; k < spokes; ++k) {
         precise vec3 spoke = ringSpoke(words, k, cageBase) - p0;
         precise vec3 diagonal = ringDiagonal(words, k, cageBase, p0);
@@ -48,24 +56,26 @@ vec3 weightedFan(uint limit, uint tangent, uint face, uint words, uint cageBase,
         e1 = e1 + (a.z * spoke + a.w * diagonal);
         e2 = e2 + (b.x * spoke + b.y * diagonal);
         if (k == 0u) firstSpoke = spoke;
-        else storePoint(face + k - 1u, p0, faceCoefficient(lastSpoke, spoke, lastDiagonal));
         lastSpoke = spoke;
-        lastDiagonal = diagonal;
     }
-    storePoint(limit, p0, x);
+    storeLimit(limit, p0, x);
+    vec3 near = firstSpoke;
     for (uint k = 0u; k < spokes; ++k) {
         vec4 b = uintBitsToFloat(tableElement(weights + 1u + 2u * k));
-        precise vec3 t = x + (e1 * b.z + e2 * b.w);
-        storePoint(tangent + k, p0, t);
+        precise vec3 t = e1 * b.z + e2 * b.w;
+        storePool(tangent + k, t);
+        if (k < sectors) {
+            precise vec3 far = ringSpoke(words, k + 1u == spokes ? 0u : k + 1u, cageBase) - p0;
+            storeOffset(face + k, faceCoefficient(near, far, ringDiagonal(words, k, cageBase, p0)), x);
+            near = far;
+        }
     }
     if (open) {
         // The curve at its end is the cubic B-spline of the control polygon, whatever the inside does.
         precise vec3 first = firstSpoke * (1.0 / 3.0);
         precise vec3 last = lastSpoke * (1.0 / 3.0);
-        storePoint(tangent, p0, first);
-        storePoint(tangent + sectors, p0, last);
-    } else {
-        storePoint(face + sectors - 1u, p0, faceCoefficient(lastSpoke, firstSpoke, lastDiagonal));
+        storeOffset(tangent, first, x);
+        storeOffset(tangent + sectors, last, x);
     }
     return cross(e1, e2);
 }

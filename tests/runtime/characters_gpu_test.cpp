@@ -71,7 +71,6 @@ public:
     [[nodiscard]] const cage::Cage& cage() const { return surface_.cage; }
     [[nodiscard]] const cage::Topology& topology() const { return surface_.topology; }
     [[nodiscard]] bool smooth(uint32_t /*edge*/) const { return true; }
-    [[nodiscard]] bool creased(uint32_t /*facet*/) const { return false; }
     [[nodiscard]] std::vector<uint32_t> patches(const GpuSurface& gpu) const {
         std::vector<uint32_t> patches(cage().faceCount());
         for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
@@ -96,28 +95,11 @@ class PmReference {
 public:
     static constexpr SuppleScheme kScheme = SUPPLE_SCHEME_PM;
 
-    PmReference(const cage::Cage& cage, const std::vector<glm::dvec3>& positions) : surface_(pmMesh(cage), positions) {
-        const auto roundAll = [](std::vector<glm::dvec3>& points) {
-            for (glm::dvec3& p : points) {
-                p = glm::dvec3(glm::vec3(p));
-            }
-        };
-        rounded_ = surface_.coefficients;
-        roundAll(rounded_.limitPoints);
-        roundAll(rounded_.tangents);
-        roundAll(rounded_.faceCoefficients);
-    }
+    PmReference(const cage::Cage& cage, const std::vector<glm::dvec3>& positions) : surface_(pmMesh(cage), positions) {}
 
     [[nodiscard]] const cage::Cage& cage() const { return surface_.mesh.cage; }
     [[nodiscard]] const cage::Topology& topology() const { return surface_.mesh.topology; }
     [[nodiscard]] bool smooth(uint32_t edge) const { return surface_.mesh.edgeCut[edge] == 0; }
-    /// Whether semi-sharp creases shape the facet.
-    [[nodiscard]] bool creased(uint32_t facet) const {
-        const surface::pm::Mesh& mesh = surface_.mesh;
-        const auto first = mesh.corners.begin() + mesh.cage.faceStarts[facet];
-        return std::any_of(first, first + mesh.cage.sides(facet),
-                           [&](const surface::pm::FacetCorner& c) { return mesh.sectors[c.sector].creased; });
-    }
     [[nodiscard]] std::vector<uint32_t> patches(const GpuSurface& gpu) const {
         const PmPatches found(gpu, surface_.mesh);
         std::vector<uint32_t> patches;
@@ -133,15 +115,9 @@ public:
     [[nodiscard]] surface::pm::Sample<double> at(uint32_t facet, uint32_t sample) const {
         return surface_.at(facet, kRate, sample);
     }
-    /// From v, t and f rounded to float, all else exact: what can be had of coefficients in float.
-    [[nodiscard]] surface::pm::Sample<double> roundedAt(uint32_t facet, uint32_t sample) const {
-        return surface::pm::evaluate(surface::pm::gatherPatch<double>(surface_.mesh, rounded_, facet),
-                                     surface::pm::domainPoint<double>(surface_.mesh.classes[facet], kRate, sample));
-    }
 
 private:
     PmSurface<double> surface_;
-    surface::pm::Coefficients<double> rounded_;
 };
 
 /// A character's group beside its reference in one pose.
@@ -202,14 +178,11 @@ private:
     }
 };
 
-/// Where semi-sharp creases shape a facet its normals are counted apart: they turn within alpha of an edge's length,
-/// and the offsets of f_j that make them turn are as small beside the coordinates that float must hold.
 struct Comparison {
     double skin = 0.0, positions = 0.0; ///< of the extent
     Angles normals;                     ///< all samples compared, against the reference
     Angles borders;                     ///< those of them that two patches share over a smooth edge
     Angles across;                      ///< between the two sides, on all smooth edges
-    Angles creased, creasedRounded;     ///< the same beside creases: the device's, and PmReference::roundedAt()'s
     SharedBits bits;                    ///< on all edges, hard ones too
     std::string listed;                 ///< the samples above
 };
@@ -233,9 +206,6 @@ void compareFacets(const Posed<Reference>& posed, double size, Comparison& resul
             const auto expected = reference.at(f, s);
             const GpuSurface::Vertex& vertex = posed.vertex(f, s);
             raise(result.positions, glm::length(glm::dvec3(vertex.position) - expected.position) / size);
-            if (reference.creased(f)) {
-                continue;
-            }
             const double angle = angleDegrees(vertex.normal, expected.normal);
             result.normals.add(angle);
             if (shared[s] != 0) {
@@ -254,8 +224,6 @@ void compareSides(const Posed<Reference>& posed, Comparison& result) {
         if (edge.twin == cage::kNone) {
             continue;
         }
-        const bool creased =
-            posed.reference.creased(posed.facet(edge.corner)) || posed.reference.creased(posed.facet(edge.twin));
         for (uint32_t k = 0; k <= kRate; ++k) {
             const GpuSurface::Vertex& a = posed.onEdge(edge.corner, k);
             const GpuSurface::Vertex& b = posed.onEdge(edge.twin, kRate - k);
@@ -265,15 +233,7 @@ void compareSides(const Posed<Reference>& posed, Comparison& result) {
                 continue;
             }
             const double angle = angleDegrees(a.normal, b.normal);
-            (creased ? result.creased : result.across).add(angle);
-            if constexpr (Reference::kScheme == SUPPLE_SCHEME_PM) {
-                const auto rounded = [&](uint32_t corner, uint32_t sample) {
-                    return posed.reference.roundedAt(posed.facet(corner), posed.edgeSample(corner, sample)).normal;
-                };
-                if (creased) {
-                    result.creasedRounded.add(angleDegrees(rounded(edge.corner, k), rounded(edge.twin, kRate - k)));
-                }
-            }
+            result.across.add(angle);
             if (angle > 0.05 && result.listed.size() < 20000) {
                 meanTriangle = meanTriangle > 0.0 ? meanTriangle : posed.meanTriangle();
                 const uint32_t f = posed.facet(edge.corner);
@@ -328,16 +288,9 @@ void compareCharacter(host::Device& device, const std::string& path, const cage:
                 result.normals.worst, 100.0 * result.borders.withinShare(), 100.0 * result.across.withinShare(),
                 result.across.mean(), result.across.worst, static_cast<unsigned long long>(result.bits.different),
                 static_cast<unsigned long long>(result.bits.samples));
-    if (result.creased.samples > 0) {
-        std::printf(
-            "  beside creases %.4f %% within 0.05, mean %.5f, max %.3f degrees; coefficients rounded to float and "
-            "all else exact: %.4f %%, mean %.5f, max %.3f degrees\n",
-            100.0 * result.creased.withinShare(), result.creased.mean(), result.creased.worst,
-            100.0 * result.creasedRounded.withinShare(), result.creasedRounded.mean(), result.creasedRounded.worst);
-    }
     if (!result.listed.empty()) {
         std::printf("  %llu samples above 0.05 degrees across borders:\n%s",
-                    static_cast<unsigned long long>(result.across.above + result.creased.above), result.listed.c_str());
+                    static_cast<unsigned long long>(result.across.above), result.listed.c_str());
     }
     EXPECT_LE(result.skin, 1e-5);
     EXPECT_LE(result.positions, 1e-5);
@@ -345,7 +298,7 @@ void compareCharacter(host::Device& device, const std::string& path, const cage:
     EXPECT_GE(result.borders.withinShare(), 0.999);
     EXPECT_GE(result.across.withinShare(), 0.999);
     EXPECT_LE(result.across.mean(), 0.003);
-    EXPECT_LE(result.creased.mean(), 4.0 * result.creasedRounded.mean());
+    EXPECT_LE(result.across.worst, 0.05);
     EXPECT_EQ(result.bits.different, 0u);
 }
 
