@@ -52,7 +52,9 @@ struct Mesh {
     uint32_t isolationSteps = 1; ///< G: 2 for Catmull-Clark unless all faces are quads, else 1
     /// The isolated level: quads or triangles, with corner attributes, materials and rest positions carried down.
     /// Its vertices are the parent level's vertices, then a point an edge (in the order of Topology::edges), then,
-    /// Catmull-Clark, a point a face. Without creases and sharp vertices: sharpness stands in the fragments.
+    /// Catmull-Clark, a point a face. Its faces come in the order of the parent's, of each a face a corner (which is
+    /// that face's corner 0), then, Loop, the middle one. Without creases, sharp vertices and a list of holes:
+    /// sharpness stands in the fragments, holes below.
     cage::Cage cage;
     std::vector<uint32_t> sourceFaces; ///< per face of `cage`: the host's face it came from
     std::vector<uint8_t> holes;        ///< per face of `cage`: 1 where the host's face is not drawn

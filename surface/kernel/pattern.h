@@ -48,9 +48,12 @@ struct Row {
 using Neighbours = std::array<uint32_t, 8>;
 
 struct Pattern {
-    std::vector<Row> rows;              ///< of every point of the refined level; row i makes point i
-    std::vector<Neighbours> neighbours; ///< of every covered point (without the halo); entry 0 (centre) is unused
-    /// Per covered point: the spoke it lies on, or kNoSpoke; of facets the side's line (corners have one, too).
+    std::vector<Row> rows; ///< of every point of the refined level; row i makes point i
+    /// Fans: of every covered point (without the halo); entry 0 (centre) is unused. Facets, whose halo stands between
+    /// the covered points: of every point, those of the halo their own neighbours. Outside an open fan the point itself
+    /// stands in; nothing reads it, as the boundary is sharp.
+    std::vector<Neighbours> neighbours;
+    /// Like `neighbours`: the spoke a point lies on, or kNoSpoke; of facets the line of a corner (kNoSpoke elsewhere).
     std::vector<uint32_t> spokes;
 };
 
