@@ -4,6 +4,7 @@
 
 #include "surface/kernel/mesh.h"
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -14,7 +15,7 @@ template <class T>
 struct Sample {
     glm::vec<3, T> refined;  ///< the point on the last level, before the limit
     glm::vec<3, T> position; ///< the limit point
-    glm::vec<3, T> normal;   ///< outwards, of unit length: the sector's own side of a crease
+    glm::vec<3, T> normal;   ///< outwards, of unit length (zero where there is none): the sector's own side of a crease
 };
 
 /// The samples of one face of the isolated level, in grid order of its domain at rate 2^steps: quad (Catmull-Clark) or
@@ -25,7 +26,7 @@ struct SectorGrid {
     std::vector<Sample<T>> samples;
 };
 
-/// Vertices of the isolated level.
+/// Vertices of the isolated level: p_first + sum of w_i (p_i - p_first) over a row's other entries.
 template <class T>
 [[nodiscard]] std::vector<glm::vec<3, T>> isolate(const Mesh& mesh, std::span<const glm::vec<3, T>> positions);
 
@@ -33,5 +34,10 @@ template <class T>
 template <class T>
 [[nodiscard]] std::vector<SectorGrid<T>> evaluate(const Mesh& mesh, std::span<const glm::vec<3, T>> isolated,
                                                   uint32_t steps);
+
+/// The same, a sector at a time in one buffer: for what would not fit into memory.
+template <class T>
+void forEachSector(const Mesh& mesh, std::span<const glm::vec<3, T>> isolated, uint32_t steps,
+                   const std::function<void(const SectorGrid<T>&)>& visit);
 
 } // namespace supple::surface::kernel
