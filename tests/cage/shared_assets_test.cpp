@@ -2,9 +2,9 @@
 #include "cage/gltf_reader.h"
 #include "cage/gltf_uri.h"
 #include "cage/topology.h"
+#include "tests/support/shared_assets.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +18,8 @@ namespace supple::cage {
 namespace {
 
 namespace fs = std::filesystem;
+using test::sharedAssets;
+using test::sharedFolder;
 
 struct Expected {
     const char* file;
@@ -129,19 +131,13 @@ const std::vector<Expected>& expectations() {
     return list;
 }
 
-const std::string& assets() {
-    static const std::string folder = std::string(SUPPLE_SHARED_DIR) + "/assets/";
-    return folder;
-}
-
 TEST(SharedAssets, ReadAsExpected) {
-    if (!fs::exists(assets() + "characters")) {
-        std::printf("%zu shared-asset cases left out: ../shared not present\n", expectations().size());
-        GTEST_SKIP();
+    if (!fs::exists(sharedFolder())) {
+        GTEST_SKIP() << expectations().size() << " cases left out: " << sharedFolder() << " is not present";
     }
     for (const Expected& expected : expectations()) {
         SCOPED_TRACE(expected.file);
-        const Result<Character> result = readGltfFile(assets() + expected.file);
+        const Result<Character> result = readGltfFile(sharedFolder() + expected.file);
         ASSERT_TRUE(result.ok()) << result.error().message;
         const Character& c = *result;
         EXPECT_EQ(c.sourceVertexCount, expected.sourceVertices);
@@ -169,13 +165,15 @@ TEST(SharedAssets, ReadAsExpected) {
 }
 
 TEST(SharedAssets, NoneIsForgotten) {
-    if (!fs::exists(assets() + "characters"))
-        GTEST_SKIP();
+    if (!fs::exists(sharedFolder())) {
+        GTEST_SKIP() << sharedFolder() << " is not present";
+    }
     std::set<std::string> found;
-    for (const char* folder : {"characters", "khronos"})
-        for (const auto& entry : fs::recursive_directory_iterator(assets() + folder))
-            if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
-                found.insert(fs::relative(entry.path(), assets()).generic_string());
+    for (const char* folder : {"characters", "khronos"}) {
+        for (const std::string& path : test::filesBelow(sharedFolder() + folder, {".glb", ".gltf"})) {
+            found.insert(fs::relative(path, sharedFolder()).generic_string());
+        }
+    }
     std::set<std::string> expected;
     for (const Expected& e : expectations())
         expected.insert(e.file);
@@ -183,11 +181,14 @@ TEST(SharedAssets, NoneIsForgotten) {
 }
 
 TEST(SharedAssets, UvSplitSpotIsTheSameCage) {
-    const Result<Character> whole = readGltfFile(assets() + "characters/spot.glb");
-    const Result<Character> split = readGltfFile(assets() + "characters/spot_uvsplit.glb");
-    if (!whole.ok())
-        GTEST_SKIP();
-    ASSERT_TRUE(split.ok());
+    const std::vector<std::string> paths = sharedAssets({"characters/spot.glb", "characters/spot_uvsplit.glb"});
+    if (paths.size() < 2) {
+        GTEST_SKIP() << "not both files are in " << sharedFolder();
+    }
+    const Result<Character> whole = readGltfFile(paths[0]);
+    ASSERT_TRUE(whole.ok()) << whole.error().message;
+    const Result<Character> split = readGltfFile(paths[1]);
+    ASSERT_TRUE(split.ok()) << split.error().message;
     // Splitting may have reordered the vertices: compare by position.
     std::map<std::tuple<float, float, float>, uint32_t> byPosition;
     for (uint32_t v = 0; v < whole->cage.vertexCount(); ++v) {
@@ -216,9 +217,9 @@ TEST(SharedAssets, UvSplitSpotIsTheSameCage) {
 
 // ---- against the files themselves, read a second way ----------------------------------------------------------------
 
-/// A GLB or glTF as JSON and the bytes of its buffers; an empty JSON where the file is absent.
+/// A GLB or glTF as JSON and the bytes of its buffers.
 struct RawFile {
-    explicit RawFile(const std::string& name);
+    explicit RawFile(const fs::path& path);
 
     nlohmann::json json;
     std::vector<std::string> buffers;
@@ -237,15 +238,12 @@ struct RawFile {
     }
 };
 
-RawFile::RawFile(const std::string& name) {
-    const auto textOf = [](const fs::path& path) {
-        std::ifstream stream(path, std::ios::binary);
+RawFile::RawFile(const fs::path& path) {
+    const auto textOf = [](const fs::path& file) {
+        std::ifstream stream(file, std::ios::binary);
         return std::string((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
     };
-    const std::string text = textOf(assets() + name);
-    if (text.empty()) {
-        return;
-    }
+    const std::string text = textOf(path);
     if (text.starts_with("glTF")) {
         uint32_t length = 0;
         std::memcpy(&length, text.data() + 12, 4);
@@ -261,23 +259,18 @@ RawFile::RawFile(const std::string& name) {
             EXPECT_TRUE(data.ok());
             buffers.emplace_back(reinterpret_cast<const char*>(data->bytes.data()), data->bytes.size());
         } else {
-            buffers.push_back(textOf(fs::path(assets() + name).parent_path() / uri));
+            buffers.push_back(textOf(path.parent_path() / uri));
         }
     }
 }
 
 TEST(SharedAssets, MorphTargetsAreTheFiles) {
-    size_t leftOut = 0;
-    for (const std::string name :
-         {"khronos/SimpleMorph/SimpleMorph.gltf", "khronos/AnimatedMorphCube/AnimatedMorphCube.gltf",
-          "khronos/MorphStressTest.gltf", "characters/mh_female1605_morph.glb"}) {
-        SCOPED_TRACE(name);
-        const RawFile file(name);
-        if (file.json.is_null()) {
-            ++leftOut;
-            continue;
-        }
-        const Result<Character> c = readGltfFile(assets() + name);
+    for (const std::string& path :
+         sharedAssets({"khronos/SimpleMorph/SimpleMorph.gltf", "khronos/AnimatedMorphCube/AnimatedMorphCube.gltf",
+                       "khronos/MorphStressTest.gltf", "characters/mh_female1605_morph.glb"})) {
+        SCOPED_TRACE(path);
+        const RawFile file(path);
+        const Result<Character> c = readGltfFile(path);
         ASSERT_TRUE(c.ok()) << c.error().message;
         const nlohmann::json& mesh = file.json.at("meshes").at(0);
         const size_t targetCount = mesh.at("primitives").at(0).at("targets").size();
@@ -327,24 +320,16 @@ TEST(SharedAssets, MorphTargetsAreTheFiles) {
         }
         EXPECT_EQ(checked, file.json.at("animations").size()) << "each of these clips animates the weights";
     }
-    if (leftOut > 0) {
-        std::printf("%zu shared-asset cases left out: ../shared not present\n", leftOut);
-    }
 }
 
 TEST(SharedAssets, CreasesAreTheFiles) {
-    const std::map<std::string, size_t> counts{{"characters/pawn_creased.glb", 120},
-                                               {"characters/rook_creased.glb", 280}};
-    size_t leftOut = 0;
-    for (const auto& [name, count] : counts) {
-        SCOPED_TRACE(name);
-        const RawFile file(name);
-        if (file.json.is_null()) {
-            ++leftOut;
-            continue;
-        }
-        const Result<Character> c = readGltfFile(assets() + name);
+    const std::map<std::string, size_t> counts{{"pawn_creased.glb", 120}, {"rook_creased.glb", 280}};
+    for (const fs::path path : sharedAssets({"characters/pawn_creased.glb", "characters/rook_creased.glb"})) {
+        SCOPED_TRACE(path);
+        const RawFile file(path);
+        const Result<Character> c = readGltfFile(path.string());
         ASSERT_TRUE(c.ok()) << c.error().message;
+        const size_t count = counts.at(path.filename().string());
         const nlohmann::json& creases = file.json.at("meshes").at(0).at("extras").at("creases");
         ASSERT_EQ(creases.size(), count);
         ASSERT_EQ(c->cage.creases.size(), count);
@@ -355,15 +340,15 @@ TEST(SharedAssets, CreasesAreTheFiles) {
             EXPECT_EQ(crease.sharpness, creases[i][2].get<float>());
         }
     }
-    if (leftOut > 0) {
-        std::printf("%zu shared-asset cases left out: ../shared not present\n", leftOut);
-    }
 }
 
 TEST(SharedAssets, PairingFindsQuadsWhereTheFileHasNone) {
-    const Result<Character> cube = readGltfFile(assets() + "khronos/InterpolationTest.gltf", {.pairQuads = true});
-    if (!cube.ok())
-        GTEST_SKIP();
+    const std::string path = sharedFolder() + "khronos/InterpolationTest.gltf";
+    if (!fs::exists(path)) {
+        GTEST_SKIP() << path << " is not present";
+    }
+    const Result<Character> cube = readGltfFile(path, {.pairQuads = true});
+    ASSERT_TRUE(cube.ok()) << cube.error().message;
     EXPECT_EQ(cube->cage.faceCount(), 6u);
     EXPECT_EQ(cube->polygonSource, PolygonSource::pairedTriangles);
     EXPECT_TRUE(buildTopology(cube->cage).ok());

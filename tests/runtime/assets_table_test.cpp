@@ -131,11 +131,10 @@ void evaluate(const cage::Cage& cage, const surface::pm::Mesh& mesh, Totals& tot
 }
 
 TEST(AssetsTable, TakenOrRefusedByName) {
-    const fs::path assets = fs::path(SUPPLE_SHARED_DIR) / "assets";
+    const fs::path assets = sharedFolder();
     const std::vector<std::string> paths = filesBelow(assets, {".obj", ".glb", ".gltf"});
     if (paths.empty()) {
-        std::printf("all shared assets left out: %s is not present\n", assets.string().c_str());
-        GTEST_SKIP();
+        GTEST_SKIP() << "all shared assets left out: " << assets << " is not present";
     }
     const ValidationGuard guard;
     std::map<std::string, std::pair<const char*, const char*>> expected; // file -> reason, message

@@ -1,10 +1,9 @@
 // Animation sampling and skinning against vertex positions that Blender's own armature modifier evaluated.
 #include "cage/gltf_reader.h"
 #include "skinning/pose.h"
+#include "tests/support/shared_assets.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
@@ -53,23 +52,17 @@ std::vector<Affine> paletteAt(const Character& c, const Clip* clip, double time)
     return palette;
 }
 
-const std::string& characters() {
-    static const std::string folder = std::string(SUPPLE_SHARED_DIR) + "/assets/characters/";
-    return folder;
+std::string characters() {
+    return test::sharedFolder() + "characters/";
 }
 
 TEST(BlenderReference, Skinning) {
     if (!fs::exists(characters() + "reference")) {
-        std::printf("56 shared-asset cases left out: ../shared not present\n");
-        GTEST_SKIP();
+        GTEST_SKIP() << "56 poses left out: " << characters() << "reference is not present";
     }
     size_t cases = 0;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(characters() + "reference"))
-        files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
     std::map<std::string, double> worst;
-    for (const fs::path& file : files) {
+    for (const fs::path file : test::filesBelow(characters() + "reference", {".xyz"})) {
         // NAME__animK_tT.xyz
         const std::string stem = file.stem().string();
         SCOPED_TRACE(stem);
@@ -111,15 +104,12 @@ TEST(BlenderReference, Skinning) {
 
 TEST(BlenderReference, RestPoseIsTheBindPose) {
     if (!fs::exists(characters())) {
-        std::printf("19 shared-asset cases left out: ../shared not present\n");
-        GTEST_SKIP();
+        GTEST_SKIP() << "19 characters left out: " << characters() << " is not present";
     }
     size_t cases = 0;
-    for (const auto& entry : fs::directory_iterator(characters())) {
-        if (entry.path().extension() != ".glb")
-            continue;
-        SCOPED_TRACE(entry.path().filename());
-        const Result<Character> c = readGltfFile(entry.path().string());
+    for (const std::string& path : test::filesBelow(characters(), {".glb"})) {
+        SCOPED_TRACE(path);
+        const Result<Character> c = readGltfFile(path);
         ASSERT_TRUE(c.ok()) << c.error().message;
         const std::vector<glm::dvec3> deformed = deformOnCpu(c->cage, c->weights, paletteAt(*c, nullptr, 0.0));
         double largest = 0.0;

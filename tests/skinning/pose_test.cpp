@@ -1,10 +1,9 @@
 #include "skinning/pose.h"
 
 #include "cage/gltf_reader.h"
+#include "tests/support/shared_assets.h"
 
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -282,10 +281,9 @@ TEST(Pose, AffineIsTheTransposedTop) {
 }
 
 TEST(Pose, KhronosInterpolationTest) {
-    const std::string path = std::string(SUPPLE_SHARED_DIR) + "/assets/khronos/InterpolationTest.gltf";
+    const std::string path = test::sharedFolder() + "khronos/InterpolationTest.gltf";
     if (!std::filesystem::exists(path)) {
-        std::printf("9 shared-asset cases left out: ../shared not present\n");
-        GTEST_SKIP();
+        GTEST_SKIP() << "9 clips left out: " << path << " is not present";
     }
     const Result<Character> c = readGltfFile(path);
     ASSERT_TRUE(c.ok()) << c.error().message;

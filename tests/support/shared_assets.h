@@ -9,18 +9,23 @@
 
 namespace supple::test {
 
-/// The paths below ../shared/assets that exist; prints how many of `names` were left out otherwise.
+/// The folder of the shared assets, "/" at its end, whether it is there or not.
+inline std::string sharedFolder() {
+    return std::string(SUPPLE_SHARED_DIR) + "/assets/";
+}
+
+/// The paths below the shared folder that exist; prints how many of `names` were left out otherwise.
 inline std::vector<std::string> sharedAssets(const std::vector<std::string>& names) {
     std::vector<std::string> present;
     for (const std::string& name : names) {
-        const std::string path = std::string(SUPPLE_SHARED_DIR) + "/assets/" + name;
+        const std::string path = sharedFolder() + name;
         if (std::filesystem::exists(path)) {
             present.push_back(path);
         }
     }
     if (present.size() < names.size()) {
-        std::printf("%zu shared-asset cases left out: %s/assets is not present\n", names.size() - present.size(),
-                    SUPPLE_SHARED_DIR);
+        std::printf("%zu shared-asset cases left out: not in %s\n", names.size() - present.size(),
+                    sharedFolder().c_str());
     }
     return present;
 }
@@ -51,7 +56,7 @@ inline std::vector<std::string> filesBelow(const std::filesystem::path& folder,
 
 /// The shared characters and the repository's own, which are always there.
 inline std::vector<std::string> allCharacters() {
-    const std::string folder = std::string(SUPPLE_SHARED_DIR) + "/assets/characters";
+    const std::string folder = sharedFolder() + "characters";
     std::vector<std::string> paths = filesBelow(folder, {".glb"});
     if (paths.empty()) {
         std::printf("all shared characters left out: %s is not present\n", folder.c_str());
