@@ -3,11 +3,12 @@
 #include "cage/character_reader.h"
 #include "cage/topology.h"
 #include "tests/cage/gltf_builder.h"
+#include "tests/support/meshes.h"
+#include "tests/support/shared_assets.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <map>
 #include <random>
@@ -280,13 +281,8 @@ TEST(CharacterReader, TellsTheFormatsApart) {
     EXPECT_EQ(source(toBytes(""), "a.obj"), "a.obj: file: no faces");
 }
 
-std::vector<std::byte> fileBytes(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return toBytes({std::istreambuf_iterator<char>(stream), {}});
-}
-
 TEST(ObjReader, SharedMeshes) {
-    const fs::path folder = fs::path(SUPPLE_SHARED_DIR) / "assets/meshes";
+    const fs::path folder = supple::test::sharedFolder() + "meshes";
     struct Expected {
         size_t vertices, faces, creases, sharpVertices, holes;
     };
@@ -304,20 +300,17 @@ TEST(ObjReader, SharedMeshes) {
         {"dodecahedron.obj", {20, 12, 0, 0, 0}},
     };
     if (!fs::exists(folder)) {
-        std::printf("%zu expected meshes and all others left out: ../shared not present\n", expectations.size());
-        GTEST_SKIP();
+        GTEST_SKIP() << expectations.size() << " expected meshes and all others left out: " << folder
+                     << " is not present";
     }
     size_t parsed = 0;
     size_t creases = 0;
     size_t shapes = 0;
     size_t matched = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.path().extension() != ".obj") {
-            continue;
-        }
-        const std::string name = fs::relative(entry.path(), folder).generic_string();
+    for (const std::string& path : supple::test::filesBelow(folder, {".obj"})) {
+        const std::string name = fs::relative(path, folder).generic_string();
         SCOPED_TRACE(name);
-        const Result<Character> result = readObj(fileBytes(entry.path()), name);
+        const Result<Character> result = supple::test::readObjFile(path);
         ASSERT_TRUE(result.ok()) << result.error().message;
         const Cage& cage = result->cage;
         ++parsed;

@@ -1,13 +1,16 @@
 #include "tests/support/meshes.h"
 
+#include "cage/obj_reader.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <random>
 #include <set>
-#include <sstream>
+#include <span>
 #include <utility>
 
 namespace supple::test {
@@ -566,44 +569,10 @@ double extent(const std::vector<glm::dvec3>& positions) {
     return glm::distance(low, high);
 }
 
-std::optional<cage::Cage> readObj(const std::string& path) {
-    std::ifstream file(path);
-    if (!file) {
-        return std::nullopt;
-    }
-    std::vector<glm::vec3> positions;
-    Polygons polygons;
-    for (std::string line; std::getline(file, line);) {
-        std::istringstream words(line);
-        std::string kind;
-        words >> kind;
-        if (kind == "v") {
-            glm::vec3 p(0.0f);
-            words >> p.x >> p.y >> p.z;
-            if (!words) {
-                return std::nullopt;
-            }
-            positions.push_back(p);
-        } else if (kind == "f") {
-            std::vector<uint32_t>& polygon = polygons.emplace_back();
-            for (std::string corner; words >> corner;) {
-                const long index = std::strtol(corner.c_str(), nullptr, 10); // "7", "7/2" and "7//3" alike
-                const long vertex = index < 0 ? static_cast<long>(positions.size()) + index : index - 1;
-                if (vertex < 0) {
-                    return std::nullopt;
-                }
-                polygon.push_back(static_cast<uint32_t>(vertex));
-            }
-        }
-    }
-    for (const std::vector<uint32_t>& polygon : polygons) {
-        for (const uint32_t v : polygon) {
-            if (v >= positions.size()) {
-                return std::nullopt;
-            }
-        }
-    }
-    return makeCage(std::move(positions), polygons);
+Result<cage::Character> readObjFile(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    return cage::readObj(std::as_bytes(std::span(text)), path);
 }
 
 } // namespace supple::test

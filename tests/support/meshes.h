@@ -1,11 +1,11 @@
 // Small cages for the tests, and cages read from OBJ files.
 #pragma once
 
+#include "base/result.h"
 #include "cage/character.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -76,7 +76,7 @@ struct RefinedCage {
 /// Diagonal of the bounding box.
 [[nodiscard]] double extent(const std::vector<glm::dvec3>& positions);
 
-/// v and f lines of an OBJ file; nullopt where the file cannot be read or an index is out of range.
-[[nodiscard]] std::optional<cage::Cage> readObj(const std::string& path);
+/// cage::readObj() of a file. One that cannot be opened is refused as an empty one.
+[[nodiscard]] Result<cage::Character> readObjFile(const std::string& path);
 
 } // namespace supple::test

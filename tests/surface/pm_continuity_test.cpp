@@ -2,6 +2,7 @@
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_vectors.h"
 #include "tests/support/pm_zoo.h"
+#include "tests/support/shared_assets.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <numbers>
-#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -243,29 +243,16 @@ TEST(PmContinuity, floatNormalsAgreeAcrossEdges) {
 
 /// The OBJ files of the shared assets that P_m takes; says how many files there are and which it refuses.
 std::vector<std::pair<std::string, Mesh>> assetMeshes() {
-    namespace fs = std::filesystem;
-    const fs::path root = fs::path(SUPPLE_SHARED_DIR) / "assets/meshes";
+    const std::vector<std::string> paths = test::filesBelow(test::sharedFolder() + "meshes", {".obj"});
     std::vector<std::pair<std::string, Mesh>> all;
-    std::error_code error;
-    if (!fs::is_directory(root, error)) {
-        std::printf("left out: all OBJ assets, %s is absent\n", root.string().c_str());
-        return all;
-    }
-    std::vector<fs::path> paths;
-    for (const auto& entry : fs::recursive_directory_iterator(root, error)) {
-        if (entry.path().extension() == ".obj") {
-            paths.push_back(entry.path());
-        }
-    }
-    std::sort(paths.begin(), paths.end());
-    for (const fs::path& path : paths) {
-        const std::string name = path.filename().string();
-        const std::optional<cage::Cage> cage = test::readObj(path.string());
-        if (!cage) {
-            ADD_FAILURE() << name << " cannot be read";
+    for (const std::string& path : paths) {
+        const Result<cage::Character> character = test::readObjFile(path);
+        if (!character.ok()) {
+            ADD_FAILURE() << character.error().message;
             continue;
         }
-        Result<Mesh> mesh = buildMesh(*cage);
+        const std::string name = std::filesystem::path(path).filename().string();
+        Result<Mesh> mesh = buildMesh(character->cage);
         if (mesh.ok()) {
             all.emplace_back(name, std::move(*mesh));
         } else {
@@ -279,7 +266,7 @@ std::vector<std::pair<std::string, Mesh>> assetMeshes() {
 TEST(PmContinuity, assets) {
     const std::vector<std::pair<std::string, Mesh>> meshes = assetMeshes();
     if (meshes.empty()) {
-        GTEST_SKIP() << "no OBJ assets";
+        GTEST_SKIP() << "no OBJ assets: " << test::sharedFolder() << "meshes is not present";
     }
     constexpr uint32_t kRate = 8;
     Angles angles;
@@ -295,8 +282,10 @@ TEST(PmContinuity, assets) {
             for (uint32_t k = 0; k <= kRate; ++k) {
                 const double angle = test::angleDegrees(exact.onEdge(edge.corner, k, kRate).normal,
                                                         exact.onEdge(edge.twin, kRate - k, kRate).normal);
-                EXPECT_LE(angle, 1e-8) << name << ", edge " << e << ", at " << k;
-                raise(angles.worst, angle);
+                if (mesh.edgeCut[e] == 0) {
+                    EXPECT_LE(angle, 1e-8) << name << ", edge " << e << ", at " << k;
+                    raise(angles.worst, angle);
+                }
                 EXPECT_TRUE(sameBits(rounded.onEdge(edge.corner, k, kRate).position,
                                      rounded.onEdge(edge.twin, kRate - k, kRate).position))
                     << name << ", edge " << e << ", at " << k;

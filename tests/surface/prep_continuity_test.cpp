@@ -2,6 +2,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/prep_borders.h"
 #include "tests/support/prep_vectors.h"
+#include "tests/support/shared_assets.h"
 
 #include "cage/procedural.h"
 
@@ -57,37 +58,30 @@ std::vector<Posed> proceduralCages() {
 
 /// The all-quad manifold OBJ files of the shared assets; says how many files there are and which were left out.
 std::vector<Posed> assetCages() {
-    namespace fs = std::filesystem;
-    const fs::path root = fs::path(SUPPLE_SHARED_DIR) / "assets/meshes";
+    const std::vector<std::string> paths = test::filesBelow(test::sharedFolder() + "meshes", {".obj"});
     std::vector<Posed> all;
-    std::error_code error;
-    if (!fs::is_directory(root, error)) {
-        std::printf("left out: all OBJ assets, %s is absent\n", root.string().c_str());
-        return all;
-    }
-    std::vector<fs::path> paths;
-    for (const auto& entry : fs::recursive_directory_iterator(root, error)) {
-        if (entry.path().extension() == ".obj") {
-            paths.push_back(entry.path());
-        }
-    }
-    std::sort(paths.begin(), paths.end());
     uint32_t otherPolygons = 0;
     uint32_t refused = 0;
-    for (const fs::path& path : paths) {
-        std::optional<cage::Cage> cage = test::readObj(path.string());
-        if (!cage || !test::allQuads(*cage)) {
+    for (const std::string& path : paths) {
+        Result<cage::Character> character = test::readObjFile(path);
+        if (!character.ok()) {
+            ADD_FAILURE() << character.error().message;
+            continue;
+        }
+        const std::string name = std::filesystem::path(path).filename().string();
+        cage::Cage& cage = character->cage;
+        if (!test::allQuads(cage)) {
             ++otherPolygons;
             continue;
         }
-        const Result<cage::Topology> topology = cage::buildTopology(*cage);
+        const Result<cage::Topology> topology = cage::buildTopology(cage);
         if (!topology.ok()) {
-            std::printf("refused: %s: %s\n", path.filename().string().c_str(), topology.error().message.c_str());
+            std::printf("refused: %s: %s\n", name.c_str(), topology.error().message.c_str());
             ++refused;
             continue;
         }
-        std::vector<glm::dvec3> positions = test::doublePositions(*cage);
-        all.push_back({path.filename().string(), std::move(*cage), std::move(positions), {}});
+        std::vector<glm::dvec3> positions = test::doublePositions(cage);
+        all.push_back({name, std::move(cage), std::move(positions), {}});
     }
     std::printf("%zu OBJ assets: %zu all-quad manifolds, %u with other polygons, %u refused by the topology\n",
                 paths.size(), all.size(), otherPolygons, refused);
@@ -109,7 +103,7 @@ TEST(PrepContinuity, g1OnProceduralCages) {
 TEST(PrepContinuity, g1OnAssets) {
     const std::vector<Posed> cages = assetCages();
     if (cages.empty()) {
-        GTEST_SKIP() << "no OBJ assets";
+        GTEST_SKIP() << "no OBJ assets: " << test::sharedFolder() << "meshes is not present";
     }
     for (const Posed& posed : cages) {
         expectG1(posed);
@@ -137,7 +131,7 @@ TEST(PrepContinuity, sameBitsOnProceduralCages) {
 TEST(PrepContinuity, sameBitsOnAssets) {
     const std::vector<Posed> cages = assetCages();
     if (cages.empty()) {
-        GTEST_SKIP() << "no OBJ assets";
+        GTEST_SKIP() << "no OBJ assets: " << test::sharedFolder() << "meshes is not present";
     }
     expectSameBits(cages);
 }
