@@ -11,8 +11,8 @@
 
 namespace supple::gpu {
 
-/// What the widest pass pushes; requirements() asks for it.
-inline constexpr uint32_t kPushConstantBytes = 64;
+/// What a pass may push: as much as every Vulkan device takes.
+inline constexpr uint32_t kPushConstantBytes = 128;
 
 struct DeviceDesc {
     VkInstance instance = VK_NULL_HANDLE;

@@ -173,8 +173,8 @@ void Passes::recordStage(VkCommandBuffer commandBuffer, Stage stage, const Table
     for (const Construction& c : tables.constructions) {
         if (c.stage == stage) {
             if (stage == Stage::edge && !first) {
-                // P_m's facet kernels read other parts of the pool than they write, but one barrier's scope is a
-                // buffer.
+                // No facet kernel of P_m reads what another writes. Synchronization validation cannot know: to it the
+                // pool is one resource, which they all read and write.
                 constexpr VkAccessFlags2 kPoolAccess = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
                                                        VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
                                                        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
@@ -206,11 +206,11 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
     const bool wide = device_->mapping.wide;
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
-        const uint32_t samples = sampleCount(domainOf(range.patchClass), evaluation.rate);
         shared::SurfacePush push = pushFor(tables, range.section, window, evaluation);
+        push.samples = sampleCount(domainOf(range.patchClass), evaluation.rate);
         push.firstPatch = range.firstPatch;
         push.firstVertex = evaluation.firstVertices[r];
-        push.patchesPerGroup = wide ? patchesPerGroup(samples, device_->mapping.localSize) : 1;
+        push.patchesPerGroup = wide ? patchesPerGroup(push.samples, device_->mapping.localSize) : 1;
         const uint64_t patches = uint64_t{push.count} * push.instanceCount;
         const uint64_t groups = wide ? (patches + push.patchesPerGroup - 1) / push.patchesPerGroup : groupsFor(patches);
         const auto& pipelines = evaluate_[static_cast<size_t>(range.patchClass)][evaluation.vertex24 ? 1 : 0];
@@ -223,8 +223,10 @@ void Passes::recordAttributes(VkCommandBuffer commandBuffer, const Tables& table
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
         const Domain domain = domainOf(range.patchClass);
-        const Section section{range.attributes, range.section.count * sampleCount(domain, evaluation.rate)};
+        const uint32_t samples = sampleCount(domain, evaluation.rate);
+        const Section section{range.attributes, range.section.count * samples};
         shared::SurfacePush push = pushFor(tables, section, window, evaluation);
+        push.samples = samples;
         push.firstVertex = evaluation.firstVertices[r];
         record(commandBuffer, attributes_[static_cast<size_t>(domain)].get(), window.set, push, groupsFor(push.count));
     }

@@ -14,13 +14,6 @@ layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1
 
 const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ? 4u : 3u;
 
-uint samplesPerPatch() {
-    uint r = push.rate;
-    if (kDomain == kTriangleDomain) return (r + 1u) * (r + 2u) / 2u;
-    if (kDomain == kPentagonDomain) return 5u * r * (r + 1u) / 2u + 1u;
-    return (r + 1u) * (r + 1u);
-}
-
 // Linear on triangles, bilinear on quads; pentagons are linear between an edge and the centre, the mean of the corners;
 // on polar patches the corner at the apex takes over linearly.
 float[5] cornerWeights(uint index) {
@@ -41,9 +34,8 @@ float[5] cornerWeights(uint index) {
 void main() {
     uint id = invocationIndex();
     if (id >= push.count) return;
-    uint samples = samplesPerPatch();
-    uint patchIndex = id / samples;
-    float w[5] = cornerWeights(id - patchIndex * samples);
+    uint patchIndex = id / push.samples;
+    float w[5] = cornerWeights(id - patchIndex * push.samples);
     vec2 uv = vec2(0.0), uv1 = vec2(0.0);
     vec4 color = vec4(0.0);
     for (uint k = 0u; k < kCorners; ++k) {

@@ -122,7 +122,7 @@ void evaluateNarrow() {
     if (kCornerNormals) normalSlots = tableElement(record + recordElements() - 1u);
 
     uint side = push.rate + 1u;
-    uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * (side * side);
+    uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
     for (uint j = 0u; j < side; ++j) {
         Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
         for (uint i = 0u; i < side; ++i) {
@@ -157,7 +157,7 @@ void evaluateWide() {
         if (kPerturbed) sharedCoefficients[to + 32u] = vec4(poolVector(base + tableWord(words + 16u + k)), 0.0);
     }
     barrier();
-    uint side = push.rate + 1u, samples = side * side;
+    uint side = push.rate + 1u, samples = push.samples;
     for (uint k = gl_LocalInvocationID.x; k < here * samples; k += gl_WorkGroupSize.x) {
         uint slot = k / samples, sampleIndex = k - slot * samples;
         uint j = sampleIndex / side, i = sampleIndex - j * side;

@@ -137,8 +137,7 @@ void evaluateNarrow() {
     uint instance = id / push.count;
     uint patchIndex = id - instance * push.count;
     uint record = push.table + kSides * patchIndex, base = instance * push.poolStride;
-    uint samples = kClass == kP5Patch ? 5u * push.rate * (push.rate + 1u) / 2u + 1u
-                 : kClass == kP4Patch ? (push.rate + 1u) * (push.rate + 1u) : (push.rate + 1u) * (push.rate + 2u) / 2u;
+    uint samples = push.samples;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
     uint singular = tableElement(record + 1u).w;
     for (uint sector = 0u; sector < kSides; ++sector) {
@@ -172,8 +171,7 @@ void evaluateWide() {
         for (uint i = 0u; i < 15u; ++i) sharedPoints[to + 5u + i] = vec4(s.c[i], 0.0);
     }
     barrier();
-    uint samples = kClass == kP5Patch ? 5u * push.rate * (push.rate + 1u) / 2u + 1u
-                 : kClass == kP4Patch ? (push.rate + 1u) * (push.rate + 1u) : (push.rate + 1u) * (push.rate + 2u) / 2u;
+    uint samples = push.samples;
     for (uint n = gl_LocalInvocationID.x; n < here * samples; n += gl_WorkGroupSize.x) {
         uint slot = n / samples, sampleIndex = n - slot * samples;
         uint id = first + slot;

@@ -63,11 +63,12 @@ struct SurfacePush {
     uint tangents; // first tangent in the pool
     uint faces;    // first face coefficient in the pool
     uint rate;
+    uint samples;    // of a patch of this range
     uint firstPatch; // of this range in device order
     uint patchCount; // of all ranges
     uint verticesPerInstance;
-    uint firstVertex; // of this range in the instance's surface vertices
-    uint pairs;       // first parameter pair of the rate
+    uint firstVertex;     // of this range in the instance's surface vertices
+    uint pairs;           // first parameter pair of the rate
     uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
     uint uvSets;          // 1 or 2
 };
