@@ -218,4 +218,11 @@ void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScop
     device.vk.CmdPipelineBarrier2(commandBuffer, &dependency);
 }
 
+void computeBarrier(const Device& device, VkCommandBuffer commandBuffer) {
+    constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    memoryBarrier(device, commandBuffer, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kWrite},
+                  {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead | kWrite});
+}
+
 } // namespace supple::gpu

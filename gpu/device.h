@@ -72,5 +72,7 @@ struct SyncScope {
     VkAccessFlags2 access = 0;
 };
 void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScope before, SyncScope after);
+/// What compute shaders wrote before, compute shaders after may read (texel buffers too) and write.
+void computeBarrier(const Device& device, VkCommandBuffer commandBuffer);
 
 } // namespace supple::gpu

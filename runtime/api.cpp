@@ -380,8 +380,7 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* desc
         if (desc->rate > SUPPLE_MAX_RATE) {
             return refuse(context, "suppleCreateGroup", "rate must be 1..64");
         }
-        if (desc->scheme != SUPPLE_SCHEME_AUTO && desc->scheme != SUPPLE_SCHEME_PREP &&
-            desc->scheme != SUPPLE_SCHEME_PM && desc->scheme != SUPPLE_SCHEME_CAGE) {
+        if (static_cast<uint32_t>(desc->scheme) > SUPPLE_SCHEME_LOOP && desc->scheme != SUPPLE_SCHEME_CAGE) {
             return refuse(context, "suppleCreateGroup", "no such scheme");
         }
         if (static_cast<uint32_t>(desc->vertexFormat) > SUPPLE_VERTEX_24 ||

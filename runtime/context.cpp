@@ -108,8 +108,10 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     if (!group) {
         return group.error();
     }
-    for (const std::string& note : (*group)->tables().notes) {
-        log(SUPPLE_SEVERITY_INFO, asset->character.name + ": " + note);
+    for (const std::vector<std::string>& notes : {(*group)->tables().notes, (*group)->notes()}) {
+        for (const std::string& note : notes) {
+            log(SUPPLE_SEVERITY_INFO, asset->character.name + ": " + note);
+        }
     }
     return groups.insert(std::move(*group));
 }

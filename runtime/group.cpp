@@ -19,6 +19,7 @@ enum BufferIndex : size_t {
     kPatchCoefficients,
     kAttributes,
     kUvs1,
+    kScratch,
     kBufferCount
 };
 enum StaticIndex : size_t { kGridIndices, kIndirect };
@@ -47,9 +48,15 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
                                              const SuppleGroupDesc& desc) {
     auto group = std::make_shared<Group>();
     group->shared_ = shared;
+    const uint32_t rate = desc.rate == 0 ? 8 : desc.rate;
     surface::Recipe recipe;
-    if (desc.scheme == SUPPLE_SCHEME_PREP) {
-        recipe.scheme = surface::SchemeId::prep;
+    if (desc.scheme != SUPPLE_SCHEME_AUTO && desc.scheme != SUPPLE_SCHEME_CAGE) {
+        recipe.scheme = static_cast<surface::SchemeId>(desc.scheme);
+    }
+    if (surface::subdivides(recipe.scheme)) {
+        recipe.depth = surface::depthFor(rate);
+    }
+    if (recipe.scheme == surface::SchemeId::prep) {
         recipe.prep.tangentMode = desc.tangentMode == SUPPLE_TANGENTS_PRINTED ? surface::prep::TangentMode::printed
                                                                               : surface::prep::TangentMode::standard;
         recipe.prep.cornerRule = desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth
@@ -67,8 +74,21 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->asset_ = std::move(asset);
     group->instanceCount_ = desc.instanceCount;
 
-    const uint32_t rate = desc.rate == 0 ? 8 : desc.rate;
-    group->evaluation_.rate = rate;
+    const surface::Tables& tables = group->scheme_->tables;
+    if (surface::subdivides(recipe.scheme)) {
+        if ((desc.flags & SUPPLE_GROUP_PATCHES) != 0) {
+            return Error{ErrorCode::argument, group->asset_->character.name + ": " +
+                                                  surface::schemeName(recipe.scheme) + " has no patch coefficients"};
+        }
+        const uint32_t depth = tables.isolationSteps + tables.fragments.steps;
+        group->evaluation_.rate = 1u << tables.fragments.steps;
+        if (1u << depth != rate) {
+            group->notes_.push_back("rate " + std::to_string(rate) + ": " + surface::schemeName(recipe.scheme) +
+                                    " has 2, 4, 8.. segments an edge of the cage, here " + std::to_string(1u << depth));
+        }
+    } else {
+        group->evaluation_.rate = rate;
+    }
     group->evaluation_.vertex24 = desc.vertexFormat == SUPPLE_VERTEX_24;
     const uint64_t vertices = group->evaluation_.layOut(group->scheme_->tables);
     // Vertex indices are 32 bits on the device.
@@ -124,6 +144,8 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
                              kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
     requests[kUvs1] = {"supple second UV set", tables.uvSets == 2 ? requests[kAttributes].size / 2 : 0,
                        kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
+    requests[kScratch] = {"supple fragments", n * shared_.surface->scratchStride(tables) * kVec4Bytes,
+                          kStorage | kTexels};
     attributesPending_ = requests[kAttributes].size > 0;
     if (requests[kAttributes].size > device.limits.maxStorageBufferRange) {
         return Error{ErrorCode::limit, "surface attributes exceed the device's storage-buffer range"};
@@ -197,10 +219,11 @@ Status Group::createSets() {
         deformFit = deformFit / kDeformWindowMultiple * kDeformWindowMultiple;
     }
     VkDeviceSize surfaceFit = instanceCount_;
+    const VkDeviceSize scratchBytes = shared_.surface->scratchStride(tables) * kVec4Bytes;
     for (const VkDeviceSize bytes : {surfaceBytes, patchBytes}) {
         surfaceFit = bytes > 0 ? std::min(surfaceFit, storageLimit / bytes) : surfaceFit;
     }
-    surfaceFit = std::min(surfaceFit, texelLimit / std::max(cageBytes, poolBytes));
+    surfaceFit = std::min(surfaceFit, texelLimit / std::max({cageBytes, poolBytes, scratchBytes}));
     if (deformFit == 0 || surfaceFit == 0) {
         return Error{ErrorCode::limit,
                      std::string(surfaceFit == 0 ? "one instance's surface" : "sixteen instances' cages") +
@@ -278,6 +301,8 @@ Status Group::createSets() {
         // Bindings a group does without point at the pool: every binding of the layout must be valid.
         const VkDescriptorBufferInfo unused = range(coefficients, first * poolBytes, kVec4Bytes);
         const bool patches = patchBytes > 0, attributes = buffers_.size(kAttributes) > 0;
+        const VkBufferView poolView = view(coefficients, kFloat4, first * poolBytes, count * poolBytes, "supple pool");
+        const VkBuffer scratch = buffers_.buffer(kScratch);
         const gpu::BoundResource resources[] = {
             {kTableBinding, range(table, 0, tableBytes), VK_NULL_HANDLE},
             {kTable4TexelBinding, {}, table4},
@@ -285,7 +310,7 @@ Status Group::createSets() {
             {kCageBinding, range(cage, first * cageBytes, count * cageBytes), VK_NULL_HANDLE},
             {kCageTexelBinding, {}, view(cage, kFloat4, first * cageBytes, count * cageBytes, "supple deformed cage")},
             {kPoolBinding, range(coefficients, first * poolBytes, count * poolBytes), VK_NULL_HANDLE},
-            {kPoolTexelBinding, {}, view(coefficients, kFloat4, first * poolBytes, count * poolBytes, "supple pool")},
+            {kPoolTexelBinding, {}, poolView},
             {kSurfaceBinding, range(buffers_.buffer(kSurface), first * surfaceBytes, count * surfaceBytes),
              VK_NULL_HANDLE},
             {kPatchCoefficientBinding,
@@ -296,6 +321,12 @@ Status Group::createSets() {
             {kUv1Binding, buffers_.size(kUvs1) > 0 ? range(buffers_.buffer(kUvs1), 0, VK_WHOLE_SIZE) : unused,
              VK_NULL_HANDLE},
             {kPairBinding, range(shared_.pairs, 0, shared_.pairBytes), VK_NULL_HANDLE},
+            {kScratchBinding, scratchBytes > 0 ? range(scratch, first * scratchBytes, count * scratchBytes) : unused,
+             VK_NULL_HANDLE},
+            {kScratchTexelBinding,
+             {},
+             scratchBytes > 0 ? view(scratch, kFloat4, first * scratchBytes, count * scratchBytes, "supple fragments")
+                              : poolView},
         };
         if (!status) {
             return status;

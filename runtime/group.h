@@ -34,6 +34,8 @@ public:
     [[nodiscard]] const Asset& asset() const { return *asset_; }
     [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables; }
     [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
+    /// What of the description was not taken as it stands, one line each.
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
     [[nodiscard]] InstancePoses& poses() { return poses_; }
 
@@ -82,6 +84,7 @@ private:
     std::vector<surface::Window> surfaceWindows_;
     SuppleGroupOutput output_{};
     std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
+    std::vector<std::string> notes_;
     bool cleared_ = false;
     bool attributesPending_ = false;
     uint64_t lastRecordedFrame_ = 0;

@@ -3,12 +3,17 @@
 #include "shaders/evaluate_attributes_comp.h"
 #include "shaders/evaluate_bicubic_comp.h"
 #include "shaders/evaluate_patch_comp.h"
+#include "shaders/kernel_fragment_comp.h"
+#include "shaders/kernel_isolate_comp.h"
+#include "shaders/kernel_limit_comp.h"
+#include "shaders/kernel_refine_comp.h"
 #include "shaders/pm_evaluate_comp.h"
 #include "shaders/pm_facet_comp.h"
 #include "shaders/pm_patch_comp.h"
 #include "shaders/pm_vertex_comp.h"
 #include "shaders/prep_edge_comp.h"
 #include "shaders/prep_vertex_comp.h"
+#include "shaders/shared/kernel.h"
 #include "shaders/shared/pm.h"
 
 #include <string>
@@ -18,6 +23,7 @@ namespace supple::surface {
 namespace {
 
 static_assert(sizeof(shared::SurfacePush) <= gpu::kPushConstantBytes);
+static_assert(sizeof(shared::KernelPush) <= sizeof(shared::SurfacePush));
 
 // Specialization constants of the passes. Construction kernels have one, their kind; the others a class or domain.
 constexpr uint32_t kKindConstant = gpu::kFirstPassConstant;
@@ -65,8 +71,19 @@ uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
 } // namespace
 
 Shaders Shaders::embedded() {
-    return {prep_vertex_comp, prep_edge_comp,      pm_vertex_comp,        pm_facet_comp,           pm_patch_comp,
-            pm_evaluate_comp, evaluate_patch_comp, evaluate_bicubic_comp, evaluate_attributes_comp};
+    Shaders shaders;
+    shaders.prepVertex = prep_vertex_comp;
+    shaders.prepEdge = prep_edge_comp;
+    shaders.pmVertex = pm_vertex_comp;
+    shaders.pmFacet = pm_facet_comp;
+    shaders.pmPatch = pm_patch_comp;
+    shaders.pmEvaluate = pm_evaluate_comp;
+    shaders.isolate = kernel_isolate_comp;
+    shaders.kernel = {kernel_fragment_comp, kernel_refine_comp, kernel_limit_comp};
+    shaders.patch = evaluate_patch_comp;
+    shaders.bicubic = evaluate_bicubic_comp;
+    shaders.attributes = evaluate_attributes_comp;
+    return shaders;
 }
 
 uint64_t Evaluation::layOut(const Tables& tables) {
@@ -87,7 +104,8 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
         {kTableBinding, kStorage},     {kTable4TexelBinding, kTexels}, {kTable1TexelBinding, kTexels},
         {kCageBinding, kStorage},      {kCageTexelBinding, kTexels},   {kPoolBinding, kStorage},
         {kPoolTexelBinding, kTexels},  {kSurfaceBinding, kStorage},    {kPatchCoefficientBinding, kStorage},
-        {kAttributeBinding, kStorage}, {kUv1Binding, kStorage},        {kPairBinding, kStorage}};
+        {kAttributeBinding, kStorage}, {kUv1Binding, kStorage},        {kPairBinding, kStorage},
+        {kScratchBinding, kStorage},   {kScratchTexelBinding, kTexels}};
     Passes passes;
     passes.device_ = &device;
     Result<gpu::ComputeLayout> layout =
@@ -117,11 +135,12 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     construction(Kernel::pmFacet3, shaders.pmFacet, kP3Patch, "supple P_m facet, triangle");
     construction(Kernel::pmFacet4, shaders.pmFacet, kP4Patch, "supple P_m facet, quad");
     construction(Kernel::pmFacet5, shaders.pmFacet, kP5Patch, "supple P_m facet, pentagon");
+    construction(Kernel::isolate, shaders.isolate, 0, "supple kernel, isolate");
     for (uint32_t domain = 0; domain < kDomainCount; ++domain) {
         wanted.push_back(
             {&passes.attributes_[domain], shaders.attributes, {{kKindConstant, domain}}, "supple attributes"});
     }
-    for (uint32_t patchClass = 0; patchClass < kClasses; ++patchClass) {
+    for (uint32_t patchClass = 0; patchClass <= kP5Patch; ++patchClass) {
         const std::string name = className(static_cast<PatchClass>(patchClass));
         const bool bicubic = patchClass <= kPolarPatch;
         const uint32_t normalKinds = patchClass <= kPerturbedPatch ? 2 : 1;
@@ -147,6 +166,11 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
         }
         *w.target = std::move(*pipeline);
     }
+    Result<kernel::Passes> kernelPasses = kernel::Passes::create(device, passes.layout_, shaders.kernel);
+    if (!kernelPasses) {
+        return kernelPasses.error();
+    }
+    passes.kernel_ = std::move(*kernelPasses);
     return passes;
 }
 
@@ -175,12 +199,7 @@ void Passes::recordStage(VkCommandBuffer commandBuffer, Stage stage, const Table
             if (stage == Stage::edge && !first) {
                 // No facet kernel of P_m reads what another writes. Synchronization validation cannot know: to it the
                 // pool is one resource, which they all read and write.
-                constexpr VkAccessFlags2 kPoolAccess = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                                                       VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
-                                                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-                gpu::memoryBarrier(*device_, commandBuffer,
-                                   {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-                                   {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kPoolAccess});
+                gpu::computeBarrier(*device_, commandBuffer);
             }
             first = false;
             const shared::SurfacePush push = pushFor(tables, c.section, window, evaluation);
@@ -203,6 +222,10 @@ void Passes::recordPatch(VkCommandBuffer commandBuffer, const Tables& tables, co
 
 void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
                             const Evaluation& evaluation) const {
+    if (!tables.fragments.classes.empty()) {
+        kernel_.record(commandBuffer, tables, window, evaluation);
+        return;
+    }
     const bool wide = device_->mapping.wide;
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];

@@ -4,7 +4,8 @@
 
 #include "gpu/pipeline.h"
 #include "shaders/shared/surface.h"
-#include "surface/scheme.h"
+#include "surface/evaluation.h"
+#include "surface/kernel/passes.h"
 
 #include <array>
 #include <cstdint>
@@ -17,26 +18,10 @@ namespace supple::surface {
 struct Shaders {
     std::span<const uint32_t> prepVertex, prepEdge;
     std::span<const uint32_t> pmVertex, pmFacet, pmPatch, pmEvaluate;
+    std::span<const uint32_t> isolate;
+    kernel::Passes::Shaders kernel;
     std::span<const uint32_t> patch, bicubic, attributes;
     [[nodiscard]] static Shaders embedded();
-};
-
-/// What one window of instances binds.
-struct Window {
-    VkDescriptorSet set = VK_NULL_HANDLE;
-    uint32_t instanceCount = 0;
-};
-
-/// What a group evaluates, the same for all its windows.
-struct Evaluation {
-    uint32_t rate = 8;
-    uint32_t cageStride = 0; ///< cage vertices an instance in the deformed cage
-    bool vertex24 = false;
-    uint32_t verticesPerInstance = 0;    ///< at least vertexCount(): the stride between instances
-    std::vector<uint32_t> firstVertices; ///< per patch range: where its vertices begin in an instance
-
-    /// Lays out the ranges of `tables` one after the other; returns the vertices of an instance.
-    uint64_t layOut(const Tables& tables);
 };
 
 /// All pipelines. Recording needs no memory and creates nothing. Between the stages the caller puts a memory barrier
@@ -46,6 +31,9 @@ public:
     [[nodiscard]] static Result<Passes> create(const gpu::Device& device, const Shaders& shaders = Shaders::embedded());
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
+
+    /// Points an instance in the scratch buffer that the tables' evaluation needs; 0 for none.
+    [[nodiscard]] uint32_t scratchStride(const Tables& tables) const { return kernel_.scratchStride(tables.fragments); }
 
     void recordStage(VkCommandBuffer commandBuffer, Stage stage, const Tables& tables, const Window& window,
                      const Evaluation& evaluation) const;
@@ -61,7 +49,7 @@ private:
                 const shared::SurfacePush& push, uint64_t groups) const;
     [[nodiscard]] uint64_t groupsFor(uint64_t lanes) const;
 
-    static constexpr size_t kClasses = 6;
+    static constexpr size_t kClasses = kPatchClassCount;
     const gpu::Device* device_ = nullptr;
     gpu::ComputeLayout layout_;
     std::array<gpu::PipelineHandle, static_cast<size_t>(Kernel::count)> construction_;
@@ -69,6 +57,7 @@ private:
     // By class and by corner normals, which only p-rep's classes have; evaluate_ also by 24-byte vertices.
     std::array<std::array<gpu::PipelineHandle, 2>, kClasses> patch_;
     std::array<std::array<std::array<gpu::PipelineHandle, 2>, 2>, kClasses> evaluate_;
+    kernel::Passes kernel_;
 };
 
 } // namespace supple::surface

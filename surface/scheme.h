@@ -18,12 +18,15 @@ enum class PatchClass : uint32_t {
     polar = shared::kPolarPatch,         ///< P_m: a triangle of a polar fan, bicubic with a collapsed side
     p3 = shared::kP3Patch,               ///< P_m: three, four, five triangular sectors of degree 4
     p4 = shared::kP4Patch,
-    p5 = shared::kP5Patch
+    p5 = shared::kP5Patch,
+    catmullClark = shared::kCatmullClarkPatch, ///< subdivision kernel: a face of the isolated level
+    loop = shared::kLoopPatch
 };
+inline constexpr size_t kPatchClassCount = 8;
 
-/// "regular", "perturbed", "polar", "p3", "p4", "p5".
+/// "regular", "perturbed", "polar", "p3", "p4", "p5", "catmull-clark", "loop".
 [[nodiscard]] constexpr const char* className(PatchClass patchClass) {
-    constexpr const char* kNames[] = {"regular", "perturbed", "polar", "p3", "p4", "p5"};
+    constexpr const char* kNames[] = {"regular", "perturbed", "polar", "p3", "p4", "p5", "catmull-clark", "loop"};
     return kNames[static_cast<uint32_t>(patchClass)];
 }
 
@@ -32,6 +35,7 @@ enum class PatchClass : uint32_t {
     case PatchClass::polar:
         return Domain::polar;
     case PatchClass::p3:
+    case PatchClass::loop:
         return Domain::triangle;
     case PatchClass::p5:
         return Domain::pentagon;
@@ -40,9 +44,9 @@ enum class PatchClass : uint32_t {
     }
 }
 
-/// Coefficients a patch of a class has, as the patch pass writes them.
+/// Coefficients a patch of a class has, as the patch pass writes them; the kernel's patches have none.
 [[nodiscard]] constexpr uint32_t coefficientCount(PatchClass patchClass) {
-    constexpr uint32_t kCounts[] = {16, 32, 13, 19, 25, 31};
+    constexpr uint32_t kCounts[] = {16, 32, 13, 19, 25, 31, 0, 0};
     return kCounts[static_cast<uint32_t>(patchClass)];
 }
 
@@ -51,7 +55,7 @@ struct PatchInfo {
     uint32_t face = 0; ///< of the cage as the host gave it
     PatchClass patchClass = PatchClass::regular;
     uint32_t cornerCount = 4;
-    std::array<uint32_t, kMaxSides> corners{}; ///< cage vertices
+    std::array<uint32_t, kMaxSides> corners{}; ///< cage vertices; cage::kNone where the scheme put a point of its own
 };
 
 /// A run of records in the tables.
@@ -74,12 +78,14 @@ enum class Kernel : uint32_t {
     pmFacet3,
     pmFacet4,
     pmFacet5,
+    // subdivision kernel
+    isolate,
     count
 };
 
 /// The passes between deformed cage and coefficients, in order; a barrier stands between them.
 enum class Stage : uint32_t {
-    vertex, ///< one invocation a cage vertex or sector
+    vertex, ///< one invocation a cage vertex or sector; subdivision kernel: a vertex of the isolated level
     edge    ///< p-rep: a perturbed edge; P_m: a facet
 };
 inline constexpr uint32_t kStageCount = 2;
@@ -107,8 +113,21 @@ struct DrawRange {
     uint32_t material = cage::kNone;
 };
 
-/// What depends on connectivity alone: the tables of shaders/shared/{surface,prep,pm}.h, and where everything lies in
-/// them. Patches are ordered by class, then by material, then by face.
+/// What the subdivision kernel evaluates instead of patches (shaders/shared/kernel.h).
+struct Fragments {
+    uint32_t steps = 0;         ///< after the isolated level
+    bool loop = false;          ///< else Catmull-Clark
+    uint32_t scratchStride = 0; ///< points an instance in the scratch buffer
+    struct Class {
+        uint32_t sharedPoints = 0;   ///< what a workgroup holds of a fragment at a time
+        Section fragments;           ///< one record a fragment
+        std::vector<Section> blocks; ///< steps 1.., then the limit; those of a step follow each other, class by class
+    };
+    std::vector<Class> classes; ///< sharedPoints rise
+};
+
+/// What depends on connectivity alone: the tables of shaders/shared/{surface,prep,pm,kernel}.h, and where everything
+/// lies in them. Patches are ordered by class, then by material, then by face.
 struct Tables {
     std::vector<uint32_t> words; ///< a multiple of four
     uint32_t ring = 0;           ///< first word of the ring
@@ -116,7 +135,9 @@ struct Tables {
     uint32_t tangents = 0;       ///< first tangent in the pool
     uint32_t faces = 0;          ///< first face coefficient in the pool
     uint32_t uvSets = 1;
-    bool cornerNormals = false; ///< p-rep: some corner needs its stored normal (CornerRule::smooth)
+    uint32_t isolationSteps = 0; ///< patches are this many halvings smaller than the cage's faces: see Recipe::rate
+    Fragments fragments;         ///< subdivision kernel only
+    bool cornerNormals = false;  ///< p-rep: some corner needs its stored normal (CornerRule::smooth)
     std::vector<Construction> constructions;
     std::vector<PatchRange> ranges;
     std::vector<PatchInfo> patches;

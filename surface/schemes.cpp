@@ -1,12 +1,23 @@
 #include "surface/schemes.h"
 
+#include "surface/kernel/scheme.h"
 #include "surface/pm/scheme.h"
 #include "surface/prep/scheme.h"
 
 namespace supple::surface {
 
 const char* schemeName(SchemeId scheme) {
-    return scheme == SchemeId::prep ? "p-rep" : "P_m";
+    switch (scheme) {
+    case SchemeId::prep:
+        return "p-rep";
+    case SchemeId::pm:
+        return "P_m";
+    case SchemeId::catmullClark:
+        return "Catmull-Clark";
+    case SchemeId::loop:
+        return "Loop";
+    }
+    return "";
 }
 
 Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
@@ -16,6 +27,14 @@ Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
             return mesh.error();
         }
         return pm::buildTables(*mesh);
+    }
+    if (subdivides(recipe.scheme)) {
+        const Result<kernel::Mesh> mesh = kernel::buildMesh(
+            cage, recipe.scheme == SchemeId::loop ? kernel::Subdivision::loop : kernel::Subdivision::catmullClark);
+        if (!mesh) {
+            return mesh.error();
+        }
+        return kernel::buildTables(*mesh, recipe.depth);
     }
     const Result<cage::Topology> topology = cage::buildTopology(cage);
     if (!topology) {

@@ -32,6 +32,8 @@ SUPPLE_SHARED_CONST kPatchCoefficientBinding = 8u;
 SUPPLE_SHARED_CONST kAttributeBinding = 9u;
 SUPPLE_SHARED_CONST kUv1Binding = 10u;
 SUPPLE_SHARED_CONST kPairBinding = 11u;
+SUPPLE_SHARED_CONST kScratchBinding = 12u;
+SUPPLE_SHARED_CONST kScratchTexelBinding = 13u;
 
 // Classes of patches; values of SupplePatchClass.
 SUPPLE_SHARED_CONST kRegularPatch = 0u;
@@ -40,6 +42,8 @@ SUPPLE_SHARED_CONST kPolarPatch = 2u;
 SUPPLE_SHARED_CONST kP3Patch = 3u;
 SUPPLE_SHARED_CONST kP4Patch = 4u;
 SUPPLE_SHARED_CONST kP5Patch = 5u;
+SUPPLE_SHARED_CONST kCatmullClarkPatch = 6u;
+SUPPLE_SHARED_CONST kLoopPatch = 7u;
 
 // Domains; values of SuppleDomain.
 SUPPLE_SHARED_CONST kQuadDomain = 0u;

@@ -1,5 +1,6 @@
 // Bindings and loads the passes share. Loads go through one function each: storage buffers on GPUs, texel buffers on
-// CPU devices, whose drivers gather texels without a loop over the lanes.
+// CPU devices, whose drivers gather texels without a loop over the lanes. A pass with push constants of its own defines
+// PUSH_CONSTANTS before the include.
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/surface.h"
 
@@ -8,7 +9,10 @@ layout(set = 0, binding = kTableBinding, std430) readonly buffer Table1 { uint t
 layout(set = 0, binding = kTable4TexelBinding) uniform usamplerBuffer tableElementTexels;
 layout(set = 0, binding = kTable1TexelBinding) uniform usamplerBuffer tableWordTexels;
 
-layout(push_constant) uniform Push { SurfacePush push; };
+#ifndef PUSH_CONSTANTS
+#define PUSH_CONSTANTS SurfacePush
+#endif
+layout(push_constant) uniform Push { PUSH_CONSTANTS push; };
 
 uvec4 tableElement(uint i) {
     if (kWide) return tableElements[i];

@@ -78,7 +78,10 @@ void bindPose(CLI::App& command, std::string& clip, double& time) {
 }
 
 std::span<const Scheme> schemes() {
-    static constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM}, {"prep", SUPPLE_SCHEME_PREP}};
+    static constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM},
+                                          {"prep", SUPPLE_SCHEME_PREP},
+                                          {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK},
+                                          {"loop", SUPPLE_SCHEME_LOOP}};
     return kSchemes;
 }
 

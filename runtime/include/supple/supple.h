@@ -48,6 +48,7 @@ extern "C" {
 #define SUPPLE_REST_POSE 0xFFFFFFFEu /* clip index that means: the file's node transforms and morph weights */
 #define SUPPLE_NO_MATERIAL 0xFFFFFFFFu
 #define SUPPLE_NO_JOINT 0xFFFFFFFFu
+#define SUPPLE_NO_VERTEX 0xFFFFFFFFu
 #define SUPPLE_MAX_RATE 64u
 #define SUPPLE_MAX_TIMINGS 512u /* entries a frame: passes x groups; what goes beyond is not timed */
 
@@ -246,9 +247,11 @@ SUPPLE_API SuppleResult suppleFillJointMask(SuppleContext context, SuppleAsset a
 /* ---------------------------------------------------------------------------------------------------- groups */
 
 typedef enum SuppleScheme {
-    SUPPLE_SCHEME_AUTO = 0,  /* P_m */
-    SUPPLE_SCHEME_PREP = 1,  /* p-rep: quads, G1 at any valence, one patch a face; creases are ignored */
-    SUPPLE_SCHEME_PM = 2,    /* P_m: any polygons, polar fans, creases; G1 but at creases, one patch a facet */
+    SUPPLE_SCHEME_AUTO = 0,          /* P_m */
+    SUPPLE_SCHEME_PREP = 1,          /* p-rep: quads, G1 at any valence, one patch a face; creases are ignored */
+    SUPPLE_SCHEME_PM = 2,            /* P_m: any polygons, polar fans, creases; G1 but at creases, one patch a facet */
+    SUPPLE_SCHEME_CATMULL_CLARK = 3, /* subdivision: any polygons, semi-sharp creases; the limit itself */
+    SUPPLE_SCHEME_LOOP = 4,          /* subdivision: triangles (larger faces are split into them), semi-sharp creases */
     SUPPLE_SCHEME_CAGE = 100 /* no surface: the deformed cage alone, of any polygons; no patches, no surface vertices */
 } SuppleScheme;
 
@@ -276,7 +279,9 @@ typedef struct SuppleGroupDesc {
     SuppleAsset asset;
     uint32_t instanceCount; /* 1 or more */
     SuppleScheme scheme;
-    uint32_t rate; /* segments along a patch edge, 1..64; 0 = 8 */
+    uint32_t rate; /* segments along a patch edge, 1..64; 0 = 8. CATMULL_CLARK and LOOP: along an edge of the cage,
+                    * rounded up to a power of two; a patch is a half of it (a quarter where Catmull-Clark is given
+                    * faces other than quads), see SuppleGroupOutput.rate */
     SuppleVertexFormat vertexFormat;
     SuppleTangentMode tangentMode;
     SuppleCornerRule cornerRule;
@@ -451,7 +456,7 @@ typedef struct SuppleDrawRange {
 typedef struct SuppleGroupOutput {
     uint32_t structSize;
     uint32_t instanceCount;
-    uint32_t rate;
+    uint32_t rate; /* segments along a patch edge: R of SuppleDomain */
     SuppleVertexFormat vertexFormat;
     uint32_t patchCount;          /* per instance */
     uint32_t vertexCount;         /* surface vertices per instance */
@@ -479,12 +484,14 @@ SUPPLE_API SuppleResult suppleGetGroupOutput(SuppleContext context, SuppleGroup 
 
 /* Classes of patches, and their coefficients in order (docs/prep.md, docs/pm.md). */
 typedef enum SupplePatchClass {
-    SUPPLE_PATCH_REGULAR = 0,   /* 16: bicubic, g[i + 4 j] */
-    SUPPLE_PATCH_PERTURBED = 1, /* 32, p-rep: 16 g, then 16 h */
-    SUPPLE_PATCH_POLAR = 2,     /* 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
-    SUPPLE_PATCH_P3 = 3,        /* 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
-    SUPPLE_PATCH_P4 = 4,        /* 25 */
-    SUPPLE_PATCH_P5 = 5         /* 31 */
+    SUPPLE_PATCH_REGULAR = 0,       /* 16: bicubic, g[i + 4 j] */
+    SUPPLE_PATCH_PERTURBED = 1,     /* 32, p-rep: 16 g, then 16 h */
+    SUPPLE_PATCH_POLAR = 2,         /* 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
+    SUPPLE_PATCH_P3 = 3,            /* 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
+    SUPPLE_PATCH_P4 = 4,            /* 25 */
+    SUPPLE_PATCH_P5 = 5,            /* 31 */
+    SUPPLE_PATCH_CATMULL_CLARK = 6, /* none: a face of the cage once (or twice) subdivided */
+    SUPPLE_PATCH_LOOP = 7           /* none */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5
@@ -493,7 +500,8 @@ typedef struct SupplePatchInfo {
     uint32_t face; /* source face of the cage; faces of six and more sides are split, each part a patch */
     SupplePatchClass patchClass;
     uint32_t cornerCount;
-    uint32_t corners[SUPPLE_MAX_SIDES]; /* cage vertices, corner i at corner i of the domain */
+    uint32_t corners[SUPPLE_MAX_SIDES]; /* cage vertices, corner i at corner i of the domain; SUPPLE_NO_VERTEX at
+                                         * points that subdivision added */
     uint32_t coefficientCount;
 } SupplePatchInfo;
 

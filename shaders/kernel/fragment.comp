@@ -1,0 +1,62 @@
+// The subdivision kernel in shared memory: a workgroup takes a fragment, refines it level by level between two regions
+// and writes limit points and normals of its sectors. One workgroup a fragment and instance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#define POOL_READ_ONLY
+#define PUSH_CONSTANTS KernelPush
+#include "shaders/shared/kernel.h"
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/evaluate/surface_vertex.glsl"
+
+layout(constant_id = 5) const uint kSharedPoints = 341u; // of the last two levels together
+
+// Components apart: neighbouring lanes read neighbouring words.
+shared float sharedX[kSharedPoints], sharedY[kSharedPoints], sharedZ[kSharedPoints];
+uint region; // of the level that is read
+
+vec3 point(uint i) { return vec3(sharedX[region + i], sharedY[region + i], sharedZ[region + i]); }
+
+#include "shaders/kernel/fragment.glsl"
+#include "shaders/kernel/samples.glsl"
+
+void writePoint(uint at, vec3 p) {
+    sharedX[at] = p.x;
+    sharedY[at] = p.y;
+    sharedZ[at] = p.z;
+}
+
+void main() {
+    // Workgroups past the last repeat it: all lanes must meet at the barriers.
+    uint id = min(workgroupIndex(), push.count * push.instanceCount - 1u);
+    uint instance = id / push.count;
+    uvec4 record = tableElement(push.records + (id - instance * push.count));
+    uint header = record.x, fragment = record.y;
+    uvec4 head = tableElement(header), last = tableElement(header + 2u);
+    uint fragments = head.x, levels = header + kClassHeaderElements;
+
+    // Even levels begin at 0, odd ones at the other end, so that the last two share the memory whatever their sizes.
+    uint count = tableElement(levels).z;
+    for (uint i = gl_LocalInvocationID.x; i < count; i += gl_WorkGroupSize.x)
+        writePoint(i, poolVector(instance * push.poolStride + tableWord(head.z + i * fragments + fragment)));
+    region = 0u;
+    barrier();
+    for (uint step = 1u; step <= push.step; ++step) {
+        uvec4 level = tableElement(levels + step);
+        uint target = region == 0u ? kSharedPoints - level.z : 0u;
+        uint neighbours = tableElement(levels + step - 1u).y;
+        for (uint i = gl_LocalInvocationID.x; i < level.z; i += gl_WorkGroupSize.x)
+            writePoint(target + i,
+                       refinedPoint(tableElement(level.x + i), neighbours, header, fragments, fragment, step));
+        barrier();
+        region = target;
+    }
+    for (uint i = gl_LocalInvocationID.x; i < last.w; i += gl_WorkGroupSize.x) {
+        uint at = last.z + 2u * i;
+        vec3 position, normal;
+        uint vertex = limitSample(tableElement(at), tableElement(at + 1u), header, fragments, fragment, push.step, position,
+                                  normal);
+        if (vertex != kNoPatch) storeSurfaceVertex(instance * push.verticesPerInstance + vertex, position, normal);
+    }
+}

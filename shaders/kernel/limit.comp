@@ -1,0 +1,24 @@
+// Limit points and normals of all fragments' samples, from the last level in the scratch buffer. One invocation a sample,
+// fragment and instance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#define POOL_READ_ONLY
+#define PUSH_CONSTANTS KernelPush
+#include "shaders/shared/kernel.h"
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/evaluate/surface_vertex.glsl"
+#include "shaders/kernel/scratch.glsl"
+#include "shaders/kernel/fragment.glsl"
+#include "shaders/kernel/samples.glsl"
+
+void main() {
+    findLane();
+    uint at = lane.rows + 2u * lane.row;
+    vec3 position, normal;
+    uint vertex = limitSample(tableElement(at), tableElement(at + 1u), lane.header, lane.fragments, lane.fragment, push.step,
+                              position, normal);
+    if (!lane.idle && vertex != kNoPatch)
+        storeSurfaceVertex(lane.instance * push.verticesPerInstance + vertex, position, normal);
+}

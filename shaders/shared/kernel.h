@@ -1,0 +1,62 @@
+// The tables and the scratch buffer of the subdivision kernel (what all schemes share: shared/surface.h; the words and
+// rules: docs/kernel.md).
+//
+// Coefficient pool: the vertices of the isolated level.
+// Scratch buffer: vec4 elements, `scratchStride` an instance; for every step and class of fragments one run of points,
+// point by point, in each the fragments of the class.
+//
+// A class is all fragments of one kind: vertex or facet, sectors, open or closed, with or without sharpness.
+//
+// Tables
+//   isolation records  (cage vertex, first element of the entries, entries, pool index), by number of entries
+//   isolation entries  two an element: (cage vertex, weight, cage vertex, weight)
+//   pattern rows       one element a point, 16 bits a source: s0..s6 and rule | (spoke + 1) << 2
+//   neighbours         one element a point, 8 x 16 bits
+//   limit rows         two elements a sample: 8 neighbours x 16 bits; (point, spoke + 1, sector | kRightSide, sample of
+//                      the sector)
+//   masks              (0 or kCornerMask, first sector, sectors, points of ring 1), then one element a point of ring 1:
+//                      (position, first tangent, second tangent, 0); one an arrangement of sharp spokes and run
+//   class words        [point][fragment] net: pool indices; [spoke][fragment] sharpness; [sector][fragment] patches or
+//                      kNoPatch; [sector][fragment] mask elements
+//   centre steps       [step][fragment] elements: (smooth, crease, first spoke, second spoke); of classes with sharpness
+//   class headers      (fragments, sectors | flags, net, sharpness), (patches, masks, centre steps, 0), (weight of a spoke
+//                      point, of a face point, limit row, limit rows), then one a level 0..steps: (pattern rows of the
+//                      level, neighbours on it, points, its run in the scratch buffer)
+//   blocks             kBlockLanes lanes of one class and step each, three elements: (pattern or limit rows, neighbours on
+//                      the level before, first row, first fragment), (run read, run written, fragments, class header),
+//                      (rows, 0, 0, 0); the fragment rises first
+//   fragments          (class header, fragment, 0, 0)
+#ifndef SUPPLE_SHARED_KERNEL_H
+#define SUPPLE_SHARED_KERNEL_H
+
+#include "shaders/shared/portable.h"
+
+SUPPLE_SHARED_BEGIN
+
+// Rules of a pattern row; values of surface::kernel::Rule.
+SUPPLE_SHARED_CONST kVertexRule = 0u;
+SUPPLE_SHARED_CONST kEdgeRule = 1u;
+SUPPLE_SHARED_CONST kFaceRule = 2u;
+SUPPLE_SHARED_CONST kCentreRule = 3u;
+
+SUPPLE_SHARED_CONST kSharpClass = 0x80000000u; // flags of a class header
+SUPPLE_SHARED_CONST kRightSide = 0x80000000u;
+SUPPLE_SHARED_CONST kCornerMask = 0x80000000u;
+SUPPLE_SHARED_CONST kNoPatch = 0xFFFFFFFFu;
+SUPPLE_SHARED_CONST kBlockLanes = 32u;
+SUPPLE_SHARED_CONST kClassHeaderElements = 3u; // before the levels
+
+struct KernelPush {
+    uint records;       // first block or fragment
+    uint count;         // blocks or fragments an instance
+    uint instanceCount; // of this window
+    uint step;          // the level that is written, or, for the limit, that is read
+    uint poolStride;
+    uint scratchStride;
+    uint verticesPerInstance;
+    uint samples; // of a sector
+};
+
+SUPPLE_SHARED_END
+
+#endif

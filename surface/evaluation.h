@@ -1,0 +1,30 @@
+// What a group's passes are recorded with, besides the tables.
+#pragma once
+
+#include "gpu/device.h"
+#include "surface/scheme.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace supple::surface {
+
+/// What one window of instances binds.
+struct Window {
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    uint32_t instanceCount = 0;
+};
+
+/// What a group evaluates, the same for all its windows.
+struct Evaluation {
+    uint32_t rate = 8;
+    uint32_t cageStride = 0; ///< cage vertices an instance in the deformed cage
+    bool vertex24 = false;
+    uint32_t verticesPerInstance = 0;    ///< at least vertexCount(): the stride between instances
+    std::vector<uint32_t> firstVertices; ///< per patch range: where its vertices begin in an instance
+
+    /// Lays out the ranges of `tables` one after the other; returns the vertices of an instance.
+    uint64_t layOut(const Tables& tables);
+};
+
+} // namespace supple::surface

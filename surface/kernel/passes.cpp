@@ -1,0 +1,142 @@
+#include "surface/kernel/passes.h"
+
+#include <algorithm>
+
+namespace supple::surface::kernel {
+
+namespace {
+
+constexpr uint32_t kLoopConstant = gpu::kFirstPassConstant;
+constexpr uint32_t kVertex24Constant = kLoopConstant + 1;
+constexpr uint32_t kFromNetConstant = kLoopConstant + 2;
+constexpr uint32_t kSharedPointsConstant = kLoopConstant + 2;
+
+/// Small fragments must not hold the memory of large ones, or too few fit on a compute unit at a time.
+constexpr uint32_t kBucketBytes[] = {4096, 16384, 32768, 49152};
+constexpr uint32_t kPointBytes = 12;
+
+/// Blocks of a step from class `first` on.
+Section blocksFrom(const Fragments& fragments, size_t first, size_t step) {
+    Section all = fragments.classes[first].blocks[step];
+    for (size_t c = first + 1; c < fragments.classes.size(); ++c) {
+        all.count += fragments.classes[c].blocks[step].count;
+    }
+    return all;
+}
+
+} // namespace
+
+Result<Passes> Passes::create(const gpu::Device& device, const gpu::ComputeLayout& layout, const Shaders& shaders) {
+    Passes passes;
+    passes.device_ = &device;
+    passes.layout_ = layout.pipelineLayout.get();
+    Status status = success();
+    const auto make = [&](gpu::PipelineHandle& target, std::span<const uint32_t> spirv, const char* name,
+                          std::initializer_list<gpu::Constant> constants) {
+        if (!status) {
+            return;
+        }
+        Result<gpu::PipelineHandle> pipeline = gpu::createComputePipeline(device, layout, spirv, constants, name);
+        if (!pipeline) {
+            status = pipeline.error();
+            return;
+        }
+        target = std::move(*pipeline);
+    };
+    if (device.mapping.wide) {
+        for (const uint32_t bytes : kBucketBytes) {
+            if (bytes <= device.limits.maxComputeSharedMemorySize) {
+                passes.buckets_.emplace_back().sharedPoints = bytes / kPointBytes;
+            }
+        }
+    }
+    for (uint32_t loop = 0; loop < 2; ++loop) {
+        for (uint32_t flag = 0; flag < 2; ++flag) {
+            for (Bucket& bucket : passes.buckets_) {
+                make(bucket.pipelines[loop][flag], shaders.fragment, "supple kernel, shared memory",
+                     {{kLoopConstant, loop}, {kVertex24Constant, flag}, {kSharedPointsConstant, bucket.sharedPoints}});
+            }
+            make(passes.refine_[loop][flag], shaders.refine, "supple kernel, refine",
+                 {{kLoopConstant, loop}, {kFromNetConstant, flag}});
+            for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24) {
+                make(passes.limit_[loop][flag][vertex24], shaders.limit, "supple kernel, limit",
+                     {{kLoopConstant, loop}, {kVertex24Constant, vertex24}, {kFromNetConstant, flag}});
+            }
+        }
+    }
+    if (!status) {
+        return status.error();
+    }
+    return passes;
+}
+
+size_t Passes::bucketOf(uint32_t sharedPoints) const {
+    const auto found = std::find_if(buckets_.begin(), buckets_.end(),
+                                    [&](const Bucket& bucket) { return sharedPoints <= bucket.sharedPoints; });
+    return static_cast<size_t>(found - buckets_.begin());
+}
+
+size_t Passes::firstStepwise(const Fragments& fragments) const {
+    size_t first = 0;
+    while (first < fragments.classes.size() && bucketOf(fragments.classes[first].sharedPoints) < buckets_.size()) {
+        ++first;
+    }
+    return first;
+}
+
+uint32_t Passes::scratchStride(const Fragments& fragments) const {
+    return fragments.steps > 0 && firstStepwise(fragments) < fragments.classes.size() ? fragments.scratchStride : 0;
+}
+
+void Passes::dispatch(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
+                      const shared::KernelPush& push, uint64_t groups) const {
+    device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set, 0, nullptr);
+    device_->vk.CmdPushConstants(commandBuffer, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
+    gpu::dispatchLinear(*device_, commandBuffer, groups);
+}
+
+void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
+                    const Evaluation& evaluation) const {
+    const Fragments& fragments = tables.fragments;
+    const size_t loop = fragments.loop ? 1 : 0, vertex24 = evaluation.vertex24 ? 1 : 0;
+    shared::KernelPush push{};
+    push.instanceCount = window.instanceCount;
+    push.poolStride = tables.poolStride;
+    push.scratchStride = fragments.scratchStride;
+    push.verticesPerInstance = evaluation.verticesPerInstance;
+    push.samples = sampleCount(fragments.loop ? Domain::triangle : Domain::quad, evaluation.rate);
+
+    const size_t stepwise = firstStepwise(fragments);
+    push.step = fragments.steps;
+    for (size_t c = 0; c < stepwise;) {
+        const size_t bucket = bucketOf(fragments.classes[c].sharedPoints);
+        push.records = fragments.classes[c].fragments.table;
+        push.count = 0;
+        for (; c < stepwise && bucketOf(fragments.classes[c].sharedPoints) == bucket; ++c) {
+            push.count += fragments.classes[c].fragments.count;
+        }
+        dispatch(commandBuffer, buckets_[bucket].pipelines[loop][vertex24].get(), window.set, push,
+                 uint64_t{push.count} * push.instanceCount);
+    }
+    if (stepwise == fragments.classes.size()) {
+        return;
+    }
+    for (uint32_t step = 1; step <= fragments.steps + 1; ++step) {
+        const bool limit = step > fragments.steps;
+        const size_t fromNet = step == 1 ? 1 : 0;
+        const Section blocks = blocksFrom(fragments, stepwise, step - 1);
+        push.records = blocks.table;
+        push.count = blocks.count;
+        push.step = limit ? fragments.steps : step;
+        const uint64_t lanes = uint64_t{push.count} * push.instanceCount * shared::kBlockLanes;
+        const uint64_t local = device_->mapping.localSize;
+        if (step > 1) {
+            gpu::computeBarrier(*device_, commandBuffer);
+        }
+        dispatch(commandBuffer, (limit ? limit_[loop][fromNet][vertex24] : refine_[loop][fromNet]).get(), window.set,
+                 push, (lanes + local - 1) / local);
+    }
+}
+
+} // namespace supple::surface::kernel

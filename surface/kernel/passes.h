@@ -1,0 +1,52 @@
+// Evaluation by the subdivision kernel: fragments refined and taken to the limit, in shared memory or level by level.
+#pragma once
+
+#include "gpu/pipeline.h"
+#include "shaders/shared/kernel.h"
+#include "surface/evaluation.h"
+#include "surface/scheme.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace supple::surface::kernel {
+
+/// GPUs: a workgroup a fragment, in shared memory; pipelines by how much they take of it. CPU devices, and fragments
+/// too large for the device's shared memory: a dispatch a level, through a scratch buffer.
+class Passes {
+public:
+    struct Shaders {
+        std::span<const uint32_t> fragment, refine, limit;
+    };
+    [[nodiscard]] static Result<Passes> create(const gpu::Device& device, const gpu::ComputeLayout& layout,
+                                               const Shaders& shaders);
+
+    /// Points an instance in the scratch buffer; 0 where none is needed.
+    [[nodiscard]] uint32_t scratchStride(const Fragments& fragments) const;
+
+    /// Puts its own barriers between levels.
+    void record(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
+                const Evaluation& evaluation) const;
+
+private:
+    /// The first class that goes through the scratch buffer.
+    [[nodiscard]] size_t firstStepwise(const Fragments& fragments) const;
+    [[nodiscard]] size_t bucketOf(uint32_t sharedPoints) const;
+    void dispatch(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
+                  const shared::KernelPush& push, uint64_t groups) const;
+
+    const gpu::Device* device_ = nullptr;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    struct Bucket {
+        uint32_t sharedPoints = 0;
+        std::array<std::array<gpu::PipelineHandle, 2>, 2> pipelines; ///< by loop, 24-byte vertices
+    };
+    std::vector<Bucket> buckets_; ///< sharedPoints rise; empty on CPU devices
+    // By loop and whether the level before is the isolated one; the limit also by 24-byte vertices.
+    std::array<std::array<gpu::PipelineHandle, 2>, 2> refine_;
+    std::array<std::array<std::array<gpu::PipelineHandle, 2>, 2>, 2> limit_;
+};
+
+} // namespace supple::surface::kernel

@@ -1,0 +1,400 @@
+#include "surface/kernel/scheme.h"
+
+#include "shaders/shared/kernel.h"
+#include "surface/kernel/masks.h"
+#include "surface/kernel/pattern.h"
+#include "surface/table_writer.h"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <tuple>
+
+namespace supple::surface::kernel {
+
+namespace {
+
+static_assert(static_cast<uint32_t>(Rule::vertex) == shared::kVertexRule &&
+              static_cast<uint32_t>(Rule::edge) == shared::kEdgeRule &&
+              static_cast<uint32_t>(Rule::face) == shared::kFaceRule &&
+              static_cast<uint32_t>(Rule::centre) == shared::kCentreRule);
+
+constexpr uint32_t kMaxPoints = 0xFFFF; ///< 16-bit indices
+
+/// Fragments that share all their tables.
+struct ClassKey {
+    FragmentKind kind = FragmentKind::vertex;
+    Fan fan;
+    bool sharp = false;
+
+    auto operator<=>(const ClassKey&) const = default;
+};
+
+/// A level of a fragment: where its tables lie.
+struct LevelTables {
+    uint32_t rows = 0, neighbours = 0; ///< elements
+    uint32_t points = 0;
+};
+
+/// What fragments of one fan share whether sharp or not.
+struct FanTables {
+    std::vector<LevelTables> levels; ///< 0..steps
+    uint32_t limitRows = 0, limitCount = 0;
+};
+
+struct ClassTables {
+    ClassKey key;
+    std::vector<uint32_t> fragments; ///< of the mesh
+    std::vector<LevelTables> levels;
+    uint32_t limitRows = 0, limitCount = 0;
+    uint32_t net = 0, sharpness = 0, patches = 0, masks = 0; ///< words
+    uint32_t centreSteps = 0, header = 0;                    ///< elements
+    std::vector<uint32_t> runs;                              ///< per level: its run in the scratch buffer
+    [[nodiscard]] uint32_t sharedPoints() const {
+        const size_t last = levels.size() - 1;
+        return levels[last].points + (last > 0 ? levels[last - 1].points : 0);
+    }
+    [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(fragments.size()); }
+};
+
+class Builder {
+public:
+    Builder(const Mesh& mesh, uint32_t depth)
+        : mesh_(mesh), loop_(mesh.subdivision == Subdivision::loop),
+          steps_(depth > mesh.isolationSteps ? depth - mesh.isolationSteps : 0), writer_(tables_.words) {}
+
+    Result<Tables> build() {
+        sortFragments();
+        for (const ClassTables& c : classes_) {
+            if (c.key.kind == FragmentKind::vertex &&
+                pointCount(c.key.fan, (1u << steps_) + 1) + shared::kBlockLanes > kMaxPoints) {
+                const Fragment& fragment = mesh_.fragments[c.fragments.front()];
+                return Error{ErrorCode::limit, "vertex " + std::to_string(mesh_.net[fragment.firstNet]) + " has " +
+                                                   std::to_string(c.key.fan.sectors) + " faces: at depth " +
+                                                   std::to_string(steps_ + mesh_.isolationSteps) +
+                                                   " they have more points than the subdivision kernel counts"};
+            }
+        }
+        sortPatches();
+        tables_.isolationSteps = mesh_.isolationSteps;
+        tables_.notes = mesh_.notes;
+        tables_.poolStride = (mesh_.stencils.rows() + 15) / 16 * 16;
+        writeIsolation();
+        for (ClassTables& c : classes_) {
+            writeClass(c);
+        }
+        writeFragments();
+        writeBlocks();
+        if (!patches_.empty()) {
+            tables_.ranges.push_back({loop_ ? PatchClass::loop : PatchClass::catmullClark,
+                                      {0, static_cast<uint32_t>(patches_.size())},
+                                      0,
+                                      0});
+        }
+        finishTables(mesh_.cage, patches_, writer_, tables_);
+        return std::move(tables_);
+    }
+
+private:
+    [[nodiscard]] std::span<const float> sharpness(const Fragment& fragment) const {
+        return std::span(mesh_.spokeSharpness).subspan(fragment.firstSpoke, fragment.spokes());
+    }
+
+    /// Classes by what a workgroup needs for a fragment.
+    void sortFragments() {
+        std::map<ClassKey, std::vector<uint32_t>> byKey;
+        for (uint32_t f = 0; f < mesh_.fragments.size(); ++f) {
+            const Fragment& fragment = mesh_.fragments[f];
+            const std::span<const float> spokes = sharpness(fragment);
+            const bool sharp = fragment.centreSharpness > 0.0f ||
+                               std::any_of(spokes.begin(), spokes.end(), [](float s) { return s > 0.0f; });
+            byKey[{fragment.kind, {mesh_.subdivision, fragment.sectors, fragment.open}, sharp}].push_back(f);
+        }
+        for (auto& [key, fragments] : byKey) {
+            ClassTables& c = classes_.emplace_back();
+            c.key = key;
+            c.fragments = std::move(fragments);
+            for (uint32_t level = 0; level <= steps_; ++level) {
+                const uint32_t side = 1u << level;
+                c.levels.push_back(
+                    {0, 0, key.kind == FragmentKind::facet ? facetPointCount(side) : pointCount(key.fan, side + 1)});
+            }
+        }
+        std::stable_sort(classes_.begin(), classes_.end(), [](const ClassTables& a, const ClassTables& b) {
+            return a.sharedPoints() < b.sharedPoints();
+        });
+    }
+
+    void sortPatches() {
+        for (uint32_t f = 0; f < mesh_.cage.faceCount(); ++f) {
+            if (mesh_.holes[f] != 0) {
+                continue;
+            }
+            DraftPatch& patch = patches_.emplace_back();
+            patch.facet = f;
+            patch.material = mesh_.cage.faceMaterials.empty() ? cage::kNone : mesh_.cage.faceMaterials[f];
+            patch.info.face = mesh_.sourceFaces[f];
+            patch.info.patchClass = loop_ ? PatchClass::loop : PatchClass::catmullClark;
+            patch.info.cornerCount = mesh_.cage.sides(f);
+            for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
+                patch.cageCorners[i] = mesh_.cage.faceStarts[f] + i;
+                patch.info.corners[i] = mesh_.cornerSources[patch.cageCorners[i]];
+            }
+        }
+        surface::sortPatches(patches_);
+        facePatches_.assign(mesh_.cage.faceCount(), shared::kNoPatch);
+        for (uint32_t p = 0; p < patches_.size(); ++p) {
+            facePatches_[patches_[p].facet] = p;
+        }
+    }
+
+    void writeIsolation() {
+        const Stencils& stencils = mesh_.stencils;
+        const auto entries = [&](uint32_t row) { return stencils.starts[row + 1] - stencils.starts[row] - 1; };
+        std::vector<uint32_t> order(stencils.rows()), first(stencils.rows());
+        for (uint32_t row = 0; row < stencils.rows(); ++row) {
+            order[row] = row;
+            first[row] = writer_.element();
+            for (uint32_t i = stencils.starts[row] + 1; i < stencils.starts[row + 1]; ++i) {
+                writer_.put({stencils.vertices[i], floatBits(stencils.weights[i])});
+            }
+            if (entries(row) % 2 != 0) { // a weight of 0 on the row's own first vertex
+                writer_.put({stencils.vertices[stencils.starts[row]], 0u});
+            }
+        }
+        // By length, so that neighbouring lanes loop equally long.
+        std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return entries(a) < entries(b); });
+        tables_.constructions.push_back(
+            {Stage::vertex, Kernel::isolate, {writer_.element(), stencils.rows()}, stencils.rows()});
+        for (const uint32_t row : order) {
+            writer_.put({stencils.vertices[stencils.starts[row]], first[row], entries(row), row});
+        }
+    }
+
+    void putHalves(const std::array<uint32_t, 8>& values) {
+        for (size_t i = 0; i < 8; i += 2) {
+            writer_.put({values[i] | values[i + 1] << 16});
+        }
+    }
+
+    void putRows(const Pattern& pattern) {
+        for (const Row& row : pattern.rows) {
+            std::array<uint32_t, 8> halves{};
+            std::copy(row.sources.begin(), row.sources.end(), halves.begin());
+            halves[7] = static_cast<uint32_t>(row.rule) | (row.spoke == kNoSpoke ? 0u : (row.spoke + 1) << 2);
+            putHalves(halves);
+        }
+    }
+
+    void putLimitRow(const Pattern& pattern, uint32_t point, uint32_t sector, bool right, uint32_t sample) {
+        putHalves(pattern.neighbours[point]);
+        const uint32_t spoke = pattern.spokes[point];
+        writer_.put({point, spoke == kNoSpoke ? 0u : spoke + 1, sector | (right ? shared::kRightSide : 0u), sample});
+    }
+
+    /// Calls visit(a, b, sample) for the samples of a sector in grid order.
+    template <class Visit>
+    void forEachSample(Visit&& visit) const {
+        const int32_t side = 1 << steps_;
+        uint32_t sample = 0;
+        for (int32_t b = 0; b <= side; ++b) {
+            for (int32_t a = 0; a <= (loop_ ? side - b : side); ++a) {
+                visit(a, b, sample++);
+            }
+        }
+    }
+
+    const FanTables& fanTables(const Fan& fan) {
+        const auto [found, isNew] = fans_.try_emplace(fan);
+        FanTables& tables = found->second;
+        if (isNew) {
+            const Pattern pattern = fanPattern(fan, steps_);
+            LevelTables level{writer_.element(), 0, 0};
+            putRows(pattern);
+            level.neighbours = writer_.element();
+            for (const Neighbours& neighbours : pattern.neighbours) {
+                putHalves(neighbours);
+            }
+            tables.levels.assign(steps_ + 1, level); // one table serves all levels
+            tables.limitRows = writer_.element();
+            for (uint32_t sector = 0; sector < fan.sectors; ++sector) {
+                forEachSample([&](int32_t a, int32_t b, uint32_t sample) {
+                    putLimitRow(pattern, pointIndex(fan, sector, a, b), sector, a == 0, sample);
+                    ++tables.limitCount;
+                });
+            }
+        }
+        return tables;
+    }
+
+    const FanTables& facetTables() {
+        if (facets_.levels.empty()) {
+            Pattern pattern;
+            for (uint32_t step = 0; step <= steps_; ++step) {
+                pattern = facetPattern(step);
+                facets_.levels.push_back({writer_.element(), 0, 0});
+                putRows(pattern);
+            }
+            facets_.limitRows = writer_.element();
+            forEachSample([&](int32_t a, int32_t b, uint32_t sample) {
+                const uint32_t point = facetPointIndex(1u << steps_, a, b);
+                // The facet lies right of the lines through c0 and c2, left of that through c1.
+                putLimitRow(pattern, point, 0, pattern.spokes[point] != 1, sample);
+                ++facets_.limitCount;
+            });
+        }
+        return facets_;
+    }
+
+    void writeClass(ClassTables& c) {
+        const bool facet = c.key.kind == FragmentKind::facet;
+        const FanTables& shape = facet ? facetTables() : fanTables(c.key.fan);
+        for (uint32_t level = 0; level <= steps_; ++level) {
+            c.levels[level].rows = shape.levels[level].rows;
+            c.levels[level].neighbours = shape.levels[level].neighbours;
+        }
+        c.limitRows = shape.limitRows;
+        c.limitCount = shape.limitCount;
+        const uint32_t sectors = c.key.fan.sectors;
+        if (!facet) {
+            for (const uint32_t f : c.fragments) {
+                writeMasks(c.key.fan, mesh_.fragments[f]);
+            }
+        }
+        if (c.key.sharp && !facet) {
+            writeCentreSteps(c);
+        }
+        const auto words = [&](uint32_t rows, auto&& value) {
+            const uint32_t first = 4 * writer_.element();
+            for (uint32_t row = 0; row < rows; ++row) {
+                for (const uint32_t f : c.fragments) {
+                    writer_.put({value(mesh_.fragments[f], row)});
+                }
+            }
+            return first;
+        };
+        c.net = words(c.levels[0].points, [&](const Fragment& f, uint32_t i) { return mesh_.net[f.firstNet + i]; });
+        c.patches = words(sectors, [&](const Fragment& f, uint32_t sector) {
+            return facePatches_[mesh_.sectorFaces[f.firstSector + sector]];
+        });
+        if (c.key.sharp) {
+            c.sharpness = words(mesh_.fragments[c.fragments.front()].spokes(), [&](const Fragment& f, uint32_t spoke) {
+                return std::bit_cast<uint32_t>(sharpness(f)[spoke]);
+            });
+        }
+        if (!facet) {
+            uint32_t next = 0;
+            std::vector<uint32_t> own;
+            std::swap(own, masks_);
+            c.masks = words(
+                sectors, [&](const Fragment&, uint32_t sector) { return own[next++ % c.count() * sectors + sector]; });
+        }
+        const CentreWeights weights = facet ? CentreWeights{} : refineWeights(mesh_.subdivision, c.key.fan.sectors);
+        c.header = writer_.element();
+        writer_.put({c.count(), sectors | (c.key.sharp ? shared::kSharpClass : 0u), c.net, c.sharpness, c.patches,
+                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows,
+                     c.limitCount});
+        for (uint32_t level = 0; level <= steps_; ++level) {
+            c.runs.push_back(tables_.fragments.scratchStride);
+            const LevelTables& l = c.levels[level];
+            writer_.put({l.rows, l.neighbours, l.points, c.runs.back()});
+            tables_.fragments.scratchStride += level > 0 ? l.points * c.count() : 0;
+        }
+    }
+
+    /// Appends to masks_ the mask element of every sector of a fragment.
+    void writeMasks(const Fan& fan, const Fragment& fragment) {
+        std::vector<float> spokes;
+        for (const float s : sharpness(fragment)) {
+            spokes.push_back(softened(s, steps_));
+        }
+        const CentreLimit limit = centreLimit(fan, spokes, softened(fragment.centreSharpness, steps_));
+        const size_t first = masks_.size();
+        masks_.resize(first + fan.sectors);
+        const uint32_t ring = pointCount(fan, 1) - 1;
+        for (const CentreRun& run : limit.runs) {
+            std::vector<uint32_t> words = {run.corner ? shared::kCornerMask : 0u, run.firstSector, run.sectors, ring};
+            for (uint32_t i = 1; i <= ring; ++i) {
+                words.insert(words.end(), {floatBits(limit.position[i]), run.corner ? 0u : floatBits(run.first[i]),
+                                           run.corner ? 0u : floatBits(run.second[i]), 0u});
+            }
+            const auto [known, isNew] = maskElements_.try_emplace(words, 0u);
+            if (isNew) {
+                known->second = writer_.element();
+                for (const uint32_t word : words) {
+                    writer_.put({word});
+                }
+            }
+            for (uint32_t h = 0; h < run.sectors; ++h) {
+                masks_[first + (run.firstSector + h) % fan.sectors] = known->second;
+            }
+        }
+    }
+
+    void writeCentreSteps(ClassTables& c) {
+        c.centreSteps = writer_.element();
+        for (uint32_t step = 0; step < steps_; ++step) {
+            for (const uint32_t f : c.fragments) {
+                std::vector<float> spokes;
+                for (const float s : sharpness(mesh_.fragments[f])) {
+                    spokes.push_back(softened(s, step));
+                }
+                const CentreStep centre = centreStep(spokes, softened(mesh_.fragments[f].centreSharpness, step));
+                writer_.put({floatBits(centre.smooth), floatBits(centre.crease), centre.first, centre.second});
+            }
+        }
+    }
+
+    void writeFragments() {
+        tables_.fragments.steps = steps_;
+        tables_.fragments.loop = loop_;
+        tables_.fragments.scratchStride = (tables_.fragments.scratchStride + 15) / 16 * 16;
+        for (const ClassTables& c : classes_) {
+            tables_.fragments.classes.push_back({c.sharedPoints(), {writer_.element(), c.count()}, {}});
+            for (uint32_t fragment = 0; fragment < c.count(); ++fragment) {
+                writer_.put({c.header, fragment, 0u, 0u});
+            }
+        }
+    }
+
+    /// Steps 1.., then the limit.
+    void writeBlocks() {
+        for (uint32_t step = 1; step <= steps_ + 1; ++step) {
+            const bool limit = step > steps_;
+            for (size_t k = 0; k < classes_.size(); ++k) {
+                const ClassTables& c = classes_[k];
+                const uint64_t lanes = uint64_t{limit ? c.limitCount : c.levels[step].points} * c.count();
+                Section section{writer_.element(), 0};
+                for (uint64_t lane = 0; lane < lanes; lane += shared::kBlockLanes, ++section.count) {
+                    const LevelTables& before = c.levels[step - 1];
+                    writer_.put({limit ? c.limitRows : c.levels[step].rows, before.neighbours,
+                                 static_cast<uint32_t>(lane / c.count()), static_cast<uint32_t>(lane % c.count()),
+                                 step == 1 ? c.net : c.runs[step - 1], limit ? 0u : c.runs[step], c.count(), c.header,
+                                 limit ? c.limitCount : c.levels[step].points, 0u, 0u, 0u});
+                }
+                tables_.fragments.classes[k].blocks.push_back(section);
+            }
+        }
+    }
+
+    const Mesh& mesh_;
+    bool loop_;
+    uint32_t steps_;
+    Tables tables_;
+    TableWriter writer_;
+    std::vector<ClassTables> classes_;
+    std::vector<DraftPatch> patches_;
+    std::vector<uint32_t> facePatches_; ///< per face of the isolated level
+    std::map<Fan, FanTables> fans_;
+    FanTables facets_;
+    std::map<std::vector<uint32_t>, uint32_t> maskElements_;
+    std::vector<uint32_t> masks_; ///< [fragment][sector] of the class at work
+};
+
+} // namespace
+
+Result<Tables> buildTables(const Mesh& mesh, uint32_t depth) {
+    return Builder(mesh, depth).build();
+}
+
+} // namespace supple::surface::kernel
