@@ -119,9 +119,11 @@ struct Fragments {
     bool loop = false;          ///< else Catmull-Clark
     uint32_t scratchStride = 0; ///< points an instance in the scratch buffer
     struct Class {
-        uint32_t sharedPoints = 0;   ///< what a workgroup holds of a fragment at a time
-        Section fragments;           ///< one record a fragment
-        std::vector<Section> blocks; ///< steps 1.., then the limit; those of a step follow each other, class by class
+        uint32_t sharedPoints = 0; ///< what a workgroup holds of a fragment at a time
+        Section fragments;         ///< one record a fragment
+        /// By step and kind of work (kRowKinds a step, then kSampleKinds for the limit); those of one kind follow each
+        /// other, class by class.
+        std::vector<Section> blocks;
     };
     std::vector<Class> classes; ///< sharedPoints rise
 };

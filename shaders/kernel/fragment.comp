@@ -34,6 +34,7 @@ void main() {
     uvec4 record = tableElement(push.records + (id - instance * push.count));
     uint header = record.x, fragment = record.y;
     uvec4 head = tableElement(header), last = tableElement(header + 2u);
+    uint patches = tableElement(header + 1u).x;
     uint fragments = head.x, levels = header + kClassHeaderElements;
 
     // Even levels begin at 0, odd ones at the other end, so that the last two share the memory whatever their sizes.
@@ -54,9 +55,12 @@ void main() {
     }
     for (uint i = gl_LocalInvocationID.x; i < last.w; i += gl_WorkGroupSize.x) {
         uint at = last.z + 2u * i;
+        uvec4 place = tableElement(at + 1u);
         vec3 position, normal;
-        uint vertex = limitSample(tableElement(at), tableElement(at + 1u), header, fragments, fragment, push.step, position,
-                                  normal);
-        if (vertex != kNoPatch) storeSurfaceVertex(instance * push.verticesPerInstance + vertex, position, normal);
+        limitSample(tableElement(at), place, header, fragments, fragment, push.step, position, normal);
+        uint patchIndex = tableWord(patches + (place.z & ~kRightSide) * fragments + fragment);
+        if (patchIndex != kNoPatch)
+            storeSurfaceVertex(instance * push.verticesPerInstance + patchIndex * push.samples + place.w, position,
+                               unitNormal(normal));
     }
 }

@@ -15,15 +15,14 @@ vec3 refinedPoint(uvec4 packedRow, uint neighbours, uint header, uint fragments,
     if (spoke != 0u && (head.y & kSharpClass) != 0u)
         sharpness = spokeSharpness(head.w, spoke - 1u, fragments, fragment, step - 1u);
     vec3 p = vec3(0.0);
-    // Each rule is a loop of one round: CPU devices run both sides of an `if` whatever the lanes say, but leave loops.
-    for (uint once = rule == kVertexRule ? 1u : 0u; once != 0u; --once) {
+    if (rule == kVertexRule) {
         Sources around = row;
         if (!kLoop) around = unpackSources(tableElement(neighbours + row.s[0]));
         p = vertexPoint(row, around, sharpness);
     }
-    for (uint once = rule == kEdgeRule ? 1u : 0u; once != 0u; --once) p = edgePoint(row, sharpness);
-    for (uint once = !kLoop && rule == kFaceRule ? 1u : 0u; once != 0u; --once) p = facePoint(row);
-    for (uint once = rule == kCentreRule ? 1u : 0u; once != 0u; --once) {
+    if (rule == kEdgeRule) p = edgePoint(row, sharpness);
+    if (!kLoop && rule == kFaceRule) p = facePoint(row);
+    if (rule == kCentreRule) {
         vec2 weights = uintBitsToFloat(tableElement(header + 2u).xy);
         vec4 shares = vec4(1.0, 0.0, 0.0, 0.0);
         uvec4 centre = uvec4(0u);

@@ -15,10 +15,16 @@
 
 void main() {
     findLane();
-    uint at = lane.rows + 2u * lane.row;
+    uint at = lane.rows + 2u * lane.place;
+    uvec4 around = tableElement(at), place = tableElement(at + 1u);
     vec3 position, normal;
-    uint vertex = limitSample(tableElement(at), tableElement(at + 1u), lane.header, lane.fragments, lane.fragment, push.step,
-                              position, normal);
-    if (!lane.idle && vertex != kNoPatch)
-        storeSurfaceVertex(lane.instance * push.verticesPerInstance + vertex, position, normal);
+    if (kKind == kPlainSamples)
+        limitPoint(place.x, unpackSources(around), 0.0, false, position, normal);
+    else
+        limitSample(around, place, tableElement(lane.record + 2u).y, lane.fragments, lane.fragment, push.step, position,
+                    normal);
+    uint patchIndex = tableWord(lane.list + (place.z & ~kRightSide) * lane.fragments + lane.fragment);
+    if (!lane.idle && patchIndex != kNoPatch)
+        storeSurfaceVertex(lane.instance * push.verticesPerInstance + patchIndex * push.samples + place.w, position,
+                           unitNormal(normal));
 }

@@ -1,16 +1,16 @@
-// Points of fragments in the scratch buffer, and the block a lane works in (shared/kernel.h).
+// Points of fragments in the scratch buffer, and the lane's place in its block (shared/kernel.h).
 layout(constant_id = 5) const bool kFromNet = false; // the level that is read is the isolated one
+layout(constant_id = 6) const uint kKind = 0u;       // of work
 
 layout(set = 0, binding = kScratchBinding, std430) buffer Scratch { vec4 scratch[]; };
 layout(set = 0, binding = kScratchTexelBinding) uniform samplerBuffer scratchTexels;
 
 struct Lane {
-    uint instance;
-    uint rows, neighbours; // elements
-    uint read, write;      // runs
-    uint fragments, header;
-    uint row, fragment;
-    bool idle; // past the class's last row
+    uint instance, record;
+    uint rows, list;
+    uint read, write; // runs
+    uint fragments, place, fragment;
+    bool idle; // past the last place
 };
 Lane lane;
 
@@ -18,22 +18,20 @@ void findLane() {
     uint id = invocationIndex();
     uint block = min(id / kBlockLanes, push.count * push.instanceCount - 1u);
     lane.instance = block / push.count;
-    uint record = push.records + 3u * (block - lane.instance * push.count);
-    uvec4 where = tableElement(record), what = tableElement(record + 1u);
-    uint rows = tableElement(record + 2u).x;
+    lane.record = push.records + 3u * (block - lane.instance * push.count);
+    uvec4 where = tableElement(lane.record), what = tableElement(lane.record + 1u);
     lane.rows = where.x;
-    lane.neighbours = where.y;
+    lane.list = where.y;
     lane.read = what.x;
     lane.write = what.y;
     lane.fragments = what.z;
-    lane.header = what.w;
     uint beyond = where.w + id % kBlockLanes;
     // Small counts: the half keeps the quotient right however a device rounds.
     uint past = uint((float(beyond) + 0.5) / float(what.z));
-    lane.row = where.z + past;
+    lane.place = where.z + past;
     lane.fragment = beyond - past * what.z;
-    lane.idle = lane.row >= rows || id / kBlockLanes != block;
-    lane.row = min(lane.row, rows - 1u);
+    lane.idle = lane.place >= what.w || id / kBlockLanes != block;
+    lane.place = min(lane.place, what.w - 1u);
 }
 
 vec3 point(uint i) {

@@ -10,16 +10,17 @@ constexpr uint32_t kLoopConstant = gpu::kFirstPassConstant;
 constexpr uint32_t kVertex24Constant = kLoopConstant + 1;
 constexpr uint32_t kFromNetConstant = kLoopConstant + 2;
 constexpr uint32_t kSharedPointsConstant = kLoopConstant + 2;
+constexpr uint32_t kKindConstant = kLoopConstant + 3;
 
 /// Small fragments must not hold the memory of large ones, or too few fit on a compute unit at a time.
 constexpr uint32_t kBucketBytes[] = {4096, 16384, 32768, 49152};
 constexpr uint32_t kPointBytes = 12;
 
-/// Blocks of a step from class `first` on.
-Section blocksFrom(const Fragments& fragments, size_t first, size_t step) {
-    Section all = fragments.classes[first].blocks[step];
+/// Blocks of one step and kind from class `first` on.
+Section blocksFrom(const Fragments& fragments, size_t first, size_t kind) {
+    Section all = fragments.classes[first].blocks[kind];
     for (size_t c = first + 1; c < fragments.classes.size(); ++c) {
-        all.count += fragments.classes[c].blocks[step].count;
+        all.count += fragments.classes[c].blocks[kind].count;
     }
     return all;
 }
@@ -56,11 +57,18 @@ Result<Passes> Passes::create(const gpu::Device& device, const gpu::ComputeLayou
                 make(bucket.pipelines[loop][flag], shaders.fragment, "supple kernel, shared memory",
                      {{kLoopConstant, loop}, {kVertex24Constant, flag}, {kSharedPointsConstant, bucket.sharedPoints}});
             }
-            make(passes.refine_[loop][flag], shaders.refine, "supple kernel, refine",
-                 {{kLoopConstant, loop}, {kFromNetConstant, flag}});
-            for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24) {
-                make(passes.limit_[loop][flag][vertex24], shaders.limit, "supple kernel, limit",
-                     {{kLoopConstant, loop}, {kVertex24Constant, vertex24}, {kFromNetConstant, flag}});
+            for (uint32_t kind = 0; kind < shared::kRowKinds; ++kind) {
+                make(passes.refine_[loop][flag][kind], shaders.refine, "supple kernel, refine",
+                     {{kLoopConstant, loop}, {kFromNetConstant, flag}, {kKindConstant, kind}});
+            }
+            for (uint32_t kind = 0; kind < shared::kSampleKinds; ++kind) {
+                for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24) {
+                    make(passes.limit_[loop][flag][kind][vertex24], shaders.limit, "supple kernel, limit",
+                         {{kLoopConstant, loop},
+                          {kVertex24Constant, vertex24},
+                          {kFromNetConstant, flag},
+                          {kKindConstant, kind}});
+                }
             }
         }
     }
@@ -122,20 +130,28 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
     if (stepwise == fragments.classes.size()) {
         return;
     }
-    for (uint32_t step = 1; step <= fragments.steps + 1; ++step) {
-        const bool limit = step > fragments.steps;
-        const size_t fromNet = step == 1 ? 1 : 0;
-        const Section blocks = blocksFrom(fragments, stepwise, step - 1);
+    const auto stepwiseWork = [&](const gpu::PipelineHandle& pipeline, size_t kind) {
+        const Section blocks = blocksFrom(fragments, stepwise, kind);
+        if (blocks.count == 0) {
+            return;
+        }
         push.records = blocks.table;
         push.count = blocks.count;
-        push.step = limit ? fragments.steps : step;
         const uint64_t lanes = uint64_t{push.count} * push.instanceCount * shared::kBlockLanes;
         const uint64_t local = device_->mapping.localSize;
-        if (step > 1) {
-            gpu::computeBarrier(*device_, commandBuffer);
+        dispatch(commandBuffer, pipeline.get(), window.set, push, (lanes + local - 1) / local);
+    };
+    for (uint32_t step = 1; step <= fragments.steps; ++step) {
+        push.step = step;
+        for (uint32_t kind = 0; kind < shared::kRowKinds; ++kind) {
+            stepwiseWork(refine_[loop][step == 1 ? 1 : 0][kind], (step - 1) * shared::kRowKinds + kind);
         }
-        dispatch(commandBuffer, (limit ? limit_[loop][fromNet][vertex24] : refine_[loop][fromNet]).get(), window.set,
-                 push, (lanes + local - 1) / local);
+        gpu::computeBarrier(*device_, commandBuffer);
+    }
+    push.step = fragments.steps;
+    for (uint32_t kind = 0; kind < shared::kSampleKinds; ++kind) {
+        stepwiseWork(limit_[loop][fragments.steps == 0 ? 1 : 0][kind][vertex24],
+                     fragments.steps * shared::kRowKinds + kind);
     }
 }
 

@@ -30,23 +30,30 @@ struct ClassKey {
     auto operator<=>(const ClassKey&) const = default;
 };
 
+/// A list of rows or samples.
+struct List {
+    uint32_t first = 0; ///< word or element
+    uint32_t count = 0;
+};
+
 /// A level of a fragment: where its tables lie.
 struct LevelTables {
     uint32_t rows = 0, neighbours = 0; ///< elements
     uint32_t points = 0;
+    std::array<List, shared::kRowKinds> lists; ///< words; of the level's own rows
 };
 
-/// What fragments of one fan share whether sharp or not.
-struct FanTables {
-    std::vector<LevelTables> levels; ///< 0..steps
-    uint32_t limitRows = 0, limitCount = 0;
+/// A fan's pattern, or a facet's of one level, and where it lies in the tables.
+struct PatternTables {
+    Pattern pattern;
+    uint32_t rows = 0, neighbours = 0; ///< elements
 };
 
 struct ClassTables {
     ClassKey key;
-    std::vector<uint32_t> fragments; ///< of the mesh
-    std::vector<LevelTables> levels;
-    uint32_t limitRows = 0, limitCount = 0;
+    std::vector<uint32_t> fragments;                         ///< of the mesh
+    std::vector<LevelTables> levels;                         ///< 0..steps
+    std::array<List, shared::kSampleKinds> limits;           ///< elements, one after the other
     uint32_t net = 0, sharpness = 0, patches = 0, masks = 0; ///< words
     uint32_t centreSteps = 0, header = 0;                    ///< elements
     std::vector<uint32_t> runs;                              ///< per level: its run in the scratch buffer
@@ -177,19 +184,72 @@ private:
         }
     }
 
-    void putRows(const Pattern& pattern) {
+    PatternTables writePattern(Pattern pattern) {
+        PatternTables tables;
+        tables.rows = writer_.element();
         for (const Row& row : pattern.rows) {
             std::array<uint32_t, 8> halves{};
             std::copy(row.sources.begin(), row.sources.end(), halves.begin());
             halves[7] = static_cast<uint32_t>(row.rule) | (row.spoke == kNoSpoke ? 0u : (row.spoke + 1) << 2);
             putHalves(halves);
         }
+        tables.neighbours = writer_.element();
+        for (const Neighbours& neighbours : pattern.neighbours) {
+            putHalves(neighbours);
+        }
+        tables.pattern = std::move(pattern);
+        return tables;
     }
 
-    void putLimitRow(const Pattern& pattern, uint32_t point, uint32_t sector, bool right, uint32_t sample) {
-        putHalves(pattern.neighbours[point]);
-        const uint32_t spoke = pattern.spokes[point];
-        writer_.put({point, spoke == kNoSpoke ? 0u : spoke + 1, sector | (right ? shared::kRightSide : 0u), sample});
+    const PatternTables& patternOf(const ClassKey& key, uint32_t level) {
+        if (key.kind == FragmentKind::vertex) { // one for all levels
+            const auto found = fans_.find(key.fan);
+            return found != fans_.end()
+                       ? found->second
+                       : fans_.emplace(key.fan, writePattern(fanPattern(key.fan, steps_))).first->second;
+        }
+        while (facets_.size() <= level) {
+            facets_.push_back(writePattern(facetPattern(static_cast<uint32_t>(facets_.size()))));
+        }
+        return facets_[level];
+    }
+
+    static uint32_t kindOf(const Row& row, bool sharp) {
+        if (row.rule == Rule::centre || (sharp && row.spoke != kNoSpoke)) {
+            return shared::kOtherRows;
+        }
+        return row.rule == Rule::face   ? shared::kPlainFaceRows
+               : row.rule == Rule::edge ? shared::kPlainEdgeRows
+                                        : shared::kPlainVertexRows;
+    }
+
+    /// Lists the rows of a level by kind. A fan's levels take the first rows of one list each.
+    void writeLists(ClassTables& c) {
+        const bool facet = c.key.kind == FragmentKind::facet;
+        for (uint32_t level = 0; level <= steps_; ++level) {
+            LevelTables& l = c.levels[level];
+            const PatternTables& tables = patternOf(c.key, level);
+            l.rows = tables.rows;
+            l.neighbours = tables.neighbours;
+            for (uint32_t kind = 0; kind < shared::kRowKinds && level > 0; ++kind) {
+                std::vector<uint32_t> rows;
+                for (uint32_t row = 0; row < l.points; ++row) {
+                    if (kindOf(tables.pattern.rows[row], c.key.sharp) == kind) {
+                        rows.push_back(row);
+                    }
+                }
+                l.lists[kind] = {0, static_cast<uint32_t>(rows.size())};
+                if (facet || level == steps_) {
+                    l.lists[kind].first = 4 * writer_.element();
+                    for (const uint32_t row : rows) {
+                        writer_.put({row});
+                    }
+                    for (uint32_t before = 1; before < level && !facet; ++before) {
+                        c.levels[before].lists[kind].first = l.lists[kind].first;
+                    }
+                }
+            }
+        }
     }
 
     /// Calls visit(a, b, sample) for the samples of a sector in grid order.
@@ -204,57 +264,36 @@ private:
         }
     }
 
-    const FanTables& fanTables(const Fan& fan) {
-        const auto [found, isNew] = fans_.try_emplace(fan);
-        FanTables& tables = found->second;
-        if (isNew) {
-            const Pattern pattern = fanPattern(fan, steps_);
-            LevelTables level{writer_.element(), 0, 0};
-            putRows(pattern);
-            level.neighbours = writer_.element();
-            for (const Neighbours& neighbours : pattern.neighbours) {
-                putHalves(neighbours);
-            }
-            tables.levels.assign(steps_ + 1, level); // one table serves all levels
-            tables.limitRows = writer_.element();
-            for (uint32_t sector = 0; sector < fan.sectors; ++sector) {
+    void writeLimits(ClassTables& c) {
+        const bool facet = c.key.kind == FragmentKind::facet;
+        const Pattern& pattern = patternOf(c.key, steps_).pattern;
+        for (uint32_t kind = 0; kind < shared::kSampleKinds; ++kind) {
+            c.limits[kind].first = writer_.element();
+            for (uint32_t sector = 0; sector < c.key.fan.sectors; ++sector) {
                 forEachSample([&](int32_t a, int32_t b, uint32_t sample) {
-                    putLimitRow(pattern, pointIndex(fan, sector, a, b), sector, a == 0, sample);
-                    ++tables.limitCount;
+                    const uint32_t point =
+                        facet ? facetPointIndex(1u << steps_, a, b) : pointIndex(c.key.fan, sector, a, b);
+                    const uint32_t spoke = pattern.spokes[point];
+                    const bool centre = !facet && point == 0;
+                    const bool other = centre || (c.key.sharp && spoke != kNoSpoke);
+                    if (other != (kind == shared::kOtherSamples)) {
+                        return;
+                    }
+                    // A facet lies right of the lines through c0 and c2, left of that through c1.
+                    const bool right = facet ? spoke != 1 : a == 0;
+                    putHalves(pattern.neighbours[point]);
+                    writer_.put({point, spoke == kNoSpoke ? 0u : spoke + 1, sector | (right ? shared::kRightSide : 0u),
+                                 sample});
+                    ++c.limits[kind].count;
                 });
             }
         }
-        return tables;
-    }
-
-    const FanTables& facetTables() {
-        if (facets_.levels.empty()) {
-            Pattern pattern;
-            for (uint32_t step = 0; step <= steps_; ++step) {
-                pattern = facetPattern(step);
-                facets_.levels.push_back({writer_.element(), 0, 0});
-                putRows(pattern);
-            }
-            facets_.limitRows = writer_.element();
-            forEachSample([&](int32_t a, int32_t b, uint32_t sample) {
-                const uint32_t point = facetPointIndex(1u << steps_, a, b);
-                // The facet lies right of the lines through c0 and c2, left of that through c1.
-                putLimitRow(pattern, point, 0, pattern.spokes[point] != 1, sample);
-                ++facets_.limitCount;
-            });
-        }
-        return facets_;
     }
 
     void writeClass(ClassTables& c) {
         const bool facet = c.key.kind == FragmentKind::facet;
-        const FanTables& shape = facet ? facetTables() : fanTables(c.key.fan);
-        for (uint32_t level = 0; level <= steps_; ++level) {
-            c.levels[level].rows = shape.levels[level].rows;
-            c.levels[level].neighbours = shape.levels[level].neighbours;
-        }
-        c.limitRows = shape.limitRows;
-        c.limitCount = shape.limitCount;
+        writeLists(c);
+        writeLimits(c);
         const uint32_t sectors = c.key.fan.sectors;
         if (!facet) {
             for (const uint32_t f : c.fragments) {
@@ -292,8 +331,8 @@ private:
         const CentreWeights weights = facet ? CentreWeights{} : refineWeights(mesh_.subdivision, c.key.fan.sectors);
         c.header = writer_.element();
         writer_.put({c.count(), sectors | (c.key.sharp ? shared::kSharpClass : 0u), c.net, c.sharpness, c.patches,
-                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows,
-                     c.limitCount});
+                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limits[0].first,
+                     c.limits[0].count + c.limits[1].count});
         for (uint32_t level = 0; level <= steps_; ++level) {
             c.runs.push_back(tables_.fragments.scratchStride);
             const LevelTables& l = c.levels[level];
@@ -357,24 +396,33 @@ private:
         }
     }
 
-    /// Steps 1.., then the limit.
     void writeBlocks() {
-        for (uint32_t step = 1; step <= steps_ + 1; ++step) {
-            const bool limit = step > steps_;
-            for (size_t k = 0; k < classes_.size(); ++k) {
-                const ClassTables& c = classes_[k];
-                const uint64_t lanes = uint64_t{limit ? c.limitCount : c.levels[step].points} * c.count();
-                Section section{writer_.element(), 0};
-                for (uint64_t lane = 0; lane < lanes; lane += shared::kBlockLanes, ++section.count) {
-                    const LevelTables& before = c.levels[step - 1];
-                    writer_.put({limit ? c.limitRows : c.levels[step].rows, before.neighbours,
-                                 static_cast<uint32_t>(lane / c.count()), static_cast<uint32_t>(lane % c.count()),
-                                 step == 1 ? c.net : c.runs[step - 1], limit ? 0u : c.runs[step], c.count(), c.header,
-                                 limit ? c.limitCount : c.levels[step].points, 0u, 0u, 0u});
+        for (uint32_t step = 1; step <= steps_; ++step) {
+            for (uint32_t kind = 0; kind < shared::kRowKinds; ++kind) {
+                for (size_t k = 0; k < classes_.size(); ++k) {
+                    const LevelTables& level = classes_[k].levels[step];
+                    writeBlocks(k, step, level.rows, level.lists[kind].first, level.lists[kind].count,
+                                classes_[k].runs[step]);
                 }
-                tables_.fragments.classes[k].blocks.push_back(section);
             }
         }
+        for (uint32_t kind = 0; kind < shared::kSampleKinds; ++kind) {
+            for (size_t k = 0; k < classes_.size(); ++k) {
+                const List& limits = classes_[k].limits[kind];
+                writeBlocks(k, steps_ + 1, limits.first, classes_[k].patches, limits.count, 0);
+            }
+        }
+    }
+
+    void writeBlocks(size_t classIndex, uint32_t step, uint32_t rows, uint32_t list, uint32_t places, uint32_t write) {
+        const ClassTables& c = classes_[classIndex];
+        Section section{writer_.element(), 0};
+        for (uint64_t lane = 0; lane < uint64_t{places} * c.count(); lane += shared::kBlockLanes, ++section.count) {
+            writer_.put({rows, list, static_cast<uint32_t>(lane / c.count()), static_cast<uint32_t>(lane % c.count()),
+                         step == 1 ? c.net : c.runs[step - 1], write, c.count(), places, c.levels[step - 1].neighbours,
+                         c.header, 0u, 0u});
+        }
+        tables_.fragments.classes[classIndex].blocks.push_back(section);
     }
 
     const Mesh& mesh_;
@@ -385,8 +433,8 @@ private:
     std::vector<ClassTables> classes_;
     std::vector<DraftPatch> patches_;
     std::vector<uint32_t> facePatches_; ///< per face of the isolated level
-    std::map<Fan, FanTables> fans_;
-    FanTables facets_;
+    std::map<Fan, PatternTables> fans_;
+    std::vector<PatternTables> facets_; ///< by level
     std::map<std::vector<uint32_t>, uint32_t> maskElements_;
     std::vector<uint32_t> masks_; ///< [fragment][sector] of the class at work
 };
