@@ -50,7 +50,7 @@ void closeFace(Level& to, const Level& from, uint32_t face) {
 
 // ---- the faces that come in ----
 
-/// Every face a fan of triangles from its first corner.
+/// Every face a fan of triangles: from its first corner, unless diagonals from there are edges already.
 class TriangleSplitter {
 public:
     TriangleSplitter(const Level& given, const Topology& topology) : given_(given), topology_(topology) {}
@@ -63,7 +63,10 @@ public:
                 return error;
             }
         }
-        noteSplits();
+        if (splits_ > kListedSplits) {
+            notes_.push_back("and " + std::to_string(splits_ - kListedSplits) +
+                             " more faces of four and more sides: split into triangles");
+        }
         return std::nullopt;
     }
 
@@ -71,56 +74,65 @@ public:
     std::vector<std::string> notes() { return std::move(notes_); }
 
 private:
+    static constexpr uint32_t kStartCorners = 64; ///< tried at most
+    static constexpr uint32_t kListedSplits = 16;
+
+    [[nodiscard]] uint32_t corner(uint32_t face, uint32_t k) const {
+        return given_.cage.faceStarts[face] + k % given_.cage.sides(face);
+    }
+
+    /// From corner `start` to corner start + k, smaller vertex first.
+    [[nodiscard]] std::pair<uint32_t, uint32_t> diagonal(uint32_t face, uint32_t start, uint32_t k) const {
+        const uint32_t a = given_.cage.faceVertices[corner(face, start)];
+        const uint32_t b = given_.cage.faceVertices[corner(face, start + k)];
+        return {std::min(a, b), std::max(a, b)};
+    }
+
+    [[nodiscard]] bool isFree(uint32_t face, uint32_t start) const {
+        for (uint32_t k = 2; k + 1 < given_.cage.sides(face); ++k) {
+            const auto [a, b] = diagonal(face, start, k);
+            if (diagonals_.contains({a, b}) || cage::findEdge(given_.cage, topology_, a, b) != kNone) {
+                return false;
+            }
+        }
+        return true;
+    }
+
     std::optional<Error> addFace(uint32_t face) {
-        const uint32_t first = given_.cage.faceStarts[face];
         const uint32_t sides = given_.cage.sides(face);
-        for (uint32_t k = 2; k + 1 < sides; ++k) {
-            const uint32_t a = given_.cage.faceVertices[first];
-            const uint32_t b = given_.cage.faceVertices[first + k];
-            if (cage::findEdge(given_.cage, topology_, a, b) != kNone ||
-                !diagonals_.insert({std::min(a, b), std::max(a, b)}).second) {
-                return Error{ErrorCode::asset, nameOf(face) + ": to split it into triangles takes the diagonal (" +
-                                                   std::to_string(a) + ", " + std::to_string(b) +
-                                                   "), which is already an edge of the cage"};
+        const std::string name = "face " + std::to_string(face) + " has " + std::to_string(sides) + " sides";
+        uint32_t start = 0;
+        while (!isFree(face, start)) {
+            if (++start == std::min(sides, kStartCorners)) {
+                return Error{ErrorCode::asset, name + ": every way to split it into a fan of triangles needs a "
+                                                      "diagonal that is already an edge of the cage"};
             }
         }
         for (uint32_t k = 1; k + 1 < sides; ++k) {
-            for (const uint32_t corner : {first, first + k, first + k + 1}) {
-                out_.cage.faceVertices.push_back(given_.cage.faceVertices[corner]);
+            if (k > 1) {
+                diagonals_.insert(diagonal(face, start, k));
+            }
+            for (const uint32_t c : {corner(face, start), corner(face, start + k), corner(face, start + k + 1)}) {
+                out_.cage.faceVertices.push_back(given_.cage.faceVertices[c]);
                 forEachCornerAttribute(given_.cage, out_.cage, [&](const auto& from, auto& to) {
                     if (!from.empty()) {
-                        to.push_back(from[corner]);
+                        to.push_back(from[c]);
                     }
                 });
             }
             closeFace(out_, given_, face);
         }
-        if (sides > 3) {
-            split_.push_back(face);
+        if (sides > 3 && ++splits_ <= kListedSplits) {
+            notes_.push_back(name + ": split into " + std::to_string(sides - 2) + " triangles" +
+                             (start > 0 ? " from corner " + std::to_string(start) : ""));
         }
         return std::nullopt;
     }
 
-    [[nodiscard]] std::string nameOf(uint32_t face) const {
-        return "face " + std::to_string(face) + " has " + std::to_string(given_.cage.sides(face)) + " sides";
-    }
-
-    void noteSplits() {
-        constexpr size_t kListed = 16;
-        for (size_t i = 0; i < std::min(kListed, split_.size()); ++i) {
-            notes_.push_back(nameOf(split_[i]) + ": split into " + std::to_string(given_.cage.sides(split_[i]) - 2) +
-                             " triangles");
-        }
-        if (split_.size() > kListed) {
-            notes_.push_back("and " + std::to_string(split_.size() - kListed) +
-                             " more faces of four and more sides: split into triangles");
-        }
-    }
-
     const Level& given_;
     const Topology& topology_;
-    std::set<std::pair<uint32_t, uint32_t>> diagonals_; ///< laid so far, smaller vertex first
-    std::vector<uint32_t> split_;
+    std::set<std::pair<uint32_t, uint32_t>> diagonals_; ///< laid so far
+    uint32_t splits_ = 0;
     Level out_;
     std::vector<std::string> notes_;
 };

@@ -73,7 +73,7 @@ struct Mesh {
 };
 
 /// Refuses by name what cage::buildTopology refuses. Loop splits faces of four and more sides into fans of triangles
-/// and says so. O(corners).
+/// and says so; from the first corner whose diagonals are no edges yet, and refuses a face that has none. O(corners).
 [[nodiscard]] Result<Mesh> buildMesh(const cage::Cage& cage, Subdivision subdivision);
 
 } // namespace supple::surface::kernel

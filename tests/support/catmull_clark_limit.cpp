@@ -1,11 +1,11 @@
 #include "tests/support/catmull_clark_limit.h"
 
+#include "tests/support/opensubdiv_refiner.h"
+
 #include <algorithm>
 #include <cmath>
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
-#include <opensubdiv/far/topologyDescriptor.h>
-#include <opensubdiv/far/topologyRefinerFactory.h>
 #include <set>
 
 namespace supple::test {
@@ -18,42 +18,6 @@ using namespace OpenSubdiv;
 constexpr int kApproximationLevel = 10;
 /// Steps along a side of a part's grid.
 constexpr uint32_t kGrid = 8;
-
-std::unique_ptr<Far::TopologyRefiner> refinerOf(const cage::Cage& cage) {
-    std::vector<int> sides, vertices(cage.faceVertices.begin(), cage.faceVertices.end()), creases, corners, holes;
-    std::vector<float> creaseWeights, cornerWeights;
-    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-        sides.push_back(static_cast<int>(cage.sides(f)));
-    }
-    for (const cage::Crease& crease : cage.creases) {
-        creases.insert(creases.end(), {static_cast<int>(crease.a), static_cast<int>(crease.b)});
-        creaseWeights.push_back(crease.sharpness);
-    }
-    for (const cage::SharpVertex& sharp : cage.sharpVertices) {
-        corners.push_back(static_cast<int>(sharp.vertex));
-        cornerWeights.push_back(sharp.sharpness);
-    }
-    holes.assign(cage.holes.begin(), cage.holes.end());
-
-    Far::TopologyDescriptor descriptor;
-    descriptor.numVertices = static_cast<int>(cage.vertexCount());
-    descriptor.numFaces = static_cast<int>(cage.faceCount());
-    descriptor.numVertsPerFace = sides.data();
-    descriptor.vertIndicesPerFace = vertices.data();
-    descriptor.numCreases = static_cast<int>(creaseWeights.size());
-    descriptor.creaseVertexIndexPairs = creases.data();
-    descriptor.creaseWeights = creaseWeights.data();
-    descriptor.numCorners = static_cast<int>(corners.size());
-    descriptor.cornerVertexIndices = corners.data();
-    descriptor.cornerWeights = cornerWeights.data();
-    descriptor.numHoles = static_cast<int>(holes.size());
-    descriptor.holeIndices = holes.data();
-    Sdc::Options scheme;
-    scheme.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
-    using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-    return std::unique_ptr<Far::TopologyRefiner>(
-        Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_CATMARK, scheme)));
-}
 
 Bfr::SurfaceFactory::Options approximation() {
     return Bfr::SurfaceFactory::Options()
@@ -70,7 +34,8 @@ struct CatmullClarkLimit::Surfaces {
     };
 
     Surfaces(const cage::Cage& cage, const std::vector<glm::dvec3>& positions)
-        : refiner(refinerOf(cage)), factory(*refiner, approximation()), faces(cage.faceCount()) {
+        : refiner(opensubdivRefiner(cage, Sdc::SCHEME_CATMARK)), factory(*refiner, approximation()),
+          faces(cage.faceCount()) {
         for (uint32_t f = 0; f < cage.faceCount(); ++f) {
             Face& face = faces[f];
             if (factory.InitVertexSurface(static_cast<int>(f), &face.surface)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "surface/kernel/reference.h"
+#include "tests/support/meshes.h"
 
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -18,6 +19,26 @@ inline surface::kernel::Mesh kernelMesh(const cage::Cage& cage, surface::kernel:
         return {};
     }
     return std::move(*mesh);
+}
+
+/// The triangles a mesh of Loop's was refined from, with the given cage's creases, sharp vertices and holes.
+inline cage::Cage trianglesOf(const surface::kernel::Mesh& mesh, const cage::Cage& given) {
+    Polygons triangles;
+    std::vector<uint32_t> holes;
+    for (uint32_t f = 0; f < mesh.cage.faceCount(); f += 4) { // the corners' faces, then the middle
+        std::vector<uint32_t>& triangle = triangles.emplace_back();
+        for (uint32_t corner = 0; corner < 3; ++corner) {
+            triangle.push_back(mesh.cornerSources[mesh.cage.faceStarts[f + corner]]);
+        }
+        if (mesh.holes[f] != 0) {
+            holes.push_back(f / 4);
+        }
+    }
+    cage::Cage cage = makeCage(given.positions, triangles);
+    cage.creases = given.creases;
+    cage.sharpVertices = given.sharpVertices;
+    cage.holes = std::move(holes);
+    return cage;
 }
 
 } // namespace supple::test
