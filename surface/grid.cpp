@@ -119,27 +119,6 @@ std::vector<uint16_t> gridIndices(Domain domain, uint32_t rate) {
     return indices;
 }
 
-std::array<float, kMaxSides> cornerWeights(Domain domain, uint32_t rate, uint32_t sample) {
-    const GridSample at = gridSample(domain, rate, sample);
-    const float r = static_cast<float>(rate);
-    const float u = static_cast<float>(at.i) / r, v = static_cast<float>(at.j) / r;
-    switch (domain) {
-    case Domain::quad:
-        return {(1.0f - u) * (1.0f - v), u * (1.0f - v), u * v, (1.0f - u) * v, 0.0f};
-    case Domain::polar:
-        return {(1.0f - u) * (1.0f - v), u * (1.0f - v), v, 0.0f, 0.0f};
-    case Domain::triangle:
-        return {1.0f - u - v, u, v, 0.0f, 0.0f};
-    default: {
-        std::array<float, kMaxSides> weights;
-        weights.fill(v / 5.0f);
-        weights[at.sector] += 1.0f - u - v;
-        weights[(at.sector + 1) % 5] += u;
-        return weights;
-    }
-    }
-}
-
 std::vector<float> parameterPairs() {
     std::vector<float> pairs;
     for (uint32_t rate = 1; rate <= kMaxRate; ++rate) {

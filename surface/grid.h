@@ -1,7 +1,8 @@
 // Tessellation grids: how the samples of a patch are numbered, the triangles between them, and parameter pairs.
 #pragma once
 
-#include <array>
+#include "shaders/shared/surface.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -20,7 +21,12 @@ inline constexpr uint32_t kMaxSides = 5; ///< of a patch
 ///   the edge,
 ///             each i = 0..R-j-1: weights (R-i-j, i, j)/R of corner s, corner s+1 and the centre. The row's last point
 ///             belongs to sector s+1; the last sample of all is the centre.
-enum class Domain : uint32_t { quad, polar, triangle, pentagon };
+enum class Domain : uint32_t {
+    quad = shared::kQuadDomain,
+    polar = shared::kPolarDomain,
+    triangle = shared::kTriangleDomain,
+    pentagon = shared::kPentagonDomain
+};
 inline constexpr uint32_t kDomainCount = 4;
 
 [[nodiscard]] constexpr uint32_t cornerCount(Domain domain) {
@@ -54,10 +60,6 @@ struct GridSample {
 /// Triangles between the samples, counter-clockwise seen from outside, none of zero area. Shared by all patches of a
 /// domain and rate.
 [[nodiscard]] std::vector<uint16_t> gridIndices(Domain domain, uint32_t rate);
-
-/// Weights of the patch's corners at a sample, for attributes: bilinear on quads, linear on triangles, linear between
-/// centre (the corners' mean) and edge on pentagons; on polar domains linear towards the apex.
-[[nodiscard]] std::array<float, kMaxSides> cornerWeights(Domain domain, uint32_t rate, uint32_t sample);
 
 /// Pairs (k / rate, (rate - k) / rate), k = 0..rate, for every rate 1..kMaxRate one after the other, correctly rounded.
 [[nodiscard]] std::vector<float> parameterPairs();

@@ -1,6 +1,7 @@
 // P_m on the device: against the stored vectors, against the reference, and the bits its patches share.
 #include "cage/procedural.h"
 #include "surface/pm/reference.h"
+#include "tests/support/corner_weights.h"
 #include "tests/support/pm_gpu.h"
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_vectors.h"
@@ -186,7 +187,7 @@ TEST_P(PmOnGpu, AttributesReachTheSurfaceVertices) {
             for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
                 const SuppleDomain domain = gpu.rangeOf(p).domain;
                 for (uint32_t s = 0; s < gpu.sampleCount(p); ++s) {
-                    const auto weights = surface::cornerWeights(static_cast<surface::Domain>(domain), rate, s);
+                    const auto weights = cornerWeights(static_cast<surface::Domain>(domain), rate, s);
                     glm::vec2 uv(0.0f), uv1(0.0f), read, read1;
                     for (uint32_t i = 0; i < gpu.patches()[p].cornerCount; ++i) {
                         const uint32_t corner = mesh->corner(patches.facet(p), i);

@@ -3,6 +3,7 @@
 #include "cage/procedural.h"
 #include "cage/topology.h"
 #include "runtime/context.h"
+#include "surface/grid.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/spirv_precise.h"
@@ -92,9 +93,9 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
         }
         const auto position = [&](uint32_t corner, uint32_t k) {
             const uint32_t face = topology->cornerFaces[corner];
-            const glm::uvec2 at = edgeSample(corner - cage.faceStarts[face], k, rate);
+            const uint32_t edge = corner - cage.faceStarts[face];
             return bytes->data() + 24 * (size_t{patchOfFace[face]} * group.output().drawRanges[0].samplesPerPatch +
-                                         at.y * (rate + 1) + at.x);
+                                         surface::edgeSample(surface::Domain::quad, rate, edge, k));
         };
         for (const cage::Topology::Edge& edge : topology->edges) {
             for (uint32_t k = 0; k <= rate && edge.twin != cage::kNone; ++k) {

@@ -1,6 +1,7 @@
 // What the GPU writes against the CPU: p-rep coefficients, positions, normals, border bits, both mappings.
 #include "cage/procedural.h"
 #include "cage/topology.h"
+#include "surface/grid.h"
 #include "surface/prep/reference.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/meshes.h"
@@ -75,8 +76,8 @@ BorderBits countBorderBits(const GpuSurface& gpu, const cage::Cage& cage, const 
     BorderBits bits;
     const auto position = [&](uint32_t corner, uint32_t k) {
         const uint32_t face = topology.cornerFaces[corner];
-        const glm::uvec2 at = edgeSample(corner - cage.faceStarts[face], k, rate);
-        return gpu.vertex(0, patchOfFace[face], at.x, at.y).position;
+        const uint32_t edge = corner - cage.faceStarts[face];
+        return gpu.vertex(0, patchOfFace[face], surface::edgeSample(surface::Domain::quad, rate, edge, k)).position;
     };
     for (const cage::Topology::Edge& edge : topology.edges) {
         if (edge.twin == cage::kNone) {

@@ -200,17 +200,4 @@ void GpuSurface::evaluate() {
     readVec4(output_.patchCoefficients, coefficients_);
 }
 
-glm::uvec2 edgeSample(uint32_t edge, uint32_t k, uint32_t rate) {
-    switch (edge) {
-    case 0:
-        return {k, 0};
-    case 1:
-        return {rate, k};
-    case 2:
-        return {rate - k, rate};
-    default:
-        return {0, rate - k};
-    }
-}
-
 } // namespace supple::test

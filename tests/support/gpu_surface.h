@@ -103,7 +103,4 @@ private:
     bool valid_ = false;
 };
 
-/// Samples of a patch along one of its edges, counted from the edge's first corner: grid coordinates of sample k.
-[[nodiscard]] glm::uvec2 edgeSample(uint32_t edge, uint32_t k, uint32_t rate);
-
 } // namespace supple::test

@@ -1,5 +1,7 @@
 #include "surface/grid.h"
 
+#include "tests/support/corner_weights.h"
+
 #include <cmath>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
@@ -143,7 +145,7 @@ TEST(Grid, cornerWeights) {
             SCOPED_TRACE(trace(domain, rate));
             const uint32_t corners = cornerCount(domain);
             for (uint32_t s = 0; s < sampleCount(domain, rate); ++s) {
-                const std::array<float, kMaxSides> weights = cornerWeights(domain, rate, s);
+                const std::array<float, kMaxSides> weights = test::cornerWeights(domain, rate, s);
                 EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0f), 1.0f, 1e-6f);
                 glm::dvec2 sum(0.0);
                 for (uint32_t k = 0; k < corners; ++k) {
@@ -155,7 +157,7 @@ TEST(Grid, cornerWeights) {
             }
             for (uint32_t e = 0; e < corners; ++e) {
                 const std::array<float, kMaxSides> weights =
-                    cornerWeights(domain, rate, edgeSample(domain, rate, e, 0));
+                    test::cornerWeights(domain, rate, edgeSample(domain, rate, e, 0));
                 for (uint32_t k = 0; k < kMaxSides; ++k) {
                     EXPECT_EQ(weights[k], k == e ? 1.0f : 0.0f);
                 }
