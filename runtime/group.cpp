@@ -25,7 +25,16 @@ enum BufferIndex : size_t {
 enum StaticIndex : size_t { kGridIndices, kIndirect };
 
 constexpr VkDeviceSize kVec4Bytes = 16;
-static_assert(surface::kMaxRate == SUPPLE_MAX_RATE);
+
+// supple.h repeats for C what the shaders and the schemes share.
+static_assert(SUPPLE_MAX_RATE == surface::kMaxRate);
+static_assert(SUPPLE_MAX_SIDES == surface::kMaxSides);
+static_assert(SUPPLE_PATCH_STRIDE == kPatchStride);
+static_assert(SUPPLE_DOMAIN_QUAD == kQuadDomain && SUPPLE_DOMAIN_POLAR == kPolarDomain &&
+              SUPPLE_DOMAIN_TRIANGLE == kTriangleDomain && SUPPLE_DOMAIN_PENTAGON == kPentagonDomain);
+static_assert(SUPPLE_PATCH_REGULAR == kRegularPatch && SUPPLE_PATCH_PERTURBED == kPerturbedPatch &&
+              SUPPLE_PATCH_POLAR == kPolarPatch && SUPPLE_PATCH_P3 == kP3Patch && SUPPLE_PATCH_P4 == kP4Patch &&
+              SUPPLE_PATCH_P5 == kP5Patch);
 
 // Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits): instances of the pool, the deformed cage
 // and the surface vertices (16 or 24 bytes each) start on such multiples.

@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "cage/features.h"
 #include "cage/topology.h"
+#include "surface/grid.h"
 
 #include <array>
 #include <cstdint>
@@ -15,7 +16,6 @@
 
 namespace supple::surface::pm {
 
-inline constexpr uint32_t kMaxSides = 5;
 inline constexpr double kSmoothAlpha = 2.0 / 3.0;
 
 /// alpha = (2/3) 2^-s for 0 <= s < cage::kHardSharpness; harder edges are cut and have no alpha.
