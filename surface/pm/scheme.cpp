@@ -3,6 +3,7 @@
 #include "shaders/shared/pm.h"
 #include "surface/pm/weights.h"
 #include "surface/table_writer.h"
+#include "surface/valence.h"
 
 #include <algorithm>
 #include <map>

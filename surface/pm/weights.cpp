@@ -1,28 +1,8 @@
 #include "surface/pm/weights.h"
 
-#include <cmath>
-#include <numbers>
+#include "surface/valence.h"
 
 namespace supple::surface::pm {
-
-std::pair<double, double> turn(uint32_t k, uint32_t n) {
-    k %= n;
-    if (4 * k % n == 0) {
-        constexpr double kQuarters[] = {1.0, 0.0, -1.0, 0.0, 1.0};
-        const uint32_t quarter = 4 * k / n;
-        return {kQuarters[quarter], kQuarters[(quarter + 3) % 4]};
-    }
-    const double angle = 2.0 * std::numbers::pi * k / n;
-    return {std::cos(angle), std::sin(angle)};
-}
-
-double subdominant(uint32_t valence) {
-    if (valence == 4) {
-        return 0.5;
-    }
-    const double c = turn(1, valence).first;
-    return (c + 5.0 + std::sqrt((c + 9.0) * (c + 1.0))) / 16.0;
-}
 
 SectorScales sectorScales(SectorKind kind, uint32_t facets) {
     const double q = facets;

@@ -6,16 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace supple::surface::pm {
-
-/// cos and sin of 2 pi k / n, exact at quarter turns.
-[[nodiscard]] std::pair<double, double> turn(uint32_t k, uint32_t n);
-
-/// lambda_N of (15), the subdominant eigenvalue of Catmull-Clark subdivision; exactly 1/2 for N = 4.
-[[nodiscard]] double subdominant(uint32_t valence);
 
 /// The factors of a sector's sums in (13) and (15): v = p + limit * sum (f_j - p) in closed sectors, tau = tangent *
 /// sum of cosines or sines times e_j (in open sectors times e_j - v, over the edges inside).

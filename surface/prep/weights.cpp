@@ -1,29 +1,13 @@
 // Equation numbers are those of "GPU Smoothing of Quad Meshes"; docs/prep.md says where we depart from the print.
 #include "surface/prep/weights.h"
 
+#include "surface/valence.h"
+
 #include <cassert>
-#include <cmath>
-#include <numbers>
-#include <utility>
+#include <cstddef>
 
 namespace supple::surface::prep {
 namespace {
-
-/// Cosine and sine of k/n of a turn; multiples of a quarter turn are exact, so that regular vertices get 0, 1, -1.
-std::pair<double, double> turn(uint32_t k, uint32_t n) {
-    const uint64_t quarters = uint64_t{4} * (k % n);
-    if (quarters % n == 0) {
-        constexpr std::pair<double, double> kQuarters[4] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
-        return kQuarters[quarters / n];
-    }
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
-    return {std::cos(angle), std::sin(angle)};
-}
-
-/// rho_n: the subdominant eigenvalue of Catmull-Clark at an interior vertex, from c = cos(2 pi / n).
-double subdominant(double c) {
-    return (c + 5.0 + std::sqrt((c + 9.0) * (c + 1.0))) / 16.0;
-}
 
 /// w of eq. (3).
 double spokeWeight(double rho) {
@@ -32,7 +16,7 @@ double spokeWeight(double rho) {
 
 /// K_n, the length of e1 and e2. Every positive value gives the same tangent plane and a G1 surface; 1/36 at n = 4.
 double tangentLength(uint32_t n, double c, TangentMode mode) {
-    const double rho = subdominant(c);
+    const double rho = subdominant(n);
     const double w = spokeWeight(rho);
     if (mode == TangentMode::standard && n >= 6) {
         // sigma_n of eq. (3) makes the tangents grow with n, away from Catmull-Clark; hold them at 0.9 of a fan of
@@ -53,7 +37,7 @@ ValenceClass interiorClass(uint32_t n, const Options& options) {
     k.limitEdge.assign(n, 4.0 / (valence * (valence + 5.0)));
     k.limitFace.assign(n, 1.0 / (valence * (valence + 5.0)));
     // Eq. (3): the limit tangents.
-    const double w = spokeWeight(subdominant(k.c));
+    const double w = spokeWeight(subdominant(n));
     const double length = tangentLength(n, k.c, options.tangentMode);
     for (uint32_t i = 0; i < n; ++i) {
         const auto [cosine, sine] = turn(i, n);
@@ -105,7 +89,7 @@ ValenceClass boundaryClass(uint32_t m, const Options& options) {
     // The cross tangent: left eigenvector of Catmull-Clark's boundary rules for the eigenvalue rho_2m.
     const double c = k.c;
     const double s = k.sines[1];
-    const double rho = subdominant(c);
+    const double rho = subdominant(2 * m);
     const double w = spokeWeight(rho);
     const double scale = 2.0 / (3.0 * m * (w + 2.0 + 2.0 * c));
     const double q = (1.0 + c) / s;
