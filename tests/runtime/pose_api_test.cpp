@@ -538,14 +538,7 @@ TEST_F(PoseApi, PosingAllocatesNothing) {
 TEST_F(PoseApi, TheCppLayerPosesToo) {
     const ValidationGuard guard;
     supple::Context context;
-    auto contextDesc = sized<SuppleContextDesc>();
-    host::Device& device = *testDevice();
-    contextDesc.instance = device.instance();
-    contextDesc.physicalDevice = device.physicalDevice();
-    contextDesc.device = device.handle();
-    contextDesc.queueFamily = device.queueFamily();
-    contextDesc.getInstanceProcAddr = device.getInstanceProcAddr();
-    ASSERT_EQ(supple::Context::create(contextDesc, context), SUPPLE_OK);
+    ASSERT_EQ(supple::Context::create(host::contextDesc(*testDevice()), context), SUPPLE_OK);
     const std::vector<std::byte> bytes = bytesOf(kPip);
     auto assetDesc = sized<SuppleAssetDesc>();
     assetDesc.bytes = bytes.data();

@@ -42,13 +42,7 @@ TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
 /// Border samples that differ when evaluation runs the given code, over rates 5, 7, 11.
 uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
     host::Device& device = *testDevice();
-    SuppleContextDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.instance = device.instance();
-    desc.physicalDevice = device.physicalDevice();
-    desc.device = device.handle();
-    desc.queueFamily = device.queueFamily();
-    desc.getInstanceProcAddr = device.getInstanceProcAddr();
+    SuppleContextDesc desc = host::contextDesc(device);
     desc.mapping = SUPPLE_MAPPING_NARROW;
     surface::Shaders shaders = surface::Shaders::embedded();
     shaders.bicubic = evaluate;

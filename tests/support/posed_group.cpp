@@ -6,13 +6,7 @@
 namespace supple::test {
 
 PosedContext::PosedContext(host::Device& device, SuppleMapping mapping) : device(device) {
-    SuppleContextDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.instance = device.instance();
-    desc.physicalDevice = device.physicalDevice();
-    desc.device = device.handle();
-    desc.queueFamily = device.queueFamily();
-    desc.getInstanceProcAddr = device.getInstanceProcAddr();
+    SuppleContextDesc desc = host::contextDesc(device);
     desc.mapping = mapping;
     Result<std::unique_ptr<runtime::Context>> created = runtime::Context::create(desc);
     EXPECT_TRUE(created.ok()) << created.error().message;

@@ -29,9 +29,7 @@ ErrorCode errorCode(SuppleResult result) {
 
 } // namespace
 
-Result<std::unique_ptr<Context>> Context::create(Device& device, const ContextOptions& options) {
-    std::unique_ptr<Context> context(new Context(device));
-    context->printWarnings_ = options.printWarnings;
+SuppleContextDesc contextDesc(const Device& device) {
     SuppleContextDesc desc{};
     desc.structSize = sizeof desc;
     if (device.hasDebugUtils())
@@ -41,6 +39,13 @@ Result<std::unique_ptr<Context>> Context::create(Device& device, const ContextOp
     desc.device = device.handle();
     desc.queueFamily = device.queueFamily();
     desc.getInstanceProcAddr = device.getInstanceProcAddr();
+    return desc;
+}
+
+Result<std::unique_ptr<Context>> Context::create(Device& device, const ContextOptions& options) {
+    std::unique_ptr<Context> context(new Context(device));
+    context->printWarnings_ = options.printWarnings;
+    SuppleContextDesc desc = contextDesc(device);
     desc.framesInFlight = options.framesInFlight;
     desc.mapping = options.mapping;
     desc.log = log;

@@ -19,6 +19,9 @@ struct ContextOptions {
     bool printWarnings = true;
 };
 
+/// What Supple borrows of the device, and debug utils where it has them; all else is left at its default.
+[[nodiscard]] SuppleContextDesc contextDesc(const Device& device);
+
 class Context {
 public:
     /// The device must outlive the context.

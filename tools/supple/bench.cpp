@@ -194,14 +194,7 @@ public:
     Bench(Session& session, const BenchOptions& options) : session_(session), options_(options) {}
 
     Status run() {
-        SuppleContextDesc desc{};
-        host::Device& device = *session_.device;
-        desc.structSize = sizeof(desc);
-        desc.instance = device.instance();
-        desc.physicalDevice = device.physicalDevice();
-        desc.device = device.handle();
-        desc.queueFamily = device.queueFamily();
-        desc.getInstanceProcAddr = device.getInstanceProcAddr();
+        SuppleContextDesc desc = host::contextDesc(*session_.device);
         desc.mapping = mappingOf(options_.device);
         Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(desc);
         if (!context) {
