@@ -123,6 +123,39 @@ private:
     std::string accessors_;
 };
 
+/// An unskinned mesh over one set of attributes: accessors 0, its positions, and 1, its indices.
+inline GltfBuilder plainMesh(const std::vector<float>& positions, const std::vector<uint32_t>& indices,
+                             const std::string& primitiveMore = "") {
+    GltfBuilder b;
+    b.addFloats("VEC3", positions);
+    b.addIntegers("SCALAR", 5125, indices);
+    b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1)" + primitiveMore + "}]}]";
+    return b;
+}
+
+/// One triangle, skinned to the nodes 1..`jointCount`; joints (16 bits each) and weights of its vertices, in sets of
+/// four.
+inline GltfBuilder skinnedTriangle(uint32_t jointCount, const std::vector<std::vector<uint32_t>>& joints,
+                                   const std::vector<std::vector<float>>& weights) {
+    GltfBuilder b;
+    b.addFloats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
+    std::string attributes = R"("POSITION":0)";
+    for (size_t n = 0; n < joints.size(); ++n) {
+        attributes += ",\"JOINTS_" + std::to_string(n) + "\":" + std::to_string(b.addIntegers("VEC4", 5123, joints[n]));
+        attributes += ",\"WEIGHTS_" + std::to_string(n) + "\":" + std::to_string(b.addFloats("VEC4", weights[n]));
+    }
+    b.meshes = R"([{"primitives":[{"attributes":{)" + attributes + "}}]}]";
+    b.nodes = R"([{"mesh":0,"skin":0})";
+    std::string list;
+    for (uint32_t j = 1; j <= jointCount; ++j) {
+        b.nodes += ",{}";
+        list += (j == 1 ? "" : ",") + std::to_string(j);
+    }
+    b.nodes += "]";
+    b.more = R"(,"skins":[{"joints":[)" + list + "]}]";
+    return b;
+}
+
 // Accessors of skinnedQuad(), in their order.
 enum QuadAccessor { kPositions, kJoints, kWeights, kIndices, kInverseBinds, kTimes, kRotations, kTranslations, kUvs };
 

@@ -1,7 +1,6 @@
 // Positions and texture coordinates as integers, and bufferViews compressed by meshoptimizer.
-#include "cage/gltf_reader.h"
-#include "tests/cage/gltf_builder.h"
 #include "tests/cage/gltf_compressed.h"
+#include "tests/cage/gltf_reading.h"
 
 #include <gtest/gtest.h>
 
@@ -9,23 +8,6 @@ namespace supple::cage {
 namespace {
 
 using namespace test;
-
-using Strings = std::vector<std::string>;
-
-Character readWell(const std::vector<std::byte>& bytes) {
-    Result<Character> result = readGltf(bytes, "t.glb", "");
-    EXPECT_TRUE(result.ok()) << result.error().message;
-    return result.ok() ? std::move(result.value()) : Character{};
-}
-
-std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code = ErrorCode::asset) {
-    const Result<Character> result = readGltf(bytes, "t.glb", "");
-    if (result.ok()) {
-        return "accepted";
-    }
-    EXPECT_EQ(result.error().code, code);
-    return result.error().message;
-}
 
 // ---- KHR_mesh_quantization ------------------------------------------------------------------------------------------
 

@@ -1,7 +1,6 @@
 // Where a glTF file's polygons come from: every source, their order, and how each is refused.
-#include "cage/gltf_reader.h"
 #include "cage/topology.h"
-#include "tests/cage/gltf_builder.h"
+#include "tests/cage/gltf_reading.h"
 
 #include <functional>
 #include <gtest/gtest.h>
@@ -11,29 +10,12 @@ namespace {
 
 using namespace test;
 
-using Strings = std::vector<std::string>;
 using Faces = std::vector<std::vector<uint32_t>>;
-
-Result<Character> read(const GltfBuilder& b, const GltfOptions& options = {}) {
-    return readGltf(b.glb(), "t.glb", "", options);
-}
-
-Character readWell(const GltfBuilder& b, const GltfOptions& options = {}) {
-    Result<Character> result = read(b, options);
-    EXPECT_TRUE(result.ok()) << result.error().message;
-    return result.ok() ? std::move(result.value()) : Character{};
-}
-
-std::string messageOf(const GltfBuilder& b) {
-    const Result<Character> result = read(b);
-    return result.ok() ? "accepted" : result.error().message;
-}
 
 Faces facesOf(const Character& c) {
     Faces faces;
     for (uint32_t f = 0; f < c.cage.faceCount(); ++f) {
-        faces.emplace_back(c.cage.faceVertices.begin() + c.cage.faceStarts[f],
-                           c.cage.faceVertices.begin() + c.cage.faceStarts[f + 1]);
+        faces.push_back(face(c.cage, f));
     }
     return faces;
 }
@@ -455,6 +437,55 @@ TEST(GltfPolygons, HiddenEdgeRefusals) {
     EXPECT_EQ(with({R"("lineStrings":[{}])"}), name + " lineString 0: indices is missing");
     EXPECT_EQ(with({R"("lineStrings":[{)" + patch.list("indices", {0, 8}) + "}]"}),
               name + " lineString 0 indices[1]: vertex 8 is out of range: the primitive has 8");
+}
+
+// ---- triangles as they are, FB_ngon_encoding, pairs -----------------------------------------------------------------
+
+TEST(GltfPolygons, NgonEncodingWhereThePrimitiveCarriesIt) {
+    const std::vector<float> grid = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
+    const std::vector<uint32_t> quads = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
+    GltfBuilder b = plainMesh(grid, quads, R"(,"extensions":{"FB_ngon_encoding":{}})");
+    Character c = readWell(b.glb());
+    EXPECT_EQ(c.polygonSource, PolygonSource::ngonEncoding);
+    ASSERT_EQ(c.cage.faceCount(), 2u);
+    EXPECT_EQ(face(c.cage, 0), (std::vector<uint32_t>{0, 1, 4, 3}));
+    EXPECT_EQ(face(c.cage, 1), (std::vector<uint32_t>{1, 2, 5, 4}));
+
+    // Assimp lists the extension as used whether or not a primitive has it.
+    b = plainMesh(grid, quads);
+    b.more = R"(,"extensionsUsed":["FB_ngon_encoding"])";
+    c = readWell(b.glb());
+    EXPECT_EQ(c.polygonSource, PolygonSource::triangles);
+    EXPECT_EQ(c.cage.faceCount(), 4u);
+}
+
+TEST(GltfPolygons, PairingIsOptIn) {
+    const std::vector<float> grid = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
+    GltfBuilder b = plainMesh(grid, {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4});
+    EXPECT_EQ(readWell(b.glb()).cage.faceCount(), 4u);
+    const Character c = readWell(b.glb(), {.pairQuads = true});
+    EXPECT_EQ(c.polygonSource, PolygonSource::pairedTriangles);
+    ASSERT_EQ(c.cage.faceCount(), 2u);
+    EXPECT_EQ(face(c.cage, 0), (std::vector<uint32_t>{0, 1, 4, 3}));
+    EXPECT_EQ(face(c.cage, 1), (std::vector<uint32_t>{1, 2, 5, 4}));
+
+    // A UV seam on the diagonal says that these were two faces.
+    GltfBuilder seam;
+    seam.addFloats("VEC3", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0});
+    seam.addFloats("VEC2", {0, 0, 1, 0, 1, 1, 0, 0.5f, 1, 1, 0, 1});
+    seam.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1}}]}])";
+    EXPECT_EQ(readWell(seam.glb(), {.pairQuads = true}).cage.faceCount(), 2u);
+    // A fold over the shared edge too.
+    const GltfBuilder fold = plainMesh({0, 0, 0, 1, 0, 0, 1, 1, 0, 1, 0, 0.1f}, {0, 1, 2, 0, 2, 3});
+    EXPECT_EQ(readWell(fold.glb(), {.pairQuads = true}).cage.faceCount(), 2u);
+}
+
+TEST(GltfPolygons, EncodedPolygonsAreNeverPaired) {
+    const GltfBuilder b =
+        plainMesh({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 1, 2, 2, 3, 0}, R"(,"extensions":{"FB_ngon_encoding":{}})");
+    const Character c = readWell(b.glb(), {.pairQuads = true});
+    EXPECT_EQ(c.polygonSource, PolygonSource::ngonEncoding);
+    EXPECT_EQ(c.cage.faceCount(), 2u);
 }
 
 // ---- order ----------------------------------------------------------------------------------------------------------

@@ -1,7 +1,6 @@
 // Every way a file can be wrong has one line that names file, element and reason. Each case changes one thing in a file
 // that is right.
-#include "cage/gltf_reader.h"
-#include "tests/cage/gltf_builder.h"
+#include "tests/cage/gltf_reading.h"
 
 #include <cmath>
 #include <filesystem>
@@ -18,24 +17,6 @@ using namespace test;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
-
-std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code = ErrorCode::asset) {
-    const Result<Character> result = readGltf(bytes, "t.glb", "");
-    if (result.ok())
-        return "accepted";
-    EXPECT_EQ(result.error().code, code) << result.error().message;
-    return result.error().message;
-}
-
-/// Replaces the only occurrence of `from`.
-std::string replaced(const std::string& text, const std::string& from, const std::string& to) {
-    const size_t place = text.find(from);
-    EXPECT_NE(place, std::string::npos) << from;
-    if (place == std::string::npos)
-        return text;
-    EXPECT_EQ(text.find(from, place + 1), std::string::npos) << "not unique: " << from;
-    return text.substr(0, place) + to + text.substr(place + from.size());
-}
 
 std::string withJson(const std::string& from, const std::string& to, ErrorCode code = ErrorCode::asset) {
     const GltfBuilder b = skinnedQuad();
@@ -60,7 +41,7 @@ TEST(GltfRefusals, BaseFileIsRight) {
 // ---- container and JSON ---------------------------------------------------------------------------------------------
 
 TEST(GltfRefusals, Container) {
-    EXPECT_EQ(messageOf({}), "t.glb: file: empty");
+    EXPECT_EQ(messageOf(std::vector<std::byte>()), "t.glb: file: empty");
     EXPECT_EQ(withText("gltf, but not really"),
               "t.glb: file: neither GLB nor glTF JSON: no 'glTF' magic and no '{' at its start");
     EXPECT_EQ(withText("glTF"), "t.glb: GLB header: truncated: 4 of 12 bytes");

@@ -1,7 +1,6 @@
 // What says which vertices of a glTF file are one: every source, their order, and how each is refused.
-#include "cage/gltf_reader.h"
 #include "cage/topology.h"
-#include "tests/cage/gltf_builder.h"
+#include "tests/cage/gltf_reading.h"
 
 #include <gtest/gtest.h>
 #include <limits>
@@ -10,23 +9,6 @@ namespace supple::cage {
 namespace {
 
 using namespace test;
-
-using Strings = std::vector<std::string>;
-
-Result<Character> read(const GltfBuilder& b) {
-    return readGltf(b.glb(), "t.glb", "");
-}
-
-Character readWell(const GltfBuilder& b) {
-    Result<Character> result = read(b);
-    EXPECT_TRUE(result.ok()) << result.error().message;
-    return result.ok() ? std::move(result.value()) : Character{};
-}
-
-std::string messageOf(const GltfBuilder& b) {
-    const Result<Character> result = read(b);
-    return result.ok() ? "accepted" : result.error().message;
-}
 
 /// Two triangles that meet at vertex (1, 1, 0) alone, vertices 2 and 3: sewing would keep them apart.
 GltfBuilder twoTriangles() {
