@@ -17,7 +17,8 @@ Sources unpackSources(uvec4 row) {
 
 // Sharpness of a spoke after `steps` steps; infinite sharpness stays.
 float softened(float sharpness, uint steps) {
-    return sharpness >= 1e9 ? sharpness : max(0.0, sharpness - float(steps));
+    precise float left = sharpness - float(steps);
+    return sharpness >= 1e9 ? sharpness : left > 0.0 ? left : 0.0;
 }
 
 vec3 blended(float sharpness, vec3 smoothPoint, vec3 creasePoint) {
@@ -124,6 +125,7 @@ void limitPoint(uint index, Sources n, float sharpness, bool right, out vec3 pos
         }
     }
     precise vec3 crease = (4.0 * c + axis) * (1.0 / 6.0);
-    position = sharp ? crease : limit;
+    precise vec3 p0 = (sharp ? crease : limit) + 0.0; // no -0: sides of a border may come to different zeros
+    position = p0;
     normal = sharp && right ? crossProduct(across, along) : crossProduct(along, across);
 }

@@ -130,11 +130,18 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
     if (stepwise == fragments.classes.size()) {
         return;
     }
+    // A barrier before each but the first: between steps one is needed; between kinds of work, which write other runs
+    // than they read, synchronization validation asks for it, as to it the scratch buffer is one resource.
+    bool first = true;
     const auto stepwiseWork = [&](const gpu::PipelineHandle& pipeline, size_t kind) {
         const Section blocks = blocksFrom(fragments, stepwise, kind);
         if (blocks.count == 0) {
             return;
         }
+        if (!first) {
+            gpu::computeBarrier(*device_, commandBuffer);
+        }
+        first = false;
         push.records = blocks.table;
         push.count = blocks.count;
         const uint64_t lanes = uint64_t{push.count} * push.instanceCount * shared::kBlockLanes;
@@ -146,7 +153,6 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
         for (uint32_t kind = 0; kind < shared::kRowKinds; ++kind) {
             stepwiseWork(refine_[loop][step == 1 ? 1 : 0][kind], (step - 1) * shared::kRowKinds + kind);
         }
-        gpu::computeBarrier(*device_, commandBuffer);
     }
     push.step = fragments.steps;
     for (uint32_t kind = 0; kind < shared::kSampleKinds; ++kind) {
