@@ -160,7 +160,8 @@ Result<Subject> makeSubject(runtime::Context& context, const Course& course, uin
     }
     SuppleGroupDesc groupDesc{};
     groupDesc.structSize = sizeof(groupDesc);
-    groupDesc.flags = SUPPLE_GROUP_PATCHES;
+    // The yardstick's input; subdivision has none.
+    groupDesc.flags = course.scheme == SUPPLE_SCHEME_PREP ? SUPPLE_GROUP_PATCHES : 0;
     groupDesc.asset = {*asset};
     groupDesc.instanceCount = 1;
     groupDesc.scheme = course.scheme;
@@ -249,6 +250,8 @@ private:
             {"irregular 1296", cage::makeSplitTorus(18, 12), SUPPLE_SCHEME_PREP},
             {"P_m irregular 1296", cage::makeSplitTorus(18, 12), SUPPLE_SCHEME_PM},
             {"P_m triangles 2700", triangulated(cage::makeCubeSphere(15)), SUPPLE_SCHEME_PM},
+            {"Catmull-Clark sphere 1350", cage::makeCubeSphere(15), SUPPLE_SCHEME_CATMULL_CLARK},
+            {"Loop sphere 2700", triangulated(cage::makeCubeSphere(15)), SUPPLE_SCHEME_LOOP},
         };
         std::vector<std::unique_ptr<Replay>> replays;
         std::vector<Subject> subjects;
@@ -388,6 +391,7 @@ private:
     static std::vector<NamedRatio> ratios() {
         const std::string sphere = "cube sphere 1350, ", irregular = "irregular 1296, ";
         const std::string quads = "P_m irregular 1296, ", triangles = "P_m triangles 2700, ";
+        const std::string catmullClark = "Catmull-Clark sphere 1350, ", loop = "Loop sphere 2700, ";
         return {{"frame / evaluate, cube sphere, 24 B", sphere + "frame 24 B", sphere + "evaluate 24 B"},
                 {"frame / evaluate, cube sphere, 16 B", sphere + "frame 16 B", sphere + "evaluate 16 B"},
                 {"frame / evaluate, irregular, 24 B", irregular + "frame 24 B", irregular + "evaluate 24 B"},
@@ -397,6 +401,8 @@ private:
                 {"P_4 / bi-3 evaluation, 24 B", quads + "evaluate 24 B", sphere + "evaluate 24 B"},
                 {"P_4 / bi-3 evaluation, 16 B", quads + "evaluate 16 B", sphere + "evaluate 16 B"},
                 {"P_3 / bi-3 evaluation, 24 B", triangles + "evaluate 24 B", sphere + "evaluate 24 B"},
+                {"Catmull-Clark / bi-3 evaluation, 24 B", catmullClark + "evaluate 24 B", sphere + "evaluate 24 B"},
+                {"Loop / bi-3 evaluation, 24 B", loop + "evaluate 24 B", sphere + "evaluate 24 B"},
                 {"frame / evaluate, P_m irregular, 24 B", quads + "frame 24 B", quads + "evaluate 24 B"},
                 {"frame / evaluate, P_m triangles, 24 B", triangles + "frame 24 B", triangles + "evaluate 24 B"},
                 {"bi-3 evaluation 24 B / plain C++", sphere + "evaluate 24 B", sphere + "plain C++ bi-3 24 B"},
