@@ -121,8 +121,8 @@ struct Fragments {
     struct Class {
         uint32_t sharedPoints = 0; ///< what a workgroup holds of a fragment at a time
         Section fragments;         ///< one record a fragment
-        /// By step and kind of work (kRowKinds a step, then kSampleKinds for the limit); those of one kind follow each
-        /// other, class by class.
+        /// By step, the limit last, and kind of work (kWorkKinds each); those of one kind follow each other, class by
+        /// class.
         std::vector<Section> blocks;
     };
     std::vector<Class> classes; ///< sharedPoints rise

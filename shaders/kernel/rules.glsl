@@ -27,39 +27,43 @@ vec3 blended(float sharpness, vec3 smoothPoint, vec3 creasePoint) {
     return sharpness > 0.0 ? mixed : smoothPoint;
 }
 
-vec3 facePoint(Sources row) {
-    precise vec3 p = ((point(row.s[0]) + point(row.s[1])) + (point(row.s[2]) + point(row.s[3]))) * 0.25;
+// Two opposite pairs of corners.
+vec3 facePoint(vec3 a, vec3 b, vec3 c, vec3 d) {
+    precise vec3 p = ((a + b) + (c + d)) * 0.25;
     return p;
 }
 
-vec3 edgePoint(Sources row, float sharpness) {
-    precise vec3 ends = point(row.s[0]) + point(row.s[1]);
+// The ends, then Catmull-Clark: the far corners of the faces on the left, then on the right; Loop: one on either side.
+vec3 edgePoint(vec3 a, vec3 b, vec3 left0, vec3 left1, vec3 right0, vec3 right1, float sharpness) {
+    precise vec3 ends = a + b;
     precise vec3 p;
-    if (kLoop) {
-        p = (3.0 * ends + (point(row.s[2]) + point(row.s[3]))) * 0.125;
-    } else {
-        p = (6.0 * ends + ((point(row.s[2]) + point(row.s[3])) + (point(row.s[4]) + point(row.s[5])))) * 0.0625;
-    }
+    if (kLoop) p = (3.0 * ends + (left0 + right0)) * 0.125;
+    else p = (6.0 * ends + ((left0 + left1) + (right0 + right1))) * 0.0625;
     precise vec3 crease = ends * 0.5;
     return blended(sharpness, p, crease);
 }
 
-// `around`: the neighbours of the row's first source, which Loop does not need.
-vec3 vertexPoint(Sources row, Sources around, float sharpness) {
-    vec3 c = point(row.s[0]);
+// The neighbours counter-clockwise from the axis on.
+vec3 vertexPoint(vec3 c, vec3 n[8], float sharpness) {
     precise vec3 axis, p;
     if (kLoop) {
-        axis = point(row.s[1]) + point(row.s[2]);
-        precise vec3 sides = (point(row.s[3]) + point(row.s[4])) + (point(row.s[5]) + point(row.s[6]));
+        axis = n[0] + n[3];
+        precise vec3 sides = (n[1] + n[2]) + (n[4] + n[5]);
         p = (10.0 * c + (sides + axis)) * 0.0625;
     } else {
-        axis = point(around.s[0]) + point(around.s[4]);
-        precise vec3 edges = axis + (point(around.s[2]) + point(around.s[6]));
-        precise vec3 diagonals = (point(around.s[1]) + point(around.s[5])) + (point(around.s[3]) + point(around.s[7]));
+        axis = n[0] + n[4];
+        precise vec3 edges = axis + (n[2] + n[6]);
+        precise vec3 diagonals = (n[1] + n[5]) + (n[3] + n[7]);
         p = (36.0 * c + (6.0 * edges + diagonals)) * 0.015625;
     }
     precise vec3 crease = 0.75 * c + axis * 0.125;
     return blended(sharpness, p, crease);
+}
+
+vec3[8] pointsOf(Sources n) {
+    vec3 p[8];
+    for (uint k = 0u; k < 8u; ++k) p[k] = !kLoop || k < 6u ? point(n.s[k]) : vec3(0.0);
+    return p;
 }
 
 // The centre, by the weights of its spoke and face points and its step (smooth, crease, first and second spoke).
@@ -91,11 +95,9 @@ vec3 crossProduct(vec3 a, vec3 b) {
     return n;
 }
 
-// Limit position and normal (not of unit length) of a point off the centre. `right`: the sector lies right of its axis.
-void limitPoint(uint index, Sources n, float sharpness, bool right, out vec3 position, out vec3 normal) {
-    vec3 c = point(index);
-    vec3 p[8];
-    for (uint k = 0u; k < (kLoop ? 6u : 8u); ++k) p[k] = point(n.s[k]);
+// Limit position and normal (not of unit length) of a point off the centre, from its neighbours counter-clockwise from its
+// axis on. `right`: the sector lies right of the axis.
+void limitPoint(vec3 c, vec3 p[8], float sharpness, bool right, out vec3 position, out vec3 normal) {
     precise vec3 limit, along, across, axis;
     bool sharp = sharpness > 0.0;
     if (kLoop) {

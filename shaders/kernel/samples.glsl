@@ -7,7 +7,7 @@ void limitSample(uvec4 around, uvec4 place, uint header, uint fragments, uint fr
     float sharpness = 0.0;
     if (place.y != 0u && (head.y & kSharpClass) != 0u)
         sharpness = spokeSharpness(head.w, place.y - 1u, fragments, fragment, step);
-    limitPoint(place.x, unpackSources(around), sharpness, (place.z & kRightSide) != 0u, position, normal);
+    limitPoint(point(place.x), pointsOf(unpackSources(around)), sharpness, (place.z & kRightSide) != 0u, position, normal);
     if (place.x == 0u && lists.y != 0u) // facets have no centre
         centreLimit(tableWord(lists.y + sector * fragments + fragment), position, normal);
 }

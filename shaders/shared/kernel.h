@@ -13,8 +13,11 @@
 //   pattern rows       one element a point, 16 bits a source: s0..s6 and rule | (spoke + 1) << 2
 //   neighbours         one element a point, 8 x 16 bits
 //   limit rows         two elements a sample: 8 neighbours x 16 bits; (point, spoke + 1, sector | kRightSide, sample of
-//                      the sector); the samples of kPlainSamples first
-//   row lists          one word a point: pattern rows by their kind of work, rising
+//                      the sector); those that no strip holds come first
+//   row lists          one word a point of a level: pattern rows that no cell makes, rising
+//   cells              one element a cell, 16 bits each: the points it makes (kNoTarget: none), and its own
+//   strips             one element a strip: (first column, columns, sector, 0); a column is an element: (point before |
+//                      point of the strip << 16, point behind | sample << 16, kNoSample or Loop's axis, 0)
 //   masks              (0 or kCornerMask, first sector, sectors, points of ring 1), then one element a point of ring 1:
 //                      (position, first tangent, second tangent, 0); one an arrangement of sharp spokes and run
 //   class words        [point][fragment] net: pool indices; [spoke][fragment] sharpness; [sector][fragment] patches or
@@ -23,9 +26,10 @@
 //   class headers      (fragments, sectors | flags, net, sharpness), (patches, masks, centre steps, 0), (weight of a spoke
 //                      point, of a face point, limit row, limit rows), then one a level 0..steps: (pattern rows of the
 //                      level, neighbours on it, points, its run in the scratch buffer)
-//   blocks             kBlockLanes lanes of one class, step and kind of work each, three elements: (rows, row list's first
-//                      word or the class's patches, first place in the list, first fragment), (run read, run written,
-//                      fragments, places), (neighbours on the level before, class header, 0, 0); the fragment rises first
+//   blocks             kBlockLanes lanes of one class, step and kind of work each, three elements: (first cell, pattern
+//                      row, strip or limit row; row list's first word or the class's patches; first place in the list;
+//                      first fragment), (run read, run written, fragments, places), (neighbours on the level before,
+//                      class header, 0, 0); the fragment rises first
 //   fragments          (class header, fragment, 0, 0)
 #ifndef SUPPLE_SHARED_KERNEL_H
 #define SUPPLE_SHARED_KERNEL_H
@@ -46,15 +50,19 @@ SUPPLE_SHARED_CONST kCornerMask = 0x80000000u;
 SUPPLE_SHARED_CONST kNoPatch = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kBlockLanes = 32u;
 
-// Kinds of work: on CPU devices every lane pays for all branches, so rows and samples go to pipelines by what they need.
-SUPPLE_SHARED_CONST kPlainFaceRows = 0u; // no sharpness acts on them, and they are no centres
-SUPPLE_SHARED_CONST kPlainEdgeRows = 1u;
-SUPPLE_SHARED_CONST kPlainVertexRows = 2u;
-SUPPLE_SHARED_CONST kOtherRows = 3u;
-SUPPLE_SHARED_CONST kRowKinds = 4u;
-SUPPLE_SHARED_CONST kPlainSamples = 0u;
-SUPPLE_SHARED_CONST kOtherSamples = 1u;
-SUPPLE_SHARED_CONST kSampleKinds = 2u;
+// Kinds of work. A cell is a point with its ring: it makes the points of the next level that the ring suffices for. A strip
+// is a row of samples of a sector, each loading but the points the one before had not. Both do without sharpness and
+// centres; what has those, and what no cell or strip holds, goes row by row and sample by sample.
+SUPPLE_SHARED_CONST kInBulk = 0u; // cells, strips
+SUPPLE_SHARED_CONST kOneByOne = 1u;
+SUPPLE_SHARED_CONST kWorkKinds = 2u;
+
+SUPPLE_SHARED_CONST kCellTargets = 7u;
+// The points a cell makes, by neighbour: its own vertex point, then the edge points (Loop: all, Catmull-Clark: neighbours
+// 0, 2, 6) and face points (Catmull-Clark: 1, 7) towards them.
+#define SUPPLE_KERNEL_QUAD_SLOTS 0u, 1u, 2u, 6u, 7u
+SUPPLE_SHARED_CONST kNoTarget = 0xFFFFu;
+SUPPLE_SHARED_CONST kNoSample = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kClassHeaderElements = 3u; // before the levels
 
 struct KernelPush {

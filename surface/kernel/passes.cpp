@@ -57,11 +57,11 @@ Result<Passes> Passes::create(const gpu::Device& device, const gpu::ComputeLayou
                 make(bucket.pipelines[loop][flag], shaders.fragment, "supple kernel, shared memory",
                      {{kLoopConstant, loop}, {kVertex24Constant, flag}, {kSharedPointsConstant, bucket.sharedPoints}});
             }
-            for (uint32_t kind = 0; kind < shared::kRowKinds; ++kind) {
+            for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
                 make(passes.refine_[loop][flag][kind], shaders.refine, "supple kernel, refine",
                      {{kLoopConstant, loop}, {kFromNetConstant, flag}, {kKindConstant, kind}});
             }
-            for (uint32_t kind = 0; kind < shared::kSampleKinds; ++kind) {
+            for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
                 for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24) {
                     make(passes.limit_[loop][flag][kind][vertex24], shaders.limit, "supple kernel, limit",
                          {{kLoopConstant, loop},
@@ -150,14 +150,14 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
     };
     for (uint32_t step = 1; step <= fragments.steps; ++step) {
         push.step = step;
-        for (uint32_t kind = 0; kind < shared::kRowKinds; ++kind) {
-            stepwiseWork(refine_[loop][step == 1 ? 1 : 0][kind], (step - 1) * shared::kRowKinds + kind);
+        for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
+            stepwiseWork(refine_[loop][step == 1 ? 1 : 0][kind], (step - 1) * shared::kWorkKinds + kind);
         }
     }
     push.step = fragments.steps;
-    for (uint32_t kind = 0; kind < shared::kSampleKinds; ++kind) {
+    for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
         stepwiseWork(limit_[loop][fragments.steps == 0 ? 1 : 0][kind][vertex24],
-                     fragments.steps * shared::kRowKinds + kind);
+                     fragments.steps * shared::kWorkKinds + kind);
     }
 }
 

@@ -13,8 +13,8 @@
 
 namespace supple::surface::kernel {
 
-/// GPUs: a workgroup a fragment, in shared memory; pipelines by how much they take of it. CPU devices, and fragments too
-/// large for the device's shared memory: level by level through a scratch buffer, a dispatch a kind of work.
+/// GPUs: a workgroup a fragment, in shared memory; pipelines by how much they take of it. CPU devices, and fragments
+/// too large for the device's shared memory: level by level through a scratch buffer, a dispatch a kind of work.
 class Passes {
 public:
     struct Shaders {
@@ -45,8 +45,8 @@ private:
     };
     std::vector<Bucket> buckets_; ///< sharedPoints rise; empty on CPU devices
     // By loop, whether the level before is the isolated one, and kind of work; the limit also by 24-byte vertices.
-    std::array<std::array<std::array<gpu::PipelineHandle, shared::kRowKinds>, 2>, 2> refine_;
-    std::array<std::array<std::array<std::array<gpu::PipelineHandle, 2>, shared::kSampleKinds>, 2>, 2> limit_;
+    std::array<std::array<std::array<gpu::PipelineHandle, shared::kWorkKinds>, 2>, 2> refine_;
+    std::array<std::array<std::array<std::array<gpu::PipelineHandle, 2>, shared::kWorkKinds>, 2>, 2> limit_;
 };
 
 } // namespace supple::surface::kernel

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -40,7 +41,8 @@ struct List {
 struct LevelTables {
     uint32_t rows = 0, neighbours = 0; ///< elements
     uint32_t points = 0;
-    std::array<List, shared::kRowKinds> lists; ///< words; of the level's own rows
+    List cells;    ///< elements
+    List oneByOne; ///< words
 };
 
 /// A fan's pattern, or a facet's of one level, and where it lies in the tables.
@@ -53,7 +55,8 @@ struct ClassTables {
     ClassKey key;
     std::vector<uint32_t> fragments;                         ///< of the mesh
     std::vector<LevelTables> levels;                         ///< 0..steps
-    std::array<List, shared::kSampleKinds> limits;           ///< elements, one after the other
+    List strips, limitRows;                                  ///< elements
+    uint32_t limitOneByOne = 0;                              ///< of the limit rows, the first
     uint32_t net = 0, sharpness = 0, patches = 0, masks = 0; ///< words
     uint32_t centreSteps = 0, header = 0;                    ///< elements
     std::vector<uint32_t> runs;                              ///< per level: its run in the scratch buffer
@@ -214,85 +217,173 @@ private:
         return facets_[level];
     }
 
-    static uint32_t kindOf(const Row& row, bool sharp) {
-        if (row.rule == Rule::centre || (sharp && row.spoke != kNoSpoke)) {
-            return shared::kOtherRows;
-        }
-        return row.rule == Rule::face   ? shared::kPlainFaceRows
-               : row.rule == Rule::edge ? shared::kPlainEdgeRows
-                                        : shared::kPlainVertexRows;
+    /// The points of the next level that a point's ring makes: towards which neighbours.
+    [[nodiscard]] std::span<const uint32_t> cellSlots() const {
+        static constexpr uint32_t kQuadSlots[] = {SUPPLE_KERNEL_QUAD_SLOTS};
+        static constexpr uint32_t kTriangleSlots[] = {0, 1, 2, 3, 4, 5};
+        return loop_ ? std::span<const uint32_t>(kTriangleSlots) : std::span<const uint32_t>(kQuadSlots);
     }
 
-    /// Lists the rows of a level by kind. A fan's levels take the first rows of one list each.
-    void writeLists(ClassTables& c) {
-        const bool facet = c.key.kind == FragmentKind::facet;
+    /// The points a cell makes, as the tables have them.
+    using Cell = std::array<uint32_t, 8>;
+
+    /// Gives every row of a level that needs neither sharpness nor the centre's rule to a cell of the level before, if
+    /// one has all of its sources round it, and takes it from `rows`. `neighbours` are those of the level before.
+    std::vector<Cell> makeCells(const ClassKey& key, std::span<const Neighbours> neighbours,
+                                const std::vector<Row>& pattern, std::vector<uint32_t>& rows) const {
+        const std::span<const uint32_t> slots = cellSlots();
+        std::map<uint32_t, Cell> cells;
+        const auto give = [&](uint32_t point, uint32_t slot, uint32_t row) {
+            const auto [cell, isNew] = cells.try_emplace(point);
+            if (isNew) {
+                cell->second.fill(shared::kNoTarget);
+                cell->second[shared::kCellTargets] = point;
+            }
+            cell->second[slot] = row;
+        };
+        std::erase_if(rows, [&](uint32_t row) {
+            const Row& r = pattern[row];
+            if (r.rule == Rule::centre || (key.sharp && r.spoke != kNoSpoke)) {
+                return false;
+            }
+            // A vertex point's cell is its first source's; an edge or face point's that of a corner with a slot for it.
+            const uint32_t corners = r.rule == Rule::vertex ? 1 : r.rule == Rule::edge ? 2 : 4;
+            for (uint32_t k = 0; k < corners; ++k) {
+                const uint32_t point = r.sources[k];
+                const bool centre = key.kind == FragmentKind::vertex && point == 0;
+                if (centre || point >= neighbours.size() || neighbours[point][0] == point) { // or in the halo
+                    continue;
+                }
+                if (r.rule == Rule::vertex) {
+                    give(point, 0, row);
+                    return true;
+                }
+                for (uint32_t slot = 0; slot < slots.size(); ++slot) {
+                    if (neighbours[point][slots[slot]] == r.sources[k ^ 1u]) {
+                        give(point, 1 + slot, row);
+                        return true;
+                    }
+                }
+            }
+            return false;
+        });
+        std::vector<Cell> result;
+        for (const auto& [point, cell] : cells) {
+            result.push_back(cell);
+        }
+        return result;
+    }
+
+    void writeWork(ClassTables& c) {
         for (uint32_t level = 0; level <= steps_; ++level) {
-            LevelTables& l = c.levels[level];
             const PatternTables& tables = patternOf(c.key, level);
-            l.rows = tables.rows;
-            l.neighbours = tables.neighbours;
-            for (uint32_t kind = 0; kind < shared::kRowKinds && level > 0; ++kind) {
-                std::vector<uint32_t> rows;
-                for (uint32_t row = 0; row < l.points; ++row) {
-                    if (kindOf(tables.pattern.rows[row], c.key.sharp) == kind) {
-                        rows.push_back(row);
-                    }
-                }
-                l.lists[kind] = {0, static_cast<uint32_t>(rows.size())};
-                if (facet || level == steps_) {
-                    l.lists[kind].first = 4 * writer_.element();
-                    for (const uint32_t row : rows) {
-                        writer_.put({row});
-                    }
-                    for (uint32_t before = 1; before < level && !facet; ++before) {
-                        c.levels[before].lists[kind].first = l.lists[kind].first;
-                    }
-                }
+            c.levels[level].rows = tables.rows;
+            c.levels[level].neighbours = tables.neighbours;
+        }
+        for (uint32_t level = 1; level <= steps_; ++level) {
+            LevelTables& l = c.levels[level];
+            // Of a fan's neighbours those that the level before covers; they come first.
+            std::span<const Neighbours> neighbours = patternOf(c.key, level - 1).pattern.neighbours;
+            if (c.key.kind == FragmentKind::vertex) {
+                neighbours = neighbours.first(pointCount(c.key.fan, 1u << (level - 1)));
+            }
+            std::vector<uint32_t> rows(l.points);
+            std::iota(rows.begin(), rows.end(), 0u);
+            const std::vector<Cell> cells = makeCells(c.key, neighbours, patternOf(c.key, level).pattern.rows, rows);
+            l.cells = {writer_.element(), static_cast<uint32_t>(cells.size())};
+            for (const Cell& cell : cells) {
+                putHalves(cell);
+            }
+            l.oneByOne = {4 * writer_.element(), static_cast<uint32_t>(rows.size())};
+            for (const uint32_t row : rows) {
+                writer_.put({row});
             }
         }
     }
 
-    /// Calls visit(a, b, sample) for the samples of a sector in grid order.
-    template <class Visit>
-    void forEachSample(Visit&& visit) const {
-        const int32_t side = 1 << steps_;
-        uint32_t sample = 0;
-        for (int32_t b = 0; b <= side; ++b) {
-            for (int32_t a = 0; a <= (loop_ ? side - b : side); ++a) {
-                visit(a, b, sample++);
-            }
-        }
+    /// The point of a fragment's last level at (a, b) of a sector, or kNoPoint.
+    [[nodiscard]] uint32_t pointAt(const ClassKey& key, uint32_t sector, int32_t a, int32_t b) const {
+        return key.kind == FragmentKind::facet ? facetPointIndex(1u << steps_, a, b)
+                                               : pointIndex(key.fan, sector, a, b);
     }
 
+    /// Which of a sector's directions a point's neighbours begin with, kNoSample where with none of Loop's: its rules
+    /// depend on it, Catmull-Clark's do not.
+    [[nodiscard]] uint32_t axisOf(const ClassKey& key, const Neighbours& neighbours, uint32_t sector, int32_t a,
+                                  int32_t b) const {
+        if (!loop_) {
+            return 0;
+        }
+        constexpr int32_t kWays[3][2] = {{1, 0}, {0, 1}, {-1, 1}};
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            if (neighbours[0] == pointAt(key, sector, a + kWays[axis][0], b + kWays[axis][1])) {
+                return axis;
+            }
+        }
+        return shared::kNoSample;
+    }
+
+    /// Strips of the samples that need neither sharpness nor the centre's mask, and rows for all, the others first.
     void writeLimits(ClassTables& c) {
         const bool facet = c.key.kind == FragmentKind::facet;
         const Pattern& pattern = patternOf(c.key, steps_).pattern;
-        for (uint32_t kind = 0; kind < shared::kSampleKinds; ++kind) {
-            c.limits[kind].first = writer_.element();
-            for (uint32_t sector = 0; sector < c.key.fan.sectors; ++sector) {
-                forEachSample([&](int32_t a, int32_t b, uint32_t sample) {
-                    const uint32_t point =
-                        facet ? facetPointIndex(1u << steps_, a, b) : pointIndex(c.key.fan, sector, a, b);
-                    const uint32_t spoke = pattern.spokes[point];
-                    const bool centre = !facet && point == 0;
-                    const bool other = centre || (c.key.sharp && spoke != kNoSpoke);
-                    if (other != (kind == shared::kOtherSamples)) {
-                        return;
+        const int32_t side = 1 << steps_;
+        struct LimitRow {
+            uint32_t point, place, sample;
+        };
+        std::vector<LimitRow> oneByOne, inStrips;
+        std::vector<List> strips; // columns
+        std::vector<uint32_t> stripSectors;
+        uint32_t column = writer_.element();
+        for (uint32_t sector = 0; sector < c.key.fan.sectors; ++sector) {
+            uint32_t sample = 0;
+            for (int32_t b = 0; b <= side; ++b) {
+                const int32_t last = loop_ ? side - b : side;
+                strips.push_back({column, static_cast<uint32_t>(last + 3)});
+                stripSectors.push_back(sector);
+                for (int32_t a = -1; a <= last + 1; ++a, ++column) {
+                    // Points that no sample of the strip asks for may be missing.
+                    const auto at = [&](int32_t y) {
+                        const uint32_t point = pointAt(c.key, sector, a, y);
+                        return point == kNoPoint ? 0u : point;
+                    };
+                    const uint32_t point = at(b);
+                    const bool isSample = a >= 0 && a <= last;
+                    uint32_t axis = shared::kNoSample;
+                    if (isSample) {
+                        const uint32_t spoke = pattern.spokes[point];
+                        const bool centre = !facet && point == 0;
+                        if (!centre && !(c.key.sharp && spoke != kNoSpoke)) {
+                            axis = axisOf(c.key, pattern.neighbours[point], sector, a, b);
+                        }
+                        // A facet lies right of the lines through c0 and c2, left of that through c1.
+                        const bool right = facet ? spoke != 1 : a == 0;
+                        (axis == shared::kNoSample ? oneByOne : inStrips)
+                            .push_back({point, sector | (right ? shared::kRightSide : 0u), sample});
                     }
-                    // A facet lies right of the lines through c0 and c2, left of that through c1.
-                    const bool right = facet ? spoke != 1 : a == 0;
-                    putHalves(pattern.neighbours[point]);
-                    writer_.put({point, spoke == kNoSpoke ? 0u : spoke + 1, sector | (right ? shared::kRightSide : 0u),
-                                 sample});
-                    ++c.limits[kind].count;
-                });
+                    writer_.put({at(b - 1) | point << 16, at(b + 1) | sample << 16, axis, 0u});
+                    sample += isSample ? 1 : 0;
+                }
+            }
+        }
+        c.strips = {writer_.element(), static_cast<uint32_t>(strips.size())};
+        for (size_t i = 0; i < strips.size(); ++i) {
+            writer_.put({strips[i].first, strips[i].count, stripSectors[i], 0u});
+        }
+        c.limitRows = {writer_.element(), static_cast<uint32_t>(oneByOne.size() + inStrips.size())};
+        c.limitOneByOne = static_cast<uint32_t>(oneByOne.size());
+        for (const std::vector<LimitRow>* rows : {&oneByOne, &inStrips}) {
+            for (const LimitRow& row : *rows) {
+                putHalves(pattern.neighbours[row.point]);
+                const uint32_t spoke = pattern.spokes[row.point];
+                writer_.put({row.point, spoke == kNoSpoke ? 0u : spoke + 1, row.place, row.sample});
             }
         }
     }
 
     void writeClass(ClassTables& c) {
         const bool facet = c.key.kind == FragmentKind::facet;
-        writeLists(c);
+        writeWork(c);
         writeLimits(c);
         const uint32_t sectors = c.key.fan.sectors;
         if (!facet) {
@@ -331,8 +422,8 @@ private:
         const CentreWeights weights = facet ? CentreWeights{} : refineWeights(mesh_.subdivision, c.key.fan.sectors);
         c.header = writer_.element();
         writer_.put({c.count(), sectors | (c.key.sharp ? shared::kSharpClass : 0u), c.net, c.sharpness, c.patches,
-                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limits[0].first,
-                     c.limits[0].count + c.limits[1].count});
+                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows.first,
+                     c.limitRows.count});
         for (uint32_t level = 0; level <= steps_; ++level) {
             c.runs.push_back(tables_.fragments.scratchStride);
             const LevelTables& l = c.levels[level];
@@ -397,21 +488,26 @@ private:
     }
 
     void writeBlocks() {
-        for (uint32_t step = 1; step <= steps_; ++step) {
-            for (uint32_t kind = 0; kind < shared::kRowKinds; ++kind) {
-                for (size_t k = 0; k < classes_.size(); ++k) {
-                    const LevelTables& level = classes_[k].levels[step];
-                    writeBlocks(k, step, level.rows, level.lists[kind].first, level.lists[kind].count,
-                                classes_[k].runs[step]);
-                }
-            }
-        }
-        for (uint32_t kind = 0; kind < shared::kSampleKinds; ++kind) {
+        const auto forEachClass = [&](auto&& write) {
             for (size_t k = 0; k < classes_.size(); ++k) {
-                const List& limits = classes_[k].limits[kind];
-                writeBlocks(k, steps_ + 1, limits.first, classes_[k].patches, limits.count, 0);
+                write(k, classes_[k]);
             }
+        };
+        for (uint32_t step = 1; step <= steps_; ++step) {
+            forEachClass([&](size_t k, const ClassTables& c) {
+                writeBlocks(k, step, c.levels[step].cells.first, 0, c.levels[step].cells.count, c.runs[step]);
+            });
+            forEachClass([&](size_t k, const ClassTables& c) {
+                const LevelTables& level = c.levels[step];
+                writeBlocks(k, step, level.rows, level.oneByOne.first, level.oneByOne.count, c.runs[step]);
+            });
         }
+        forEachClass([&](size_t k, const ClassTables& c) {
+            writeBlocks(k, steps_ + 1, c.strips.first, c.patches, c.strips.count, 0);
+        });
+        forEachClass([&](size_t k, const ClassTables& c) {
+            writeBlocks(k, steps_ + 1, c.limitRows.first, c.patches, c.limitOneByOne, 0);
+        });
     }
 
     void writeBlocks(size_t classIndex, uint32_t step, uint32_t rows, uint32_t list, uint32_t places, uint32_t write) {
