@@ -237,10 +237,11 @@ uint32_t pointIndex(const Fan& fan, uint32_t sector, int32_t a, int32_t b) {
     while (a < 0 || b < 0) {
         const bool back = b < 0;
         const Point p = back ? (loop ? Point{-b, a + b} : Point{-b, a}) : (loop ? Point{a + b, -a} : Point{b, -a});
-        if (fan.open && sector == (back ? 0 : fan.sectors - 1)) {
+        const uint32_t last = fan.sectors - 1;
+        if (fan.open && sector == (back ? 0 : last)) {
             return kNoPoint;
         }
-        sector = (sector + (back ? fan.sectors - 1 : 1)) % fan.sectors;
+        sector = back ? (sector == 0 ? last : sector - 1) : (sector == last ? 0 : sector + 1);
         a = p.a;
         b = p.b;
     }
@@ -250,11 +251,9 @@ uint32_t pointIndex(const Fan& fan, uint32_t sector, int32_t a, int32_t b) {
     }
     const uint32_t perSector = pointsPerSector(fan.subdivision) * ring;
     const auto t = static_cast<uint32_t>(loop || a >= b ? b : 2 * b - a);
-    uint32_t place = perSector * sector + t;
-    if (!fan.open) {
-        place %= perSector * fan.sectors;
-    }
-    return pointCount(fan, ring - 1) + place;
+    const uint32_t place = perSector * sector + t;
+    const bool again = !fan.open && place == perSector * fan.sectors; // spoke m is spoke 0
+    return pointCount(fan, ring - 1) + (again ? 0 : place);
 }
 
 uint32_t facetPointCount(uint32_t side) {

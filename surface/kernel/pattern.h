@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace supple::surface::kernel {
@@ -19,7 +20,9 @@ struct Fan {
     bool open = false;
 
     bool operator==(const Fan&) const = default;
-    auto operator<=>(const Fan&) const = default;
+    bool operator<(const Fan& other) const {
+        return std::tie(subdivision, sectors, open) < std::tie(other.subdivision, other.sectors, other.open);
+    }
 };
 inline constexpr uint32_t kNoPoint = 0xFFFFFFFFu;
 /// Points of radius `radius`, the centre included.
