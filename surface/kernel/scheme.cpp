@@ -28,7 +28,9 @@ struct ClassKey {
     Fan fan;
     bool sharp = false;
 
-    auto operator<=>(const ClassKey&) const = default;
+    bool operator<(const ClassKey& other) const {
+        return std::tie(kind, fan, sharp) < std::tie(other.kind, other.fan, other.sharp);
+    }
 };
 
 /// A list of rows or samples.
@@ -76,8 +78,7 @@ public:
     Result<Tables> build() {
         sortFragments();
         for (const ClassTables& c : classes_) {
-            if (c.key.kind == FragmentKind::vertex &&
-                pointCount(c.key.fan, (1u << steps_) + 1) + shared::kBlockLanes > kMaxPoints) {
+            if (c.key.kind == FragmentKind::vertex && pointCount(c.key.fan, (1u << steps_) + 1) >= kMaxPoints) {
                 const Fragment& fragment = mesh_.fragments[c.fragments.front()];
                 return Error{ErrorCode::limit, "vertex " + std::to_string(mesh_.net[fragment.firstNet]) + " has " +
                                                    std::to_string(c.key.fan.sectors) + " faces: at depth " +
