@@ -325,6 +325,16 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     groupDesc.rate = 64;
     groupDesc.instanceCount = 0x7FFFFFFF;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_LIMIT);
+    groupDesc.instanceCount = 1;
+    groupDesc.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+    groupDesc.flags = SUPPLE_GROUP_PATCHES;
+    EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << "it has no coefficients";
+    groupDesc.flags = 0;
+    for (const int scheme : {5, 99, 101, -1}) {
+        groupDesc.scheme = static_cast<SuppleScheme>(scheme);
+        EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << scheme;
+    }
+    groupDesc.scheme = SUPPLE_SCHEME_AUTO;
     groupDesc.structSize = 4;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleSetClipPose(context, c.group, 1, SUPPLE_BIND_POSE, 0.0), SUPPLE_ERROR_ARGUMENT);
