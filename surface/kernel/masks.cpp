@@ -1,83 +1,12 @@
 #include "surface/kernel/masks.h"
 
+#include "surface/valence.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace supple::surface::kernel {
 namespace {
-
-/// cos(pi k / n), exact where it is 0, a half or 1: regular centres must have the regular rule's weights.
-double cosine(uint32_t k, uint32_t n) {
-    k %= 2 * n;
-    if (k > n) {
-        k = 2 * n - k;
-    }
-    if (2 * k > n) {
-        return -cosine(n - k, n);
-    }
-    return k == 0 ? 1.0 : 2 * k == n ? 0.0 : 3 * k == n ? 0.5 : std::cos(std::numbers::pi * k / n);
-}
-
-/// sin(pi k / n).
-double sine(uint32_t k, uint32_t n) {
-    k %= 2 * n;
-    if (k > n) {
-        return -sine(2 * n - k, n);
-    }
-    if (2 * k > n) {
-        k = n - k;
-    }
-    return k == 0 ? 0.0 : 2 * k == n ? 1.0 : 6 * k == n ? 0.5 : std::sin(std::numbers::pi * k / n);
-}
-
-enum class CentreRule : uint8_t { smooth, crease, corner };
-
-/// The rule at a vertex, and the ends of its crease.
-struct VertexRule {
-    CentreRule rule = CentreRule::smooth;
-    uint32_t first = 0, second = 0;
-};
-
-VertexRule ruleAt(std::span<const float> spokes, float vertex) {
-    VertexRule result;
-    uint32_t sharp = 0;
-    for (uint32_t k = 0; k < spokes.size(); ++k) {
-        if (spokes[k] > 0.0f) {
-            (sharp == 0 ? result.first : result.second) = k;
-            ++sharp;
-        }
-    }
-    // One sharp spoke is a dart's tip: smooth.
-    result.rule = vertex > 0.0f || sharp > 2 ? CentreRule::corner
-                  : sharp == 2               ? CentreRule::crease
-                                             : CentreRule::smooth;
-    return result;
-}
-
-/// The share of the parent's rule where the child's is another: the mean sharpness of what ceases to be sharp. In
-/// float, as OpenSubdiv has it.
-float parentShare(std::span<const float> spokes, float vertex) {
-    float sum = 0.0f;
-    uint32_t count = 0;
-    const auto add = [&](float sharpness) {
-        if (sharpness > 0.0f && softened(sharpness, 1) <= 0.0f) {
-            sum += sharpness;
-            ++count;
-        }
-    };
-    add(vertex);
-    for (const float sharpness : spokes) {
-        add(sharpness);
-    }
-    return count == 0 ? 0.0f : std::min(1.0f, sum / static_cast<float>(count));
-}
-
-/// Loop's weight of a neighbour.
-double loopWeight(uint32_t valence) {
-    const double b = 0.375 + 0.25 * cosine(2, valence);
-    return (0.625 - b * b) / valence;
-}
 
 /// Ring 1 in spiral order, as masks count it.
 class Ring {
@@ -99,7 +28,8 @@ private:
 CentreMask smoothPosition(const Fan& fan, const Ring& ring) {
     const double k = fan.sectors;
     CentreMask mask = ring.mask();
-    const double w = ring.hasFaces() ? 1.0 / (k * (k + 5.0)) : 1.0 / (k + 3.0 / (8.0 * loopWeight(fan.sectors)));
+    const double w = ring.hasFaces() ? 1.0 / (k * (k + 5.0))
+                                     : 1.0 / (k + 3.0 / (8.0 * refineWeights(Subdivision::loop, fan.sectors).spoke));
     mask[0] = ring.hasFaces() ? 1.0 - 5.0 * k * w : 1.0 - k * w;
     for (uint32_t i = 0; i < fan.sectors; ++i) {
         mask[ring.spoke(i)] = ring.hasFaces() ? 4.0 * w : w;
@@ -113,10 +43,10 @@ CentreMask smoothPosition(const Fan& fan, const Ring& ring) {
 /// The tangent towards spoke 0, or a quarter turn on from it.
 CentreMask smoothTangent(const Fan& fan, const Ring& ring, bool quarter) {
     const uint32_t k = fan.sectors;
-    const auto wave = [&](uint32_t i) { return quarter ? sine(2 * i, k) : cosine(2 * i, k); };
+    const auto wave = [&](uint32_t i) { return quarter ? sineOfHalfTurns(2 * i, k) : cosineOfHalfTurns(2 * i, k); };
     CentreMask mask = ring.mask();
-    const double c = cosine(2, k);
-    const double lambda = (5.0 + c + cosine(1, k) * std::sqrt(2.0 * (9.0 + c))) / 16.0;
+    const double c = cosineOfHalfTurns(2, k);
+    const double lambda = (5.0 + c + cosineOfHalfTurns(1, k) * std::sqrt(2.0 * (9.0 + c))) / 16.0;
     for (uint32_t i = 0; i < k; ++i) {
         if (ring.hasFaces()) {
             mask[ring.spoke(i)] = 4.0 * wave(i);
@@ -138,14 +68,14 @@ CentreMask acrossCrease(const Ring& ring, uint32_t first, uint32_t n) {
         begin = end = 1.0;
         centre = -2.0;
     } else if (ring.hasFaces()) {
-        const double r = (cosine(1, n) + 1.0) / sine(1, n);
-        centre = 4.0 * r * (cosine(1, n) - 1.0);
-        begin = end = -r * (1.0 + 2.0 * cosine(1, n));
+        const double r = (cosineOfHalfTurns(1, n) + 1.0) / sineOfHalfTurns(1, n);
+        centre = 4.0 * r * (cosineOfHalfTurns(1, n) - 1.0);
+        begin = end = -r * (1.0 + 2.0 * cosineOfHalfTurns(1, n));
         for (uint32_t j = 0; j < n; ++j) {
-            mask[ring.face(first + j)] = sine(j, n) + sine(j + 1, n);
+            mask[ring.face(first + j)] = sineOfHalfTurns(j, n) + sineOfHalfTurns(j + 1, n);
         }
         for (uint32_t j = 1; j < n; ++j) {
-            mask[ring.spoke(first + j)] = 4.0 * sine(j, n);
+            mask[ring.spoke(first + j)] = 4.0 * sineOfHalfTurns(j, n);
         }
     } else if (n == 2) {
         mask[ring.spoke(first + 1)] = 1.0;
@@ -155,9 +85,9 @@ CentreMask acrossCrease(const Ring& ring, uint32_t first, uint32_t n) {
         begin = end = -1.0;
         centre = -2.0;
     } else {
-        begin = end = -sine(1, n);
+        begin = end = -sineOfHalfTurns(1, n);
         for (uint32_t j = 1; j < n; ++j) {
-            mask[ring.spoke(first + j)] = 2.0 * (1.0 - cosine(1, n)) * sine(j, n);
+            mask[ring.spoke(first + j)] = 2.0 * (1.0 - cosineOfHalfTurns(1, n)) * sineOfHalfTurns(j, n);
         }
     }
     return mask;
@@ -194,60 +124,9 @@ CentreLimit cornerLimit(const Fan& fan, const Ring& ring, std::span<const float>
 
 } // namespace
 
-CentreWeights refineWeights(Subdivision subdivision, uint32_t valence) {
-    const double k = valence;
-    if (subdivision == Subdivision::loop) {
-        const double w = loopWeight(valence);
-        return {1.0 - k * w, w, 0.0};
-    }
-    return {(k - 1.75) / k, 1.5 / (k * k), 0.25 / (k * k)};
-}
-
-float softened(float sharpness, uint32_t steps) {
-    if (sharpness >= kInfiniteSharpness) {
-        return sharpness;
-    }
-    return std::max(0.0f, sharpness - static_cast<float>(steps));
-}
-
-CentreStep centreStep(std::span<const float> spokeSharpness, float vertexSharpness) {
-    std::vector<float> childSpokes;
-    childSpokes.reserve(spokeSharpness.size());
-    for (const float sharpness : spokeSharpness) {
-        childSpokes.push_back(softened(sharpness, 1));
-    }
-    const VertexRule parent = ruleAt(spokeSharpness, vertexSharpness);
-    const VertexRule child = ruleAt(childSpokes, softened(vertexSharpness, 1));
-    CentreStep step;
-    step.smooth = 0.0;
-    const auto add = [&](const VertexRule& rule, double share) {
-        switch (rule.rule) {
-        case CentreRule::smooth:
-            step.smooth += share;
-            break;
-        case CentreRule::crease:
-            step.crease += share;
-            step.first = rule.first;
-            step.second = rule.second;
-            break;
-        case CentreRule::corner:
-            step.corner += share;
-            break;
-        }
-    };
-    if (parent.rule == child.rule || parent.rule == CentreRule::smooth) {
-        add(parent, 1.0);
-    } else {
-        const double share = parentShare(spokeSharpness, vertexSharpness);
-        add(parent, share);
-        add(child, 1.0 - share);
-    }
-    return step;
-}
-
 CentreLimit centreLimit(const Fan& fan, std::span<const float> spokeSharpness, float vertexSharpness) {
     const Ring ring(fan);
-    const VertexRule at = ruleAt(spokeSharpness, vertexSharpness);
+    const VertexRule at = vertexRule(spokeSharpness, vertexSharpness);
     if (at.rule == CentreRule::corner) {
         return cornerLimit(fan, ring, spokeSharpness);
     }

@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "cage/topology.h"
+#include "surface/subdivision.h"
 
 #include <cstdint>
 #include <string>
@@ -12,19 +13,7 @@
 
 namespace supple::surface::kernel {
 
-enum class Subdivision : uint8_t { catmullClark, loop };
-
-/// Sharpness of what no step softens: boundary edges, hard creases, hard corners.
-inline constexpr float kInfiniteSharpness = 1e9f;
-
-/// Points as affine combinations of the cage's vertices: row i is the entries [starts[i], starts[i + 1]).
-struct Stencils {
-    std::vector<uint32_t> starts;
-    std::vector<uint32_t> vertices; ///< cage vertices, rising within a row
-    std::vector<double> weights;    ///< sum to 1 in every row
-
-    [[nodiscard]] uint32_t rows() const { return static_cast<uint32_t>(starts.size() - 1); }
-};
+using surface::Subdivision;
 
 enum class FragmentKind : uint8_t {
     vertex, ///< the corner sectors of the faces round a vertex of the level before the isolated one
