@@ -275,7 +275,7 @@ void beginLevel(Level& level, const Cage& cage, std::vector<std::string>& notes)
     notes.insert(notes.end(), features.unused.begin(), features.unused.end());
     if (!cage.creaseScalars.empty()) {
         notes.push_back(std::to_string(cage.creaseScalars.size()) +
-                        " crease scalars: not used, subdivision knows sharpness alone");
+                        " crease scalars: not used, they are for P_m alone");
     }
     for (const float sharpness : features.edgeSharpness) {
         level.edgeSharpness.push_back(markedInfinite(sharpness));

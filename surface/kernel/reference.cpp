@@ -4,6 +4,7 @@
 
 #include "surface/kernel/masks.h"
 #include "surface/kernel/pattern.h"
+#include "surface/stencil_reference.h"
 
 #include <cmath>
 #include <map>
@@ -323,19 +324,7 @@ private:
 
 template <class T>
 std::vector<Vec3<T>> isolate(const Mesh& mesh, std::span<const Vec3<T>> positions) {
-    const Stencils& stencils = mesh.stencils;
-    std::vector<Vec3<T>> isolated;
-    isolated.reserve(stencils.rows());
-    for (uint32_t row = 0; row < stencils.rows(); ++row) {
-        const uint32_t begin = stencils.starts[row];
-        const Vec3<T> first = positions[stencils.vertices[begin]];
-        Vec3<T> sum(T(0));
-        for (uint32_t i = begin + 1; i < stencils.starts[row + 1]; ++i) {
-            sum += T(stencils.weights[i]) * (positions[stencils.vertices[i]] - first);
-        }
-        isolated.push_back(first + sum);
-    }
-    return isolated;
+    return applyStencils<T>(mesh.stencils, positions);
 }
 
 template <class T>

@@ -193,7 +193,7 @@ TEST(KernelMesh, notes) {
     const Mesh mesh = kernelMesh(cage, Subdivision::catmullClark);
     EXPECT_EQ(mesh.notes,
               (Strings{"crease (0, 7): the cage has no such edge", "sharp vertex 8: the cage has only 8 vertices",
-                       "1 crease scalars: not used, subdivision knows sharpness alone"}));
+                       "1 crease scalars: not used, they are for P_m alone"}));
 }
 
 /// Attributes of the parts of a face are what the face's own corners give there by bilinear interpolation.

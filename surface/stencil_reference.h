@@ -1,0 +1,31 @@
+// Stencils on the CPU, in float or double, with the sums of the device in their order: for tests and comparisons, not
+// part of the runtime.
+#pragma once
+
+#include "surface/subdivision.h"
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace supple::surface {
+
+/// p_first + sum of w_i (p_i - p_first) over a row's other entries.
+template <class T>
+[[nodiscard]] std::vector<glm::vec<3, T>> applyStencils(const Stencils& stencils,
+                                                        std::span<const glm::vec<3, T>> positions) {
+    std::vector<glm::vec<3, T>> points;
+    points.reserve(stencils.rows());
+    for (uint32_t row = 0; row < stencils.rows(); ++row) {
+        const uint32_t begin = stencils.starts[row];
+        const glm::vec<3, T> first = positions[stencils.vertices[begin]];
+        glm::vec<3, T> sum(T(0));
+        for (uint32_t i = begin + 1; i < stencils.starts[row + 1]; ++i) {
+            sum += T(stencils.weights[i]) * (positions[stencils.vertices[i]] - first);
+        }
+        points.push_back(first + sum);
+    }
+    return points;
+}
+
+} // namespace supple::surface
