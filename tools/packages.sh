@@ -7,6 +7,7 @@ supple_packages=(
     libvulkan-dev mesa-vulkan-drivers
     glslang-tools
     libglm-dev libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libstb-dev libcli11-dev
+    libnanoflann-dev
     libglfw3-dev libimgui-dev
 )
 # To test as well.

@@ -2,7 +2,7 @@
 #include "surface/scheme.h"
 #include "tools/host/character_file.h"
 #include "tools/supple/command.h"
-#include "tools/supple/session.h"
+#include "tools/supple/evaluation.h"
 #include "tools/supple/text_file.h"
 
 #include <CLI/CLI.hpp>
@@ -24,25 +24,6 @@ struct BakeOptions {
     double time = 0.0;
     DeviceFlags device;
 };
-
-/// What came back from the device.
-struct Baked {
-    SuppleGroupOutput output{};
-    std::vector<SupplePatchInfo> patches;
-    std::vector<std::byte> surfaceVertices;
-    std::vector<std::byte> attributes;
-    std::vector<std::byte> gridIndices;
-    std::vector<std::byte> coefficients;
-    std::vector<std::byte> deformedCage;
-};
-
-/// The first floats of element `index` of a buffer that was read back.
-template <class Vec>
-Vec element(const std::vector<std::byte>& bytes, const SuppleBufferView& view, size_t index, size_t byteOffset = 0) {
-    Vec value;
-    std::memcpy(&value, bytes.data() + index * view.stride + byteOffset, sizeof value);
-    return value;
-}
 
 template <class Vec>
 void writeVector(TextFile& file, std::string_view keyword, const Vec& value) {
@@ -75,11 +56,14 @@ std::vector<std::vector<uint32_t>> gridFaces(const SuppleDrawRange& range, uint3
     return faces;
 }
 
-Status writeSurface(const std::string& path, const Baked& baked, const std::string& scheme) {
+Status writeSurface(const std::string& path, const Evaluation& baked, const std::string& scheme, uint32_t askedRate) {
     const SuppleGroupOutput& output = baked.output;
     const bool uvs = !baked.attributes.empty();
     TextFile file(path);
     file.text("# supple bake: scheme ").text(scheme).text(", rate ").number(uint64_t{output.rate});
+    if (output.rate != askedRate) {
+        file.text(" (").number(uint64_t{askedRate}).text(" asked for along an edge of the cage)");
+    }
     file.text(", ").number(uint64_t{output.patchCount}).text(" patches\n");
     for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
         const SuppleDrawRange& range = output.drawRanges[r];
@@ -115,7 +99,7 @@ Status writeSurface(const std::string& path, const Baked& baked, const std::stri
     return file.close();
 }
 
-Status writeCage(const std::string& path, const Baked& baked, const cage::Cage& cage) {
+Status writeCage(const std::string& path, const Evaluation& baked, const cage::Cage& cage) {
     TextFile file(path);
     file.text("# supple bake: deformed cage\n");
     for (uint32_t vertex = 0; vertex < cage.vertexCount(); ++vertex) {
@@ -137,7 +121,7 @@ Status writeCage(const std::string& path, const Baked& baked, const cage::Cage& 
     return file.close();
 }
 
-Status writePatches(const std::string& path, const Baked& baked, const std::string& scheme) {
+Status writePatches(const std::string& path, const Evaluation& baked, const std::string& scheme) {
     const SuppleBufferView& view = baked.output.patchCoefficients;
     TextFile file(path);
     file.text("{\"scheme\":\"").text(scheme).text("\",\"rate\":").number(uint64_t{baked.output.rate});
@@ -165,89 +149,6 @@ Status writePatches(const std::string& path, const Baked& baked, const std::stri
     return file.close();
 }
 
-/// Reads a buffer of the group's output; one that the group was made without stays empty.
-Status readBack(host::Device& device, const SuppleBufferView& view, std::vector<std::byte>& bytes) {
-    if (view.buffer == VK_NULL_HANDLE) {
-        return success();
-    }
-    Result<std::vector<std::byte>> read = device.readBuffer(view);
-    if (!read) {
-        return read.error();
-    }
-    bytes = std::move(*read);
-    return success();
-}
-
-/// Poses one instance, runs one frame and reads its results back.
-Result<Baked> evaluate(Session& session, const BakeOptions& options, const host::CharacterFile& file, uint32_t clip,
-                       uint32_t groupFlags) {
-    host::Context& context = *session.context;
-    const Result<SuppleAsset> asset = host::createAsset(context, file);
-    if (!asset) {
-        return asset.error();
-    }
-
-    SuppleGroupDesc desc{};
-    desc.structSize = sizeof desc;
-    desc.flags = groupFlags;
-    desc.asset = *asset;
-    desc.instanceCount = 1;
-    desc.scheme = schemeOf(options.surface.scheme);
-    desc.rate = options.surface.rate;
-    desc.vertexFormat = SUPPLE_VERTEX_24;
-    desc.tangentMode = tangentsOf(options.surface);
-    desc.cornerRule = cornersOf(options.surface);
-    desc.skinning = skinningOf(options.surface.skinning);
-    SuppleGroup group{};
-    Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
-    if (status) {
-        status = context.check(suppleSetClipPose(context.handle(), group, 0, clip, options.time), "suppleSetClipPose");
-    }
-    if (status) {
-        status = context.check(suppleBeginFrame(context.handle(), 1, 0), "suppleBeginFrame");
-    }
-    if (!status) {
-        return status.error();
-    }
-
-    Status recorded = success();
-    status = session.device->submitAndWait([&](VkCommandBuffer commands) {
-        SuppleRecordDesc record{};
-        record.structSize = sizeof record;
-        record.groups = &group;
-        record.groupCount = 1;
-        record.after = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
-        recorded = context.check(suppleRecord(context.handle(), commands, &record), "suppleRecord");
-    });
-    if (!recorded || !status) {
-        return recorded ? status.error() : recorded.error();
-    }
-
-    Baked baked;
-    baked.output.structSize = sizeof baked.output;
-    status = context.check(suppleGetGroupOutput(context.handle(), group, &baked.output), "suppleGetGroupOutput");
-    if (status) {
-        uint32_t count = baked.output.patchCount;
-        baked.patches.resize(count);
-        status =
-            context.check(suppleGetPatches(context.handle(), group, baked.patches.data(), &count), "suppleGetPatches");
-    }
-    const std::pair<const SuppleBufferView*, std::vector<std::byte>*> buffers[] = {
-        {&baked.output.surfaceVertices, &baked.surfaceVertices}, {&baked.output.attributes, &baked.attributes},
-        {&baked.output.gridIndices, &baked.gridIndices},         {&baked.output.patchCoefficients, &baked.coefficients},
-        {&baked.output.deformedCage, &baked.deformedCage},
-    };
-    for (const auto& [view, bytes] : buffers) {
-        if (status) {
-            status = readBack(*session.device, *view, *bytes);
-        }
-    }
-    if (!status) {
-        return status.error();
-    }
-    return baked;
-}
-
 int runBake(const BakeOptions& options) {
     const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.pairQuads);
     if (!file) {
@@ -269,7 +170,7 @@ int runBake(const BakeOptions& options) {
     }
 
     return withSession(options.device, [&](Session& session) -> Status {
-        const Result<Baked> baked = evaluate(session, options, *file, *clip, groupFlags);
+        const Result<Evaluation> baked = evaluate(session, *file, options.surface, {*clip, options.time}, groupFlags);
         if (!baked) {
             return baked.error();
         }
@@ -277,7 +178,7 @@ int runBake(const BakeOptions& options) {
             return writeCage(options.output, *baked, cage);
         }
         const std::string scheme = resolvedScheme(options.surface.scheme);
-        Status status = writeSurface(options.output, *baked, scheme);
+        Status status = writeSurface(options.output, *baked, scheme, options.surface.rate);
         if (status && !options.patches.empty()) {
             status = writePatches(options.patches, *baked, scheme);
         }
@@ -300,6 +201,9 @@ void bindBake(CLI::App& app, int& exitCode) {
     command->callback([options, &exitCode] {
         if (options->surface.scheme == kCageScheme && !options->patches.empty()) {
             throw CLI::ValidationError("--patches", "a cage has no patches");
+        }
+        if (subdivides(schemeOf(options->surface.scheme)) && !options->patches.empty()) {
+            throw CLI::ValidationError("--patches", options->surface.scheme + " has no patch coefficients");
         }
         exitCode = runBake(*options);
     });

@@ -1,8 +1,10 @@
-// supple inspect: what a character file holds, and which schemes take it. Needs no device.
+// supple inspect: what a character file holds, and which schemes take it. Needs no device; --compare, which evaluates
+// every scheme's surface, does.
 #include "cage/topology.h"
 #include "surface/schemes.h"
 #include "tools/host/character_file.h"
 #include "tools/supple/command.h"
+#include "tools/supple/compare.h"
 #include "tools/supple/folds.h"
 #include "tools/supple/options.h"
 
@@ -19,7 +21,11 @@ namespace {
 struct InspectOptions {
     std::string file;
     bool json = false;
-    bool pairQuads = false;
+    bool compare = false;
+    SurfaceFlags surface; ///< of its fields those that --compare has flags for; pairQuads always
+    std::string clip;     ///< name or index; empty: the bind pose
+    double time = 0.0;
+    DeviceFlags device;
 };
 
 using Histogram = std::map<uint32_t, uint32_t>; ///< value -> how many
@@ -48,6 +54,9 @@ SchemeVerdict judge(const Scheme& scheme, const cage::Cage& cage) {
     SchemeVerdict verdict{scheme.name, "", {}, {}, {}};
     surface::Recipe recipe;
     recipe.scheme = static_cast<surface::SchemeId>(scheme.scheme);
+    if (surface::subdivides(recipe.scheme)) {
+        recipe.depth = surface::depthFor(SurfaceFlags{}.rate);
+    }
     const Result<surface::Tables> tables = surface::buildTables(recipe, cage);
     if (!tables) {
         verdict.refusal = tables.error().message;
@@ -122,7 +131,38 @@ nlohmann::ordered_json toJson(const Histogram& histogram) {
     return json;
 }
 
-void printJson(const InspectOptions& options, const cage::Character& character, const Findings& findings) {
+/// What is compared is written as fractions of the extent, and in asset units beside them.
+nlohmann::ordered_json toJson(const InspectOptions& options, const Comparison& comparison) {
+    using Json = nlohmann::ordered_json;
+    Json json;
+    json["reference"] = "catmull-clark";
+    json["rate"] = options.surface.rate;
+    json["clip"] = options.clip.empty() ? Json() : Json(options.clip);
+    json["time"] = options.time;
+    json["extent"] = comparison.extent;
+    json["measuringError"] = comparison.measuringError / comparison.extent;
+    for (const SchemeDeviation& scheme : comparison.schemes) {
+        Json& entry = json["schemes"][scheme.scheme];
+        entry["accepted"] = scheme.refusal.empty();
+        if (!scheme.refusal.empty()) {
+            entry["reason"] = scheme.refusal;
+            continue;
+        }
+        entry["patches"] = scheme.patches;
+        entry["samples"] = scheme.samples;
+        entry["distance"] = {{"max", scheme.max / comparison.extent}, {"mean", scheme.mean / comparison.extent}};
+        entry["distanceInUnits"] = {{"max", scheme.max}, {"mean", scheme.mean}};
+        entry["worstFace"] = scheme.worstFace;
+        entry["normals"] = scheme.normals;
+        entry["normalDegrees"] = {{"max", scheme.maxDegrees}, {"mean", scheme.meanDegrees}};
+        entry["worstNormalFace"] = scheme.worstNormalFace;
+        entry["notes"] = scheme.notes;
+    }
+    return json;
+}
+
+void printJson(const InspectOptions& options, const cage::Character& character, const Findings& findings,
+               const Comparison* comparison) {
     using Json = nlohmann::ordered_json;
     const cage::Cage& cage = character.cage;
     Json json;
@@ -188,6 +228,9 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
             entry["folds"] = toJson(verdict.folds);
         }
     }
+    if (comparison != nullptr) {
+        json["comparison"] = toJson(options, *comparison);
+    }
     // Names come from the file as they are: replace what is not UTF-8 rather than refuse to print it.
     std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
@@ -221,7 +264,39 @@ void printLine(const char* label, const std::string& text) {
     std::printf("%-18s %s\n", label, printable(text).c_str());
 }
 
-void printText(const InspectOptions& options, const cage::Character& character, const Findings& findings) {
+void printText(const InspectOptions& options, const Comparison& comparison) {
+    const auto pose = [&] {
+        char time[32];
+        std::snprintf(time, sizeof time, " at %.3f s", options.time);
+        return options.clip.empty() ? std::string("bind pose") : "clip " + options.clip + time;
+    };
+    std::printf(
+        "\nAgainst the Catmull-Clark limit surface: %s, rate %u. Distances as fractions of the extent, %.6g, and"
+        " in asset\nunits; measured to %.0e of the extent.\n\n",
+        printable(pose()).c_str(), options.surface.rate, comparison.extent,
+        comparison.measuringError / comparison.extent);
+    std::printf("  %-14s %9s %9s  %10s %10s  %9s %9s %9s  %s\n", "scheme", "largest", "mean", "largest", "mean",
+                "normals", "mean", "samples", "largest at");
+    for (const SchemeDeviation& scheme : comparison.schemes) {
+        if (!scheme.refusal.empty()) {
+            std::printf("  %-14s %s\n", scheme.scheme.c_str(), printable("refused: " + scheme.refusal).c_str());
+            continue;
+        }
+        std::printf("  %-14s %9.1e %9.1e  %10.3g %10.3g  %8.2f\u00b0 %8.3f\u00b0 %9llu  face %u, normals face %u\n",
+                    scheme.scheme.c_str(), scheme.max / comparison.extent, scheme.mean / comparison.extent, scheme.max,
+                    scheme.mean, scheme.maxDegrees, scheme.meanDegrees, static_cast<unsigned long long>(scheme.samples),
+                    scheme.worstFace, scheme.worstNormalFace);
+    }
+    std::printf("\n");
+    for (const SchemeDeviation& scheme : comparison.schemes) {
+        for (const std::string& note : scheme.notes) {
+            std::printf("  %s: %s\n", scheme.scheme.c_str(), printable(note).c_str());
+        }
+    }
+}
+
+void printText(const InspectOptions& options, const cage::Character& character, const Findings& findings,
+               const Comparison* comparison) {
     const cage::Cage& cage = character.cage;
     printLine("file", options.file);
     printLine("polygons from", cage::polygonSourceName(character.polygonSource));
@@ -274,20 +349,40 @@ void printText(const InspectOptions& options, const cage::Character& character, 
             printLine("  folds", toText(verdict.folds));
         }
     }
+    if (comparison != nullptr) {
+        printText(options, *comparison);
+    }
 }
 
 int runInspect(const InspectOptions& options) {
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.pairQuads);
+    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.pairQuads);
     if (!file) {
         return fail(kExitBadInput, file.error().message);
     }
-    const Findings findings = examine(file->character);
-    if (options.json) {
-        printJson(options, file->character, findings);
-    } else {
-        printText(options, file->character, findings);
+    const auto print = [&](const Comparison* comparison) {
+        const Findings findings = examine(file->character);
+        if (options.json) {
+            printJson(options, file->character, findings, comparison);
+        } else {
+            printText(options, file->character, findings, comparison);
+        }
+    };
+    if (!options.compare) {
+        print(nullptr);
+        return kExitOk;
     }
-    return kExitOk;
+    const Result<uint32_t> clip = host::findClip(file->character, options.clip);
+    if (!clip) {
+        return fail(kExitBadInput, clip.error().message);
+    }
+    return withSession(options.device, [&](Session& session) -> Status {
+        const Result<Comparison> comparison = compareSchemes(session, *file, options.surface, {*clip, options.time});
+        if (!comparison) {
+            return comparison.error();
+        }
+        print(&*comparison);
+        return success();
+    });
 }
 
 } // namespace
@@ -297,8 +392,17 @@ void bindInspect(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("inspect", "What a character file holds, and which schemes take it");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_flag("--json", options->json, "Print JSON");
-    command->add_flag("--pair-quads", options->pairQuads,
+    command->add_flag("--pair-quads", options->surface.pairQuads,
                       "Merge consecutive triangle pairs of plain triangles to quads");
+    command->add_flag("--compare", options->compare,
+                      "Also evaluate every scheme that takes the cage, and say how far its surface is from the "
+                      "Catmull-Clark limit");
+    bindRate(*command, options->surface.rate);
+    bindPose(*command, options->clip, options->time);
+    bindDevice(*command, options->device);
+    for (const char* flag : {"--rate", "--clip", "--time", "--device", "--mapping", "--validate"}) {
+        command->get_option(flag)->needs("--compare");
+    }
     command->callback([options, &exitCode] { exitCode = runInspect(*options); });
 }
 

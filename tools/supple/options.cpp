@@ -31,6 +31,15 @@ SuppleMapping mappingOf(const DeviceFlags& flags) {
                                      : SUPPLE_MAPPING_AUTO;
 }
 
+void bindRate(CLI::App& command, uint32_t& rate) {
+    command
+        .add_option("--rate", rate,
+                    "Segments along a patch edge; catmull-clark and loop: along an edge of the cage, rounded up to a "
+                    "power of two")
+        ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
+        ->capture_default_str();
+}
+
 void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, bool& pairQuads,
                 const std::vector<std::string>& extraSchemes) {
     std::vector<std::string> names{"auto"};
@@ -39,9 +48,7 @@ void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::str
     }
     names.insert(names.end(), extraSchemes.begin(), extraSchemes.end());
     command.add_option("--scheme", scheme, "Surface scheme")->check(CLI::IsMember(names))->capture_default_str();
-    command.add_option("--rate", rate, "Segments along a patch edge")
-        ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
-        ->capture_default_str();
+    bindRate(command, rate);
     command.add_option("--skinning", skinning, "How joints move the cage")
         ->check(CLI::IsMember({"linear", "dual-quaternion"}))
         ->capture_default_str();

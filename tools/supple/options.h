@@ -44,6 +44,9 @@ void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::
 /// --skinning: "linear" or "dual-quaternion".
 [[nodiscard]] SuppleSkinning skinningOf(const std::string& name);
 
+/// --rate alone.
+void bindRate(CLI::App& command, uint32_t& rate);
+
 /// --clip, a name or index, empty for the bind pose; --time in seconds.
 void bindPose(CLI::App& command, std::string& clip, double& time);
 
@@ -55,6 +58,10 @@ struct Scheme {
 [[nodiscard]] std::span<const Scheme> schemes();
 /// "auto", "cage" (no surface) and the names above; anything else is auto.
 [[nodiscard]] SuppleScheme schemeOf(const std::string& name);
+/// Whether the rate counts segments along an edge of the cage, in powers of two, and patches have no coefficients.
+[[nodiscard]] constexpr bool subdivides(SuppleScheme scheme) {
+    return scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
+}
 /// The scheme behind a name: "auto" becomes the one it chooses.
 [[nodiscard]] std::string resolvedScheme(const std::string& name);
 

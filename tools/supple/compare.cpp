@@ -1,0 +1,192 @@
+#include "tools/supple/compare.h"
+
+#include "tools/supple/limit_surface.h"
+
+#include <algorithm>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <thread>
+
+namespace supple::tools {
+namespace {
+
+/// Patches of one draw range that a thread takes at a time.
+struct Batch {
+    const SuppleDrawRange* range = nullptr;
+    uint32_t first = 0, last = 0; ///< patches
+};
+
+/// Figures of some samples; distances and angles are sums until they are finished.
+struct Sums {
+    uint64_t samples = 0, normals = 0;
+    double max = -1.0, sum = 0.0, maxDegrees = -1.0, sumDegrees = 0.0;
+    uint32_t worstFace = 0, worstNormalFace = 0;
+
+    void add(const LimitSurface::Deviation& deviation, uint32_t face) {
+        ++samples;
+        sum += deviation.distance;
+        if (deviation.distance > max) {
+            max = deviation.distance;
+            worstFace = face;
+        }
+        if (deviation.degrees < 0.0) {
+            return;
+        }
+        ++normals;
+        sumDegrees += deviation.degrees;
+        if (deviation.degrees > maxDegrees) {
+            maxDegrees = deviation.degrees;
+            worstNormalFace = face;
+        }
+    }
+    void add(const Sums& other) {
+        samples += other.samples;
+        normals += other.normals;
+        sum += other.sum;
+        sumDegrees += other.sumDegrees;
+        if (other.max > max) {
+            max = other.max;
+            worstFace = other.worstFace;
+        }
+        if (other.maxDegrees > maxDegrees) {
+            maxDegrees = other.maxDegrees;
+            worstNormalFace = other.worstNormalFace;
+        }
+    }
+};
+
+Sums measure(const Evaluation& evaluation, const LimitSurface& limit, const Batch& batch) {
+    Sums sums;
+    LimitSurface::Probe probe(limit);
+    for (uint32_t patch = batch.first; patch < batch.last; ++patch) {
+        const size_t first =
+            batch.range->firstVertex + size_t{patch - batch.range->firstPatch} * batch.range->samplesPerPatch;
+        const uint32_t face = evaluation.patches[patch].face;
+        for (size_t i = first; i < first + batch.range->samplesPerPatch; ++i) {
+            const SuppleBufferView& view = evaluation.output.surfaceVertices;
+            const auto position = element<glm::vec3>(evaluation.surfaceVertices, view, i);
+            const auto normal = element<glm::vec3>(evaluation.surfaceVertices, view, i, sizeof(glm::vec3));
+            sums.add(probe.measure(face, position, normal), face);
+        }
+    }
+    return sums;
+}
+
+/// In batches of a fixed size that are added up in order: the figures do not depend on the number of threads.
+Sums measure(const Evaluation& evaluation, const LimitSurface& limit) {
+    constexpr uint32_t kBatch = 256;
+    std::vector<Batch> batches;
+    for (const SuppleDrawRange& range : std::span(evaluation.output.drawRanges, evaluation.output.drawRangeCount)) {
+        const uint32_t end = range.firstPatch + range.patchCount;
+        for (uint32_t first = range.firstPatch; first < end; first += kBatch) {
+            batches.push_back({&range, first, std::min(first + kBatch, end)});
+        }
+    }
+    std::vector<Sums> parts(batches.size());
+    const uint32_t threadCount = std::max(std::thread::hardware_concurrency(), 1u);
+    std::vector<std::thread> threads;
+    for (uint32_t t = 0; t < threadCount; ++t) {
+        threads.emplace_back([&, t] {
+            for (size_t i = t; i < batches.size(); i += threadCount) {
+                parts[i] = measure(evaluation, limit, batches[i]);
+            }
+        });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    Sums all;
+    for (const Sums& part : parts) {
+        all.add(part);
+    }
+    return all;
+}
+
+std::vector<glm::dvec3> cagePositions(const Evaluation& evaluation) {
+    std::vector<glm::dvec3> positions;
+    for (uint32_t v = 0; v < evaluation.output.cageVertexCount; ++v) {
+        positions.emplace_back(element<glm::vec3>(evaluation.deformedCage, evaluation.output.deformedCage, v));
+    }
+    return positions;
+}
+
+double extentOf(const std::vector<glm::dvec3>& positions) {
+    glm::dvec3 low = positions.front(), high = low;
+    for (const glm::dvec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return glm::distance(low, high);
+}
+
+std::vector<std::string> notesFor(SuppleScheme scheme, const cage::Cage& cage) {
+    if (scheme == SUPPLE_SCHEME_CATMULL_CLARK) {
+        return {"the same surface: what is left is float's rounding and the error of measuring"};
+    }
+    if (scheme != SUPPLE_SCHEME_LOOP) {
+        return {};
+    }
+    uint32_t split = 0;
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        split += cage.sides(face) > 3 ? 1 : 0;
+    }
+    std::string note = "another surface by definition, not an approximation of this one";
+    if (split > 0) {
+        note += ": " + std::to_string(split) + " faces of four and more sides are split into triangles";
+    }
+    return {note};
+}
+
+} // namespace
+
+Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& file, const SurfaceFlags& surface,
+                                  const Pose& pose) {
+    Comparison comparison;
+    std::optional<LimitSurface> limit;
+    for (const Scheme& scheme : schemes()) {
+        SchemeDeviation deviation;
+        deviation.scheme = scheme.name;
+        SurfaceFlags flags = surface;
+        flags.scheme = scheme.name;
+        const Result<Evaluation> evaluation = evaluate(session, file, flags, pose, 0);
+        if (!evaluation) {
+            const ErrorCode code = evaluation.error().code;
+            if (code != ErrorCode::asset && code != ErrorCode::limit) { // not the cage's fault
+                return evaluation.error();
+            }
+            deviation.refusal = evaluation.error().message;
+            comparison.schemes.push_back(std::move(deviation));
+            continue;
+        }
+        if (!limit) {
+            // Of the cage as the device deformed it, so that nothing but the surfaces is compared.
+            const std::vector<glm::dvec3> positions = cagePositions(*evaluation);
+            Result<LimitSurface> built = LimitSurface::build(file.character.cage, positions);
+            if (!built) {
+                return Error{built.error().code, file.path + ": " + built.error().message};
+            }
+            limit.emplace(std::move(*built));
+            comparison.extent = extentOf(positions);
+            comparison.measuringError = limit->measuringError();
+        }
+        const Sums sums = measure(*evaluation, *limit);
+        deviation.patches = evaluation->output.patchCount;
+        deviation.samples = sums.samples;
+        deviation.max = std::max(sums.max, 0.0);
+        deviation.mean = sums.sum / static_cast<double>(std::max<uint64_t>(sums.samples, 1));
+        deviation.worstFace = sums.worstFace;
+        deviation.normals = sums.normals;
+        deviation.maxDegrees = std::max(sums.maxDegrees, 0.0);
+        deviation.meanDegrees = sums.sumDegrees / static_cast<double>(std::max<uint64_t>(sums.normals, 1));
+        deviation.worstNormalFace = sums.worstNormalFace;
+        deviation.notes = notesFor(scheme.scheme, file.character.cage);
+        comparison.schemes.push_back(std::move(deviation));
+    }
+    if (!limit) {
+        return Error{ErrorCode::asset, "no scheme takes it: " + comparison.schemes.front().refusal};
+    }
+    return comparison;
+}
+
+} // namespace supple::tools

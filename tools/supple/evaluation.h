@@ -1,0 +1,43 @@
+// One instance evaluated on the device in one frame, and what it wrote read back.
+#pragma once
+
+#include "tools/host/character_file.h"
+#include "tools/supple/session.h"
+
+#include <cstddef>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace supple::tools {
+
+/// `output` lives as long as the session's context.
+struct Evaluation {
+    SuppleGroupOutput output{};
+    std::vector<SupplePatchInfo> patches;
+    std::vector<std::byte> surfaceVertices; ///< SUPPLE_VERTEX_24
+    std::vector<std::byte> attributes;      ///< these three are empty where the group was made without
+    std::vector<std::byte> gridIndices;
+    std::vector<std::byte> coefficients;
+    std::vector<std::byte> deformedCage;
+};
+
+/// The first floats of element `index` of a buffer that was read back.
+template <class Vec>
+[[nodiscard]] Vec element(const std::vector<std::byte>& bytes, const SuppleBufferView& view, size_t index,
+                          size_t byteOffset = 0) {
+    Vec value;
+    std::memcpy(&value, bytes.data() + index * view.stride + byteOffset, sizeof value);
+    return value;
+}
+
+struct Pose {
+    uint32_t clip = SUPPLE_BIND_POSE;
+    double time = 0.0;
+};
+
+/// `groupFlags`: SuppleGroupFlags.
+[[nodiscard]] Result<Evaluation> evaluate(Session& session, const host::CharacterFile& file,
+                                          const SurfaceFlags& surface, const Pose& pose, uint32_t groupFlags);
+
+} // namespace supple::tools
