@@ -14,6 +14,7 @@ ProfileRun sampleRun() {
     ProfileRun run{.file = "a \"b\".glb",
                    .scheme = "prep",
                    .rate = 8,
+                   .patchRate = 8,
                    .instances = 2,
                    .patches = 10,
                    .deviceBytes = 0,

@@ -1,6 +1,7 @@
 #include "tools/host/context.h"
 
 #include <cstdio>
+#include <cstring>
 
 namespace supple::host {
 
@@ -93,6 +94,10 @@ void Context::log(SuppleSeverity severity, const char* text, void* user) {
         context.lastError_ = text;
     else if (severity == SUPPLE_SEVERITY_WARNING && context.printWarnings_)
         std::fprintf(stderr, "warning: %s\n", text);
+    // What a cage's faces went through `supple inspect` lists; that a rate is not the one asked for nothing else says.
+    else if (severity == SUPPLE_SEVERITY_INFO && context.printWarnings_ && std::strstr(text, ": rate ") != nullptr &&
+             context.printedNotes_.insert(text).second)
+        std::fprintf(stderr, "note: %s\n", text);
 }
 
 } // namespace supple::host

@@ -7,6 +7,7 @@
 #include <supple/supple.h>
 
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 
@@ -15,7 +16,7 @@ namespace supple::host {
 struct ContextOptions {
     SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
     uint32_t framesInFlight = 2;
-    /// Print Supple's warnings on stderr.
+    /// Print Supple's warnings on stderr, and once each the notes about a rate that was rounded up.
     bool printWarnings = true;
 };
 
@@ -52,6 +53,7 @@ private:
     uint64_t frame_ = 0;
     bool printWarnings_ = true;
     std::string lastError_;
+    std::set<std::string> printedNotes_;
 };
 
 } // namespace supple::host

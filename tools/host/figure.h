@@ -82,6 +82,10 @@ public:
     [[nodiscard]] Figure& figure() const { return figure_; }
     [[nodiscard]] SuppleGroup handle() const { return group_; }
     [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
+    /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
+    /// more than one patch to (SuppleGroupOutput::rate counts along a patch).
+    [[nodiscard]] uint32_t edgeRate() const { return edgeRate_; }
+    /// Per patch: which of the colors of the view of patch classes it has.
     [[nodiscard]] const Buffer& patchClasses() const { return patchClasses_; }
     /// A coarser grid over the same samples: shadows need no more.
     [[nodiscard]] const Buffer& shadowIndices() const { return shadowIndices_; }
@@ -102,6 +106,7 @@ private:
     Figure& figure_;
     SuppleGroup group_{};
     SuppleGroupOutput output_{};
+    uint32_t edgeRate_ = 0;
     Buffer patchClasses_;
     Buffer shadowIndices_;
     uint32_t shadowIndexCount_ = 0;

@@ -1,5 +1,7 @@
 #include "tools/host/figure.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace supple::host {
@@ -28,6 +30,23 @@ std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
         }
     }
     return indices;
+}
+
+bool subdivides(SuppleScheme scheme) {
+    return scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
+}
+
+/// surface.frag has a color for each class of coefficients. Subdivision's patches, of which a surface has but one
+/// class, borrow two of them: Catmull-Clark's that of bicubic patches, which most of its patches are.
+uint32_t colorClass(SupplePatchClass patchClass) {
+    switch (patchClass) {
+    case SUPPLE_PATCH_CATMULL_CLARK:
+        return SUPPLE_PATCH_REGULAR;
+    case SUPPLE_PATCH_LOOP:
+        return SUPPLE_PATCH_P5;
+    default:
+        return static_cast<uint32_t>(patchClass);
+    }
 }
 
 std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t stride) {
@@ -60,6 +79,8 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
                                             "suppleGetGroupOutput");
         !status)
         return status.error();
+    const uint32_t asked = options.rate == 0 ? 8 : options.rate;
+    group->edgeRate_ = subdivides(options.scheme) ? std::max(std::bit_ceil(asked), 2 * group->output_.rate) : asked;
     // The renderer binds each output whole; a crowd larger than that would be drawn in windows of instances.
     const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;
     for (const SuppleBufferView& view : {group->output_.surfaceVertices, group->output_.deformedCage}) {
@@ -94,7 +115,7 @@ Status FigureGroup::uploadTables() {
         return status.error();
     std::vector<uint32_t> classes(std::max<size_t>(count, 1));
     for (uint32_t i = 0; i < count; ++i)
-        classes[i] = static_cast<uint32_t>(patches[i].patchClass);
+        classes[i] = colorClass(patches[i].patchClass);
     Result<Buffer> classBuffer =
         device.uploadBuffer(classes.data(), classes.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     if (!classBuffer)
@@ -104,7 +125,8 @@ Status FigureGroup::uploadTables() {
     const uint64_t budget = device.isCpu() ? kShadowTrianglesCpu : kShadowTrianglesGpu;
     const uint64_t shown = uint64_t{output_.patchCount} * output_.instanceCount;
     uint32_t segments = output_.rate;
-    while (segments > 2 && shown * 2 * segments * segments > budget)
+    const uint32_t fewest = output_.rate < edgeRate_ ? 1 : 2; // two to an edge of the cage
+    while (segments > fewest && shown * 2 * segments * segments > budget)
         segments = (segments + 1) / 2;
     const std::vector<uint16_t> indices = coarseGrid(output_.rate, segments);
     shadowIndexCount_ = static_cast<uint32_t>(indices.size());

@@ -460,7 +460,7 @@ void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) 
     const SuppleGroupOutput& output = scene.group->output();
     const cage::Character& character = scene.group->figure().character();
     shared::DrawPush push = basePush(scene, 0);
-    const bool vertexLit = device_.isCpu() && output.rate >= kVertexLitRate;
+    const bool vertexLit = device_.isCpu() && scene.group->edgeRate() >= kVertexLitRate;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                       vertexLit ? pipelines_->surfaceVertexLit : pipelines_->surface);
     vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);

@@ -186,6 +186,7 @@ private:
             output.structSize = sizeof output;
             status = check(suppleGetGroupOutput(context(), group_, &output), "suppleGetGroupOutput");
             run.patches = output.patchCount;
+            run.patchRate = output.rate;
             run.deviceBytes = output.deviceBytes;
         }
         return status;
@@ -329,7 +330,8 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
     for (const host::CharacterFile& file : files) {
         for (const std::string& scheme : names) {
             Result<ProfileRun> run = profiler.run(file, scheme);
-            if (!run && all && run.error().code == ErrorCode::asset) { // not every scheme takes every cage
+            const bool refused = !run && (run.error().code == ErrorCode::asset || run.error().code == ErrorCode::limit);
+            if (refused && all) { // not every scheme takes every cage
                 warn(run.error().message);
                 continue;
             }

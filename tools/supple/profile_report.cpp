@@ -144,10 +144,11 @@ RunSummary summarizeRun(const ProfileRun& run) {
 }
 
 std::string toTable(const ProfileRun& run, const RunSummary& summary) {
+    const std::string patchRate = run.patchRate == run.rate ? "" : format(" (%u a patch)", run.patchRate);
     std::string table =
-        run.file + format(": scheme %s, rate %u, %u instance%s of %u patches, %zu frames, %.1f MiB\n",
-                          run.scheme.c_str(), run.rate, run.instances, run.instances == 1 ? "" : "s", run.patches,
-                          run.frames.size(), static_cast<double>(run.deviceBytes) / (1024.0 * 1024.0));
+        run.file + format(": scheme %s, rate %u%s, %u instance%s of %u patches, %zu frames, %.1f MiB\n",
+                          run.scheme.c_str(), run.rate, patchRate.c_str(), run.instances, run.instances == 1 ? "" : "s",
+                          run.patches, run.frames.size(), static_cast<double>(run.deviceBytes) / (1024.0 * 1024.0));
     table += format("  %-12s %10s %10s %10s %10s %12s %13s %10s\n", "pass", "GPU ms", "p95", "max", "CPU ms", "points",
                     "bytes", "Mpoints/s");
     for (const PassSummary& pass : summary.passes) {
@@ -170,6 +171,7 @@ nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun
         Json entry = {{"file", run.file},
                       {"scheme", run.scheme},
                       {"rate", run.rate},
+                      {"patchRate", run.patchRate},
                       {"instances", run.instances},
                       {"patches", run.patches},
                       {"frames", run.frames.size()},

@@ -35,6 +35,7 @@ struct ProfileRun {
     std::string file;
     std::string scheme;
     uint32_t rate = 0;
+    uint32_t patchRate = 0; ///< segments along a patch edge: less than the rate where an edge of the cage has several
     uint32_t instances = 0;
     uint32_t patches = 0;     ///< an instance
     uint64_t deviceBytes = 0; ///< of the group

@@ -182,8 +182,10 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
         panel_->file = *wishes.file;
         panel_->message.clear();
     }
-    if (wishes.rate && *wishes.rate != stage_->group().output().rate) {
-        const uint32_t before = stage_->group().output().rate;
+    const uint32_t before = stage_->group().edgeRate();
+    if (wishes.rate && *wishes.rate == before)
+        stage_->settings.rate = static_cast<int>(before); // the slider may have been let go between two rates
+    if (wishes.rate && *wishes.rate != before) {
         if (const Status status = stage_->setRate(*wishes.rate, context_->lastFrame()); !status) {
             stage_->settings.rate = static_cast<int>(before);
             return status.error();

@@ -6,6 +6,7 @@
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <imgui.h>
 
@@ -102,11 +103,20 @@ void buildPlayback(ViewStage& stage) {
 
 void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     ViewSettings& settings = stage.settings;
-    ImGui::SliderInt("rate", &settings.rate, 1, static_cast<int>(SUPPLE_MAX_RATE), "%d",
-                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    if (stage.ratesArePowersOfTwo()) {
+        // The slider moves the exponent, so that it stops at the rates there are and nowhere else.
+        constexpr int kMaxExponent = static_cast<int>(std::bit_width(SUPPLE_MAX_RATE)) - 1;
+        int exponent = static_cast<int>(std::bit_width(static_cast<uint32_t>(settings.rate))) - 1;
+        ImGui::SliderInt("rate", &exponent, 1, kMaxExponent, std::to_string(settings.rate).c_str(),
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput);
+        settings.rate = 1 << exponent;
+    } else {
+        ImGui::SliderInt("rate", &settings.rate, 1, static_cast<int>(SUPPLE_MAX_RATE), "%d",
+                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    }
     // A rate is a new group: made when the slider is let go, not at every step of it.
     if (ImGui::IsItemDeactivatedAfterEdit())
-        wishes.rate = static_cast<uint32_t>(settings.rate);
+        wishes.rate = stage.offeredRate(static_cast<uint32_t>(settings.rate));
     int view = static_cast<int>(settings.view);
     if (ImGui::Combo("view", &view, kViewNames, static_cast<int>(std::size(kViewNames))))
         settings.view = static_cast<uint32_t>(view);

@@ -1,6 +1,7 @@
 #include "tools/supple/view_stage.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace supple::tools {
@@ -23,7 +24,6 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     if (!view)
         return view.error();
     stage->settings.view = *view;
-    stage->settings.rate = static_cast<int>(options.rate);
     stage->settings.cageFaces = options.scheme == "cage";
     stage->settings.cageOverlay = options.cageOverlay;
     stage->settings.ground = options.ground;
@@ -31,6 +31,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->scheme_ = options.scheme == "cage" ? SUPPLE_SCHEME_AUTO : schemeOf(options.scheme);
     stage->skinning_ = skinningOf(options.skinning);
     stage->pairQuads_ = options.pairQuads;
+    stage->settings.rate = static_cast<int>(stage->offeredRate(options.rate));
     stage->startYaw_ = radians(options.yaw);
     stage->startPitch_ = radians(options.pitch);
     return stage;
@@ -69,9 +70,14 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     extent_ = std::move(*extent);
     settings.clip = *chosen != SUPPLE_BIND_POSE || clipCount == 0 ? *chosen : 0;
     settings.time = 0.0;
+    settings.rate = static_cast<int>(group_->edgeRate());
     passTimes_.clear();
     frameFigure(aspect);
     return success();
+}
+
+uint32_t ViewStage::offeredRate(uint32_t rate) const {
+    return ratesArePowersOfTwo() ? std::bit_ceil(std::max(rate, 2u)) : rate;
 }
 
 Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
@@ -86,7 +92,7 @@ Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
     retired_.push_back({lastFrame, std::move(group_), std::move(binding_)});
     group_ = std::move(*group);
     binding_ = std::move(*binding);
-    settings.rate = static_cast<int>(rate);
+    settings.rate = static_cast<int>(group_->edgeRate());
     return success();
 }
 

@@ -43,6 +43,9 @@ public:
     [[nodiscard]] const host::FigureGroup& group() const { return *group_; }
     [[nodiscard]] const std::map<std::string, PassTime>& passTimes() const { return passTimes_; }
 
+    /// The rate the scheme makes of one that is asked for: with subdivision a power of two.
+    [[nodiscard]] uint32_t offeredRate(uint32_t rate) const;
+    [[nodiscard]] bool ratesArePowersOfTwo() const { return subdivides(scheme_); }
     /// A group of the new rate takes the old one's place; the old one goes when its frames are completed.
     [[nodiscard]] Status setRate(uint32_t rate, uint64_t lastFrame);
     /// Lets go of what the completed frames used.
