@@ -2,6 +2,7 @@
 
 #include "tools/supple/command.h"
 #include "tools/supple/render_stage.h"
+#include "tools/supple/sheet_style.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -11,11 +12,6 @@ namespace supple::tools {
 namespace {
 
 constexpr float kMargin = 0.06f;
-constexpr uint32_t kGap = 6; ///< pixels between columns and rows
-constexpr uint32_t kLabelHeight = 22;
-constexpr uint8_t kPaper[] = {24, 27, 32};
-constexpr uint8_t kInk[] = {206, 211, 218};
-constexpr uint8_t kFaintInk[] = {138, 145, 156};
 
 std::string timeLabel(double seconds) {
     char text[32];
@@ -30,10 +26,12 @@ struct Layout {
     uint32_t rows;
     uint32_t label; ///< height of the line over each row; 0 without labels
 
-    [[nodiscard]] uint32_t columnX(uint32_t column) const { return kGap + column * (2 * cell.width + kGap); }
-    [[nodiscard]] uint32_t rowY(uint32_t row) const { return kGap + label + row * (cell.height + label + kGap); }
+    [[nodiscard]] uint32_t columnX(uint32_t column) const { return kSheetGap + column * (2 * cell.width + kSheetGap); }
+    [[nodiscard]] uint32_t rowY(uint32_t row) const {
+        return kSheetGap + label + row * (cell.height + label + kSheetGap);
+    }
     [[nodiscard]] uint32_t width() const { return columnX(columns); }
-    [[nodiscard]] uint32_t height() const { return kGap + rows * (cell.height + label + kGap); }
+    [[nodiscard]] uint32_t height() const { return kSheetGap + rows * (cell.height + label + kSheetGap); }
 };
 
 Result<std::vector<uint32_t>> chosenClips(const host::Figure& figure, const std::vector<std::string>& names) {
@@ -99,8 +97,8 @@ Status drawRow(Stage& stage, const ContactSheetOptions& options, const Layout& l
             const uint32_t x = layout.columnX(column) + 4;
             const uint32_t y = layout.rowY(row) - layout.label + 2;
             if (column == 0)
-                sheet.drawText(x, y, clipName(stage.figure(), clip), 2, kInk);
-            sheet.drawText(x + layout.cell.width, y, timeLabel(times[column].time), 2, kFaintInk);
+                sheet.drawText(x, y, clipName(stage.figure(), clip), 2, kSheetInk);
+            sheet.drawText(x + layout.cell.width, y, timeLabel(times[column].time), 2, kSheetFaintInk);
         }
     }
     return success();
@@ -114,10 +112,9 @@ Status drawSheet(Session& session, const ContactSheetOptions& options, VkExtent2
     const Result<std::vector<uint32_t>> clips = chosenClips(stage.figure(), options.clips);
     if (!clips)
         return clips.error();
-    const Layout layout{cell, options.columns, static_cast<uint32_t>(clips->size()), options.labels ? kLabelHeight : 0};
-    host::Picture sheet = host::Picture::blank(layout.width(), layout.height());
-    for (size_t i = 0; i < sheet.rgba.size(); i += 4)
-        std::copy(std::begin(kPaper), std::end(kPaper), &sheet.rgba[i]);
+    const Layout layout{cell, options.columns, static_cast<uint32_t>(clips->size()),
+                        options.labels ? kSheetLabelHeight : 0};
+    host::Picture sheet = blankSheet(layout.width(), layout.height());
     host::Scene scene;
     scene.view = view;
     scene.pixelScale = pixelScale(cell);

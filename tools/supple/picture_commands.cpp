@@ -21,6 +21,12 @@ std::string size(const std::string& text) {
     return whole && width > 0 && height > 0 && width <= 16384 && height <= 16384 ? "" : text + " is not WxH in pixels";
 }
 
+std::string place(const std::string& text) {
+    double x = 0.0;
+    double y = 0.0;
+    return parsePlace(text, x, y) ? "" : text + " is not X,Y, each 0 to 1";
+}
+
 CLI::Validator sizeValidator() {
     return {size, "WxH"};
 }
@@ -46,11 +52,20 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
 void bindRender(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand("render", "One picture of a character");
+    command->footer("--scheme all draws one sheet of all schemes that take the cage.");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
-    command->add_option("--size", options->size, "Of the picture")->check(sizeValidator())->capture_default_str();
+    command->add_option("--size", options->size, "Of the picture; with --scheme all of each")
+        ->check(sizeValidator())
+        ->capture_default_str();
+    command->add_option("--zoom", options->zoom, "Closer than what fills the picture, so many times")
+        ->check(CLI::Range(1.0, 100.0))
+        ->capture_default_str();
+    command->add_option("--at", options->at, "What --zoom keeps in the middle: fractions from the upper left corner")
+        ->check(CLI::Validator(place, "X,Y"))
+        ->capture_default_str();
     bindPose(*command, options->clip, options->time);
-    bindDraw(*command, options->draw);
+    bindDraw(*command, options->draw, {"cage", kAllSchemes});
     command->callback([options, &exitCode] { exitCode = runRender(*options); });
 }
 

@@ -2,6 +2,11 @@
 
 #include "tools/supple/command.h"
 #include "tools/supple/render_stage.h"
+#include "tools/supple/sheet_style.h"
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
 
 namespace supple::tools {
 
@@ -10,45 +15,154 @@ namespace {
 constexpr float kMargin = 0.07f;
 /// Poses looked at to find the floor a clip is played on.
 constexpr uint32_t kFloorPoses = 9;
+/// Sheets are laid out to come nearest to this shape, width by height.
+constexpr double kSheetShape = 1.6;
 
-Status render(Session& session, const RenderOptions& options, VkExtent2D size, uint32_t view) {
-    Result<std::unique_ptr<Stage>> opened = Stage::open(session, options.file, size, options.draw);
+/// A scheme's surface (or the cage) and where it is.
+struct Shown {
+    std::string name;
+    std::unique_ptr<Stage> stage;
+    Extent figure;
+    std::optional<float> ground;
+};
+
+Result<Shown> open(Session& session, const RenderOptions& options, const std::string& scheme, VkExtent2D size) {
+    DrawOptions draw = options.draw;
+    draw.scheme = scheme;
+    Shown shown;
+    shown.name = scheme;
+    Result<std::unique_ptr<Stage>> opened = Stage::open(session, options.file, size, draw);
     if (!opened)
         return opened.error();
-    Stage& stage = **opened;
+    shown.stage = std::move(*opened);
+    Stage& stage = *shown.stage;
     const Result<uint32_t> clip = stage.figure().findClip(options.clip);
     if (!clip)
         return clip.error();
-    const bool cage = options.draw.scheme == "cage";
-
-    host::Scene scene;
+    const bool cage = scheme == "cage";
     if (options.draw.ground) {
         const Result<Extent> played = stage.measure(spreadTimes(stage.figure(), *clip, kFloorPoses), cage);
         if (!played)
             return played.error();
-        scene.ground = played->bounds.min.y;
+        shown.ground = played->bounds.min.y;
     }
-    const ClipTime shown[] = {{*clip, options.time}};
-    const Result<Extent> figure = stage.measure(shown, cage);
+    const ClipTime pose[] = {{*clip, options.time}};
+    Result<Extent> figure = stage.measure(pose, cage); // and leaves it in this pose
     if (!figure)
         return figure.error();
-    scene.camera = host::frameCamera(figure->points, radians(options.draw.yaw), radians(options.draw.pitch),
-                                     static_cast<float>(size.width) / static_cast<float>(size.height), kMargin);
-    scene.bounds = figure->bounds;
-    if (scene.ground)
-        scene.ground = std::min(*scene.ground, figure->bounds.min.y);
+    shown.figure = std::move(*figure);
+    if (shown.ground)
+        shown.ground = std::min(*shown.ground, shown.figure.bounds.min.y);
+    return shown;
+}
+
+/// Brings the camera's picture closer, about a place in it.
+void closeUp(host::Camera& camera, const RenderOptions& options, float aspect) {
+    double x = 0.5;
+    double y = 0.5;
+    if (!parsePlace(options.at, x, y))
+        return; // the command line has checked it
+    const float tangent = std::tan(camera.fieldOfView * 0.5f);
+    const float height = 2.0f * camera.distance * tangent;
+    const glm::mat3 toWorld = glm::transpose(glm::mat3(camera.view()));
+    camera.target += toWorld[0] * (static_cast<float>(x) - 0.5f) * height * aspect;
+    camera.target += toWorld[1] * (0.5f - static_cast<float>(y)) * height;
+    camera.fieldOfView = 2.0f * std::atan(tangent / static_cast<float>(options.zoom));
+}
+
+/// What all of them are drawn with: one camera, one floor, one light, so that only the surfaces differ.
+host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options, VkExtent2D size, uint32_t view) {
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    host::Scene scene;
+    std::vector<glm::vec3> points;
+    for (const Shown& shown : all) {
+        points.insert(points.end(), shown.figure.points.begin(), shown.figure.points.end());
+        if (shown.ground)
+            scene.ground = std::min(scene.ground.value_or(*shown.ground), *shown.ground);
+    }
+    scene.bounds = host::boundsOf(points);
+    scene.camera = host::frameCamera(points, radians(options.draw.yaw), radians(options.draw.pitch), aspect, kMargin);
     scene.lightYaw = scene.camera.yaw;
+    if (options.zoom > 1.0)
+        closeUp(scene.camera, options, aspect);
     scene.view = view;
+    const bool cage = all.size() == 1 && all.front().name == "cage";
     scene.cageFaces = cage;
     scene.cageEdges = cage || options.draw.cageOverlay;
     scene.pixelScale = pixelScale(size);
-    Result<host::Picture> picture = stage.draw(scene);
-    if (!picture)
-        return picture.error();
-    return host::writePng(*picture, options.output);
+    return scene;
+}
+
+uint32_t sheetColumns(uint32_t count, VkExtent2D cell) {
+    uint32_t best = 1;
+    double least = 0.0;
+    for (uint32_t columns = 1; columns <= count; ++columns) {
+        const uint32_t rows = (count + columns - 1) / columns;
+        const double off = std::abs(std::log(static_cast<double>(columns) * cell.width /
+                                             (static_cast<double>(rows) * cell.height) / kSheetShape));
+        if (columns == 1 || off < least) {
+            best = columns;
+            least = off;
+        }
+    }
+    return best;
+}
+
+Status drawSheet(std::vector<Shown>& all, const host::Scene& scene, const RenderOptions& options, VkExtent2D cell) {
+    const auto count = static_cast<uint32_t>(all.size());
+    const uint32_t columns = sheetColumns(count, cell);
+    const uint32_t rows = (count + columns - 1) / columns;
+    const uint32_t stepX = cell.width + kSheetGap;
+    const uint32_t stepY = kSheetLabelHeight + cell.height + kSheetGap;
+    host::Picture sheet = blankSheet(kSheetGap + columns * stepX, kSheetGap + rows * stepY);
+    for (uint32_t i = 0; i < count; ++i) {
+        const Result<host::Picture> picture = all[i].stage->draw(scene);
+        if (!picture)
+            return picture.error();
+        const uint32_t x = kSheetGap + i % columns * stepX;
+        const uint32_t y = kSheetGap + i / columns * stepY;
+        sheet.drawText(x + 4, y + 2, all[i].name, 2, kSheetInk);
+        sheet.paste(*picture, x, y + kSheetLabelHeight);
+    }
+    return host::writePng(sheet, options.output);
+}
+
+Status render(Session& session, const RenderOptions& options, VkExtent2D size, uint32_t view) {
+    std::vector<Shown> all;
+    if (options.draw.scheme != kAllSchemes) {
+        Result<Shown> shown = open(session, options, options.draw.scheme, size);
+        if (!shown)
+            return shown.error();
+        all.push_back(std::move(*shown));
+        const Result<host::Picture> picture = all.front().stage->draw(sceneFor(all, options, size, view));
+        if (!picture)
+            return picture.error();
+        return host::writePng(*picture, options.output);
+    }
+    std::vector<Error> refusals;
+    for (const Scheme& scheme : schemes()) {
+        Result<Shown> shown = open(session, options, scheme.name, size);
+        if (shown)
+            all.push_back(std::move(*shown));
+        else if (shown.error().code != ErrorCode::asset && shown.error().code != ErrorCode::limit)
+            return shown.error(); // not the cage's fault
+        else
+            refusals.push_back(shown.error());
+    }
+    if (all.empty())
+        return refusals.front();
+    for (const Error& refusal : refusals)
+        warn(refusal.message);
+    return drawSheet(all, sceneFor(all, options, size, view), options, size);
 }
 
 } // namespace
+
+bool parsePlace(const std::string& text, double& x, double& y) {
+    int read = 0;
+    return std::sscanf(text.c_str(), "%lf,%lf%n", &x, &y, &read) == 2 && static_cast<size_t>(read) == text.size() &&
+           x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0;
+}
 
 int runRender(const RenderOptions& options) {
     const Result<VkExtent2D> size = parseSize(options.size);

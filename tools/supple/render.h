@@ -1,4 +1,4 @@
-// supple render: one picture of a character.
+// supple render: one picture of a character, or one of each scheme side by side.
 #pragma once
 
 #include "tools/supple/render_options.h"
@@ -12,9 +12,18 @@ struct RenderOptions {
     std::string output;            ///< .png
     std::string clip;              ///< name or index; empty is the bind pose
     double time = 0.0;             ///< seconds
-    std::string size = "1280x960"; ///< WxH in pixels
+    std::string size = "1280x960"; ///< WxH in pixels; of each picture where there are several
+    double zoom = 1.0;             ///< how much larger than what fills the picture
+    std::string at =
+        "0.5,0.5"; ///< X,Y: what zoom keeps in the middle, in fractions of the whole picture from its upper left
     DrawOptions draw;
 };
+
+/// draw.scheme "all": a sheet of the schemes that take the cage, each drawn from the same place in the same light.
+inline constexpr const char* kAllSchemes = "all";
+
+/// "X,Y", both 0 to 1; false leaves x and y undefined.
+[[nodiscard]] bool parsePlace(const std::string& text, double& x, double& y);
 
 /// Draws the picture; returns the exit code and says why on stderr when it is not kExitOk.
 int runRender(const RenderOptions& options);

@@ -8,9 +8,9 @@
 namespace supple::tools {
 
 struct DrawOptions {
-    std::string scheme = "auto";     ///< auto | pm | prep | cage (the deformed cage itself)
+    std::string scheme = "auto";     ///< auto | pm | prep | catmull-clark | loop | cage (the deformed cage itself)
     std::string skinning = "linear"; ///< linear | dual-quaternion
-    uint32_t rate = 8;               ///< segments along a patch edge, 1..64
+    uint32_t rate = 8;               ///< 1..64: see SuppleGroupDesc
     std::string view = "shaded";     ///< shaded | wire | patches | normals | zebra
     bool cageOverlay = false;        ///< the cage's edges drawn over the surface
     bool ground = true;              ///< a floor that takes shadows
