@@ -152,6 +152,8 @@ TEST_F(Cli, BadUsageIsTwo) {
     expectFailure(run("bake cube.gltf -o out.obj --time nan"), 2, "--time");
     expectFailure(run("bake cube.gltf -o out.obj --mapping sideways"), 2, "--mapping");
     expectFailure(run("bake cube.gltf -o out.obj --scheme cage --patches p.json"), 2, "--patches");
+    expectFailure(run("inspect cube.gltf --rate 4"), 2, "--compare");
+    expectFailure(run("inspect cube.gltf --clip Rise"), 2, "--compare");
     expectFailure(run("profile cube.gltf --frames 0"), 2, "--frames");
     expectFailure(run("profile cube.gltf --instances 0"), 2, "--instances");
 }
@@ -369,6 +371,94 @@ TEST_F(Cli, BakePatchesMatchTheSurface) {
     }
     std::sort(faces.begin(), faces.end());
     EXPECT_EQ(faces, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST_F(Cli, BakeOfSubdivisionHasAGroupAPatch) {
+    const Outcome outcome = runOnDevice("bake cube.gltf -o out.obj --scheme catmull-clark --rate 3");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("rate 3"), std::string::npos) << "that it was rounded up: " << outcome.err;
+    EXPECT_EQ(readText(file("out.obj"))
+                  .rfind("# supple bake: scheme catmull-clark, rate 2 (3 asked for along an edge of "
+                         "the cage), 24 patches\n",
+                         0),
+              0u);
+    const Obj quads = readObj(file("out.obj"));
+    EXPECT_EQ(quads.groups.size(), 24u);
+    ASSERT_EQ(quads.v.size(), 24u * 9u);
+    EXPECT_EQ(quads.vn.size(), quads.v.size());
+    EXPECT_EQ(quads.vt.size(), quads.v.size());
+    EXPECT_EQ(quads.faces.size(), 24u * 4u);
+
+    ASSERT_EQ(runOnDevice("bake cube.gltf -o loop.obj --scheme loop --rate 4").exitCode, 0);
+    const Obj triangles = readObj(file("loop.obj"));
+    EXPECT_EQ(triangles.groups.size(), 48u);
+    EXPECT_EQ(triangles.v.size(), 48u * 6u);
+    ASSERT_EQ(triangles.faces.size(), 48u * 4u);
+    for (const Obj* obj : {&quads, &triangles}) {
+        for (const auto& face : obj->faces) {
+            ASSERT_EQ(face.size(), obj == &quads ? 4u : 3u);
+            const glm::vec3 normal = glm::cross(obj->v[face[1]] - obj->v[face[0]], obj->v[face[2]] - obj->v[face[0]]);
+            EXPECT_GT(glm::dot(normal, obj->v[face[0]]), 0.0f);
+        }
+    }
+    for (const char* scheme : {"catmull-clark", "loop"}) {
+        expectFailure(run(std::string("bake cube.gltf -o x.obj --patches p.json --scheme ") + scheme), 2, scheme);
+    }
+}
+
+TEST_F(Cli, InspectKnowsSubdivision) {
+    const Json schemes = Json::parse(run("inspect cube.gltf --json").out)["schemes"];
+    EXPECT_EQ(schemes["catmull-clark"]["patches"], Json({{"catmull-clark", 24}}));
+    EXPECT_EQ(schemes["catmull-clark"]["notes"], Json::array());
+    EXPECT_EQ(schemes["loop"]["patches"], Json({{"loop", 48}}));
+    ASSERT_EQ(schemes["loop"]["notes"].size(), 6u);
+    EXPECT_NE(schemes["loop"]["notes"][0].get<std::string>().find("split into 2 triangles"), std::string::npos);
+    EXPECT_NE(run("inspect cube.gltf").out.find("accepted: 24 catmull-clark"), std::string::npos);
+}
+
+TEST_F(Cli, ProfileOfAllSchemes) {
+    const Outcome outcome = runOnDevice("profile cube.gltf --scheme all --rate 6 --frames 2 --json p.json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("rate 6 (4 a patch)"), std::string::npos) << outcome.out;
+    const Json runs = Json::parse(readText(file("p.json")))["runs"];
+    ASSERT_EQ(runs.size(), 4u);
+    for (const Json& run : runs) {
+        const bool subdivided = run["scheme"] == "catmull-clark" || run["scheme"] == "loop";
+        EXPECT_EQ(run["rate"], 6);
+        EXPECT_EQ(run["patchRate"], subdivided ? 4 : 6) << run["scheme"];
+    }
+}
+
+/// Width and height of a PNG.
+std::pair<uint32_t, uint32_t> pngSize(const fs::path& path) {
+    const std::string bytes = readText(path);
+    const auto word = [&](size_t at) {
+        uint32_t value = 0;
+        for (size_t i = at; i < at + 4 && i < bytes.size(); ++i) {
+            value = value << 8 | static_cast<uint8_t>(bytes[i]);
+        }
+        return value;
+    };
+    return {word(16), word(20)};
+}
+
+TEST_F(Cli, RenderOfAllSchemesIsOneSheet) {
+    const Outcome all = runOnDevice("render cube.gltf -o all.png --scheme all --size 80x60 --rate 4");
+    ASSERT_EQ(all.exitCode, 0) << all.err;
+    const auto four = pngSize(file("all.png"));
+    const Outcome some =
+        runOnDevice("render triangles.gltf -o some.png --scheme all --size 80x60 --zoom 3 --at 0.4,0.6");
+    ASSERT_EQ(some.exitCode, 0) << some.err;
+    EXPECT_NE(some.err.find("3 sides"), std::string::npos) << "what is missing and why: " << some.err;
+    const auto three = pngSize(file("some.png"));
+    EXPECT_GT(four.first * four.second, 4u * 80u * 60u);
+    EXPECT_GT(three.first * three.second, 3u * 80u * 60u);
+    EXPECT_NE(four, three);
+    expectFailure(run("render cube.gltf -o x.png --at 0.5"), 2, "--at");
+    expectFailure(run("render cube.gltf -o x.png --at 2,0"), 2, "--at");
+    expectFailure(run("render cube.gltf -o x.png --zoom 0"), 2, "--zoom");
+    expectFailure(run("sheet cube.gltf -o x.png --scheme all"), 2, "--scheme");
 }
 
 TEST_F(Cli, MappingsAgreeBitForBit) {

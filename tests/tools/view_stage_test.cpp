@@ -126,5 +126,42 @@ TEST(ViewStageTest, RateAndFileChangeWhileFramesAreInFlight) {
     EXPECT_EQ(validation->messageCount(), 0u);
 }
 
+/// The rate that is shown is along an edge of the cage, of which subdivision's patches are a half or a quarter.
+TEST(ViewStageTest, RatesOfSubdivisionArePowersOfTwo) {
+    Result<std::unique_ptr<host::Device>> device = host::Device::create();
+    ASSERT_TRUE(device.ok()) << device.error().message;
+    Result<std::unique_ptr<host::Context>> context = host::Context::create(**device, {.framesInFlight = 2});
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    Result<std::unique_ptr<host::SurfaceRenderer>> renderer = host::SurfaceRenderer::create(
+        **device, {.quality = host::StudioQuality::interactive(true), .framesInFlight = 2});
+    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+    struct Case {
+        const char* file;
+        const char* scheme;
+        uint32_t steps; ///< halvings between the cage's edges and the patches'
+    };
+    for (const Case& c : {Case{"pip.glb", "catmull-clark", 2}, {"pip_quads.glb", "catmull-clark", 1}}) {
+        SCOPED_TRACE(c.file);
+        DrawOptions options;
+        options.scheme = c.scheme;
+        options.rate = 5;
+        Result<std::unique_ptr<ViewStage>> opened = ViewStage::create(**context, **renderer, options);
+        ASSERT_TRUE(opened.ok()) << opened.error().message;
+        ViewStage& stage = **opened;
+        EXPECT_TRUE(stage.ratesArePowersOfTwo());
+        EXPECT_EQ(stage.offeredRate(1), 2u);
+        EXPECT_EQ(stage.offeredRate(5), 8u);
+        EXPECT_EQ(stage.offeredRate(64), 64u);
+        const Status status = stage.open(std::string(SUPPLE_SAMPLE_ASSETS) + "/" + c.file, {}, kAspect);
+        ASSERT_TRUE(status.ok()) << status.error().message;
+        EXPECT_EQ(stage.settings.rate, 8);
+        EXPECT_EQ(stage.group().output().rate, 8u >> c.steps);
+        ASSERT_TRUE(stage.setRate(2, (*context)->lastFrame()).ok());
+        EXPECT_EQ(stage.settings.rate, 1 << c.steps) << "no fewer segments than patches";
+        EXPECT_EQ(stage.group().output().rate, 1u);
+        vkDeviceWaitIdle((*device)->handle());
+    }
+}
+
 } // namespace
 } // namespace supple::tools

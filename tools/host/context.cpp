@@ -92,12 +92,12 @@ void Context::log(SuppleSeverity severity, const char* text, void* user) {
     auto& context = *static_cast<Context*>(user);
     if (severity == SUPPLE_SEVERITY_ERROR)
         context.lastError_ = text;
-    else if (severity == SUPPLE_SEVERITY_WARNING && context.printWarnings_)
-        std::fprintf(stderr, "warning: %s\n", text);
+    if (!context.printWarnings_)
+        return;
     // What a cage's faces went through `supple inspect` lists; that a rate is not the one asked for nothing else says.
-    else if (severity == SUPPLE_SEVERITY_INFO && context.printWarnings_ && std::strstr(text, ": rate ") != nullptr &&
-             context.printedNotes_.insert(text).second)
-        std::fprintf(stderr, "note: %s\n", text);
+    const bool note = severity == SUPPLE_SEVERITY_INFO && std::strstr(text, ": rate ") != nullptr;
+    if ((severity == SUPPLE_SEVERITY_WARNING || note) && context.printed_.insert(text).second)
+        std::fprintf(stderr, "%s: %s\n", note ? "note" : "warning", text);
 }
 
 } // namespace supple::host

@@ -16,7 +16,7 @@ namespace supple::host {
 struct ContextOptions {
     SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
     uint32_t framesInFlight = 2;
-    /// Print Supple's warnings on stderr, and once each the notes about a rate that was rounded up.
+    /// Print Supple's warnings and its notes about rates that were rounded up on stderr, each once.
     bool printWarnings = true;
 };
 
@@ -53,7 +53,7 @@ private:
     uint64_t frame_ = 0;
     bool printWarnings_ = true;
     std::string lastError_;
-    std::set<std::string> printedNotes_;
+    std::set<std::string> printed_;
 };
 
 } // namespace supple::host

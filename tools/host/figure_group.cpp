@@ -1,7 +1,6 @@
 #include "tools/host/figure.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
 namespace supple::host {
@@ -32,8 +31,15 @@ std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
     return indices;
 }
 
-bool subdivides(SuppleScheme scheme) {
-    return scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
+/// How often an edge of the cage is halved before patches begin.
+uint32_t halvings(SuppleScheme scheme, const cage::Cage& cage) {
+    if (scheme != SUPPLE_SCHEME_CATMULL_CLARK)
+        return scheme == SUPPLE_SCHEME_LOOP ? 1 : 0;
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        if (cage.sides(face) != 4)
+            return 2;
+    }
+    return 1;
 }
 
 /// surface.frag has a color for each class of coefficients. Subdivision's patches, of which a surface has but one
@@ -79,8 +85,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
                                             "suppleGetGroupOutput");
         !status)
         return status.error();
-    const uint32_t asked = options.rate == 0 ? 8 : options.rate;
-    group->edgeRate_ = subdivides(options.scheme) ? std::max(std::bit_ceil(asked), 2 * group->output_.rate) : asked;
+    group->edgeRate_ = group->output_.rate << halvings(options.scheme, figure.character().cage);
     // The renderer binds each output whole; a crowd larger than that would be drawn in windows of instances.
     const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;
     for (const SuppleBufferView& view : {group->output_.surfaceVertices, group->output_.deformedCage}) {

@@ -170,7 +170,11 @@ int runBake(const BakeOptions& options) {
     }
 
     return withSession(options.device, [&](Session& session) -> Status {
-        const Result<Evaluation> baked = evaluate(session, *file, options.surface, {*clip, options.time}, groupFlags);
+        const Result<SuppleAsset> asset = host::createAsset(*session.context, *file);
+        if (!asset) {
+            return asset.error();
+        }
+        const Result<Evaluation> baked = evaluate(session, *asset, options.surface, {*clip, options.time}, groupFlags);
         if (!baked) {
             return baked.error();
         }

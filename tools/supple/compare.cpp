@@ -11,6 +11,9 @@
 namespace supple::tools {
 namespace {
 
+/// Of so many samples one is asked how well it was measured.
+constexpr size_t kDoubted = 5;
+
 /// Patches of one draw range that a thread takes at a time.
 struct Batch {
     const SuppleDrawRange* range = nullptr;
@@ -20,12 +23,13 @@ struct Batch {
 /// Figures of some samples; distances and angles are sums until they are finished.
 struct Sums {
     uint64_t samples = 0, normals = 0;
-    double max = -1.0, sum = 0.0, maxDegrees = -1.0, sumDegrees = 0.0;
+    double max = -1.0, sum = 0.0, maxDegrees = -1.0, sumDegrees = 0.0, doubt = 0.0;
     uint32_t worstFace = 0, worstNormalFace = 0;
 
     void add(const LimitSurface::Deviation& deviation, uint32_t face) {
         ++samples;
         sum += deviation.distance;
+        doubt = std::max(doubt, deviation.doubt);
         if (deviation.distance > max) {
             max = deviation.distance;
             worstFace = face;
@@ -44,6 +48,7 @@ struct Sums {
         samples += other.samples;
         normals += other.normals;
         sum += other.sum;
+        doubt = std::max(doubt, other.doubt);
         sumDegrees += other.sumDegrees;
         if (other.max > max) {
             max = other.max;
@@ -67,7 +72,7 @@ Sums measure(const Evaluation& evaluation, const LimitSurface& limit, const Batc
             const SuppleBufferView& view = evaluation.output.surfaceVertices;
             const auto position = element<glm::vec3>(evaluation.surfaceVertices, view, i);
             const auto normal = element<glm::vec3>(evaluation.surfaceVertices, view, i, sizeof(glm::vec3));
-            sums.add(probe.measure(face, position, normal), face);
+            sums.add(probe.measure(face, position, normal, i % kDoubted == 0), face);
         }
     }
     return sums;
@@ -142,6 +147,10 @@ std::vector<std::string> notesFor(SuppleScheme scheme, const cage::Cage& cage) {
 
 Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& file, const SurfaceFlags& surface,
                                   const Pose& pose) {
+    const Result<SuppleAsset> asset = host::createAsset(*session.context, file);
+    if (!asset) {
+        return asset.error();
+    }
     Comparison comparison;
     std::optional<LimitSurface> limit;
     for (const Scheme& scheme : schemes()) {
@@ -149,7 +158,7 @@ Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& f
         deviation.scheme = scheme.name;
         SurfaceFlags flags = surface;
         flags.scheme = scheme.name;
-        const Result<Evaluation> evaluation = evaluate(session, file, flags, pose, 0);
+        const Result<Evaluation> evaluation = evaluate(session, *asset, flags, pose, 0);
         if (!evaluation) {
             const ErrorCode code = evaluation.error().code;
             if (code != ErrorCode::asset && code != ErrorCode::limit) { // not the cage's fault
@@ -168,9 +177,9 @@ Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& f
             }
             limit.emplace(std::move(*built));
             comparison.extent = extentOf(positions);
-            comparison.measuringError = limit->measuringError();
         }
         const Sums sums = measure(*evaluation, *limit);
+        comparison.measuringError = std::max(comparison.measuringError, sums.doubt);
         deviation.patches = evaluation->output.patchCount;
         deviation.samples = sums.samples;
         deviation.max = std::max(sums.max, 0.0);
@@ -184,7 +193,7 @@ Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& f
         comparison.schemes.push_back(std::move(deviation));
     }
     if (!limit) {
-        return Error{ErrorCode::asset, "no scheme takes it: " + comparison.schemes.front().refusal};
+        return Error{ErrorCode::asset, comparison.schemes.front().refusal + "; no scheme takes it"};
     }
     return comparison;
 }

@@ -2,6 +2,7 @@
 // the Catmull-Clark limit surface.
 #pragma once
 
+#include "tools/host/character_file.h"
 #include "tools/supple/evaluation.h"
 
 #include <cstdint>
@@ -25,7 +26,7 @@ struct SchemeDeviation {
 
 struct Comparison {
     double extent = 0.0;         ///< the diagonal of the posed cage's bounding box, in asset units
-    double measuringError = 0.0; ///< in asset units: see LimitSurface
+    double measuringError = 0.0; ///< in asset units: the largest LimitSurface::Deviation::doubt
     std::vector<SchemeDeviation> schemes;
 };
 

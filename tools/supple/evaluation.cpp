@@ -20,17 +20,13 @@ Status readBack(host::Device& device, const SuppleBufferView& view, std::vector<
 
 } // namespace
 
-Result<Evaluation> evaluate(Session& session, const host::CharacterFile& file, const SurfaceFlags& surface,
-                            const Pose& pose, uint32_t groupFlags) {
+Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFlags& surface, const Pose& pose,
+                            uint32_t groupFlags) {
     host::Context& context = *session.context;
-    const Result<SuppleAsset> asset = host::createAsset(context, file);
-    if (!asset) {
-        return asset.error();
-    }
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
     desc.flags = groupFlags;
-    desc.asset = *asset;
+    desc.asset = asset;
     desc.instanceCount = 1;
     desc.scheme = schemeOf(surface.scheme);
     desc.rate = surface.rate;

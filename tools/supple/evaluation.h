@@ -1,7 +1,6 @@
 // One instance evaluated on the device in one frame, and what it wrote read back.
 #pragma once
 
-#include "tools/host/character_file.h"
 #include "tools/supple/session.h"
 
 #include <cstddef>
@@ -37,7 +36,7 @@ struct Pose {
 };
 
 /// `groupFlags`: SuppleGroupFlags.
-[[nodiscard]] Result<Evaluation> evaluate(Session& session, const host::CharacterFile& file,
-                                          const SurfaceFlags& surface, const Pose& pose, uint32_t groupFlags);
+[[nodiscard]] Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFlags& surface,
+                                          const Pose& pose, uint32_t groupFlags);
 
 } // namespace supple::tools

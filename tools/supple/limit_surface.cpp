@@ -22,7 +22,9 @@ constexpr uint64_t kWantedSamples = 120'000'000;
 constexpr uint64_t kMostPoints = 40'000'000;
 constexpr uint32_t kFewestSteps = 3; ///< half of its points must still carry a cubic
 constexpr uint32_t kMostSteps = 6;
-/// Segments of a side: of a sector whose surface is bicubic, and the most of a level of another.
+/// Segments of a side: of a sector whose surface is bicubic, and the most of one that is so piece by piece towards its
+/// corner. Beside semi-sharp creases the pieces are strips, and all points are kept.
+enum class Kind : uint8_t { regular, irregular, semiSharp };
 constexpr uint32_t kRegularSegments = 8;
 constexpr uint32_t kIrregularSegments = 16;
 /// Points of a sector's side that the tree holds: enough for Newton's method to start in the right place.
@@ -110,6 +112,27 @@ Cubic cubicAt(double at, uint32_t segments) {
     return cubic;
 }
 
+/// Per face of the isolated level.
+std::vector<Kind> kindsOf(const kernel::Mesh& mesh) {
+    std::vector<Kind> kinds(mesh.cage.faceCount(), Kind::regular);
+    for (const kernel::Fragment& fragment : mesh.fragments) {
+        const auto spokes = std::span(mesh.spokeSharpness).subspan(fragment.firstSpoke, fragment.spokes());
+        const auto semiSharp = [](float s) { return s > 0.0f && s < kernel::kInfiniteSharpness; };
+        const auto smooth = [](float s) { return s == 0.0f; };
+        Kind kind = Kind::irregular;
+        if (semiSharp(fragment.centreSharpness) || std::any_of(spokes.begin(), spokes.end(), semiSharp)) {
+            kind = Kind::semiSharp;
+        } else if (fragment.sectors == 4 && !fragment.open && smooth(fragment.centreSharpness) &&
+                   std::all_of(spokes.begin(), spokes.end(), smooth)) {
+            kind = Kind::regular;
+        }
+        for (uint32_t h = 0; h < fragment.sectors; ++h) {
+            kinds[mesh.sectorFaces[fragment.firstSector + h]] = kind;
+        }
+    }
+    return kinds;
+}
+
 } // namespace
 
 struct LimitSurface::Data {
@@ -148,7 +171,6 @@ struct LimitSurface::Data {
     std::vector<glm::vec3> normals;
     Neighbourhoods around;
     double extent = 0.0;
-    double measuringError = 0.0;
     Cloud cloud{*this};
     std::unique_ptr<Tree> tree;
 
@@ -202,11 +224,12 @@ struct LimitSurface::Data {
         }
         return point;
     }
-    [[nodiscard]] Point at(const Sector& sector, double u, double v) const {
+    /// `stride` 2: the surface as it would be through every second point.
+    [[nodiscard]] Point at(const Sector& sector, double u, double v, uint32_t stride = 1) const {
         const Place where = place(sector, u, v);
-        Point point = onGrid(where.first, sector.segments, where.u, where.v, 1);
-        point.du *= where.scale;
-        point.dv *= where.scale;
+        Point point = onGrid(where.first, sector.segments, where.u / stride, where.v / stride, stride);
+        point.du *= where.scale / stride;
+        point.dv *= where.scale / stride;
         return point;
     }
     [[nodiscard]] glm::dvec3 normalAt(const Sector& sector, double u, double v) const {
@@ -222,15 +245,18 @@ struct LimitSurface::Data {
         return normal;
     }
 
-    void add(const kernel::SectorGrid<double>& grid, uint32_t face, uint32_t steps, bool regular) {
+    void add(const kernel::SectorGrid<double>& grid, uint32_t face, uint32_t steps, Kind kind) {
+        const uint32_t all = 1u << steps;
         Sector sector;
         sector.face = face;
-        sector.segments = std::min(regular ? kRegularSegments : kIrregularSegments, 1u << steps);
-        sector.levels = regular ? 1 : static_cast<uint32_t>(std::bit_width((1u << steps) / sector.segments));
+        sector.segments = kind == Kind::regular     ? std::min(kRegularSegments, all)
+                          : kind == Kind::irregular ? std::min(kIrregularSegments, all)
+                                                    : all;
+        sector.levels = kind == Kind::irregular ? static_cast<uint32_t>(std::bit_width(all / sector.segments)) : 1;
         sector.first = positions.size();
-        const uint32_t row = (1u << steps) + 1;
+        const uint32_t row = all + 1;
         for (uint32_t level = 0; level < sector.levels; ++level) {
-            const uint32_t stride = (1u << steps) / sector.segments >> level;
+            const uint32_t stride = all / sector.segments >> level;
             for (uint32_t j = 0; j <= sector.segments; ++j) {
                 for (uint32_t i = 0; i <= sector.segments; ++i) {
                     const kernel::Sample<double>& sample = grid.samples[size_t{j} * stride * row + size_t{i} * stride];
@@ -242,37 +268,60 @@ struct LimitSurface::Data {
         sectors.push_back(sector);
     }
 
-    [[nodiscard]] double interpolationError(const Sector& sector) const {
-        double worst = 0.0;
-        for (uint32_t level = 0; level < sector.levels; ++level) {
-            const size_t first = sector.first + level * sector.gridPoints();
-            const uint32_t finer = level + 1 < sector.levels ? sector.segments / 2 : 0; // served by the next grid
-            for (uint32_t j = 0; j <= sector.segments; ++j) {
-                for (uint32_t i = 0; i <= sector.segments; ++i) {
-                    if ((i % 2 == 0 && j % 2 == 0) || (finer > 0 && std::max(i, j) <= finer)) {
-                        continue;
-                    }
-                    // Along the normal: what is off within the tangent plane is still on the surface.
-                    const size_t index = first + size_t{j} * (sector.segments + 1) + i;
-                    const glm::dvec3 off =
-                        onGrid(first, sector.segments, i * 0.5, j * 0.5, 2).position - positions[index];
-                    const glm::dvec3 normal(normals[index]);
-                    worst =
-                        std::max(worst, normal == glm::dvec3(0.0) ? glm::length(off) : std::abs(glm::dot(off, normal)));
+    /// The point of a sector that is nearest to another.
+    struct Foot {
+        double u = 0.0, v = 0.0;
+        double distance = std::numeric_limits<double>::max();
+    };
+    /// Gauss-Newton within the sector from a place in it; at its border along it.
+    [[nodiscard]] Foot project(const Sector& sector, double u, double v, const glm::dvec3& p,
+                               uint32_t stride = 1) const {
+        constexpr int kSteps = 30;
+        const double side = sector.segments;
+        Point here = at(sector, u, v, stride);
+        Foot foot{u, v, glm::distance(here.position, p)};
+        for (int step = 0; step < kSteps; ++step) {
+            const glm::dvec3 r = p - here.position;
+            const double ru = glm::dot(r, here.du), rv = glm::dot(r, here.dv);
+            const bool stuckU = (foot.u <= 0.0 && ru < 0.0) || (foot.u >= side && ru > 0.0);
+            const bool stuckV = (foot.v <= 0.0 && rv < 0.0) || (foot.v >= side && rv > 0.0);
+            const double uu = glm::dot(here.du, here.du), vv = glm::dot(here.dv, here.dv),
+                         uv = glm::dot(here.du, here.dv);
+            const double determinant = uu * vv - uv * uv;
+            double du = 0.0, dv = 0.0;
+            if (!stuckU && !stuckV && determinant > 1e-12 * uu * vv) {
+                du = (vv * ru - uv * rv) / determinant;
+                dv = (uu * rv - uv * ru) / determinant;
+            } else {
+                du = stuckU || uu == 0.0 ? 0.0 : ru / uu;
+                dv = stuckV || vv == 0.0 ? 0.0 : rv / vv;
+            }
+            // A step that leads away from the point is halved; one that is nothing in double's terms ends the search.
+            bool nearer = false;
+            for (int halving = 0; halving < 8 && !nearer; ++halving, du *= 0.5, dv *= 0.5) {
+                Foot next{std::clamp(foot.u + du, 0.0, side), std::clamp(foot.v + dv, 0.0, side), 0.0};
+                if (std::abs(next.u - foot.u) + std::abs(next.v - foot.v) < 1e-10) {
+                    break;
+                }
+                const Point there = at(sector, next.u, next.v, stride);
+                next.distance = glm::distance(there.position, p);
+                if (next.distance < foot.distance) {
+                    foot = next;
+                    here = there;
+                    nearer = true;
                 }
             }
+            if (!nearer) {
+                break;
+            }
         }
-        return worst;
+        return foot;
     }
 };
 
 LimitSurface::LimitSurface(std::unique_ptr<Data> data) : data_(std::move(data)) {}
 LimitSurface::LimitSurface(LimitSurface&&) noexcept = default;
 LimitSurface::~LimitSurface() = default;
-
-double LimitSurface::measuringError() const {
-    return data_->measuringError;
-}
 
 Result<LimitSurface> LimitSurface::build(const cage::Cage& cage, std::span<const glm::dvec3> positions) {
     const Result<cage::Topology> topology = cage::buildTopology(cage);
@@ -293,26 +342,15 @@ Result<LimitSurface> LimitSurface::build(const cage::Cage& cage, std::span<const
     if (samples(kFewestSteps) > kMostPoints) {
         return Error{ErrorCode::limit, std::to_string(cage.faceCount()) + " faces are too many to compare"};
     }
-    std::vector<uint8_t> regular(mesh->cage.faceCount(), 0);
-    for (const kernel::Fragment& fragment : mesh->fragments) {
-        const auto sharpness = std::span(mesh->spokeSharpness).subspan(fragment.firstSpoke, fragment.spokes());
-        const bool smooth = fragment.sectors == 4 && !fragment.open && fragment.centreSharpness == 0.0f &&
-                            std::all_of(sharpness.begin(), sharpness.end(), [](float s) { return s == 0.0f; });
-        for (uint32_t h = 0; h < fragment.sectors; ++h) {
-            regular[mesh->sectorFaces[fragment.firstSector + h]] = smooth ? 1 : 0;
-        }
-    }
+    const std::vector<Kind> kinds = kindsOf(*mesh);
     const std::vector<glm::dvec3> isolated = kernel::isolate<double>(*mesh, positions);
     kernel::forEachSector<double>(*mesh, isolated, steps, [&](const kernel::SectorGrid<double>& grid) {
         if (mesh->holes[grid.face] == 0) {
-            data->add(grid, mesh->sourceFaces[grid.face], steps, regular[grid.face] != 0);
+            data->add(grid, mesh->sourceFaces[grid.face], steps, kinds[grid.face]);
         }
     });
     if (data->sectors.empty()) {
         return Error{ErrorCode::asset, "all faces are holes"};
-    }
-    for (const Data::Sector& sector : data->sectors) {
-        data->measuringError = std::max(data->measuringError, data->interpolationError(sector));
     }
     glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
     for (const glm::dvec3& p : positions) {
@@ -335,11 +373,8 @@ struct LimitSurface::Probe::State {
     std::vector<uint8_t> marks; ///< per face of the cage: Mark
     uint32_t marked = std::numeric_limits<uint32_t>::max();
 
-    /// The point looked for on a sector.
-    struct Hit {
+    struct Hit : Data::Foot {
         uint32_t sector = 0;
-        double u = 0.0, v = 0.0;
-        double distance = std::numeric_limits<double>::max();
     };
     std::vector<Hit> hits; ///< one a sector that was tried
 
@@ -388,55 +423,10 @@ struct LimitSurface::Probe::State {
         marked = face;
     }
 
-    /// Gauss-Newton within the sector from a point of its grid; at its border along it.
-    [[nodiscard]] Hit project(const Data::TreePoint& start, const glm::dvec3& p) const {
-        constexpr int kSteps = 30;
-        const Data::Sector& sector = data.sectors[start.sector];
-        const double side = sector.segments;
-        Hit hit{start.sector, static_cast<double>(start.i), static_cast<double>(start.j)};
-        Data::Point at = data.at(sector, hit.u, hit.v);
-        hit.distance = glm::distance(at.position, p);
-        for (int step = 0; step < kSteps; ++step) {
-            const glm::dvec3 r = p - at.position;
-            const double ru = glm::dot(r, at.du), rv = glm::dot(r, at.dv);
-            const bool stuckU = (hit.u <= 0.0 && ru < 0.0) || (hit.u >= side && ru > 0.0);
-            const bool stuckV = (hit.v <= 0.0 && rv < 0.0) || (hit.v >= side && rv > 0.0);
-            const double uu = glm::dot(at.du, at.du), vv = glm::dot(at.dv, at.dv), uv = glm::dot(at.du, at.dv);
-            const double determinant = uu * vv - uv * uv;
-            double du = 0.0, dv = 0.0;
-            if (!stuckU && !stuckV && determinant > 1e-12 * uu * vv) {
-                du = (vv * ru - uv * rv) / determinant;
-                dv = (uu * rv - uv * ru) / determinant;
-            } else {
-                du = stuckU || uu == 0.0 ? 0.0 : ru / uu;
-                dv = stuckV || vv == 0.0 ? 0.0 : rv / vv;
-            }
-            // A step that leads away from the point is halved; one that is nothing in double's terms ends the search.
-            bool nearer = false;
-            for (int halving = 0; halving < 8 && !nearer; ++halving, du *= 0.5, dv *= 0.5) {
-                Hit next{hit.sector, std::clamp(hit.u + du, 0.0, side), std::clamp(hit.v + dv, 0.0, side)};
-                if (std::abs(next.u - hit.u) + std::abs(next.v - hit.v) < 1e-10) {
-                    break;
-                }
-                const Data::Point there = data.at(sector, next.u, next.v);
-                next.distance = glm::distance(there.position, p);
-                if (next.distance < hit.distance) {
-                    hit = next;
-                    at = there;
-                    nearer = true;
-                }
-            }
-            if (!nearer) {
-                break;
-            }
-        }
-        return hit;
-    }
-
-    /// Fills `hits` with the sectors about p whose faces are marked at least `mark`; returns the least distance.
-    double search(const glm::dvec3& p, uint8_t mark) {
+    /// Fills `hits` with the sectors about p whose faces are marked at least `mark`; returns the nearest.
+    Hit search(const glm::dvec3& p, uint8_t mark) {
         hits.clear();
-        double best = std::numeric_limits<double>::max();
+        Hit best;
         glm::dvec3 from = p;
         // The nearest grid point may lie on another sector than the nearest point: where the search ends on a border
         // it goes on across it.
@@ -449,9 +439,9 @@ struct LimitSurface::Probe::State {
                 if (std::any_of(hits.begin(), hits.end(), [&](const Hit& h) { return h.sector == start.sector; })) {
                     continue;
                 }
-                hits.push_back(project(start, p));
-                if (hits.back().distance < best) {
-                    best = hits.back().distance;
+                hits.push_back({data.project(data.sectors[start.sector], start.i, start.j, p), start.sector});
+                if (hits.back().distance < best.distance) {
+                    best = hits.back();
                     improved = hits.back();
                 }
             }
@@ -473,19 +463,24 @@ LimitSurface::Probe::Probe(const LimitSurface& surface) : state_(std::make_uniqu
 LimitSurface::Probe::~Probe() = default;
 
 LimitSurface::Deviation LimitSurface::Probe::measure(uint32_t face, const glm::dvec3& position,
-                                                     const glm::dvec3& normal) {
+                                                     const glm::dvec3& normal, bool withDoubt) {
     State& state = *state_;
     state.markRound(face);
     Deviation deviation;
-    deviation.distance = state.search(position, State::kOtherSide);
-    double nearest = deviation.distance;
+    const State::Hit hit = state.search(position, State::kOtherSide);
+    deviation.distance = hit.distance;
+    if (withDoubt) {
+        const auto coarser = state.data.project(state.data.sectors[hit.sector], hit.u, hit.v, position, 2);
+        deviation.doubt = std::abs(coarser.distance - hit.distance);
+    }
+    double nearest = hit.distance;
     if (state.data.around.creased[face] != 0) {
-        nearest = state.search(position, State::kSameSide);
+        nearest = state.search(position, State::kSameSide).distance;
     }
     deviation.degrees = -1.0;
-    for (const State::Hit& hit : state.hits) {
-        const glm::dvec3 own = state.data.normalAt(state.data.sectors[hit.sector], hit.u, hit.v);
-        if (hit.distance > nearest + kTie * state.data.extent || glm::dot(own, own) == 0.0 ||
+    for (const State::Hit& near : state.hits) {
+        const glm::dvec3 own = state.data.normalAt(state.data.sectors[near.sector], near.u, near.v);
+        if (near.distance > nearest + kTie * state.data.extent || glm::dot(own, own) == 0.0 ||
             glm::dot(normal, normal) == 0.0) {
             continue;
         }

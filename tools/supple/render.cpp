@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 namespace supple::tools {
@@ -15,8 +16,8 @@ namespace {
 constexpr float kMargin = 0.07f;
 /// Poses looked at to find the floor a clip is played on.
 constexpr uint32_t kFloorPoses = 9;
-/// Sheets are laid out to come nearest to this shape, width by height.
-constexpr double kSheetShape = 1.6;
+/// Sheets are laid out to come near to this shape, width by height, with few places left empty.
+constexpr double kSheetShape = 1.8;
 
 /// A scheme's surface (or the cage) and where it is.
 struct Shown {
@@ -95,14 +96,15 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
 
 uint32_t sheetColumns(uint32_t count, VkExtent2D cell) {
     uint32_t best = 1;
-    double least = 0.0;
+    double least = std::numeric_limits<double>::max();
     for (uint32_t columns = 1; columns <= count; ++columns) {
-        const uint32_t rows = (count + columns - 1) / columns;
-        const double off = std::abs(std::log(static_cast<double>(columns) * cell.width /
-                                             (static_cast<double>(rows) * cell.height) / kSheetShape));
-        if (columns == 1 || off < least) {
+        const double rows = (count + columns - 1) / columns;
+        const double shape = static_cast<double>(columns) * cell.width / (rows * cell.height);
+        const double empty = columns * rows / count; // 1: every place is taken
+        const double cost = std::abs(std::log(shape / kSheetShape)) + 2.0 * std::log(empty);
+        if (cost <= least) {
             best = columns;
-            least = off;
+            least = cost;
         }
     }
     return best;
