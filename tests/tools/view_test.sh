@@ -46,6 +46,9 @@ size=$(od -An -tu1 -j16 -N8 "$work/view.png" | tr -s ' ')
     fail "exit code $?"
 [ -s "$work/a.png" ] || fail "no picture of the cage"
 
+"$supple" view "$character" --frames 2 --size 160x120 --rate 3 --scheme catmull-clark --view patches $validate ||
+    fail "exit code $?"
+
 DISPLAY= "$supple" view "$character" --frames 1 >"$work/log" 2>&1
 [ $? -eq 3 ] || fail "without a display the exit code should be 3: $(cat "$work/log")"
 
