@@ -380,13 +380,16 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* desc
         if (desc->rate > SUPPLE_MAX_RATE) {
             return refuse(context, "suppleCreateGroup", "rate must be 1..64");
         }
-        if (static_cast<uint32_t>(desc->scheme) > SUPPLE_SCHEME_LOOP && desc->scheme != SUPPLE_SCHEME_CAGE) {
+        if (static_cast<uint32_t>(desc->scheme) > SUPPLE_SCHEME_BLEND && desc->scheme != SUPPLE_SCHEME_CAGE) {
             return refuse(context, "suppleCreateGroup", "no such scheme");
         }
         if (static_cast<uint32_t>(desc->vertexFormat) > SUPPLE_VERTEX_24 ||
             static_cast<uint32_t>(desc->tangentMode) > SUPPLE_TANGENTS_PRINTED ||
             static_cast<uint32_t>(desc->cornerRule) > SUPPLE_CORNERS_SMOOTH) {
             return refuse(context, "suppleCreateGroup", "no such vertexFormat, tangentMode or cornerRule");
+        }
+        if (static_cast<uint32_t>(desc->creaseMode) > SUPPLE_CREASES_CURVE || !(desc->sharpThreshold >= 0.0f)) {
+            return refuse(context, "suppleCreateGroup", "no such creaseMode, or sharpThreshold is negative or NaN");
         }
         if (static_cast<uint32_t>(desc->skinning) > SUPPLE_SKINNING_DUAL_QUATERNION) {
             return refuse(context, "suppleCreateGroup", "no such skinning");

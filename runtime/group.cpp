@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace supple::runtime {
 
@@ -34,7 +35,9 @@ static_assert(SUPPLE_DOMAIN_QUAD == kQuadDomain && SUPPLE_DOMAIN_POLAR == kPolar
               SUPPLE_DOMAIN_TRIANGLE == kTriangleDomain && SUPPLE_DOMAIN_PENTAGON == kPentagonDomain);
 static_assert(SUPPLE_PATCH_REGULAR == kRegularPatch && SUPPLE_PATCH_PERTURBED == kPerturbedPatch &&
               SUPPLE_PATCH_POLAR == kPolarPatch && SUPPLE_PATCH_P3 == kP3Patch && SUPPLE_PATCH_P4 == kP4Patch &&
-              SUPPLE_PATCH_P5 == kP5Patch);
+              SUPPLE_PATCH_P5 == kP5Patch && SUPPLE_PATCH_CATMULL_CLARK == kCatmullClarkPatch &&
+              SUPPLE_PATCH_LOOP == kLoopPatch && SUPPLE_PATCH_BLEND == kBlendPatch &&
+              SUPPLE_PATCH_BLEND_SHARP == kBlendSharpPatch);
 
 // Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits): instances of the pool, the deformed cage
 // and the surface vertices (16 or 24 bytes each) start on such multiples.
@@ -63,7 +66,12 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         recipe.scheme = static_cast<surface::SchemeId>(desc.scheme);
     }
     if (surface::subdivides(recipe.scheme)) {
-        recipe.depth = surface::depthFor(rate);
+        recipe.rate = std::bit_ceil(rate);
+    } else if (recipe.scheme == surface::SchemeId::blend) {
+        recipe.rate = rate;
+        recipe.blend.creases = desc.creaseMode == SUPPLE_CREASES_CURVE ? surface::blend::CreaseMode::curve
+                                                                       : surface::blend::CreaseMode::cut;
+        recipe.blend.sharpThreshold = desc.sharpThreshold > 0.0f ? desc.sharpThreshold : 1.0f;
     }
     if (recipe.scheme == surface::SchemeId::prep) {
         recipe.prep.tangentMode = desc.tangentMode == SUPPLE_TANGENTS_PRINTED ? surface::prep::TangentMode::printed
@@ -84,19 +92,19 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->instanceCount_ = desc.instanceCount;
 
     const surface::Tables& tables = group->scheme_->tables;
-    if (surface::subdivides(recipe.scheme)) {
+    group->evaluation_.rate = rate;
+    if (surface::hasRate(recipe.scheme)) {
         if ((desc.flags & SUPPLE_GROUP_PATCHES) != 0) {
             return Error{ErrorCode::argument, group->asset_->character.name + ": " +
                                                   surface::schemeName(recipe.scheme) + " has no patch coefficients"};
         }
-        const uint32_t depth = tables.isolationSteps + tables.fragments.steps;
-        group->evaluation_.rate = 1u << tables.fragments.steps;
-        if (1u << depth != rate) {
+        group->evaluation_.rate = tables.rate;
+        const uint32_t taken = tables.rate << tables.isolationSteps;
+        if (taken != rate) {
             group->notes_.push_back("rate " + std::to_string(rate) + ": " + surface::schemeName(recipe.scheme) +
-                                    " has 2, 4, 8.. segments an edge of the cage, here " + std::to_string(1u << depth));
+                                    (surface::subdivides(recipe.scheme) ? " has 2, 4, 8.." : " has an even number of") +
+                                    " segments an edge of the cage, here " + std::to_string(taken));
         }
-    } else {
-        group->evaluation_.rate = rate;
     }
     group->evaluation_.vertex24 = desc.vertexFormat == SUPPLE_VERTEX_24;
     const uint64_t vertices = group->evaluation_.layOut(group->scheme_->tables);

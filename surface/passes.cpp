@@ -1,5 +1,7 @@
 #include "surface/passes.h"
 
+#include "shaders/blend_chart_comp.h"
+#include "shaders/blend_evaluate_comp.h"
 #include "shaders/evaluate_attributes_comp.h"
 #include "shaders/evaluate_bicubic_comp.h"
 #include "shaders/evaluate_patch_comp.h"
@@ -79,6 +81,8 @@ Shaders Shaders::embedded() {
     shaders.pmPatch = pm_patch_comp;
     shaders.pmEvaluate = pm_evaluate_comp;
     shaders.isolate = kernel_isolate_comp;
+    shaders.blendChart = blend_chart_comp;
+    shaders.blendEvaluate = blend_evaluate_comp;
     shaders.kernel = {kernel_fragment_comp, kernel_refine_comp, kernel_limit_comp};
     shaders.patch = evaluate_patch_comp;
     shaders.bicubic = evaluate_bicubic_comp;
@@ -136,6 +140,16 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     construction(Kernel::pmFacet4, shaders.pmFacet, kP4Patch, "supple P_m facet, quad");
     construction(Kernel::pmFacet5, shaders.pmFacet, kP5Patch, "supple P_m facet, pentagon");
     construction(Kernel::isolate, shaders.isolate, 0, "supple kernel, isolate");
+    construction(Kernel::blendChart, shaders.blendChart, 0, "supple blend, chart");
+    construction(Kernel::blendChartFromPool, shaders.blendChart, 1, "supple blend, chart of a subdivided cage");
+    for (const uint32_t patchClass : {kBlendPatch, kBlendSharpPatch}) {
+        for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24) {
+            wanted.push_back({&passes.evaluate_[patchClass][vertex24][0],
+                              shaders.blendEvaluate,
+                              {{kKindConstant, patchClass}, {kVertex24Constant, vertex24}},
+                              "supple evaluate, blend"});
+        }
+    }
     for (uint32_t domain = 0; domain < kDomainCount; ++domain) {
         wanted.push_back(
             {&passes.attributes_[domain], shaders.attributes, {{kKindConstant, domain}}, "supple attributes"});

@@ -19,6 +19,7 @@ struct Shaders {
     std::span<const uint32_t> prepVertex, prepEdge;
     std::span<const uint32_t> pmVertex, pmFacet, pmPatch, pmEvaluate;
     std::span<const uint32_t> isolate;
+    std::span<const uint32_t> blendChart, blendEvaluate;
     kernel::Passes::Shaders kernel;
     std::span<const uint32_t> patch, bicubic, attributes;
     [[nodiscard]] static Shaders embedded();

@@ -20,13 +20,16 @@ enum class PatchClass : uint32_t {
     p4 = shared::kP4Patch,
     p5 = shared::kP5Patch,
     catmullClark = shared::kCatmullClarkPatch, ///< subdivision kernel: a face of the isolated level
-    loop = shared::kLoopPatch
+    loop = shared::kLoopPatch,
+    blend = shared::kBlendPatch,          ///< blending surface: smooth all over
+    blendSharp = shared::kBlendSharpPatch ///< with creases, or without derivatives somewhere on its border
 };
-inline constexpr size_t kPatchClassCount = 8;
+inline constexpr size_t kPatchClassCount = 10;
 
-/// "regular", "perturbed", "polar", "p3", "p4", "p5", "catmull-clark", "loop".
+/// "regular", "perturbed", "polar", "p3", "p4", "p5", "catmull-clark", "loop", "blend", "blend-sharp".
 [[nodiscard]] constexpr const char* className(PatchClass patchClass) {
-    constexpr const char* kNames[] = {"regular", "perturbed", "polar", "p3", "p4", "p5", "catmull-clark", "loop"};
+    constexpr const char* kNames[] = {"regular", "perturbed",     "polar", "p3",    "p4",
+                                      "p5",      "catmull-clark", "loop",  "blend", "blend-sharp"};
     return kNames[static_cast<uint32_t>(patchClass)];
 }
 
@@ -44,9 +47,9 @@ inline constexpr size_t kPatchClassCount = 8;
     }
 }
 
-/// Coefficients a patch of a class has, as the patch pass writes them; the kernel's patches have none.
+/// Coefficients a patch of a class has, as the patch pass writes them; others have none.
 [[nodiscard]] constexpr uint32_t coefficientCount(PatchClass patchClass) {
-    constexpr uint32_t kCounts[] = {16, 32, 13, 19, 25, 31, 0, 0};
+    constexpr uint32_t kCounts[] = {16, 32, 13, 19, 25, 31, 0, 0, 0, 0};
     return kCounts[static_cast<uint32_t>(patchClass)];
 }
 
@@ -78,15 +81,18 @@ enum class Kernel : uint32_t {
     pmFacet3,
     pmFacet4,
     pmFacet5,
-    // subdivision kernel
+    // subdivision kernel, and the blending surface where it subdivides first
     isolate,
+    // blending surface
+    blendChart,
+    blendChartFromPool,
     count
 };
 
 /// The passes between deformed cage and coefficients, in order; a barrier stands between them.
 enum class Stage : uint32_t {
     vertex, ///< one invocation a cage vertex or sector; subdivision kernel: a vertex of the isolated level
-    edge    ///< p-rep: a perturbed edge; P_m: a facet
+    edge    ///< p-rep: a perturbed edge; P_m: a facet; blending surface on a subdivided cage: a chart
 };
 inline constexpr uint32_t kStageCount = 2;
 
@@ -137,7 +143,8 @@ struct Tables {
     uint32_t tangents = 0;       ///< first tangent in the pool
     uint32_t faces = 0;          ///< first face coefficient in the pool
     uint32_t uvSets = 1;
-    uint32_t isolationSteps = 0; ///< patches are this many halvings smaller than the cage's faces: see Recipe::rate
+    uint32_t isolationSteps = 0; ///< patches are this many halvings smaller than the cage's faces
+    uint32_t rate = 0;           ///< segments along a patch edge that the tables are made for; 0: any
     Fragments fragments;         ///< subdivision kernel only
     bool cornerNormals = false;  ///< p-rep: some corner needs its stored normal (CornerRule::smooth)
     std::vector<Construction> constructions;

@@ -1,8 +1,12 @@
 #include "surface/schemes.h"
 
+#include "surface/blend/scheme.h"
 #include "surface/kernel/scheme.h"
 #include "surface/pm/scheme.h"
 #include "surface/prep/scheme.h"
+
+#include <algorithm>
+#include <bit>
 
 namespace supple::surface {
 
@@ -16,6 +20,8 @@ const char* schemeName(SchemeId scheme) {
         return "Catmull-Clark";
     case SchemeId::loop:
         return "Loop";
+    case SchemeId::blend:
+        return "blend";
     }
     return "";
 }
@@ -34,7 +40,16 @@ Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
         if (!mesh) {
             return mesh.error();
         }
-        return kernel::buildTables(*mesh, recipe.depth);
+        const uint32_t depth = recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0;
+        return kernel::buildTables(*mesh, depth);
+    }
+    if (recipe.scheme == SchemeId::blend) {
+        const Result<blend::Mesh> mesh = blend::buildMesh(cage, recipe.blend);
+        if (!mesh) {
+            return mesh.error();
+        }
+        const uint32_t rate = std::max(recipe.rate, 1u);
+        return blend::buildTables(*mesh, mesh->refined ? (rate + 1) / 2 : rate);
     }
     const Result<cage::Topology> topology = cage::buildTopology(cage);
     if (!topology) {

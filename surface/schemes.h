@@ -3,35 +3,35 @@
 #pragma once
 
 #include "base/result.h"
+#include "surface/blend/mesh.h"
 #include "surface/prep/weights.h"
 #include "surface/scheme.h"
 
-#include <bit>
-
 namespace supple::surface {
 
-enum class SchemeId : uint32_t { prep = 1, pm = 2, catmullClark = 3, loop = 4 }; ///< values of SuppleScheme
+enum class SchemeId : uint32_t { prep = 1, pm = 2, catmullClark = 3, loop = 4, blend = 5 }; ///< values of SuppleScheme
 
 /// What tables depend on besides the cage.
 struct Recipe {
     SchemeId scheme = SchemeId::pm;
     prep::Options prep;
-    uint32_t depth = 0; ///< subdivision kernel: steps from the cage to the surface's samples; 0 for the others
+    blend::Options blend;
+    uint32_t rate = 0; ///< segments along an edge of the cage; 0 for schemes whose tables serve all rates
 
     bool operator==(const Recipe&) const = default;
 };
 
-/// "p-rep", "P_m", "Catmull-Clark", "Loop".
+/// "p-rep", "P_m", "Catmull-Clark", "Loop", "blend".
 [[nodiscard]] const char* schemeName(SchemeId scheme);
 
-/// Whether it is one of the subdivision kernel's.
+/// Whether it is one of the subdivision kernel's: rates are then rounded up to powers of two.
 [[nodiscard]] constexpr bool subdivides(SchemeId scheme) {
     return scheme == SchemeId::catmullClark || scheme == SchemeId::loop;
 }
 
-/// The depth at which the subdivision kernel has at least `rate` segments along an edge of the cage: 2^depth.
-[[nodiscard]] constexpr uint32_t depthFor(uint32_t rate) {
-    return static_cast<uint32_t>(std::bit_width(rate - 1));
+/// Whether its tables are made for one rate.
+[[nodiscard]] constexpr bool hasRate(SchemeId scheme) {
+    return subdivides(scheme) || scheme == SchemeId::blend;
 }
 
 /// Builds the scheme's tables, or says why it cannot take the cage: "face 12 has 5 sides: p-rep takes quads only".

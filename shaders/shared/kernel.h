@@ -8,8 +8,9 @@
 // A class is all fragments of one kind: vertex or facet, sectors, open or closed, with or without sharpness.
 //
 // Tables
-//   isolation records  (cage vertex, first element of the entries, entries, pool index), by number of entries
-//   isolation entries  two an element: (cage vertex, weight, cage vertex, weight)
+//   stencil records    (cage vertex, first element of the entries, entries, pool index), by number of entries; the blending
+//                      surface has them, too, where its cage takes a step of subdivision first
+//   stencil entries    two an element: (cage vertex, weight, cage vertex, weight)
 //   pattern rows       one element a point, 16 bits a source: s0..s6 and rule | (spoke + 1) << 2
 //   neighbours         one element a point, 8 x 16 bits
 //   limit rows         two elements a sample: 8 neighbours x 16 bits; (point, spoke + 1, sector | kRightSide, sample of

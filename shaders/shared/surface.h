@@ -44,6 +44,8 @@ SUPPLE_SHARED_CONST kP4Patch = 4u;
 SUPPLE_SHARED_CONST kP5Patch = 5u;
 SUPPLE_SHARED_CONST kCatmullClarkPatch = 6u;
 SUPPLE_SHARED_CONST kLoopPatch = 7u;
+SUPPLE_SHARED_CONST kBlendPatch = 8u;
+SUPPLE_SHARED_CONST kBlendSharpPatch = 9u;
 
 // Domains; values of SuppleDomain.
 SUPPLE_SHARED_CONST kQuadDomain = 0u;
@@ -61,7 +63,7 @@ struct SurfacePush {
     uint count;         // elements an instance: vertices, edges, facets, patches or patch samples
     uint instanceCount; // of this window
     uint table;         // first table element of the pass's records
-    uint ring;          // first table word of the ring
+    uint ring;          // first table word of the ring; blending surface: first element of the coordinates
     uint cageStride;    // cage vertices an instance in the deformed cage
     uint poolStride;
     uint tangents; // first tangent in the pool

@@ -22,6 +22,8 @@ enum class CreaseMode : uint8_t {
 struct Options {
     CreaseMode creases = CreaseMode::cut;
     float sharpThreshold = 1.0f; ///< edges of this sharpness and more are sharp, others smooth: nothing lies between
+
+    bool operator==(const Options&) const = default;
 };
 
 enum class ChartKind : uint8_t {

@@ -3,6 +3,7 @@
 #include "shaders/shared/kernel.h"
 #include "surface/kernel/masks.h"
 #include "surface/kernel/pattern.h"
+#include "surface/stencil_table.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
@@ -88,9 +89,10 @@ public:
         }
         sortPatches();
         tables_.isolationSteps = mesh_.isolationSteps;
+        tables_.rate = 1u << steps_;
         tables_.notes = mesh_.notes;
         tables_.poolStride = (mesh_.stencils.rows() + 15) / 16 * 16;
-        writeIsolation();
+        writeStencils(mesh_.stencils, writer_, tables_);
         for (ClassTables& c : classes_) {
             writeClass(c);
         }
@@ -156,29 +158,6 @@ private:
         facePatches_.assign(mesh_.cage.faceCount(), shared::kNoPatch);
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             facePatches_[patches_[p].facet] = p;
-        }
-    }
-
-    void writeIsolation() {
-        const Stencils& stencils = mesh_.stencils;
-        const auto entries = [&](uint32_t row) { return stencils.starts[row + 1] - stencils.starts[row] - 1; };
-        std::vector<uint32_t> order(stencils.rows()), first(stencils.rows());
-        for (uint32_t row = 0; row < stencils.rows(); ++row) {
-            order[row] = row;
-            first[row] = writer_.element();
-            for (uint32_t i = stencils.starts[row] + 1; i < stencils.starts[row + 1]; ++i) {
-                writer_.put({stencils.vertices[i], floatBits(stencils.weights[i])});
-            }
-            if (entries(row) % 2 != 0) { // a weight of 0 on the row's own first vertex
-                writer_.put({stencils.vertices[stencils.starts[row]], 0u});
-            }
-        }
-        // By length, so that neighbouring lanes loop equally long.
-        std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return entries(a) < entries(b); });
-        tables_.constructions.push_back(
-            {Stage::vertex, Kernel::isolate, {writer_.element(), stencils.rows()}, stencils.rows()});
-        for (const uint32_t row : order) {
-            writer_.put({stencils.vertices[stencils.starts[row]], first[row], entries(row), row});
         }
     }
 

@@ -33,23 +33,30 @@ std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
 
 /// How often an edge of the cage is halved before patches begin.
 uint32_t halvings(SuppleScheme scheme, const cage::Cage& cage) {
-    if (scheme != SUPPLE_SCHEME_CATMULL_CLARK)
+    if (scheme != SUPPLE_SCHEME_CATMULL_CLARK && scheme != SUPPLE_SCHEME_BLEND) {
         return scheme == SUPPLE_SCHEME_LOOP ? 1 : 0;
-    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
-        if (cage.sides(face) != 4)
-            return 2;
     }
-    return 1;
+    uint32_t steps = scheme == SUPPLE_SCHEME_BLEND ? 0 : 1;
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        if (cage.sides(face) != 4) {
+            return steps + 1;
+        }
+    }
+    return steps;
 }
 
-/// surface.frag has a color for each class of coefficients. Subdivision's patches, of which a surface has but one
-/// class, borrow two of them: Catmull-Clark's that of bicubic patches, which most of its patches are.
+/// surface.frag has a color for each class of coefficients. Patches without coefficients borrow them: Catmull-Clark's,
+/// which mostly are bicubic, and the blending surface's smooth ones that of bicubic patches.
 uint32_t colorClass(SupplePatchClass patchClass) {
     switch (patchClass) {
     case SUPPLE_PATCH_CATMULL_CLARK:
         return SUPPLE_PATCH_REGULAR;
     case SUPPLE_PATCH_LOOP:
         return SUPPLE_PATCH_P5;
+    case SUPPLE_PATCH_BLEND:
+        return SUPPLE_PATCH_REGULAR;
+    case SUPPLE_PATCH_BLEND_SHARP:
+        return SUPPLE_PATCH_PERTURBED;
     default:
         return static_cast<uint32_t>(patchClass);
     }

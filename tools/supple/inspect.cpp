@@ -54,9 +54,7 @@ SchemeVerdict judge(const Scheme& scheme, const cage::Cage& cage) {
     SchemeVerdict verdict{scheme.name, "", {}, {}, {}};
     surface::Recipe recipe;
     recipe.scheme = static_cast<surface::SchemeId>(scheme.scheme);
-    if (surface::subdivides(recipe.scheme)) {
-        recipe.depth = surface::depthFor(SurfaceFlags{}.rate);
-    }
+    recipe.rate = SurfaceFlags{}.rate;
     const Result<surface::Tables> tables = surface::buildTables(recipe, cage);
     if (!tables) {
         verdict.refusal = tables.error().message;

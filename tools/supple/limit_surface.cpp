@@ -117,7 +117,7 @@ std::vector<Kind> kindsOf(const kernel::Mesh& mesh) {
     std::vector<Kind> kinds(mesh.cage.faceCount(), Kind::regular);
     for (const kernel::Fragment& fragment : mesh.fragments) {
         const auto spokes = std::span(mesh.spokeSharpness).subspan(fragment.firstSpoke, fragment.spokes());
-        const auto semiSharp = [](float s) { return s > 0.0f && s < kernel::kInfiniteSharpness; };
+        const auto semiSharp = [](float s) { return s > 0.0f && s < surface::kInfiniteSharpness; };
         const auto smooth = [](float s) { return s == 0.0f; };
         Kind kind = Kind::irregular;
         if (semiSharp(fragment.centreSharpness) || std::any_of(spokes.begin(), spokes.end(), semiSharp)) {

@@ -88,7 +88,8 @@ std::span<const Scheme> schemes() {
     static constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM},
                                           {"prep", SUPPLE_SCHEME_PREP},
                                           {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK},
-                                          {"loop", SUPPLE_SCHEME_LOOP}};
+                                          {"loop", SUPPLE_SCHEME_LOOP},
+                                          {"blend", SUPPLE_SCHEME_BLEND}};
     return kSchemes;
 }
 

@@ -98,9 +98,9 @@ uint32_t sheetColumns(uint32_t count, VkExtent2D cell) {
     uint32_t best = 1;
     double least = std::numeric_limits<double>::max();
     for (uint32_t columns = 1; columns <= count; ++columns) {
-        const double rows = (count + columns - 1) / columns;
-        const double shape = static_cast<double>(columns) * cell.width / (rows * cell.height);
-        const double empty = columns * rows / count; // 1: every place is taken
+        const uint32_t rows = (count + columns - 1) / columns;
+        const double shape = static_cast<double>(columns) * cell.width / (static_cast<double>(rows) * cell.height);
+        const double empty = static_cast<double>(columns) * rows / count; // 1: every place is taken
         const double cost = std::abs(std::log(shape / kSheetShape)) + 2.0 * std::log(empty);
         if (cost <= least) {
             best = columns;

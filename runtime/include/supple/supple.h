@@ -252,6 +252,8 @@ typedef enum SuppleScheme {
     SUPPLE_SCHEME_PM = 2,            /* P_m: any polygons, polar fans, creases; G1 but at creases, one patch a facet */
     SUPPLE_SCHEME_CATMULL_CLARK = 3, /* subdivision: any polygons, semi-sharp creases; the limit itself */
     SUPPLE_SCHEME_LOOP = 4,          /* subdivision: triangles (larger faces are split into them), semi-sharp creases */
+    SUPPLE_SCHEME_BLEND = 5, /* charts blended: any polygons (others than quads are subdivided once), interpolates the
+                              * cage's vertices, edges are sharp or smooth, nothing between */
     SUPPLE_SCHEME_CAGE = 100 /* no surface: the deformed cage alone, of any polygons; no patches, no surface vertices */
 } SuppleScheme;
 
@@ -260,6 +262,8 @@ typedef enum SuppleVertexFormat {
     SUPPLE_VERTEX_24 = 1  /* float3 position, float3 normal */
 } SuppleVertexFormat;
 
+/* BLEND: what a sharp edge is. CUT: two sheets that meet in it. CURVE: a narrow ridge, as in the paper. */
+typedef enum SuppleCreaseMode { SUPPLE_CREASES_CUT = 0, SUPPLE_CREASES_CURVE = 1 } SuppleCreaseMode;
 typedef enum SuppleTangentMode { SUPPLE_TANGENTS_DEFAULT = 0, SUPPLE_TANGENTS_PRINTED = 1 } SuppleTangentMode;
 typedef enum SuppleCornerRule { SUPPLE_CORNERS_SHARP = 0, SUPPLE_CORNERS_SMOOTH = 1 } SuppleCornerRule;
 
@@ -281,11 +285,14 @@ typedef struct SuppleGroupDesc {
     SuppleScheme scheme;
     uint32_t rate; /* segments along a patch edge, 1..64; 0 = 8. CATMULL_CLARK and LOOP: along an edge of the cage,
                     * rounded up to a power of two; a patch is a half of it (a quarter where Catmull-Clark is given
-                    * faces other than quads), see SuppleGroupOutput.rate */
+                    * faces other than quads), see SuppleGroupOutput.rate. BLEND: likewise, but rounded up to even, on
+                    * cages with faces other than quads */
     SuppleVertexFormat vertexFormat;
     SuppleTangentMode tangentMode;
     SuppleCornerRule cornerRule;
     SuppleSkinning skinning;
+    SuppleCreaseMode creaseMode; /* BLEND */
+    float sharpThreshold;        /* BLEND: edges of this sharpness and more are sharp; 0 = 1 */
 } SuppleGroupDesc;
 
 /* Instances start in the bind pose with the identity transform. */
@@ -491,7 +498,9 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_P4 = 4,            /* 25 */
     SUPPLE_PATCH_P5 = 5,            /* 31 */
     SUPPLE_PATCH_CATMULL_CLARK = 6, /* none: a face of the cage once (or twice) subdivided */
-    SUPPLE_PATCH_LOOP = 7           /* none */
+    SUPPLE_PATCH_LOOP = 7,          /* none */
+    SUPPLE_PATCH_BLEND = 8,         /* none: a face of the cage, or of the subdivided cage */
+    SUPPLE_PATCH_BLEND_SHARP = 9    /* none: with sharp edges */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5

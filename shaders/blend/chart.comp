@@ -1,0 +1,40 @@
+// Chart stage of the blending surface: the coefficients of a local geometry, a constant matrix times its ring (docs/blend.md).
+// One invocation a chart and instance. Summed over differences to the vertex.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/surface/store.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/shared/blend.h"
+
+layout(constant_id = 3) const uint kFromPool = 0u; // the cage was subdivided
+
+vec3 vertexAt(uint instance, uint i) {
+    if (kFromPool != 0u) return poolVector(instance * push.poolStride + i);
+    return cageVertex(instance * push.cageStride + i);
+}
+
+void main() {
+    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint instance = id / push.count;
+    uvec4 record = tableElement(push.table + (id - instance * push.count));
+    vec3 vertex = vertexAt(instance, record.x);
+    uint points = tableElement(record.z).x;
+    precise vec3 sum[9];
+    for (uint row = 0u; row < 9u; ++row) sum[row] = vec3(0.0);
+    for (uint i = 0u; i < points; ++i) {
+        precise vec3 d = vertexAt(instance, tableWord(record.y + i)) - vertex;
+        uint at = record.z + 1u + 3u * i;
+        vec4 a = uintBitsToFloat(tableElement(at)), b = uintBitsToFloat(tableElement(at + 1u));
+        float w[9] = float[9](a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, uintBitsToFloat(tableElement(at + 2u).x));
+        for (uint row = 0u; row < 9u; ++row) {
+            precise vec3 next = sum[row] + w[row] * d;
+            sum[row] = next;
+        }
+    }
+    uint target = instance * push.poolStride + record.w;
+    precise vec3 origin = vertex + sum[0];
+    storePool(target, origin);
+    for (uint row = 1u; row < 9u; ++row) storePool(target + row, sum[row]);
+}

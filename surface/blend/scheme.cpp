@@ -1,0 +1,195 @@
+#include "surface/blend/scheme.h"
+
+#include "shaders/shared/blend.h"
+#include "surface/blend/weights.h"
+#include "surface/stencil_table.h"
+#include "surface/table_writer.h"
+
+#include <algorithm>
+#include <map>
+
+namespace supple::surface::blend {
+
+namespace {
+
+static_assert(kCoefficients == shared::kChartCoefficients);
+
+/// Where the tables of one k lie.
+struct TurnTables {
+    uint32_t directions = 0, samples = 0;
+    uint32_t creaseSamples = 0; ///< 0 where no chart needs them
+};
+
+class Builder {
+public:
+    Builder(const Mesh& mesh, uint32_t rate) : mesh_(mesh), rate_(rate), writer_(tables_.words) {}
+
+    Tables build() {
+        tables_.rate = rate_;
+        tables_.isolationSteps = mesh_.refined ? 1 : 0;
+        tables_.notes = mesh_.notes;
+        draftPatches();
+        layOutPool();
+        if (mesh_.refined) {
+            writeStencils(mesh_.stencils, writer_, tables_);
+        }
+        writeCharts();
+        writeCoordinates();
+        for (const ChartClass& chartClass : mesh_.classes) {
+            writeTurns(chartClass);
+        }
+        writePatches();
+        finishTables(mesh_.cage, patches_, writer_, tables_);
+        return std::move(tables_);
+    }
+
+private:
+    /// Whether a corner or the edge from it to the next has no derivative.
+    [[nodiscard]] bool stillCorner(uint32_t corner) const {
+        const ChartKind kind = mesh_.classOf(mesh_.corners[corner].chart).kind;
+        return kind == ChartKind::point || kind == ChartKind::curve;
+    }
+
+    void draftPatches() {
+        for (uint32_t f = 0; f < mesh_.cage.faceCount(); ++f) {
+            if (mesh_.holes[f] != 0) {
+                continue;
+            }
+            DraftPatch& patch = patches_.emplace_back();
+            patch.facet = f;
+            patch.material = mesh_.cage.faceMaterials.empty() ? cage::kNone : mesh_.cage.faceMaterials[f];
+            patch.info.face = mesh_.sourceFaces[f];
+            patch.info.patchClass = PatchClass::blend;
+            for (uint32_t i = 0; i < 4; ++i) {
+                const uint32_t c = 4 * f + i;
+                patch.cageCorners[i] = c;
+                patch.info.corners[i] = mesh_.cornerSources[c];
+                if (mesh_.classOf(mesh_.corners[c].chart).creased() || stillCorner(c) || flatAcross(mesh_, c)) {
+                    patch.info.patchClass = PatchClass::blendSharp;
+                }
+            }
+        }
+        sortPatches(patches_);
+    }
+
+    void layOutPool() {
+        firstChart_ = mesh_.refined ? mesh_.cage.vertexCount() : 0;
+        const auto charts = static_cast<uint32_t>(mesh_.charts.size());
+        tables_.poolStride = (firstChart_ + kCoefficients * charts + 15) / 16 * 16;
+    }
+    [[nodiscard]] uint32_t poolIndex(uint32_t chart) const { return firstChart_ + kCoefficients * chart; }
+
+    void writeCharts() {
+        const uint32_t ring = 4 * writer_.element();
+        for (const uint32_t vertex : mesh_.ring) {
+            writer_.put({vertex});
+        }
+        std::vector<uint32_t> fits;
+        for (const ChartClass& chartClass : mesh_.classes) {
+            const FitMatrix matrix = makeFitMatrix(chartClass);
+            fits.push_back(writer_.element());
+            writer_.put({matrix.ringPoints, 0u, 0u, 0u});
+            for (uint32_t i = 0; i < matrix.ringPoints; ++i) {
+                for (uint32_t row = 0; row < kCoefficients; ++row) {
+                    writer_.put({floatBits(matrix.weight(row, i))});
+                }
+                writer_.put({0u, 0u, 0u});
+            }
+        }
+        // By class, and classes by size, so that neighbouring lanes loop equally long.
+        std::vector<uint32_t> order(mesh_.charts.size());
+        for (uint32_t i = 0; i < order.size(); ++i) {
+            order[i] = i;
+        }
+        std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+            return mesh_.classOf(a).ringPoints() < mesh_.classOf(b).ringPoints();
+        });
+        const auto count = static_cast<uint32_t>(order.size());
+        tables_.constructions.push_back({mesh_.refined ? Stage::edge : Stage::vertex,
+                                         mesh_.refined ? Kernel::blendChartFromPool : Kernel::blendChart,
+                                         {writer_.element(), count},
+                                         kCoefficients * count});
+        for (const uint32_t i : order) {
+            const Chart& chart = mesh_.charts[i];
+            writer_.put({chart.vertex, ring + chart.firstRing, fits[chart.chartClass], poolIndex(i)});
+        }
+    }
+
+    void writeCoordinates() {
+        tables_.ring = writer_.element();
+        for (uint32_t i = 0; i < coordinateCount(rate_); ++i) {
+            const Coordinate c = coordinateAt(rate_, i);
+            const float t = static_cast<float>(c.numerator) / static_cast<float>(c.denominator);
+            writer_.put({std::bit_cast<uint32_t>(t), std::bit_cast<uint32_t>((2.0f * t - 3.0f) * t * t + 1.0f),
+                         std::bit_cast<uint32_t>(6.0f * t * (t - 1.0f)), 0u});
+        }
+    }
+
+    void put(glm::dvec2 a, glm::dvec2 b) {
+        writer_.put({floatBits(a.x), floatBits(a.y), floatBits(b.x), floatBits(b.y)});
+    }
+
+    void writeTurns(const ChartClass& chartClass) {
+        const uint32_t turns = chartClass.turns(), side = coordinateCount(rate_);
+        const auto [known, isNew] = turns_.try_emplace(turns);
+        TurnTables& tables = known->second;
+        const auto onSecondSpoke = [&](uint32_t index) { return index % side == 0 && index > 0; };
+        if (isNew) {
+            const ChartTable table = makeChartTable(turns, rate_);
+            tables.directions = writer_.element();
+            for (uint32_t h = 0; h < turns; ++h) {
+                put(table.directions[h], table.directions[h + 1]);
+            }
+            tables.samples = writer_.element();
+            for (uint32_t i = 0; i < side * side; ++i) {
+                put(onSecondSpoke(i) ? glm::dvec2(table.radii[i / side], 0.0) : table.points[i], table.slopes[i]);
+            }
+        }
+        if (chartClass.creased() && tables.creaseSamples == 0) {
+            const CreaseTable table = makeCreaseTable(turns, rate_);
+            tables.creaseSamples = writer_.element();
+            for (uint32_t i = 0; i < side * side; ++i) {
+                const Coordinate y = coordinateAt(rate_, i / side);
+                const double t = static_cast<double>(y.numerator) / y.denominator;
+                put(onSecondSpoke(i) ? glm::dvec2(t, 0.0) : table.points[i], table.slopesX[i]);
+                put(table.slopesY[i], glm::dvec2(0.0));
+            }
+        }
+    }
+
+    void writePatches() {
+        for (uint32_t p = 0; p < patches_.size(); ++p) {
+            const PatchClass patchClass = patches_[p].info.patchClass;
+            if (tables_.ranges.empty() || tables_.ranges.back().patchClass != patchClass) {
+                tables_.ranges.push_back({patchClass, {writer_.element(), 0}, p, 0});
+            }
+            ++tables_.ranges.back().section.count;
+            for (uint32_t i = 0; i < 4; ++i) {
+                const uint32_t c = patches_[p].cageCorners[i];
+                const Corner& corner = mesh_.corners[c];
+                const ChartClass& chartClass = mesh_.classOf(corner.chart);
+                const TurnTables& tables = turns_.at(chartClass.turns());
+                writer_.put({poolIndex(corner.chart) | (chartClass.creased() ? shared::kCreasedChart : 0u) |
+                                 (stillCorner(c) ? shared::kStillCorner : 0u) |
+                                 (flatAcross(mesh_, c) ? shared::kStillEdge : 0u),
+                             tables.directions + corner.sector, tables.samples, tables.creaseSamples});
+            }
+        }
+    }
+
+    const Mesh& mesh_;
+    uint32_t rate_;
+    Tables tables_;
+    TableWriter writer_;
+    uint32_t firstChart_ = 0; ///< in the pool
+    std::vector<DraftPatch> patches_;
+    std::map<uint32_t, TurnTables> turns_; ///< by k
+};
+
+} // namespace
+
+Tables buildTables(const Mesh& mesh, uint32_t rate) {
+    return Builder(mesh, rate).build();
+}
+
+} // namespace supple::surface::blend
