@@ -133,6 +133,7 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     group.vertexFormat = options.format;
     group.tangentMode = options.tangents;
     group.cornerRule = options.corners;
+    group.creaseMode = options.creases;
     if (!check(suppleCreateGroup(context_->handle(), &group, &group_), "suppleCreateGroup")) {
         return;
     }

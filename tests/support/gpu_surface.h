@@ -36,6 +36,7 @@ struct GpuOptions {
     SuppleScheme scheme = SUPPLE_SCHEME_PREP;
     SuppleTangentMode tangents = SUPPLE_TANGENTS_DEFAULT;
     SuppleCornerRule corners = SUPPLE_CORNERS_SHARP;
+    SuppleCreaseMode creases = SUPPLE_CREASES_CUT;
     uint32_t flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
 };
 

@@ -212,6 +212,7 @@ private:
         case 100: //
         case 124: // Bitcast
         case 127: // FNegate
+        case 199: // BitwiseAnd: flags that share a struct with points
         case 245: // Phi
             return true;
         default:
