@@ -1,0 +1,63 @@
+// A whole blending surface on the CPU, with walks over its shared edges.
+#pragma once
+
+#include "surface/blend/reference.h"
+#include "surface/grid.h"
+#include "surface/stencil_reference.h"
+#include "tests/support/meshes.h"
+
+#include <array>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace supple::test {
+
+/// The mesh of a cage that must be accepted.
+inline surface::blend::Mesh blendMesh(const cage::Cage& cage, const surface::blend::Options& options = {}) {
+    Result<surface::blend::Mesh> mesh = surface::blend::buildMesh(cage, options);
+    if (!mesh.ok()) {
+        ADD_FAILURE() << mesh.error().message;
+        return {};
+    }
+    return std::move(*mesh);
+}
+
+inline constexpr std::array kCreaseModes{surface::blend::CreaseMode::cut, surface::blend::CreaseMode::curve};
+
+inline const char* kindName(surface::blend::ChartKind kind) {
+    constexpr std::array kNames{"interior", "boundary", "cut", "curve", "point"};
+    return kNames[static_cast<size_t>(kind)];
+}
+
+template <class T>
+struct BlendSurface {
+    using Vec = glm::vec<3, T>;
+
+    /// From positions of the host's cage.
+    BlendSurface(const surface::blend::Mesh& source, const std::vector<Vec>& positions)
+        : mesh(source), coefficients(surface::blend::construct<T>(
+                            mesh, surface::applyStencils<T>(mesh.stencils, std::span(positions)))) {}
+
+    [[nodiscard]] surface::blend::Evaluator<T> at(uint32_t rate) const { return {mesh, coefficients, rate}; }
+
+    const surface::blend::Mesh& mesh;
+    std::vector<surface::blend::ChartCoefficients<T>> coefficients;
+};
+
+/// Sample k of `rate` on a half-edge, counted from its corner.
+inline std::pair<uint32_t, uint32_t> onEdge(uint32_t corner, uint32_t k, uint32_t rate) {
+    const uint32_t sample = surface::edgeSample(surface::Domain::quad, rate, corner & 3u, k);
+    return {sample % (rate + 1), sample / (rate + 1)};
+}
+
+/// The kind of chart on either end of a half-edge.
+inline std::pair<surface::blend::ChartKind, surface::blend::ChartKind> endKinds(const surface::blend::Mesh& mesh,
+                                                                                uint32_t corner) {
+    const uint32_t next = cage::nextCorner(mesh.cage, mesh.topology.cornerFaces[corner], corner);
+    return {mesh.classOf(mesh.corners[corner].chart).kind, mesh.classOf(mesh.corners[next].chart).kind};
+}
+
+} // namespace supple::test
