@@ -128,8 +128,7 @@ TEST(BlendContinuity, verticesAreInterpolated) {
     }
 }
 
-/// Normals near a vertex come closer to the vertex's own, in every face of its chart. Charts that all but fold there
-/// are left out: fans of boundary vertices over far more than half a turn, which have to fit into half a plane.
+/// Normals near a vertex come closer to the vertex's own, in every face of its chart.
 TEST(BlendContinuity, tangentPlanesAtVertices) {
     std::map<std::pair<ChartKind, uint32_t>, std::array<double, 3>> angles; // by k
     constexpr std::array<uint32_t, 3> kRates{4, 16, 64};
@@ -144,10 +143,6 @@ TEST(BlendContinuity, tangentPlanesAtVertices) {
                 if (chartClass.kind == ChartKind::point) {
                     continue;
                 }
-                const ChartCoefficients<double>& chart = surface.coefficients[mesh.corners[c].chart];
-                if (glm::length(glm::cross(chart[3], chart[1])) < 0.5 * glm::length(chart[3]) * glm::length(chart[1])) {
-                    continue;
-                }
                 const auto [i, j] = test::onEdge(c, 0, rate);
                 const glm::dvec3 own = evaluator.at(c / 4, i, j).normal;
                 double& worst = angles[{chartClass.kind, chartClass.turns()}][n];
@@ -159,11 +154,17 @@ TEST(BlendContinuity, tangentPlanesAtVertices) {
         }
     };
     for (const test::KernelCage& entry : test::kernelZoo()) {
-        if (entry.name.find("moved") != std::string::npos) {
+        const bool closed = cage::buildTopology(entry.cage)->edges.size() * 2 == entry.cage.cornerCount();
+        if (closed && entry.name.find("moved") != std::string::npos) {
             visit(entry.cage);
         }
     }
-    for (const uint32_t k : {3u, 4u, 5u, 6u, 8u}) { // straight through a vertex
+    // Fans of boundary vertices over half a turn, which half a plane suits; over far more they all but fold.
+    for (const uint32_t sectors : {1u, 2u, 3u, 4u, 5u, 6u, 8u}) {
+        const double angle = sectors == 1 ? 0.5 * std::numbers::pi : std::numbers::pi;
+        visit(test::perturbed(test::fan(sectors, 2, angle, false), 0.05f, sectors));
+    }
+    for (const uint32_t k : {3u, 4u, 5u, 6u, 8u}) { // creases straight through a vertex
         cage::Cage cage = test::perturbed(test::fan(k, 2, 2.0 * std::numbers::pi, true), 0.05f, k);
         const Mesh plain = test::blendMesh(cage);
         const uint32_t base = plain.topology.spokeStarts[0];
