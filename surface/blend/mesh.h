@@ -1,5 +1,5 @@
 // The cage as the blending surface sees it: quads, and a chart round every vertex, or one a side where a crease passes.
-// Connectivity and sharpness only; built once per asset. Formulas: docs/blend.md.
+// Connectivity and sharpness only; built once per asset. Paper and formulas: docs/blend.md.
 #pragma once
 
 #include "base/result.h"
@@ -16,7 +16,7 @@ namespace supple::surface::blend {
 /// What stands at a vertex through which a crease runs.
 enum class CreaseMode : uint8_t {
     cut,  ///< a chart a side: two smooth sheets that share the crease
-    curve ///< the curve alone, as in the paper: the surface leaves it in a narrow ridge
+    curve ///< the curve alone, as published: the surface leaves it in a narrow ridge
 };
 
 struct Options {
