@@ -150,6 +150,28 @@ TEST(BlendFitMatrix, turnsWithTheRing) {
     }
 }
 
+/// An open chart is half a plane: what it makes of flat fans over more than half a turn.
+TEST(BlendFitMatrix, reflexFansFlatten) {
+    constexpr uint32_t kSectors = 5;
+    const FitMatrix m = makeFitMatrix({ChartKind::boundary, kSectors});
+    const auto area = [&](double turns) { // of c_10 and c_01
+        std::array<glm::dvec2, 2> c{};
+        for (uint32_t i = 0; i < m.ringPoints; ++i) {
+            const auto spoke = [&](uint32_t h) {
+                const double angle = 2.0 * std::numbers::pi * turns * h / kSectors;
+                return glm::dvec2(std::cos(angle), std::sin(angle));
+            };
+            const glm::dvec2 p = (i & 1u) != 0 ? spoke(i / 2) + spoke(i / 2 + 1) : spoke(i / 2);
+            c[0] += m.weight(3, i) * p;
+            c[1] += m.weight(1, i) * p;
+        }
+        return c[0].x * c[1].y - c[0].y * c[1].x;
+    };
+    EXPECT_NEAR(area(0.5), 0.9, 0.05);
+    EXPECT_NEAR(area(0.7), 0.5, 0.05);
+    EXPECT_NEAR(area(0.8), 0.2, 0.05);
+}
+
 TEST(BlendTables, coordinates) {
     for (const uint32_t rate : {1u, 2u, 5u}) {
         for (uint32_t i = 0; i < coordinateCount(rate); ++i) {
