@@ -1,6 +1,7 @@
 // The blending surface on the device: against the reference, both mappings and crease modes, and the bits its patches
 // share.
 #include "surface/blend/reference.h"
+#include "surface/stencil_reference.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/kernel_zoo.h"
 #include "tests/support/meshes.h"
@@ -39,21 +40,6 @@ protected:
             return {};
         }
         return std::move(*mesh);
-    }
-    /// Vertices of the mesh as the stencils make them of the cage's, with the device's sums.
-    template <class T>
-    static std::vector<glm::vec<3, T>> vertices(const Mesh& mesh, const std::vector<glm::vec<3, T>>& positions) {
-        std::vector<glm::vec<3, T>> result;
-        for (uint32_t row = 0; row < mesh.stencils.rows(); ++row) {
-            const uint32_t begin = mesh.stencils.starts[row];
-            const glm::vec<3, T> first = positions[mesh.stencils.vertices[begin]];
-            glm::vec<3, T> sum(T(0));
-            for (uint32_t i = begin + 1; i < mesh.stencils.starts[row + 1]; ++i) {
-                sum += T(mesh.stencils.weights[i]) * (positions[mesh.stencils.vertices[i]] - first);
-            }
-            result.push_back(first + sum);
-        }
-        return result;
     }
     /// The facet of every patch, and the patch of every facet (kNone for holes), of a group of one material.
     struct Patches {
@@ -112,8 +98,10 @@ TEST_P(BlendOnGpu, SurfaceMatchesTheReference) {
             const uint32_t patchRate = mesh.refined ? (rate + 1) / 2 : rate;
             ASSERT_EQ(gpu.output().rate, patchRate);
             const auto [faces, patches] = patchesOf(mesh, gpu);
-            const auto exact = surface::blend::construct<double>(mesh, vertices(mesh, doublePositions(cage)));
-            const auto rounded = surface::blend::construct<float>(mesh, vertices(mesh, cage.positions));
+            const auto exact = surface::blend::construct<double>(
+                mesh, surface::applyStencils<double>(mesh.stencils, doublePositions(cage)));
+            const auto rounded =
+                surface::blend::construct<float>(mesh, surface::applyStencils<float>(mesh.stencils, cage.positions));
             const surface::blend::Evaluator<double> reference(mesh, exact, patchRate);
             const surface::blend::Evaluator<float> floats(mesh, rounded, patchRate);
             for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
