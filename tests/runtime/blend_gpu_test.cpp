@@ -20,6 +20,12 @@ using surface::blend::Mesh;
 struct Param {
     SuppleMapping mapping = SUPPLE_MAPPING_NARROW;
     CreaseMode creases = CreaseMode::cut;
+
+    friend std::ostream& operator<<(std::ostream& out, const Param& p) { return out << p.name(); }
+    [[nodiscard]] std::string name() const {
+        return std::string(mapping == SUPPLE_MAPPING_NARROW ? "Narrow" : "Wide") +
+               (creases == CreaseMode::cut ? "Cut" : "Curve");
+    }
 };
 
 class BlendOnGpu : public testing::TestWithParam<Param> {
@@ -71,10 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Mappings, BlendOnGpu,
                                          Param{SUPPLE_MAPPING_WIDE, CreaseMode::cut},
                                          Param{SUPPLE_MAPPING_NARROW, CreaseMode::curve},
                                          Param{SUPPLE_MAPPING_WIDE, CreaseMode::curve}),
-                         [](const auto& param) {
-                             return std::string(param.param.mapping == SUPPLE_MAPPING_NARROW ? "Narrow" : "Wide") +
-                                    (param.param.creases == CreaseMode::cut ? "Cut" : "Curve");
-                         });
+                         [](const auto& param) { return param.param.name(); });
 
 bool sameBits(const glm::vec3& a, const glm::vec3& b) {
     return std::memcmp(&a, &b, sizeof(a)) == 0;

@@ -330,10 +330,17 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     groupDesc.flags = SUPPLE_GROUP_PATCHES;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << "it has no coefficients";
     groupDesc.flags = 0;
-    for (const int scheme : {5, 99, 101, -1}) {
+    for (const int scheme : {6, 99, 101, -1}) {
         groupDesc.scheme = static_cast<SuppleScheme>(scheme);
         EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << scheme;
     }
+    groupDesc.scheme = SUPPLE_SCHEME_BLEND;
+    groupDesc.sharpThreshold = -1.0f;
+    EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
+    groupDesc.sharpThreshold = 0.0f;
+    groupDesc.creaseMode = static_cast<SuppleCreaseMode>(2);
+    EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
+    groupDesc.creaseMode = SUPPLE_CREASES_CUT;
     groupDesc.scheme = SUPPLE_SCHEME_AUTO;
     groupDesc.structSize = 4;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);

@@ -23,6 +23,12 @@ using surface::kernel::Subdivision;
 struct Param {
     SuppleMapping mapping = SUPPLE_MAPPING_NARROW;
     Subdivision subdivision = Subdivision::catmullClark;
+
+    friend std::ostream& operator<<(std::ostream& out, const Param& p) { return out << p.name(); }
+    [[nodiscard]] std::string name() const {
+        return std::string(mapping == SUPPLE_MAPPING_NARROW ? "Narrow" : "Wide") +
+               (subdivision == Subdivision::loop ? "Loop" : "CatmullClark");
+    }
 };
 
 class KernelOnGpu : public testing::TestWithParam<Param> {
@@ -51,10 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Mappings, KernelOnGpu,
                                          Param{SUPPLE_MAPPING_WIDE, Subdivision::catmullClark},
                                          Param{SUPPLE_MAPPING_NARROW, Subdivision::loop},
                                          Param{SUPPLE_MAPPING_WIDE, Subdivision::loop}),
-                         [](const auto& param) {
-                             return std::string(param.param.mapping == SUPPLE_MAPPING_NARROW ? "Narrow" : "Wide") +
-                                    (param.param.subdivision == Subdivision::loop ? "Loop" : "CatmullClark");
-                         });
+                         [](const auto& param) { return param.param.name(); });
 
 bool sameBits(const glm::vec3& a, const glm::vec3& b) {
     return std::memcmp(&a, &b, sizeof(a)) == 0;

@@ -252,6 +252,7 @@ private:
             {"P_m triangles 2700", triangulated(cage::makeCubeSphere(15)), SUPPLE_SCHEME_PM},
             {"Catmull-Clark sphere 1350", cage::makeCubeSphere(15), SUPPLE_SCHEME_CATMULL_CLARK},
             {"Loop sphere 2700", triangulated(cage::makeCubeSphere(15)), SUPPLE_SCHEME_LOOP},
+            {"blend sphere 1350", cage::makeCubeSphere(15), SUPPLE_SCHEME_BLEND},
         };
         std::vector<std::unique_ptr<Replay>> replays;
         std::vector<Subject> subjects;
@@ -392,6 +393,7 @@ private:
         const std::string sphere = "cube sphere 1350, ", irregular = "irregular 1296, ";
         const std::string quads = "P_m irregular 1296, ", triangles = "P_m triangles 2700, ";
         const std::string catmullClark = "Catmull-Clark sphere 1350, ", loop = "Loop sphere 2700, ";
+        const std::string blend = "blend sphere 1350, ";
         return {{"frame / evaluate, cube sphere, 24 B", sphere + "frame 24 B", sphere + "evaluate 24 B"},
                 {"frame / evaluate, cube sphere, 16 B", sphere + "frame 16 B", sphere + "evaluate 16 B"},
                 {"frame / evaluate, irregular, 24 B", irregular + "frame 24 B", irregular + "evaluate 24 B"},
@@ -403,6 +405,7 @@ private:
                 {"P_3 / bi-3 evaluation, 24 B", triangles + "evaluate 24 B", sphere + "evaluate 24 B"},
                 {"Catmull-Clark / bi-3 evaluation, 24 B", catmullClark + "evaluate 24 B", sphere + "evaluate 24 B"},
                 {"Loop / bi-3 evaluation, 24 B", loop + "evaluate 24 B", sphere + "evaluate 24 B"},
+                {"blend / bi-3 evaluation, 24 B", blend + "evaluate 24 B", sphere + "evaluate 24 B"},
                 {"frame / evaluate, P_m irregular, 24 B", quads + "frame 24 B", quads + "evaluate 24 B"},
                 {"frame / evaluate, P_m triangles, 24 B", triangles + "frame 24 B", triangles + "evaluate 24 B"},
                 {"bi-3 evaluation 24 B / plain C++", sphere + "evaluate 24 B", sphere + "plain C++ bi-3 24 B"},

@@ -31,9 +31,7 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFl
     desc.scheme = schemeOf(surface.scheme);
     desc.rate = surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
-    desc.tangentMode = tangentsOf(surface);
-    desc.cornerRule = cornersOf(surface);
-    desc.skinning = skinningOf(surface.skinning);
+    describeSurface(surface, desc);
     SuppleGroup group{};
     Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
     if (status) {

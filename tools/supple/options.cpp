@@ -63,14 +63,20 @@ void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::
     command.add_option("--corners", flags.corners, "Boundary vertices of one face")
         ->check(CLI::IsMember({"sharp", "smooth"}))
         ->capture_default_str();
+    command.add_option("--creases", flags.creases, "blend: sharp edges as cuts, or as curves in one sheet")
+        ->check(CLI::IsMember({"cut", "curve"}))
+        ->capture_default_str();
+    command.add_option("--sharp", flags.sharpThreshold, "blend: the sharpness from which on edges are sharp")
+        ->check(CLI::Range(1e-3f, 10.0f))
+        ->capture_default_str();
 }
 
-SuppleTangentMode tangentsOf(const SurfaceFlags& flags) {
-    return flags.tangents == "printed" ? SUPPLE_TANGENTS_PRINTED : SUPPLE_TANGENTS_DEFAULT;
-}
-
-SuppleCornerRule cornersOf(const SurfaceFlags& flags) {
-    return flags.corners == "smooth" ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP;
+void describeSurface(const SurfaceFlags& flags, SuppleGroupDesc& desc) {
+    desc.tangentMode = flags.tangents == "printed" ? SUPPLE_TANGENTS_PRINTED : SUPPLE_TANGENTS_DEFAULT;
+    desc.cornerRule = flags.corners == "smooth" ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP;
+    desc.creaseMode = flags.creases == "curve" ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT;
+    desc.sharpThreshold = flags.sharpThreshold;
+    desc.skinning = skinningOf(flags.skinning);
 }
 
 SuppleSkinning skinningOf(const std::string& name) {

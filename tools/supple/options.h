@@ -31,6 +31,8 @@ struct SurfaceFlags {
     uint32_t rate = 8;
     std::string tangents = "default";
     std::string corners = "sharp";
+    std::string creases = "cut";
+    float sharpThreshold = 1.0f;
     std::string skinning = "linear";
     bool pairQuads = false;
 };
@@ -38,8 +40,8 @@ struct SurfaceFlags {
 void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, bool& pairQuads,
                 const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
-[[nodiscard]] SuppleTangentMode tangentsOf(const SurfaceFlags& flags);
-[[nodiscard]] SuppleCornerRule cornersOf(const SurfaceFlags& flags);
+/// The description's fields that --tangents, --corners, --creases, --sharp and --skinning set.
+void describeSurface(const SurfaceFlags& flags, SuppleGroupDesc& desc);
 
 /// --skinning: "linear" or "dual-quaternion".
 [[nodiscard]] SuppleSkinning skinningOf(const std::string& name);

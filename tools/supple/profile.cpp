@@ -177,9 +177,7 @@ private:
         desc.instanceCount = options_.instances;
         desc.scheme = schemeOf(scheme);
         desc.rate = options_.surface.rate;
-        desc.tangentMode = tangentsOf(options_.surface);
-        desc.cornerRule = cornersOf(options_.surface);
-        desc.skinning = skinningOf(options_.surface.skinning);
+        describeSurface(options_.surface, desc);
         Status status = check(suppleCreateGroup(context(), &desc, &group_), "suppleCreateGroup");
         if (status) {
             SuppleGroupOutput output{};
