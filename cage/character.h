@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,11 +44,15 @@ struct CreaseScalar {
 struct Cage {
     std::vector<glm::vec3> positions; ///< one per cage vertex: the rest position
     std::vector<uint32_t> faceStarts; ///< faceCount + 1 entries; corners of face f are [faceStarts[f], faceStarts[f+1])
-    std::vector<uint32_t> faceVertices;   ///< one per corner: cage vertex
-    std::vector<glm::vec2> cornerUvs;     ///< one per corner, or empty (TEXCOORD_0)
-    std::vector<glm::vec2> cornerUvs1;    ///< one per corner, or empty (TEXCOORD_1)
-    std::vector<glm::vec4> cornerColors;  ///< one per corner, or empty (COLOR_0, linear RGBA)
-    std::vector<uint32_t> faceMaterials;  ///< one per face: index into Character::materials or kNone; or empty
+    std::vector<uint32_t> faceVertices;  ///< one per corner: cage vertex
+    std::vector<glm::vec2> cornerUvs;    ///< one per corner, or empty (TEXCOORD_0)
+    std::vector<glm::vec2> cornerUvs1;   ///< one per corner, or empty (TEXCOORD_1)
+    std::vector<glm::vec4> cornerColors; ///< one per corner, or empty (COLOR_0, linear RGBA)
+    std::vector<uint32_t> faceMaterials; ///< one per face: index into Character::materials or kNone; or empty
+    std::vector<uint32_t> faceTrimTiles; ///< one per face: tile of its material's trim (Trim) or kNone; or empty
+    /// One per corner, or empty: where it lies in its face's tile, in the form of tileCoordinates() (cage/trim.h). Not
+    /// read from files: laid when a surface is built, which carries it as it does UVs.
+    std::vector<glm::vec2> cornerFaceUvs;
     std::vector<uint32_t> sourceVertices; ///< one per cage vertex: first POSITION element it came from (weld order)
     std::vector<Crease> creases;          ///< at most one an edge
     std::vector<SharpVertex> sharpVertices;
@@ -140,6 +145,26 @@ struct Image {
 enum class AlphaMode { opaque, mask, blend };
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
 
+/// What the coordinates are that a trim's image is looked up at.
+enum class TrimDomain {
+    uv,  ///< a UV set of the cage
+    face ///< a tile of the image a face (Cage::faceTrimTiles), which covers the whole face
+};
+
+/// Takes parts of the surface away: where a channel of an image is below the cutoff (docs/trimming.md).
+struct Trim {
+    TrimDomain domain = TrimDomain::uv;
+    uint32_t image = kNone; ///< index into Character::images
+    uint32_t uvSet = 0;     ///< domain uv: 0: cornerUvs, 1: cornerUvs1
+    uint32_t channel = 0;   ///< 0..3: red, green, blue, alpha
+    float cutoff = 0.5f;
+    uint32_t tiles = 0; ///< domain face: equal tiles of the image, side by side
+    Wrap wrapU = Wrap::repeat;
+    Wrap wrapV = Wrap::repeat;
+
+    bool operator==(const Trim&) const = default;
+};
+
 struct Material {
     std::string name;
     glm::vec4 baseColorFactor{1.0f};
@@ -150,6 +175,7 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    std::optional<Trim> trim; ///< takes the place of alphaMode mask: see trimOf() (cage/trim.h)
 };
 
 /// Where the polygons came from. A reader takes the first of these that a file has (docs/gltf.md).

@@ -31,7 +31,7 @@ void addSewingFaces(const MeshPart& part, Polygons& faces) {
 }
 
 Polygons pairPart(const GltfMesh& mesh, const MeshPart& part, std::span<const uint32_t> welded) {
-    const auto same = [](const std::vector<float>& values, size_t width, size_t a, size_t b) {
+    const auto same = [](const auto& values, size_t width, size_t a, size_t b) {
         for (size_t k = 0; k < width && !values.empty(); ++k) {
             if (values[width * a + k] != values[width * b + k]) {
                 return false;
@@ -42,7 +42,8 @@ Polygons pairPart(const GltfMesh& mesh, const MeshPart& part, std::span<const ui
     const auto sameCorner = [&](uint32_t a, uint32_t b) {
         return same(part.uvs, 2, a - part.firstVertex, b - part.firstVertex) &&
                same(part.uvs1, 2, a - part.firstVertex, b - part.firstVertex) &&
-               same(part.colors, 4, a - part.firstVertex, b - part.firstVertex);
+               same(part.colors, 4, a - part.firstVertex, b - part.firstVertex) &&
+               same(part.trimTiles, 1, a - part.firstVertex, b - part.firstVertex);
     };
     const auto normal = [&](const uint32_t* t) {
         const glm::dvec3 a(mesh.positions[t[0]]);
@@ -148,6 +149,32 @@ void fillCorners(const GltfMesh& mesh, const Faces& faces, Cage& cage) {
     }
 }
 
+/// A face's corners name one tile.
+void fillTrimTiles(const GltfMesh& mesh, const Faces& faces, Cage& cage) {
+    if (std::all_of(mesh.parts.begin(), mesh.parts.end(), [](const MeshPart& p) { return p.trimTiles.empty(); })) {
+        return;
+    }
+    cage.faceTrimTiles.assign(faces.parts.size(), kNone);
+    for (size_t f = 0; f < faces.parts.size(); ++f) {
+        const MeshPart& part = mesh.parts[faces.parts[f]];
+        if (part.trimTiles.empty()) {
+            continue;
+        }
+        const auto tileAt = [&](uint32_t corner) {
+            return part.trimTiles[faces.polygons.vertices[corner] - part.firstVertex];
+        };
+        const uint32_t first = faces.polygons.starts[f];
+        for (uint32_t c = first + 1; c < faces.polygons.starts[f + 1]; ++c) {
+            if (tileAt(c) != tileAt(first)) {
+                const auto name = [](uint32_t tile) { return tile == kNone ? "-1" : std::to_string(tile); };
+                refuse(part.element + " _TRIM_TILE", "the vertices of face " + std::to_string(f) + " name tiles " +
+                                                         name(tileAt(first)) + " and " + name(tileAt(c)));
+            }
+        }
+        cage.faceTrimTiles[f] = tileAt(first);
+    }
+}
+
 /// Returns the cage vertex of each of the mesh's vertices, kNone for those without a face.
 std::vector<uint32_t> fillCage(const GltfMesh& mesh, const Faces& faces, const Welding& welding, Character& out) {
     Cage& cage = out.cage;
@@ -187,6 +214,7 @@ std::vector<uint32_t> fillCage(const GltfMesh& mesh, const Faces& faces, const W
     }
     cage.holes = faces.holes;
     fillCorners(mesh, faces, cage);
+    fillTrimTiles(mesh, faces, cage);
 
     out.weights.starts.push_back(0);
     for (uint32_t i = 0; i < cage.vertexCount(); ++i) {

@@ -105,6 +105,7 @@ GltfDocument loadGltfDocument(std::span<const std::byte> bytes, const FileReader
     checkStructure(root, document.buffers);
     loadImages(table(root, "images"), table(root, "bufferViews"), readFile, document);
     document.meshes = table(root, "meshes");
+    document.materials = table(root, "materials");
     document.model = toModel(root);
     return document;
 }

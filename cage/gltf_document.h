@@ -18,7 +18,8 @@ struct GltfDocument {
     /// Everything but buffers, images, cameras and top-level extensions, which tinygltf never sees. Every index in it
     /// is in range, every number array has its right length and finite members.
     supple_tinygltf::Model model;
-    json meshes; ///< as the file has them: with the extensions and extras that the model lacks, unchecked
+    json meshes;    ///< as the file has them: with the extensions and extras that the model lacks, unchecked
+    json materials; ///< likewise
     std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each, or none
     std::vector<Image> images;                       ///< same indices as the file's; bytes empty where missing
     std::vector<std::string> warnings;

@@ -1,5 +1,7 @@
 #include "cage/gltf_material.h"
 
+#include "cage/gltf_trim.h"
+
 #include <utility>
 
 namespace supple::cage {
@@ -14,6 +16,15 @@ Wrap wrapOf(int value) {
 }
 
 } // namespace
+
+WrapModes wrapModesOf(const GltfDocument& document, size_t texture) {
+    const int sampler = document.model.textures[texture].sampler;
+    if (sampler < 0) {
+        return {};
+    }
+    const auto& modes = document.model.samplers[static_cast<size_t>(sampler)];
+    return {wrapOf(modes.wrapS), wrapOf(modes.wrapT)};
+}
 
 std::vector<Material> readMaterials(const GltfDocument& document, Warnings& warnings) {
     const Model& model = document.model;
@@ -51,12 +62,11 @@ std::vector<Material> readMaterials(const GltfDocument& document, Warnings& warn
                 material.baseColorImage = static_cast<uint32_t>(texture.source);
                 material.baseColorUvSet = static_cast<uint32_t>(uvSet);
             }
-            if (texture.sampler >= 0) {
-                const auto& sampler = model.samplers[static_cast<size_t>(texture.sampler)];
-                material.wrapU = wrapOf(sampler.wrapS);
-                material.wrapV = wrapOf(sampler.wrapT);
-            }
+            const WrapModes wrap = wrapModesOf(document, static_cast<size_t>(pbr.baseColorTexture.index));
+            material.wrapU = wrap.u;
+            material.wrapV = wrap.v;
         }
+        material.trim = readTrim(document, i, warnings);
         materials.push_back(std::move(material));
     }
     return materials;

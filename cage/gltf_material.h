@@ -9,7 +9,15 @@
 
 namespace supple::cage {
 
-/// What a material has beyond cage::Material is left out, some of it with a warning.
+struct WrapModes {
+    Wrap u = Wrap::repeat;
+    Wrap v = Wrap::repeat;
+};
+/// Of a texture of the file.
+[[nodiscard]] WrapModes wrapModesOf(const GltfDocument& document, size_t texture);
+
+/// What a material has beyond cage::Material is left out, some of it with a warning. Throws Refusal for a trim that is
+/// not right.
 [[nodiscard]] std::vector<Material> readMaterials(const GltfDocument& document, Warnings& warnings);
 
 } // namespace supple::cage

@@ -2,6 +2,7 @@
 
 #include "cage/gltf_accessors.h"
 #include "cage/gltf_refusal.h"
+#include "cage/gltf_trim.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,8 @@ constexpr uint64_t kMaxAttributeFloats = 1u << 27;
 
 class MeshReader {
 public:
-    MeshReader(const GltfDocument& document, size_t jointCount, Warnings& warnings)
-        : document_(document), model_(document.model), jointCount_(jointCount),
+    MeshReader(const GltfDocument& document, size_t jointCount, std::span<const Material> materials, Warnings& warnings)
+        : document_(document), model_(document.model), jointCount_(jointCount), materials_(materials),
           quantized_(isUsed(document, "KHR_mesh_quantization")), warnings_(warnings) {}
 
     GltfMesh read(uint32_t meshNode) && {
@@ -153,6 +154,7 @@ private:
             refuse(element, "more than " + std::to_string(kMaxCorners) + " corners", ErrorCode::limit);
         }
         readCornerAttributes(primitive, element, part);
+        readTrimTiles(document_, primitive, materials_, part);
     }
 
     /// Blender's exporter has no integer attributes: its numbers are floats.
@@ -279,6 +281,7 @@ private:
     const GltfDocument& document_;
     const Model& model_;
     const size_t jointCount_;
+    const std::span<const Material> materials_;
     const bool quantized_;
     Warnings& warnings_;
 
@@ -292,8 +295,9 @@ private:
 
 } // namespace
 
-GltfMesh readMesh(const GltfDocument& document, uint32_t meshNode, size_t jointCount, Warnings& warnings) {
-    return MeshReader(document, jointCount, warnings).read(meshNode);
+GltfMesh readMesh(const GltfDocument& document, uint32_t meshNode, size_t jointCount,
+                  std::span<const Material> materials, Warnings& warnings) {
+    return MeshReader(document, jointCount, materials, warnings).read(meshNode);
 }
 
 } // namespace supple::cage

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct MeshPart {
     std::vector<float> uvs;          ///< two per POSITION element, or empty
     std::vector<float> uvs1;         ///< two per POSITION element, or empty
     std::vector<float> colors;       ///< four per POSITION element, or empty
+    std::vector<uint32_t> trimTiles; ///< per POSITION element: kNone for no tile; or empty
 };
 
 /// Primitives over the same accessors share their vertices.
@@ -44,6 +46,7 @@ struct GltfMesh {
 };
 
 /// Primitives that are not triangles are left out with a warning. Throws Refusal.
-[[nodiscard]] GltfMesh readMesh(const GltfDocument& document, uint32_t meshNode, size_t jointCount, Warnings& warnings);
+[[nodiscard]] GltfMesh readMesh(const GltfDocument& document, uint32_t meshNode, size_t jointCount,
+                                std::span<const Material> materials, Warnings& warnings);
 
 } // namespace supple::cage

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/ext/vector_float1.hpp>
 #include <map>
 #include <numeric>
 #include <span>
@@ -31,7 +32,16 @@ struct CornerValues {
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs[2]; ///< TEXCOORD_0 and TEXCOORD_1; empty where not written
     std::vector<glm::vec4> colors;
+    std::vector<glm::vec1> tiles; ///< _TRIM_TILE: -1 for none; empty where no material's trim has tiles
 };
+
+bool hasFaceTrim(const Material& material) {
+    return material.trim && material.trim->domain == TrimDomain::face;
+}
+
+bool hasUvTrim(const Material& material) {
+    return material.trim && material.trim->domain == TrimDomain::uv;
+}
 
 /// glTF counts texture coordinates from 0 without gaps, and a texture needs those it names: zeros where there are none.
 CornerValues cornerValues(const Character& character) {
@@ -47,8 +57,23 @@ CornerValues cornerValues(const Character& character) {
             sets = std::max(sets, size_t{character.materials[material].baseColorUvSet} + 1);
         }
     }
+    for (const uint32_t material : cage.faceMaterials) {
+        if (material != kNone && hasUvTrim(character.materials[material])) {
+            sets = std::max(sets, size_t{character.materials[material].trim->uvSet} + 1);
+        }
+    }
     for (size_t set = 0; set < sets; ++set) {
         values.uvs[set].resize(cage.cornerCount(), glm::vec2(0.0f));
+    }
+    if (std::any_of(character.materials.begin(), character.materials.end(), hasFaceTrim)) {
+        for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+            const uint32_t material = cage.faceMaterials.empty() ? kNone : cage.faceMaterials[face];
+            const bool tiled =
+                !cage.faceTrimTiles.empty() && material != kNone && hasFaceTrim(character.materials[material]);
+            const uint32_t tile = tiled ? cage.faceTrimTiles[face] : kNone;
+            values.tiles.insert(values.tiles.end(), cage.sides(face),
+                                glm::vec1(tile == kNone ? -1.0f : static_cast<float>(tile)));
+        }
     }
     return values;
 }
@@ -96,8 +121,9 @@ void splitVertices(const Cage& cage, const CornerValues& values, Part& part) {
         if (cage.faceVertices[a] != cage.faceVertices[b]) {
             return cage.faceVertices[a] < cage.faceVertices[b] ? -1 : 1;
         }
-        for (const int order : {compare(values.uvs[0], a, b), compare(values.uvs[1], a, b),
-                                compare(values.colors, a, b), compare(values.normals, a, b)}) {
+        for (const int order :
+             {compare(values.uvs[0], a, b), compare(values.uvs[1], a, b), compare(values.colors, a, b),
+              compare(values.normals, a, b), compare(values.tiles, a, b)}) {
             if (order != 0) {
                 return order;
             }
@@ -192,6 +218,10 @@ private:
         }
         if (!values_.colors.empty()) {
             attributes["COLOR_0"] = writeColors(gathered(values_.colors, part));
+        }
+        if (!values_.tiles.empty()) {
+            attributes["_TRIM_TILE"] =
+                packer_.addFloats("SCALAR", floatsOf(gathered(values_.tiles, part)), Target::vertices);
         }
         writeSkin(part, attributes);
 

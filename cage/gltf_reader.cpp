@@ -31,7 +31,7 @@ Character toCharacter(const GltfDocument& document, const GltfOptions& options) 
     character.skin = readSkin(document, meshNode);
     character.images = document.images;
     character.materials = readMaterials(document, warnings);
-    const GltfMesh mesh = readMesh(document, meshNode, character.skin.joints.size(), warnings);
+    const GltfMesh mesh = readMesh(document, meshNode, character.skin.joints.size(), character.materials, warnings);
     character.meshNode = meshNode;
     character.morphs = readMorphs(document, meshNode, mesh.morphs.targetCount(), warnings);
     buildCage(document, mesh, options, character);

@@ -4,8 +4,10 @@
 #include "cage/gltf_message.h"
 #include "cage/gltf_packer.h"
 #include "cage/gltf_refusal.h"
+#include "cage/image_header.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -172,7 +174,29 @@ private:
         if (from.doubleSided) {
             material["doubleSided"] = true;
         }
+        if (from.trim) {
+            writeTrim(*from.trim, material);
+        }
         return material;
+    }
+
+    void writeTrim(const Trim& from, json& material) {
+        const uint32_t image = writeImage(from.image);
+        if (image == kNone) {
+            return;
+        }
+        constexpr std::array kChannels{"r", "g", "b", "a"};
+        json trim = {{"texture", {{"index", writeTexture(image, from.wrapU, from.wrapV)}}},
+                     {"channel", kChannels[from.channel]},
+                     {"cutoff", from.cutoff}};
+        if (from.domain == TrimDomain::face) {
+            trim["domain"] = "face";
+            trim["tiles"] = from.tiles;
+        } else {
+            trim["domain"] = "uv";
+            trim["texture"]["texCoord"] = from.uvSet;
+        }
+        material["extras"] = {{"trim", std::move(trim)}};
     }
 
     /// glTF's image, kNone where it cannot be one.
@@ -182,14 +206,7 @@ private:
             return known->second;
         }
         const Image& from = character_.images[index];
-        const auto startsWith = [&](std::initializer_list<unsigned> magic) {
-            return from.bytes.size() > magic.size() &&
-                   std::equal(magic.begin(), magic.end(), from.bytes.begin(),
-                              [](unsigned a, std::byte b) { return a == std::to_integer<unsigned>(b); });
-        };
-        const char* type = startsWith({0x89, 'P', 'N', 'G'}) ? "image/png"
-                           : startsWith({0xFF, 0xD8, 0xFF})  ? "image/jpeg"
-                                                             : nullptr;
+        const char* type = imageType(from.bytes);
         if (type == nullptr) {
             warn(warnings_, at("image", index), "is neither PNG nor JPEG; left out");
             return kNone;

@@ -192,6 +192,9 @@ Character richCharacter() {
     c.materials[0].doubleSided = true;
     c.materials[1].baseColorFactor = {0.1f, 0.2f, 0.3f, 0.4f};
     c.materials[1].alphaMode = AlphaMode::blend;
+    c.materials[0].trim = {TrimDomain::uv, 1, 1, 2, 0.375f, 0, Wrap::clampToEdge, Wrap::repeat};
+    c.materials[1].trim = {TrimDomain::face, 1, 0, 3, 0.25f, 5, Wrap::repeat, Wrap::repeat};
+    cage.faceTrimTiles = {kNone, kNone, 4, kNone, kNone};
     c.images = {{"unused", "image/png", onePixelPng()}, {"pixel", "image/png", onePixelPng()}};
     return c;
 }

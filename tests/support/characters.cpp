@@ -36,6 +36,8 @@ void expectSameCage(const Cage& a, const Cage& b) {
         ASSERT_EQ(a.sides(from), b.sides(f)) << "face " << from;
         EXPECT_EQ(a.faceMaterials.empty() ? kNone : a.faceMaterials[from],
                   b.faceMaterials.empty() ? kNone : b.faceMaterials[f]);
+        EXPECT_EQ(a.faceTrimTiles.empty() ? kNone : a.faceTrimTiles[from],
+                  b.faceTrimTiles.empty() ? kNone : b.faceTrimTiles[f]);
         for (uint32_t k = 0; k < b.sides(f); ++k) {
             const uint32_t x = a.faceStarts[from] + k;
             const uint32_t y = b.faceStarts[f] + k;
@@ -139,6 +141,13 @@ void expectSameMaterials(const Character& a, const Character& b) {
             EXPECT_EQ(x.alphaCutoff, y.alphaCutoff);
         }
         EXPECT_EQ(x.doubleSided, y.doubleSided);
+        ASSERT_EQ(x.trim.has_value(), y.trim.has_value());
+        if (x.trim) {
+            Trim numbered = *y.trim; // images are numbered anew
+            EXPECT_EQ(a.images[x.trim->image].bytes, b.images[y.trim->image].bytes);
+            numbered.image = x.trim->image;
+            EXPECT_TRUE(*x.trim == numbered);
+        }
         ASSERT_EQ(x.baseColorImage == kNone, y.baseColorImage == kNone);
         if (x.baseColorImage == kNone) {
             continue;
