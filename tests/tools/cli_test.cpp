@@ -422,7 +422,7 @@ TEST_F(Cli, ProfileOfAllSchemes) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("rate 6 (4 a patch)"), std::string::npos) << outcome.out;
     const Json runs = Json::parse(readText(file("p.json")))["runs"];
-    ASSERT_EQ(runs.size(), 4u);
+    ASSERT_EQ(runs.size(), 5u);
     for (const Json& run : runs) {
         const bool subdivided = run["scheme"] == "catmull-clark" || run["scheme"] == "loop";
         EXPECT_EQ(run["rate"], 6);

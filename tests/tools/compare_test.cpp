@@ -33,7 +33,7 @@ TEST_F(Compare, FiguresOfACube) {
     EXPECT_TRUE(json["clip"].is_null());
     EXPECT_NEAR(json["extent"].get<double>(), 3.4641016, 1e-6);
     EXPECT_LT(json["measuringError"], 1e-5);
-    ASSERT_EQ(json["schemes"].size(), 4u);
+    ASSERT_EQ(json["schemes"].size(), 5u);
     // P_m as OpenSubdiv's limit surface gave it.
     const Json& pm = json["schemes"]["pm"];
     EXPECT_EQ(pm["samples"], 6 * 81);
@@ -52,6 +52,7 @@ TEST_F(Compare, FiguresOfACube) {
     EXPECT_LT(same["normalDegrees"]["max"], 1e-3);
     const Json& loop = json["schemes"]["loop"];
     EXPECT_GT(loop["distance"]["max"], 1e-2) << "another surface";
+    EXPECT_GT(json["schemes"]["blend"]["distance"]["max"], 5e-2) << "it passes through the cage's vertices";
     EXPECT_NE(loop["notes"].dump().find("6 faces"), std::string::npos);
 
     const Outcome text = runOnDevice("inspect --compare --rate 2 cube.obj");
