@@ -2,6 +2,7 @@
 #include "supple/supple.h"
 
 #include "cage/character_reader.h"
+#include "cage/trim.h"
 #include "runtime/context.h"
 #include "runtime/pose_desc.h"
 
@@ -47,6 +48,11 @@ SuppleResult resultOf(ErrorCode code) {
     }
     return SUPPLE_ERROR_VULKAN;
 }
+
+static_assert(SUPPLE_WRAP_REPEAT == static_cast<int>(supple::cage::Wrap::repeat) &&
+              SUPPLE_WRAP_CLAMP == static_cast<int>(supple::cage::Wrap::clampToEdge) &&
+              SUPPLE_WRAP_MIRROR == static_cast<int>(supple::cage::Wrap::mirroredRepeat));
+static_assert(SUPPLE_MAX_TRIM_TILES == supple::cage::kMaxTrimTiles);
 
 SuppleResult report(const Context& context, const Error& error) {
     context.log(SUPPLE_SEVERITY_ERROR, error.message);
@@ -289,6 +295,7 @@ SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleA
         out->clipCount = static_cast<uint32_t>(character.clips.size());
         out->materialCount = static_cast<uint32_t>(character.materials.size());
         out->morphTargetCount = static_cast<uint32_t>(character.morphs.targets.size());
+        out->imageCount = static_cast<uint32_t>(character.images.size());
         glm::vec3 low = character.cage.positions.front(), high = low;
         for (const glm::vec3& p : character.cage.positions) {
             low = glm::min(low, p);
@@ -344,6 +351,54 @@ SuppleResult suppleGetMorphTargetInfo(SuppleContext handle, SuppleAsset asset, u
         out->name = morphs.targets[target].name.c_str();
         out->weight = morphs.weights[target];
         out->vertexCount = static_cast<uint32_t>(morphs.targets[target].vertices.size());
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetMaterialInfo(SuppleContext handle, SuppleAsset asset, uint32_t material,
+                                   SuppleMaterialInfo* out) {
+    return withAsset(handle, asset, "suppleGetMaterialInfo", [&](Context& context, const Asset& found) {
+        if (out == nullptr || out->structSize != sizeof(SuppleMaterialInfo)) {
+            return refuse(context, "suppleGetMaterialInfo", "out is null or its structSize is wrong");
+        }
+        if (material >= found.character.materials.size()) {
+            return refuse(context, "suppleGetMaterialInfo", "no such material");
+        }
+        const supple::cage::Material& from = found.character.materials[material];
+        *out = {};
+        out->structSize = sizeof(SuppleMaterialInfo);
+        out->name = from.name.c_str();
+        out->doubleSided = from.doubleSided ? 1 : 0;
+        out->trimImage = SUPPLE_NO_IMAGE;
+        if (const auto trim = supple::cage::trimOf(from)) {
+            const bool face = trim->domain == supple::cage::TrimDomain::face;
+            out->trimDomain = face ? SUPPLE_TRIM_FACE : SUPPLE_TRIM_UV;
+            out->trimImage = trim->image;
+            out->trimUvSet = trim->uvSet;
+            out->trimChannel = trim->channel;
+            out->trimCutoff = trim->cutoff;
+            out->trimFactor = from.trim ? 1.0f : from.baseColorFactor.a;
+            out->trimTiles = trim->tiles;
+            out->trimWrap[0] = static_cast<SuppleWrap>(trim->wrapU);
+            out->trimWrap[1] = static_cast<SuppleWrap>(trim->wrapV);
+        }
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetImageInfo(SuppleContext handle, SuppleAsset asset, uint32_t image, SuppleImageInfo* out) {
+    return withAsset(handle, asset, "suppleGetImageInfo", [&](Context& context, const Asset& found) {
+        if (out == nullptr || out->structSize != sizeof(SuppleImageInfo)) {
+            return refuse(context, "suppleGetImageInfo", "out is null or its structSize is wrong");
+        }
+        if (image >= found.character.images.size()) {
+            return refuse(context, "suppleGetImageInfo", "no such image");
+        }
+        const supple::cage::Image& from = found.character.images[image];
+        out->name = from.name.c_str();
+        out->mimeType = from.mimeType.c_str();
+        out->bytes = from.bytes.empty() ? nullptr : from.bytes.data();
+        out->byteCount = from.bytes.size();
         return SUPPLE_OK;
     });
 }

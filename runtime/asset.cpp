@@ -1,6 +1,7 @@
 #include "runtime/asset.h"
 
 #include "cage/single_joint.h"
+#include "cage/trim.h"
 #include "skinning/deform_pass.h"
 
 #include <algorithm>
@@ -118,6 +119,14 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
         for (uint64_t c = 0; c < corners; ++c) {
             cage.cornerUvs1.emplace_back(desc.cornerUvs1[2 * c], desc.cornerUvs1[2 * c + 1]);
         }
+    }
+    for (uint32_t f = 0; f < desc.faceCount && desc.faceTrimTiles != nullptr; ++f) {
+        const uint32_t tile = desc.faceTrimTiles[f];
+        if (tile != SUPPLE_NO_TRIM_TILE && tile >= cage::kMaxTrimTiles) {
+            return refuse("face " + std::to_string(f) + ": trim tile " + std::to_string(tile) + " of " +
+                          std::to_string(cage::kMaxTrimTiles));
+        }
+        cage.faceTrimTiles.push_back(tile);
     }
     const auto present = [](uint32_t count, auto... arrays) { return count == 0 || (... && (arrays != nullptr)); };
     if (!present(desc.creaseCount, desc.creaseVertices, desc.creaseSharpnesses) ||

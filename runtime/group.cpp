@@ -20,6 +20,7 @@ enum BufferIndex : size_t {
     kPatchCoefficients,
     kAttributes,
     kUvs1,
+    kFaceUvs,
     kScratch,
     kBufferCount
 };
@@ -161,6 +162,8 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
                              kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
     requests[kUvs1] = {"supple second UV set", tables.uvSets == 2 ? requests[kAttributes].size / 2 : 0,
                        kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
+    requests[kFaceUvs] = {"supple face UVs", tables.faceUvs ? requests[kAttributes].size / 2 : 0,
+                          kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT};
     requests[kScratch] = {"supple fragments", n * shared_.surface->scratchStride(tables) * kVec4Bytes,
                           kStorage | kTexels};
     attributesPending_ = requests[kAttributes].size > 0;
@@ -337,6 +340,8 @@ Status Group::createSets() {
              VK_NULL_HANDLE},
             {kUv1Binding, buffers_.size(kUvs1) > 0 ? range(buffers_.buffer(kUvs1), 0, VK_WHOLE_SIZE) : unused,
              VK_NULL_HANDLE},
+            {kFaceUvBinding, buffers_.size(kFaceUvs) > 0 ? range(buffers_.buffer(kFaceUvs), 0, VK_WHOLE_SIZE) : unused,
+             VK_NULL_HANDLE},
             {kPairBinding, range(shared_.pairs, 0, shared_.pairBytes), VK_NULL_HANDLE},
             {kScratchBinding, scratchBytes > 0 ? range(scratch, first * scratchBytes, count * scratchBytes) : unused,
              VK_NULL_HANDLE},
@@ -371,6 +376,7 @@ void Group::fillOutput(const SuppleGroupDesc& desc) {
     o.surfaceVertices = whole(kSurface, evaluation_.vertex24 ? 24 : 16);
     o.attributes = whole(kAttributes, 16);
     o.uvs1 = whole(kUvs1, 8);
+    o.faceUvs = whole(kFaceUvs, 8);
     o.deformedCage = whole(kDeformedCage, 16);
     o.patchCoefficients = whole(kPatchCoefficients, 16);
     o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
@@ -412,7 +418,7 @@ Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
     }
     attributesPending_ = false;
     shared_.surface->recordAttributes(commandBuffer, scheme_->tables, surfaceWindows_.front(), evaluation_);
-    return {vertexCount_, buffers_.size(kAttributes) + buffers_.size(kUvs1)};
+    return {vertexCount_, buffers_.size(kAttributes) + buffers_.size(kUvs1) + buffers_.size(kFaceUvs)};
 }
 
 Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {

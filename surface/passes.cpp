@@ -49,6 +49,7 @@ shared::SurfacePush pushFor(const Tables& tables, const Section& section, const 
     push.pairs = firstPair(evaluation.rate);
     push.patchesPerGroup = 1;
     push.uvSets = tables.uvSets;
+    push.faceUvs = tables.faceUvs ? 1 : 0;
     return push;
 }
 
@@ -105,11 +106,11 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     constexpr VkDescriptorType kTexels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     const gpu::Binding bindings[] = {
-        {kTableBinding, kStorage},     {kTable4TexelBinding, kTexels}, {kTable1TexelBinding, kTexels},
-        {kCageBinding, kStorage},      {kCageTexelBinding, kTexels},   {kPoolBinding, kStorage},
-        {kPoolTexelBinding, kTexels},  {kSurfaceBinding, kStorage},    {kPatchCoefficientBinding, kStorage},
-        {kAttributeBinding, kStorage}, {kUv1Binding, kStorage},        {kPairBinding, kStorage},
-        {kScratchBinding, kStorage},   {kScratchTexelBinding, kTexels}};
+        {kTableBinding, kStorage},     {kTable4TexelBinding, kTexels},  {kTable1TexelBinding, kTexels},
+        {kCageBinding, kStorage},      {kCageTexelBinding, kTexels},    {kPoolBinding, kStorage},
+        {kPoolTexelBinding, kTexels},  {kSurfaceBinding, kStorage},     {kPatchCoefficientBinding, kStorage},
+        {kAttributeBinding, kStorage}, {kUv1Binding, kStorage},         {kPairBinding, kStorage},
+        {kScratchBinding, kStorage},   {kScratchTexelBinding, kTexels}, {kFaceUvBinding, kStorage}};
     Passes passes;
     passes.device_ = &device;
     Result<gpu::ComputeLayout> layout =

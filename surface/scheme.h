@@ -143,6 +143,7 @@ struct Tables {
     uint32_t tangents = 0;       ///< first tangent in the pool
     uint32_t faces = 0;          ///< first face coefficient in the pool
     uint32_t uvSets = 1;
+    bool faceUvs = false;        ///< corners have a place in their face's trim tile (cage::Cage::cornerFaceUvs)
     uint32_t isolationSteps = 0; ///< patches are this many halvings smaller than the cage's faces
     uint32_t rate = 0;           ///< segments along a patch edge that the tables are made for; 0: any
     Fragments fragments;         ///< subdivision kernel only

@@ -1,5 +1,6 @@
 #include "surface/schemes.h"
 
+#include "cage/trim.h"
 #include "surface/blend/scheme.h"
 #include "surface/kernel/scheme.h"
 #include "surface/pm/scheme.h"
@@ -10,23 +11,9 @@
 
 namespace supple::surface {
 
-const char* schemeName(SchemeId scheme) {
-    switch (scheme) {
-    case SchemeId::prep:
-        return "p-rep";
-    case SchemeId::pm:
-        return "P_m";
-    case SchemeId::catmullClark:
-        return "Catmull-Clark";
-    case SchemeId::loop:
-        return "Loop";
-    case SchemeId::blend:
-        return "blend";
-    }
-    return "";
-}
+namespace {
 
-Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (recipe.scheme == SchemeId::pm) {
         Result<pm::Mesh> mesh = pm::buildMesh(cage);
         if (!mesh) {
@@ -35,8 +22,9 @@ Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
         return pm::buildTables(*mesh);
     }
     if (subdivides(recipe.scheme)) {
-        const Result<kernel::Mesh> mesh = kernel::buildMesh(
-            cage, recipe.scheme == SchemeId::loop ? kernel::Subdivision::loop : kernel::Subdivision::catmullClark);
+        const auto subdivision =
+            recipe.scheme == SchemeId::loop ? kernel::Subdivision::loop : kernel::Subdivision::catmullClark;
+        const Result<kernel::Mesh> mesh = kernel::buildMesh(cage, subdivision);
         if (!mesh) {
             return mesh.error();
         }
@@ -60,6 +48,33 @@ Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
         return accepted.error();
     }
     return prep::buildTables(cage, *topology, recipe.prep);
+}
+
+} // namespace
+
+const char* schemeName(SchemeId scheme) {
+    switch (scheme) {
+    case SchemeId::prep:
+        return "p-rep";
+    case SchemeId::pm:
+        return "P_m";
+    case SchemeId::catmullClark:
+        return "Catmull-Clark";
+    case SchemeId::loop:
+        return "Loop";
+    case SchemeId::blend:
+        return "blend";
+    }
+    return "";
+}
+
+Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
+    if (!cage::hasTrimTiles(cage)) {
+        return build(recipe, cage);
+    }
+    cage::Cage laid = cage;
+    laid.cornerFaceUvs = cage::tileCoordinates(cage);
+    return build(recipe, laid);
 }
 
 } // namespace supple::surface

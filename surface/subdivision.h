@@ -39,6 +39,7 @@ void forEachCornerAttribute(const cage::Cage& from, cage::Cage& to, Copy&& copy)
     copy(from.cornerUvs, to.cornerUvs);
     copy(from.cornerUvs1, to.cornerUvs1);
     copy(from.cornerColors, to.cornerColors);
+    copy(from.cornerFaceUvs, to.cornerFaceUvs);
 }
 
 /// After the corners of a face that came from face `face` of `from`.

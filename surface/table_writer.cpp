@@ -19,9 +19,10 @@ void sortPatches(std::vector<DraftPatch>& patches) {
 
 void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables) {
     tables.uvSets = cage.cornerUvs1.empty() ? 1 : 2;
-    const auto putUv = [&](const std::vector<glm::vec2>& uvs, uint32_t corner, uint32_t z, uint32_t w) {
+    tables.faceUvs = !cage.cornerFaceUvs.empty();
+    const auto putUv = [&](const std::vector<glm::vec2>& uvs, uint32_t corner) {
         const glm::vec2 uv = uvs.empty() ? glm::vec2(0.0f) : uvs[corner];
-        writer.put({std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y), z, w});
+        writer.put({std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y)});
     };
     for (PatchRange& range : tables.ranges) {
         range.attributes = writer.element();
@@ -32,9 +33,11 @@ void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches
                 const auto unorm16 = [&](int channel) {
                     return static_cast<uint32_t>(std::clamp(color[channel], 0.0f, 1.0f) * 65535.0f + 0.5f);
                 };
-                putUv(cage.cornerUvs, corner, unorm16(0) | unorm16(1) << 16, unorm16(2) | unorm16(3) << 16);
-                if (tables.uvSets == 2) {
-                    putUv(cage.cornerUvs1, corner, 0, 0);
+                putUv(cage.cornerUvs, corner);
+                writer.put({unorm16(0) | unorm16(1) << 16, unorm16(2) | unorm16(3) << 16});
+                if (tables.uvSets == 2 || tables.faceUvs) {
+                    putUv(cage.cornerUvs1, corner);
+                    putUv(cage.cornerFaceUvs, corner);
                 }
             }
         }

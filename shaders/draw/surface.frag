@@ -3,6 +3,7 @@
 #include "shaders/draw/frame.glsl"
 #include "shaders/draw/studio.glsl"
 #include "shaders/draw/lines.glsl"
+#include "shaders/draw/surface_trim.glsl"
 
 layout(set = 1, binding = kPatchClassBinding, std430) readonly buffer PatchClasses { uint patchClasses[]; };
 layout(set = 2, binding = kBaseColorBinding) uniform sampler2D baseColorTexture;
@@ -16,6 +17,7 @@ layout(location = 5) flat in uint inPatch;
 
 layout(location = 6) in vec3 inSky;
 layout(location = 7) in vec3 inKeyRimOpen;
+layout(location = 8) in vec3 inTrim;
 
 layout(location = 0) out vec4 outColor;
 
@@ -64,11 +66,16 @@ void main() {
         n = -n;
 
     vec4 base = push.baseColor * inColor * texture(baseColorTexture, inUv);
-    if ((push.flags & kDrawMask) != 0u && base.a < push.alphaCutoff)
-        discard;
     float alpha = (push.flags & kDrawTranslucent) != 0u ? base.a : 1.0;
-
     vec3 segments = fwidth(inGrid);
+    if ((push.flags & kDrawTrim) != 0u) {
+        float value = trimValue(inTrim);
+        if ((push.flags & kDrawCoverage) != 0u)
+            alpha *= suppleTrimCoverage(value, push.alphaCutoff);
+        else if (suppleTrimmed(value, push.alphaCutoff))
+            discard;
+    }
+
     vec3 color;
     if (push.view == kViewNormals) {
         color = fromSrgb((back ? -n : n) * 0.5 + 0.5);

@@ -3,9 +3,7 @@
 #include "shaders/draw/frame.glsl"
 #include "shaders/draw/studio.glsl"
 #include "shaders/draw/surface_input.glsl"
-
-layout(set = 1, binding = kSurfaceAttributeBinding, std430) readonly buffer Attributes { uvec4 attributes[]; };
-layout(set = 1, binding = kSurfaceUv1Binding, std430) readonly buffer Uvs1 { vec2 uvs1[]; };
+#include "shaders/draw/surface_attributes.glsl"
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
@@ -15,6 +13,7 @@ layout(location = 4) out vec3 outGrid; // in segments: see gridPosition
 layout(location = 5) flat out uint outPatch;
 layout(location = 6) out vec3 outSky;
 layout(location = 7) out vec3 outKeyRimOpen;
+layout(location = 8) out vec3 outTrim; // see surfaceTrim
 
 // Where triangles are hardly larger than pixels the light is looked up once a vertex instead of once a pixel: a device
 // that shades in blocks would do it many times over.
@@ -46,10 +45,10 @@ void main() {
     outUv = vec2(0.0);
     outColor = vec4(1.0);
     if ((push.flags & kDrawAttributes) != 0u) {
-        uvec4 packed = attributes[surfaceVertex()];
-        outUv = (push.flags & kDrawUv1) != 0u ? uvs1[surfaceVertex()] : uintBitsToFloat(packed.xy);
-        outColor = vec4(unpackUnorm2x16(packed.z), unpackUnorm2x16(packed.w));
+        outUv = surfaceUv((push.flags & kDrawUv1) != 0u);
+        outColor = surfaceColor();
     }
+    outTrim = surfaceTrim();
     outSky = vec3(0.0);
     outKeyRimOpen = vec3(0.0);
     if (kLightPerVertex) {

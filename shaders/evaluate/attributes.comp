@@ -1,6 +1,6 @@
 // Surface attributes that no pose changes: UV sets and color, interpolated between the corners of each patch. Run once a
 // group. One invocation a patch sample; output per sample (u, v, linear color as RG and BA in 16-bit unorm: 8 bits would
-// band in the dark), and the second UV set where there is one.
+// band in the dark), and the second UV set and the face UVs where there are any.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
@@ -11,6 +11,7 @@ layout(constant_id = 3) const uint kDomain = kQuadDomain;
 
 layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes { uvec4 attributes[]; };
 layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1[]; };
+layout(set = 0, binding = kFaceUvBinding, std430) writeonly buffer FaceUvs { vec2 faceUvs[]; };
 
 const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ? 4u : 3u;
 
@@ -36,15 +37,19 @@ void main() {
     if (id >= push.count) return;
     uint patchIndex = id / push.samples;
     float w[5] = cornerWeights(id - patchIndex * push.samples);
-    vec2 uv = vec2(0.0), uv1 = vec2(0.0);
+    bool second = push.uvSets == 2u, face = push.faceUvs != 0u;
+    uint elements = second || face ? 2u : 1u;
+    vec2 uv = vec2(0.0);
+    vec4 more = vec4(0.0);
     vec4 color = vec4(0.0);
     for (uint k = 0u; k < kCorners; ++k) {
-        uint element = push.table + push.uvSets * (kCorners * patchIndex + k);
+        uint element = push.table + elements * (kCorners * patchIndex + k);
         uvec4 corner = tableElement(element);
         uv += w[k] * uintBitsToFloat(corner.xy);
         color += w[k] * vec4(unpackUnorm2x16(corner.z), unpackUnorm2x16(corner.w));
-        if (push.uvSets == 2u) uv1 += w[k] * uintBitsToFloat(tableElement(element + 1u).xy);
+        if (elements == 2u) more += w[k] * uintBitsToFloat(tableElement(element + 1u));
     }
     attributes[push.firstVertex + id] = uvec4(floatBitsToUint(uv), packUnorm2x16(color.xy), packUnorm2x16(color.zw));
-    if (push.uvSets == 2u) uvs1[push.firstVertex + id] = uv1;
+    if (second) uvs1[push.firstVertex + id] = more.xy;
+    if (face) faceUvs[push.firstVertex + id] = more.zw;
 }

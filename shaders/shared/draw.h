@@ -26,8 +26,10 @@ SUPPLE_SHARED_CONST kDeformedCageBinding = 3u;
 SUPPLE_SHARED_CONST kCageCornerBinding = 4u;
 SUPPLE_SHARED_CONST kCageEdgeBinding = 5u;
 SUPPLE_SHARED_CONST kSurfaceUv1Binding = 6u;
+SUPPLE_SHARED_CONST kSurfaceFaceUvBinding = 7u;
 // Set 2, the material.
 SUPPLE_SHARED_CONST kBaseColorBinding = 0u;
+SUPPLE_SHARED_CONST kTrimBinding = 1u;
 
 SUPPLE_SHARED_CONST kMaxLights = 40u;
 
@@ -45,12 +47,17 @@ SUPPLE_SHARED_CONST kDrawTriangle = 2u;
 SUPPLE_SHARED_CONST kDrawPentagon = 3u;
 
 // DrawPush::flags
-SUPPLE_SHARED_CONST kDrawVertex24 = 1u;     // surface vertices of 24 bytes
-SUPPLE_SHARED_CONST kDrawDoubleSided = 2u;  // back faces are meant to be seen
-SUPPLE_SHARED_CONST kDrawMask = 4u;         // alpha below the cutoff is a hole
-SUPPLE_SHARED_CONST kDrawTranslucent = 8u;  // alpha is coverage
-SUPPLE_SHARED_CONST kDrawAttributes = 16u;  // the group has UV and color
-SUPPLE_SHARED_CONST kDrawUv1 = 32u;         // the material's texture lies on the second UV set
+SUPPLE_SHARED_CONST kDrawVertex24 = 1u;    // surface vertices of 24 bytes
+SUPPLE_SHARED_CONST kDrawDoubleSided = 2u; // back faces are meant to be seen
+SUPPLE_SHARED_CONST kDrawMask = 4u;        // cage: alpha below the cutoff is a hole
+SUPPLE_SHARED_CONST kDrawTranslucent = 8u; // alpha is coverage
+SUPPLE_SHARED_CONST kDrawAttributes = 16u; // the group has UV and color
+SUPPLE_SHARED_CONST kDrawUv1 = 32u;        // the material's texture lies on the second UV set
+SUPPLE_SHARED_CONST kDrawTrim = 64u;       // surface: where the trim's texture is below the cutoff is a hole
+SUPPLE_SHARED_CONST kDrawTrimUv1 = 128u;   // it lies on the second UV set
+SUPPLE_SHARED_CONST kDrawTrimFace = 256u;  // it is a strip of tiles, one a face
+SUPPLE_SHARED_CONST kDrawTrimAlpha = 512u; // base color and vertex alpha multiply it
+SUPPLE_SHARED_CONST kDrawCoverage = 1024u; // alpha becomes coverage of the pixel's samples
 
 // Which part of the rig a light belongs to; in Light::color.w.
 SUPPLE_SHARED_CONST kLightKey = 0u;
@@ -67,10 +74,10 @@ struct FrameUniforms {
     mat4 viewProjection;
     mat4 view;
     vec4 eye;
-    vec4 target;    // what the camera looks at; w: radius of the scene
-    vec4 ground;    // x: height, y: 1 where there is one
-    vec4 viewport;  // width, height, 1 / width, 1 / height
-    vec4 bounce;    // light from below
+    vec4 target;       // what the camera looks at; w: radius of the scene
+    vec4 ground;       // x: height, y: 1 where there is one
+    vec4 viewport;     // width, height, 1 / width, 1 / height
+    vec4 bounce;       // light from below
     vec4 keyDirection; // the middle of the key's directions, and all their light together
     vec4 keyColor;
     vec4 rimDirection;
@@ -98,9 +105,11 @@ struct DrawPush {
     uint cageVerticesPerInstance;
     uint view;
     uint flags;
-    float alphaCutoff;
-    uint light;     // whose shadow map is being drawn
-    uint primitive; // first cage corner or edge of the draw
+    float alphaCutoff; // and the trim's
+    uint light;        // whose shadow map is being drawn
+    uint primitive;    // first cage corner or edge of the draw
+    uint trimChannel;
+    float trimTiles;
 };
 
 // One corner of a triangle of a cage face; three in a row make the triangle.

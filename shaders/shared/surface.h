@@ -11,8 +11,8 @@
 //                    perturbed: 16 + 16, see shared/prep.h;  P_m: see shared/pm.h
 //                    where the group keeps corner normals (kCornerNormals): one more element, for each corner the pool
 //                    index of its normal, or kNoNormal
-//   attributes       one element a patch corner: (u, v, color as RG and BA in 16-bit unorm); with a second UV set one
-//                    more: (u, v, 0, 0)
+//   attributes       one element a patch corner: (u, v, color as RG and BA in 16-bit unorm); with a second UV set or
+//                    face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
 #ifndef SUPPLE_SHARED_SURFACE_H
 #define SUPPLE_SHARED_SURFACE_H
 
@@ -34,6 +34,7 @@ SUPPLE_SHARED_CONST kUv1Binding = 10u;
 SUPPLE_SHARED_CONST kPairBinding = 11u;
 SUPPLE_SHARED_CONST kScratchBinding = 12u;
 SUPPLE_SHARED_CONST kScratchTexelBinding = 13u;
+SUPPLE_SHARED_CONST kFaceUvBinding = 14u;
 
 // Classes of patches; values of SupplePatchClass.
 SUPPLE_SHARED_CONST kRegularPatch = 0u;
@@ -77,6 +78,7 @@ struct SurfacePush {
     uint pairs;           // first parameter pair of the rate
     uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
     uint uvSets;          // 1 or 2
+    uint faceUvs;         // 1 where corners have a place in their face's trim tile
 };
 
 SUPPLE_SHARED_END

@@ -139,6 +139,7 @@ private:
         };
         copy(given_.cornerUvs, to.cornerUvs);
         copy(given_.cornerUvs1, to.cornerUvs1);
+        copy(given_.cornerFaceUvs, to.cornerFaceUvs);
         copy(given_.cornerColors, to.cornerColors);
     }
 

@@ -44,6 +44,7 @@ struct CageArrays {
         desc.creaseScalars = creaseScalars.data();
         desc.holeCount = static_cast<uint32_t>(cage.holes.size());
         desc.holes = cage.holes.data();
+        desc.faceTrimTiles = cage.faceTrimTiles.empty() ? nullptr : cage.faceTrimTiles.data();
     }
     CageArrays(const CageArrays&) = delete;
     CageArrays& operator=(const CageArrays&) = delete;

@@ -13,6 +13,8 @@
 #include <shaders/draw_ground_frag.h>
 #include <shaders/draw_ground_vert.h>
 #include <shaders/draw_surface_frag.h>
+#include <shaders/draw_surface_shadow_trim_frag.h>
+#include <shaders/draw_surface_shadow_trim_vert.h>
 #include <shaders/draw_surface_shadow_vert.h>
 #include <shaders/draw_surface_vert.h>
 #include <vector>
@@ -183,8 +185,8 @@ Result<std::unique_ptr<DrawPipelines>> DrawPipelines::create(Device& device, con
 
 DrawPipelines::~DrawPipelines() {
     const VkDevice device = device_.handle();
-    for (const VkPipeline pipeline :
-         {surfaceShadow, cageShadow, surface, surfaceVertexLit, cageFace, cageEdge, ground, backdrop})
+    for (const VkPipeline pipeline : {surfaceShadow, surfaceShadowTrim, cageShadow, surface, surfaceVertexLit, cageFace,
+                                      cageEdge, ground, backdrop})
         vkDestroyPipeline(device, pipeline, nullptr);
     vkDestroySampler(device, shadowSampler, nullptr);
     vkDestroyPipelineLayout(device, layout, nullptr);
@@ -203,6 +205,7 @@ Status DrawPipelines::createLayouts() {
         {shared::kSurfaceVertexBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kSurfaceAttributeBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kSurfaceUv1Binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+        {shared::kSurfaceFaceUvBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kPatchClassBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
         {shared::kDeformedCageBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kCageCornerBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
@@ -210,6 +213,7 @@ Status DrawPipelines::createLayouts() {
     };
     constexpr Binding kMaterial[] = {
         {shared::kBaseColorBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+        {shared::kTrimBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
     };
     if (const Status status = createSetLayout(device_, kFrame, frameSet); !status)
         return status.error();
@@ -255,6 +259,10 @@ Status DrawPipelines::createPipelines(const DrawFormats& formats) {
                               .fragment = {},
                               .depthBias = true,
                               .depth = formats.shadow};
+    PipelineDesc shadowTrim = shadow;
+    shadowTrim.name = "surface shadow, trimmed";
+    shadowTrim.vertex = draw_surface_shadow_trim_vert;
+    shadowTrim.fragment = draw_surface_shadow_trim_frag;
     PipelineDesc cageShadowDesc = shadow;
     cageShadowDesc.name = "cage shadow";
     cageShadowDesc.vertex = draw_cage_shadow_vert;
@@ -294,9 +302,11 @@ Status DrawPipelines::createPipelines(const DrawFormats& formats) {
     backdropDesc.depthWrite = false;
 
     const std::pair<const PipelineDesc*, VkPipeline*> all[] = {
-        {&shadow, &surfaceShadow}, {&cageShadowDesc, &cageShadow}, {&surfaceVertexLitDesc, &surfaceVertexLit},
-        {&surfaceDesc, &surface},  {&cageFaceDesc, &cageFace},     {&cageEdgeDesc, &cageEdge},
-        {&groundDesc, &ground},    {&backdropDesc, &backdrop},
+        {&shadow, &surfaceShadow},      {&shadowTrim, &surfaceShadowTrim},
+        {&cageShadowDesc, &cageShadow}, {&surfaceVertexLitDesc, &surfaceVertexLit},
+        {&surfaceDesc, &surface},       {&cageFaceDesc, &cageFace},
+        {&cageEdgeDesc, &cageEdge},     {&groundDesc, &ground},
+        {&backdropDesc, &backdrop},
     };
     for (const auto& [desc, pipeline] : all) {
         Result<VkPipeline> made = createPipeline(device_, layout, *desc);

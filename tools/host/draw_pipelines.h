@@ -30,6 +30,7 @@ public:
     VkSampler shadowSampler = VK_NULL_HANDLE;
 
     VkPipeline surfaceShadow = VK_NULL_HANDLE;
+    VkPipeline surfaceShadowTrim = VK_NULL_HANDLE; ///< with holes
     VkPipeline cageShadow = VK_NULL_HANDLE;
     VkPipeline surface = VK_NULL_HANDLE;
     VkPipeline surfaceVertexLit = VK_NULL_HANDLE; ///< the light looked up once a vertex

@@ -77,6 +77,8 @@ Result<std::unique_ptr<Figure>> Figure::open(Context& context, const std::string
         return status.error();
     if (const Status status = figure->uploadBaseColors(); !status)
         return status.error();
+    if (const Status status = figure->uploadTrims(); !status)
+        return status.error();
     return figure;
 }
 
@@ -188,6 +190,27 @@ Status Figure::uploadBaseColors() {
             averages.back() *= character_.materials[i].baseColorFactor;
     }
     averageAlbedo_ = averageLuminance(character_.cage, averages);
+    return success();
+}
+
+Status Figure::uploadTrims() {
+    trims_.resize(baseColors_.size());
+    for (size_t i = 0; i < character_.materials.size(); ++i) {
+        const std::optional<cage::Trim>& trim = character_.materials[i].trim;
+        if (!trim)
+            continue;
+        // Unlike a base color it is part of the shape: no drawing without it.
+        const cage::Image& image = character_.images[trim->image];
+        const Result<Picture> picture = decodePicture(image.bytes, path_ + ": trim image " + image.name);
+        if (!picture)
+            return picture.error();
+        Result<Image> texture =
+            uploadTexture(context_.device(), *picture,
+                          trim->domain == cage::TrimDomain::face ? TextureKind::tiles : TextureKind::data);
+        if (!texture)
+            return texture.error();
+        trims_[i] = std::move(*texture);
+    }
     return success();
 }
 

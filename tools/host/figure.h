@@ -40,6 +40,8 @@ public:
     [[nodiscard]] float averageAlbedo() const { return averageAlbedo_; }
     /// One a material, and one white one at the end for what has none.
     [[nodiscard]] const std::vector<Image>& baseColors() const { return baseColors_; }
+    /// As the base colors; without an image where a material has no trim of its own (cage::Material::trim).
+    [[nodiscard]] const std::vector<Image>& trims() const { return trims_; }
     [[nodiscard]] const std::vector<CageRange>& cageRanges() const { return cageRanges_; }
     [[nodiscard]] const Buffer& cageCorners() const { return cageCorners_; }
     [[nodiscard]] const Buffer& cageEdges() const { return cageEdges_; }
@@ -49,12 +51,14 @@ private:
     explicit Figure(Context& context) : context_(context) {}
     [[nodiscard]] Status uploadCage();
     [[nodiscard]] Status uploadBaseColors();
+    [[nodiscard]] Status uploadTrims();
 
     Context& context_;
     std::string path_;
     cage::Character character_;
     SuppleAsset asset_{};
     std::vector<Image> baseColors_;
+    std::vector<Image> trims_;
     std::vector<CageRange> cageRanges_;
     Buffer cageCorners_;
     Buffer cageEdges_;

@@ -1,5 +1,6 @@
 #include "tools/host/surface_renderer.h"
 
+#include "cage/trim.h"
 #include "tools/host/vk_struct.h"
 
 #include <algorithm>
@@ -22,23 +23,6 @@ constexpr uint32_t kVertexLitRate = 4;
 /// Below so many directions the steps of single shadow maps show.
 constexpr uint32_t kFewLights = 12;
 
-/// Push constants that fit any draw of the group; ranges and materials are filled in draw by draw.
-shared::DrawPush basePush(const Scene& scene, uint32_t light) {
-    const SuppleGroupOutput& output = scene.group->output();
-    shared::DrawPush push{};
-    push.baseColor = glm::vec4(1.0f);
-    push.rate = output.rate;
-    push.verticesPerInstance = output.verticesPerInstance;
-    push.cageVerticesPerInstance = output.cageVerticesPerInstance;
-    push.view = scene.view;
-    push.light = light;
-    if (output.vertexFormat == SUPPLE_VERTEX_24)
-        push.flags |= shared::kDrawVertex24;
-    if (output.attributes.buffer != VK_NULL_HANDLE)
-        push.flags |= shared::kDrawAttributes;
-    return push;
-}
-
 void applyRange(const SuppleDrawRange& range, shared::DrawPush& push) {
     push.firstPatch = range.firstPatch;
     push.patchCount = range.patchCount;
@@ -47,8 +31,29 @@ void applyRange(const SuppleDrawRange& range, shared::DrawPush& push) {
     push.firstVertex = range.firstVertex;
 }
 
+/// What the group and the picture say, not the material.
+constexpr uint32_t kLastingFlags = shared::kDrawVertex24 | shared::kDrawAttributes | shared::kDrawCoverage;
+
+void applyTrim(const cage::Character& character, const cage::Material& material, shared::DrawPush& push) {
+    const bool mask = !material.trim && material.alphaMode == cage::AlphaMode::mask;
+    if (!material.trim && !mask)
+        return;
+    // A mask without a texture is one too: of the alphas that multiply a white one.
+    const cage::Trim trim = cage::trimOf(material).value_or(cage::Trim{.channel = 3, .cutoff = material.alphaCutoff});
+    push.flags |= shared::kDrawTrim;
+    if (mask)
+        push.flags |= shared::kDrawTrimAlpha;
+    if (trim.domain == cage::TrimDomain::face)
+        push.flags |= shared::kDrawTrimFace;
+    if (trim.uvSet == 1 && !character.cage.cornerUvs1.empty())
+        push.flags |= shared::kDrawTrimUv1;
+    push.alphaCutoff = trim.cutoff;
+    push.trimChannel = trim.channel;
+    push.trimTiles = static_cast<float>(std::max(trim.tiles, 1u));
+}
+
 void applyMaterial(const cage::Character& character, uint32_t index, shared::DrawPush& push) {
-    push.flags &= shared::kDrawVertex24 | shared::kDrawAttributes;
+    push.flags &= kLastingFlags;
     push.baseColor = glm::vec4(1.0f);
     if (index >= character.materials.size())
         return;
@@ -59,13 +64,26 @@ void applyMaterial(const cage::Character& character, uint32_t index, shared::Dra
         push.flags |= shared::kDrawUv1;
     if (material.doubleSided)
         push.flags |= shared::kDrawDoubleSided;
-    if (material.alphaMode == cage::AlphaMode::mask)
+    if (material.alphaMode == cage::AlphaMode::mask && !material.trim)
         push.flags |= shared::kDrawMask;
     if (material.alphaMode == cage::AlphaMode::blend)
         push.flags |= shared::kDrawTranslucent;
+    applyTrim(character, material, push);
 }
 
-/// Without holes: casts a shadow.
+/// How a material stands in the light's way.
+enum class Shadow { none, solid, trimmed };
+
+Shadow shadowOf(const cage::Character& character, uint32_t index) {
+    if (index >= character.materials.size())
+        return Shadow::solid;
+    const cage::Material& material = character.materials[index];
+    if (material.alphaMode == cage::AlphaMode::blend)
+        return Shadow::none;
+    return material.trim || material.alphaMode == cage::AlphaMode::mask ? Shadow::trimmed : Shadow::solid;
+}
+
+/// The cage casts its shadow without holes, or none.
 bool isSolid(const cage::Character& character, uint32_t material) {
     return material >= character.materials.size() || character.materials[material].alphaMode == cage::AlphaMode::opaque;
 }
@@ -218,11 +236,11 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
 Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
     const Figure& figure = group.figure();
     const auto materialCount = static_cast<uint32_t>(figure.baseColors().size());
-    constexpr uint32_t kFigureBuffers = 7;
+    constexpr uint32_t kFigureBuffers = 8;
     FigureBinding binding;
     binding.device_ = device_.handle();
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, materialCount}};
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * materialCount}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     poolInfo.maxSets = 1 + materialCount;
     poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
@@ -257,12 +275,13 @@ Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
         {shared::kSurfaceVertexBinding, orCage(output.surfaceVertices)},
         {shared::kSurfaceAttributeBinding, orCage(output.attributes)},
         {shared::kSurfaceUv1Binding, orCage(output.uvs1)},
+        {shared::kSurfaceFaceUvBinding, orCage(output.faceUvs)},
         {shared::kPatchClassBinding, wholeInfo(group.patchClasses())},
         {shared::kDeformedCageBinding, viewInfo(output.deformedCage)},
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
     };
-    std::vector<VkDescriptorImageInfo> images(materialCount);
+    std::vector<VkDescriptorImageInfo> images(2 * size_t{materialCount});
     std::vector<VkWriteDescriptorSet> writes;
     for (const auto& [slot, info] : buffers) {
         auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
@@ -274,7 +293,8 @@ Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
         writes.push_back(write);
     }
     const cage::Character& character = figure.character();
-    for (uint32_t i = 0; i < materialCount; ++i) {
+    const auto sample = [&](uint32_t material, uint32_t slot, const Image& image, cage::Wrap wrapU,
+                            cage::Wrap wrapV) -> Status {
         auto info = vkStruct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
         info.magFilter = VK_FILTER_LINEAR;
         info.minFilter = VK_FILTER_LINEAR;
@@ -282,22 +302,35 @@ Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
         info.maxLod = VK_LOD_CLAMP_NONE;
         info.anisotropyEnable = device_.hasAnisotropy() ? VK_TRUE : VK_FALSE;
         info.maxAnisotropy = std::min(8.0f, device_.properties().limits.maxSamplerAnisotropy);
-        if (i < character.materials.size()) {
-            info.addressModeU = addressMode(character.materials[i].wrapU);
-            info.addressModeV = addressMode(character.materials[i].wrapV);
-        }
+        info.addressModeU = addressMode(wrapU);
+        info.addressModeV = addressMode(wrapV);
         VkSampler sampler = VK_NULL_HANDLE;
         if (const VkResult result = vkCreateSampler(device_.handle(), &info, nullptr, &sampler); result != VK_SUCCESS)
             return vulkanError(result, "vkCreateSampler");
         binding.samplers_.push_back(sampler);
-        images[i] = {sampler, figure.baseColors()[i].view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        VkDescriptorImageInfo& described = images[2 * size_t{material} + slot];
+        described = {sampler, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-        write.dstSet = binding.materials_[i];
-        write.dstBinding = shared::kBaseColorBinding;
+        write.dstSet = binding.materials_[material];
+        write.dstBinding = slot;
         write.descriptorCount = 1;
         write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        write.pImageInfo = &images[i];
+        write.pImageInfo = &described;
         writes.push_back(write);
+        return success();
+    };
+    static_assert(shared::kBaseColorBinding == 0 && shared::kTrimBinding == 1);
+    for (uint32_t i = 0; i < materialCount; ++i) {
+        const cage::Material material = i < character.materials.size() ? character.materials[i] : cage::Material{};
+        if (const Status status =
+                sample(i, shared::kBaseColorBinding, figure.baseColors()[i], material.wrapU, material.wrapV);
+            !status)
+            return status.error();
+        // A mask's trim is its base color; of what has none, nothing is looked up.
+        const cage::Trim trim = cage::trimOf(material).value_or(cage::Trim{});
+        const Image& image = material.trim ? figure.trims()[i] : figure.baseColors()[i];
+        if (const Status status = sample(i, shared::kTrimBinding, image, trim.wrapU, trim.wrapV); !status)
+            return status.error();
     }
     vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
     return binding;
@@ -430,6 +463,31 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
 }
 
+/// Push constants that fit any draw of the group; ranges and materials are filled in draw by draw.
+shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, uint32_t light) const {
+    const SuppleGroupOutput& output = scene.group->output();
+    shared::DrawPush push{};
+    push.baseColor = glm::vec4(1.0f);
+    push.rate = output.rate;
+    push.verticesPerInstance = output.verticesPerInstance;
+    push.cageVerticesPerInstance = output.cageVerticesPerInstance;
+    push.view = scene.view;
+    push.light = light;
+    if (output.vertexFormat == SUPPLE_VERTEX_24)
+        push.flags |= shared::kDrawVertex24;
+    if (output.attributes.buffer != VK_NULL_HANDLE)
+        push.flags |= shared::kDrawAttributes;
+    if (samples() != VK_SAMPLE_COUNT_1_BIT)
+        push.flags |= shared::kDrawCoverage;
+    return push;
+}
+
+void SurfaceRenderer::bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const {
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
+                            &scene.binding->materials_[materialSet(scene.group->figure().character(), material)], 0,
+                            nullptr);
+}
+
 void SurfaceRenderer::pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const {
     vkCmdPushConstants(commands, pipelines_->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                        sizeof push, &push);
@@ -437,12 +495,22 @@ void SurfaceRenderer::pushConstants(VkCommandBuffer commands, const shared::Draw
 
 void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
     const SuppleGroupOutput& output = scene.group->output();
+    const cage::Character& character = scene.group->figure().character();
     shared::DrawPush push = basePush(scene, light);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->surfaceShadow);
+    VkPipeline bound = VK_NULL_HANDLE;
     for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.drawRanges[i];
-        if (!isSolid(scene.group->figure().character(), range.material))
+        const Shadow shadow = shadowOf(character, range.material);
+        if (shadow == Shadow::none)
             continue;
+        const VkPipeline wanted = shadow == Shadow::solid ? pipelines_->surfaceShadow : pipelines_->surfaceShadowTrim;
+        if (bound != wanted)
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
+        bound = wanted;
+        if (shadow == Shadow::trimmed) {
+            applyMaterial(character, range.material, push);
+            bindMaterial(commands, scene, range.material);
+        }
         applyRange(range, push);
         pushConstants(commands, push);
         const uint32_t patches = range.patchCount * output.instanceCount;
@@ -469,8 +537,7 @@ void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) 
         applyMaterial(character, range.material, push);
         applyRange(range, push);
         pushConstants(commands, push);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
-                                &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);
+        bindMaterial(commands, scene, range.material);
         vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
                                  output.indirect.offset + VkDeviceSize{i} * output.indirect.stride, 1,
                                  output.indirect.stride);
@@ -488,8 +555,7 @@ void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene
         push.primitive = range.firstCorner;
         pushConstants(commands, push);
         if (!light)
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
-                                    &scene.binding->materials_[materialSet(character, range.material)], 0, nullptr);
+            bindMaterial(commands, scene, range.material);
         vkCmdDraw(commands, range.cornerCount, scene.group->output().instanceCount, 0, 0);
     }
 }

@@ -86,6 +86,8 @@ private:
     void writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene) const;
     void recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const;
+    [[nodiscard]] shared::DrawPush basePush(const Scene& scene, uint32_t light) const;
+    void bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const;
     void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
     void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
     void drawSurface(VkCommandBuffer commands, const Scene& scene) const;

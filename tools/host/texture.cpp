@@ -8,13 +8,15 @@ namespace supple::host {
 
 namespace {
 
-constexpr VkFormat kTextureFormat = VK_FORMAT_R8G8B8A8_SRGB;
+VkFormat formatOf(TextureKind kind) {
+    return kind == TextureKind::color ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+}
 
-bool canBlit(const Device& device) {
+bool canBlit(const Device& device, VkFormat format) {
     constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
                                              VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
     VkFormatProperties properties{};
-    vkGetPhysicalDeviceFormatProperties(device.physicalDevice(), kTextureFormat, &properties);
+    vkGetPhysicalDeviceFormatProperties(device.physicalDevice(), format, &properties);
     return (properties.optimalTilingFeatures & kNeeded) == kNeeded;
 }
 
@@ -47,16 +49,16 @@ void recordMipLevels(VkCommandBuffer commands, const Image& image) {
 
 } // namespace
 
-Result<Image> uploadTexture(Device& device, const Picture& picture) {
+Result<Image> uploadTexture(Device& device, const Picture& picture, TextureKind kind) {
     const uint32_t side = std::max(picture.width, picture.height);
     if (const uint32_t limit = device.properties().limits.maxImageDimension2D; side > limit)
         return Error{ErrorCode::limit, "a texture of " + std::to_string(side) + " pixels a side; the device takes " +
                                            std::to_string(limit)};
-    ImageDesc desc{.format = kTextureFormat,
+    ImageDesc desc{.format = formatOf(kind),
                    .extent = {picture.width, picture.height},
                    .usage =
                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
-    if (canBlit(device))
+    if (kind != TextureKind::tiles && canBlit(device, desc.format))
         desc.mipLevels = static_cast<uint32_t>(std::bit_width(side));
     Result<Image> image = device.createImage(desc);
     if (!image)

@@ -6,7 +6,14 @@
 
 namespace supple::host {
 
-/// An sRGB texture with its mip levels, in SHADER_READ_ONLY_OPTIMAL. Waits for the device.
-[[nodiscard]] Result<Image> uploadTexture(Device& device, const Picture& picture);
+enum class TextureKind {
+    color, ///< sRGB, with mip levels
+    data,  ///< numbers as they are, with mip levels
+    tiles  ///< as data, without mip levels, which would mix tiles
+};
+
+/// A texture in SHADER_READ_ONLY_OPTIMAL. Waits for the device.
+[[nodiscard]] Result<Image> uploadTexture(Device& device, const Picture& picture,
+                                          TextureKind kind = TextureKind::color);
 
 } // namespace supple::host

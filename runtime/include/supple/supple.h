@@ -49,6 +49,9 @@ extern "C" {
 #define SUPPLE_NO_MATERIAL 0xFFFFFFFFu
 #define SUPPLE_NO_JOINT 0xFFFFFFFFu
 #define SUPPLE_NO_VERTEX 0xFFFFFFFFu
+#define SUPPLE_NO_IMAGE 0xFFFFFFFFu
+#define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu
+#define SUPPLE_MAX_TRIM_TILES 1024u
 #define SUPPLE_MAX_RATE 64u
 #define SUPPLE_MAX_TIMINGS 512u /* entries a frame: passes x groups; what goes beyond is not timed */
 
@@ -164,6 +167,7 @@ typedef struct SuppleCageDesc {
     const SuppleCreaseScalar* creaseScalars;
     uint32_t holeCount; /* faces that shape their neighbours but are not drawn */
     const uint32_t* holes;
+    const uint32_t* faceTrimTiles; /* optional: a trim tile a face, or SUPPLE_NO_TRIM_TILE; see SuppleTrimDomain */
 } SuppleCageDesc;
 
 typedef enum SuppleAssetFlags {
@@ -207,6 +211,7 @@ typedef struct SuppleAssetInfo {
     uint32_t morphTargetCount;
     float boundsMin[3]; /* of the rest cage */
     float boundsMax[3];
+    uint32_t imageCount;
 } SuppleAssetInfo;
 
 typedef struct SuppleClipInfo {
@@ -228,6 +233,41 @@ typedef struct SuppleMorphTargetInfo {
     uint32_t vertexCount; /* cage vertices it moves */
 } SuppleMorphTargetInfo;
 
+/* Trimming: the surface is there where a channel of an image is at least a cutoff. It is the host's fragment shaders
+ * that test it, in every pass that draws the surface, shadows too; docs/trimming.md has the test as a GLSL include. */
+typedef enum SuppleTrimDomain {
+    SUPPLE_TRIM_NONE = 0, /* the material is whole */
+    SUPPLE_TRIM_UV = 1,   /* the image lies on a UV set: SuppleGroupOutput.attributes or uvs1 */
+    SUPPLE_TRIM_FACE = 2  /* a strip of tiles side by side, of which a face of the cage has one:
+                           * SuppleGroupOutput.faceUvs */
+} SuppleTrimDomain;
+
+typedef enum SuppleWrap { SUPPLE_WRAP_REPEAT = 0, SUPPLE_WRAP_CLAMP = 1, SUPPLE_WRAP_MIRROR = 2 } SuppleWrap;
+
+typedef struct SuppleMaterialInfo {
+    uint32_t structSize;
+    const char* name; /* lives as long as the asset */
+    uint32_t doubleSided;
+    SuppleTrimDomain trimDomain; /* the file's own trim, else its alphaMode MASK with a texture: then the lookup is
+                                  * multiplied by trimFactor and the color attribute's alpha */
+    uint32_t trimImage;          /* or SUPPLE_NO_IMAGE */
+    uint32_t trimUvSet;          /* 0 or 1 */
+    uint32_t trimChannel;        /* 0..3: red, green, blue, alpha */
+    float trimCutoff;
+    float trimFactor;       /* 1, or with MASK the base color's alpha */
+    uint32_t trimTiles;     /* FACE: tiles in the image */
+    SuppleWrap trimWrap[2]; /* along u and v */
+} SuppleMaterialInfo;
+
+/* An image as the file holds it; decoding is the host's. */
+typedef struct SuppleImageInfo {
+    uint32_t structSize;
+    const char* name;     /* this and what follows live as long as the asset */
+    const char* mimeType; /* "image/png", "image/jpeg" or empty */
+    const void* bytes;    /* null where the image is missing */
+    size_t byteCount;
+} SuppleImageInfo;
+
 /* Refuses malformed files and arrays. What only a surface cannot take (a non-manifold edge, a face that is no quad) is
  * refused by suppleCreateGroup, so that the cage alone can still be had. */
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
@@ -240,6 +280,11 @@ SUPPLE_API SuppleResult suppleGetJointInfo(SuppleContext context, SuppleAsset as
                                            SuppleJointInfo* out);
 SUPPLE_API SuppleResult suppleGetMorphTargetInfo(SuppleContext context, SuppleAsset asset, uint32_t target,
                                                  SuppleMorphTargetInfo* out);
+/* Materials and images are numbered as in the file. */
+SUPPLE_API SuppleResult suppleGetMaterialInfo(SuppleContext context, SuppleAsset asset, uint32_t material,
+                                              SuppleMaterialInfo* out);
+SUPPLE_API SuppleResult suppleGetImageInfo(SuppleContext context, SuppleAsset asset, uint32_t image,
+                                           SuppleImageInfo* out);
 /* Sets mask[joint] and mask of every joint below it to value; the others stay. mask has jointCount values. */
 SUPPLE_API SuppleResult suppleFillJointMask(SuppleContext context, SuppleAsset asset, uint32_t joint, float value,
                                             float* mask, uint32_t jointCount);
@@ -273,7 +318,7 @@ typedef enum SuppleSkinning { SUPPLE_SKINNING_LINEAR = 0, SUPPLE_SKINNING_DUAL_Q
 
 typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,   /* also write the patch coefficients (for inspection) */
-    SUPPLE_GROUP_ATTRIBUTES = 2 /* also write the static surface attributes: UV and color */
+    SUPPLE_GROUP_ATTRIBUTES = 2 /* also write the static surface attributes: UVs, color, face UVs */
 } SuppleGroupFlags;
 
 /* N instances of one asset, evaluated together. */
@@ -485,6 +530,8 @@ typedef struct SuppleGroupOutput {
     const SuppleDrawRange* drawRanges;
     uint32_t drawRangeCount;
     VkDeviceSize deviceBytes; /* device memory held by this group, its share of the asset's tables not counted */
+    SuppleBufferView faceUvs; /* as uvs1, where faces of the cage have trim tiles: float2 (u + 2 * tile, v), where the
+                               * vertex lies in its face's tile; tile -1 for faces without one (docs/trimming.md) */
 } SuppleGroupOutput;
 
 SUPPLE_API SuppleResult suppleGetGroupOutput(SuppleContext context, SuppleGroup group, SuppleGroupOutput* out);

@@ -118,6 +118,14 @@ public:
         out = sized<SuppleMorphTargetInfo>();
         return suppleGetMorphTargetInfo(context_, handle_, target, &out);
     }
+    [[nodiscard]] SuppleResult materialInfo(uint32_t material, SuppleMaterialInfo& out) const {
+        out = sized<SuppleMaterialInfo>();
+        return suppleGetMaterialInfo(context_, handle_, material, &out);
+    }
+    [[nodiscard]] SuppleResult imageInfo(uint32_t image, SuppleImageInfo& out) const {
+        out = sized<SuppleImageInfo>();
+        return suppleGetImageInfo(context_, handle_, image, &out);
+    }
     [[nodiscard]] SuppleResult fillJointMask(uint32_t joint, float value, std::span<float> mask) const {
         return suppleFillJointMask(context_, handle_, joint, value, mask.data(), static_cast<uint32_t>(mask.size()));
     }

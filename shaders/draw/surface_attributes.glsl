@@ -1,0 +1,21 @@
+// What a surface vertex has that no pose changes. See surface_input.glsl.
+layout(set = 1, binding = kSurfaceAttributeBinding, std430) readonly buffer Attributes { uvec4 attributes[]; };
+layout(set = 1, binding = kSurfaceUv1Binding, std430) readonly buffer Uvs1 { vec2 uvs1[]; };
+layout(set = 1, binding = kSurfaceFaceUvBinding, std430) readonly buffer FaceUvs { vec2 faceUvs[]; };
+
+vec2 surfaceUv(bool second) {
+    return second ? uvs1[surfaceVertex()] : uintBitsToFloat(attributes[surfaceVertex()].xy);
+}
+
+vec4 surfaceColor() {
+    uvec2 packed = attributes[surfaceVertex()].zw;
+    return vec4(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y));
+}
+
+/// Where the trim is looked up (UV or face UV), and what multiplies it.
+vec3 surfaceTrim() {
+    if ((push.flags & kDrawTrim) == 0u) return vec3(0.0);
+    vec2 at = (push.flags & kDrawTrimFace) != 0u ? faceUvs[surfaceVertex()]
+                                                 : surfaceUv((push.flags & kDrawTrimUv1) != 0u);
+    return vec3(at, (push.flags & kDrawTrimAlpha) != 0u ? push.baseColor.a * surfaceColor().a : 1.0);
+}
