@@ -2,6 +2,7 @@
 // through the holes; multisampling covers what the contour leaves. Drawn under the validation layer.
 #include "cage/gltf_writer.h"
 #include "cage/single_joint.h"
+#include "tools/host/character_file.h"
 #include "tools/host/surface_renderer.h"
 
 #include <algorithm>
@@ -389,6 +390,27 @@ TEST_F(TrimmingTest, LightFallsThroughHoles) {
     std::printf("%u pixels brighter, %u darker\n", brighter, darker);
     EXPECT_GT(brighter, 150u);
     EXPECT_EQ(darker, 0u);
+}
+
+TEST_F(TrimmingTest, TheHelmetHasItsHolesInEveryScheme) {
+    const Result<CharacterFile> file = readCharacterFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb");
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_LT(file->bytes.size(), 200'000u);
+    EXPECT_TRUE(file->character.warnings.empty());
+    ASSERT_EQ(file->character.materials.size(), 3u);
+    EXPECT_FALSE(file->character.materials[0].trim);
+    EXPECT_TRUE(file->character.materials[1].trim && file->character.materials[2].trim);
+    cage::Character whole = file->character;
+    for (cage::Material& material : whole.materials) {
+        material.trim.reset();
+    }
+    Scene scene = front();
+    scene.camera.fieldOfView *= 1.2f;
+    for (const auto& [scheme, schemeName] : kSchemes) {
+        const GroupOptions options{.scheme = scheme};
+        EXPECT_GT(differentPixels(draw(file->character, options, scene), draw(whole, options, scene)), 400u)
+            << schemeName << ": through the breathing holes one sees the floor's side";
+    }
 }
 
 TEST_F(TrimmingTest, HostsAreToldWhatTheyNeed) {
