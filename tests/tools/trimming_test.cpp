@@ -2,6 +2,7 @@
 // through the holes; multisampling covers what the contour leaves. Drawn under the validation layer.
 #include "cage/gltf_writer.h"
 #include "cage/single_joint.h"
+#include "tools/host/cage_arrays.h"
 #include "tools/host/character_file.h"
 #include "tools/host/surface_renderer.h"
 
@@ -411,6 +412,63 @@ TEST_F(TrimmingTest, TheHelmetHasItsHolesInEveryScheme) {
         EXPECT_GT(differentPixels(draw(file->character, options, scene), draw(whole, options, scene)), 400u)
             << schemeName << ": through the breathing holes one sees the floor's side";
     }
+}
+
+/// On a cage of triangles to hexagons, given as arrays: every sample of a patch lies in the tile of the face the patch
+/// is of, however the scheme split or subdivided it.
+TEST_F(TrimmingTest, FaceCoordinatesAreTheirFaces) {
+    Result<CharacterFile> file = readCharacterFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
+    ASSERT_TRUE(file.ok());
+    cage::Cage& cage = file->character.cage;
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        cage.faceTrimTiles.push_back(f % 7 == 0 ? cage::kNone : f % SUPPLE_MAX_TRIM_TILES);
+    }
+    const CageArrays arrays(cage);
+    SuppleAssetDesc assetDesc{};
+    assetDesc.structSize = sizeof(assetDesc);
+    assetDesc.name = "pip with tiles";
+    assetDesc.cage = &arrays.desc;
+    SuppleAsset asset{};
+    ASSERT_EQ(suppleCreateAsset(context_->handle(), &assetDesc, &asset), SUPPLE_OK);
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        SCOPED_TRACE(scheme);
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.flags = SUPPLE_GROUP_ATTRIBUTES;
+        desc.asset = asset;
+        desc.instanceCount = 1;
+        desc.scheme = scheme;
+        desc.rate = 4;
+        SuppleGroup group{};
+        ASSERT_EQ(suppleCreateGroup(context_->handle(), &desc, &group), SUPPLE_OK);
+        ASSERT_TRUE(context_->evaluate({&group, 1}).ok());
+        SuppleGroupOutput output{};
+        output.structSize = sizeof(output);
+        ASSERT_EQ(suppleGetGroupOutput(context_->handle(), group, &output), SUPPLE_OK);
+        std::vector<SupplePatchInfo> patches(output.patchCount);
+        uint32_t count = output.patchCount;
+        ASSERT_EQ(suppleGetPatches(context_->handle(), group, patches.data(), &count), SUPPLE_OK);
+        ASSERT_EQ(output.faceUvs.stride, sizeof(glm::vec2));
+        const Result<std::vector<std::byte>> bytes = device_->readBuffer(output.faceUvs);
+        ASSERT_TRUE(bytes.ok());
+        uint32_t wrong = 0;
+        for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
+            const SuppleDrawRange& range = output.drawRanges[r];
+            for (uint32_t i = 0; i < range.patchCount * range.samplesPerPatch; ++i) {
+                glm::vec2 at;
+                std::memcpy(&at, bytes->data() + (range.firstVertex + i) * sizeof(at), sizeof(at));
+                const uint32_t tile = cage.faceTrimTiles[patches[range.firstPatch + i / range.samplesPerPatch].face];
+                const float expected = tile == cage::kNone ? -1.0f : static_cast<float>(tile);
+                const glm::vec2 in(at.x - 2.0f * expected, at.y);
+                const bool inside = glm::all(glm::greaterThanEqual(in, glm::vec2(-1e-3f))) &&
+                                    glm::all(glm::lessThanEqual(in, glm::vec2(1.001f)));
+                wrong += inside && std::floor(0.5f * at.x + 0.25f) == expected ? 0 : 1;
+            }
+        }
+        EXPECT_EQ(wrong, 0u);
+        EXPECT_EQ(suppleDestroyGroup(context_->handle(), group), SUPPLE_OK);
+    }
+    EXPECT_EQ(suppleDestroyAsset(context_->handle(), asset), SUPPLE_OK);
 }
 
 TEST_F(TrimmingTest, HostsAreToldWhatTheyNeed) {
