@@ -46,6 +46,10 @@ public:
     [[nodiscard]] SuppleResult beginFrame(uint64_t frame, uint64_t completedFrame) const {
         return suppleBeginFrame(handle_, frame, completedFrame);
     }
+    [[nodiscard]] SuppleResult cancelFrame() const { return suppleCancelFrame(handle_); }
+    [[nodiscard]] SuppleResult recordUploads(VkCommandBuffer commandBuffer) const {
+        return suppleRecordUploads(handle_, commandBuffer);
+    }
     [[nodiscard]] SuppleResult record(VkCommandBuffer commandBuffer, std::span<const SuppleGroup> groups,
                                       SuppleSyncScope before, SuppleSyncScope after, uint32_t flags = 0) const {
         SuppleRecordDesc desc = sized<SuppleRecordDesc>();
@@ -170,31 +174,8 @@ public:
     }
 
     [[nodiscard]] SuppleGroup handle() const { return handle_; }
-    [[nodiscard]] SuppleResult setClipPose(uint32_t instance, uint32_t clip, double time) const {
-        return suppleSetClipPose(context_, handle_, instance, clip, time);
-    }
-    [[nodiscard]] SuppleResult setPose(uint32_t instance, const SupplePoseDesc& pose) const {
-        return suppleSetPose(context_, handle_, instance, &pose);
-    }
-    /// Crossfades and plain layers without root motion.
-    [[nodiscard]] SuppleResult setPose(uint32_t instance, std::span<const SuppleClipLayer> layers) const {
-        SupplePoseDesc pose = sized<SupplePoseDesc>();
-        pose.layers = layers.data();
-        pose.layerCount = static_cast<uint32_t>(layers.size());
-        return suppleSetPose(context_, handle_, instance, &pose);
-    }
-    /// Empty: the poses' own again.
-    [[nodiscard]] SuppleResult setMorphWeights(uint32_t instance, std::span<const float> weights) const {
-        return suppleSetMorphWeights(context_, handle_, instance, weights.empty() ? nullptr : weights.data(),
-                                     static_cast<uint32_t>(weights.size()));
-    }
-    [[nodiscard]] SuppleResult setMatrixPose(uint32_t instance, std::span<const float> jointMatrices) const {
-        return suppleSetMatrixPose(context_, handle_, instance, jointMatrices.data(),
-                                   static_cast<uint32_t>(jointMatrices.size() / 16));
-    }
-    [[nodiscard]] SuppleResult setTransform(uint32_t instance, std::span<const float, 16> transform) const {
-        return suppleSetTransform(context_, handle_, instance, transform.data());
-    }
+    [[nodiscard]] SuppleContext context() const { return context_; }
+    [[nodiscard]] SuppleResult setRate(uint32_t rate) const { return suppleSetRate(context_, handle_, rate); }
     [[nodiscard]] SuppleResult output(SuppleGroupOutput& out) const {
         out = sized<SuppleGroupOutput>();
         return suppleGetGroupOutput(context_, handle_, &out);
@@ -203,6 +184,72 @@ public:
 private:
     SuppleContext context_ = nullptr;
     SuppleGroup handle_{};
+};
+
+/// Owns a SuppleInstance. Its context and its group must outlive it.
+class Instance {
+public:
+    Instance() = default;
+    Instance(Instance&& other) noexcept
+        : context_(std::exchange(other.context_, nullptr)), handle_(std::exchange(other.handle_, {})) {}
+    Instance& operator=(Instance&& other) noexcept {
+        std::swap(context_, other.context_);
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Instance() {
+        if (context_ != nullptr) {
+            suppleDestroyInstance(context_, handle_);
+        }
+    }
+
+    /// Replaces what `out` held.
+    [[nodiscard]] static SuppleResult create(const Group& group, Instance& out) {
+        SuppleInstance handle{};
+        const SuppleResult result = suppleCreateInstance(group.context(), group.handle(), &handle);
+        if (result == SUPPLE_OK) {
+            Instance created;
+            created.context_ = group.context();
+            created.handle_ = handle;
+            out = std::move(created);
+        }
+        return result;
+    }
+
+    [[nodiscard]] SuppleInstance handle() const { return handle_; }
+    [[nodiscard]] SuppleResult setVisible(bool visible) const {
+        return suppleSetVisible(context_, handle_, visible ? 1u : 0u);
+    }
+    [[nodiscard]] SuppleResult teleport() const { return suppleTeleport(context_, handle_); }
+    [[nodiscard]] SuppleResult setClipPose(uint32_t clip, double time) const {
+        return suppleSetClipPose(context_, handle_, clip, time);
+    }
+    [[nodiscard]] SuppleResult setPose(const SupplePoseDesc& pose) const {
+        return suppleSetPose(context_, handle_, &pose);
+    }
+    /// Crossfades and plain layers without root motion.
+    [[nodiscard]] SuppleResult setPose(std::span<const SuppleClipLayer> layers) const {
+        SupplePoseDesc pose = sized<SupplePoseDesc>();
+        pose.layers = layers.data();
+        pose.layerCount = static_cast<uint32_t>(layers.size());
+        return suppleSetPose(context_, handle_, &pose);
+    }
+    /// Empty: the poses' own again.
+    [[nodiscard]] SuppleResult setMorphWeights(std::span<const float> weights) const {
+        return suppleSetMorphWeights(context_, handle_, weights.empty() ? nullptr : weights.data(),
+                                     static_cast<uint32_t>(weights.size()));
+    }
+    [[nodiscard]] SuppleResult setMatrixPose(std::span<const float> jointMatrices) const {
+        return suppleSetMatrixPose(context_, handle_, jointMatrices.data(),
+                                   static_cast<uint32_t>(jointMatrices.size() / 16));
+    }
+    [[nodiscard]] SuppleResult setTransform(std::span<const float, 16> transform) const {
+        return suppleSetTransform(context_, handle_, transform.data());
+    }
+
+private:
+    SuppleContext context_ = nullptr;
+    SuppleInstance handle_{};
 };
 
 } // namespace supple
