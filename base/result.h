@@ -9,9 +9,16 @@
 namespace supple {
 
 enum class ErrorCode {
-    argument,     ///< the caller broke a documented rule
+    argument, ///< the caller broke a documented rule; the next six say which kind
+    nullPointer,
+    structSize, ///< of another version, which does not fit
+    staleHandle,
+    range, ///< an index, a count or an enumerator
+    notFinite,
+    order,        ///< a call before the one it needs, or once too often
     asset,        ///< a file or cage is malformed, or a scheme cannot take it
     unsupported,  ///< the device lacks something Supple needs
+    disabled,     ///< the device has it, but was created without it
     limit,        ///< a documented or device limit is exceeded
     hostMemory,   ///< out of host memory
     deviceMemory, ///< out of device memory

@@ -22,10 +22,6 @@ constexpr NamedFeature12 kFeatures12[] = {{"scalarBlockLayout", &VkPhysicalDevic
 constexpr NamedFeature13 kFeatures13[] = {{"synchronization2", &VkPhysicalDeviceVulkan13Features::synchronization2},
                                           {"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4}};
 
-// The widest pass binds this many storage buffers and texel buffers.
-constexpr uint32_t kStorageBuffers = 7;
-constexpr uint32_t kTexelBuffers = 4;
-
 const char* resultName(VkResult result) {
     switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
@@ -108,11 +104,12 @@ std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDev
     }
 
     const VkPhysicalDeviceLimits& limits = properties.properties.limits;
-    if (std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers) < kStorageBuffers) {
-        return std::string("limit maxPerStageDescriptorStorageBuffers of ") + std::to_string(kStorageBuffers);
+    if (std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers) <
+        kMaxStorageBuffers) {
+        return std::string("limit maxPerStageDescriptorStorageBuffers of ") + std::to_string(kMaxStorageBuffers);
     }
-    if (limits.maxPerStageDescriptorSampledImages < kTexelBuffers) {
-        return "limit maxPerStageDescriptorSampledImages of " + std::to_string(kTexelBuffers);
+    if (std::min(limits.maxPerStageDescriptorSampledImages, limits.maxDescriptorSetSampledImages) < kMaxTexelBuffers) {
+        return "limit maxPerStageDescriptorSampledImages of " + std::to_string(kMaxTexelBuffers);
     }
     if (limits.maxPushConstantsSize < kPushConstantBytes) {
         return "limit maxPushConstantsSize of " + std::to_string(kPushConstantBytes);
@@ -128,10 +125,56 @@ std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDev
     return {};
 }
 
+std::string disabledFeature(const void* chain) {
+    VkPhysicalDeviceVulkan12Features enabled12{};
+    VkPhysicalDeviceVulkan13Features enabled13{};
+    for (const auto* next = static_cast<const VkBaseInStructure*>(chain); next != nullptr; next = next->pNext) {
+        switch (next->sType) {
+        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES:
+            enabled12 = *reinterpret_cast<const VkPhysicalDeviceVulkan12Features*>(next);
+            break;
+        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES:
+            enabled13 = *reinterpret_cast<const VkPhysicalDeviceVulkan13Features*>(next);
+            break;
+        // What came into the core versions may be enabled one by one instead.
+        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES:
+            enabled12.scalarBlockLayout =
+                reinterpret_cast<const VkPhysicalDeviceScalarBlockLayoutFeatures*>(next)->scalarBlockLayout;
+            break;
+        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES:
+            enabled13.synchronization2 =
+                reinterpret_cast<const VkPhysicalDeviceSynchronization2Features*>(next)->synchronization2;
+            break;
+        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES:
+            enabled13.maintenance4 = reinterpret_cast<const VkPhysicalDeviceMaintenance4Features*>(next)->maintenance4;
+            break;
+        default:
+            break;
+        }
+    }
+    for (const NamedFeature12& feature : kFeatures12) {
+        if (enabled12.*feature.member == VK_FALSE) {
+            return feature.name;
+        }
+    }
+    for (const NamedFeature13& feature : kFeatures13) {
+        if (enabled13.*feature.member == VK_FALSE) {
+            return feature.name;
+        }
+    }
+    return {};
+}
+
 Result<Device> Device::create(const DeviceDesc& desc) {
     const std::string missing = missingRequirement(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr);
     if (!missing.empty()) {
         return Error{ErrorCode::unsupported, "the device lacks " + missing};
+    }
+    if (desc.enabledFeatures != nullptr) {
+        const std::string disabled = disabledFeature(desc.enabledFeatures);
+        if (!disabled.empty()) {
+            return Error{ErrorCode::disabled, "the device was created without the feature " + disabled};
+        }
     }
 
     Device d;
@@ -139,6 +182,7 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.handle = desc.device;
     d.pipelineCache = desc.pipelineCache;
     d.allocator = desc.allocator;
+    d.memorySource = desc.memorySource;
     d.debugUtils = desc.debugUtils;
     d.vk.loadInstance(desc.instance, desc.getInstanceProcAddr);
     if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils)) {
@@ -162,8 +206,8 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     uint32_t familyCount = 0;
     d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, nullptr);
     if (desc.queueFamily >= familyCount) {
-        return Error{ErrorCode::argument, "queue family " + std::to_string(desc.queueFamily) + ": the device has " +
-                                              std::to_string(familyCount)};
+        return Error{ErrorCode::range, "queue family " + std::to_string(desc.queueFamily) + ": the device has " +
+                                           std::to_string(familyCount)};
     }
     std::vector<VkQueueFamilyProperties> families(familyCount);
     d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, families.data());

@@ -6,6 +6,7 @@
 #include "gpu/mapping.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vulkan/vulkan_core.h>
 
@@ -13,6 +14,24 @@ namespace supple::gpu {
 
 /// What a pass may push: as much as every Vulkan device takes.
 inline constexpr uint32_t kPushConstantBytes = 128;
+/// What a pass may bind; the requirements name it, and ComputeLayout::create holds the passes to it.
+inline constexpr uint32_t kMaxStorageBuffers = 11;
+inline constexpr uint32_t kMaxTexelBuffers = 6;
+
+/// A piece of device memory that the host allocated.
+struct HostMemory {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    void* mapped = nullptr;
+    void* allocation = nullptr; ///< the host's
+};
+/// The host's own allocator of device memory, in place of vkAllocateMemory; both or neither.
+struct MemorySource {
+    std::function<VkResult(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
+                           VkMemoryPropertyFlags preferred, const char* name, HostMemory& out)>
+        allocate;
+    std::function<void(const HostMemory&)> free;
+};
 
 struct DeviceDesc {
     VkInstance instance = VK_NULL_HANDLE;
@@ -22,6 +41,8 @@ struct DeviceDesc {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const VkAllocationCallbacks* allocator = nullptr;
+    const void* enabledFeatures = nullptr; ///< the chain the device was created with; null: taken on trust
+    MemorySource memorySource;             ///< empty: vkAllocateMemory
     bool debugUtils = false;
     MappingChoice mapping = MappingChoice::automatic;
 };
@@ -32,6 +53,7 @@ struct Device {
     VkDevice handle = VK_NULL_HANDLE;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const VkAllocationCallbacks* allocator = nullptr;
+    MemorySource memorySource;
     bool debugUtils = false;
     Functions vk;
     Mapping mapping;
@@ -62,6 +84,10 @@ struct Requirements {
 /// The first thing `physicalDevice` lacks, or empty.
 [[nodiscard]] std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDevice,
                                              PFN_vkGetInstanceProcAddr getInstanceProcAddr);
+
+/// The first feature Supple needs that a chain given to vkCreateDevice (VkDeviceCreateInfo::pNext) does not enable, or
+/// empty.
+[[nodiscard]] std::string disabledFeature(const void* chain);
 
 /// An error from a VkResult: "what: VK_ERROR_...".
 [[nodiscard]] Error vulkanError(VkResult result, const std::string& what);

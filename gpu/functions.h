@@ -23,7 +23,6 @@ namespace supple::gpu {
     X(BindBufferMemory)                                                                                                \
     X(MapMemory)                                                                                                       \
     X(UnmapMemory)                                                                                                     \
-    X(FlushMappedMemoryRanges)                                                                                         \
     X(CreateBufferView)                                                                                                \
     X(DestroyBufferView)                                                                                               \
     X(CreateShaderModule)                                                                                              \

@@ -34,7 +34,6 @@ private:
 
 using BufferHandle = Handle<VkBuffer, &Functions::DestroyBuffer>;
 using BufferViewHandle = Handle<VkBufferView, &Functions::DestroyBufferView>;
-using MemoryHandle = Handle<VkDeviceMemory, &Functions::FreeMemory>;
 using ShaderModuleHandle = Handle<VkShaderModule, &Functions::DestroyShaderModule>;
 using SetLayoutHandle = Handle<VkDescriptorSetLayout, &Functions::DestroyDescriptorSetLayout>;
 using PipelineLayoutHandle = Handle<VkPipelineLayout, &Functions::DestroyPipelineLayout>;

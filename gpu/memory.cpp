@@ -18,14 +18,73 @@ uint32_t findMemoryType(const Device& device, uint32_t typeBits, VkMemoryPropert
     return kNoType;
 }
 
+VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
+
 } // namespace
+
+DeviceMemory::~DeviceMemory() {
+    if (piece_.memory == VK_NULL_HANDLE) {
+        return;
+    }
+    if (device_->memorySource.free) {
+        device_->memorySource.free(piece_);
+    } else {
+        device_->vk.FreeMemory(device_->handle, piece_.memory, device_->allocator);
+    }
+}
+
+Result<DeviceMemory> DeviceMemory::allocate(const Device& device, const VkMemoryRequirements& requirements,
+                                            MemoryKind kind, const char* name) {
+    // Every device has a type of memory that is both visible and coherent, for all buffers.
+    const bool upload = kind == MemoryKind::upload;
+    const VkMemoryPropertyFlags required =
+        upload ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0;
+    const VkMemoryPropertyFlags preferred = upload ? required : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
+    const std::string what =
+        std::string("memory for ") + name + " and its neighbours, " + std::to_string(requirements.size) + " bytes";
+    HostMemory piece;
+    if (device.memorySource.allocate) {
+        const VkResult result = device.memorySource.allocate(requirements, required, preferred, name, piece);
+        if (result == VK_SUCCESS && (piece.memory == VK_NULL_HANDLE || (upload && piece.mapped == nullptr))) {
+            return Error{ErrorCode::argument, what + ": the host's callback gave none, or did not map it"};
+        }
+        if (result != VK_SUCCESS) {
+            return vulkanError(result, what);
+        }
+        return DeviceMemory(device, piece);
+    }
+
+    uint32_t type = findMemoryType(device, requirements.memoryTypeBits, required | preferred);
+    if (type == kNoType) {
+        type = findMemoryType(device, requirements.memoryTypeBits, required);
+    }
+    if (type == kNoType) {
+        return Error{ErrorCode::unsupported, what + ": no suitable memory type"};
+    }
+    VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    info.allocationSize = requirements.size;
+    info.memoryTypeIndex = type;
+    VkResult result = device.vk.AllocateMemory(device.handle, &info, device.allocator, &piece.memory);
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, what);
+    }
+    DeviceMemory memory(device, piece);
+    device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(piece.memory), name);
+    if (upload) {
+        result = device.vk.MapMemory(device.handle, piece.memory, 0, VK_WHOLE_SIZE, 0, &memory.piece_.mapped);
+        if (result != VK_SUCCESS) {
+            return vulkanError(result, std::string("mapping ") + name);
+        }
+    }
+    return memory;
+}
 
 Result<BufferSet> BufferSet::create(const Device& device, std::span<const BufferRequest> requests, MemoryKind kind) {
     BufferSet set;
-    set.device_ = &device;
     // Buffers share an allocation until it would exceed what the device allocates at once.
-    std::vector<VkDeviceSize> ends; // one an allocation
-    uint32_t typeBits = 0xFFFFFFFFu;
+    std::vector<VkMemoryRequirements> pieces;
     for (const BufferRequest& request : requests) {
         Entry entry;
         if (request.size > 0) {
@@ -47,101 +106,57 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
             device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer), request.name);
             VkMemoryRequirements needs;
             device.vk.GetBufferMemoryRequirements(device.handle, buffer, &needs);
-            // Flushes round to the atom size: neighbours must not share one.
-            const VkDeviceSize alignment = std::max(needs.alignment, device.limits.nonCoherentAtomSize);
-            const auto roundUp = [&](VkDeviceSize value) { return (value + alignment - 1) / alignment * alignment; };
-            if (roundUp(needs.size) > device.maxAllocationSize) {
+            if (needs.size > device.maxAllocationSize) {
                 return Error{ErrorCode::limit, what + ": the device allocates at most " +
                                                    std::to_string(device.maxAllocationSize) + " bytes at once"};
             }
-            if (ends.empty() || roundUp(ends.back()) + roundUp(needs.size) > device.maxAllocationSize) {
-                ends.push_back(0);
+            if (pieces.empty() ||
+                roundUp(pieces.back().size, needs.alignment) + needs.size > device.maxAllocationSize) {
+                pieces.push_back({0, 1, 0xFFFFFFFFu});
             }
-            entry.offset = roundUp(ends.back());
-            entry.allocation = ends.size() - 1;
-            ends.back() = entry.offset + roundUp(needs.size);
-            typeBits &= needs.memoryTypeBits;
+            VkMemoryRequirements& piece = pieces.back();
+            entry.offset = roundUp(piece.size, needs.alignment);
+            entry.allocation = pieces.size() - 1;
+            piece.size = entry.offset + needs.size;
+            piece.alignment = std::max(piece.alignment, needs.alignment);
+            piece.memoryTypeBits &= needs.memoryTypeBits;
         }
         entry.size = request.size;
         set.buffers_.push_back(std::move(entry));
     }
 
     const char* name = requests.empty() ? "" : requests.front().name;
-    uint32_t type = kNoType;
-    if (kind == MemoryKind::upload) {
-        type = findMemoryType(device, typeBits,
-                              VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-        if (type == kNoType) {
-            type = findMemoryType(device, typeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT);
-        }
-    } else {
-        type = findMemoryType(device, typeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-        if (type == kNoType) {
-            type = findMemoryType(device, typeBits, 0);
-        }
+    for (const VkMemoryRequirements& piece : pieces) {
+        set.allocatedBytes_ += piece.size;
     }
-    if (type == kNoType) {
-        return Error{ErrorCode::unsupported, std::string("buffer ") + name + ": no suitable memory type"};
+    VkDeviceSize heap = 0;
+    for (uint32_t i = 0; i < device.memory.memoryHeapCount; ++i) {
+        heap = std::max(heap, device.memory.memoryHeaps[i].size);
     }
-    set.coherent_ = (device.memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
-
-    const VkDeviceSize heap = device.memory.memoryHeaps[device.memory.memoryTypes[type].heapIndex].size;
-    for (const VkDeviceSize end : ends) {
-        set.allocatedBytes_ += end;
-        if (set.allocatedBytes_ > heap) {
-            return Error{ErrorCode::deviceMemory, std::string("memory for ") + name +
-                                                      " and its neighbours: more than the heap's " +
-                                                      std::to_string(heap) + " bytes"};
+    if (set.allocatedBytes_ > heap) {
+        return Error{ErrorCode::deviceMemory, std::string("memory for ") + name + " and its neighbours, " +
+                                                  std::to_string(set.allocatedBytes_) +
+                                                  " bytes: more than the largest heap's " + std::to_string(heap)};
+    }
+    for (const VkMemoryRequirements& piece : pieces) {
+        Result<DeviceMemory> memory = DeviceMemory::allocate(device, piece, kind, name);
+        if (!memory) {
+            return memory.error();
         }
-        VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-        info.allocationSize = end;
-        info.memoryTypeIndex = type;
-        VkDeviceMemory memory = VK_NULL_HANDLE;
-        VkResult result = device.vk.AllocateMemory(device.handle, &info, device.allocator, &memory);
-        if (result != VK_SUCCESS) {
-            return vulkanError(result, std::string("memory for ") + name + " and its neighbours, " +
-                                           std::to_string(end) + " bytes");
-        }
-        device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(memory), name);
-        set.allocations_.push_back({MemoryHandle(device, memory), nullptr, end});
-        if (kind == MemoryKind::upload) {
-            void* mapped = nullptr;
-            result = device.vk.MapMemory(device.handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
-            if (result != VK_SUCCESS) {
-                return vulkanError(result, std::string("mapping ") + name);
-            }
-            set.allocations_.back().mapped = static_cast<std::byte*>(mapped);
-        }
+        set.allocations_.push_back(std::move(*memory));
     }
     for (const Entry& entry : set.buffers_) {
         if (entry.size == 0) {
             continue;
         }
-        const VkDeviceMemory memory = set.allocations_[entry.allocation].memory.get();
-        const VkResult result = device.vk.BindBufferMemory(device.handle, entry.handle.get(), memory, entry.offset);
+        const HostMemory& piece = set.allocations_[entry.allocation].piece();
+        const VkResult result =
+            device.vk.BindBufferMemory(device.handle, entry.handle.get(), piece.memory, piece.offset + entry.offset);
         if (result != VK_SUCCESS) {
             return vulkanError(result, std::string("binding memory of ") + name);
         }
     }
     return set;
-}
-
-Status BufferSet::flush(size_t index, VkDeviceSize offset, VkDeviceSize size) const {
-    if (coherent_ || size == 0) {
-        return success();
-    }
-    const VkDeviceSize atom = device_->limits.nonCoherentAtomSize;
-    const VkDeviceSize first = (buffers_[index].offset + offset) / atom * atom;
-    const VkDeviceSize last = (buffers_[index].offset + offset + size + atom - 1) / atom * atom;
-    VkMappedMemoryRange range{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE};
-    range.memory = allocations_[buffers_[index].allocation].memory.get();
-    range.offset = first;
-    range.size = std::min(last, allocations_[buffers_[index].allocation].size) - first;
-    const VkResult result = device_->vk.FlushMappedMemoryRanges(device_->handle, 1, &range);
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, "flushing upload memory");
-    }
-    return success();
 }
 
 Result<BufferViewHandle> createTexelView(const Device& device, VkBuffer buffer, VkFormat format, VkDeviceSize offset,

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace supple::gpu {
@@ -18,7 +19,30 @@ struct BufferRequest {
 
 enum class MemoryKind {
     deviceLocal, ///< never mapped
-    upload,      ///< host visible, mapped for its whole life
+    upload,      ///< host visible and coherent, mapped for its whole life
+};
+
+/// Device memory, Supple's own or the host's: freed the way it came.
+class DeviceMemory {
+public:
+    DeviceMemory() = default;
+    DeviceMemory(DeviceMemory&& other) noexcept
+        : device_(std::exchange(other.device_, nullptr)), piece_(std::exchange(other.piece_, {})) {}
+    DeviceMemory& operator=(DeviceMemory&& other) noexcept {
+        std::swap(device_, other.device_);
+        std::swap(piece_, other.piece_);
+        return *this;
+    }
+    ~DeviceMemory();
+
+    [[nodiscard]] static Result<DeviceMemory> allocate(const Device& device, const VkMemoryRequirements& requirements,
+                                                       MemoryKind kind, const char* name);
+    [[nodiscard]] const HostMemory& piece() const { return piece_; }
+
+private:
+    DeviceMemory(const Device& device, const HostMemory& piece) : device_(&device), piece_(piece) {}
+    const Device* device_ = nullptr;
+    HostMemory piece_;
 };
 
 /// Buffers in the order of the requests, every offset aligned as its buffer needs.
@@ -36,10 +60,9 @@ public:
     [[nodiscard]] VkDeviceSize allocatedBytes() const { return allocatedBytes_; }
     /// Mapped bytes of an upload buffer.
     [[nodiscard]] std::byte* mapped(size_t index) const {
-        return allocations_[buffers_[index].allocation].mapped + buffers_[index].offset;
+        const HostMemory& piece = allocations_[buffers_[index].allocation].piece();
+        return static_cast<std::byte*>(piece.mapped) + buffers_[index].offset;
     }
-    /// Makes host writes to [offset, offset + size) of an upload buffer visible; nothing where memory is coherent.
-    [[nodiscard]] Status flush(size_t index, VkDeviceSize offset, VkDeviceSize size) const;
 
 private:
     struct Entry {
@@ -48,15 +71,8 @@ private:
         VkDeviceSize offset = 0; ///< in its allocation
         size_t allocation = 0;
     };
-    struct Allocation {
-        MemoryHandle memory;
-        std::byte* mapped = nullptr;
-        VkDeviceSize size = 0;
-    };
-    const Device* device_ = nullptr;
-    std::vector<Allocation> allocations_; // declared before the buffers: destroyed after them
+    std::vector<DeviceMemory> allocations_; // declared before the buffers: destroyed after them
     std::vector<Entry> buffers_;
-    bool coherent_ = true;
     VkDeviceSize allocatedBytes_ = 0;
 };
 

@@ -9,6 +9,13 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
                                             const char* name) {
     ComputeLayout layout;
     layout.bindings.assign(bindings.begin(), bindings.end());
+    const auto countOf = [&](VkDescriptorType type) {
+        return std::count_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.type == type; });
+    };
+    if (countOf(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) > kMaxStorageBuffers ||
+        countOf(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) > kMaxTexelBuffers) {
+        return Error{ErrorCode::vulkan, std::string(name) + ": more bindings than the requirements name"};
+    }
 
     std::vector<VkDescriptorSetLayoutBinding> entries;
     for (const Binding& binding : bindings) {

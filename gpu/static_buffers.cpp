@@ -28,10 +28,6 @@ Result<StaticBuffers> StaticBuffers::create(const Device& device, std::span<cons
             continue;
         }
         std::memcpy(buffers.staging_.mapped(i), requests[i].bytes.data(), requests[i].bytes.size());
-        const Status flushed = buffers.staging_.flush(i, 0, requests[i].bytes.size());
-        if (!flushed) {
-            return flushed.error();
-        }
     }
     return buffers;
 }
@@ -52,6 +48,12 @@ VkDeviceSize StaticBuffers::recordUpload(VkCommandBuffer commandBuffer, uint64_t
     recorded_ = true;
     recordedFrame_ = frame;
     return bytes;
+}
+
+void StaticBuffers::cancelUpload(uint64_t frame) {
+    if (recorded_ && !released_ && recordedFrame_ == frame) {
+        recorded_ = false;
+    }
 }
 
 void StaticBuffers::releaseStaging(uint64_t completedFrame) {

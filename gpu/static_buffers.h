@@ -26,6 +26,9 @@ public:
 
     /// Records the copies if that has not been done; returns the bytes copied. The caller puts the barrier after it.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
+    [[nodiscard]] bool uploadPending() const { return count_ > 0 && !recorded_; }
+    /// The command buffers of `frame` will never run: what was recorded in it is due again.
+    void cancelUpload(uint64_t frame);
     /// Frees the staging memory once the frame that uploaded is complete.
     void releaseStaging(uint64_t completedFrame);
 

@@ -22,31 +22,46 @@ Result<Timers> Timers::create(const Device& device, uint32_t capacity, const cha
     return timers;
 }
 
-void Timers::reset(VkCommandBuffer commandBuffer) {
-    device_->vk.CmdResetQueryPool(commandBuffer, pool_.get(), 0, capacity_);
-    count_ = 0;
+Timers::Timers(Timers&& other) noexcept
+    : device_(other.device_), pool_(std::move(other.pool_)), capacity_(other.capacity_), taken_(other.taken_.load()),
+      raw_(std::move(other.raw_)) {}
+
+Timers& Timers::operator=(Timers&& other) noexcept {
+    device_ = other.device_;
+    pool_ = std::move(other.pool_);
+    capacity_ = other.capacity_;
+    taken_ = other.taken_.load();
+    raw_ = std::move(other.raw_);
+    return *this;
 }
 
-bool Timers::mark(VkCommandBuffer commandBuffer, uint32_t& index) {
-    if (count_ == capacity_) {
-        return false;
-    }
-    index = count_++;
-    device_->vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(), index);
+bool Timers::take(VkCommandBuffer commandBuffer, uint32_t count, uint32_t& first) {
+    first = taken_.load();
+    do {
+        if (count > capacity_ - first) {
+            return false;
+        }
+    } while (!taken_.compare_exchange_weak(first, first + count));
+    device_->vk.CmdResetQueryPool(commandBuffer, pool_.get(), first, count);
     return true;
 }
 
-std::span<const uint64_t> Timers::read() {
-    if (count_ == 0) {
-        return {};
+void Timers::mark(VkCommandBuffer commandBuffer, uint32_t index) const {
+    device_->vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(), index);
+}
+
+Result<std::span<const Timers::Tick>> Timers::read() {
+    const uint32_t count = taken_.load();
+    if (count == 0) {
+        return std::span<const Tick>();
     }
     const VkResult result =
-        device_->vk.GetQueryPoolResults(device_->handle, pool_.get(), 0, count_, count_ * sizeof(uint64_t), raw_.data(),
-                                        sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
-    if (result != VK_SUCCESS) { // VK_NOT_READY included
-        return {};
+        device_->vk.GetQueryPoolResults(device_->handle, pool_.get(), 0, count, count * sizeof(Tick), raw_.data(),
+                                        sizeof(Tick), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT);
+    if (result != VK_SUCCESS && result != VK_NOT_READY) {
+        return vulkanError(result, "reading timestamps");
     }
-    return {raw_.data(), count_};
+    return std::span<const Tick>(raw_.data(), count);
 }
 
 } // namespace supple::gpu

@@ -4,30 +4,42 @@
 #include "base/result.h"
 #include "gpu/handle.h"
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace supple::gpu {
 
-/// One query pool of `capacity` timestamps. reset() and mark() are recorded; read() needs the frame to be complete.
+/// One query pool of `capacity` timestamps, handed out in runs, so that command buffers recorded at the same time each
+/// have their own.
 class Timers {
 public:
     [[nodiscard]] static Result<Timers> create(const Device& device, uint32_t capacity, const char* name);
+    Timers() = default;
+    Timers(Timers&& other) noexcept;
+    Timers& operator=(Timers&& other) noexcept;
 
-    void reset(VkCommandBuffer commandBuffer);
-    /// Records a timestamp after everything recorded before; returns its index, or false when the pool is full.
-    [[nodiscard]] bool mark(VkCommandBuffer commandBuffer, uint32_t& index);
-    [[nodiscard]] uint32_t count() const { return count_; }
-    /// The device's ticks at each mark; empty when the device has not written them all yet. Valid until the next call.
-    [[nodiscard]] std::span<const uint64_t> read();
+    /// Takes all runs back; nothing recorded with them may be pending.
+    void clear() { taken_.store(0); }
+    /// Takes a run of timestamps and records their reset; false when there are not as many left. Any thread.
+    [[nodiscard]] bool take(VkCommandBuffer commandBuffer, uint32_t count, uint32_t& first);
+    /// Records timestamp `index` of a run, after everything recorded before.
+    void mark(VkCommandBuffer commandBuffer, uint32_t index) const;
+
+    struct Tick {
+        uint64_t value = 0;
+        uint64_t available = 0; ///< 0: the device has not written it
+    };
+    /// All timestamps taken, by index. The frame must be complete. Valid until the next call.
+    [[nodiscard]] Result<std::span<const Tick>> read();
 
 private:
     const Device* device_ = nullptr;
     QueryPoolHandle pool_;
     uint32_t capacity_ = 0;
-    uint32_t count_ = 0;
-    std::vector<uint64_t> raw_;
+    std::atomic<uint32_t> taken_ = 0;
+    std::vector<Tick> raw_;
 };
 
 } // namespace supple::gpu

@@ -5,6 +5,7 @@
 #include "cage/trim.h"
 #include "runtime/context.h"
 #include "runtime/pose_desc.h"
+#include "runtime/sized.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <exception>
 #include <glm/gtc/type_ptr.hpp>
 #include <new>
+#include <optional>
 
 using supple::Error;
 using supple::ErrorCode;
@@ -26,27 +28,46 @@ struct SuppleContext_T {
 
 namespace {
 
-SuppleResult resultOf(ErrorCode code) {
+struct Verdict {
+    SuppleResult result;
+    SuppleMessage message;
+};
+
+Verdict verdictOf(ErrorCode code) {
     switch (code) {
     case ErrorCode::argument:
-        return SUPPLE_ERROR_ARGUMENT;
+        return {SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT};
+    case ErrorCode::nullPointer:
+        return {SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER};
+    case ErrorCode::structSize:
+        return {SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_STRUCT_SIZE};
+    case ErrorCode::staleHandle:
+        return {SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_STALE_HANDLE};
+    case ErrorCode::range:
+        return {SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE};
+    case ErrorCode::notFinite:
+        return {SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NOT_FINITE};
+    case ErrorCode::order:
+        return {SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_ORDER};
     case ErrorCode::asset:
     case ErrorCode::io:
-        return SUPPLE_ERROR_ASSET;
+        return {SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED};
     case ErrorCode::unsupported:
-        return SUPPLE_ERROR_UNSUPPORTED;
+        return {SUPPLE_ERROR_UNSUPPORTED, SUPPLE_MESSAGE_DEVICE_UNSUITED};
+    case ErrorCode::disabled:
+        return {SUPPLE_ERROR_UNSUPPORTED, SUPPLE_MESSAGE_FEATURE_DISABLED};
     case ErrorCode::limit:
-        return SUPPLE_ERROR_LIMIT;
+        return {SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT};
     case ErrorCode::hostMemory:
-        return SUPPLE_ERROR_HOST_MEMORY;
+        return {SUPPLE_ERROR_HOST_MEMORY, SUPPLE_MESSAGE_HOST_MEMORY};
     case ErrorCode::deviceMemory:
-        return SUPPLE_ERROR_DEVICE_MEMORY;
+        return {SUPPLE_ERROR_DEVICE_MEMORY, SUPPLE_MESSAGE_DEVICE_MEMORY};
     case ErrorCode::deviceLost:
-        return SUPPLE_ERROR_DEVICE_LOST;
+        return {SUPPLE_ERROR_DEVICE_LOST, SUPPLE_MESSAGE_DEVICE_LOST};
     case ErrorCode::vulkan:
-        return SUPPLE_ERROR_VULKAN;
+        return {SUPPLE_ERROR_VULKAN, SUPPLE_MESSAGE_VULKAN};
     }
-    return SUPPLE_ERROR_VULKAN;
+    return {SUPPLE_ERROR_VULKAN, SUPPLE_MESSAGE_VULKAN};
 }
 
 static_assert(SUPPLE_WRAP_REPEAT == static_cast<int>(supple::cage::Wrap::repeat) &&
@@ -54,13 +75,21 @@ static_assert(SUPPLE_WRAP_REPEAT == static_cast<int>(supple::cage::Wrap::repeat)
               SUPPLE_WRAP_MIRROR == static_cast<int>(supple::cage::Wrap::mirroredRepeat));
 static_assert(SUPPLE_MAX_TRIM_TILES == supple::cage::kMaxTrimTiles);
 
-SuppleResult report(const Context& context, const Error& error) {
-    context.log(SUPPLE_SEVERITY_ERROR, error.message);
-    return resultOf(error.code);
+SuppleResult report(Context& context, const Error& error) {
+    const Verdict verdict = verdictOf(error.code);
+    if (verdict.result == SUPPLE_ERROR_DEVICE_LOST) {
+        context.setLost();
+    }
+    context.log(SUPPLE_SEVERITY_ERROR, verdict.message, error.message);
+    return verdict.result;
 }
 
-SuppleResult refuse(const Context& context, const char* function, const char* reason) {
-    return report(context, {ErrorCode::argument, std::string(function) + ": " + reason});
+SuppleResult refuse(Context& context, ErrorCode code, const char* function, const std::string& reason) {
+    return report(context, {code, std::string(function) + ": " + reason});
+}
+
+SuppleResult reportStatus(Context& context, const supple::Status& status) {
+    return status ? SUPPLE_OK : report(context, status.error());
 }
 
 /// Runs an entry point's body. Out of memory is the one thing the standard library throws at us.
@@ -75,19 +104,27 @@ SuppleResult guarded(SuppleContext handle, const char* function, F&& body) noexc
         return SUPPLE_ERROR_HOST_MEMORY; // a log line would need memory
     } catch (const std::exception& e) {
         try {
-            return report(*handle->context, {ErrorCode::vulkan, std::string(function) + ": " + e.what()});
+            return refuse(*handle->context, ErrorCode::vulkan, function, e.what());
         } catch (...) {
             return SUPPLE_ERROR_VULKAN;
         }
     }
 }
 
+/// For what needs the device.
+template <class Body>
+SuppleResult onDevice(SuppleContext handle, const char* function, Body&& body) noexcept {
+    return guarded(handle, function, [&](Context& context) {
+        return context.lost() ? refuse(context, ErrorCode::deviceLost, function, "the device is lost") : body(context);
+    });
+}
+
 template <class Body>
 SuppleResult withAsset(SuppleContext handle, SuppleAsset asset, const char* function, Body&& body) noexcept {
     return guarded(handle, function, [&](Context& context) {
-        const std::shared_ptr<Asset>& found = context.assets.find(asset.id);
+        const std::shared_ptr<Asset> found = context.assets.find(asset.id);
         if (found == nullptr) {
-            return refuse(context, function, "stale or foreign asset handle");
+            return refuse(context, ErrorCode::staleHandle, function, "stale or foreign asset handle");
         }
         return body(context, *found);
     });
@@ -96,25 +133,84 @@ SuppleResult withAsset(SuppleContext handle, SuppleAsset asset, const char* func
 template <class Body>
 SuppleResult withGroup(SuppleContext handle, SuppleGroup group, const char* function, Body&& body) noexcept {
     return guarded(handle, function, [&](Context& context) {
-        const std::shared_ptr<Group>& found = context.groups.find(group.id);
+        const std::shared_ptr<Group> found = context.groups.find(group.id);
         if (found == nullptr) {
-            return refuse(context, function, "stale or foreign group handle");
+            return refuse(context, ErrorCode::staleHandle, function, "stale or foreign group handle");
         }
         return body(context, *found);
     });
 }
 
 template <class Body>
-SuppleResult withInstance(SuppleContext handle, SuppleGroup group, uint32_t instance, const char* function,
-                          Body&& body) noexcept {
-    return withGroup(handle, group, function, [&](Context& context, Group& found) {
-        if (instance >= found.instanceCount()) {
-            return report(context,
-                          {ErrorCode::argument, std::string(function) + ": instance " + std::to_string(instance) +
-                                                    " of " + std::to_string(found.instanceCount())});
+SuppleResult withInstance(SuppleContext handle, SuppleInstance instance, const char* function, Body&& body) noexcept {
+    return withGroup(handle, instance.group, function, [&](Context& context, Group& found) {
+        if (!found.slots().holds(instance.slot, instance.generation)) {
+            return refuse(context, ErrorCode::staleHandle, function,
+                          "stale or foreign instance handle (slot " + std::to_string(instance.slot) + ")");
         }
         return body(context, found);
     });
+}
+
+/// For what sets the pose of an instance.
+template <class Body>
+SuppleResult withPose(SuppleContext handle, SuppleInstance instance, const char* function, Body&& body) noexcept {
+    return withInstance(handle, instance, function, [&](Context& context, Group& found) {
+        if (found.poseSource() != SUPPLE_POSES_SET) {
+            return refuse(context, ErrorCode::argument, function,
+                          "the group takes its poses from a buffer that the host fills");
+        }
+        return body(context, found);
+    });
+}
+
+/// Takes a description in, of whatever version; null when it is fit to go on with.
+template <class T>
+std::optional<SuppleResult> takeIn(Context& context, const char* function, const char* name, const T* from, T& to) {
+    if (from == nullptr) {
+        return refuse(context, ErrorCode::nullPointer, function, std::string(name) + " is null");
+    }
+    if (!supple::runtime::readSized(*from, to)) {
+        return refuse(context, ErrorCode::structSize, function,
+                      std::string(name) + "->structSize is " + std::to_string(from->structSize) +
+                          ": too small, or a newer version's with fields in use that this library lacks");
+    }
+    return std::nullopt;
+}
+
+/// Whether an out struct can be written.
+template <class T>
+std::optional<SuppleResult> checkOut(Context& context, const char* function, const T* out) {
+    if (out == nullptr) {
+        return refuse(context, ErrorCode::nullPointer, function, "out is null");
+    }
+    if (out->structSize < supple::runtime::kFirstSize<T>) {
+        return refuse(context, ErrorCode::structSize, function,
+                      "out->structSize is " + std::to_string(out->structSize));
+    }
+    return std::nullopt;
+}
+
+/// What a getter of one part of an asset does: the checks, then fill(T&).
+template <class T, class Fill>
+SuppleResult describePart(Context& context, const char* function, const char* part, uint32_t index, size_t count,
+                          T* out, Fill&& fill) {
+    if (const auto fault = checkOut(context, function, out)) {
+        return *fault;
+    }
+    if (index >= count) {
+        return refuse(context, ErrorCode::range, function,
+                      std::string(part) + " " + std::to_string(index) + " of " + std::to_string(count));
+    }
+    T info{};
+    fill(info);
+    supple::runtime::writeSized(info, *out);
+    return SUPPLE_OK;
+}
+
+template <class E>
+bool within(E value, E last) {
+    return static_cast<uint32_t>(value) <= static_cast<uint32_t>(last);
 }
 
 bool finite(const float* values, size_t count) {
@@ -145,6 +241,10 @@ SuppleResult fillArray(const T* source, size_t size, T* out, uint32_t* count) {
 }
 
 } // namespace
+
+uint32_t suppleGetVersion(void) {
+    return SUPPLE_VERSION;
+}
 
 const char* suppleResultString(SuppleResult result) {
     switch (result) {
@@ -177,48 +277,65 @@ const char* suppleResultString(SuppleResult result) {
 SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physicalDevice,
                                      PFN_vkGetInstanceProcAddr getInstanceProcAddr, SuppleRequirements* out) {
     if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr ||
-        out == nullptr || out->structSize != sizeof(SuppleRequirements)) {
+        out == nullptr || out->structSize < supple::runtime::kFirstSize<SuppleRequirements>) {
         return SUPPLE_ERROR_ARGUMENT;
     }
     try {
         const supple::gpu::Requirements requirements = supple::gpu::requirements();
-        out->apiVersion = requirements.apiVersion;
-        out->features12 = requirements.features12;
-        out->features13 = requirements.features13;
+        SuppleRequirements filled{};
+        filled.apiVersion = requirements.apiVersion;
+        filled.features12 = requirements.features12;
+        filled.features13 = requirements.features13;
         const std::string missing = supple::gpu::missingRequirement(instance, physicalDevice, getInstanceProcAddr);
-        std::snprintf(out->reason, sizeof(out->reason), "%s", missing.c_str());
+        std::snprintf(filled.reason, sizeof(filled.reason), "%s", missing.c_str());
+        supple::runtime::writeSized(filled, *out);
         return missing.empty() ? SUPPLE_OK : SUPPLE_ERROR_UNSUPPORTED;
     } catch (const std::exception&) {
         return SUPPLE_ERROR_HOST_MEMORY;
     }
 }
 
-SuppleResult suppleCreateContext(const SuppleContextDesc* desc, SuppleContext* out) {
+SuppleResult suppleCreateContext(const SuppleContextDesc* given, SuppleContext* out) {
     if (out != nullptr) {
         *out = nullptr;
     }
-    if (desc == nullptr || out == nullptr || desc->structSize != sizeof(SuppleContextDesc)) {
+    // Without a description of a known size there is no callback to tell.
+    SuppleContextDesc desc{};
+    if (given == nullptr || given->structSize < supple::runtime::kFirstSize<SuppleContextDesc>) {
         return SUPPLE_ERROR_ARGUMENT;
     }
-    const auto log = [&](const std::string& text) {
-        if (desc->log != nullptr) {
-            desc->log(SUPPLE_SEVERITY_ERROR, text.c_str(), desc->logUser);
-        }
-    };
     try {
-        if (desc->instance == VK_NULL_HANDLE || desc->physicalDevice == VK_NULL_HANDLE ||
-            desc->device == VK_NULL_HANDLE || desc->getInstanceProcAddr == nullptr) {
-            log("suppleCreateContext: instance, physicalDevice, device or getInstanceProcAddr is null");
-            return SUPPLE_ERROR_ARGUMENT;
+        const auto refused = [&](ErrorCode code, const std::string& text) {
+            const Verdict verdict = verdictOf(code);
+            if (given->log != nullptr) {
+                given->log(SUPPLE_SEVERITY_ERROR, verdict.message, text.c_str(), given->logUser);
+            }
+            return verdict.result;
+        };
+        const auto refusedHere = [&](ErrorCode code, const char* reason) {
+            return refused(code, std::string("suppleCreateContext: ") + reason);
+        };
+        if (!supple::runtime::readSized(*given, desc)) {
+            return refusedHere(ErrorCode::structSize, "desc has fields in use that this library lacks");
         }
-        if (desc->framesInFlight > 4 || desc->mapping > SUPPLE_MAPPING_WIDE || desc->mapping < SUPPLE_MAPPING_AUTO) {
-            log("suppleCreateContext: framesInFlight must be 0..4 and mapping one of SuppleMapping");
-            return SUPPLE_ERROR_ARGUMENT;
+        if (out == nullptr || desc.instance == VK_NULL_HANDLE || desc.physicalDevice == VK_NULL_HANDLE ||
+            desc.device == VK_NULL_HANDLE || desc.getInstanceProcAddr == nullptr) {
+            return refusedHere(ErrorCode::nullPointer,
+                               "out, instance, physicalDevice, device or getInstanceProcAddr is null");
         }
-        supple::Result<std::unique_ptr<Context>> context = Context::create(*desc);
+        constexpr uint32_t kFlags = SUPPLE_CONTEXT_DEBUG_UTILS | SUPPLE_CONTEXT_ASYNC_COMPUTE;
+        if (desc.framesInFlight > SUPPLE_MAX_FRAMES_IN_FLIGHT || !within(desc.mapping, SUPPLE_MAPPING_WIDE) ||
+            (desc.flags & ~kFlags) != 0) {
+            return refusedHere(
+                ErrorCode::range,
+                "framesInFlight must be 0..4, mapping one of SuppleMapping, flags of SuppleContextFlags");
+        }
+        if (desc.memory != nullptr && (desc.memory->allocate == nullptr || desc.memory->free == nullptr)) {
+            return refusedHere(ErrorCode::nullPointer, "memory->allocate or memory->free is null");
+        }
+        supple::Result<std::unique_ptr<Context>> context = Context::create(desc);
         if (!context) {
-            log(context.error().message);
-            return resultOf(context.error().code);
+            return refused(context.error().code, context.error().message);
         }
         *out = new SuppleContext_T{std::move(*context)};
         return SUPPLE_OK;
@@ -231,37 +348,50 @@ void suppleDestroyContext(SuppleContext context) {
     delete context;
 }
 
-SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* desc, SuppleAsset* out) {
-    return guarded(handle, "suppleCreateAsset", [&](Context& context) {
+namespace {
+
+/// A file in memory or arrays, as a character.
+supple::Result<supple::cage::Character> characterOf(const SuppleAssetDesc& desc) {
+    const std::string name = desc.name != nullptr ? desc.name : "asset";
+    if (desc.cage != nullptr) {
+        SuppleCageDesc cage{};
+        if (!supple::runtime::readSized(*desc.cage, cage)) {
+            return Error{ErrorCode::structSize, "suppleCreateAsset: cage->structSize is wrong"};
+        }
+        return supple::runtime::characterFromArrays(cage, name);
+    }
+    supple::cage::GltfOptions options;
+    options.pairQuads = (desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0;
+    if (desc.files != nullptr) {
+        options.readFile = [files = *desc.files](const std::string& path) { return readThrough(files, path); };
+    }
+    return supple::cage::readCharacter({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name,
+                                       desc.baseDirectory != nullptr ? desc.baseDirectory : "", options);
+}
+
+} // namespace
+
+SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* given, SuppleAsset* out) {
+    constexpr const char* kHere = "suppleCreateAsset";
+    return onDevice(handle, kHere, [&](Context& context) {
         if (out == nullptr) {
-            return refuse(context, "suppleCreateAsset", "out is null");
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
         }
         out->id = 0;
-        if (desc == nullptr || desc->structSize != sizeof(SuppleAssetDesc)) {
-            return refuse(context, "suppleCreateAsset", "desc is null or its structSize is wrong");
+        SuppleAssetDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
+            return *fault;
         }
-        if ((desc->bytes == nullptr) == (desc->cage == nullptr)) {
-            return refuse(context, "suppleCreateAsset", "give either bytes or cage");
+        if ((desc.bytes == nullptr) == (desc.cage == nullptr)) {
+            return refuse(context, ErrorCode::argument, kHere, "give either bytes or cage");
         }
-        const std::string name = desc->name != nullptr ? desc->name : "asset";
-        supple::Result<supple::cage::Character> character = [&]() -> supple::Result<supple::cage::Character> {
-            if (desc->cage != nullptr) {
-                if (desc->cage->structSize != sizeof(SuppleCageDesc)) {
-                    return Error{ErrorCode::argument, "suppleCreateAsset: cage->structSize is wrong"};
-                }
-                return supple::runtime::characterFromArrays(*desc->cage, name);
-            }
-            supple::cage::GltfOptions options;
-            options.pairQuads = (desc->flags & SUPPLE_ASSET_PAIR_QUADS) != 0;
-            if (desc->files != nullptr) {
-                if (desc->files->read == nullptr) {
-                    return Error{ErrorCode::argument, "suppleCreateAsset: files->read is null"};
-                }
-                options.readFile = [files = *desc->files](const std::string& path) { return readThrough(files, path); };
-            }
-            return supple::cage::readCharacter({static_cast<const std::byte*>(desc->bytes), desc->byteCount}, name,
-                                               desc->baseDirectory != nullptr ? desc->baseDirectory : "", options);
-        }();
+        if ((desc.flags & ~uint32_t{SUPPLE_ASSET_PAIR_QUADS}) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        }
+        if (desc.files != nullptr && desc.files->read == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "files->read is null");
+        }
+        supple::Result<supple::cage::Character> character = characterOf(desc);
         if (!character) {
             return report(context, character.error());
         }
@@ -277,7 +407,7 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* desc
 SuppleResult suppleDestroyAsset(SuppleContext handle, SuppleAsset asset) {
     return guarded(handle, "suppleDestroyAsset", [&](Context& context) {
         if (context.assets.remove(asset.id) == nullptr) {
-            return refuse(context, "suppleDestroyAsset", "stale or foreign asset handle");
+            return refuse(context, ErrorCode::staleHandle, "suppleDestroyAsset", "stale or foreign asset handle");
         }
         return SUPPLE_OK;
     });
@@ -285,171 +415,161 @@ SuppleResult suppleDestroyAsset(SuppleContext handle, SuppleAsset asset) {
 
 SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleAssetInfo* out) {
     return withAsset(handle, asset, "suppleGetAssetInfo", [&](Context& context, const Asset& found) {
-        if (out == nullptr || out->structSize != sizeof(SuppleAssetInfo)) {
-            return refuse(context, "suppleGetAssetInfo", "out is null or its structSize is wrong");
-        }
-        const supple::cage::Character& character = found.character;
-        out->cageVertexCount = character.cage.vertexCount();
-        out->faceCount = character.cage.faceCount();
-        out->jointCount = static_cast<uint32_t>(character.skin.joints.size());
-        out->clipCount = static_cast<uint32_t>(character.clips.size());
-        out->materialCount = static_cast<uint32_t>(character.materials.size());
-        out->morphTargetCount = static_cast<uint32_t>(character.morphs.targets.size());
-        out->imageCount = static_cast<uint32_t>(character.images.size());
-        glm::vec3 low = character.cage.positions.front(), high = low;
-        for (const glm::vec3& p : character.cage.positions) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-        for (int axis = 0; axis < 3; ++axis) {
-            out->boundsMin[axis] = low[axis];
-            out->boundsMax[axis] = high[axis];
-        }
-        return SUPPLE_OK;
+        return describePart(context, "suppleGetAssetInfo", "asset", 0, 1, out, [&](SuppleAssetInfo& info) {
+            const supple::cage::Character& character = found.character;
+            info.cageVertexCount = character.cage.vertexCount();
+            info.faceCount = character.cage.faceCount();
+            info.jointCount = static_cast<uint32_t>(character.skin.joints.size());
+            info.clipCount = static_cast<uint32_t>(character.clips.size());
+            info.materialCount = static_cast<uint32_t>(character.materials.size());
+            info.morphTargetCount = static_cast<uint32_t>(character.morphs.targets.size());
+            info.imageCount = static_cast<uint32_t>(character.images.size());
+            glm::vec3 low = character.cage.positions.front(), high = low;
+            for (const glm::vec3& p : character.cage.positions) {
+                low = glm::min(low, p);
+                high = glm::max(high, p);
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                info.boundsMin[axis] = low[axis];
+                info.boundsMax[axis] = high[axis];
+            }
+        });
     });
 }
 
 SuppleResult suppleGetClipInfo(SuppleContext handle, SuppleAsset asset, uint32_t clip, SuppleClipInfo* out) {
     return withAsset(handle, asset, "suppleGetClipInfo", [&](Context& context, const Asset& found) {
-        if (out == nullptr || out->structSize != sizeof(SuppleClipInfo)) {
-            return refuse(context, "suppleGetClipInfo", "out is null or its structSize is wrong");
-        }
-        if (clip >= found.character.clips.size()) {
-            return refuse(context, "suppleGetClipInfo", "no such clip");
-        }
-        out->name = found.character.clips[clip].name.c_str();
-        out->duration = found.character.clips[clip].duration;
-        return SUPPLE_OK;
+        const auto& clips = found.character.clips;
+        return describePart(context, "suppleGetClipInfo", "clip", clip, clips.size(), out, [&](SuppleClipInfo& info) {
+            info.name = clips[clip].name.c_str();
+            info.duration = clips[clip].duration;
+        });
     });
 }
 
 SuppleResult suppleGetJointInfo(SuppleContext handle, SuppleAsset asset, uint32_t joint, SuppleJointInfo* out) {
     return withAsset(handle, asset, "suppleGetJointInfo", [&](Context& context, const Asset& found) {
-        if (out == nullptr || out->structSize != sizeof(SuppleJointInfo)) {
-            return refuse(context, "suppleGetJointInfo", "out is null or its structSize is wrong");
-        }
-        const supple::cage::Character& character = found.character;
-        if (joint >= character.skin.joints.size()) {
-            return refuse(context, "suppleGetJointInfo", "no such joint");
-        }
-        out->name = character.skeleton.nodes[character.skin.joints[joint]].name.c_str();
-        out->parent = found.rig.jointParents[joint];
-        return SUPPLE_OK;
+        const auto& joints = found.character.skin.joints;
+        return describePart(context, "suppleGetJointInfo", "joint", joint, joints.size(), out,
+                            [&](SuppleJointInfo& info) {
+                                info.name = found.character.skeleton.nodes[joints[joint]].name.c_str();
+                                info.parent = found.rig.jointParents[joint];
+                            });
     });
 }
 
 SuppleResult suppleGetMorphTargetInfo(SuppleContext handle, SuppleAsset asset, uint32_t target,
                                       SuppleMorphTargetInfo* out) {
     return withAsset(handle, asset, "suppleGetMorphTargetInfo", [&](Context& context, const Asset& found) {
-        if (out == nullptr || out->structSize != sizeof(SuppleMorphTargetInfo)) {
-            return refuse(context, "suppleGetMorphTargetInfo", "out is null or its structSize is wrong");
-        }
         const supple::cage::Morphs& morphs = found.character.morphs;
-        if (target >= morphs.targets.size()) {
-            return refuse(context, "suppleGetMorphTargetInfo", "no such morph target");
-        }
-        out->name = morphs.targets[target].name.c_str();
-        out->weight = morphs.weights[target];
-        out->vertexCount = static_cast<uint32_t>(morphs.targets[target].vertices.size());
-        return SUPPLE_OK;
+        return describePart(context, "suppleGetMorphTargetInfo", "morph target", target, morphs.targets.size(), out,
+                            [&](SuppleMorphTargetInfo& info) {
+                                info.name = morphs.targets[target].name.c_str();
+                                info.weight = morphs.weights[target];
+                                info.vertexCount = static_cast<uint32_t>(morphs.targets[target].vertices.size());
+                            });
     });
 }
 
 SuppleResult suppleGetMaterialInfo(SuppleContext handle, SuppleAsset asset, uint32_t material,
                                    SuppleMaterialInfo* out) {
     return withAsset(handle, asset, "suppleGetMaterialInfo", [&](Context& context, const Asset& found) {
-        if (out == nullptr || out->structSize != sizeof(SuppleMaterialInfo)) {
-            return refuse(context, "suppleGetMaterialInfo", "out is null or its structSize is wrong");
-        }
-        if (material >= found.character.materials.size()) {
-            return refuse(context, "suppleGetMaterialInfo", "no such material");
-        }
-        const supple::cage::Material& from = found.character.materials[material];
-        *out = {};
-        out->structSize = sizeof(SuppleMaterialInfo);
-        out->name = from.name.c_str();
-        out->doubleSided = from.doubleSided ? 1 : 0;
-        out->trimImage = SUPPLE_NO_IMAGE;
-        if (const auto trim = supple::cage::trimOf(from)) {
-            const bool face = trim->domain == supple::cage::TrimDomain::face;
-            out->trimDomain = face ? SUPPLE_TRIM_FACE : SUPPLE_TRIM_UV;
-            out->trimImage = trim->image;
-            out->trimUvSet = trim->uvSet;
-            out->trimChannel = trim->channel;
-            out->trimCutoff = trim->cutoff;
-            out->trimFactor = from.trim ? 1.0f : from.baseColorFactor.a;
-            out->trimTiles = trim->tiles;
-            out->trimWrap[0] = static_cast<SuppleWrap>(trim->wrapU);
-            out->trimWrap[1] = static_cast<SuppleWrap>(trim->wrapV);
-        }
-        return SUPPLE_OK;
+        const auto& materials = found.character.materials;
+        return describePart(context, "suppleGetMaterialInfo", "material", material, materials.size(), out,
+                            [&](SuppleMaterialInfo& info) {
+                                const supple::cage::Material& from = materials[material];
+                                info.name = from.name.c_str();
+                                info.doubleSided = from.doubleSided ? 1 : 0;
+                                info.trimImage = SUPPLE_NO_IMAGE;
+                                if (const auto trim = supple::cage::trimOf(from)) {
+                                    const bool face = trim->domain == supple::cage::TrimDomain::face;
+                                    info.trimDomain = face ? SUPPLE_TRIM_FACE : SUPPLE_TRIM_UV;
+                                    info.trimImage = trim->image;
+                                    info.trimUvSet = trim->uvSet;
+                                    info.trimChannel = trim->channel;
+                                    info.trimCutoff = trim->cutoff;
+                                    info.trimFactor = from.trim ? 1.0f : from.baseColorFactor.a;
+                                    info.trimTiles = trim->tiles;
+                                    info.trimWrap[0] = static_cast<SuppleWrap>(trim->wrapU);
+                                    info.trimWrap[1] = static_cast<SuppleWrap>(trim->wrapV);
+                                }
+                            });
     });
 }
 
 SuppleResult suppleGetImageInfo(SuppleContext handle, SuppleAsset asset, uint32_t image, SuppleImageInfo* out) {
     return withAsset(handle, asset, "suppleGetImageInfo", [&](Context& context, const Asset& found) {
-        if (out == nullptr || out->structSize != sizeof(SuppleImageInfo)) {
-            return refuse(context, "suppleGetImageInfo", "out is null or its structSize is wrong");
-        }
-        if (image >= found.character.images.size()) {
-            return refuse(context, "suppleGetImageInfo", "no such image");
-        }
-        const supple::cage::Image& from = found.character.images[image];
-        out->name = from.name.c_str();
-        out->mimeType = from.mimeType.c_str();
-        out->bytes = from.bytes.empty() ? nullptr : from.bytes.data();
-        out->byteCount = from.bytes.size();
-        return SUPPLE_OK;
+        const auto& images = found.character.images;
+        return describePart(context, "suppleGetImageInfo", "image", image, images.size(), out,
+                            [&](SuppleImageInfo& info) {
+                                const supple::cage::Image& from = images[image];
+                                info.name = from.name.c_str();
+                                info.mimeType = from.mimeType.c_str();
+                                info.bytes = from.bytes.empty() ? nullptr : from.bytes.data();
+                                info.byteCount = from.bytes.size();
+                            });
     });
 }
 
 SuppleResult suppleFillJointMask(SuppleContext handle, SuppleAsset asset, uint32_t joint, float value, float* mask,
                                  uint32_t jointCount) {
-    return withAsset(handle, asset, "suppleFillJointMask", [&](Context& context, const Asset& found) {
-        if (mask == nullptr || jointCount != found.character.skin.joints.size()) {
-            return refuse(context, "suppleFillJointMask", "mask is null or jointCount is not the skin's");
+    constexpr const char* kHere = "suppleFillJointMask";
+    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
+        if (mask == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "mask is null");
         }
-        if (joint >= jointCount) {
-            return refuse(context, "suppleFillJointMask", "no such joint");
+        const size_t joints = found.character.skin.joints.size();
+        if (jointCount != joints || joint >= jointCount) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "joint " + std::to_string(joint) + ", jointCount " + std::to_string(jointCount) +
+                              ": the skin has " + std::to_string(joints));
         }
         if (!(value >= 0.0f && value <= 1.0f)) {
-            return refuse(context, "suppleFillJointMask", "value leaves 0..1");
+            return refuse(context, ErrorCode::range, kHere, "value leaves 0..1");
         }
         supple::skinning::fillJointMask(found.rig, joint, value, {mask, jointCount});
         return SUPPLE_OK;
     });
 }
 
-SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* desc, SuppleGroup* out) {
-    return guarded(handle, "suppleCreateGroup", [&](Context& context) {
+SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* given, SuppleGroup* out) {
+    constexpr const char* kHere = "suppleCreateGroup";
+    return onDevice(handle, kHere, [&](Context& context) {
         if (out == nullptr) {
-            return refuse(context, "suppleCreateGroup", "out is null");
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
         }
         out->id = 0;
-        if (desc == nullptr || desc->structSize != sizeof(SuppleGroupDesc)) {
-            return refuse(context, "suppleCreateGroup", "desc is null or its structSize is wrong");
+        SuppleGroupDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
+            return *fault;
         }
-        if (desc->instanceCount == 0) {
-            return refuse(context, "suppleCreateGroup", "instanceCount is 0");
+        if (desc.capacity == 0) {
+            return refuse(context, ErrorCode::range, kHere, "capacity is 0");
         }
-        if (desc->rate > SUPPLE_MAX_RATE) {
-            return refuse(context, "suppleCreateGroup", "rate must be 1..64");
+        if (desc.rate > SUPPLE_MAX_RATE) {
+            return refuse(context, ErrorCode::range, kHere, "rate must be 1..64");
         }
-        if (static_cast<uint32_t>(desc->scheme) > SUPPLE_SCHEME_BLEND && desc->scheme != SUPPLE_SCHEME_CAGE) {
-            return refuse(context, "suppleCreateGroup", "no such scheme");
+        if (!within(desc.scheme, SUPPLE_SCHEME_BLEND) && desc.scheme != SUPPLE_SCHEME_CAGE) {
+            return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
-        if (static_cast<uint32_t>(desc->vertexFormat) > SUPPLE_VERTEX_24 ||
-            static_cast<uint32_t>(desc->tangentMode) > SUPPLE_TANGENTS_PRINTED ||
-            static_cast<uint32_t>(desc->cornerRule) > SUPPLE_CORNERS_SMOOTH) {
-            return refuse(context, "suppleCreateGroup", "no such vertexFormat, tangentMode or cornerRule");
+        constexpr uint32_t kFlags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION;
+        if ((desc.flags & ~kFlags) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
-        if (static_cast<uint32_t>(desc->creaseMode) > SUPPLE_CREASES_CURVE || !(desc->sharpThreshold >= 0.0f)) {
-            return refuse(context, "suppleCreateGroup", "no such creaseMode, or sharpThreshold is negative or NaN");
+        if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.tangentMode, SUPPLE_TANGENTS_PRINTED) ||
+            !within(desc.cornerRule, SUPPLE_CORNERS_SMOOTH) || !within(desc.creaseMode, SUPPLE_CREASES_CURVE) ||
+            !within(desc.skinning, SUPPLE_SKINNING_DUAL_QUATERNION) ||
+            !within(desc.poseSource, SUPPLE_POSES_CAGE_BUFFER)) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "no such vertexFormat, tangentMode, cornerRule, creaseMode, skinning or poseSource");
         }
-        if (static_cast<uint32_t>(desc->skinning) > SUPPLE_SKINNING_DUAL_QUATERNION) {
-            return refuse(context, "suppleCreateGroup", "no such skinning");
+        if (!(desc.sharpThreshold >= 0.0f)) {
+            return refuse(context, ErrorCode::range, kHere, "sharpThreshold is negative or NaN");
         }
-        supple::Result<uint64_t> id = context.createGroup(*desc);
+        if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
+            return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");
+        }
+        supple::Result<uint64_t> id = context.createGroup(desc);
         if (!id) {
             return report(context, id.error());
         }
@@ -460,144 +580,261 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* desc
 
 SuppleResult suppleDestroyGroup(SuppleContext handle, SuppleGroup group) {
     return guarded(handle, "suppleDestroyGroup", [&](Context& context) {
-        return context.destroyGroup(group.id) ? SUPPLE_OK
-                                              : refuse(context, "suppleDestroyGroup", "stale or foreign group handle");
+        return context.destroyGroup(group.id)
+                   ? SUPPLE_OK
+                   : refuse(context, ErrorCode::staleHandle, "suppleDestroyGroup", "stale or foreign group handle");
     });
 }
 
-SuppleResult suppleSetClipPose(SuppleContext handle, SuppleGroup group, uint32_t instance, uint32_t clip, double time) {
-    return withInstance(handle, group, instance, "suppleSetClipPose", [&](Context& context, Group& found) {
+SuppleResult suppleSetRate(SuppleContext handle, SuppleGroup group, uint32_t rate) {
+    return withGroup(handle, group, "suppleSetRate",
+                     [&](Context& context, Group& found) { return reportStatus(context, found.setRate(rate)); });
+}
+
+SuppleResult suppleCreateInstance(SuppleContext handle, SuppleGroup group, SuppleInstance* out) {
+    constexpr const char* kHere = "suppleCreateInstance";
+    return withGroup(handle, group, kHere, [&](Context& context, Group& found) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        *out = {};
+        const std::optional<uint32_t> slot = found.slots().create();
+        if (!slot) {
+            return refuse(context, ErrorCode::limit, kHere,
+                          "the group is full: its capacity is " + std::to_string(found.slots().capacity()));
+        }
+        found.poses().reset(*slot);
+        *out = {group, *slot, found.slots().generation(*slot)};
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleDestroyInstance(SuppleContext handle, SuppleInstance instance) {
+    return withInstance(handle, instance, "suppleDestroyInstance", [&](Context&, Group& found) {
+        found.slots().destroy(instance.slot);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetVisible(SuppleContext handle, SuppleInstance instance, uint32_t visible) {
+    return withInstance(handle, instance, "suppleSetVisible", [&](Context& context, Group& found) {
+        if (visible > 1) {
+            return refuse(context, ErrorCode::range, "suppleSetVisible", "visible must be 0 or 1");
+        }
+        found.slots().setVisible(instance.slot, visible == 1);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleTeleport(SuppleContext handle, SuppleInstance instance) {
+    return withInstance(handle, instance, "suppleTeleport", [&](Context&, Group& found) {
+        found.slots().forget(instance.slot);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetClipPose(SuppleContext handle, SuppleInstance instance, uint32_t clip, double time) {
+    constexpr const char* kHere = "suppleSetClipPose";
+    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
         if (clip == SUPPLE_BIND_POSE) {
-            found.poses().setBindPose(instance);
+            found.poses().setBindPose(instance.slot);
             return SUPPLE_OK;
         }
         if (clip == SUPPLE_REST_POSE) {
-            found.poses().setRestPose(instance);
+            found.poses().setRestPose(instance.slot);
             return SUPPLE_OK;
         }
-        if (clip >= found.asset().character.clips.size()) {
-            return refuse(context, "suppleSetClipPose", "no such clip");
+        const size_t clips = found.asset().character.clips.size();
+        if (clip >= clips) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "clip " + std::to_string(clip) + " of " + std::to_string(clips));
         }
         if (!std::isfinite(time)) {
-            return refuse(context, "suppleSetClipPose", "time is not finite");
+            return refuse(context, ErrorCode::notFinite, kHere, "time is not finite");
         }
-        found.poses().setClipPose(instance, clip, time);
+        found.poses().setClipPose(instance.slot, clip, time);
         return SUPPLE_OK;
     });
 }
 
-SuppleResult suppleSetPose(SuppleContext handle, SuppleGroup group, uint32_t instance, const SupplePoseDesc* pose) {
-    return withInstance(handle, group, instance, "suppleSetPose", [&](Context& context, Group& found) {
+SuppleResult suppleSetPose(SuppleContext handle, SuppleInstance instance, const SupplePoseDesc* given) {
+    constexpr const char* kHere = "suppleSetPose";
+    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        SupplePoseDesc pose{};
+        if (const auto fault = takeIn(context, kHere, "pose", given, pose)) {
+            return *fault;
+        }
         const supple::Status valid = supple::runtime::checkPose(found.asset(), pose);
         if (!valid) {
-            return refuse(context, "suppleSetPose", valid.error().message.c_str());
+            return refuse(context, valid.error().code, kHere, valid.error().message);
         }
-        found.poses().setLayers(instance, *pose);
+        found.poses().setLayers(instance.slot, pose);
         return SUPPLE_OK;
     });
 }
 
-SuppleResult suppleGetRootMotion(SuppleContext handle, SuppleAsset asset, const SupplePoseDesc* pose,
+SuppleResult suppleGetRootMotion(SuppleContext handle, SuppleAsset asset, const SupplePoseDesc* given,
                                  SuppleRootMotion* out) {
-    return withAsset(handle, asset, "suppleGetRootMotion", [&](Context& context, const Asset& found) {
-        if (out == nullptr || out->structSize != sizeof(SuppleRootMotion)) {
-            return refuse(context, "suppleGetRootMotion", "out is null or its structSize is wrong");
+    constexpr const char* kHere = "suppleGetRootMotion";
+    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
+        if (const auto fault = checkOut(context, kHere, out)) {
+            return *fault;
+        }
+        SupplePoseDesc pose{};
+        if (const auto fault = takeIn(context, kHere, "pose", given, pose)) {
+            return *fault;
         }
         const supple::Status valid = supple::runtime::checkPose(found, pose);
         if (!valid) {
-            return refuse(context, "suppleGetRootMotion", valid.error().message.c_str());
+            return refuse(context, valid.error().code, kHere, valid.error().message);
         }
-        const supple::skinning::RootMotion motion = supple::runtime::rootMotionOf(found, *pose);
+        const supple::skinning::RootMotion motion = supple::runtime::rootMotionOf(found, pose);
         const glm::mat4 transform(supple::skinning::toMatrix(motion));
+        SuppleRootMotion filled{};
         for (int axis = 0; axis < 3; ++axis) {
-            out->translation[axis] = transform[3][axis];
+            filled.translation[axis] = transform[3][axis];
         }
-        out->yaw = static_cast<float>(motion.yaw);
-        std::memcpy(out->transform, glm::value_ptr(transform), sizeof(out->transform));
+        filled.yaw = static_cast<float>(motion.yaw);
+        std::memcpy(filled.transform, glm::value_ptr(transform), sizeof(filled.transform));
+        supple::runtime::writeSized(filled, *out);
         return SUPPLE_OK;
     });
 }
 
-SuppleResult suppleSetMorphWeights(SuppleContext handle, SuppleGroup group, uint32_t instance, const float* weights,
+SuppleResult suppleSetMorphWeights(SuppleContext handle, SuppleInstance instance, const float* weights,
                                    uint32_t morphTargetCount) {
-    return withInstance(handle, group, instance, "suppleSetMorphWeights", [&](Context& context, Group& found) {
+    constexpr const char* kHere = "suppleSetMorphWeights";
+    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
         if (weights != nullptr) {
-            if (morphTargetCount != found.asset().character.morphs.targets.size()) {
-                return refuse(context, "suppleSetMorphWeights", "morphTargetCount is not the asset's");
+            const size_t targets = found.asset().character.morphs.targets.size();
+            if (morphTargetCount != targets) {
+                return refuse(context, ErrorCode::range, kHere,
+                              "morphTargetCount " + std::to_string(morphTargetCount) + ": the asset has " +
+                                  std::to_string(targets));
             }
             if (!finite(weights, morphTargetCount)) {
-                return refuse(context, "suppleSetMorphWeights", "a weight is not finite");
+                return refuse(context, ErrorCode::notFinite, kHere, "a weight is not finite");
             }
         }
-        found.poses().setMorphWeights(instance, weights);
+        found.poses().setMorphWeights(instance.slot, weights);
         return SUPPLE_OK;
     });
 }
 
-SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleGroup group, uint32_t instance, const float* jointMatrices,
+SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleInstance instance, const float* jointMatrices,
                                  uint32_t jointCount) {
-    return withInstance(handle, group, instance, "suppleSetMatrixPose", [&](Context& context, Group& found) {
-        if (jointMatrices == nullptr || jointCount != found.asset().character.skin.joints.size()) {
-            return refuse(context, "suppleSetMatrixPose", "jointMatrices is null or jointCount is not the skin's");
+    constexpr const char* kHere = "suppleSetMatrixPose";
+    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (jointMatrices == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "jointMatrices is null");
+        }
+        const size_t joints = found.asset().character.skin.joints.size();
+        if (jointCount != joints) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "jointCount " + std::to_string(jointCount) + ": the skin has " + std::to_string(joints));
         }
         if (!finite(jointMatrices, 16 * size_t{jointCount})) {
-            return refuse(context, "suppleSetMatrixPose", "a joint matrix is not finite");
+            return refuse(context, ErrorCode::notFinite, kHere, "a joint matrix is not finite");
         }
-        found.poses().setMatrixPose(instance, jointMatrices);
+        found.poses().setMatrixPose(instance.slot, jointMatrices);
         return SUPPLE_OK;
     });
 }
 
-SuppleResult suppleSetTransform(SuppleContext handle, SuppleGroup group, uint32_t instance, const float* transform) {
-    return withInstance(handle, group, instance, "suppleSetTransform", [&](Context& context, Group& found) {
-        if (transform == nullptr || !finite(transform, 16)) {
-            return refuse(context, "suppleSetTransform", "transform is null or not finite");
+SuppleResult suppleSetTransform(SuppleContext handle, SuppleInstance instance, const float* transform) {
+    constexpr const char* kHere = "suppleSetTransform";
+    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (transform == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "transform is null");
+        }
+        if (!finite(transform, 16)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "transform is not finite");
         }
         if (transform[3] != 0.0f || transform[7] != 0.0f || transform[11] != 0.0f || transform[15] != 1.0f) {
-            return refuse(context, "suppleSetTransform", "the last row is not 0, 0, 0, 1");
+            return refuse(context, ErrorCode::range, kHere, "the last row is not 0, 0, 0, 1");
         }
-        found.poses().setTransform(instance, glm::make_mat4(transform));
+        found.poses().setTransform(instance.slot, glm::make_mat4(transform));
         return SUPPLE_OK;
     });
 }
 
 SuppleResult suppleBeginFrame(SuppleContext handle, uint64_t frame, uint64_t completedFrame) {
-    return guarded(handle, "suppleBeginFrame", [&](Context& context) {
-        const supple::Status status = context.beginFrame(frame, completedFrame);
-        return status ? SUPPLE_OK : report(context, status.error());
+    return onDevice(handle, "suppleBeginFrame",
+                    [&](Context& context) { return reportStatus(context, context.beginFrame(frame, completedFrame)); });
+}
+
+SuppleResult suppleCancelFrame(SuppleContext handle) {
+    return guarded(handle, "suppleCancelFrame",
+                   [&](Context& context) { return reportStatus(context, context.cancelFrame()); });
+}
+
+SuppleResult suppleRecordUploads(SuppleContext handle, VkCommandBuffer commandBuffer) {
+    return onDevice(handle, "suppleRecordUploads", [&](Context& context) {
+        if (commandBuffer == VK_NULL_HANDLE) {
+            return refuse(context, ErrorCode::nullPointer, "suppleRecordUploads", "commandBuffer is null");
+        }
+        return reportStatus(context, context.recordUploads(commandBuffer));
     });
 }
 
-SuppleResult suppleRecord(SuppleContext handle, VkCommandBuffer commandBuffer, const SuppleRecordDesc* desc) {
-    return guarded(handle, "suppleRecord", [&](Context& context) {
+SuppleResult suppleRecord(SuppleContext handle, VkCommandBuffer commandBuffer, const SuppleRecordDesc* given) {
+    constexpr const char* kHere = "suppleRecord";
+    return onDevice(handle, kHere, [&](Context& context) {
         if (commandBuffer == VK_NULL_HANDLE) {
-            return refuse(context, "suppleRecord", "commandBuffer is null");
+            return refuse(context, ErrorCode::nullPointer, kHere, "commandBuffer is null");
         }
-        if (desc == nullptr || desc->structSize != sizeof(SuppleRecordDesc)) {
-            return refuse(context, "suppleRecord", "desc is null or its structSize is wrong");
+        SuppleRecordDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
+            return *fault;
         }
-        if (desc->groupCount > 0 && desc->groups == nullptr) {
-            return refuse(context, "suppleRecord", "groups is null");
+        if (desc.groupCount > 0 && desc.groups == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "groups is null");
         }
-        const supple::Status status = context.record(commandBuffer, *desc);
-        return status ? SUPPLE_OK : report(context, status.error());
+        if ((desc.flags & ~uint32_t{SUPPLE_RECORD_TIMINGS | SUPPLE_RECORD_NO_ENTRY_BARRIER}) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        }
+        return reportStatus(context, context.record(commandBuffer, desc));
+    });
+}
+
+SuppleResult suppleGetRecordScopes(SuppleSyncScope* first, SuppleSyncScope* last) {
+    if (first != nullptr) {
+        *first = Context::firstScope();
+    }
+    if (last != nullptr) {
+        *last = Context::lastScope();
+    }
+    return SUPPLE_OK;
+}
+
+SuppleResult suppleGetAcquireBarriers(SuppleContext handle, const SuppleGroup* groups, uint32_t groupCount,
+                                      SuppleSyncScope use, VkBufferMemoryBarrier2* out, uint32_t* count) {
+    constexpr const char* kHere = "suppleGetAcquireBarriers";
+    return guarded(handle, kHere, [&](Context& context) {
+        if (count == nullptr || (groups == nullptr && groupCount > 0)) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "count or groups is null");
+        }
+        const uint32_t room = out == nullptr ? 0 : *count;
+        const supple::Result<uint32_t> total = context.acquireBarriers({groups, groupCount}, use, {out, room});
+        if (!total) {
+            return report(context, total.error());
+        }
+        *count = *total;
+        return out != nullptr && room < *total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
     });
 }
 
 SuppleResult suppleGetGroupOutput(SuppleContext handle, SuppleGroup group, SuppleGroupOutput* out) {
     return withGroup(handle, group, "suppleGetGroupOutput", [&](Context& context, Group& found) {
-        if (out == nullptr || out->structSize != sizeof(SuppleGroupOutput)) {
-            return refuse(context, "suppleGetGroupOutput", "out is null or its structSize is wrong");
-        }
-        *out = found.output();
-        return SUPPLE_OK;
+        return describePart(context, "suppleGetGroupOutput", "group", 0, 1, out,
+                            [&](SuppleGroupOutput& output) { output = found.output(); });
     });
 }
 
 SuppleResult suppleGetPatches(SuppleContext handle, SuppleGroup group, SupplePatchInfo* out, uint32_t* count) {
     return withGroup(handle, group, "suppleGetPatches", [&](Context& context, Group& found) {
         if (count == nullptr) {
-            return refuse(context, "suppleGetPatches", "count is null");
+            return refuse(context, ErrorCode::nullPointer, "suppleGetPatches", "count is null");
         }
         const auto& patches = found.tables().patches;
         const auto total = static_cast<uint32_t>(patches.size());
@@ -617,7 +854,7 @@ SuppleResult suppleGetPatches(SuppleContext handle, SuppleGroup group, SupplePat
 SuppleResult suppleGetTimings(SuppleContext handle, SuppleTiming* out, uint32_t* count) {
     return guarded(handle, "suppleGetTimings", [&](Context& context) {
         if (count == nullptr) {
-            return refuse(context, "suppleGetTimings", "count is null");
+            return refuse(context, ErrorCode::nullPointer, "suppleGetTimings", "count is null");
         }
         const std::vector<SuppleTiming>& latest = context.timings.latest();
         if (latest.empty()) {
@@ -625,5 +862,30 @@ SuppleResult suppleGetTimings(SuppleContext handle, SuppleTiming* out, uint32_t*
             return SUPPLE_NOT_READY;
         }
         return fillArray(latest.data(), latest.size(), out, count);
+    });
+}
+
+SuppleResult suppleSetBudget(SuppleContext handle, const char* pass, double nanoseconds) {
+    return guarded(handle, "suppleSetBudget", [&](Context& context) {
+        if (!std::isfinite(nanoseconds) || nanoseconds < 0.0) {
+            return refuse(context, ErrorCode::notFinite, "suppleSetBudget", "nanoseconds is negative or not finite");
+        }
+        return context.timings.setBudget(pass, nanoseconds)
+                   ? SUPPLE_OK
+                   : refuse(context, ErrorCode::range, "suppleSetBudget", std::string("no pass ") + pass);
+    });
+}
+
+SuppleResult suppleGetBudget(SuppleContext handle, const char* pass, SuppleBudget* out) {
+    return guarded(handle, "suppleGetBudget", [&](Context& context) {
+        if (const auto fault = checkOut(context, "suppleGetBudget", out)) {
+            return *fault;
+        }
+        const SuppleBudget* budget = context.timings.budget(pass);
+        if (budget == nullptr) {
+            return refuse(context, ErrorCode::range, "suppleGetBudget", std::string("no pass ") + pass);
+        }
+        supple::runtime::writeSized(*budget, *out);
+        return budget->limit > 0.0 ? SUPPLE_OK : SUPPLE_NOT_READY;
     });
 }

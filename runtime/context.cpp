@@ -6,6 +6,26 @@
 
 namespace supple::runtime {
 
+namespace {
+
+gpu::MemorySource memorySourceOf(const SuppleMemoryCallbacks& callbacks) {
+    gpu::MemorySource source;
+    source.allocate = [callbacks](const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
+                                  VkMemoryPropertyFlags preferred, const char* name, gpu::HostMemory& out) {
+        SuppleMemory memory{};
+        const VkResult result = callbacks.allocate(&requirements, required, preferred, name, &memory, callbacks.user);
+        out = {memory.memory, memory.offset, memory.mapped, memory.allocation};
+        return result;
+    };
+    source.free = [callbacks](const gpu::HostMemory& piece) {
+        const SuppleMemory memory{piece.memory, piece.offset, piece.mapped, piece.allocation};
+        callbacks.free(&memory, callbacks.user);
+    };
+    return source;
+}
+
+} // namespace
+
 Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, const surface::Shaders& shaders) {
     auto context = std::make_unique<Context>();
     context->log_ = desc.log;
@@ -20,6 +40,13 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     deviceDesc.getInstanceProcAddr = desc.getInstanceProcAddr;
     deviceDesc.pipelineCache = desc.pipelineCache;
     deviceDesc.allocator = desc.allocator;
+    deviceDesc.enabledFeatures = desc.enabledFeatures;
+    if (desc.memory != nullptr) {
+        deviceDesc.memorySource = memorySourceOf(*desc.memory);
+    }
+    context->asyncCompute_ = (desc.flags & SUPPLE_CONTEXT_ASYNC_COMPUTE) != 0;
+    context->queueFamily_ = desc.queueFamily;
+    context->drawQueueFamily_ = desc.drawQueueFamily;
     deviceDesc.debugUtils = (desc.flags & SUPPLE_CONTEXT_DEBUG_UTILS) != 0;
     deviceDesc.mapping = desc.mapping == SUPPLE_MAPPING_NARROW ? gpu::MappingChoice::narrow
                          : desc.mapping == SUPPLE_MAPPING_WIDE ? gpu::MappingChoice::wide
@@ -58,25 +85,38 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     return context;
 }
 
-void Context::log(SuppleSeverity severity, const std::string& text) const {
+void Context::log(SuppleSeverity severity, SuppleMessage message, const std::string& text) const {
     if (log_ != nullptr) {
-        log_(severity, text.c_str(), logUser_);
+        log_(severity, message, text.c_str(), logUser_);
     }
 }
 
 Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
     if (frame <= frame_) {
-        return Error{ErrorCode::argument,
-                     "frame " + std::to_string(frame) + " does not rise above frame " + std::to_string(frame_)};
+        return Error{ErrorCode::order, "suppleBeginFrame: frame " + std::to_string(frame) +
+                                           " does not rise above frame " + std::to_string(frame_)};
     }
     if (completedFrame >= frame || frame - completedFrame > framesInFlight_) {
-        return Error{ErrorCode::argument, "frame " + std::to_string(frame) + " with completed frame " +
-                                              std::to_string(completedFrame) + ": the context keeps " +
-                                              std::to_string(framesInFlight_) + " frames in flight"};
+        return Error{ErrorCode::range, "suppleBeginFrame: frame " + std::to_string(frame) + " with completed frame " +
+                                           std::to_string(completedFrame) + ": the context keeps " +
+                                           std::to_string(framesInFlight_) + " frames in flight"};
     }
     frame_ = frame;
+    frameOpen_ = true;
     retire(completedFrame);
-    timings.beginFrame(frame, completedFrame);
+    return timings.beginFrame(frame, completedFrame, [this](const std::string& text) {
+        log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_BUDGET, text);
+    });
+}
+
+Status Context::cancelFrame() {
+    if (!frameOpen_) {
+        return Error{ErrorCode::order, "suppleCancelFrame: no frame has begun, or it is cancelled"};
+    }
+    frameOpen_ = false;
+    pairs_.cancelUpload(frame_);
+    groups.forEach([this](Group& group) { group.cancelFrame(frame_); });
+    timings.cancelFrame();
     return success();
 }
 
@@ -89,7 +129,7 @@ void Context::retire(uint64_t completedFrame) {
 
 Result<uint64_t> Context::createAsset(cage::Character character) {
     for (const std::string& warning : character.warnings) {
-        log(SUPPLE_SEVERITY_WARNING, character.name + ": " + warning);
+        log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_ASSET_WARNING, character.name + ": " + warning);
     }
     Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(character));
     if (!asset) {
@@ -99,19 +139,20 @@ Result<uint64_t> Context::createAsset(cage::Character character) {
 }
 
 Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
-    const std::shared_ptr<Asset>& asset = assets.find(desc.asset.id);
+    const std::shared_ptr<Asset> asset = assets.find(desc.asset.id);
     if (asset == nullptr) {
-        return Error{ErrorCode::argument, "suppleCreateGroup: stale or foreign asset handle"};
+        return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign asset handle"};
     }
-    const GroupShared shared{device_.get(), &deform_, &surface_, pairs_.buffer(0), pairs_.size(0), framesInFlight_};
+    // Instances of one group must not fit another that takes its place: groups' ids differ, and so do generations.
+    nextGeneration_ = nextGeneration_ * 1664525u + 1013904223u;
+    const GroupShared shared{device_.get(),  &deform_,        &surface_,           pairs_.buffer(0),
+                             pairs_.size(0), framesInFlight_, nextGeneration_ | 1u};
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
     if (!group) {
         return group.error();
     }
-    for (const std::vector<std::string>& notes : {(*group)->tables().notes, (*group)->notes()}) {
-        for (const std::string& note : notes) {
-            log(SUPPLE_SEVERITY_INFO, asset->character.name + ": " + note);
-        }
+    for (const std::string& note : (*group)->notes()) {
+        log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_SCHEME_NOTE, asset->character.name + ": " + note);
     }
     return groups.insert(std::move(*group));
 }

@@ -11,7 +11,10 @@
 #include "supple/supple.h"
 #include "surface/passes.h"
 
+#include <atomic>
 #include <memory>
+#include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,11 +31,21 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<Context>>
     create(const SuppleContextDesc& desc, const surface::Shaders& shaders = surface::Shaders::embedded());
 
-    void log(SuppleSeverity severity, const std::string& text) const;
+    void log(SuppleSeverity severity, SuppleMessage message, const std::string& text) const;
+    /// Once the device is lost, nothing that needs it is tried again.
+    [[nodiscard]] bool lost() const { return lost_; }
+    void setLost() { lost_ = true; }
 
     [[nodiscard]] Status beginFrame(uint64_t frame, uint64_t completedFrame);
+    [[nodiscard]] Status cancelFrame();
+    [[nodiscard]] Status recordUploads(VkCommandBuffer commandBuffer);
     /// The frame's passes in order; see frame.cpp.
     [[nodiscard]] Status record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc);
+    [[nodiscard]] static SuppleSyncScope firstScope();
+    [[nodiscard]] static SuppleSyncScope lastScope();
+    /// Fills as much of `out` as there is; the number of barriers.
+    [[nodiscard]] Result<uint32_t> acquireBarriers(std::span<const SuppleGroup> groups, SuppleSyncScope use,
+                                                   std::span<VkBufferMemoryBarrier2> out) const;
 
     [[nodiscard]] Result<uint64_t> createAsset(cage::Character character);
     [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
@@ -44,14 +57,22 @@ public:
 
 private:
     void retire(uint64_t completedFrame);
+    [[nodiscard]] Status checkRecord(const SuppleRecordDesc& desc) const;
+    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, Group& group);
 
     SuppleLogFunction log_ = nullptr;
     void* logUser_ = nullptr;
     uint32_t framesInFlight_ = 2;
-    uint64_t frame_ = 0; ///< 0: no frame begun
+    bool asyncCompute_ = false;
+    uint32_t queueFamily_ = 0, drawQueueFamily_ = 0;
+    uint64_t frame_ = 0;
+    bool frameOpen_ = false; ///< begun and not cancelled
+    uint32_t nextGeneration_ = 1;
+    std::atomic<bool> lost_ = false;
     skinning::DeformPass deform_;
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;
+    std::mutex uploads_; ///< static tables are shared by groups that may be recorded at the same time
     std::vector<std::shared_ptr<Group>> retired_; ///< destroyed by the host, perhaps still in flight
 };
 

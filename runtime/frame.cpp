@@ -1,4 +1,4 @@
-// One frame, as the data flows: upload, deform, vertex, edge, patch, evaluate.
+// One frame, as the data flows: upload, deform, vertex, edge, patch, evaluate, motion.
 #include "runtime/context.h"
 
 #include <utility>
@@ -13,47 +13,86 @@ constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BI
 constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
 constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+constexpr gpu::SyncScope kFirst{kCompute | kTransfer, kRead | kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr gpu::SyncScope kLast{kCompute | kTransfer, kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
 
 } // namespace
 
-Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc) {
-    if (frame_ == 0) {
-        return Error{ErrorCode::argument, "suppleRecord before suppleBeginFrame"};
+SuppleSyncScope Context::firstScope() {
+    return {kFirst.stages, kFirst.access};
+}
+
+SuppleSyncScope Context::lastScope() {
+    return {kLast.stages, kLast.access};
+}
+
+Status Context::checkRecord(const SuppleRecordDesc& desc) const {
+    if (!frameOpen_) {
+        return Error{ErrorCode::order, "suppleRecord: no frame has begun, or it is cancelled"};
     }
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
-        const std::shared_ptr<Group>& group = groups.find(desc.groups[g].id);
+        const std::shared_ptr<Group> group = groups.find(desc.groups[g].id);
+        const std::string name = "suppleRecord: group " + std::to_string(g);
         if (group == nullptr) {
-            return Error{ErrorCode::argument, "suppleRecord: group " + std::to_string(g) + ": stale or foreign handle"};
+            return Error{ErrorCode::staleHandle, name + ": stale or foreign handle"};
         }
-        if (group->lastRecordedFrame() == frame_) {
-            return Error{ErrorCode::argument, "suppleRecord: group " + std::to_string(g) +
-                                                  ": recorded twice in frame " + std::to_string(frame_)};
+        if (group->passesFrame() == frame_) {
+            return Error{ErrorCode::order, name + ": recorded twice in frame " + std::to_string(frame_)};
         }
         for (uint32_t h = 0; h < g; ++h) {
             if (desc.groups[h].id == desc.groups[g].id) {
-                return Error{ErrorCode::argument, "suppleRecord: group " + std::to_string(g) + ": listed twice"};
+                return Error{ErrorCode::argument, name + ": listed twice"};
             }
         }
     }
+    return success();
+}
 
+VkDeviceSize Context::recordStatics(VkCommandBuffer commandBuffer, Group& group) {
+    return pairs_.recordUpload(commandBuffer, frame_) + group.recordStatics(commandBuffer, frame_);
+}
+
+Status Context::recordUploads(VkCommandBuffer commandBuffer) {
+    if (!frameOpen_) {
+        return Error{ErrorCode::order, "suppleRecordUploads: no frame has begun, or it is cancelled"};
+    }
+    const std::scoped_lock lock(uploads_);
+    VkDeviceSize bytes = 0;
+    groups.forEach([&](Group& group) {
+        if (group.staticsPending()) {
+            bytes += recordStatics(commandBuffer, group);
+        }
+    });
+    if (bytes > 0) {
+        gpu::memoryBarrier(*device_, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, kFirst);
+    }
+    return success();
+}
+
+Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc) {
+    const Status valid = checkRecord(desc);
+    if (!valid) {
+        return valid;
+    }
     const gpu::Device& device = *device_;
-    Status status = success();
+    const auto groupAt = [&](uint32_t g) -> Group& { return *groups.find(desc.groups[g].id); };
+    Timings::Recording timing;
     // One pass over all groups: labelled, timed per group.
-    const auto pass = [&](const char* name, auto&& recordGroup) {
-        device.beginLabel(commandBuffer, name);
+    const auto pass = [&](Pass kind, auto&& recordGroup) {
+        device.beginLabel(commandBuffer, passName(kind));
         for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            Group& group = *groups.find(desc.groups[g].id);
-            timings.beginPass();
+            Group& group = groupAt(g);
+            timing.beginPass();
             const Group::PassCost cost = recordGroup(group);
             if (cost.bytes > 0) {
-                timings.endPass(commandBuffer, name, g, cost.points, cost.bytes);
+                timing.endPass(kind, g, cost.points, cost.bytes);
             }
         }
         device.endLabel(commandBuffer);
     };
     const auto any = [&](auto&& predicate) {
         for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            if (predicate(*groups.find(desc.groups[g].id))) {
+            if (predicate(groupAt(g))) {
                 return true;
             }
         }
@@ -64,48 +103,102 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     };
 
     device.beginLabel(commandBuffer, "supple");
-    // Earlier frames' passes and the host's uses end before this frame overwrites anything.
-    gpu::memoryBarrier(
-        device, commandBuffer,
-        {desc.before.stages | kCompute | kTransfer, desc.before.access | kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT},
-        {kCompute | kTransfer, kRead | kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT});
-    timings.open(commandBuffer, (desc.flags & SUPPLE_RECORD_TIMINGS) != 0);
+    if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {
+        // Earlier frames' passes and the host's uses end before this frame overwrites anything.
+        gpu::memoryBarrier(device, commandBuffer,
+                           {desc.before.stages | kLast.stages, desc.before.access | kLast.access}, kFirst);
+    }
+    if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {
+        timing = timings.open(commandBuffer, desc.groupCount);
+    }
 
-    pass("upload", [&](Group& group) {
-        Result<Group::PassCost> cost = group.recordUpload(commandBuffer, frame_);
-        if (cost) {
-            cost->bytes += pairs_.recordUpload(commandBuffer, frame_); // the first frame's first group pays for it
-            return *cost;
+    pass(Pass::upload, [&](Group& group) {
+        VkDeviceSize statics = 0;
+        {
+            const std::scoped_lock lock(uploads_);
+            if (group.staticsPending()) {
+                statics = recordStatics(commandBuffer, group);
+            }
         }
-        status = cost.error();
-        return Group::PassCost{};
+        Group::PassCost cost = group.recordUpload(commandBuffer, frame_);
+        cost.bytes += statics;
+        return cost;
     });
     gpu::memoryBarrier(device, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {kCompute, kRead | kWrite});
 
     if (any([](Group& group) { return group.attributesPending(); })) {
-        pass("attributes", [&](Group& group) { return group.recordAttributes(commandBuffer); });
+        pass(Pass::attributes, [&](Group& group) { return group.recordAttributes(commandBuffer); });
     }
-    pass("deform", [&](Group& group) { return group.recordDeform(commandBuffer); });
+    pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();
-    for (const auto& [stage, name] : {std::pair(Stage::vertex, "vertex"), std::pair(Stage::edge, "edge")}) {
+    for (const auto& [stage, kind] : {std::pair(Stage::vertex, Pass::vertex), std::pair(Stage::edge, Pass::edge)}) {
         if (any([&](Group& group) { return group.tables().has(stage); })) {
-            pass(name, [&](Group& group) { return group.recordStage(commandBuffer, stage); });
+            pass(kind, [&](Group& group) { return group.recordStage(commandBuffer, stage); });
             computeBarrier();
         }
     }
     if (any([](Group& group) { return group.writesPatches(); })) {
-        pass("patch", [&](Group& group) {
-            return group.writesPatches() ? group.recordPatch(commandBuffer) : Group::PassCost{};
-        });
+        pass(Pass::patch, [&](Group& group) { return group.recordPatch(commandBuffer); });
     }
-    pass("evaluate", [&](Group& group) { return group.recordEvaluate(commandBuffer); });
+    pass(Pass::evaluate, [&](Group& group) { return group.recordEvaluate(commandBuffer); });
+    if (any([](Group& group) { return group.writesMotion(); })) {
+        if (any([](Group& group) { return group.writesMotion() && group.usesScratch(); })) {
+            computeBarrier();
+        }
+        pass(Pass::motion, [&](Group& group) { return group.recordMotion(commandBuffer); });
+    }
 
+    if (asyncCompute_) {
+        Group::Transfers transfers;
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            const uint32_t count = groupAt(g).transfers(transfers);
+            for (uint32_t i = 0; i < count; ++i) {
+                transfers[i].srcStageMask = kLast.stages;
+                transfers[i].srcAccessMask = kLast.access;
+                transfers[i].srcQueueFamilyIndex = queueFamily_;
+                transfers[i].dstQueueFamilyIndex = drawQueueFamily_;
+            }
+            VkDependencyInfo release{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+            release.bufferMemoryBarrierCount = count;
+            release.pBufferMemoryBarriers = transfers.data();
+            device.vk.CmdPipelineBarrier2(commandBuffer, &release);
+        }
+    }
     if (desc.after.stages != 0) {
-        gpu::memoryBarrier(device, commandBuffer, {kCompute | kTransfer, kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT},
-                           {desc.after.stages, desc.after.access});
+        gpu::memoryBarrier(device, commandBuffer, kLast, {desc.after.stages, desc.after.access});
     }
     device.endLabel(commandBuffer);
-    return status;
+    return success();
+}
+
+Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, SuppleSyncScope use,
+                                          std::span<VkBufferMemoryBarrier2> out) const {
+    if (!asyncCompute_) {
+        return Error{ErrorCode::argument, "suppleGetAcquireBarriers: the context has no SUPPLE_CONTEXT_ASYNC_COMPUTE"};
+    }
+    uint32_t total = 0;
+    for (size_t g = 0; g < wanted.size(); ++g) {
+        const std::shared_ptr<Group> group = groups.find(wanted[g].id);
+        const std::string name = "suppleGetAcquireBarriers: group " + std::to_string(g);
+        if (group == nullptr) {
+            return Error{ErrorCode::staleHandle, name + ": stale or foreign handle"};
+        }
+        if (group->passesFrame() != frame_ || !frameOpen_) {
+            return Error{ErrorCode::order, name + ": not recorded in this frame"};
+        }
+        Group::Transfers transfers;
+        const uint32_t count = group->transfers(transfers);
+        for (uint32_t i = 0; i < count; ++i, ++total) {
+            if (total < out.size()) {
+                out[total] = transfers[i];
+                out[total].dstStageMask = use.stages;
+                out[total].dstAccessMask = use.access;
+                out[total].srcQueueFamilyIndex = queueFamily_;
+                out[total].dstQueueFamilyIndex = drawQueueFamily_;
+            }
+        }
+    }
+    return total;
 }
 
 } // namespace supple::runtime

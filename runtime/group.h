@@ -1,4 +1,4 @@
-// N instances of one asset: their poses on the CPU, their buffers and descriptor sets on the device.
+// The instances of one asset with one scheme: their poses on the CPU, their buffers and descriptor sets on the device.
 #pragma once
 
 #include "base/result.h"
@@ -6,10 +6,12 @@
 #include "gpu/static_buffers.h"
 #include "runtime/asset.h"
 #include "runtime/instance_poses.h"
+#include "runtime/instance_slots.h"
 #include "skinning/deform_pass.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct GroupShared {
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
     uint32_t framesInFlight = 2;
+    uint32_t firstGeneration = 1; ///< of the instances
 };
 
 class Group {
@@ -30,64 +33,108 @@ public:
     [[nodiscard]] static Result<std::shared_ptr<Group>> create(const GroupShared& shared, std::shared_ptr<Asset> asset,
                                                                const SuppleGroupDesc& desc);
 
-    [[nodiscard]] uint32_t instanceCount() const { return instanceCount_; }
     [[nodiscard]] const Asset& asset() const { return *asset_; }
     [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables; }
     [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
-    /// What of the description was not taken as it stands, one line each.
+    /// What the scheme changed about the cage or the rate, one line each.
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+    [[nodiscard]] SupplePoseSource poseSource() const { return poseSource_; }
 
     [[nodiscard]] InstancePoses& poses() { return poses_; }
+    [[nodiscard]] InstanceSlots& slots() { return slots_; }
+    [[nodiscard]] const InstanceSlots& slots() const { return slots_; }
+
+    [[nodiscard]] Status setRate(uint32_t rate);
 
     // The passes of a frame, each recorded without barriers; runtime/frame.cpp puts them in order.
     struct PassCost {
         uint64_t points = 0;
         uint64_t bytes = 0;
     };
-    /// Static tables, first-use clears and this frame's poses.
-    [[nodiscard]] Result<PassCost> recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
-    PassCost recordAttributes(VkCommandBuffer commandBuffer); ///< nothing after the first time
+    /// Static tables and first-use clears. The caller sees to it that no other thread does the same: the asset's tables
+    /// are shared.
+    [[nodiscard]] bool staticsPending() const;
+    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
+    /// This frame's poses, its list of instances and what to draw of them.
+    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
+    PassCost recordAttributes(VkCommandBuffer commandBuffer); ///< nothing after the first time at a rate
     [[nodiscard]] bool attributesPending() const { return attributesPending_; }
+    [[nodiscard]] bool deforms() const { return poseSource_ != SUPPLE_POSES_CAGE_BUFFER; }
     PassCost recordDeform(VkCommandBuffer commandBuffer) const;
     PassCost recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const;
+    [[nodiscard]] bool writesPatches() const { return output_.patchCoefficients.buffer != VK_NULL_HANDLE; }
     PassCost recordPatch(VkCommandBuffer commandBuffer) const;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const;
-    [[nodiscard]] bool writesPatches() const { return output_.patchCoefficients.buffer != VK_NULL_HANDLE; }
+    /// Previous positions; its scratch memory is evaluation's, so a barrier stands between the two.
+    [[nodiscard]] bool writesMotion() const { return output_.previousPositions.buffer != VK_NULL_HANDLE; }
+    [[nodiscard]] bool usesScratch() const;
+    PassCost recordMotion(VkCommandBuffer commandBuffer) const;
 
+    /// What a frame hands from the compute to the draw queue family: buffers written in every frame, and those written
+    /// in this one.
+    using Transfers = std::array<VkBufferMemoryBarrier2, 9>;
+    [[nodiscard]] uint32_t transfers(Transfers& out) const;
+
+    /// The last frame that has the group's passes, and the last that has anything of it.
+    [[nodiscard]] uint64_t passesFrame() const { return passesFrame_; }
     [[nodiscard]] uint64_t lastRecordedFrame() const { return lastRecordedFrame_; }
+    void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame);
 
 private:
+    Status layOutWindows(const SuppleGroupDesc& desc);
     Status createBuffers(const SuppleGroupDesc& desc);
     Status createSets();
+    void layOutDraws();
     void fillOutput(const SuppleGroupDesc& desc);
+    [[nodiscard]] VkDeviceSize surfaceBytes() const; ///< an instance
+    [[nodiscard]] VkDeviceSize uploadBytes() const;  ///< a frame in flight
+    template <class F>
+    void forWindows(F&& record) const;
 
     GroupShared shared_;
     std::shared_ptr<Asset> asset_;
     std::shared_ptr<SchemeTables> scheme_;
-    uint32_t instanceCount_ = 0;
+    SupplePoseSource poseSource_ = SUPPLE_POSES_SET;
+    uint32_t capacity_ = 0;
+    bool anyRate_ = false; ///< the scheme's tables serve all rates
+    uint32_t maxRate_ = 0;
     uint32_t vertexCount_ = 0; ///< surface vertices an instance, without padding
     surface::Evaluation evaluation_;
 
     InstancePoses poses_;
+    InstanceSlots slots_;
 
-    gpu::BufferSet buffers_;    ///< see the enumeration in group.cpp
-    gpu::BufferSet staging_;    ///< poses, one run a frame in flight
-    gpu::StaticBuffers static_; ///< grid indices, indirect arguments
+    gpu::BufferSet buffers_;    ///< see the enumeration in group_buffers.h
+    gpu::BufferSet staging_;    ///< poses, lists and draws, one run a frame in flight
+    gpu::StaticBuffers static_; ///< grid indices
     gpu::DescriptorPoolHandle deformPool_, surfacePool_;
     std::vector<gpu::BufferViewHandle> views_;
-    struct DeformWindow {
-        VkDescriptorSet set = VK_NULL_HANDLE;
-        uint32_t instanceCount = 0;
+    /// Instances that a descriptor can reach: windowSize_ slots, the last window fewer.
+    struct Window {
+        VkDescriptorSet deform = VK_NULL_HANDLE;
+        std::array<VkDescriptorSet, 2> surface{}; ///< by pool
+        std::array<VkDescriptorSet, 2> motion{};  ///< by pool, writing previous positions
     };
-    std::vector<DeformWindow> deformWindows_;
-    std::vector<surface::Window> surfaceWindows_;
+    uint32_t windowSize_ = 0;
+    std::vector<Window> windows_;
+    std::vector<InstanceSlots::Listed> listed_; ///< by window, of the frame being recorded
+    uint32_t visible_ = 0;
+    uint32_t pool_ = 0; ///< the coefficient pool of the newest frame; motion has two
+
+    struct Grid {
+        uint32_t firstIndex = 0, indexCount = 0;
+    };
+    std::vector<std::array<Grid, surface::kDomainCount>> grids_; ///< by rate - 1, or the one
     SuppleGroupOutput output_{};
     std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
     std::vector<std::string> notes_;
     bool cleared_ = false;
     bool attributesPending_ = false;
-    uint64_t lastRecordedFrame_ = 0;
+    bool indicesToRelease_ = false; ///< uploaded, and not yet handed to the draw queue family
+    // Frames that did these:
+    uint64_t clearedFrame_ = 0, indicesReleaseFrame_ = 0, attributesFrame_ = 0;
+    uint64_t passesFrame_ = 0, lastRecordedFrame_ = 0;
 };
 
 } // namespace supple::runtime

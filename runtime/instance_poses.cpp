@@ -7,7 +7,9 @@
 
 namespace supple::runtime {
 
-InstancePoses::InstancePoses(const Asset& asset, uint32_t instanceCount, skinning::SkinningMode mode) : asset_(&asset) {
+InstancePoses::InstancePoses(const Asset& asset, uint32_t instanceCount, skinning::SkinningMode mode,
+                             uint32_t strideMultiple)
+    : asset_(&asset) {
     const cage::Character& character = asset.character;
     const size_t jointCount = character.skin.joints.size();
     targetCount_ = character.morphs.targets.size();
@@ -15,6 +17,7 @@ InstancePoses::InstancePoses(const Asset& asset, uint32_t instanceCount, skinnin
     const bool morphs = asset.firstInfluences != 0;
     layout_ = skinning::PoseLayout::of(mode, static_cast<uint32_t>(jointCount),
                                        morphs ? static_cast<uint32_t>(targetCount_) : 0);
+    layout_.stride = (layout_.stride + strideMultiple - 1) / strideMultiple * strideMultiple;
     palettes_.resize(instanceCount * jointCount);
     if (mode == skinning::SkinningMode::dualQuaternion) {
         rotations_.resize(palettes_.size());
@@ -30,6 +33,12 @@ InstancePoses::InstancePoses(const Asset& asset, uint32_t instanceCount, skinnin
     for (uint32_t instance = 0; instance < instanceCount; ++instance) {
         setBindPose(instance);
     }
+}
+
+void InstancePoses::reset(uint32_t instance) {
+    setBindPose(instance);
+    setMorphWeights(instance, nullptr);
+    setTransform(instance, glm::mat4(1.0f));
 }
 
 std::span<skinning::Affine> InstancePoses::palette(uint32_t instance) {
@@ -95,9 +104,9 @@ void InstancePoses::setMorphWeights(uint32_t instance, const float* weights) {
     }
 }
 
-void InstancePoses::write(std::byte* target) const {
+void InstancePoses::write(uint32_t count, std::byte* target) const {
     const size_t joints = layout_.jointCount;
-    for (uint32_t instance = 0; instance < instanceCount(); ++instance) {
+    for (uint32_t instance = 0; instance < count; ++instance) {
         const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
         skinning::InstancePose pose;
         pose.palette = std::span(palettes_).subspan(instance * joints, joints);

@@ -18,14 +18,16 @@ namespace supple::runtime {
 class InstancePoses {
 public:
     InstancePoses() = default;
-    /// All instances in the bind pose, placed by the identity. The asset must outlive this.
-    InstancePoses(const Asset& asset, uint32_t instanceCount, skinning::SkinningMode mode);
+    /// All instances in the bind pose, placed by the identity. The asset must outlive this. The layout's stride is a
+    /// multiple of `strideMultiple` elements.
+    InstancePoses(const Asset& asset, uint32_t instanceCount, skinning::SkinningMode mode, uint32_t strideMultiple);
 
     [[nodiscard]] const skinning::PoseLayout& layout() const { return layout_; }
-    [[nodiscard]] uint32_t instanceCount() const { return static_cast<uint32_t>(transforms_.size()); }
     /// What an instance takes of the buffer of poses.
     [[nodiscard]] size_t instanceBytes() const { return size_t{layout_.stride} * 16; }
 
+    /// As at first: bind pose, no morph weights of the host's, identity transform.
+    void reset(uint32_t instance);
     void setBindPose(uint32_t instance); ///< identity palette, morph weights 0
     void setRestPose(uint32_t instance);
     void setClipPose(uint32_t instance, uint32_t clip, double time);
@@ -35,8 +37,8 @@ public:
     void setMorphWeights(uint32_t instance, const float* weights); ///< null: the pose's own again
     void setTransform(uint32_t instance, const glm::mat4& transform) { transforms_[instance] = transform; }
 
-    /// Writes instanceCount() * instanceBytes(), in the layout of shaders/shared/deform.h.
-    void write(std::byte* target) const;
+    /// Writes the first `count` instances, instanceBytes() each, in the layout of shaders/shared/deform.h.
+    void write(uint32_t count, std::byte* target) const;
 
 private:
     void setPose(uint32_t instance); ///< from pose_

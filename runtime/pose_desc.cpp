@@ -25,61 +25,58 @@ const char* maskFault(const float* mask, uint32_t count, size_t wanted) {
     return inside ? nullptr : "leaves 0..1";
 }
 
-/// What is wrong with a layer, or an empty string.
-std::string layerFault(const cage::Character& character, const SuppleClipLayer& layer) {
+Status checkLayer(const cage::Character& character, const SuppleClipLayer& layer) {
+    const auto outside = [](const std::string& reason) { return Error{ErrorCode::range, reason}; };
     if (layer.clip >= character.clips.size()) {
-        return "no such clip";
+        return outside("no such clip");
     }
     if (static_cast<uint32_t>(layer.mode) > SUPPLE_LAYER_ADDITIVE) {
-        return "no such mode";
+        return outside("no such mode");
     }
     if ((layer.flags & ~uint32_t{SUPPLE_LAYER_LOOP}) != 0) {
-        return "unknown flags";
+        return outside("unknown flags");
     }
     if (!std::isfinite(layer.time) || !std::isfinite(layer.previousTime) || !std::isfinite(layer.referenceTime)) {
-        return "a time is not finite";
+        return Error{ErrorCode::notFinite, "a time is not finite"};
     }
     if (!std::isfinite(layer.weight)) {
-        return "weight is not finite";
+        return Error{ErrorCode::notFinite, "weight is not finite"};
     }
     if (layer.mode == SUPPLE_LAYER_BLEND && (layer.weight < 0.0f || layer.weight > 1.0f)) {
-        return "weight leaves 0..1";
+        return outside("weight leaves 0..1");
     }
     if (const char* fault = maskFault(layer.jointMask, layer.jointMaskCount, character.skin.joints.size())) {
-        return std::string("jointMask ") + fault;
+        return outside(std::string("jointMask ") + fault);
     }
     if (const char* fault = maskFault(layer.morphMask, layer.morphMaskCount, character.morphs.targets.size())) {
-        return std::string("morphMask ") + fault;
+        return outside(std::string("morphMask ") + fault);
     }
-    return {};
+    return success();
 }
 
 } // namespace
 
-Status checkPose(const Asset& asset, const SupplePoseDesc* desc) {
+Status checkPose(const Asset& asset, const SupplePoseDesc& desc) {
     const cage::Character& character = asset.character;
-    const auto refuse = [](const std::string& reason) { return Error{ErrorCode::argument, reason}; };
-    if (desc == nullptr || desc->structSize != sizeof(SupplePoseDesc)) {
-        return refuse("pose is null or its structSize is wrong");
+    const auto refuse = [](const std::string& reason) { return Error{ErrorCode::range, reason}; };
+    if (desc.layerCount > 0 && desc.layers == nullptr) {
+        return Error{ErrorCode::nullPointer, "layers is null"};
     }
-    if (desc->layerCount > 0 && desc->layers == nullptr) {
-        return refuse("layers is null");
-    }
-    if ((desc->flags & ~uint32_t{SUPPLE_POSE_ROOT_JOINT}) != 0 || (desc->rootMotion & ~kRootFlags) != 0) {
+    if ((desc.flags & ~uint32_t{SUPPLE_POSE_ROOT_JOINT}) != 0 || (desc.rootMotion & ~kRootFlags) != 0) {
         return refuse("unknown flags");
     }
-    if ((desc->flags & SUPPLE_POSE_ROOT_JOINT) != 0) {
-        if (desc->rootJoint >= character.skin.joints.size()) {
+    if ((desc.flags & SUPPLE_POSE_ROOT_JOINT) != 0) {
+        if (desc.rootJoint >= character.skin.joints.size()) {
             return refuse("rootJoint: no such joint");
         }
-        if (character.skeleton.nodes[character.skin.joints[desc->rootJoint]].hasMatrix) {
+        if (character.skeleton.nodes[character.skin.joints[desc.rootJoint]].hasMatrix) {
             return refuse("rootJoint has a fixed matrix");
         }
     }
-    for (uint32_t i = 0; i < desc->layerCount; ++i) {
-        const std::string fault = layerFault(character, desc->layers[i]);
-        if (!fault.empty()) {
-            return refuse("layer " + std::to_string(i) + ": " + fault);
+    for (uint32_t i = 0; i < desc.layerCount; ++i) {
+        const Status valid = checkLayer(character, desc.layers[i]);
+        if (!valid) {
+            return Error{valid.error().code, "layer " + std::to_string(i) + ": " + valid.error().message};
         }
     }
     return success();

@@ -9,7 +9,7 @@
 namespace supple::runtime {
 
 /// Success, or the first rule of supple.h that `desc` breaks.
-[[nodiscard]] Status checkPose(const Asset& asset, const SupplePoseDesc* desc);
+[[nodiscard]] Status checkPose(const Asset& asset, const SupplePoseDesc& desc);
 
 // Of what checkPose takes.
 [[nodiscard]] skinning::Layer layerOf(const Asset& asset, const SuppleClipLayer& layer);

@@ -1,27 +1,35 @@
 #include "runtime/timings.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <span>
 
 namespace supple::runtime {
+
+const char* passName(Pass pass) {
+    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "deform",   "vertex",
+                                                "edge",   "patch",      "evaluate", "motion"};
+    return kNames[static_cast<size_t>(pass)];
+}
 
 Status Timings::create(const gpu::Device& device, uint32_t framesInFlight) {
     timestamps_ = device.timestampValidBits > 0;
     tickMask_ = device.timestampValidBits >= 64 ? ~0ull : (1ull << device.timestampValidBits) - 1;
     tickPeriod_ = static_cast<double>(device.limits.timestampPeriod);
     latest_.reserve(SUPPLE_MAX_TIMINGS);
-    slots_.resize(framesInFlight);
-    for (Slot& slot : slots_) {
-        slot.entries.reserve(SUPPLE_MAX_TIMINGS);
-        slot.marks.reserve(SUPPLE_MAX_TIMINGS);
-        if (!timestamps_) {
-            continue;
+    for (uint32_t i = 0; i < framesInFlight; ++i) {
+        auto slot = std::make_unique<Slot>();
+        slot->entries.resize(SUPPLE_MAX_TIMINGS);
+        slot->marks.resize(SUPPLE_MAX_TIMINGS);
+        if (timestamps_) {
+            // A pass ends with a mark and begins with the one before; each suppleRecord adds one.
+            Result<gpu::Timers> timers = gpu::Timers::create(device, 2 * SUPPLE_MAX_TIMINGS, "supple timings");
+            if (!timers) {
+                return timers.error();
+            }
+            slot->timers = std::move(*timers);
         }
-        // A pass ends with a mark and begins with the one before; each suppleRecord adds one.
-        Result<gpu::Timers> timers = gpu::Timers::create(device, 2 * SUPPLE_MAX_TIMINGS, "supple timings");
-        if (!timers) {
-            return timers.error();
-        }
-        slot.timers = std::move(*timers);
+        slots_.push_back(std::move(slot));
     }
     return success();
 }
@@ -30,73 +38,158 @@ double Timings::nanoseconds(uint64_t ticks) const {
     return static_cast<double>((ticks - origin_) & tickMask_) * tickPeriod_;
 }
 
-void Timings::collect(Slot& slot) {
+Status Timings::collect(Slot& slot) {
+    const size_t count = std::min<size_t>(slot.count.load(), SUPPLE_MAX_TIMINGS);
     if (timestamps_) {
-        const std::span<const uint64_t> ticks = slot.timers.read();
-        if (ticks.empty()) {
-            return;
+        const Result<std::span<const gpu::Timers::Tick>> ticks = slot.timers.read();
+        if (!ticks) {
+            return ticks.error();
         }
-        if (!originKnown_) {
-            origin_ = ticks.front();
+        const auto at = [&](uint32_t mark) { return (*ticks)[mark]; };
+        for (size_t i = 0; i < count; ++i) {
+            if (at(slot.marks[i] - 1).available == 0 || at(slot.marks[i]).available == 0) {
+                return success(); // the host says that the frame is complete; the device does not
+            }
+        }
+        if (!originKnown_ && count > 0) {
+            origin_ = at(slot.marks[0] - 1).value;
             originKnown_ = true;
         }
-        for (size_t i = 0; i < slot.entries.size(); ++i) {
-            slot.entries[i].gpuBegin = nanoseconds(ticks[slot.marks[i] - 1]);
-            slot.entries[i].gpuEnd = nanoseconds(ticks[slot.marks[i]]);
+        for (size_t i = 0; i < count; ++i) {
+            slot.entries[i].gpuBegin = nanoseconds(at(slot.marks[i] - 1).value);
+            slot.entries[i].gpuEnd = nanoseconds(at(slot.marks[i]).value);
         }
     }
-    latest_.assign(slot.entries.begin(), slot.entries.end());
+    latest_.assign(slot.entries.begin(), slot.entries.begin() + static_cast<ptrdiff_t>(count));
+    return success();
 }
 
-void Timings::beginFrame(uint64_t frame, uint64_t completedFrame) {
-    for (Slot& slot : slots_) {
-        if (slot.frame == 0 || slot.frame > completedFrame) {
+Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame,
+                           const std::function<void(const std::string&)>& warn) {
+    Status status = success();
+    for (const std::unique_ptr<Slot>& slot : slots_) {
+        if (slot->frame == 0 || slot->frame > completedFrame) {
             continue;
         }
-        const bool newer = latest_.empty() || slot.frame > latest_.front().frame;
-        if (newer && !slot.entries.empty()) {
-            collect(slot);
+        const bool newer = latest_.empty() || slot->frame > latest_.front().frame;
+        if (newer && slot->count.load() > 0) {
+            const uint64_t before = latest_.empty() ? 0 : latest_.front().frame;
+            const Status collected = collect(*slot);
+            if (!collected) {
+                status = collected;
+            } else if (!latest_.empty() && latest_.front().frame != before) {
+                judge(warn);
+            }
         }
-        slot.frame = 0;
+        slot->frame = 0;
     }
-    current_ = &slots_[frame % slots_.size()];
+    current_ = slots_[frame % slots_.size()].get();
     current_->frame = frame;
-    current_->entries.clear();
-    current_->marks.clear();
-    enabled_ = false;
+    current_->count = 0;
+    current_->timers.clear();
+    return status;
 }
 
-void Timings::open(VkCommandBuffer commandBuffer, bool enabled) {
-    enabled_ = enabled;
-    if (!enabled_ || !timestamps_) {
-        return;
-    }
-    if (current_->entries.empty()) {
-        current_->timers.reset(commandBuffer);
-    }
-    uint32_t mark = 0;
-    enabled_ = current_->timers.mark(commandBuffer, mark);
+void Timings::cancelFrame() {
+    current_->count = 0;
+    current_->timers.clear();
 }
 
-void Timings::beginPass() {
-    if (enabled_) {
+Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t groupCount) {
+    Recording recording;
+    if (timestamps_) {
+        const auto wanted = static_cast<uint32_t>(
+            std::min<uint64_t>(uint64_t{groupCount} * kPassCount, uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
+        if (!current_->timers.take(commandBuffer, wanted, recording.mark_)) {
+            return recording;
+        }
+        current_->timers.mark(commandBuffer, recording.mark_);
+    }
+    recording.timings_ = this;
+    recording.commandBuffer_ = commandBuffer;
+    return recording;
+}
+
+void Timings::Recording::beginPass() {
+    if (timings_ != nullptr) {
         passBegin_ = std::chrono::steady_clock::now();
     }
 }
 
-void Timings::endPass(VkCommandBuffer commandBuffer, const char* pass, uint32_t group, uint64_t points,
-                      uint64_t bytes) {
-    if (!enabled_ || current_->entries.size() == SUPPLE_MAX_TIMINGS) {
+void Timings::Recording::endPass(Pass pass, uint32_t group, uint64_t points, uint64_t bytes) {
+    if (timings_ == nullptr) {
+        return;
+    }
+    Slot& slot = *timings_->current_;
+    const uint32_t entry = slot.count.fetch_add(1);
+    if (entry >= SUPPLE_MAX_TIMINGS) {
+        slot.count.store(SUPPLE_MAX_TIMINGS);
+        timings_ = nullptr;
         return;
     }
     const double cpu = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - passBegin_).count();
-    uint32_t mark = 0;
-    if (timestamps_ && !current_->timers.mark(commandBuffer, mark)) {
-        enabled_ = false;
-        return;
+    if (timings_->timestamps_) {
+        slot.timers.mark(commandBuffer_, ++mark_);
     }
-    current_->entries.push_back({pass, group, current_->frame, 0.0, 0.0, cpu, points, bytes});
-    current_->marks.push_back(mark);
+    slot.entries[entry] = {passName(pass), group, slot.frame, 0.0, 0.0, cpu, points, bytes};
+    slot.marks[entry] = mark_;
+}
+
+size_t Timings::budgetIndex(const char* pass) {
+    if (pass == nullptr) {
+        return kPassCount;
+    }
+    for (size_t i = 0; i < kPassCount; ++i) {
+        if (std::string_view(pass) == passName(static_cast<Pass>(i))) {
+            return i;
+        }
+    }
+    return kPassCount + 1;
+}
+
+bool Timings::setBudget(const char* pass, double nanoseconds) {
+    const size_t index = budgetIndex(pass);
+    if (index > kPassCount) {
+        return false;
+    }
+    budgets_[index] = {};
+    budgets_[index].limit = nanoseconds;
+    return true;
+}
+
+const SuppleBudget* Timings::budget(const char* pass) const {
+    const size_t index = budgetIndex(pass);
+    return index > kPassCount ? nullptr : &budgets_[index];
+}
+
+void Timings::judge(const std::function<void(const std::string&)>& warn) {
+    for (size_t i = 0; i <= kPassCount; ++i) {
+        SuppleBudget& budget = budgets_[i];
+        if (budget.limit <= 0.0) {
+            continue;
+        }
+        double spent = 0.0;
+        for (const SuppleTiming& timing : latest_) {
+            if (i == kPassCount || std::string_view(timing.pass) == passName(static_cast<Pass>(i))) {
+                spent += timing.gpuEnd - timing.gpuBegin;
+            }
+        }
+        const bool wasOver = budget.latest > budget.limit;
+        budget.latest = spent;
+        budget.worst = std::max(budget.worst, spent);
+        ++budget.framesMeasured;
+        if (spent > budget.limit) {
+            ++budget.framesOver;
+            if (!wasOver) {
+                char text[128];
+                std::snprintf(text, sizeof(text), "frame %llu: %s took %.3f ms of its %.3f",
+                              static_cast<unsigned long long>(latest_.front().frame),
+                              i == kPassCount ? "all passes" : passName(static_cast<Pass>(i)), spent * 1e-6,
+                              budget.limit * 1e-6);
+                warn(text);
+            }
+        }
+    }
 }
 
 } // namespace supple::runtime

@@ -1,50 +1,84 @@
-// What every pass cost: GPU timestamps ringed over the frames in flight, CPU record time, elements and bytes written.
+// What every pass cost: GPU timestamps ringed over the frames in flight, CPU record time, elements and bytes written;
+// and the budgets of passes.
 #pragma once
 
 #include "gpu/timers.h"
 #include "supple/supple.h"
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace supple::runtime {
+
+/// The passes of a frame, in order.
+enum class Pass : uint32_t { upload, attributes, deform, vertex, edge, patch, evaluate, motion, count };
+inline constexpr size_t kPassCount = static_cast<size_t>(Pass::count);
+[[nodiscard]] const char* passName(Pass pass);
 
 class Timings {
 public:
     [[nodiscard]] Status create(const gpu::Device& device, uint32_t framesInFlight);
 
-    /// Collects what completed frames measured; never waits.
-    void beginFrame(uint64_t frame, uint64_t completedFrame);
+    /// Collects what completed frames measured; never waits. `warn` is told of passes that have come to exceed their
+    /// budget.
+    [[nodiscard]] Status beginFrame(uint64_t frame, uint64_t completedFrame,
+                                    const std::function<void(const std::string&)>& warn);
+    /// Forgets what the frame has recorded.
+    void cancelFrame();
 
-    // Recording: open() once a suppleRecord, then beginPass/endPass round each pass of each group.
-    void open(VkCommandBuffer commandBuffer, bool enabled);
-    void beginPass();
-    void endPass(VkCommandBuffer commandBuffer, const char* pass, uint32_t group, uint64_t points, uint64_t bytes);
+    /// The measurements of one suppleRecord; several may be open at a time, each in its own command buffer.
+    class Recording {
+    public:
+        void beginPass();
+        void endPass(Pass pass, uint32_t group, uint64_t points, uint64_t bytes);
+
+    private:
+        friend class Timings;
+        Timings* timings_ = nullptr; ///< null: nothing is measured
+        VkCommandBuffer commandBuffer_ = VK_NULL_HANDLE;
+        uint32_t mark_ = 0;
+        std::chrono::steady_clock::time_point passBegin_;
+    };
+    /// Makes room for as many passes as the groups can have.
+    [[nodiscard]] Recording open(VkCommandBuffer commandBuffer, uint32_t groupCount);
 
     /// The newest completed frame; empty when there is none.
     [[nodiscard]] const std::vector<SuppleTiming>& latest() const { return latest_; }
+
+    /// False: no such pass. Null stands for all passes together; 0 takes the budget away.
+    [[nodiscard]] bool setBudget(const char* pass, double nanoseconds);
+    /// Null: no such pass. limit 0: it has no budget.
+    [[nodiscard]] const SuppleBudget* budget(const char* pass) const;
 
 private:
     struct Slot {
         gpu::Timers timers;
         uint64_t frame = 0;
-        std::vector<SuppleTiming> entries;
-        std::vector<uint32_t> marks; ///< per entry: the timestamp that ends it; the one before begins it
+        std::vector<SuppleTiming> entries; ///< SUPPLE_MAX_TIMINGS, of which `count` are in use
+        std::vector<uint32_t> marks;       ///< per entry: the timestamp that ends it; the one before begins it
+        std::atomic<uint32_t> count = 0;
     };
-    void collect(Slot& slot);
+    [[nodiscard]] Status collect(Slot& slot);
+    void judge(const std::function<void(const std::string&)>& warn);
     [[nodiscard]] double nanoseconds(uint64_t ticks) const;
+    [[nodiscard]] static size_t budgetIndex(const char* pass);
 
-    std::vector<Slot> slots_;
+    std::vector<std::unique_ptr<Slot>> slots_;
     Slot* current_ = nullptr;
     bool timestamps_ = false; ///< the queue family has them
-    bool enabled_ = false;
     uint64_t tickMask_ = 0;
     double tickPeriod_ = 1.0;
     bool originKnown_ = false;
     uint64_t origin_ = 0; ///< first tick seen: differences are taken as integers, which doubles could not hold
-    std::chrono::steady_clock::time_point passBegin_;
     std::vector<SuppleTiming> latest_;
+    std::array<SuppleBudget, kPassCount + 1> budgets_{}; ///< the last: all passes
 };
 
 } // namespace supple::runtime

@@ -149,6 +149,8 @@ Result<DeformPass> DeformPass::create(const gpu::Device& device) {
         {kPoseBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
         {kPoseTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
         {kDeformedCageBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+        {kInstanceBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+        {kInstanceTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
     };
     DeformPass pass;
     pass.device_ = &device;

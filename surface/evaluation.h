@@ -9,9 +9,10 @@
 
 namespace supple::surface {
 
-/// What one window of instances binds.
+/// Instances that one descriptor set reaches.
 struct Window {
     VkDescriptorSet set = VK_NULL_HANDLE;
+    uint32_t firstInstance = 0; ///< in the list of instances (shaders/shared/instances.h)
     uint32_t instanceCount = 0;
 };
 
@@ -19,7 +20,7 @@ struct Window {
 struct Evaluation {
     uint32_t rate = 8;
     uint32_t cageStride = 0; ///< cage vertices an instance in the deformed cage
-    bool vertex24 = false;
+    uint32_t vertexFormat = shared::kVertex16;
     uint32_t verticesPerInstance = 0;    ///< at least vertexCount(): the stride between instances
     std::vector<uint32_t> firstVertices; ///< per patch range: where its vertices begin in an instance
 

@@ -29,13 +29,14 @@ static_assert(sizeof(shared::KernelPush) <= sizeof(shared::SurfacePush));
 
 // Specialization constants of the passes. Construction kernels have one, their kind; the others a class or domain.
 constexpr uint32_t kKindConstant = gpu::kFirstPassConstant;
-constexpr uint32_t kVertex24Constant = kKindConstant + 1;
+constexpr uint32_t kVertexFormatConstant = kKindConstant + 1;
 constexpr uint32_t kCornerNormalsConstant = kKindConstant + 2;
 
 shared::SurfacePush pushFor(const Tables& tables, const Section& section, const Window& window,
                             const Evaluation& evaluation) {
     shared::SurfacePush push{};
     push.count = section.count;
+    push.firstInstance = window.firstInstance;
     push.instanceCount = window.instanceCount;
     push.table = section.table;
     push.ring = tables.ring;
@@ -110,7 +111,8 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
         {kCageBinding, kStorage},      {kCageTexelBinding, kTexels},    {kPoolBinding, kStorage},
         {kPoolTexelBinding, kTexels},  {kSurfaceBinding, kStorage},     {kPatchCoefficientBinding, kStorage},
         {kAttributeBinding, kStorage}, {kUv1Binding, kStorage},         {kPairBinding, kStorage},
-        {kScratchBinding, kStorage},   {kScratchTexelBinding, kTexels}, {kFaceUvBinding, kStorage}};
+        {kScratchBinding, kStorage},   {kScratchTexelBinding, kTexels}, {kFaceUvBinding, kStorage},
+        {kInstanceBinding, kStorage},  {kInstanceTexelBinding, kTexels}};
     Passes passes;
     passes.device_ = &device;
     Result<gpu::ComputeLayout> layout =
@@ -144,10 +146,10 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     construction(Kernel::blendChart, shaders.blendChart, 0, "supple blend, chart");
     construction(Kernel::blendChartFromPool, shaders.blendChart, 1, "supple blend, chart of a subdivided cage");
     for (const uint32_t patchClass : {kBlendPatch, kBlendSharpPatch}) {
-        for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24) {
-            wanted.push_back({&passes.evaluate_[patchClass][vertex24][0],
+        for (uint32_t format = 0; format < kVertexFormats; ++format) {
+            wanted.push_back({&passes.evaluate_[patchClass][format][0],
                               shaders.blendEvaluate,
-                              {{kKindConstant, patchClass}, {kVertex24Constant, vertex24}},
+                              {{kKindConstant, patchClass}, {kVertexFormatConstant, format}},
                               "supple evaluate, blend"});
         }
     }
@@ -164,11 +166,11 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
                               bicubic ? shaders.patch : shaders.pmPatch,
                               {{kKindConstant, patchClass}, {kCornerNormalsConstant, normals}},
                               "supple patch, " + name});
-            for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24) {
+            for (uint32_t format = 0; format < kVertexFormats; ++format) {
                 wanted.push_back(
-                    {&passes.evaluate_[patchClass][vertex24][normals],
+                    {&passes.evaluate_[patchClass][format][normals],
                      bicubic ? shaders.bicubic : shaders.pmEvaluate,
-                     {{kKindConstant, patchClass}, {kVertex24Constant, vertex24}, {kCornerNormalsConstant, normals}},
+                     {{kKindConstant, patchClass}, {kVertexFormatConstant, format}, {kCornerNormalsConstant, normals}},
                      "supple evaluate, " + name});
             }
         }
@@ -251,7 +253,7 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
         push.patchesPerGroup = wide ? patchesPerGroup(push.samples, device_->mapping.localSize) : 1;
         const uint64_t patches = uint64_t{push.count} * push.instanceCount;
         const uint64_t groups = wide ? (patches + push.patchesPerGroup - 1) / push.patchesPerGroup : groupsFor(patches);
-        const auto& pipelines = evaluate_[static_cast<size_t>(range.patchClass)][evaluation.vertex24 ? 1 : 0];
+        const auto& pipelines = evaluate_[static_cast<size_t>(range.patchClass)][evaluation.vertexFormat];
         record(commandBuffer, pipelines[tables.cornerNormals ? 1 : 0].get(), window.set, push, groups);
     }
 }

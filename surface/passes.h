@@ -55,9 +55,9 @@ private:
     gpu::ComputeLayout layout_;
     std::array<gpu::PipelineHandle, static_cast<size_t>(Kernel::count)> construction_;
     std::array<gpu::PipelineHandle, kDomainCount> attributes_; ///< by domain
-    // By class and by corner normals, which only p-rep's classes have; evaluate_ also by 24-byte vertices.
+    // By class and by corner normals, which only p-rep's classes have; evaluate_ also by vertex format.
     std::array<std::array<gpu::PipelineHandle, 2>, kClasses> patch_;
-    std::array<std::array<std::array<gpu::PipelineHandle, 2>, 2>, kClasses> evaluate_;
+    std::array<std::array<std::array<gpu::PipelineHandle, 2>, shared::kVertexFormats>, kClasses> evaluate_;
     kernel::Passes kernel_;
 };
 

@@ -17,8 +17,8 @@ vec3 vertexAt(uint instance, uint i) {
 
 void main() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uvec4 record = tableElement(push.table + (id - instance * push.count));
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uvec4 record = tableElement(push.table + (id - entry * push.count));
     vec3 vertex = vertexAt(instance, record.x);
     uint points = tableElement(record.z).x;
     precise vec3 sum[9];

@@ -120,8 +120,8 @@ void evaluateSample(Corner corners[4], uint i, uint j, bool still, out vec3 posi
 
 void evaluateNarrow() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uint patchIndex = id - instance * push.count;
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uint patchIndex = id - entry * push.count;
     uint base = instance * push.poolStride;
     Corner corners[4];
     for (uint k = 0u; k < 4u; ++k) {
@@ -162,8 +162,8 @@ void evaluateWide() {
     for (uint n = gl_LocalInvocationID.x; n < here * 36u; n += gl_WorkGroupSize.x) {
         uint slot = n / 36u, c = n - slot * 36u;
         uint id = first + slot;
-        uint instance = id / push.count;
-        uint word = tableElement(push.table + 4u * (id - instance * push.count) + c / 9u).x;
+        uint entry = id / push.count, instance = instanceSlot(entry);
+        uint word = tableElement(push.table + 4u * (id - entry * push.count) + c / 9u).x;
         sharedCoefficients[n] = vec4(poolVector(instance * push.poolStride + (word & kPoolIndexMask) + c % 9u), 0.0);
     }
     barrier();
@@ -172,8 +172,8 @@ void evaluateWide() {
         uint slot = n / push.samples, sampleIndex = n - slot * push.samples;
         uint j = sampleIndex / side, i = sampleIndex - j * side;
         uint id = first + slot;
-        uint instance = id / push.count;
-        uint patchIndex = id - instance * push.count;
+        uint entry = id / push.count, instance = instanceSlot(entry);
+        uint patchIndex = id - entry * push.count;
         Corner corners[4];
         for (uint k = 0u; k < 4u; ++k) {
             uvec4 record = tableElement(push.table + 4u * patchIndex + k);

@@ -15,6 +15,7 @@ layout(set = 0, binding = kPoseTexelBinding) uniform samplerBuffer poseTexels;
 layout(set = 0, binding = kDeformedCageBinding, std430) writeonly buffer DeformedCage { vec4 deformedCage[]; };
 
 layout(push_constant) uniform Push { DeformPush push; };
+#include "shaders/shared/instances.glsl"
 
 uvec4 table(uint i) {
     if (kWide) return tableElements[i];
@@ -128,8 +129,8 @@ vec3 blendedAsDualQuaternions(vec3 rest, uint first, uint end, uint joints) {
 void main() {
     // Clamped, not returned early: a divergent return makes every later load slow on CPU devices.
     uint id = min(invocationIndex(), push.vertexCount * push.instanceCount - 1u);
-    uint instance = id / push.vertexCount;
-    uint index = id - instance * push.vertexCount;
+    uint entry = id / push.vertexCount, instance = instanceSlot(entry);
+    uint index = id - entry * push.vertexCount;
     uvec4 vertex = table(index);
     vec3 rest = uintBitsToFloat(vertex.xyz);
     uint first = vertex.w, end = table(index + 1u).w;

@@ -93,8 +93,8 @@ vec3 cornerNormal(vec3 normal, uint i, uint j, uvec4 slots, uint base) {
 
 void evaluateNarrow() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uint patchIndex = id - instance * push.count;
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uint patchIndex = id - entry * push.count;
     uint record = push.table + patchIndex * recordElements();
     uint base = instance * push.poolStride;
     Patch c;
@@ -146,8 +146,8 @@ void evaluateWide() {
     for (uint n = gl_LocalInvocationID.x; n < here * 16u; n += gl_WorkGroupSize.x) {
         uint slot = n / 16u, k = n - slot * 16u, corner = cornerOf(k);
         uint id = first + slot;
-        uint instance = id / push.count;
-        uint words = 4u * (push.table + (id - instance * push.count) * recordElements()), base = instance * push.poolStride;
+        uint entry = id / push.count, instance = instanceSlot(entry);
+        uint words = 4u * (push.table + (id - entry * push.count) * recordElements()), base = instance * push.poolStride;
         vec3 origin = poolVector(base + tableWord(words)), v = poolVector(base + tableWord(words + corner));
         vec3 offset = vec3(0.0);
         if (k != corner) offset = poolVector(base + tableWord(words + k));
@@ -162,8 +162,8 @@ void evaluateWide() {
         uint slot = k / samples, sampleIndex = k - slot * samples;
         uint j = sampleIndex / side, i = sampleIndex - j * side;
         uint id = first + slot;
-        uint instance = id / push.count;
-        uint patchIndex = id - instance * push.count;
+        uint entry = id / push.count, instance = instanceSlot(entry);
+        uint patchIndex = id - entry * push.count;
         Patch c;
         for (uint n = 0u; n < 16u; ++n) {
             uint from = slot * kSharedStride + n;

@@ -15,8 +15,8 @@ const uint kFaceEdgeOrder[16] = uint[16](SUPPLE_PREP_FACE_EDGE_ORDER);
 
 void main() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uint patchIndex = id - instance * push.count;
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uint patchIndex = id - entry * push.count;
     uint record = push.table + patchIndex * recordElements();
     uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
     for (uint k = 0u; k < 16u; ++k) {

@@ -1,8 +1,8 @@
-// The surface vertex: 16 bytes (position, octahedral normal in 2 x snorm16) or 24 (position, normal).
-layout(constant_id = 4) const bool kVertex24 = false;
+// The surface vertex: 16 bytes (position, octahedral normal in 2 x snorm16), 24 (position, normal) or 12 (position).
+layout(constant_id = 4) const uint kVertexFormat = kVertex16;
 
 layout(set = 0, binding = kSurfaceBinding, std430) writeonly buffer Surface16 { uvec4 surface16[]; };
-layout(set = 0, binding = kSurfaceBinding, scalar) writeonly buffer Surface24 { vec3 surface24[]; };
+layout(set = 0, binding = kSurfaceBinding, scalar) writeonly buffer SurfaceVectors { vec3 surfaceVectors[]; };
 
 const float kTiny = 1e-37; // above the denormals, which devices may flush
 
@@ -15,9 +15,11 @@ uint encodeOctahedral(vec3 n) {
 }
 
 void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
-    if (kVertex24) {
-        surface24[2u * vertex] = position;
-        surface24[2u * vertex + 1u] = normal;
+    if (kVertexFormat == kVertexPosition) {
+        surfaceVectors[vertex] = position;
+    } else if (kVertexFormat == kVertex24) {
+        surfaceVectors[2u * vertex] = position;
+        surfaceVectors[2u * vertex + 1u] = normal;
     } else {
         surface16[vertex] = uvec4(floatBitsToUint(position), encodeOctahedral(normal));
     }

@@ -30,8 +30,8 @@ void writePoint(uint at, vec3 p) {
 void main() {
     // Workgroups past the last repeat it: all lanes must meet at the barriers.
     uint id = min(workgroupIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uvec4 record = tableElement(push.records + (id - instance * push.count));
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uvec4 record = tableElement(push.records + (id - entry * push.count));
     uint header = record.x, fragment = record.y;
     uvec4 head = tableElement(header), last = tableElement(header + 2u);
     uint patches = tableElement(header + 1u).x;

@@ -10,8 +10,8 @@
 
 void main() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uvec4 record = tableElement(push.table + (id - instance * push.count));
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uvec4 record = tableElement(push.table + (id - entry * push.count));
     uint cageBase = instance * push.cageStride;
     vec3 first = cageVertex(cageBase + record.x);
     precise vec3 sum = vec3(0.0);

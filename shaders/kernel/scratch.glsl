@@ -17,8 +17,9 @@ Lane lane;
 void findLane() {
     uint id = invocationIndex();
     uint block = min(id / kBlockLanes, push.count * push.instanceCount - 1u);
-    lane.instance = block / push.count;
-    lane.record = push.records + 3u * (block - lane.instance * push.count);
+    uint entry = block / push.count;
+    lane.instance = instanceSlot(entry);
+    lane.record = push.records + 3u * (block - entry * push.count);
     uvec4 where = tableElement(lane.record), what = tableElement(lane.record + 1u);
     lane.rows = where.x;
     lane.list = where.y;

@@ -134,8 +134,8 @@ uvec3 sectorOf(uint index) {
 
 void evaluateNarrow() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uint patchIndex = id - instance * push.count;
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uint patchIndex = id - entry * push.count;
     uint record = push.table + kSides * patchIndex, base = instance * push.poolStride;
     uint samples = push.samples;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
@@ -162,8 +162,8 @@ void evaluateWide() {
     uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
     for (uint n = gl_LocalInvocationID.x; n < here * kSides; n += gl_WorkGroupSize.x) {
         uint slot = n / kSides, id = first + slot;
-        uint instance = id / push.count;
-        uint record = push.table + kSides * (id - instance * push.count);
+        uint entry = id / push.count, instance = instanceSlot(entry);
+        uint record = push.table + kSides * (id - entry * push.count);
         Sector s = loadSector(record, instance * push.poolStride, n - slot * kSides);
         uint to = n * kSectorPoints;
         sharedPoints[to] = vec4(s.centre, 0.0);
@@ -175,8 +175,8 @@ void evaluateWide() {
     for (uint n = gl_LocalInvocationID.x; n < here * samples; n += gl_WorkGroupSize.x) {
         uint slot = n / samples, sampleIndex = n - slot * samples;
         uint id = first + slot;
-        uint instance = id / push.count;
-        uint patchIndex = id - instance * push.count;
+        uint entry = id / push.count, instance = instanceSlot(entry);
+        uint patchIndex = id - entry * push.count;
         uvec3 at = sectorOf(sampleIndex);
         uint from = (slot * kSides + at.z) * kSectorPoints;
         Sector s;

@@ -91,8 +91,8 @@ void innerFacet(uint record, uint base) {
 
 void main() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uint facet = id - instance * push.count, base = instance * push.poolStride;
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uint facet = id - entry * push.count, base = instance * push.poolStride;
     if (kClass == kPolarPatch) polarFacet(push.table + 2u * facet, base);
     else innerFacet(push.table + 2u * kSides * facet, base);
 }

@@ -11,8 +11,8 @@ layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer Pat
 
 void main() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uint patchIndex = id - instance * push.count, base = instance * push.poolStride;
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uint patchIndex = id - entry * push.count, base = instance * push.poolStride;
     uint record = push.table + kSides * patchIndex;
     uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
     uint inner = base + tableElement(record).w;

@@ -102,8 +102,8 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
 
 void main() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uvec4 record = tableElement(push.table + (id - instance * push.count));
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uvec4 record = tableElement(push.table + (id - entry * push.count));
     uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
     uint words = push.ring + 3u * record.y;
     uint limit = base + record.w, tangent = base + push.tangents + record.y, face = base + push.faces + record.y;

@@ -16,8 +16,8 @@ vec3 weighted(float w[6], vec3 tA, vec3 tB, vec3 B, vec3 SA, vec3 SB) {
 
 void main() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uint record = push.table + 3u * (id - instance * push.count);
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uint record = push.table + 3u * (id - entry * push.count);
     uint base = instance * push.poolStride;
     uvec4 curve = base + tableElement(record);
     uvec4 sums = base + tableElement(record + 1u);

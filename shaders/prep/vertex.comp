@@ -20,8 +20,8 @@ vec3 ringDiagonal(uint words, uint k, uint cageBase, vec3 p0) {
 
 void main() {
     uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint instance = id / push.count;
-    uvec4 record = tableElement(push.table + (id - instance * push.count));
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uvec4 record = tableElement(push.table + (id - entry * push.count));
     uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
     uint words = push.ring + 2u * record.y;
     uint limit = base + record.x, tangent = base + push.tangents + record.y, face = base + push.faces + record.y;

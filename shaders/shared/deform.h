@@ -15,6 +15,7 @@
 #ifndef SUPPLE_SHARED_DEFORM_H
 #define SUPPLE_SHARED_DEFORM_H
 
+#include "shaders/shared/instances.h"
 #include "shaders/shared/portable.h"
 
 SUPPLE_SHARED_BEGIN
@@ -32,6 +33,7 @@ SUPPLE_SHARED_CONST kDualQuaternionTransform = 3u; // behind the instance's tran
 
 struct DeformPush {
     uint vertexCount;
+    uint firstInstance; // of the list
     uint instanceCount; // of this window
     uint poseStride;
     uint cageStride;      // vertices an instance in the deformed cage

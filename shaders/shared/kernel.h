@@ -75,6 +75,7 @@ struct KernelPush {
     uint scratchStride;
     uint verticesPerInstance;
     uint samples; // of a sector
+    uint firstInstance; // of the list
 };
 
 SUPPLE_SHARED_END

@@ -16,6 +16,7 @@
 #ifndef SUPPLE_SHARED_SURFACE_H
 #define SUPPLE_SHARED_SURFACE_H
 
+#include "shaders/shared/instances.h"
 #include "shaders/shared/portable.h"
 
 SUPPLE_SHARED_BEGIN
@@ -54,6 +55,12 @@ SUPPLE_SHARED_CONST kPolarDomain = 1u;
 SUPPLE_SHARED_CONST kTriangleDomain = 2u;
 SUPPLE_SHARED_CONST kPentagonDomain = 3u;
 
+// What evaluation writes a sample.
+SUPPLE_SHARED_CONST kVertex16 = 0u;       // position, octahedral normal in 2 x snorm16
+SUPPLE_SHARED_CONST kVertex24 = 1u;       // position, normal
+SUPPLE_SHARED_CONST kVertexPosition = 2u; // position alone, 12 bytes: where a sample was before
+SUPPLE_SHARED_CONST kVertexFormats = 3u;
+
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
 
 SUPPLE_SHARED_CONST kPatchStride = 32u;       // elements a patch of any class in the patch-coefficient buffer
@@ -79,6 +86,7 @@ struct SurfacePush {
     uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
     uint uvSets;          // 1 or 2
     uint faceUvs;         // 1 where corners have a place in their face's trim tile
+    uint firstInstance;   // of the list
 };
 
 SUPPLE_SHARED_END

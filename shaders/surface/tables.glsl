@@ -13,6 +13,7 @@ layout(set = 0, binding = kTable1TexelBinding) uniform usamplerBuffer tableWordT
 #define PUSH_CONSTANTS SurfacePush
 #endif
 layout(push_constant) uniform Push { PUSH_CONSTANTS push; };
+#include "shaders/shared/instances.glsl"
 
 uvec4 tableElement(uint i) {
     if (kWide) return tableElements[i];

@@ -7,7 +7,7 @@ namespace supple::surface::kernel {
 namespace {
 
 constexpr uint32_t kLoopConstant = gpu::kFirstPassConstant;
-constexpr uint32_t kVertex24Constant = kLoopConstant + 1;
+constexpr uint32_t kVertexFormatConstant = kLoopConstant + 1;
 constexpr uint32_t kFromNetConstant = kLoopConstant + 2;
 constexpr uint32_t kSharedPointsConstant = kLoopConstant + 2;
 constexpr uint32_t kKindConstant = kLoopConstant + 3;
@@ -52,20 +52,24 @@ Result<Passes> Passes::create(const gpu::Device& device, const gpu::ComputeLayou
         }
     }
     for (uint32_t loop = 0; loop < 2; ++loop) {
-        for (uint32_t flag = 0; flag < 2; ++flag) {
-            for (Bucket& bucket : passes.buckets_) {
-                make(bucket.pipelines[loop][flag], shaders.fragment, "supple kernel, shared memory",
-                     {{kLoopConstant, loop}, {kVertex24Constant, flag}, {kSharedPointsConstant, bucket.sharedPoints}});
+        for (Bucket& bucket : passes.buckets_) {
+            for (uint32_t format = 0; format < shared::kVertexFormats; ++format) {
+                make(bucket.pipelines[loop][format], shaders.fragment, "supple kernel, shared memory",
+                     {{kLoopConstant, loop},
+                      {kVertexFormatConstant, format},
+                      {kSharedPointsConstant, bucket.sharedPoints}});
             }
+        }
+        for (uint32_t flag = 0; flag < 2; ++flag) {
             for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
                 make(passes.refine_[loop][flag][kind], shaders.refine, "supple kernel, refine",
                      {{kLoopConstant, loop}, {kFromNetConstant, flag}, {kKindConstant, kind}});
             }
             for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
-                for (uint32_t vertex24 = 0; vertex24 < 2; ++vertex24) {
-                    make(passes.limit_[loop][flag][kind][vertex24], shaders.limit, "supple kernel, limit",
+                for (uint32_t format = 0; format < shared::kVertexFormats; ++format) {
+                    make(passes.limit_[loop][flag][kind][format], shaders.limit, "supple kernel, limit",
                          {{kLoopConstant, loop},
-                          {kVertex24Constant, vertex24},
+                          {kVertexFormatConstant, format},
                           {kFromNetConstant, flag},
                           {kKindConstant, kind}});
                 }
@@ -107,8 +111,9 @@ void Passes::dispatch(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDesc
 void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
                     const Evaluation& evaluation) const {
     const Fragments& fragments = tables.fragments;
-    const size_t loop = fragments.loop ? 1 : 0, vertex24 = evaluation.vertex24 ? 1 : 0;
+    const size_t loop = fragments.loop ? 1 : 0, format = evaluation.vertexFormat;
     shared::KernelPush push{};
+    push.firstInstance = window.firstInstance;
     push.instanceCount = window.instanceCount;
     push.poolStride = tables.poolStride;
     push.scratchStride = fragments.scratchStride;
@@ -124,7 +129,7 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
         for (; c < stepwise && bucketOf(fragments.classes[c].sharedPoints) == bucket; ++c) {
             push.count += fragments.classes[c].fragments.count;
         }
-        dispatch(commandBuffer, buckets_[bucket].pipelines[loop][vertex24].get(), window.set, push,
+        dispatch(commandBuffer, buckets_[bucket].pipelines[loop][format].get(), window.set, push,
                  uint64_t{push.count} * push.instanceCount);
     }
     if (stepwise == fragments.classes.size()) {
@@ -156,7 +161,7 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
     }
     push.step = fragments.steps;
     for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
-        stepwiseWork(limit_[loop][fragments.steps == 0 ? 1 : 0][kind][vertex24],
+        stepwiseWork(limit_[loop][fragments.steps == 0 ? 1 : 0][kind][format],
                      fragments.steps * shared::kWorkKinds + kind);
     }
 }

@@ -41,12 +41,14 @@ private:
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     struct Bucket {
         uint32_t sharedPoints = 0;
-        std::array<std::array<gpu::PipelineHandle, 2>, 2> pipelines; ///< by loop, 24-byte vertices
+        std::array<std::array<gpu::PipelineHandle, shared::kVertexFormats>, 2> pipelines; ///< by loop and vertex format
     };
     std::vector<Bucket> buckets_; ///< sharedPoints rise; empty on CPU devices
-    // By loop, whether the level before is the isolated one, and kind of work; the limit also by 24-byte vertices.
+    // By loop, whether the level before is the isolated one, and kind of work; the limit also by vertex format.
     std::array<std::array<std::array<gpu::PipelineHandle, shared::kWorkKinds>, 2>, 2> refine_;
-    std::array<std::array<std::array<std::array<gpu::PipelineHandle, 2>, shared::kWorkKinds>, 2>, 2> limit_;
+    std::array<std::array<std::array<std::array<gpu::PipelineHandle, shared::kVertexFormats>, shared::kWorkKinds>, 2>,
+               2>
+        limit_;
 };
 
 } // namespace supple::surface::kernel

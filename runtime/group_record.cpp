@@ -1,0 +1,232 @@
+// What a group puts into a command buffer: its uploads and its share of every pass.
+#include "runtime/group.h"
+#include "runtime/group_buffers.h"
+
+#include <cstring>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+
+bool Group::staticsPending() const {
+    return asset_->buffers.uploadPending() || scheme_->buffers.uploadPending() || static_.uploadPending() ||
+           (!cleared_ && buffers_.size(kPool) > 0);
+}
+
+VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
+    VkDeviceSize bytes = asset_->buffers.recordUpload(commandBuffer, frame);
+    bytes += scheme_->buffers.recordUpload(commandBuffer, frame);
+    const VkDeviceSize own = static_.recordUpload(commandBuffer, frame);
+    indicesToRelease_ = indicesToRelease_ || own > 0;
+    if (!cleared_) {
+        // The zero coefficient and the slots no stage writes.
+        for (const BufferIndex pool : {kPool, kSecondPool}) {
+            if (buffers_.size(pool) > 0) {
+                shared_.device->vk.CmdFillBuffer(commandBuffer, buffers_.buffer(pool), 0, VK_WHOLE_SIZE, 0);
+            }
+        }
+        cleared_ = true;
+        clearedFrame_ = frame;
+    }
+    lastRecordedFrame_ = frame;
+    return bytes + own;
+}
+
+Group::PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
+    const gpu::Device& device = *shared_.device;
+    passesFrame_ = lastRecordedFrame_ = frame;
+    if (indicesToRelease_) {
+        indicesToRelease_ = false;
+        indicesReleaseFrame_ = frame;
+    }
+    if (writesMotion()) {
+        pool_ = 1 - pool_;
+    }
+    const VkDeviceSize run = frame % shared_.framesInFlight * uploadBytes();
+    std::byte* const staging = staging_.mapped(0) + run;
+    PassCost cost;
+    const auto copy = [&](BufferIndex target, VkDeviceSize from, VkDeviceSize to, VkDeviceSize bytes) {
+        if (bytes > 0) {
+            const VkBufferCopy region{run + from, to, bytes};
+            device.vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(target), 1, &region);
+            cost.bytes += bytes;
+        }
+    };
+
+    const uint32_t end = slots_.end();
+    if (poseSource_ == SUPPLE_POSES_SET) {
+        poses_.write(end, staging);
+        copy(kPoses, 0, 0, end * poses_.instanceBytes());
+    }
+
+    const VkDeviceSize lists = buffers_.size(kPoses), list = buffers_.size(kInstances) / 2;
+    auto* const all = reinterpret_cast<uint32_t*>(staging + lists);
+    visible_ = slots_.list({all, capacity_}, {all + capacity_, capacity_}, windowSize_, listed_);
+    copy(kInstances, lists, 0, visible_ * sizeof(uint32_t));
+    for (uint32_t w = 0; w < windows_.size(); ++w) {
+        const VkDeviceSize at = list + VkDeviceSize{w} * windowSize_ * sizeof(uint32_t);
+        copy(kInstances, lists + at, at, listed_[w].count * sizeof(uint32_t));
+    }
+
+    const VkDeviceSize draws = lists + 2 * list;
+    std::byte* target = staging + draws;
+    for (const SuppleDrawRange& range : drawRanges_) {
+        const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * visible_, range.firstIndex, 0,
+                                                   0};
+        std::memcpy(target, &command, sizeof(command));
+        target += sizeof(command);
+    }
+    copy(kIndirect, draws, 0, buffers_.size(kIndirect));
+    cost.points = uint64_t{poses_.layout().jointCount} * visible_;
+    return cost;
+}
+
+template <class F>
+void Group::forWindows(F&& record) const {
+    for (uint32_t w = 0; w < windows_.size(); ++w) {
+        if (listed_[w].count > 0) {
+            record(windows_[w], capacity_ + w * windowSize_, listed_[w]);
+        }
+    }
+}
+
+Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
+    if (!attributesPending_) {
+        return {};
+    }
+    attributesPending_ = false;
+    attributesFrame_ = passesFrame_;
+    shared_.surface->recordAttributes(commandBuffer, scheme_->tables, {windows_.front().surface[pool_], 0, 1},
+                                      evaluation_);
+    return {vertexCount_, buffers_.size(kAttributes) + buffers_.size(kUvs1) + buffers_.size(kFaceUvs)};
+}
+
+Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
+    if (!deforms()) {
+        return {};
+    }
+    const skinning::PoseLayout& layout = poses_.layout();
+    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        shared_.deform->record(commandBuffer, window.deform, layout.mode,
+                               {output_.cageVertexCount, first, listed.count, layout.stride, evaluation_.cageStride,
+                                layout.morphWeights, asset_->firstInfluences});
+    });
+    const uint64_t points = uint64_t{output_.cageVertexCount} * visible_;
+    return {points, points * kVec4Bytes};
+}
+
+Group::PassCost Group::recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const {
+    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        shared_.surface->recordStage(commandBuffer, stage, scheme_->tables,
+                                     {window.surface[pool_], first, listed.count}, evaluation_);
+    });
+    PassCost cost;
+    for (const surface::Construction& c : scheme_->tables.constructions) {
+        if (c.stage == stage) {
+            cost.points += uint64_t{c.section.count} * visible_;
+            cost.bytes += uint64_t{c.coefficients} * visible_ * kVec4Bytes;
+        }
+    }
+    return cost;
+}
+
+Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
+    if (!writesPatches()) {
+        return {};
+    }
+    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        shared_.surface->recordPatch(commandBuffer, scheme_->tables, {window.surface[pool_], first, listed.count},
+                                     evaluation_);
+    });
+    const uint64_t points = uint64_t{output_.patchCount} * visible_;
+    return {points, points * kPatchStride * kVec4Bytes};
+}
+
+Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
+    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {window.surface[pool_], first, listed.count},
+                                        evaluation_);
+    });
+    const uint64_t points = uint64_t{vertexCount_} * visible_;
+    return {points, points * output_.surfaceVertices.stride};
+}
+
+bool Group::usesScratch() const {
+    return buffers_.size(kScratch) > 0;
+}
+
+Group::PassCost Group::recordMotion(VkCommandBuffer commandBuffer) const {
+    if (!writesMotion()) {
+        return {};
+    }
+    surface::Evaluation positions = evaluation_;
+    positions.vertexFormat = kVertexPosition;
+    bool first = true;
+    const auto evaluate = [&](VkDescriptorSet set, uint32_t from, uint32_t count) {
+        if (count == 0) {
+            return;
+        }
+        if (!first) {
+            // Other instances; to synchronization validation the buffers are one resource each.
+            gpu::computeBarrier(*shared_.device, commandBuffer);
+        }
+        first = false;
+        shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {set, from, count}, positions);
+    };
+    // Instances with a past from the coefficients of the frame before, new ones from today's.
+    forWindows([&](const Window& window, uint32_t from, const InstanceSlots::Listed& listed) {
+        evaluate(window.motion[1 - pool_], from, listed.withPast);
+        evaluate(window.motion[pool_], from + listed.withPast, listed.count - listed.withPast);
+    });
+    const uint64_t points = uint64_t{vertexCount_} * visible_;
+    return {points, points * kPreviousPositionBytes};
+}
+
+uint32_t Group::transfers(Transfers& out) const {
+    uint32_t count = 0;
+    const auto add = [&](VkBuffer buffer, bool written) {
+        if (buffer != VK_NULL_HANDLE && written) {
+            VkBufferMemoryBarrier2& barrier = out[count++];
+            barrier = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
+            barrier.buffer = buffer;
+            barrier.size = VK_WHOLE_SIZE;
+        }
+    };
+    const bool attributes = attributesFrame_ == passesFrame_;
+    add(buffers_.buffer(kSurface), true);
+    add(buffers_.buffer(kPreviousPositions), true);
+    add(buffers_.buffer(kDeformedCage), deforms());
+    add(buffers_.buffer(kInstances), true);
+    add(buffers_.buffer(kIndirect), true);
+    add(buffers_.buffer(kAttributes), attributes);
+    add(buffers_.buffer(kUvs1), attributes);
+    add(buffers_.buffer(kFaceUvs), attributes);
+    add(static_.buffer(kGridIndices), indicesReleaseFrame_ == passesFrame_);
+    return count;
+}
+
+void Group::cancelFrame(uint64_t frame) {
+    asset_->buffers.cancelUpload(frame);
+    scheme_->buffers.cancelUpload(frame);
+    static_.cancelUpload(frame);
+    if (clearedFrame_ == frame) {
+        cleared_ = false;
+    }
+    if (indicesReleaseFrame_ == frame) {
+        indicesToRelease_ = true;
+    }
+    if (attributesFrame_ == frame) {
+        attributesPending_ = true;
+    }
+    if (passesFrame_ == frame) {
+        slots_.forgetAll();
+    }
+}
+
+void Group::releaseStaging(uint64_t completedFrame) {
+    asset_->buffers.releaseStaging(completedFrame);
+    scheme_->buffers.releaseStaging(completedFrame);
+    static_.releaseStaging(completedFrame);
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,56 @@
+// Which slots of a group hold an instance, which of those are seen, and which have a past.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace supple::runtime {
+
+/// Slots below the capacity, each with a generation that rises when its instance is destroyed.
+class InstanceSlots {
+public:
+    InstanceSlots() = default;
+    /// Generations begin at `firstGeneration` (not 0).
+    InstanceSlots(uint32_t capacity, uint32_t firstGeneration);
+
+    /// The lowest free slot, now taken and visible; nothing when all are.
+    [[nodiscard]] std::optional<uint32_t> create();
+    void destroy(uint32_t slot);
+    [[nodiscard]] bool holds(uint32_t slot, uint32_t generation) const;
+    [[nodiscard]] uint32_t generation(uint32_t slot) const { return slots_[slot].generation; }
+
+    void setVisible(uint32_t slot, bool visible) { slots_[slot].visible = visible; }
+    /// The next frame sees the instance as new.
+    void forget(uint32_t slot) { slots_[slot].evaluated = false; }
+    void forgetAll();
+
+    [[nodiscard]] uint32_t capacity() const { return static_cast<uint32_t>(slots_.size()); }
+    /// One past the highest slot in use.
+    [[nodiscard]] uint32_t end() const { return end_; }
+
+    /// A window of slots in the frame's list: first those that were evaluated in the frame before, then the new ones.
+    struct Listed {
+        uint32_t count = 0;
+        uint32_t withPast = 0;
+    };
+    /// Lists the frame's instances and notes them as evaluated. `all`: the visible slots, rising. `byWindow`: slot
+    /// numbers from their window's first on, the entries of window w from w * windowSize on; `windows` is filled in.
+    /// Both hold capacity() entries. Returns the visible.
+    uint32_t list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,
+                  std::span<Listed> windows);
+
+private:
+    struct Slot {
+        uint32_t generation = 1;
+        bool live = false;
+        bool visible = true;
+        bool evaluated = false; ///< in the group's last recorded frame
+    };
+    std::vector<Slot> slots_;
+    uint32_t end_ = 0;
+    uint32_t lowestFree_ = 0; ///< none is free below
+};
+
+} // namespace supple::runtime

@@ -1,0 +1,47 @@
+// Structs of supple.h that begin with structSize, across versions: read from older and newer callers, written to them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace supple::runtime {
+
+/// The size a struct had in the first version of the ABI (SOVERSION 0). A struct that grows gets a specialization with
+/// its old size; a new field must not lie where an older struct had padding.
+template <class T>
+inline constexpr size_t kFirstSize = sizeof(T);
+
+/// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with
+/// something in fields that this library does not know.
+template <class T>
+[[nodiscard]] bool readSized(const T& from, T& to, size_t firstSize = kFirstSize<T>) {
+    const size_t size = from.structSize;
+    if (size < firstSize) {
+        return false;
+    }
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&from);
+    if (size > sizeof(T) && std::any_of(bytes + sizeof(T), bytes + size, [](unsigned char b) { return b != 0; })) {
+        return false;
+    }
+    to = {};
+    std::memcpy(&to, &from, std::min(size, sizeof(T)));
+    to.structSize = sizeof(T);
+    return true;
+}
+
+/// Writes what the caller's version has room for. What a newer caller has beyond is zeroed. The caller has checked
+/// that structSize is at least the first version's.
+template <class T>
+void writeSized(const T& from, T& to) {
+    const size_t size = to.structSize;
+    auto* bytes = reinterpret_cast<unsigned char*>(&to);
+    std::memcpy(bytes, &from, std::min(size, sizeof(T)));
+    if (size > sizeof(T)) {
+        std::memset(bytes + sizeof(T), 0, size - sizeof(T));
+    }
+    to.structSize = static_cast<uint32_t>(size);
+}
+
+} // namespace supple::runtime
