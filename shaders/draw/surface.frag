@@ -25,9 +25,19 @@ layout(constant_id = 0) const bool kLightPerVertex = false; // see surface.vert
 
 const vec3 kClay = vec3(0.50, 0.47, 0.44);
 
-// Regular, perturbed, polar, P_3, P_4, P_5.
-const vec3 kClassColors[6] = vec3[6](vec3(0.36, 0.43, 0.50), vec3(0.78, 0.33, 0.11), vec3(0.62, 0.20, 0.42),
-                                     vec3(0.80, 0.58, 0.12), vec3(0.78, 0.33, 0.11), vec3(0.16, 0.50, 0.34));
+// A color a class of patches, as sRGB bytes. Chosen so that classes of one scheme keep apart for eyes of every kind, those
+// of different schemes as well as ten colors can: under simulated protanopia, deuteranopia and tritanopia the former are
+// 0.12 and more apart in OKLab, the latter 0.08, with differences of lightness, which shading changes, counted half.
+const vec3 kClassColors[10] = vec3[10](vec3(0x8E, 0x9B, 0xA8),  // regular: slate
+                                       vec3(0x50, 0x20, 0x80),  // perturbed: violet
+                                       vec3(0x80, 0x20, 0x50),  // polar: wine
+                                       vec3(0xF0, 0xE4, 0x42),  // P_3: yellow
+                                       vec3(0xD5, 0x5E, 0x00),  // P_4: vermilion
+                                       vec3(0x20, 0x20, 0xC8),  // P_5: blue
+                                       vec3(0x98, 0x50, 0x98),  // Catmull-Clark: purple
+                                       vec3(0x80, 0xE0, 0xE0),  // Loop: cyan
+                                       vec3(0xB0, 0xE0, 0x98),  // blend: light green
+                                       vec3(0x50, 0x80, 0xE0)); // blend, sharp: sky blue
 
 /// Distances from the patch's border, in segments.
 vec3 insideBorder() {
@@ -87,7 +97,7 @@ void main() {
             material = Material(kClay, 0.55);
         } else if (push.view == kViewPatches) {
             float vary = patchHash(inPatch) - 0.5;
-            material.albedo = kClassColors[patchClasses[inPatch]] * (1.0 + 0.34 * vary);
+            material.albedo = fromSrgb(kClassColors[patchClasses[inPatch]] / 255.0) * (1.0 + 0.34 * vary);
             material.roughness = 0.5;
         }
         // The inside of a skin that is not meant to be seen: still there, but plainly inside.

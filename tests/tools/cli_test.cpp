@@ -207,6 +207,41 @@ TEST_F(Cli, InspectCountsACube) {
     EXPECT_NE(text.out.find("accepted"), std::string::npos);
 }
 
+TEST_F(Cli, InspectTellsTrims) {
+    const std::string helmet = std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb";
+    const Json materials = Json::parse(run("inspect " + helmet + " --json").out)["materials"];
+    ASSERT_EQ(materials.size(), 3u);
+    EXPECT_FALSE(materials[0].contains("trim"));
+    EXPECT_EQ(materials[1]["trim"],
+              Json({{"domain", "uv"}, {"image", 0}, {"uvSet", 0}, {"channel", "r"}, {"cutoff", 0.5}}));
+    EXPECT_EQ(materials[2]["trim"]["image"], 1);
+    EXPECT_NE(run("inspect " + helmet).out.find("visor  trimmed on UV set 0, image 1, channel r below 0.5"),
+              std::string::npos);
+
+    // All faces share tile 0.
+    Json gltf = Json::parse(cubeGltf("cube.bin", true));
+    writeText(file("tile.bin"), std::string(8 * sizeof(float), '\0'));
+    gltf["buffers"].push_back({{"uri", "tile.bin"}, {"byteLength", 32}});
+    gltf["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 32}});
+    gltf["accessors"].push_back({{"bufferView", 5}, {"componentType", 5126}, {"count", 8}, {"type", "SCALAR"}});
+    writeText(file("strip.png"), "\x89PNG\r\n\x1a\n");
+    gltf["images"] = {{{"uri", "strip.png"}}};
+    gltf["textures"] = {{{"source", 0}}};
+    gltf["materials"] = {{{"name", "lace"}}};
+    gltf["materials"][0]["extras"]["trim"] = {
+        {"texture", {{"index", 0}}}, {"domain", "face"}, {"tiles", 4}, {"channel", "a"}, {"cutoff", 0.25}};
+    Json& primitive = gltf["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["attributes"]["_TRIM_TILE"] = 5;
+    writeText(file("lace.gltf"), gltf.dump());
+    const Outcome lace = run("inspect lace.gltf --json");
+    ASSERT_EQ(lace.exitCode, 0) << lace.err;
+    EXPECT_EQ(Json::parse(lace.out)["materials"][0]["trim"],
+              Json({{"domain", "face"}, {"image", 0}, {"tiles", 4}, {"channel", "a"}, {"cutoff", 0.25}}));
+    EXPECT_NE(run("inspect lace.gltf").out.find("lace  trimmed on faces' tiles, 4 in image 0, channel a below 0.25"),
+              std::string::npos);
+}
+
 TEST_F(Cli, InspectSaysWhyASchemeRefuses) {
     const Json triangles = Json::parse(run("inspect triangles.gltf --json").out);
     EXPECT_EQ(triangles["faces"], 12);
@@ -455,6 +490,18 @@ TEST_F(Cli, RenderOfAllSchemesIsOneSheet) {
     EXPECT_GT(four.first * four.second, 4u * 80u * 60u);
     EXPECT_GT(three.first * three.second, 3u * 80u * 60u);
     EXPECT_NE(four, three);
+    writeText(file("ridge.obj"), "v -1 0 0\nv 0 0 0\nv 1 0 0\nv -1 1 0\nv 0 1 1\nv 1 1 0\nv -1 2 0\nv 0 2 0\nv 1 2 0\n"
+                                 "f 1 2 5 4\nf 2 3 6 5\nf 4 5 8 7\nf 5 6 9 8\n"
+                                 "t crease 2/1/0 1 4 3.0\nt crease 2/1/0 4 7 3.0\n");
+    std::vector<std::string> pictures;
+    for (const char* flags : {"", "--creases curve", "--sharp 4"}) {
+        const Outcome ridge =
+            runOnDevice(std::string("render ridge.obj -o ridge.png --scheme blend --size 80x60 --rate 4 ") + flags);
+        ASSERT_EQ(ridge.exitCode, 0) << ridge.err;
+        pictures.push_back(readText(file("ridge.png")));
+    }
+    EXPECT_NE(pictures[0], pictures[1]);
+    EXPECT_NE(pictures[0], pictures[2]);
     expectFailure(run("render cube.gltf -o x.png --at 0.5"), 2, "--at");
     expectFailure(run("render cube.gltf -o x.png --at 2,0"), 2, "--at");
     expectFailure(run("render cube.gltf -o x.png --zoom 0"), 2, "--zoom");

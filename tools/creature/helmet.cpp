@@ -130,6 +130,11 @@ double faceOpening(double s, double t) {
 
 // ---- the cage ----
 
+float smooth(float x) {
+    x = std::clamp(x, 0.0f, 1.0f);
+    return x * x * (3.0f - 2.0f * x);
+}
+
 /// The shell: a ball of six grids without the lowest one, longer than wide, with a comb over the middle.
 void addShell(Cage& cage) {
     const Cage ball = makeCubeSphere(6);
@@ -146,8 +151,14 @@ void addShell(Cage& cage) {
         for (const uint32_t v : corners) {
             const auto [known, isNew] = kept.try_emplace(v, cage.vertexCount());
             glm::vec3 p = ball.positions[v];
-            const bool comb = std::abs(p.x) < 1e-4f && p.y > 0.25f;
-            p *= comb ? 1.0f + 0.13f * std::sqrt((p.y - 0.25f) / 0.75f) : 1.0f;
+            const float height = std::max(0.0f, (p.y - 0.25f) / 0.75f);
+            if (std::abs(p.x) < 1e-4f) {
+                p *= 1.0f + 0.13f * std::sqrt(height);
+            } else {
+                // The grid lines beside it stand closer, so that the comb rises from a narrow foot.
+                p.x *= 1.0f - 0.45f * smooth(height * 2.0f) * smooth((0.72f - std::abs(p.x)) / 0.46f);
+                p = glm::normalize(p);
+            }
             p *= glm::vec3(0.86f, 1.0f, 1.02f);
             if (isNew) {
                 cage.positions.push_back(rounded(p));

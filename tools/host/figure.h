@@ -72,6 +72,8 @@ struct GroupOptions {
     uint32_t rate = 8;
     SuppleVertexFormat vertexFormat = SUPPLE_VERTEX_16;
     SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR;
+    SuppleCreaseMode creaseMode = SUPPLE_CREASES_CUT;
+    float sharpThreshold = 1.0f;
 };
 
 /// A Supple group with what drawing it needs besides Supple's buffers. May be destroyed only when no pending frame uses

@@ -45,23 +45,6 @@ uint32_t halvings(SuppleScheme scheme, const cage::Cage& cage) {
     return steps;
 }
 
-/// surface.frag has a color for each class of coefficients. Patches without coefficients borrow them: Catmull-Clark's,
-/// which mostly are bicubic, and the blending surface's smooth ones that of bicubic patches.
-uint32_t colorClass(SupplePatchClass patchClass) {
-    switch (patchClass) {
-    case SUPPLE_PATCH_CATMULL_CLARK:
-        return SUPPLE_PATCH_REGULAR;
-    case SUPPLE_PATCH_LOOP:
-        return SUPPLE_PATCH_P5;
-    case SUPPLE_PATCH_BLEND:
-        return SUPPLE_PATCH_REGULAR;
-    case SUPPLE_PATCH_BLEND_SHARP:
-        return SUPPLE_PATCH_PERTURBED;
-    default:
-        return static_cast<uint32_t>(patchClass);
-    }
-}
-
 std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t stride) {
     std::vector<glm::vec3> positions(bytes.size() / stride);
     for (size_t i = 0; i < positions.size(); ++i)
@@ -83,6 +66,8 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     desc.rate = options.rate;
     desc.vertexFormat = options.vertexFormat;
     desc.skinning = options.skinning;
+    desc.creaseMode = options.creaseMode;
+    desc.sharpThreshold = options.sharpThreshold;
     if (const Status status =
             context.check(suppleCreateGroup(context.handle(), &desc, &group->group_), "suppleCreateGroup");
         !status)
@@ -127,7 +112,7 @@ Status FigureGroup::uploadTables() {
         return status.error();
     std::vector<uint32_t> classes(std::max<size_t>(count, 1));
     for (uint32_t i = 0; i < count; ++i)
-        classes[i] = colorClass(patches[i].patchClass);
+        classes[i] = static_cast<uint32_t>(patches[i].patchClass);
     Result<Buffer> classBuffer =
         device.uploadBuffer(classes.data(), classes.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     if (!classBuffer)

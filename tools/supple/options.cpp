@@ -63,10 +63,14 @@ void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::
     command.add_option("--corners", flags.corners, "Boundary vertices of one face")
         ->check(CLI::IsMember({"sharp", "smooth"}))
         ->capture_default_str();
-    command.add_option("--creases", flags.creases, "blend: sharp edges as cuts, or as curves in one sheet")
+    bindSharpEdges(command, flags.creases, flags.sharpThreshold);
+}
+
+void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold) {
+    command.add_option("--creases", creases, "blend: sharp edges as cuts, or as curves in one sheet")
         ->check(CLI::IsMember({"cut", "curve"}))
         ->capture_default_str();
-    command.add_option("--sharp", flags.sharpThreshold, "blend: the sharpness from which on edges are sharp")
+    command.add_option("--sharp", sharpThreshold, "blend: the sharpness from which on edges are sharp")
         ->check(CLI::Range(1e-3f, 10.0f))
         ->capture_default_str();
 }
@@ -74,9 +78,13 @@ void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::
 void describeSurface(const SurfaceFlags& flags, SuppleGroupDesc& desc) {
     desc.tangentMode = flags.tangents == "printed" ? SUPPLE_TANGENTS_PRINTED : SUPPLE_TANGENTS_DEFAULT;
     desc.cornerRule = flags.corners == "smooth" ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP;
-    desc.creaseMode = flags.creases == "curve" ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT;
+    desc.creaseMode = creaseModeOf(flags.creases);
     desc.sharpThreshold = flags.sharpThreshold;
     desc.skinning = skinningOf(flags.skinning);
+}
+
+SuppleCreaseMode creaseModeOf(const std::string& name) {
+    return name == "curve" ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT;
 }
 
 SuppleSkinning skinningOf(const std::string& name) {

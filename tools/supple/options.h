@@ -40,9 +40,13 @@ struct SurfaceFlags {
 void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, bool& pairQuads,
                 const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
+/// --creases and --sharp.
+void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold);
 /// The description's fields that --tangents, --corners, --creases, --sharp and --skinning set.
 void describeSurface(const SurfaceFlags& flags, SuppleGroupDesc& desc);
 
+/// --creases: "cut" or "curve".
+[[nodiscard]] SuppleCreaseMode creaseModeOf(const std::string& name);
 /// --skinning: "linear" or "dual-quaternion".
 [[nodiscard]] SuppleSkinning skinningOf(const std::string& name);
 

@@ -8,8 +8,10 @@
 namespace supple::tools {
 
 struct DrawOptions {
-    std::string scheme = "auto";     ///< auto | pm | prep | catmull-clark | loop | cage (the deformed cage itself)
+    std::string scheme = "auto";     ///< auto, a scheme's, or cage (the deformed cage itself)
     std::string skinning = "linear"; ///< linear | dual-quaternion
+    std::string creases = "cut";     ///< cut | curve
+    float sharpThreshold = 1.0f;     ///< see SuppleGroupDesc
     uint32_t rate = 8;               ///< 1..64: see SuppleGroupDesc
     std::string view = "shaded";     ///< shaded | wire | patches | normals | zebra
     bool cageOverlay = false;        ///< the cage's edges drawn over the surface

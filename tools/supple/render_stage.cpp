@@ -74,9 +74,12 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
     if (!figure)
         return figure.error();
     stage->figure_ = std::move(*figure);
-    Result<std::unique_ptr<host::FigureGroup>> group = host::FigureGroup::create(
-        *stage->figure_,
-        {.scheme = schemeOf(options.scheme), .rate = options.rate, .skinning = skinningOf(options.skinning)});
+    Result<std::unique_ptr<host::FigureGroup>> group =
+        host::FigureGroup::create(*stage->figure_, {.scheme = schemeOf(options.scheme),
+                                                    .rate = options.rate,
+                                                    .skinning = skinningOf(options.skinning),
+                                                    .creaseMode = creaseModeOf(options.creases),
+                                                    .sharpThreshold = options.sharpThreshold});
     if (!group)
         return group.error();
     stage->group_ = std::move(*group);

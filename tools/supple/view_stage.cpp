@@ -30,6 +30,8 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     // The cage is only the first thing shown: the surface is a key away.
     stage->scheme_ = options.scheme == "cage" ? SUPPLE_SCHEME_AUTO : schemeOf(options.scheme);
     stage->skinning_ = skinningOf(options.skinning);
+    stage->creaseMode_ = creaseModeOf(options.creases);
+    stage->sharpThreshold_ = options.sharpThreshold;
     stage->pairQuads_ = options.pairQuads;
     stage->settings.rate = static_cast<int>(stage->offeredRate(options.rate));
     stage->startYaw_ = radians(options.yaw);
@@ -44,8 +46,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     const Result<uint32_t> chosen = (*figure)->findClip(clip);
     if (!chosen)
         return chosen.error();
-    Result<std::unique_ptr<host::FigureGroup>> group = host::FigureGroup::create(
-        **figure, {.scheme = scheme_, .rate = static_cast<uint32_t>(settings.rate), .skinning = skinning_});
+    Result<std::unique_ptr<host::FigureGroup>> group = createGroup(**figure, static_cast<uint32_t>(settings.rate));
     if (!group)
         return group.error();
     std::vector<ClipTime> poses;
@@ -80,9 +81,16 @@ uint32_t ViewStage::offeredRate(uint32_t rate) const {
     return ratesArePowersOfTwo() ? std::bit_ceil(std::max(rate, 2u)) : rate;
 }
 
+Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& figure, uint32_t rate) const {
+    return host::FigureGroup::create(figure, {.scheme = scheme_,
+                                              .rate = rate,
+                                              .skinning = skinning_,
+                                              .creaseMode = creaseMode_,
+                                              .sharpThreshold = sharpThreshold_});
+}
+
 Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
-    Result<std::unique_ptr<host::FigureGroup>> group =
-        host::FigureGroup::create(*figure_, {.scheme = scheme_, .rate = rate, .skinning = skinning_});
+    Result<std::unique_ptr<host::FigureGroup>> group = createGroup(*figure_, rate);
     if (!group)
         return group.error();
     Result<host::FigureBinding> binding = renderer_.bind(**group);

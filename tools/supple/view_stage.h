@@ -72,12 +72,15 @@ private:
     };
 
     ViewStage(host::Context& context, host::SurfaceRenderer& renderer) : context_(context), renderer_(renderer) {}
+    [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(host::Figure& figure, uint32_t rate) const;
     void readTimings();
 
     host::Context& context_;
     host::SurfaceRenderer& renderer_;
     SuppleScheme scheme_ = SUPPLE_SCHEME_AUTO;
     SuppleSkinning skinning_ = SUPPLE_SKINNING_LINEAR;
+    SuppleCreaseMode creaseMode_ = SUPPLE_CREASES_CUT;
+    float sharpThreshold_ = 1.0f;
     bool pairQuads_ = false;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
