@@ -1,5 +1,6 @@
 // Pictures: what is drawn stands where it should, is the same from run to run, and draws without a word from the
 // validation layer. Judging beauty stays with people.
+#include "tests/tools/validated_device.h"
 #include "tools/host/surface_renderer.h"
 
 #include <algorithm>
@@ -23,9 +24,7 @@ constexpr float kMargin = 0.08f;
 class RenderTest : public testing::Test {
 protected:
     static void SetUpTestSuite() {
-        Result<std::unique_ptr<Device>> device = Device::create({.validation = true});
-        if (!device)
-            device = Device::create();
+        Result<std::unique_ptr<Device>> device = createValidatedDevice();
         ASSERT_TRUE(device.ok()) << device.error().message;
         device_ = std::move(*device);
         Result<std::unique_ptr<Context>> context = Context::create(*device_);

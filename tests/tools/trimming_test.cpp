@@ -2,6 +2,7 @@
 // through the holes; multisampling covers what the contour leaves. Drawn under the validation layer.
 #include "cage/gltf_writer.h"
 #include "cage/single_joint.h"
+#include "tests/tools/validated_device.h"
 #include "tools/host/cage_arrays.h"
 #include "tools/host/character_file.h"
 #include "tools/host/surface_renderer.h"
@@ -111,10 +112,7 @@ cage::Character trimmedSheet(const std::function<glm::vec3(glm::vec2)>& place, c
 class TrimmingTest : public testing::Test {
 protected:
     static void SetUpTestSuite() {
-        Result<std::unique_ptr<Device>> device = Device::create({.validation = true});
-        if (!device) {
-            device = Device::create();
-        }
+        Result<std::unique_ptr<Device>> device = createValidatedDevice();
         ASSERT_TRUE(device.ok()) << device.error().message;
         device_ = std::move(*device);
         Result<std::unique_ptr<Context>> context = Context::create(*device_);
