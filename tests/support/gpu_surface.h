@@ -81,6 +81,10 @@ public:
     [[nodiscard]] glm::vec3 deformed(uint32_t instance, uint32_t cageVertex) const {
         return deformed_[size_t{instance} * output_.cageVerticesPerInstance + cageVertex];
     }
+    [[nodiscard]] std::vector<glm::vec3> deformedCage(uint32_t instance) const {
+        const auto first = deformed_.begin() + instance * ptrdiff_t{output_.cageVerticesPerInstance};
+        return {first, first + output_.cageVerticesPerInstance};
+    }
     /// In the order of SupplePatchClass.
     [[nodiscard]] glm::vec3 coefficient(uint32_t instance, uint32_t patch, uint32_t k) const {
         return coefficients_[(size_t{instance} * output_.patchCount + patch) * SUPPLE_PATCH_STRIDE + k];
