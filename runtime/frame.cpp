@@ -1,8 +1,6 @@
 // One frame, as the data flows: upload, deform, vertex, edge, patch, evaluate.
 #include "runtime/context.h"
 
-#include <utility>
-
 namespace supple::runtime {
 
 namespace {
@@ -87,9 +85,10 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     pass("deform", [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();
-    for (const auto& [stage, name] : {std::pair(Stage::vertex, "vertex"), std::pair(Stage::edge, "edge")}) {
+    for (const Stage stage : {Stage::vertex, Stage::edge}) {
         if (any([&](Group& group) { return group.tables().has(stage); })) {
-            pass(name, [&](Group& group) { return group.recordStage(commandBuffer, stage); });
+            pass(stage == Stage::vertex ? "vertex" : "edge",
+                 [&](Group& group) { return group.recordStage(commandBuffer, stage); });
             computeBarrier();
         }
     }
