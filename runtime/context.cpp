@@ -151,8 +151,11 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     if (!group) {
         return group.error();
     }
-    for (const std::string& note : (*group)->notes()) {
+    for (const std::string& note : (*group)->tables().notes) {
         log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_SCHEME_NOTE, asset->character.name + ": " + note);
+    }
+    if (!(*group)->rateNote().empty()) {
+        log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_RATE_CHANGED, asset->character.name + ": " + (*group)->rateNote());
     }
     return groups.insert(std::move(*group));
 }

@@ -1,8 +1,6 @@
 // One frame, as the data flows: upload, deform, vertex, edge, patch, evaluate, motion.
 #include "runtime/context.h"
 
-#include <utility>
-
 namespace supple::runtime {
 
 namespace {
@@ -131,12 +129,14 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();
-    for (const auto& [stage, kind] : {std::pair(Stage::vertex, Pass::vertex), std::pair(Stage::edge, Pass::edge)}) {
+    const auto construct = [&](Stage stage, Pass kind) {
         if (any([&](Group& group) { return group.tables().has(stage); })) {
             pass(kind, [&](Group& group) { return group.recordStage(commandBuffer, stage); });
             computeBarrier();
         }
-    }
+    };
+    construct(Stage::vertex, Pass::vertex);
+    construct(Stage::edge, Pass::edge);
     if (any([](Group& group) { return group.writesPatches(); })) {
         pass(Pass::patch, [&](Group& group) { return group.recordPatch(commandBuffer); });
     }

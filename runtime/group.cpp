@@ -91,7 +91,6 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         return Error{ErrorCode::argument, name + ": " + schemeName + " has no patch coefficients"};
     }
 
-    group->notes_ = tables.notes;
     group->anyRate_ = tables.rate == 0;
     group->maxRate_ = group->anyRate_ ? rate : tables.rate;
     if (!group->anyRate_) {
@@ -99,8 +98,8 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         if (taken != rate) {
             const char* rule =
                 surface::subdivides(group->scheme_->recipe.scheme) ? " has 2, 4, 8.." : " has an even number of";
-            group->notes_.push_back("rate " + std::to_string(rate) + ": " + schemeName + rule +
-                                    " segments an edge of the cage, here " + std::to_string(taken));
+            group->rateNote_ = "rate " + std::to_string(rate) + ": " + schemeName + rule +
+                               " segments an edge of the cage, here " + std::to_string(taken);
         }
     }
     group->evaluation_.rate = group->maxRate_;

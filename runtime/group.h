@@ -36,8 +36,8 @@ public:
     [[nodiscard]] const Asset& asset() const { return *asset_; }
     [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables; }
     [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
-    /// What the scheme changed about the cage or the rate, one line each.
-    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+    /// Why the rate is not the one asked for, or empty.
+    [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
     [[nodiscard]] SupplePoseSource poseSource() const { return poseSource_; }
 
     [[nodiscard]] InstancePoses& poses() { return poses_; }
@@ -128,7 +128,7 @@ private:
     std::vector<std::array<Grid, surface::kDomainCount>> grids_; ///< by rate - 1, or the one
     SuppleGroupOutput output_{};
     std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
-    std::vector<std::string> notes_;
+    std::string rateNote_;
     bool cleared_ = false;
     bool attributesPending_ = false;
     bool indicesToRelease_ = false; ///< uploaded, and not yet handed to the draw queue family

@@ -38,6 +38,28 @@ struct DraftPatch {
     std::array<uint32_t, kMaxSides> cageCorners{}; ///< of that cage
 };
 
+/// The faces of a refined cage as patches, but for their classes: all that are no holes, in their order.
+/// `mesh`: has `cage`, `sourceFaces`, `holes` and `cornerSources`, as surface::Level and its schemes say.
+template <class Mesh>
+[[nodiscard]] std::vector<DraftPatch> draftPatches(const Mesh& mesh) {
+    std::vector<DraftPatch> patches;
+    for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
+        if (mesh.holes[f] != 0) {
+            continue;
+        }
+        DraftPatch& patch = patches.emplace_back();
+        patch.facet = f;
+        patch.material = mesh.cage.faceMaterials.empty() ? cage::kNone : mesh.cage.faceMaterials[f];
+        patch.info.face = mesh.sourceFaces[f];
+        patch.info.cornerCount = mesh.cage.sides(f);
+        for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
+            patch.cageCorners[i] = mesh.cage.faceStarts[f] + i;
+            patch.info.corners[i] = mesh.cornerSources[patch.cageCorners[i]];
+        }
+    }
+    return patches;
+}
+
 /// Puts patches into device order: by class, then material, then facet.
 void sortPatches(std::vector<DraftPatch>& patches);
 

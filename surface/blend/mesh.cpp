@@ -1,9 +1,9 @@
 #include "surface/blend/mesh.h"
 
+#include "base/within_memory.h"
 #include "cage/features.h"
 
 #include <algorithm>
-#include <new>
 #include <optional>
 #include <utility>
 
@@ -217,11 +217,7 @@ bool flatAcross(const Mesh& mesh, uint32_t corner) {
 }
 
 Result<Mesh> buildMesh(const Cage& cage, const Options& options) {
-    try {
-        return build(cage, options);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::hostMemory, "out of memory for the charts of the blending surface"};
-    }
+    return withinMemory("the charts of the blending surface", [&] { return build(cage, options); });
 }
 
 } // namespace supple::surface::blend

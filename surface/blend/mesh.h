@@ -6,9 +6,9 @@
 #include "cage/topology.h"
 #include "surface/subdivision.h"
 
-#include <compare>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace supple::surface::blend {
@@ -63,7 +63,9 @@ struct ChartClass {
     [[nodiscard]] bool creased() const { return kind == ChartKind::cut || kind == ChartKind::curve; }
 
     bool operator==(const ChartClass&) const = default;
-    auto operator<=>(const ChartClass&) const = default;
+    bool operator<(const ChartClass& other) const {
+        return std::tie(kind, sectors) < std::tie(other.kind, other.sectors);
+    }
 };
 
 /// Ring points counter-clockwise: with e_h the far end of spoke h and f_h the far corner of sector h's face, e_0 f_0

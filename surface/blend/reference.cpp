@@ -3,6 +3,7 @@
 #include "surface/blend/reference.h"
 
 #include <cmath>
+#include <map>
 
 namespace supple::surface::blend {
 namespace {
@@ -60,10 +61,13 @@ Evaluator<T>::Evaluator(const Mesh& mesh, std::span<const ChartCoefficients<T>> 
         weights_.push_back((T(2) * t - T(3)) * t * t + T(1));
         weightSlopes_.push_back(T(6) * t * (t - T(1)));
     }
+    std::map<uint32_t, uint32_t> byTurns;
     for (const ChartClass& chartClass : mesh.classes) {
         const uint32_t turns = chartClass.turns();
-        Table& table = tables_[turns];
-        if (table.points.empty()) {
+        const auto [known, isNew] = byTurns.try_emplace(turns, static_cast<uint32_t>(tables_.size()));
+        tableOfClass_.push_back(known->second);
+        Table& table = isNew ? tables_.emplace_back() : tables_[known->second];
+        if (isNew) {
             const ChartTable chart = makeChartTable(turns, rate);
             table.directions = rounded<T>(chart.directions);
             table.radii.assign(chart.radii.begin(), chart.radii.end());
@@ -84,7 +88,7 @@ typename Evaluator<T>::Local Evaluator<T>::local(uint32_t corner, uint32_t x, ui
     const Corner& at = mesh_.corners[corner];
     const ChartClass& chartClass = mesh_.classOf(at.chart);
     const ChartCoefficients<T>& c = coefficients_[at.chart];
-    const Table& table = tables_.at(chartClass.turns());
+    const Table& table = tables_[tableOfClass_[mesh_.charts[at.chart].chartClass]];
     const uint32_t index = y * coordinateCount(rate_) + x;
     const Pair direction = table.directions[at.sector];
     // On a spoke both faces have the same radius and the same direction.

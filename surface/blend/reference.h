@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -65,7 +64,8 @@ private:
     std::span<const ChartCoefficients<T>> coefficients_;
     uint32_t rate_;
     std::vector<T> parameters_, weights_, weightSlopes_; ///< per coordinate: t, eta(t), eta'(t)
-    std::map<uint32_t, Table> tables_;                   ///< by k
+    std::vector<Table> tables_;                          ///< one a k
+    std::vector<uint32_t> tableOfClass_;                 ///< per chart class, into tables_
 };
 
 } // namespace supple::surface::blend

@@ -28,7 +28,7 @@ public:
         tables_.rate = rate_;
         tables_.isolationSteps = mesh_.refined ? 1 : 0;
         tables_.notes = mesh_.notes;
-        draftPatches();
+        sortPatches();
         layOutPool();
         if (mesh_.refined) {
             writeStencils(mesh_.stencils, writer_, tables_);
@@ -50,26 +50,17 @@ private:
         return kind == ChartKind::point || kind == ChartKind::curve;
     }
 
-    void draftPatches() {
-        for (uint32_t f = 0; f < mesh_.cage.faceCount(); ++f) {
-            if (mesh_.holes[f] != 0) {
-                continue;
-            }
-            DraftPatch& patch = patches_.emplace_back();
-            patch.facet = f;
-            patch.material = mesh_.cage.faceMaterials.empty() ? cage::kNone : mesh_.cage.faceMaterials[f];
-            patch.info.face = mesh_.sourceFaces[f];
+    void sortPatches() {
+        patches_ = draftPatches(mesh_);
+        for (DraftPatch& patch : patches_) {
             patch.info.patchClass = PatchClass::blend;
-            for (uint32_t i = 0; i < 4; ++i) {
-                const uint32_t c = 4 * f + i;
-                patch.cageCorners[i] = c;
-                patch.info.corners[i] = mesh_.cornerSources[c];
+            for (uint32_t c = 4 * patch.facet; c < 4 * patch.facet + 4; ++c) {
                 if (mesh_.classOf(mesh_.corners[c].chart).creased() || stillCorner(c) || flatAcross(mesh_, c)) {
                     patch.info.patchClass = PatchClass::blendSharp;
                 }
             }
         }
-        sortPatches(patches_);
+        surface::sortPatches(patches_);
     }
 
     void layOutPool() {

@@ -1,10 +1,10 @@
 #include "surface/kernel/mesh.h"
 
+#include "base/within_memory.h"
 #include "surface/kernel/pattern.h"
 
 #include <algorithm>
 #include <array>
-#include <new>
 #include <optional>
 #include <set>
 #include <utility>
@@ -283,11 +283,7 @@ Result<Mesh> build(const Cage& cage, Subdivision subdivision) {
 } // namespace
 
 Result<Mesh> buildMesh(const Cage& cage, Subdivision subdivision) {
-    try {
-        return build(cage, subdivision);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::hostMemory, "out of memory for the isolated level of subdivision"};
-    }
+    return withinMemory("the isolated level of subdivision", [&] { return build(cage, subdivision); });
 }
 
 } // namespace supple::surface::kernel

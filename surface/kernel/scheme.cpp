@@ -139,20 +139,9 @@ private:
     }
 
     void sortPatches() {
-        for (uint32_t f = 0; f < mesh_.cage.faceCount(); ++f) {
-            if (mesh_.holes[f] != 0) {
-                continue;
-            }
-            DraftPatch& patch = patches_.emplace_back();
-            patch.facet = f;
-            patch.material = mesh_.cage.faceMaterials.empty() ? cage::kNone : mesh_.cage.faceMaterials[f];
-            patch.info.face = mesh_.sourceFaces[f];
+        patches_ = draftPatches(mesh_);
+        for (DraftPatch& patch : patches_) {
             patch.info.patchClass = loop_ ? PatchClass::loop : PatchClass::catmullClark;
-            patch.info.cornerCount = mesh_.cage.sides(f);
-            for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
-                patch.cageCorners[i] = mesh_.cage.faceStarts[f] + i;
-                patch.info.corners[i] = mesh_.cornerSources[patch.cageCorners[i]];
-            }
         }
         surface::sortPatches(patches_);
         facePatches_.assign(mesh_.cage.faceCount(), shared::kNoPatch);

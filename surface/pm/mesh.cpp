@@ -1,10 +1,10 @@
 #include "surface/pm/mesh.h"
 
+#include "base/within_memory.h"
 #include "surface/pm/split.h"
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <utility>
 
 namespace supple::surface::pm {
@@ -210,11 +210,7 @@ double alphaOfSharpness(double sharpness) {
 }
 
 Result<Mesh> buildMesh(const Cage& cage) {
-    try {
-        return build(cage);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::hostMemory, "out of memory for the facets and sectors of P_m"};
-    }
+    return withinMemory("the facets and sectors of P_m", [&] { return build(cage); });
 }
 
 } // namespace supple::surface::pm

@@ -97,7 +97,7 @@ bool finite(const glm::vec3& v) {
 struct Totals {
     uint64_t samples = 0;
     uint64_t notFinite = 0;
-    SharedBits smooth, hard;
+    ComparedBits smooth, hard;
 };
 
 void evaluate(const cage::Cage& cage, const surface::pm::Mesh& mesh, Totals& totals) {
@@ -115,7 +115,7 @@ void evaluate(const cage::Cage& cage, const surface::pm::Mesh& mesh, Totals& tot
             notFinite += finite(vertex.position) && finite(vertex.normal) ? 0 : 1;
         }
     }
-    SharedBits smooth, hard;
+    ComparedBits smooth, hard;
     for (uint32_t e = 0; e < mesh.topology.edges.size(); ++e) {
         const cage::Topology::Edge& edge = mesh.topology.edges[e];
         if (patches.shared(edge)) {

@@ -1,6 +1,5 @@
 // Whole characters on the GPU under p-rep and P_m: skinning against the CPU skinner, surfaces against the
 // double-precision reference, and what neighbouring patches share: position bits and normals.
-#include "cage/gltf_reader.h"
 #include "skinning/pose.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_gpu.h"
@@ -9,7 +8,6 @@
 #include "tests/support/shared_assets.h"
 
 #include <array>
-#include <cstring>
 #include <gtest/gtest.h>
 
 namespace supple::test {
@@ -183,7 +181,7 @@ struct Comparison {
     Angles normals;                     ///< all samples compared, against the reference
     Angles borders;                     ///< those of them that two patches share over a smooth edge
     Angles across;                      ///< between the two sides, on all smooth edges
-    SharedBits bits;                    ///< on all edges, hard ones too
+    ComparedBits bits;                  ///< on all edges, hard ones too
     std::string listed;                 ///< the samples above
 };
 
@@ -227,8 +225,7 @@ void compareSides(const Posed<Reference>& posed, Comparison& result) {
         for (uint32_t k = 0; k <= kRate; ++k) {
             const GpuSurface::Vertex& a = posed.onEdge(edge.corner, k);
             const GpuSurface::Vertex& b = posed.onEdge(edge.twin, kRate - k);
-            ++result.bits.samples;
-            result.bits.different += std::memcmp(&a.position, &b.position, sizeof(a.position)) != 0 ? 1 : 0;
+            result.bits.compare(a.position, b.position);
             if (!posed.reference.smooth(e)) {
                 continue;
             }
@@ -262,7 +259,7 @@ void compareCharacter(host::Device& device, const std::string& path, const cage:
     GpuSurface gpu(device, path, options);
     ASSERT_TRUE(gpu.valid());
     for (uint32_t i = 0; i < poses.size(); ++i) {
-        ASSERT_EQ(suppleSetClipPose(gpu.context().handle(), gpu.group(), i, poses[i].clip, poses[i].time), SUPPLE_OK);
+        ASSERT_EQ(suppleSetClipPose(gpu.context().handle(), gpu.instance(i), poses[i].clip, poses[i].time), SUPPLE_OK);
     }
     gpu.evaluate();
 
@@ -306,12 +303,9 @@ TEST(CharactersOnGpu, Prep) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    for (const std::string& path : allQuadCharacters()) {
-        SCOPED_TRACE(path);
-        const Result<cage::Character> character = cage::readGltfFile(path);
-        ASSERT_TRUE(character.ok()) << character.error().message;
-        ASSERT_NO_FATAL_FAILURE(compareCharacter<PrepReference>(*device, path, *character));
-    }
+    forEachCharacter(allQuadCharacters(), [&](const std::string& path, const cage::Character& character) {
+        compareCharacter<PrepReference>(*device, path, character);
+    });
 }
 
 /// Whatever their polygons and creases.
@@ -319,17 +313,14 @@ TEST(CharactersOnGpu, Pm) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    for (const std::string& path : allCharacters()) {
-        SCOPED_TRACE(path);
-        const Result<cage::Character> character = cage::readGltfFile(path);
-        ASSERT_TRUE(character.ok()) << character.error().message;
-        const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(character->cage);
+    forEachCharacter(allCharacters(), [&](const std::string& path, const cage::Character& character) {
+        const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(character.cage);
         if (!mesh.ok()) { // tests/runtime/assets_table_test.cpp says which these are
             std::printf("refused: %s: %s\n", path.c_str(), mesh.error().message.c_str());
-            continue;
+            return;
         }
-        ASSERT_NO_FATAL_FAILURE(compareCharacter<PmReference>(*device, path, *character));
-    }
+        compareCharacter<PmReference>(*device, path, character);
+    });
 }
 
 } // namespace

@@ -20,9 +20,7 @@ using surface::pm::FacetClass;
 
 class PmOnGpu : public testing::TestWithParam<SuppleMapping> {};
 INSTANTIATE_TEST_SUITE_P(Mappings, PmOnGpu, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
-                         [](const auto& param) {
-                             return param.param == SUPPLE_MAPPING_NARROW ? std::string("Narrow") : std::string("Wide");
-                         });
+                         [](const auto& param) { return mappingName(param.param); });
 
 TEST_P(PmOnGpu, CoefficientsMatchTheStoredVectors) {
     host::Device* device = testDevice();
@@ -96,8 +94,8 @@ TEST_P(PmOnGpu, BordersAgreeBitForBit) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    std::map<std::pair<FacetClass, FacetClass>, SharedBits> pairs;
-    SharedBits hard;
+    std::map<std::pair<FacetClass, FacetClass>, ComparedBits> pairs;
+    ComparedBits hard;
     for (const PmCage& zoo : pmZoo()) {
         const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(zoo.cage);
         ASSERT_TRUE(mesh.ok());
@@ -113,7 +111,7 @@ TEST_P(PmOnGpu, BordersAgreeBitForBit) {
                 }
                 const FacetClass a = mesh->classes[mesh->topology.cornerFaces[edge.corner]];
                 const FacetClass b = mesh->classes[mesh->topology.cornerFaces[edge.twin]];
-                SharedBits& bits = mesh->edgeCut[e] != 0 ? hard : pairs[std::minmax(a, b)];
+                ComparedBits& bits = mesh->edgeCut[e] != 0 ? hard : pairs[std::minmax(a, b)];
                 bits.add(patches.sharedBits(0, edge));
             }
         }
@@ -136,25 +134,14 @@ TEST(PmMappings, GiveTheSamePositionBits) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    uint64_t different = 0, samples = 0;
+    ComparedBits bits;
     for (const PmCage& zoo : pmZoo()) {
         for (const uint32_t rate : {1u, 3u, 4u, 7u}) {
-            GpuSurface narrow(*device, zoo.cage, pmOptions(SUPPLE_MAPPING_NARROW, rate));
-            GpuSurface wide(*device, zoo.cage, pmOptions(SUPPLE_MAPPING_WIDE, rate));
-            ASSERT_TRUE(narrow.valid() && wide.valid());
-            narrow.evaluate();
-            wide.evaluate();
-            for (uint32_t p = 0; p < narrow.output().patchCount; ++p) {
-                for (uint32_t s = 0; s < narrow.sampleCount(p); ++s) {
-                    ++samples;
-                    different += std::memcmp(&narrow.vertex(0, p, s).position, &wide.vertex(0, p, s).position, 12) != 0;
-                }
-            }
+            ASSERT_NO_FATAL_FAILURE(compareMappings(*device, zoo.cage, pmOptions(SUPPLE_MAPPING_NARROW, rate), bits));
         }
     }
-    std::printf("%llu samples, %llu differ\n", static_cast<unsigned long long>(samples),
-                static_cast<unsigned long long>(different));
-    EXPECT_EQ(different, 0u);
+    bits.print("samples");
+    EXPECT_EQ(bits.different, 0u);
 }
 
 /// UV sets and colors of every class of patch, against weights computed from the grid's own numbers.

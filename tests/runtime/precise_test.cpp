@@ -64,11 +64,12 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
         SuppleGroupDesc groupDesc{};
         groupDesc.structSize = sizeof(groupDesc);
         groupDesc.asset = {*asset};
-        groupDesc.instanceCount = 1;
+        groupDesc.capacity = 1;
         groupDesc.scheme = SUPPLE_SCHEME_PREP;
         groupDesc.rate = rate;
         groupDesc.vertexFormat = SUPPLE_VERTEX_24;
         Result<uint64_t> id = (*context)->createGroup(groupDesc);
+        EXPECT_TRUE((*context)->groups.find(*id)->slots().create().has_value());
         const SuppleGroup handle{*id};
         SuppleRecordDesc record{};
         record.structSize = sizeof(record);

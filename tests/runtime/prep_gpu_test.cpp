@@ -3,7 +3,7 @@
 #include "cage/topology.h"
 #include "surface/grid.h"
 #include "surface/prep/reference.h"
-#include "tests/support/gpu_surface.h"
+#include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/prep_vectors.h"
@@ -29,9 +29,7 @@ GpuOptions gpuOptions(const Options& options, SuppleMapping mapping, uint32_t ra
 
 class PrepOnGpu : public testing::TestWithParam<SuppleMapping> {};
 INSTANTIATE_TEST_SUITE_P(Mappings, PrepOnGpu, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
-                         [](const auto& param) {
-                             return param.param == SUPPLE_MAPPING_NARROW ? std::string("Narrow") : std::string("Wide");
-                         });
+                         [](const auto& param) { return mappingName(param.param); });
 
 TEST_P(PrepOnGpu, MatchesTheStoredVectors) {
     host::Device* device = testDevice();
@@ -62,18 +60,14 @@ TEST_P(PrepOnGpu, MatchesTheStoredVectors) {
     }
 }
 
-/// Border samples that differ in any bit between the two sides of an interior edge.
-struct BorderBits {
-    uint64_t samples = 0;
-    uint64_t different = 0;
-};
-BorderBits countBorderBits(const GpuSurface& gpu, const cage::Cage& cage, const cage::Topology& topology) {
+/// Border samples of the two sides of interior edges.
+ComparedBits countBorderBits(const GpuSurface& gpu, const cage::Cage& cage, const cage::Topology& topology) {
     std::vector<uint32_t> patchOfFace(cage.faceCount());
     for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
         patchOfFace[gpu.patches()[p].face] = p;
     }
     const uint32_t rate = gpu.output().rate;
-    BorderBits bits;
+    ComparedBits bits;
     const auto position = [&](uint32_t corner, uint32_t k) {
         const uint32_t face = topology.cornerFaces[corner];
         const uint32_t edge = corner - cage.faceStarts[face];
@@ -84,9 +78,7 @@ BorderBits countBorderBits(const GpuSurface& gpu, const cage::Cage& cage, const 
             continue;
         }
         for (uint32_t k = 0; k <= rate; ++k) {
-            const glm::vec3 a = position(edge.corner, k), b = position(edge.twin, rate - k);
-            ++bits.samples;
-            bits.different += std::memcmp(&a, &b, sizeof(a)) != 0 ? 1 : 0;
+            bits.compare(position(edge.corner, k), position(edge.twin, rate - k));
         }
     }
     return bits;
@@ -113,7 +105,7 @@ TEST_P(PrepOnGpu, BordersAgreeBitForBit) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    uint64_t samples = 0, different = 0;
+    ComparedBits all;
     for (const NamedCage& named : borderCages()) {
         Result<cage::Topology> topology = cage::buildTopology(named.cage);
         ASSERT_TRUE(topology.ok()) << named.name << ": " << topology.error().message;
@@ -121,14 +113,12 @@ TEST_P(PrepOnGpu, BordersAgreeBitForBit) {
             GpuSurface gpu(*device, named.cage, gpuOptions({}, GetParam(), rate));
             ASSERT_TRUE(gpu.valid());
             gpu.evaluate();
-            const BorderBits bits = countBorderBits(gpu, named.cage, *topology);
+            const ComparedBits bits = countBorderBits(gpu, named.cage, *topology);
             EXPECT_EQ(bits.different, 0u) << named.name << " at rate " << rate << " of " << bits.samples;
-            samples += bits.samples;
-            different += bits.different;
+            all.add(bits);
         }
     }
-    std::printf("%llu border samples, %llu differ\n", static_cast<unsigned long long>(samples),
-                static_cast<unsigned long long>(different));
+    all.print("border samples");
 }
 
 TEST(PrepMappings, GiveTheSamePositionBits) {
@@ -137,22 +127,15 @@ TEST(PrepMappings, GiveTheSamePositionBits) {
     const ValidationGuard guard;
     for (const NamedCage& named : borderCages()) {
         for (const uint32_t rate : {1u, 2u, 3u, 6u, 8u, 13u, 33u, 64u}) {
-            GpuSurface narrow(*device, named.cage, gpuOptions({}, SUPPLE_MAPPING_NARROW, rate));
-            GpuSurface wide(*device, named.cage, gpuOptions({}, SUPPLE_MAPPING_WIDE, rate));
-            ASSERT_TRUE(narrow.valid() && wide.valid());
-            narrow.evaluate();
-            wide.evaluate();
-            uint64_t different = 0;
-            for (uint32_t p = 0; p < narrow.output().patchCount; ++p) {
-                for (uint32_t s = 0; s < narrow.sampleCount(p); ++s) {
-                    different += std::memcmp(&narrow.vertex(0, p, s).position, &wide.vertex(0, p, s).position, 12) != 0;
-                }
+            ComparedBits bits;
+            const auto coefficients = [&](const GpuSurface& narrow, const GpuSurface& wide, uint32_t p) {
                 for (uint32_t k = 0; k < 32; ++k) {
-                    const glm::vec3 a = narrow.coefficient(0, p, k), b = wide.coefficient(0, p, k);
-                    different += std::memcmp(&a, &b, 12) != 0;
+                    bits.compare(narrow.coefficient(0, p, k), wide.coefficient(0, p, k));
                 }
-            }
-            EXPECT_EQ(different, 0u) << named.name << " at rate " << rate;
+            };
+            ASSERT_NO_FATAL_FAILURE(
+                compareMappings(*device, named.cage, gpuOptions({}, SUPPLE_MAPPING_NARROW, rate), bits, coefficients));
+            EXPECT_EQ(bits.different, 0u) << named.name << " at rate " << rate;
         }
     }
 }

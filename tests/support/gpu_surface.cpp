@@ -127,7 +127,7 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     group.structSize = sizeof(group);
     group.flags = options.flags;
     group.asset = asset_;
-    group.instanceCount = options.instanceCount;
+    group.capacity = options.instanceCount;
     group.scheme = options.scheme;
     group.rate = options.rate;
     group.vertexFormat = options.format;
@@ -136,6 +136,12 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     group.creaseMode = options.creases;
     if (!check(suppleCreateGroup(context_->handle(), &group, &group_), "suppleCreateGroup")) {
         return;
+    }
+    instances_.resize(options.instanceCount);
+    for (SuppleInstance& instance : instances_) {
+        if (!check(suppleCreateInstance(context_->handle(), group_, &instance), "suppleCreateInstance")) {
+            return;
+        }
     }
     output_.structSize = sizeof(output_);
     if (!check(suppleGetGroupOutput(context_->handle(), group_, &output_), "suppleGetGroupOutput")) {

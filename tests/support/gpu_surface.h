@@ -55,6 +55,7 @@ public:
     [[nodiscard]] host::Context& context() const { return *context_; }
     [[nodiscard]] SuppleAsset asset() const { return asset_; }
     [[nodiscard]] SuppleGroup group() const { return group_; }
+    [[nodiscard]] SuppleInstance instance(uint32_t index) const { return instances_[index]; }
     [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
     [[nodiscard]] const std::vector<SupplePatchInfo>& patches() const { return patches_; }
 
@@ -81,6 +82,10 @@ public:
     [[nodiscard]] glm::vec3 deformed(uint32_t instance, uint32_t cageVertex) const {
         return deformed_[size_t{instance} * output_.cageVerticesPerInstance + cageVertex];
     }
+    [[nodiscard]] std::vector<glm::vec3> deformedCage(uint32_t instance) const {
+        const auto first = deformed_.begin() + instance * ptrdiff_t{output_.cageVerticesPerInstance};
+        return {first, first + output_.cageVerticesPerInstance};
+    }
     /// In the order of SupplePatchClass.
     [[nodiscard]] glm::vec3 coefficient(uint32_t instance, uint32_t patch, uint32_t k) const {
         return coefficients_[(size_t{instance} * output_.patchCount + patch) * SUPPLE_PATCH_STRIDE + k];
@@ -94,6 +99,7 @@ private:
     host::Context* context_ = nullptr;
     SuppleAsset asset_{};
     SuppleGroup group_{};
+    std::vector<SuppleInstance> instances_;
     SuppleGroupOutput output_{};
     std::vector<SupplePatchInfo> patches_;
     std::vector<uint32_t> ranges_; ///< per patch: its draw range

@@ -1,8 +1,8 @@
 // Reading stored vectors: what the files of tests/data have in common.
 #pragma once
 
-#include <algorithm>
-#include <filesystem>
+#include "tests/support/vector_files.h"
+
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -25,15 +25,8 @@ inline std::vector<glm::dvec3> jsonVectors(const nlohmann::json& j) {
 /// What `read` makes of every .json file in a folder of tests/data, by name.
 template <class Read>
 auto readJsonFolder(const std::string& folder, Read&& read) {
-    std::vector<std::filesystem::path> paths;
-    for (const auto& entry : std::filesystem::directory_iterator(SUPPLE_TEST_DATA "/" + folder)) {
-        if (entry.path().extension() == ".json") {
-            paths.push_back(entry.path());
-        }
-    }
-    std::sort(paths.begin(), paths.end());
-    std::vector<decltype(read(paths.front()))> all;
-    for (const auto& path : paths) {
+    std::vector<decltype(read(std::filesystem::path()))> all;
+    for (const std::filesystem::path& path : vectorFiles(folder)) {
         all.push_back(read(path));
     }
     return all;

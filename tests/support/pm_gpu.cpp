@@ -3,7 +3,6 @@
 #include "surface/pm/reference.h"
 
 #include <algorithm>
-#include <cstring>
 #include <gtest/gtest.h>
 #include <map>
 
@@ -66,14 +65,11 @@ bool PmPatches::shared(const cage::Topology::Edge& edge) const {
            patches_[mesh_.topology.cornerFaces[edge.twin]] != cage::kNone;
 }
 
-SharedBits PmPatches::sharedBits(uint32_t instance, const cage::Topology::Edge& edge) const {
-    SharedBits bits;
+ComparedBits PmPatches::sharedBits(uint32_t instance, const cage::Topology::Edge& edge) const {
+    ComparedBits bits;
     const uint32_t rate = gpu_.output().rate;
     for (uint32_t k = 0; k <= rate; ++k) {
-        const glm::vec3 a = onEdge(instance, edge.corner, k).position;
-        const glm::vec3 b = onEdge(instance, edge.twin, rate - k).position;
-        ++bits.samples;
-        bits.different += std::memcmp(&a, &b, sizeof(a)) != 0 ? 1 : 0;
+        bits.compare(onEdge(instance, edge.corner, k).position, onEdge(instance, edge.twin, rate - k).position);
     }
     return bits;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "surface/pm/mesh.h"
-#include "tests/support/gpu_surface.h"
+#include "tests/support/gpu_comparison.h"
 
 #include <cstdint>
 #include <vector>
@@ -10,17 +10,6 @@
 namespace supple::test {
 
 [[nodiscard]] GpuOptions pmOptions(SuppleMapping mapping, uint32_t rate);
-
-/// Border samples compared between the two sides of an edge.
-struct SharedBits {
-    uint64_t samples = 0;
-    uint64_t different = 0; ///< in some bit of their positions
-
-    void add(const SharedBits& other) {
-        samples += other.samples;
-        different += other.different;
-    }
-};
 
 /// Which patch is which facet. Fails the test where the device's patches are not the mesh's facets without its holes,
 /// class by class. Group and mesh must outlive it.
@@ -37,7 +26,7 @@ public:
     /// Whether an edge has a patch on both sides.
     [[nodiscard]] bool shared(const cage::Topology::Edge& edge) const;
     /// The border samples of an edge that two patches share.
-    [[nodiscard]] SharedBits sharedBits(uint32_t instance, const cage::Topology::Edge& edge) const;
+    [[nodiscard]] ComparedBits sharedBits(uint32_t instance, const cage::Topology::Edge& edge) const;
 
 private:
     const GpuSurface& gpu_;

@@ -36,13 +36,16 @@ void PosedGroup::create(cage::Character character, const PosedOptions& options) 
     SuppleGroupDesc desc{};
     desc.structSize = sizeof(desc);
     desc.asset = {assetId_};
-    desc.instanceCount = options.instanceCount;
+    desc.capacity = options.instanceCount;
     desc.scheme = SUPPLE_SCHEME_CAGE;
     desc.skinning = options.skinning;
     const Result<uint64_t> group = shared_.context->createGroup(desc);
     ASSERT_TRUE(group.ok()) << group.error().message;
     handle_ = {*group};
     group_ = shared_.context->groups.find(*group);
+    for (uint32_t i = 0; i < options.instanceCount; ++i) {
+        ASSERT_TRUE(group_->slots().create().has_value());
+    }
 }
 
 void PosedGroup::deform() {
@@ -60,8 +63,8 @@ void PosedGroup::deform() {
     const SuppleGroupOutput& output = group_->output();
     const Result<std::vector<std::byte>> bytes = shared_.device.readBuffer(output.deformedCage);
     ASSERT_TRUE(bytes.ok());
-    cages_.assign(output.instanceCount, std::vector<glm::vec3>(output.cageVertexCount));
-    for (uint32_t i = 0; i < output.instanceCount; ++i) {
+    cages_.assign(output.capacity, std::vector<glm::vec3>(output.cageVertexCount));
+    for (uint32_t i = 0; i < output.capacity; ++i) {
         for (uint32_t v = 0; v < output.cageVertexCount; ++v) {
             std::memcpy(&cages_[i][v], bytes->data() + 16 * (size_t{i} * output.cageVerticesPerInstance + v), 12);
         }

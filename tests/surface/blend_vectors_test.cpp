@@ -1,6 +1,7 @@
 // The reference against the stored vectors.
 #include "tests/support/blend_surface.h"
 #include "tests/support/blend_vectors.h"
+#include "tests/support/vector_files.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -82,8 +83,8 @@ TEST_P(BlendVectorFiles, points) {
     EXPECT_LT(normals, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Blend, BlendVectorFiles, testing::Range(size_t{0}, test::blendVectors().size()),
-                         [](const auto& i) { return test::blendVectors()[i.param].name; });
+INSTANTIATE_TEST_SUITE_P(Blend, BlendVectorFiles, testing::Range(size_t{0}, test::vectorFiles("blend").size()),
+                         [](const auto& i) { return test::vectorFiles("blend")[i.param].stem().string(); });
 
 } // namespace
 } // namespace supple::surface::blend

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdio>
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -73,22 +72,24 @@ struct Counts {
     }
 };
 
-Counts compare(const Mesh& mesh, const std::vector<glm::vec3>& positions, uint32_t steps) {
+/// A point of the level's edges as the first sector had it.
+struct Met {
+    glm::vec3 refined{0.0f}, position{0.0f};
+    bool known = false, shared = false;
+};
+
+Counts compare(const Mesh& mesh, const cage::Topology& topology, const std::vector<glm::vec3>& isolated,
+               uint32_t steps) {
     const std::set<Edge> sharp = sharpEdges(mesh, steps);
     const uint32_t n = 1u << steps;
-    // Vertices as (v, v, 0).
-    using Point = std::pair<Edge, uint32_t>;
-    struct Met {
-        glm::vec3 refined, position;
-        bool shared = false;
-    };
-    std::map<Point, Met> points;
-    std::map<Edge, std::vector<glm::vec3>> normals; // from the smaller vertex on
+    const size_t edges = topology.edges.size();
+    std::vector<Met> vertices(mesh.cage.vertexCount()), inside(edges * n); // inside: from the smaller vertex on
+    std::vector<glm::vec3> normals(edges * (n + 1));
+    std::vector<uint8_t> hasNormals(edges, 0);
     Counts counts;
-    const std::vector<glm::vec3> isolated = isolate<float>(mesh, positions);
-    for (const SectorGrid<float>& grid : evaluate<float>(mesh, isolated, steps)) {
-        const uint32_t sides = mesh.cage.sides(grid.face);
-        const uint32_t* const corners = mesh.cage.faceVertices.data() + mesh.cage.faceStarts[grid.face];
+    forEachSector<float>(mesh, isolated, steps, [&](const SectorGrid<float>& grid) {
+        const uint32_t sides = mesh.cage.sides(grid.face), first = mesh.cage.faceStarts[grid.face];
+        const uint32_t* const corners = mesh.cage.faceVertices.data() + first;
         for (uint32_t side = 0; side < sides; ++side) {
             const uint32_t from = corners[side], to = corners[(side + 1) % sides];
             std::vector<uint32_t> samples = sideSamples(mesh.subdivision, n, side);
@@ -96,34 +97,35 @@ Counts compare(const Mesh& mesh, const std::vector<glm::vec3>& positions, uint32
                 std::reverse(samples.begin(), samples.end());
             }
             const Edge edge = edgeOf(from, to);
+            const size_t e = topology.cornerEdges[first + side];
             for (uint32_t k = 0; k <= n; ++k) {
                 const Sample<float>& sample = grid.samples[samples[k]];
-                const Point point = k == 0   ? Point{{edge.first, edge.first}, 0}
-                                    : k == n ? Point{{edge.second, edge.second}, 0}
-                                             : Point{edge, k};
-                const auto [met, isNew] = points.try_emplace(point, Met{sample.refined, sample.position});
-                if (!isNew) {
-                    counts.shared += met->second.shared ? 0 : 1;
-                    met->second.shared = true;
-                    counts.refined += same(met->second.refined, sample.refined) ? 0 : 1;
-                    counts.positions += same(met->second.position, sample.position) ? 0 : 1;
+                Met& met = k == 0 ? vertices[edge.first] : k == n ? vertices[edge.second] : inside[e * n + k];
+                if (!met.known) {
+                    met = {sample.refined, sample.position, true, false};
+                } else {
+                    counts.shared += met.shared ? 0 : 1;
+                    met.shared = true;
+                    counts.refined += same(met.refined, sample.refined) ? 0 : 1;
+                    counts.positions += same(met.position, sample.position) ? 0 : 1;
                 }
             }
             if (sharp.contains(edge)) {
                 continue;
             }
-            const auto [other, isNew] = normals.try_emplace(edge);
             for (uint32_t k = 0; k <= n; ++k) {
                 const glm::vec3 normal = grid.samples[samples[k]].normal;
-                if (isNew) {
-                    other->second.push_back(normal);
+                glm::vec3& other = normals[e * (n + 1) + k];
+                if (hasNormals[e] == 0) {
+                    other = normal;
                 } else {
                     ++counts.smooth;
-                    counts.normals += same(other->second[k], normal) ? 0 : 1;
+                    counts.normals += same(other, normal) ? 0 : 1;
                 }
             }
+            hasNormals[e] = 1;
         }
-    }
+    });
     return counts;
 }
 
@@ -134,8 +136,11 @@ TEST_P(KernelBits, sharedPoints) {
     for (const test::KernelCage& entry : test::kernelZoo()) {
         SCOPED_TRACE(entry.name);
         const Mesh mesh = test::kernelMesh(entry.cage, GetParam());
+        const Result<cage::Topology> topology = cage::buildTopology(mesh.cage);
+        ASSERT_TRUE(topology.ok()) << topology.error().message;
+        const std::vector<glm::vec3> isolated = isolate<float>(mesh, entry.cage.positions);
         for (uint32_t steps = 0; steps <= 4; ++steps) {
-            const Counts counts = compare(mesh, entry.cage.positions, steps);
+            const Counts counts = compare(mesh, *topology, isolated, steps);
             EXPECT_EQ(counts.refined, 0u) << steps;
             EXPECT_EQ(counts.positions, 0u) << steps;
             EXPECT_EQ(counts.normals, 0u) << steps;

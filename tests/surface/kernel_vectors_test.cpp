@@ -3,6 +3,7 @@
 #include "tests/support/kernel_vectors.h"
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
+#include "tests/support/vector_files.h"
 
 #include <cstdio>
 #include <map>
@@ -53,31 +54,27 @@ Deviation deviation(const KernelVectors& v) {
     return d;
 }
 
-void print(const KernelVectors& v, const char* type, const Deviation& d) {
+template <class T>
+void expectWithin(const KernelVectors& v, const char* type, const Deviation& bounds) {
+    const Deviation d = deviation<T>(v);
     std::printf("%-20s %s: isolated %.1e, refined %.1e, limits %.1e, normals %.1e\n", v.name.c_str(), type, d.isolated,
                 d.refined, d.limits, d.normals);
+    EXPECT_LE(d.isolated, bounds.isolated);
+    EXPECT_LE(d.refined, bounds.refined);
+    EXPECT_LE(d.limits, bounds.limits);
+    EXPECT_LE(d.normals, bounds.normals);
 }
 
 TEST_P(KernelVectorFiles, inDouble) {
-    const Deviation d = deviation<double>(v);
-    print(v, "double", d);
-    EXPECT_LE(d.isolated, 1e-12);
-    EXPECT_LE(d.refined, 1e-12);
-    EXPECT_LE(d.limits, 1e-12);
-    EXPECT_LE(d.normals, 1e-12);
+    expectWithin<double>(v, "double", {1e-12, 1e-12, 1e-12, 1e-12});
 }
 
 TEST_P(KernelVectorFiles, inFloat) {
-    const Deviation d = deviation<float>(v);
-    print(v, "float", d);
-    EXPECT_LE(d.isolated, 1e-6);
-    EXPECT_LE(d.refined, 1e-6);
-    EXPECT_LE(d.limits, 1e-6);
-    EXPECT_LE(d.normals, 1e-4);
+    expectWithin<float>(v, "float", {1e-6, 1e-6, 1e-6, 1e-4});
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernel, KernelVectorFiles, testing::Range(size_t{0}, test::kernelVectors().size()),
-                         [](const auto& entry) { return test::kernelVectors()[entry.param].name; });
+INSTANTIATE_TEST_SUITE_P(Kernel, KernelVectorFiles, testing::Range(size_t{0}, test::vectorFiles("kernel").size()),
+                         [](const auto& entry) { return test::vectorFiles("kernel")[entry.param].stem().string(); });
 
 TEST(KernelVectorData, allThere) {
     EXPECT_EQ(test::kernelVectors().size(), 6u);

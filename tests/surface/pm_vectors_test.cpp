@@ -1,6 +1,7 @@
 // The reference against the stored vectors.
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_vectors.h"
+#include "tests/support/vector_files.h"
 
 #include <cmath>
 #include <cstdio>
@@ -173,8 +174,8 @@ TEST_P(PmVectorFiles, inFloat) {
     EXPECT_LE(d.normalDegrees, 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pm, PmVectorFiles, testing::Range(size_t{0}, test::pmVectors().size()),
-                         [](const auto& entry) { return test::pmVectors()[entry.param].name; });
+INSTANTIATE_TEST_SUITE_P(Pm, PmVectorFiles, testing::Range(size_t{0}, test::vectorFiles("pm").size()),
+                         [](const auto& entry) { return test::vectorFiles("pm")[entry.param].stem().string(); });
 
 TEST(PmVectorData, allThere) {
     EXPECT_EQ(test::pmVectors().size(), 12u);

@@ -2,6 +2,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/prep_vectors.h"
+#include "tests/support/vector_files.h"
 
 #include <cstdio>
 
@@ -79,8 +80,8 @@ TEST_P(PrepVectorFiles, inFloat) {
     EXPECT_LE(d.normalDegrees, 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Prep, PrepVectorFiles, testing::Range(size_t{0}, test::prepVectors().size()),
-                         [](const auto& entry) { return test::prepVectors()[entry.param].name; });
+INSTANTIATE_TEST_SUITE_P(Prep, PrepVectorFiles, testing::Range(size_t{0}, test::vectorFiles("prep").size()),
+                         [](const auto& entry) { return test::vectorFiles("prep")[entry.param].stem().string(); });
 
 TEST(PrepVectorData, allThere) {
     EXPECT_EQ(test::prepVectors().size(), 11u);

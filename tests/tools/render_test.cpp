@@ -1,5 +1,6 @@
 // Pictures: what is drawn stands where it should, is the same from run to run, and draws without a word from the
 // validation layer. Judging beauty stays with people.
+#include "tests/tools/validated_device.h"
 #include "tools/host/surface_renderer.h"
 
 #include <algorithm>
@@ -23,9 +24,7 @@ constexpr float kMargin = 0.08f;
 class RenderTest : public testing::Test {
 protected:
     static void SetUpTestSuite() {
-        Result<std::unique_ptr<Device>> device = Device::create({.validation = true});
-        if (!device)
-            device = Device::create();
+        Result<std::unique_ptr<Device>> device = createValidatedDevice();
         ASSERT_TRUE(device.ok()) << device.error().message;
         device_ = std::move(*device);
         Result<std::unique_ptr<Context>> context = Context::create(*device_);
@@ -213,7 +212,7 @@ TEST_F(RenderTest, TurningTheFigureAndTheCameraTogetherChangesNothing) {
     evaluate(*group);
     const Picture before = draw(*group, frontScene(*group, 0.6f));
     const glm::mat4 quarterTurn = glm::rotate(glm::mat4(1.0f), glm::half_pi<float>(), glm::vec3(0.0f, 1.0f, 0.0f));
-    ASSERT_EQ(suppleSetTransform(context_->handle(), group->handle(), 0, &quarterTurn[0][0]), SUPPLE_OK);
+    ASSERT_EQ(suppleSetTransform(context_->handle(), group->instance(0), &quarterTurn[0][0]), SUPPLE_OK);
     evaluate(*group);
     const Picture after = draw(*group, frontScene(*group, 0.6f + glm::half_pi<float>()));
     // Shadow maps fall on other texels; nothing else may move.
@@ -223,7 +222,7 @@ TEST_F(RenderTest, TurningTheFigureAndTheCameraTogetherChangesNothing) {
 TEST_F(RenderTest, InstancesStandWhereTheirTransformsPutThem) {
     const std::unique_ptr<FigureGroup> group = makeGroup({.instances = 2, .rate = 4});
     const glm::mat4 aside = glm::translate(glm::mat4(1.0f), glm::vec3(3.0f, 0.0f, 0.0f));
-    ASSERT_EQ(suppleSetTransform(context_->handle(), group->handle(), 1, &aside[0][0]), SUPPLE_OK);
+    ASSERT_EQ(suppleSetTransform(context_->handle(), group->instance(1), &aside[0][0]), SUPPLE_OK);
     evaluate(*group);
     Scene scene = frontScene(*group, 0.0f);
     scene.view = shared::kViewNormals;

@@ -2,6 +2,7 @@
 // through the holes; multisampling covers what the contour leaves. Drawn under the validation layer.
 #include "cage/gltf_writer.h"
 #include "cage/single_joint.h"
+#include "tests/tools/validated_device.h"
 #include "tools/host/cage_arrays.h"
 #include "tools/host/character_file.h"
 #include "tools/host/surface_renderer.h"
@@ -111,10 +112,7 @@ cage::Character trimmedSheet(const std::function<glm::vec3(glm::vec2)>& place, c
 class TrimmingTest : public testing::Test {
 protected:
     static void SetUpTestSuite() {
-        Result<std::unique_ptr<Device>> device = Device::create({.validation = true});
-        if (!device) {
-            device = Device::create();
-        }
+        Result<std::unique_ptr<Device>> device = createValidatedDevice();
         ASSERT_TRUE(device.ok()) << device.error().message;
         device_ = std::move(*device);
         Result<std::unique_ptr<Context>> context = Context::create(*device_);
@@ -436,11 +434,13 @@ TEST_F(TrimmingTest, FaceCoordinatesAreTheirFaces) {
         desc.structSize = sizeof(desc);
         desc.flags = SUPPLE_GROUP_ATTRIBUTES;
         desc.asset = asset;
-        desc.instanceCount = 1;
+        desc.capacity = 1;
         desc.scheme = scheme;
         desc.rate = 4;
         SuppleGroup group{};
         ASSERT_EQ(suppleCreateGroup(context_->handle(), &desc, &group), SUPPLE_OK);
+        SuppleInstance instance{};
+        ASSERT_EQ(suppleCreateInstance(context_->handle(), group, &instance), SUPPLE_OK);
         ASSERT_TRUE(context_->evaluate({&group, 1}).ok());
         SuppleGroupOutput output{};
         output.structSize = sizeof(output);

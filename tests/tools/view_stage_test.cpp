@@ -2,6 +2,7 @@
 // validation layer.
 #include "tools/supple/view_stage.h"
 
+#include "tests/tools/validated_device.h"
 #include "tools/host/vk_struct.h"
 
 #include <gtest/gtest.h>
@@ -73,9 +74,7 @@ private:
 };
 
 TEST(ViewStageTest, RateAndFileChangeWhileFramesAreInFlight) {
-    Result<std::unique_ptr<host::Device>> device = host::Device::create({.validation = true});
-    if (!device)
-        device = host::Device::create();
+    Result<std::unique_ptr<host::Device>> device = host::createValidatedDevice();
     ASSERT_TRUE(device.ok()) << device.error().message;
     const std::shared_ptr<const host::ValidationLog> validation = (*device)->validation();
     {

@@ -1,4 +1,5 @@
 // The window under the validation layer: frames go on while it is resized. Needs a display; view_test.sh brings one.
+#include "tests/tools/validated_device.h"
 #include "tools/host/overlay.h"
 #include "tools/host/window.h"
 
@@ -40,9 +41,7 @@ Status drawFrame(Window& window, Overlay& overlay, const WindowFrame& frame, uin
 TEST(WindowTest, SurvivesResizing) {
     if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr)
         GTEST_SKIP() << "no display";
-    Result<std::unique_ptr<Device>> device = Device::create({.validation = true, .window = true});
-    if (!device)
-        device = Device::create({.window = true});
+    Result<std::unique_ptr<Device>> device = createValidatedDevice({.window = true});
     ASSERT_TRUE(device.ok()) << device.error().message;
     const std::shared_ptr<const ValidationLog> validation = (*device)->validation();
     {

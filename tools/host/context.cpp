@@ -71,6 +71,16 @@ Status Context::check(SuppleResult result, const char* call) {
     return Error{errorCode(result), std::move(text)};
 }
 
+Status Context::createInstances(SuppleGroup group, uint32_t count, std::vector<SuppleInstance>& out) {
+    out.resize(count);
+    for (SuppleInstance& instance : out) {
+        const Status status = check(suppleCreateInstance(context_, group, &instance), "suppleCreateInstance");
+        if (!status)
+            return status;
+    }
+    return success();
+}
+
 Status Context::evaluate(std::span<const SuppleGroup> groups, uint32_t recordFlags) {
     const uint64_t frame = nextFrame();
     if (const Status status = check(suppleBeginFrame(context_, frame, frame - 1), "suppleBeginFrame"); !status)
@@ -88,14 +98,14 @@ Status Context::evaluate(std::span<const SuppleGroup> groups, uint32_t recordFla
     return recorded ? submitted : recorded;
 }
 
-void Context::log(SuppleSeverity severity, const char* text, void* user) {
+void Context::log(SuppleSeverity severity, SuppleMessage message, const char* text, void* user) {
     auto& context = *static_cast<Context*>(user);
     if (severity == SUPPLE_SEVERITY_ERROR)
         context.lastError_ = text;
     if (!context.printWarnings_)
         return;
     // What a cage's faces went through `supple inspect` lists; that a rate is not the one asked for nothing else says.
-    const bool note = severity == SUPPLE_SEVERITY_INFO && std::strstr(text, ": rate ") != nullptr;
+    const bool note = message == SUPPLE_MESSAGE_RATE_CHANGED;
     if ((severity == SUPPLE_SEVERITY_WARNING || note) && context.printed_.insert(text).second)
         std::fprintf(stderr, "%s: %s\n", note ? "note" : "warning", text);
 }

@@ -10,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace supple::host {
 
@@ -38,6 +39,9 @@ public:
     /// Success for SUPPLE_OK; otherwise the error with the line Supple logged about it.
     [[nodiscard]] Status check(SuppleResult result, const char* call);
 
+    /// Fills a group with `count` instances.
+    [[nodiscard]] Status createInstances(SuppleGroup group, uint32_t count, std::vector<SuppleInstance>& out);
+
     /// A frame number not used before; every frame of the context takes its number here.
     [[nodiscard]] uint64_t nextFrame() { return ++frame_; }
     [[nodiscard]] uint64_t lastFrame() const { return frame_; }
@@ -46,7 +50,7 @@ public:
 
 private:
     explicit Context(Device& device) : device_(device) {}
-    static void log(SuppleSeverity severity, const char* text, void* user);
+    static void log(SuppleSeverity severity, SuppleMessage message, const char* text, void* user);
 
     Device& device_;
     SuppleContext context_ = nullptr;

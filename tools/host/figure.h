@@ -87,6 +87,8 @@ public:
 
     [[nodiscard]] Figure& figure() const { return figure_; }
     [[nodiscard]] SuppleGroup handle() const { return group_; }
+    /// All of them are there and visible from first to last: the instance's number is its slot.
+    [[nodiscard]] SuppleInstance instance(uint32_t index) const { return instances_[index]; }
     [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
     /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
     /// more than one patch to (SuppleGroupOutput::rate counts along a patch).
@@ -111,6 +113,7 @@ private:
 
     Figure& figure_;
     SuppleGroup group_{};
+    std::vector<SuppleInstance> instances_;
     SuppleGroupOutput output_{};
     uint32_t edgeRate_ = 0;
     Buffer patchClasses_;

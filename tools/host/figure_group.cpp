@@ -61,7 +61,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     desc.structSize = sizeof desc;
     desc.flags = SUPPLE_GROUP_ATTRIBUTES;
     desc.asset = figure.asset();
-    desc.instanceCount = options.instances;
+    desc.capacity = options.instances;
     desc.scheme = options.scheme;
     desc.rate = options.rate;
     desc.vertexFormat = options.vertexFormat;
@@ -71,6 +71,8 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     if (const Status status =
             context.check(suppleCreateGroup(context.handle(), &desc, &group->group_), "suppleCreateGroup");
         !status)
+        return status.error();
+    if (const Status status = context.createInstances(group->group_, options.instances, group->instances_); !status)
         return status.error();
     group->output_.structSize = sizeof group->output_;
     if (const Status status = context.check(suppleGetGroupOutput(context.handle(), group->group_, &group->output_),
@@ -120,7 +122,7 @@ Status FigureGroup::uploadTables() {
     patchClasses_ = std::move(*classBuffer);
 
     const uint64_t budget = device.isCpu() ? kShadowTrianglesCpu : kShadowTrianglesGpu;
-    const uint64_t shown = uint64_t{output_.patchCount} * output_.instanceCount;
+    const uint64_t shown = uint64_t{output_.patchCount} * output_.capacity;
     uint32_t segments = output_.rate;
     const uint32_t fewest = output_.rate < edgeRate_ ? 1 : 2; // two to an edge of the cage
     while (segments > fewest && shown * 2 * segments * segments > budget)
@@ -137,7 +139,7 @@ Status FigureGroup::uploadTables() {
 
 Status FigureGroup::pose(uint32_t instance, uint32_t clip, double time) {
     Context& context = figure_.context();
-    return context.check(suppleSetClipPose(context.handle(), group_, instance, clip, time), "suppleSetClipPose");
+    return context.check(suppleSetClipPose(context.handle(), instances_[instance], clip, time), "suppleSetClipPose");
 }
 
 Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {
@@ -148,8 +150,8 @@ Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {
     // Between the instances there may be room that no patch fills.
     const size_t used = output_.vertexCount;
     std::vector<glm::vec3> packed;
-    packed.reserve(used * output_.instanceCount);
-    for (size_t instance = 0; instance < output_.instanceCount; ++instance) {
+    packed.reserve(used * output_.capacity);
+    for (size_t instance = 0; instance < output_.capacity; ++instance) {
         const auto first = positions.begin() + static_cast<std::ptrdiff_t>(instance * output_.verticesPerInstance);
         packed.insert(packed.end(), first, first + static_cast<std::ptrdiff_t>(used));
     }

@@ -513,7 +513,7 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
         }
         applyRange(range, push);
         pushConstants(commands, push);
-        const uint32_t patches = range.patchCount * output.instanceCount;
+        const uint32_t patches = range.patchCount * output.capacity;
         if (range.domain == SUPPLE_DOMAIN_QUAD || range.domain == SUPPLE_DOMAIN_POLAR) {
             vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
             vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), patches, 0, 0, 0);
@@ -556,7 +556,7 @@ void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene
         pushConstants(commands, push);
         if (!light)
             bindMaterial(commands, scene, range.material);
-        vkCmdDraw(commands, range.cornerCount, scene.group->output().instanceCount, 0, 0);
+        vkCmdDraw(commands, range.cornerCount, scene.group->output().capacity, 0, 0);
     }
 }
 
@@ -565,7 +565,7 @@ void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene
     push.baseColor = scene.cageFaces ? kCageEdgeColor : kOverlayEdgeColor;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
     pushConstants(commands, push);
-    vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->output().instanceCount, 0, 0);
+    vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->output().capacity, 0, 0);
 }
 
 } // namespace supple::host

@@ -163,7 +163,7 @@ Result<Subject> makeSubject(runtime::Context& context, const Course& course, uin
     // The yardstick's input; subdivision has none.
     groupDesc.flags = course.scheme == SUPPLE_SCHEME_PREP ? SUPPLE_GROUP_PATCHES : 0;
     groupDesc.asset = {*asset};
-    groupDesc.instanceCount = 1;
+    groupDesc.capacity = 1;
     groupDesc.scheme = course.scheme;
     groupDesc.rate = rate;
     groupDesc.vertexFormat = format;
@@ -171,6 +171,7 @@ Result<Subject> makeSubject(runtime::Context& context, const Course& course, uin
     if (!group) {
         return group.error();
     }
+    (void)context.groups.find(*group)->slots().create();
     context.assets.remove(*asset);
     return Subject{name, &context, *group};
 }

@@ -27,16 +27,20 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFl
     desc.structSize = sizeof desc;
     desc.flags = groupFlags;
     desc.asset = asset;
-    desc.instanceCount = 1;
+    desc.capacity = 1;
     desc.scheme = schemeOf(surface.scheme);
     desc.rate = surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
     describeSurface(surface, desc);
     SuppleGroup group{};
     Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
+    SuppleInstance instance{};
+    if (status) {
+        status = context.check(suppleCreateInstance(context.handle(), group, &instance), "suppleCreateInstance");
+    }
     if (status) {
         status =
-            context.check(suppleSetClipPose(context.handle(), group, 0, pose.clip, pose.time), "suppleSetClipPose");
+            context.check(suppleSetClipPose(context.handle(), instance, pose.clip, pose.time), "suppleSetClipPose");
     }
     if (status) {
         const SuppleGroup groups[] = {group};

@@ -174,11 +174,14 @@ private:
         SuppleGroupDesc desc{};
         desc.structSize = sizeof desc;
         desc.asset = asset_;
-        desc.instanceCount = options_.instances;
+        desc.capacity = options_.instances;
         desc.scheme = schemeOf(scheme);
         desc.rate = options_.surface.rate;
         describeSurface(options_.surface, desc);
         Status status = check(suppleCreateGroup(context(), &desc, &group_), "suppleCreateGroup");
+        if (status) {
+            status = session_.context->createInstances(group_, options_.instances, instances_);
+        }
         if (status) {
             SuppleGroupOutput output{};
             output.structSize = sizeof output;
@@ -196,7 +199,7 @@ private:
         for (uint32_t i = 0; status && clip_ != SUPPLE_BIND_POSE && i < options_.instances; ++i) {
             const double phase = clipDuration_ * i / options_.instances;
             const double time = clipDuration_ > 0.0 ? std::fmod(index * kFrameTime + phase, clipDuration_) : 0.0;
-            status = check(suppleSetClipPose(context(), group_, i, clip_, time), "suppleSetClipPose");
+            status = check(suppleSetClipPose(context(), instances_[i], clip_, time), "suppleSetClipPose");
         }
         return status;
     }
@@ -281,6 +284,7 @@ private:
     uint64_t collected_ = 0; ///< whose timings came in last
     SuppleAsset asset_{};
     SuppleGroup group_{};
+    std::vector<SuppleInstance> instances_;
     uint32_t clip_ = SUPPLE_BIND_POSE;
     double clipDuration_ = 0.0;
     std::array<SuppleTiming, 64> timings_{};

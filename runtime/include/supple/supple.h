@@ -126,7 +126,8 @@ typedef enum SuppleMessage {
     SUPPLE_MESSAGE_OUT_OF_ORDER = 106, /**< a call before the one it needs, or twice in a frame */
     SUPPLE_MESSAGE_ASSET_REFUSED = 200,
     SUPPLE_MESSAGE_ASSET_WARNING = 201,    /**< taken, but something in the file is left out or mended */
-    SUPPLE_MESSAGE_SCHEME_NOTE = 202,      /**< what a scheme changed about the cage or the rate */
+    SUPPLE_MESSAGE_SCHEME_NOTE = 202,      /**< what a scheme changed about the cage */
+    SUPPLE_MESSAGE_RATE_CHANGED = 203,     /**< the scheme takes another rate than the one asked for */
     SUPPLE_MESSAGE_DEVICE_UNSUITED = 300,  /**< see suppleQueryRequirements */
     SUPPLE_MESSAGE_FEATURE_DISABLED = 301, /**< the device has it, the host did not enable it */
     SUPPLE_MESSAGE_LIMIT = 302,
