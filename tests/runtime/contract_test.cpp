@@ -34,6 +34,7 @@ std::unique_ptr<host::Device> wrappedDevice(bool validation = true) {
 struct Character {
     SuppleAsset asset{};
     SuppleGroup group{};
+    std::vector<SuppleInstance> instances;
     SuppleResult result = SUPPLE_OK;
 };
 /// A group of `instances` of a cube sphere, or the first error.
@@ -52,10 +53,14 @@ Character makeCharacter(SuppleContext context, uint32_t instances = 1) {
     SuppleGroupDesc groupDesc{};
     groupDesc.structSize = sizeof(groupDesc);
     groupDesc.asset = c.asset;
-    groupDesc.instanceCount = instances;
+    groupDesc.capacity = instances;
     groupDesc.rate = 3;
     groupDesc.flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
     c.result = suppleCreateGroup(context, &groupDesc, &c.group);
+    c.instances.resize(c.result == SUPPLE_OK ? instances : 0);
+    for (SuppleInstance& instance : c.instances) {
+        EXPECT_EQ(suppleCreateInstance(context, c.group, &instance), SUPPLE_OK);
+    }
     return c;
 }
 
@@ -91,30 +96,38 @@ TEST(Contract, OnlyPosesCrossPerFrame) {
         SuppleGroupDesc groupDesc{};
         groupDesc.structSize = sizeof(groupDesc);
         groupDesc.asset = asset;
-        groupDesc.instanceCount = kInstances;
+        groupDesc.capacity = kInstances;
         SuppleGroup group{};
         ASSERT_EQ(suppleCreateGroup((*context)->handle(), &groupDesc, &group), SUPPLE_OK);
+        std::vector<SuppleInstance> instances;
+        ASSERT_TRUE((*context)->createInstances(group, kInstances, instances).ok());
+        SuppleGroupOutput output{};
+        output.structSize = sizeof(output);
+        ASSERT_EQ(suppleGetGroupOutput((*context)->handle(), group, &output), SUPPLE_OK);
         ASSERT_TRUE((*context)->evaluate({&group, 1}).ok()); // the first frame uploads the static tables
 
         const uint64_t paletteBytes = uint64_t{kInstances} * info.jointCount * 48;
         for (uint32_t frame = 0; frame < 10; ++frame) {
             WrappedVulkan& counts = wrappedVulkan();
             for (uint32_t i = 0; i < kInstances; ++i) {
-                ASSERT_EQ(suppleSetClipPose((*context)->handle(), group, i, 1, 0.1 * frame + 0.3 * i), SUPPLE_OK);
+                ASSERT_EQ(suppleSetClipPose((*context)->handle(), instances[i], 1, 0.1 * frame + 0.3 * i), SUPPLE_OK);
             }
             ASSERT_TRUE((*context)->evaluate({&group, 1}, frame % 2 == 0 ? SUPPLE_RECORD_TIMINGS : 0).ok());
             EXPECT_EQ(counts.maps, 0u);
-            EXPECT_LE(counts.flushes, 1u) << "the palettes' range, where memory is not coherent";
+            EXPECT_EQ(counts.flushes, 0u);
             EXPECT_EQ(counts.updates, 0u);
             EXPECT_EQ(counts.invalidates, 0u);
             EXPECT_EQ(counts.fills, 0u);
             EXPECT_EQ(counts.allocations, 0u);
             EXPECT_EQ(counts.buffers, 0u);
-            EXPECT_EQ(counts.copies, 1u);
-            EXPECT_EQ(counts.copiedBytes, paletteBytes) << "joint palettes and nothing else";
+            EXPECT_EQ(counts.copies, 4u) << "poses, the two lists of instances, draws";
+            EXPECT_EQ(counts.copiedBytes,
+                      paletteBytes + uint64_t{kInstances} * 8 + uint64_t{output.drawRangeCount} * 20)
+                << "joint palettes, who is drawn, and nothing else";
         }
-        std::printf("%llu bytes cross per frame: %u instances x %u joints x 48\n",
-                    static_cast<unsigned long long>(paletteBytes), kInstances, info.jointCount);
+        std::printf("%llu bytes cross per frame: %u instances x (%u joints x 48 + 8) + %u draw ranges x 20\n",
+                    static_cast<unsigned long long>(paletteBytes + kInstances * 8 + output.drawRangeCount * 20),
+                    kInstances, info.jointCount, output.drawRangeCount);
     }
     EXPECT_EQ(device->validationMessageCount(), 0u);
 }
@@ -208,12 +221,12 @@ TEST(Contract, InstancesHaveTheirOwnPoseAndTransform) {
     const glm::mat4 transform =
         glm::rotate(glm::translate(glm::mat4(1.0f), {3.0f, 0.5f, -2.0f}), 0.7f, {0.0f, 1.0f, 0.0f});
     SuppleContext context = three.context().handle();
-    ASSERT_EQ(suppleSetClipPose(context, three.group(), 0, 0, 0.4), SUPPLE_OK);
-    ASSERT_EQ(suppleSetClipPose(context, three.group(), 1, 1, 0.9), SUPPLE_OK);
-    ASSERT_EQ(suppleSetClipPose(context, three.group(), 2, 1, 0.9), SUPPLE_OK);
-    ASSERT_EQ(suppleSetTransform(context, three.group(), 2, glm::value_ptr(transform)), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(context, three.instance(0), 0, 0.4), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(context, three.instance(1), 1, 0.9), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(context, three.instance(2), 1, 0.9), SUPPLE_OK);
+    ASSERT_EQ(suppleSetTransform(context, three.instance(2), glm::value_ptr(transform)), SUPPLE_OK);
     three.evaluate();
-    ASSERT_EQ(suppleSetClipPose(context, alone.group(), 0, 1, 0.9), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(context, alone.instance(0), 1, 0.9), SUPPLE_OK);
     alone.evaluate();
     double moved = 0.0, turned = 0.0;
     for (uint32_t p = 0; p < three.output().patchCount; ++p) {
@@ -247,9 +260,9 @@ TEST(Contract, MatrixPosesEqualClipPoses) {
     GpuSurface gpu(*device, kPip, options);
     ASSERT_TRUE(gpu.valid());
     SuppleContext context = gpu.context().handle();
-    ASSERT_EQ(suppleSetClipPose(context, gpu.group(), 0, 2, 1.1), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(context, gpu.instance(0), 2, 1.1), SUPPLE_OK);
     ASSERT_EQ(
-        suppleSetMatrixPose(context, gpu.group(), 1, glm::value_ptr(joints[0]), static_cast<uint32_t>(joints.size())),
+        suppleSetMatrixPose(context, gpu.instance(1), glm::value_ptr(joints[0]), static_cast<uint32_t>(joints.size())),
         SUPPLE_OK);
     gpu.evaluate();
     double worst = 0.0;
@@ -317,15 +330,15 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     SuppleGroupDesc groupDesc{};
     groupDesc.structSize = sizeof(groupDesc);
     groupDesc.asset = c.asset;
-    groupDesc.instanceCount = 0;
+    groupDesc.capacity = 0;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
-    groupDesc.instanceCount = 1;
+    groupDesc.capacity = 1;
     groupDesc.rate = 65;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
     groupDesc.rate = 64;
-    groupDesc.instanceCount = 0x7FFFFFFF;
+    groupDesc.capacity = 0x7FFFFFFF;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_LIMIT);
-    groupDesc.instanceCount = 1;
+    groupDesc.capacity = 1;
     groupDesc.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
     groupDesc.flags = SUPPLE_GROUP_PATCHES;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << "it has no coefficients";
@@ -344,11 +357,13 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     groupDesc.scheme = SUPPLE_SCHEME_AUTO;
     groupDesc.structSize = 4;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
-    EXPECT_EQ(suppleSetClipPose(context, c.group, 1, SUPPLE_BIND_POSE, 0.0), SUPPLE_ERROR_ARGUMENT);
-    EXPECT_EQ(suppleSetClipPose(context, c.group, 0, 0, 0.0), SUPPLE_ERROR_ARGUMENT) << "it has no clips";
-    EXPECT_EQ(suppleSetTransform(context, c.group, 0, nan), SUPPLE_ERROR_ARGUMENT);
-    EXPECT_EQ(suppleSetMatrixPose(context, c.group, 0, nan, 1), SUPPLE_ERROR_ARGUMENT);
-    EXPECT_EQ(suppleSetMatrixPose(context, c.group, 0, nullptr, 1), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSetClipPose(context, {c.group, 1, c.instances[0].generation}, SUPPLE_BIND_POSE, 0.0),
+              SUPPLE_ERROR_ARGUMENT)
+        << "no such slot";
+    EXPECT_EQ(suppleSetClipPose(context, c.instances[0], 0, 0.0), SUPPLE_ERROR_ARGUMENT) << "it has no clips";
+    EXPECT_EQ(suppleSetTransform(context, c.instances[0], nan), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSetMatrixPose(context, c.instances[0], nan, 1), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSetMatrixPose(context, c.instances[0], nullptr, 1), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleRecord(context, VK_NULL_HANDLE, nullptr), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleBeginFrame(context, 0, 0), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleBeginFrame(context, 5, 0), SUPPLE_ERROR_ARGUMENT) << "more in flight than the context keeps";
@@ -378,10 +393,12 @@ TEST(Contract, TheCageAloneNeedsNoScheme) {
     groupDesc.structSize = sizeof(groupDesc);
     groupDesc.flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
     groupDesc.asset = asset;
-    groupDesc.instanceCount = 2;
+    groupDesc.capacity = 2;
     groupDesc.scheme = SUPPLE_SCHEME_CAGE;
     SuppleGroup group{};
     ASSERT_EQ(suppleCreateGroup((*created)->handle(), &groupDesc, &group), SUPPLE_OK);
+    std::vector<SuppleInstance> instances;
+    ASSERT_TRUE((*created)->createInstances(group, 2, instances).ok());
     ASSERT_TRUE((*created)->evaluate({&group, 1}, SUPPLE_RECORD_TIMINGS).ok());
     SuppleGroupOutput output{};
     output.structSize = sizeof(output);
@@ -475,7 +492,7 @@ TEST(Contract, CagesAreRefusedByName) {
             SuppleGroupDesc groupDesc{};
             groupDesc.structSize = sizeof(groupDesc);
             groupDesc.asset = asset;
-            groupDesc.instanceCount = 1;
+            groupDesc.capacity = 1;
             groupDesc.scheme = scheme;
             SuppleGroup group{};
             result = suppleCreateGroup((*created)->handle(), &groupDesc, &group);
@@ -523,7 +540,7 @@ TEST(Contract, LargeGroupsAreWindowsOfInstances) {
                 for (uint32_t i = 0; i < kInstances; ++i) {
                     const glm::mat4 transform =
                         glm::translate(glm::mat4(1.0f), {0.1f * static_cast<float>(i), 0.0f, 0.0f});
-                    ASSERT_EQ(suppleSetTransform((*context)->handle(), c.group, i, glm::value_ptr(transform)),
+                    ASSERT_EQ(suppleSetTransform((*context)->handle(), c.instances[i], glm::value_ptr(transform)),
                               SUPPLE_OK);
                 }
                 ASSERT_TRUE((*context)->evaluate({&c.group, 1}).ok());
@@ -568,26 +585,26 @@ TEST(Contract, FramesInFlightKeepTheirOwnPoses) {
     ASSERT_TRUE(copies[0].ok() && copies[1].ok());
     const SuppleSyncScope copy{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
     // Both frames are recorded before either runs.
-    ASSERT_TRUE(device
-                    ->submitAndWait([&](VkCommandBuffer commands) {
-                        for (uint64_t frame = 1; frame <= 2; ++frame) {
-                            EXPECT_EQ(suppleBeginFrame(context, frame, 0), SUPPLE_OK);
-                            const glm::mat4 transform =
-                                glm::translate(glm::mat4(1.0f), {static_cast<float>(10 * frame), 0.0f, 0.0f});
-                            EXPECT_EQ(suppleSetTransform(context, c.group, 0, glm::value_ptr(transform)), SUPPLE_OK);
-                            SuppleRecordDesc desc{};
-                            desc.structSize = sizeof(desc);
-                            desc.groups = &c.group;
-                            desc.groupCount = 1;
-                            desc.before = copy;
-                            desc.after = copy;
-                            EXPECT_EQ(suppleRecord(context, commands, &desc), SUPPLE_OK);
-                            const VkBufferCopy region{0, 0, output.deformedCage.size};
-                            vkCmdCopyBuffer(commands, output.deformedCage.buffer, copies[frame - 1]->handle(), 1,
-                                            &region);
-                        }
-                    })
-                    .ok());
+    ASSERT_TRUE(
+        device
+            ->submitAndWait([&](VkCommandBuffer commands) {
+                for (uint64_t frame = 1; frame <= 2; ++frame) {
+                    EXPECT_EQ(suppleBeginFrame(context, frame, 0), SUPPLE_OK);
+                    const glm::mat4 transform =
+                        glm::translate(glm::mat4(1.0f), {static_cast<float>(10 * frame), 0.0f, 0.0f});
+                    EXPECT_EQ(suppleSetTransform(context, c.instances[0], glm::value_ptr(transform)), SUPPLE_OK);
+                    SuppleRecordDesc desc{};
+                    desc.structSize = sizeof(desc);
+                    desc.groups = &c.group;
+                    desc.groupCount = 1;
+                    desc.before = copy;
+                    desc.after = copy;
+                    EXPECT_EQ(suppleRecord(context, commands, &desc), SUPPLE_OK);
+                    const VkBufferCopy region{0, 0, output.deformedCage.size};
+                    vkCmdCopyBuffer(commands, output.deformedCage.buffer, copies[frame - 1]->handle(), 1, &region);
+                }
+            })
+            .ok());
     for (uint32_t frame = 1; frame <= 2; ++frame) {
         const Result<std::vector<std::byte>> bytes =
             device->readBuffer(copies[frame - 1]->handle(), 0, output.deformedCage.size);
@@ -632,8 +649,8 @@ TEST(Contract, MappingsSkinAndEvaluateManyInstancesAlike) {
     GpuSurface wide(*device, kPip, options);
     ASSERT_TRUE(narrow.valid() && wide.valid());
     for (uint32_t i = 0; i < 3; ++i) {
-        ASSERT_EQ(suppleSetClipPose(narrow.context().handle(), narrow.group(), i, i, 0.7), SUPPLE_OK);
-        ASSERT_EQ(suppleSetClipPose(wide.context().handle(), wide.group(), i, i, 0.7), SUPPLE_OK);
+        ASSERT_EQ(suppleSetClipPose(narrow.context().handle(), narrow.instance(i), i, 0.7), SUPPLE_OK);
+        ASSERT_EQ(suppleSetClipPose(wide.context().handle(), wide.instance(i), i, 0.7), SUPPLE_OK);
     }
     narrow.evaluate();
     wide.evaluate();

@@ -42,15 +42,22 @@ TEST(CppLayer, OwnsWhatItMakes) {
         EXPECT_EQ(info.faceCount, 6u);
         auto groupDesc = supple::sized<SuppleGroupDesc>();
         groupDesc.asset = asset.handle();
-        groupDesc.instanceCount = 1;
+        groupDesc.capacity = 1;
         ASSERT_EQ(supple::Group::create(context, groupDesc, group), SUPPLE_OK);
     } // the group keeps what it needs of the asset
 
     std::array<float, 16> identity{};
     identity[0] = identity[5] = identity[10] = identity[15] = 1.0f;
-    EXPECT_EQ(group.setTransform(0, identity), SUPPLE_OK);
-    EXPECT_EQ(group.setMatrixPose(0, identity), SUPPLE_OK);
-    EXPECT_EQ(group.setClipPose(0, SUPPLE_BIND_POSE, 0.0), SUPPLE_OK);
+    supple::Instance instance;
+    ASSERT_EQ(supple::Instance::create(group, instance), SUPPLE_OK);
+    supple::Instance second;
+    EXPECT_EQ(supple::Instance::create(group, second), SUPPLE_ERROR_LIMIT) << "room for one";
+    EXPECT_EQ(instance.setTransform(identity), SUPPLE_OK);
+    EXPECT_EQ(instance.setMatrixPose(identity), SUPPLE_OK);
+    EXPECT_EQ(instance.setClipPose(SUPPLE_BIND_POSE, 0.0), SUPPLE_OK);
+    EXPECT_EQ(instance.setVisible(true), SUPPLE_OK);
+    EXPECT_EQ(instance.teleport(), SUPPLE_OK);
+    EXPECT_EQ(group.setRate(4), SUPPLE_OK);
     std::vector<SuppleTiming> timings;
     EXPECT_EQ(context.timings(timings), SUPPLE_NOT_READY);
     for (uint64_t frame = 1; frame <= 2; ++frame) {

@@ -94,6 +94,13 @@ protected:
         info.structSize = sizeof(info);
         ASSERT_EQ(suppleGetAssetInfo(handle(), asset, &info), SUPPLE_OK);
         group = makeGroup(SUPPLE_SKINNING_LINEAR);
+        instances = instancesOf(group);
+    }
+    /// Fills a group.
+    [[nodiscard]] std::vector<SuppleInstance> instancesOf(SuppleGroup own) const {
+        std::vector<SuppleInstance> result;
+        EXPECT_TRUE(context_->createInstances(own, 3, result).ok());
+        return result;
     }
 
     [[nodiscard]] SuppleContext handle() const { return context_->handle(); }
@@ -101,7 +108,7 @@ protected:
         SuppleGroupDesc desc{};
         desc.structSize = sizeof(desc);
         desc.asset = asset;
-        desc.instanceCount = 3;
+        desc.capacity = 3;
         desc.scheme = SUPPLE_SCHEME_CAGE;
         desc.skinning = skinning;
         SuppleGroup result{};
@@ -117,7 +124,7 @@ protected:
         const Result<std::vector<std::byte>> bytes = context_->device().readBuffer(output.deformedCage);
         EXPECT_TRUE(bytes.ok());
         std::vector<std::vector<std::byte>> result;
-        for (uint32_t i = 0; i < output.instanceCount && bytes.ok(); ++i) {
+        for (uint32_t i = 0; i < output.capacity && bytes.ok(); ++i) {
             const auto begin = bytes->begin() + static_cast<ptrdiff_t>(16 * size_t{i} * output.cageVerticesPerInstance);
             result.emplace_back(begin, begin + static_cast<ptrdiff_t>(16 * size_t{output.cageVertexCount}));
         }
@@ -146,6 +153,7 @@ protected:
     std::unique_ptr<host::Context> context_; ///< declared first: goes last, and frees the rest
     SuppleAsset asset{};
     SuppleGroup group{};
+    std::vector<SuppleInstance> instances;
     SuppleAssetInfo info{};
     cage::Character character;
     skinning::Rig rig;
@@ -182,9 +190,9 @@ TEST_F(PoseApi, TellsJointsAndTargets) {
 
 TEST_F(PoseApi, EndsOfACrossfadeAreTheClips) {
     const ValidationGuard guard;
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 0, 0, 0.4), SUPPLE_OK);
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, 1, 0.9), SUPPLE_OK);
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 2, SUPPLE_REST_POSE, 0.0), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[0], 0, 0.4), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[1], 1, 0.9), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[2], SUPPLE_REST_POSE, 0.0), SUPPLE_OK);
     const auto clips = cages();
     const SuppleClipLayer alone[] = {layer(0, 0.4)};
     const SuppleClipLayer begin[] = {layer(0, 0.4), layer(1, 0.9, 0.0f)};
@@ -192,7 +200,7 @@ TEST_F(PoseApi, EndsOfACrossfadeAreTheClips) {
     const SuppleClipLayer between[] = {layer(0, 0.4), layer(1, 0.9, 0.5f)};
     const auto set = [&](uint32_t instance, std::span<const SuppleClipLayer> layers) {
         const SupplePoseDesc pose = poseOf(layers);
-        ASSERT_EQ(suppleSetPose(handle(), group, instance, &pose), SUPPLE_OK);
+        ASSERT_EQ(suppleSetPose(handle(), instances[instance], &pose), SUPPLE_OK);
     };
     set(0, alone);
     set(1, end);
@@ -219,7 +227,7 @@ TEST_F(PoseApi, LayersAreThoseOfTheSkinningFloor) {
     pose.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
     pose.flags = SUPPLE_POSE_ROOT_JOINT;
     pose.rootJoint = 1;
-    ASSERT_EQ(suppleSetPose(handle(), group, 1, &pose), SUPPLE_OK);
+    ASSERT_EQ(suppleSetPose(handle(), instances[1], &pose), SUPPLE_OK);
 
     skinning::Pose wanted;
     skinning::LayerScratch scratch;
@@ -242,11 +250,11 @@ TEST_F(PoseApi, LayersAreThoseOfTheSkinningFloor) {
 
 TEST_F(PoseApi, DualQuaternionsAreASwitchOfTheGroup) {
     const ValidationGuard guard;
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, 2, 1.1), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[1], 2, 1.1), SUPPLE_OK);
     const auto linear = cages();
     ASSERT_EQ(suppleDestroyGroup(handle(), group), SUPPLE_OK);
     group = makeGroup(SUPPLE_SKINNING_DUAL_QUATERNION);
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, 2, 1.1), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[1], 2, 1.1), SUPPLE_OK);
     const auto dual = cages();
     for (uint32_t v = 0; v < info.cageVertexCount; ++v) {
         ASSERT_EQ(std::memcmp(dual[0].data() + 16 * size_t{v}, &character.cage.positions[v], 12), 0)
@@ -282,7 +290,7 @@ TEST_F(PoseApi, RootMotionIsReported) {
     EXPECT_FLOAT_EQ(motion.yaw, static_cast<float>(wanted.yaw));
     EXPECT_FLOAT_EQ(motion.transform[0], std::cos(motion.yaw));
     EXPECT_FLOAT_EQ(motion.transform[8], std::sin(motion.yaw));
-    EXPECT_EQ(suppleSetTransform(handle(), group, 0, motion.transform), SUPPLE_OK) << "it is a transform";
+    EXPECT_EQ(suppleSetTransform(handle(), instances[0], motion.transform), SUPPLE_OK) << "it is a transform";
     // Nothing asked for, nothing moves; the automatic root of clips that walk on the spot comes back after a loop.
     pose.rootMotion = 0;
     ASSERT_EQ(suppleGetRootMotion(handle(), asset, &pose, &motion), SUPPLE_OK);
@@ -331,9 +339,9 @@ TEST_F(PoseApi, MorphWeightsComeFromClipsUntilTheHostSetsThem) {
     skinning::Pose rest, walk;
     skinning::restPose(character, rest);
     skinning::sampleClip(character, character.clips[0], 0.5, walk);
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 0, SUPPLE_BIND_POSE, 0.0), SUPPLE_OK);
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, SUPPLE_REST_POSE, 0.0), SUPPLE_OK);
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 2, 0, 0.5), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[0], SUPPLE_BIND_POSE, 0.0), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[1], SUPPLE_REST_POSE, 0.0), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[2], 0, 0.5), SUPPLE_OK);
     auto now = cages();
     EXPECT_LT(worstDistance(now[0], {character.cage.positions.begin(), character.cage.positions.end()}), 1e-6);
     EXPECT_LT(worstDistance(now[1], skinning::deformOnCpu(character, rest)), 1e-6);
@@ -342,15 +350,15 @@ TEST_F(PoseApi, MorphWeightsComeFromClipsUntilTheHostSetsThem) {
     // The host's weights stand, whatever pose comes; given back, the pose's are there again.
     const float weights[] = {1.0f, 0.5f, 0.0f, 2.0f};
     for (uint32_t i = 0; i < 3; ++i) {
-        ASSERT_EQ(suppleSetMorphWeights(handle(), group, i, weights, 4), SUPPLE_OK);
+        ASSERT_EQ(suppleSetMorphWeights(handle(), instances[i], weights, 4), SUPPLE_OK);
     }
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 1, 0, 0.5), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[1], 0, 0.5), SUPPLE_OK);
     skinning::Pose host = walk;
     host.morphWeights = {1.0, 0.5, 0.0, 2.0};
     now = cages();
     EXPECT_LT(worstDistance(now[1], skinning::deformOnCpu(character, host)), 2e-6);
     EXPECT_TRUE(now[1] == now[2]);
-    ASSERT_EQ(suppleSetMorphWeights(handle(), group, 1, nullptr, 0), SUPPLE_OK);
+    ASSERT_EQ(suppleSetMorphWeights(handle(), instances[1], nullptr, 0), SUPPLE_OK);
     EXPECT_LT(worstDistance(cages()[1], skinning::deformOnCpu(character, walk)), 2e-6);
 
     // Two clips' weights, crossfaded; a masked layer spares them unless it says otherwise.
@@ -359,18 +367,18 @@ TEST_F(PoseApi, MorphWeightsComeFromClipsUntilTheHostSetsThem) {
     layers[1].jointMask = mask.data();
     layers[1].jointMaskCount = info.jointCount;
     const SupplePoseDesc pose = poseOf(layers);
-    ASSERT_EQ(suppleSetPose(handle(), group, 1, &pose), SUPPLE_OK);
+    ASSERT_EQ(suppleSetPose(handle(), instances[1], &pose), SUPPLE_OK);
     EXPECT_LT(worstDistance(cages()[1], skinning::deformOnCpu(character, walk)), 2e-6);
     layers[1].morphMask = morphMask.data();
     layers[1].morphMaskCount = 4;
-    ASSERT_EQ(suppleSetPose(handle(), group, 1, &pose), SUPPLE_OK);
+    ASSERT_EQ(suppleSetPose(handle(), instances[1], &pose), SUPPLE_OK);
     skinning::Pose masked = walk;
     masked.morphWeights[1] = -1.0;
     EXPECT_LT(worstDistance(cages()[1], skinning::deformOnCpu(character, masked)), 2e-6);
 
     const float bad[] = {0, 0, kNan, 0};
-    EXPECT_NE(refusal(suppleSetMorphWeights(handle(), group, 0, bad, 4)).find("not finite"), std::string::npos);
-    EXPECT_NE(refusal(suppleSetMorphWeights(handle(), group, 0, weights, 3)).find("not the asset's"),
+    EXPECT_NE(refusal(suppleSetMorphWeights(handle(), instances[0], bad, 4)).find("not finite"), std::string::npos);
+    EXPECT_NE(refusal(suppleSetMorphWeights(handle(), instances[0], weights, 3)).find("the asset has"),
               std::string::npos);
 }
 
@@ -391,8 +399,8 @@ TEST_F(PoseApi, AHostThatFollowsTheRootSeesTheClip) {
         ASSERT_EQ(suppleGetRootMotion(handle(), asset, &pose, &motion), SUPPLE_OK);
         placed = placed * glm::make_mat4(motion.transform);
     }
-    ASSERT_EQ(suppleSetPose(handle(), group, 0, &pose), SUPPLE_OK);
-    ASSERT_EQ(suppleSetTransform(handle(), group, 0, glm::value_ptr(placed)), SUPPLE_OK);
+    ASSERT_EQ(suppleSetPose(handle(), instances[0], &pose), SUPPLE_OK);
+    ASSERT_EQ(suppleSetTransform(handle(), instances[0], glm::value_ptr(placed)), SUPPLE_OK);
     skinning::Pose wanted;
     skinning::sampleClip(character, character.clips[0], 1.5, wanted); // 5.5 s: two loops of 2 s and three quarters
     wanted.locals[1].translation.x -= 4.0;
@@ -402,7 +410,7 @@ TEST_F(PoseApi, AHostThatFollowsTheRootSeesTheClip) {
 
 TEST_F(PoseApi, WrongPosesAreRefusedByNameAndChangeNothing) {
     const ValidationGuard guard;
-    ASSERT_EQ(suppleSetClipPose(handle(), group, 0, 1, 0.5), SUPPLE_OK);
+    ASSERT_EQ(suppleSetClipPose(handle(), instances[0], 1, 0.5), SUPPLE_OK);
     const auto before = cages();
     const std::vector<float> mask(info.jointCount + 1, 0.5f), outside(info.jointCount, 1.5f),
         nan(info.jointCount, kNan);
@@ -459,22 +467,23 @@ TEST_F(PoseApi, WrongPosesAreRefusedByNameAndChangeNothing) {
     for (const Case& c : cases) {
         Pose pose;
         c.spoil(pose);
-        const std::string line = refusal(suppleSetPose(handle(), group, 0, &pose.desc));
+        const std::string line = refusal(suppleSetPose(handle(), instances[0], &pose.desc));
         EXPECT_NE(line.find("suppleSetPose: "), std::string::npos) << line;
         EXPECT_NE(line.find(c.reason), std::string::npos) << line;
     }
     const Pose good;
-    EXPECT_NE(refusal(suppleSetPose(handle(), group, 0, nullptr)).find("pose is null"), std::string::npos);
-    EXPECT_NE(refusal(suppleSetPose(handle(), group, 3, &good.desc)).find("instance 3 of 3"), std::string::npos);
-    EXPECT_NE(refusal(suppleSetPose(handle(), SuppleGroup{99}, 0, &good.desc)).find("group handle"), std::string::npos);
-    EXPECT_NE(refusal(suppleSetClipPose(handle(), group, 0, 0, kInfinity)).find("not finite"), std::string::npos);
+    EXPECT_NE(refusal(suppleSetPose(handle(), instances[0], nullptr)).find("pose is null"), std::string::npos);
+    EXPECT_NE(refusal(suppleSetPose(handle(), {group, 3, 1}, &good.desc)).find("slot 3"), std::string::npos);
+    EXPECT_NE(refusal(suppleSetPose(handle(), {SuppleGroup{99}, 0, 1}, &good.desc)).find("group handle"),
+              std::string::npos);
+    EXPECT_NE(refusal(suppleSetClipPose(handle(), instances[0], 0, kInfinity)).find("not finite"), std::string::npos);
 
     const float weights[] = {0.5f, kNan};
-    EXPECT_NE(
-        refusal(suppleSetMorphWeights(handle(), group, 0, weights, info.morphTargetCount + 1)).find("not the asset's"),
-        std::string::npos);
-    EXPECT_EQ(suppleSetMorphWeights(handle(), group, 0, nullptr, 12), SUPPLE_OK) << "null needs no count";
-    EXPECT_EQ(suppleSetMorphWeights(handle(), group, 0, weights, 0), SUPPLE_OK) << "no targets, no weights";
+    EXPECT_NE(refusal(suppleSetMorphWeights(handle(), instances[0], weights, info.morphTargetCount + 1))
+                  .find("the asset has"),
+              std::string::npos);
+    EXPECT_EQ(suppleSetMorphWeights(handle(), instances[0], nullptr, 12), SUPPLE_OK) << "null needs no count";
+    EXPECT_EQ(suppleSetMorphWeights(handle(), instances[0], weights, 0), SUPPLE_OK) << "no targets, no weights";
 
     std::vector<float> written(info.jointCount, 0.25f);
     EXPECT_NE(refusal(suppleFillJointMask(handle(), asset, 0, 1.0f, nullptr, info.jointCount)).find("null"),
@@ -490,7 +499,7 @@ TEST_F(PoseApi, WrongPosesAreRefusedByNameAndChangeNothing) {
 
     auto groupDesc = sized<SuppleGroupDesc>();
     groupDesc.asset = asset;
-    groupDesc.instanceCount = 1;
+    groupDesc.capacity = 1;
     groupDesc.skinning = static_cast<SuppleSkinning>(2);
     SuppleGroup none{};
     EXPECT_NE(refusal(suppleCreateGroup(handle(), &groupDesc, &none)).find("no such skinning"), std::string::npos);
@@ -507,7 +516,7 @@ TEST_F(PoseApi, PosingAllocatesNothing) {
     SupplePoseDesc pose = poseOf(layers);
     pose.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
     auto motion = sized<SuppleRootMotion>();
-    const SuppleGroup groups[] = {group, makeGroup(SUPPLE_SKINNING_DUAL_QUATERNION)};
+    const std::vector<SuppleInstance> groups[] = {instances, instancesOf(makeGroup(SUPPLE_SKINNING_DUAL_QUATERNION))};
     bool good = true;
     allocations = 0;
     countingAllocations = true;
@@ -516,11 +525,11 @@ TEST_F(PoseApi, PosingAllocatesNothing) {
             own.previousTime = own.time;
             own.time += 0.05;
         }
-        for (const SuppleGroup& own : groups) {
-            good = good && suppleSetPose(handle(), own, 0, &pose) == SUPPLE_OK;
-            good = good && suppleSetClipPose(handle(), own, 1, 1, 0.05 * i) == SUPPLE_OK;
-            good = good && suppleSetClipPose(handle(), own, 2, SUPPLE_REST_POSE, 0.0) == SUPPLE_OK;
-            good = good && suppleSetMorphWeights(handle(), own, 2, nullptr, 0) == SUPPLE_OK;
+        for (const std::vector<SuppleInstance>& own : groups) {
+            good = good && suppleSetPose(handle(), own[0], &pose) == SUPPLE_OK;
+            good = good && suppleSetClipPose(handle(), own[1], 1, 0.05 * i) == SUPPLE_OK;
+            good = good && suppleSetClipPose(handle(), own[2], SUPPLE_REST_POSE, 0.0) == SUPPLE_OK;
+            good = good && suppleSetMorphWeights(handle(), own[2], nullptr, 0) == SUPPLE_OK;
         }
         good = good && suppleGetRootMotion(handle(), asset, &pose, &motion) == SUPPLE_OK;
         good = good && suppleFillJointMask(handle(), asset, 1, 0.01f * static_cast<float>(i), mask.data(),
@@ -547,10 +556,12 @@ TEST_F(PoseApi, TheCppLayerPosesToo) {
     ASSERT_EQ(supple::Asset::create(context, assetDesc, own), SUPPLE_OK);
     auto groupDesc = sized<SuppleGroupDesc>();
     groupDesc.asset = own.handle();
-    groupDesc.instanceCount = 1;
+    groupDesc.capacity = 1;
     groupDesc.skinning = SUPPLE_SKINNING_DUAL_QUATERNION;
     supple::Group dual;
     ASSERT_EQ(supple::Group::create(context, groupDesc, dual), SUPPLE_OK);
+    supple::Instance only;
+    ASSERT_EQ(supple::Instance::create(dual, only), SUPPLE_OK);
 
     SuppleClipInfo clip;
     EXPECT_EQ(own.clipInfo(1, clip), SUPPLE_OK);
@@ -565,9 +576,9 @@ TEST_F(PoseApi, TheCppLayerPosesToo) {
     SuppleClipLayer layers[] = {layer(0, 0.1), layer(1, 0.2, 0.5f)};
     layers[1].jointMask = mask.data();
     layers[1].jointMaskCount = info.jointCount;
-    EXPECT_EQ(dual.setPose(0, layers), SUPPLE_OK);
-    EXPECT_EQ(dual.setPose(0, poseOf(layers)), SUPPLE_OK);
-    EXPECT_EQ(dual.setMorphWeights(0, {}), SUPPLE_OK);
+    EXPECT_EQ(only.setPose(layers), SUPPLE_OK);
+    EXPECT_EQ(only.setPose(poseOf(layers)), SUPPLE_OK);
+    EXPECT_EQ(only.setMorphWeights({}), SUPPLE_OK);
     SuppleRootMotion motion;
     EXPECT_EQ(own.rootMotion(poseOf(layers), motion), SUPPLE_OK);
     EXPECT_EQ(motion.transform[15], 1.0f);
