@@ -114,7 +114,12 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->evaluation_.verticesPerInstance = roundUp(group->vertexCount_, kVertexPadding);
     group->evaluation_.cageStride = roundUp(group->asset_->character.cage.vertexCount(), kCagePadding);
 
-    Status status = group->layOutWindows(desc);
+    Status status = shared.surface->prepare(
+        tables, {group->evaluation_.vertexFormat, (desc.flags & SUPPLE_GROUP_MOTION) != 0,
+                 (desc.flags & SUPPLE_GROUP_PATCHES) != 0, (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0});
+    if (status) {
+        status = group->layOutWindows(desc);
+    }
     if (status) {
         group->slots_ = InstanceSlots(desc.capacity, shared.firstGeneration);
         group->listed_.resize(group->windows_.size());

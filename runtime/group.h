@@ -21,7 +21,7 @@ namespace supple::runtime {
 struct GroupShared {
     const gpu::Device* device = nullptr;
     const skinning::DeformPass* deform = nullptr;
-    const surface::Passes* surface = nullptr;
+    surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
     uint32_t framesInFlight = 2;

@@ -18,7 +18,9 @@
 #include "shaders/shared/kernel.h"
 #include "shaders/shared/pm.h"
 
+#include <iterator>
 #include <string>
+#include <vector>
 
 namespace supple::surface {
 
@@ -115,80 +117,101 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
         {kInstanceBinding, kStorage},  {kInstanceTexelBinding, kTexels}};
     Passes passes;
     passes.device_ = &device;
+    passes.shaders_ = shaders;
     Result<gpu::ComputeLayout> layout =
         gpu::ComputeLayout::create(device, bindings, sizeof(SurfacePush), "supple surface");
     if (!layout) {
         return layout.error();
     }
     passes.layout_ = std::move(*layout);
+    passes.kernel_ = kernel::Passes(device, shaders.kernel);
+    return passes;
+}
 
-    struct Wanted {
-        gpu::PipelineHandle* target;
-        std::span<const uint32_t> spirv;
-        std::vector<gpu::Constant> constants;
-        std::string name;
-    };
-    std::vector<Wanted> wanted;
-    const auto construction = [&](Kernel kernel, std::span<const uint32_t> spirv, uint32_t kind, const char* name) {
-        wanted.push_back({&passes.construction_[static_cast<size_t>(kernel)], spirv, {{kKindConstant, kind}}, name});
-    };
-    construction(Kernel::prepVertexRegular, shaders.prepVertex, 1, "supple p-rep vertex, regular");
-    construction(Kernel::prepVertex, shaders.prepVertex, 0, "supple p-rep vertex");
-    construction(Kernel::prepEdge, shaders.prepEdge, 0, "supple p-rep edge");
-    construction(Kernel::pmVertexRegular, shaders.pmVertex, kPmRegularSector, "supple P_m vertex, regular");
-    construction(Kernel::pmVertex, shaders.pmVertex, kPmSmoothSector, "supple P_m vertex");
-    construction(Kernel::pmVertexCreased, shaders.pmVertex, kPmCreasedSector, "supple P_m vertex, creased");
-    construction(Kernel::pmPolar, shaders.pmFacet, kPolarPatch, "supple P_m facet, polar");
-    construction(Kernel::pmFacet3, shaders.pmFacet, kP3Patch, "supple P_m facet, triangle");
-    construction(Kernel::pmFacet4, shaders.pmFacet, kP4Patch, "supple P_m facet, quad");
-    construction(Kernel::pmFacet5, shaders.pmFacet, kP5Patch, "supple P_m facet, pentagon");
-    construction(Kernel::isolate, shaders.isolate, 0, "supple kernel, isolate");
-    construction(Kernel::blendChart, shaders.blendChart, 0, "supple blend, chart");
-    construction(Kernel::blendChartFromPool, shaders.blendChart, 1, "supple blend, chart of a subdivided cage");
-    for (const uint32_t patchClass : {kBlendPatch, kBlendSharpPatch}) {
-        for (uint32_t format = 0; format < kVertexFormats; ++format) {
-            wanted.push_back({&passes.evaluate_[patchClass][format][0],
-                              shaders.blendEvaluate,
-                              {{kKindConstant, patchClass}, {kVertexFormatConstant, format}},
-                              "supple evaluate, blend"});
-        }
+Status Passes::make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv,
+                    std::initializer_list<gpu::Constant> constants, const std::string& name) {
+    if (target.get() != VK_NULL_HANDLE) {
+        return success();
     }
-    for (uint32_t domain = 0; domain < kDomainCount; ++domain) {
-        wanted.push_back(
-            {&passes.attributes_[domain], shaders.attributes, {{kKindConstant, domain}}, "supple attributes"});
+    Result<gpu::PipelineHandle> pipeline =
+        gpu::createComputePipeline(*device_, layout_, spirv, constants, name.c_str());
+    if (!pipeline) {
+        return pipeline.error();
     }
-    for (uint32_t patchClass = 0; patchClass <= kP5Patch; ++patchClass) {
-        const std::string name = className(static_cast<PatchClass>(patchClass));
+    target = std::move(*pipeline);
+    return success();
+}
+
+Status Passes::makeConstruction(Kernel kernel) {
+    using namespace shared;
+    struct Source {
+        std::span<const uint32_t> Shaders::*spirv;
+        uint32_t kind;
+        const char* name;
+    };
+    constexpr Source kSources[] = {
+        {&Shaders::prepVertex, 1, "supple p-rep vertex, regular"},
+        {&Shaders::prepVertex, 0, "supple p-rep vertex"},
+        {&Shaders::prepEdge, 0, "supple p-rep edge"},
+        {&Shaders::pmVertex, kPmRegularSector, "supple P_m vertex, regular"},
+        {&Shaders::pmVertex, kPmSmoothSector, "supple P_m vertex"},
+        {&Shaders::pmVertex, kPmCreasedSector, "supple P_m vertex, creased"},
+        {&Shaders::pmFacet, kPolarPatch, "supple P_m facet, polar"},
+        {&Shaders::pmFacet, kP3Patch, "supple P_m facet, triangle"},
+        {&Shaders::pmFacet, kP4Patch, "supple P_m facet, quad"},
+        {&Shaders::pmFacet, kP5Patch, "supple P_m facet, pentagon"},
+        {&Shaders::isolate, 0, "supple kernel, isolate"},
+        {&Shaders::blendChart, 0, "supple blend, chart"},
+        {&Shaders::blendChart, 1, "supple blend, chart of a subdivided cage"},
+    };
+    static_assert(std::size(kSources) == static_cast<size_t>(Kernel::count));
+    const auto index = static_cast<size_t>(kernel);
+    const Source& source = kSources[index];
+    return make(construction_[index], shaders_.*source.spirv, {{kKindConstant, source.kind}}, source.name);
+}
+
+Status Passes::prepare(const Tables& tables, const Needs& needs) {
+    using namespace shared;
+    Status status = success();
+    for (size_t c = 0; status && c < tables.constructions.size(); ++c) {
+        status = makeConstruction(tables.constructions[c].kernel);
+    }
+    std::vector<uint32_t> formats{needs.vertexFormat};
+    if (needs.motion) {
+        formats.push_back(kVertexPosition);
+    }
+    const uint32_t normals = tables.cornerNormals ? 1 : 0;
+    for (const PatchRange& range : tables.ranges) {
+        const auto patchClass = static_cast<uint32_t>(range.patchClass);
+        const std::string name = className(range.patchClass);
         const bool bicubic = patchClass <= kPolarPatch;
-        const uint32_t normalKinds = patchClass <= kPerturbedPatch ? 2 : 1;
-        for (uint32_t normals = 0; normals < normalKinds; ++normals) {
-            wanted.push_back({&passes.patch_[patchClass][normals],
-                              bicubic ? shaders.patch : shaders.pmPatch,
-                              {{kKindConstant, patchClass}, {kCornerNormalsConstant, normals}},
-                              "supple patch, " + name});
-            for (uint32_t format = 0; format < kVertexFormats; ++format) {
-                wanted.push_back(
-                    {&passes.evaluate_[patchClass][format][normals],
-                     bicubic ? shaders.bicubic : shaders.pmEvaluate,
-                     {{kKindConstant, patchClass}, {kVertexFormatConstant, format}, {kCornerNormalsConstant, normals}},
-                     "supple evaluate, " + name});
+        if (status && needs.attributes) {
+            const auto domain = static_cast<uint32_t>(domainOf(range.patchClass));
+            status = make(attributes_[domain], shaders_.attributes, {{kKindConstant, domain}}, "supple attributes");
+        }
+        if (status && needs.patches) {
+            status = make(patch_[patchClass][normals], bicubic ? shaders_.patch : shaders_.pmPatch,
+                          {{kKindConstant, patchClass}, {kCornerNormalsConstant, normals}}, "supple patch, " + name);
+        }
+        for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty(); ++f) {
+            gpu::PipelineHandle& target = evaluate_[patchClass][formats[f]][normals];
+            if (range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp) {
+                status = make(target, shaders_.blendEvaluate,
+                              {{kKindConstant, patchClass}, {kVertexFormatConstant, formats[f]}},
+                              "supple evaluate, " + name);
+            } else {
+                status = make(target, bicubic ? shaders_.bicubic : shaders_.pmEvaluate,
+                              {{kKindConstant, patchClass},
+                               {kVertexFormatConstant, formats[f]},
+                               {kCornerNormalsConstant, normals}},
+                              "supple evaluate, " + name);
             }
         }
     }
-    for (const Wanted& w : wanted) {
-        Result<gpu::PipelineHandle> pipeline =
-            gpu::createComputePipeline(device, passes.layout_, w.spirv, w.constants, w.name.c_str());
-        if (!pipeline) {
-            return pipeline.error();
-        }
-        *w.target = std::move(*pipeline);
+    for (size_t f = 0; status && f < formats.size(); ++f) {
+        status = kernel_.prepare(layout_, tables.fragments, formats[f]);
     }
-    Result<kernel::Passes> kernelPasses = kernel::Passes::create(device, passes.layout_, shaders.kernel);
-    if (!kernelPasses) {
-        return kernelPasses.error();
-    }
-    passes.kernel_ = std::move(*kernelPasses);
-    return passes;
+    return status;
 }
 
 uint64_t Passes::groupsFor(uint64_t lanes) const {

@@ -9,7 +9,9 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace supple::surface {
@@ -25,11 +27,23 @@ struct Shaders {
     [[nodiscard]] static Shaders embedded();
 };
 
-/// All pipelines. Recording needs no memory and creates nothing. Between the stages the caller puts a memory barrier
-/// (compute writes to compute reads): vertex | edge | patch, evaluate.
+/// What a group wants of its tables' passes.
+struct Needs {
+    uint32_t vertexFormat = shared::kVertex16;
+    bool motion = false; ///< positions alone as well
+    bool patches = false;
+    bool attributes = false;
+};
+
+/// The pipelines, each created when tables first need it. Recording needs no memory and creates nothing. Between the
+/// stages the caller puts a memory barrier (compute writes to compute reads): vertex | edge | patch, evaluate.
 class Passes {
 public:
+    /// `shaders` must outlive the passes.
     [[nodiscard]] static Result<Passes> create(const gpu::Device& device, const Shaders& shaders = Shaders::embedded());
+
+    /// Creates what is missing to record these tables.
+    [[nodiscard]] Status prepare(const Tables& tables, const Needs& needs);
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
 
@@ -46,12 +60,16 @@ public:
                           const Evaluation& evaluation) const;
 
 private:
+    [[nodiscard]] Status make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv,
+                              std::initializer_list<gpu::Constant> constants, const std::string& name);
+    [[nodiscard]] Status makeConstruction(Kernel kernel);
     void record(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
                 const shared::SurfacePush& push, uint64_t groups) const;
     [[nodiscard]] uint64_t groupsFor(uint64_t lanes) const;
 
     static constexpr size_t kClasses = kPatchClassCount;
     const gpu::Device* device_ = nullptr;
+    Shaders shaders_;
     gpu::ComputeLayout layout_;
     std::array<gpu::PipelineHandle, static_cast<size_t>(Kernel::count)> construction_;
     std::array<gpu::PipelineHandle, kDomainCount> attributes_; ///< by domain

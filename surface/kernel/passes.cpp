@@ -27,59 +27,55 @@ Section blocksFrom(const Fragments& fragments, size_t first, size_t kind) {
 
 } // namespace
 
-Result<Passes> Passes::create(const gpu::Device& device, const gpu::ComputeLayout& layout, const Shaders& shaders) {
-    Passes passes;
-    passes.device_ = &device;
-    passes.layout_ = layout.pipelineLayout.get();
+Passes::Passes(const gpu::Device& device, const Shaders& shaders) : device_(&device), shaders_(shaders) {
+    if (device.mapping.wide) {
+        for (const uint32_t bytes : kBucketBytes) {
+            if (bytes <= device.limits.maxComputeSharedMemorySize) {
+                buckets_.emplace_back().sharedPoints = bytes / kPointBytes;
+            }
+        }
+    }
+}
+
+Status Passes::prepare(const gpu::ComputeLayout& layout, const Fragments& fragments, uint32_t format) {
+    layout_ = layout.pipelineLayout.get();
     Status status = success();
     const auto make = [&](gpu::PipelineHandle& target, std::span<const uint32_t> spirv, const char* name,
                           std::initializer_list<gpu::Constant> constants) {
-        if (!status) {
+        if (!status || target.get() != VK_NULL_HANDLE) {
             return;
         }
-        Result<gpu::PipelineHandle> pipeline = gpu::createComputePipeline(device, layout, spirv, constants, name);
+        Result<gpu::PipelineHandle> pipeline = gpu::createComputePipeline(*device_, layout, spirv, constants, name);
         if (!pipeline) {
             status = pipeline.error();
             return;
         }
         target = std::move(*pipeline);
     };
-    if (device.mapping.wide) {
-        for (const uint32_t bytes : kBucketBytes) {
-            if (bytes <= device.limits.maxComputeSharedMemorySize) {
-                passes.buckets_.emplace_back().sharedPoints = bytes / kPointBytes;
-            }
-        }
+    const uint32_t loop = fragments.loop ? 1 : 0;
+    const size_t stepwise = firstStepwise(fragments);
+    for (size_t c = 0; c < stepwise; ++c) {
+        Bucket& bucket = buckets_[bucketOf(fragments.classes[c].sharedPoints)];
+        make(bucket.pipelines[loop][format], shaders_.fragment, "supple kernel, shared memory",
+             {{kLoopConstant, loop}, {kVertexFormatConstant, format}, {kSharedPointsConstant, bucket.sharedPoints}});
     }
-    for (uint32_t loop = 0; loop < 2; ++loop) {
-        for (Bucket& bucket : passes.buckets_) {
-            for (uint32_t format = 0; format < shared::kVertexFormats; ++format) {
-                make(bucket.pipelines[loop][format], shaders.fragment, "supple kernel, shared memory",
-                     {{kLoopConstant, loop},
-                      {kVertexFormatConstant, format},
-                      {kSharedPointsConstant, bucket.sharedPoints}});
-            }
-        }
-        for (uint32_t flag = 0; flag < 2; ++flag) {
-            for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
-                make(passes.refine_[loop][flag][kind], shaders.refine, "supple kernel, refine",
-                     {{kLoopConstant, loop}, {kFromNetConstant, flag}, {kKindConstant, kind}});
-            }
-            for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
-                for (uint32_t format = 0; format < shared::kVertexFormats; ++format) {
-                    make(passes.limit_[loop][flag][kind][format], shaders.limit, "supple kernel, limit",
-                         {{kLoopConstant, loop},
-                          {kVertexFormatConstant, format},
-                          {kFromNetConstant, flag},
-                          {kKindConstant, kind}});
-                }
-            }
-        }
+    if (stepwise == fragments.classes.size()) {
+        return status;
     }
-    if (!status) {
-        return status.error();
+    // The level that is read is the isolated one in the first step, and in the limit where there is none.
+    const uint32_t limitFromNet = fragments.steps == 0 ? 1 : 0;
+    for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
+        for (uint32_t fromNet = fragments.steps > 1 ? 0 : 1; fromNet < 2 && fragments.steps > 0; ++fromNet) {
+            make(refine_[loop][fromNet][kind], shaders_.refine, "supple kernel, refine",
+                 {{kLoopConstant, loop}, {kFromNetConstant, fromNet}, {kKindConstant, kind}});
+        }
+        make(limit_[loop][limitFromNet][kind][format], shaders_.limit, "supple kernel, limit",
+             {{kLoopConstant, loop},
+              {kVertexFormatConstant, format},
+              {kFromNetConstant, limitFromNet},
+              {kKindConstant, kind}});
     }
-    return passes;
+    return status;
 }
 
 size_t Passes::bucketOf(uint32_t sharedPoints) const {

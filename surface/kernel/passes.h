@@ -20,8 +20,11 @@ public:
     struct Shaders {
         std::span<const uint32_t> fragment, refine, limit;
     };
-    [[nodiscard]] static Result<Passes> create(const gpu::Device& device, const gpu::ComputeLayout& layout,
-                                               const Shaders& shaders);
+    Passes() = default;
+    Passes(const gpu::Device& device, const Shaders& shaders);
+
+    /// Creates what is missing to record such fragments.
+    [[nodiscard]] Status prepare(const gpu::ComputeLayout& layout, const Fragments& fragments, uint32_t format);
 
     /// Points an instance in the scratch buffer; 0 where none is needed.
     [[nodiscard]] uint32_t scratchStride(const Fragments& fragments) const;
@@ -38,6 +41,7 @@ private:
                   const shared::KernelPush& push, uint64_t groups) const;
 
     const gpu::Device* device_ = nullptr;
+    Shaders shaders_;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     struct Bucket {
         uint32_t sharedPoints = 0;

@@ -214,8 +214,8 @@ typedef struct SuppleContextDesc {
     uint32_t drawQueueFamily;            /**< with SUPPLE_CONTEXT_ASYNC_COMPUTE: see suppleGetAcquireBarriers */
 } SuppleContextDesc;
 
-/** Creates every pipeline now, so that recording never does. Errors: a requirement that the device lacks or the host
- * has not enabled, no compute in queueFamily, memory. */
+/** Loads the device's functions; compiles next to nothing (see suppleCreateGroup). Errors: a requirement that the
+ * device lacks or the host has not enabled, no compute in queueFamily, memory. */
 SUPPLE_API SuppleResult suppleCreateContext(const SuppleContextDesc* desc, SuppleContext* out);
 /** Frees all assets and groups too. No command buffer that uses them may be pending. Null is allowed. */
 SUPPLE_API void suppleDestroyContext(SuppleContext context);
@@ -437,7 +437,8 @@ typedef struct SuppleGroupDesc {
     SupplePoseSource poseSource; /**< PALETTE_BUFFER goes with linear skinning only */
 } SuppleGroupDesc;
 
-/** A group without instances. Errors: a cage that the scheme cannot take, limits of the device, memory. */
+/** A group without instances. Compiles the pipelines that no group before has needed: create one of each kind while
+ * loading, with a pipeline cache. Errors: a cage that the scheme cannot take, limits of the device, memory. */
 SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGroupDesc* desc, SuppleGroup* out);
 /** Its instances go with it. The handle is dead at once; memory is freed once the frames that used the group are
  * completed (suppleBeginFrame). */
