@@ -11,8 +11,9 @@ fi
 fail() { echo "failed: $1"; exit 1; }
 quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log"; fail "$*"; }; }
 mkdir -p "$work"
-launcher=()
-if command -v ccache >/dev/null; then
+# Headers precompiled, or objects kept from the last time: ccache does not take both.
+launcher=(-DCMAKE_PROJECT_supple_INCLUDE="$source/tests/packaging/precompiled.cmake")
+if command -v ccache >/dev/null && [ -z "${SUPPLE_NO_CCACHE:-}" ]; then
     launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
     export CCACHE_BASEDIR=$source CCACHE_NOHASHDIR=1
 fi
@@ -24,10 +25,11 @@ quietly cmake --build "$work/build" --target supple supple_other
 rm -rf "$work/prefix"
 quietly cmake --install "$work/build" --prefix "$work/prefix"
 prefix=$work/prefix
-strangers=$(x86_64-w64-mingw32-objdump -p "$prefix/bin/libsupple.dll" |
-    sed -n '/\[Ordinal\/Name Pointer\] Table/,/^$/p' | awk '/\[ *[0-9]+\]/ {print $NF}' | grep -v '^supple[A-Z]' || true)
+exports=$(x86_64-w64-mingw32-objdump -p "$prefix/bin/libsupple.dll" |
+    sed -n '/\[Ordinal\/Name Pointer\] Table/,/^$/p' | awk '/\[ *[0-9]+\]/ {print $NF}')
+strangers=$(grep -v '^supple[A-Z]' <<<"$exports" || true)
 [ -z "$strangers" ] || fail "the DLL exports $strangers"
-x86_64-w64-mingw32-objdump -p "$prefix/bin/libsupple.dll" | grep -q "suppleCreateContext" || fail "the DLL exports nothing"
+[[ $exports == *suppleCreateContext* ]] || fail "the DLL exports nothing"
 echo "${SECONDS}s  built, exports are supple's alone"
 
 include=(-I"$prefix/include" -I"$work/build/mingw-headers/include" -static-libgcc)
@@ -36,11 +38,8 @@ cpp=(x86_64-w64-mingw32-g++-posix -std=c++20 -pedantic -Wall -Wextra -Werror "$s
 quietly "${c[@]}" "${include[@]}" -DSUPPLE_SHARED -o "$work/shared_c.exe" "$prefix/lib/libsupple.dll.a"
 quietly "${cpp[@]}" "${include[@]}" -DSUPPLE_SHARED -o "$work/shared_cpp.exe" "$prefix/lib/libsupple.dll.a"
 quietly "${c[@]}" "${include[@]}" -o "$work/static_c.exe" "$prefix/lib/libsupple.a" -static -lstdc++
-quietly "${cpp[@]}" "${include[@]}" -o "$work/static_cpp.exe" "$prefix/lib/libsupple.a" -static
 echo "${SECONDS}s  hosts linked, DLL and static"
 if command -v wine >/dev/null; then
-    for program in static_c static_cpp; do
-        wine "$work/$program.exe" || fail "$program"
-    done
+    wine "$work/static_c.exe" || fail "static_c.exe"
 fi
 echo "passed"
