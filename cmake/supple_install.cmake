@@ -67,8 +67,9 @@ supple_pc_path(SUPPLE_PC_LIBDIR ${CMAKE_INSTALL_LIBDIR})
 supple_pc_path(SUPPLE_PC_INCLUDEDIR ${CMAKE_INSTALL_INCLUDEDIR})
 supple_pc_path(SUPPLE_PC_SHADERDIR ${shader_directory})
 set(SUPPLE_PC_PREFIX ${CMAKE_INSTALL_PREFIX})
-if(NOT IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR})
-    # From the file itself, so that the folder can be moved.
+if(NOT IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR} AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    # From the file itself, so that the folder can be moved. What lies in /usr stays there, and pkg-config leaves out what
+    # compilers know anyway.
     file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
     string(REGEX REPLACE "/$" "" up ${up})
     set(SUPPLE_PC_PREFIX "\${pcfiledir}/${up}")

@@ -26,5 +26,5 @@ if grep -n "='/" "$2"; then
     echo "$2 names folders of this machine" >&2
     exit 1
 fi
-[ $# -eq 2 ] && grep -q "suppleCreateContext" "$2" || { echo "$2 lacks the library's functions" >&2; exit 1; }
+grep -q "name='suppleCreateContext'" "$2" || { echo "$2 lacks the library's functions" >&2; exit 1; }
 echo "$2"

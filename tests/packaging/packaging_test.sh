@@ -48,7 +48,7 @@ fi
 
 # ---- install, and move it: nothing in it may know where it was made
 
-rm -rf "$work"/*
+rm -rf "${work:?}"/*
 components=(runtime)
 quietly cmake --install "$build" --prefix "$work/first" --component runtime
 quietly cmake --install "$build" --prefix "$work/first" --component development
