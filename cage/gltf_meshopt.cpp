@@ -4,7 +4,9 @@
 #include "cage/gltf_refusal.h"
 
 #include <cstddef>
+#ifndef SUPPLE_WITHOUT_MESHOPT
 #include <meshoptimizer.h>
+#endif
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +16,12 @@ namespace supple::cage {
 namespace {
 
 constexpr const char* kExtensions[] = {"KHR_meshopt_compression", "EXT_meshopt_compression"};
+
+#ifdef SUPPLE_WITHOUT_MESHOPT
+constexpr bool kCanDecode = false;
+#else
+constexpr bool kCanDecode = true;
+#endif
 
 // No codec makes more of a byte: of the attributes', two bits may stand for sixteen bytes.
 constexpr uint64_t kMostDecodedPerByte = 64;
@@ -93,6 +101,11 @@ Compressed readCompressed(const json& object, const json& view, const GltfDocume
     return compressed;
 }
 
+#ifdef SUPPLE_WITHOUT_MESHOPT
+std::vector<std::byte> decode(const Compressed&) {
+    return {}; // not reached: decodeMeshopt has refused
+}
+#else
 std::vector<std::byte> decode(const Compressed& compressed) {
     const std::string& element = compressed.element;
     const auto count = static_cast<size_t>(compressed.count);
@@ -122,6 +135,7 @@ std::vector<std::byte> decode(const Compressed& compressed) {
     }
     return bytes;
 }
+#endif
 
 } // namespace
 
@@ -168,6 +182,9 @@ void decodeMeshopt(json& root, GltfDocument& document) {
             continue;
         }
         const std::string element = at("bufferView", i) + " " + name;
+        if (!kCanDecode) {
+            refuse(element, "this build of Supple reads no meshopt-compressed files (SUPPLE_WITH_MESHOPT is off)");
+        }
         if (!object->is_object()) {
             refuse(element, "not an object");
         }

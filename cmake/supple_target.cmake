@@ -1,16 +1,13 @@
 # supple_target(NAME): the settings every target of the project shares. No global flags, so that a host that adds Supple
-# with add_subdirectory keeps its own.
+# with add_subdirectory keeps its own; and a host's own flags do not change what is compiled here: without exceptions or
+# run-time types in its own code, with another standard or with fast arithmetic, it gets the same library.
 function(supple_target name)
-    target_compile_features(${name} PUBLIC cxx_std_20)
+    target_compile_features(${name} PRIVATE cxx_std_20)
     set_target_properties(${name} PROPERTIES
-        CXX_EXTENSIONS OFF C_STANDARD 99 C_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
+        CXX_STANDARD 20 CXX_EXTENSIONS OFF C_STANDARD 99 C_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON UNITY_BUILD OFF
         CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     # The public library shows hosts its own include folder alone.
-    if(name STREQUAL "supple")
-        target_include_directories(${name} PRIVATE ${supple_SOURCE_DIR})
-    else()
-        target_include_directories(${name} PUBLIC ${supple_SOURCE_DIR})
-    endif()
+    target_include_directories(${name} PRIVATE ${supple_SOURCE_DIR})
     if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
         # Vulkan structs are begun with their sType alone; the rest is zero by the language.
         target_compile_options(${name} PRIVATE -Wall -Wextra -Werror -Wno-missing-field-initializers)
@@ -20,5 +17,10 @@ function(supple_target name)
     # Reference arithmetic must round as written: bit-exact edges are tested against it.
     if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
         target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+        if(NOT PROJECT_IS_TOP_LEVEL)
+            target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fexceptions;-frtti;-fno-fast-math>)
+        endif()
+    elseif(MSVC)
+        target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:/EHsc;/GR;/fp:precise>)
     endif()
 endfunction()

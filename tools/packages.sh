@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034
-# What Supple needs of Debian 12 (bookworm) or a relative of it. The one list; sourced by demo.sh and test.sh.
+# What Supple needs of Debian 12 (bookworm) or a relative of it. The one list; sourced by demo.sh, test.sh and package.sh.
 
 # To build and run.
 supple_packages=(
@@ -15,6 +15,13 @@ supple_test_packages=(
     libgtest-dev vulkan-validationlayers
     libosd-dev
     xvfb xauth
+    abigail-tools pkg-config
+    doxygen python3
+    g++-mingw-w64-x86-64-posix
+)
+# To make Debian packages: tools/package.sh, not the tests.
+supple_deb_packages=(
+    dpkg-dev fakeroot lintian
 )
 
 # install_missing PACKAGE...: installs those that are not there yet; asks nothing and does nothing when all are.

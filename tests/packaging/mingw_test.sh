@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Cross-compiles the library for Windows, static and DLL, and links hosts in C and C++ with either; runs them where wine is.
+#   mingw_test.sh SOURCE WORK
+set -euo pipefail
+source=$1
+work=$2
+if ! command -v x86_64-w64-mingw32-g++-posix >/dev/null; then
+    echo "skipped: g++-mingw-w64-x86-64-posix is not installed"
+    exit 77
+fi
+fail() { echo "failed: $1"; exit 1; }
+quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log"; fail "$*"; }; }
+mkdir -p "$work"
+# Headers precompiled, or objects kept from the last time: ccache does not take both.
+launcher=(-DCMAKE_PROJECT_supple_INCLUDE="$source/tests/packaging/precompiled.cmake")
+if command -v ccache >/dev/null && [ -z "${SUPPLE_NO_CCACHE:-}" ]; then
+    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    export CCACHE_BASEDIR=$source CCACHE_NOHASHDIR=1
+fi
+
+quietly cmake -S "$source" -B "$work/build" -G Ninja --toolchain "$source/cmake/mingw-w64.cmake" "${launcher[@]}" \
+    -DSUPPLE_WITH_MESHOPT=OFF -DSUPPLE_BUILD_BOTH=ON -DSUPPLE_BUILD_TOOLS=OFF -DSUPPLE_BUILD_TESTS=OFF \
+    -DCMAKE_CXX_FLAGS=-O0
+quietly cmake --build "$work/build" --target supple supple_other
+rm -rf "$work/prefix"
+quietly cmake --install "$work/build" --prefix "$work/prefix"
+prefix=$work/prefix
+exports=$(x86_64-w64-mingw32-objdump -p "$prefix/bin/libsupple.dll" |
+    sed -n '/\[Ordinal\/Name Pointer\] Table/,/^$/p' | awk '/\[ *[0-9]+\]/ {print $NF}')
+strangers=$(grep -v '^supple[A-Z]' <<<"$exports" || true)
+[ -z "$strangers" ] || fail "the DLL exports $strangers"
+[[ $exports == *suppleCreateContext* ]] || fail "the DLL exports nothing"
+echo "${SECONDS}s  built, exports are supple's alone"
+
+include=(-I"$prefix/include" -I"$work/build/mingw-headers/include" -static-libgcc)
+c=(x86_64-w64-mingw32-gcc-posix -std=c99 -pedantic -Wall -Wextra -Werror "$source/tests/packaging/consumer/main.c")
+cpp=(x86_64-w64-mingw32-g++-posix -std=c++20 -pedantic -Wall -Wextra -Werror "$source/tests/packaging/consumer/main.cpp")
+quietly "${c[@]}" "${include[@]}" -DSUPPLE_SHARED -o "$work/shared_c.exe" "$prefix/lib/libsupple.dll.a"
+quietly "${cpp[@]}" "${include[@]}" -DSUPPLE_SHARED -o "$work/shared_cpp.exe" "$prefix/lib/libsupple.dll.a"
+quietly "${c[@]}" "${include[@]}" -o "$work/static_c.exe" "$prefix/lib/libsupple.a" -static -lstdc++
+echo "${SECONDS}s  hosts linked, DLL and static"
+if command -v wine >/dev/null; then
+    wine "$work/static_c.exe" || fail "static_c.exe"
+fi
+echo "passed"
