@@ -60,7 +60,7 @@ extern "C" {
 #endif
 
 #define SUPPLE_VERSION_MAJOR 0 /**< rises when a host must be changed or built anew; the SONAME's number */
-#define SUPPLE_VERSION_MINOR 2 /**< rises with what is added */
+#define SUPPLE_VERSION_MINOR 1 /**< rises with what is added */
 #define SUPPLE_VERSION_PATCH 0
 /** One number that rises with every version. */
 #define SUPPLE_VERSION (SUPPLE_VERSION_MAJOR * 1000000 + SUPPLE_VERSION_MINOR * 1000 + SUPPLE_VERSION_PATCH)
