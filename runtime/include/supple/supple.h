@@ -65,11 +65,11 @@ extern "C" {
 /** One number that rises with every version. */
 #define SUPPLE_VERSION (SUPPLE_VERSION_MAJOR * 1000000 + SUPPLE_VERSION_MINOR * 1000 + SUPPLE_VERSION_PATCH)
 
-#define SUPPLE_BIND_POSE 0xFFFFFFFFu /**< clip index that means: the cage as modelled, without morph targets */
-#define SUPPLE_REST_POSE 0xFFFFFFFEu /**< clip index that means: the file's node transforms and morph weights */
-#define SUPPLE_NO_MATERIAL 0xFFFFFFFFu
-#define SUPPLE_NO_JOINT 0xFFFFFFFFu
-#define SUPPLE_NO_VERTEX 0xFFFFFFFFu
+#define SUPPLE_BIND_POSE 0xFFFFFFFFu   /**< clip index that means: the cage as modelled, without morph targets */
+#define SUPPLE_REST_POSE 0xFFFFFFFEu   /**< clip index that means: the file's node transforms and morph weights */
+#define SUPPLE_NO_MATERIAL 0xFFFFFFFFu /**< faces without a material */
+#define SUPPLE_NO_JOINT 0xFFFFFFFFu    /**< the parent of a root joint */
+#define SUPPLE_NO_VERTEX 0xFFFFFFFFu   /**< a patch corner that is no vertex of the cage */
 #define SUPPLE_NO_IMAGE 0xFFFFFFFFu
 #define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu
 #define SUPPLE_MAX_TRIM_TILES 1024u
@@ -94,6 +94,7 @@ typedef struct SuppleInstance {
     uint32_t generation; /**< 0 is never valid */
 } SuppleInstance;
 
+/** What a call gives back. Errors are negative. */
 typedef enum SuppleResult {
     SUPPLE_OK = 0,
     SUPPLE_NOT_READY = 1,          /**< no finished frame to report yet */
@@ -113,6 +114,7 @@ SUPPLE_API uint32_t suppleGetVersion(void);
 /** The name of a result, static storage. */
 SUPPLE_API const char* suppleResultString(SuppleResult result);
 
+/** ERROR: the call failed. WARNING: something is left out, mended or over its budget. INFO: worth knowing. */
 typedef enum SuppleSeverity { SUPPLE_SEVERITY_INFO, SUPPLE_SEVERITY_WARNING, SUPPLE_SEVERITY_ERROR } SuppleSeverity;
 
 /** What a message is about. Numbers keep their meaning; new ones may come. */
@@ -165,6 +167,7 @@ typedef enum SuppleMapping {
     SUPPLE_MAPPING_WIDE = 2
 } SuppleMapping;
 
+/** Options of a context. */
 typedef enum SuppleContextFlags {
     SUPPLE_CONTEXT_DEBUG_UTILS = 1,  /**< the host enabled VK_EXT_debug_utils: label passes, name objects */
     SUPPLE_CONTEXT_ASYNC_COMPUTE = 2 /**< what is drawn goes from queueFamily to drawQueueFamily */
@@ -191,6 +194,7 @@ typedef struct SuppleMemoryCallbacks {
     void* user;
 } SuppleMemoryCallbacks;
 
+/** The host's device, and how Supple is to use it. */
 typedef struct SuppleContextDesc {
     uint32_t structSize;
     uint32_t flags; /**< SuppleContextFlags */
@@ -254,6 +258,7 @@ typedef struct SuppleCageDesc {
     const uint32_t* faceTrimTiles; /**< optional: a trim tile a face, or SUPPLE_NO_TRIM_TILE; see SuppleTrimDomain */
 } SuppleCageDesc;
 
+/** Options of reading a file. */
 typedef enum SuppleAssetFlags {
     SUPPLE_ASSET_PAIR_QUADS = 1 /**< plain triangles: merge consecutive pairs into quads */
 } SuppleAssetFlags;
@@ -264,6 +269,7 @@ typedef struct SuppleFileBytes {
     size_t byteCount;
     void* handle; /**< the host's */
 } SuppleFileBytes;
+/** The host's file system, as far as an asset needs it. */
 typedef struct SuppleFiles {
     /** Fills out, whose bytes stay valid until release, and returns non-zero; 0: there is no such file. path is
      * relative to the asset, percent-decoded, with forward slashes, without "..", "." or a scheme. Called on the thread
@@ -285,6 +291,7 @@ typedef struct SuppleAssetDesc {
     const SuppleCageDesc* cage;
 } SuppleAssetDesc;
 
+/** What an asset holds. Counts are those of the control cage, after welding. */
 typedef struct SuppleAssetInfo {
     uint32_t structSize;
     uint32_t cageVertexCount;
@@ -298,18 +305,21 @@ typedef struct SuppleAssetInfo {
     uint32_t imageCount;
 } SuppleAssetInfo;
 
+/** An animation clip. */
 typedef struct SuppleClipInfo {
     uint32_t structSize;
     const char* name; /**< lives as long as the asset */
     double duration;  /**< seconds */
 } SuppleClipInfo;
 
+/** A joint of the skin. */
 typedef struct SuppleJointInfo {
     uint32_t structSize;
     const char* name; /**< lives as long as the asset */
     uint32_t parent;  /**< the nearest joint above it, or SUPPLE_NO_JOINT */
 } SuppleJointInfo;
 
+/** A morph target of the cage. */
 typedef struct SuppleMorphTargetInfo {
     uint32_t structSize;
     const char* name;     /**< lives as long as the asset; empty where the file has none */
@@ -326,8 +336,10 @@ typedef enum SuppleTrimDomain {
                            * SuppleGroupOutput.faceUvs */
 } SuppleTrimDomain;
 
+/** How a lookup outside of 0..1 goes on; as samplers have it. */
 typedef enum SuppleWrap { SUPPLE_WRAP_REPEAT = 0, SUPPLE_WRAP_CLAMP = 1, SUPPLE_WRAP_MIRROR = 2 } SuppleWrap;
 
+/** What of a material bears on where the surface is; shading is the host's. */
 typedef struct SuppleMaterialInfo {
     uint32_t structSize;
     const char* name; /**< lives as long as the asset */
@@ -357,16 +369,20 @@ typedef struct SuppleImageInfo {
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
 /** The asset's groups keep what they need; the handle is dead at once. */
 SUPPLE_API SuppleResult suppleDestroyAsset(SuppleContext context, SuppleAsset asset);
+/** Fills out. */
 SUPPLE_API SuppleResult suppleGetAssetInfo(SuppleContext context, SuppleAsset asset, SuppleAssetInfo* out);
+/** Fills out. Errors: clip is not below SuppleAssetInfo.clipCount. */
 SUPPLE_API SuppleResult suppleGetClipInfo(SuppleContext context, SuppleAsset asset, uint32_t clip, SuppleClipInfo* out);
-/** Joints are numbered as the file's skin numbers them. */
+/** Fills out. Joints are numbered as the file's skin numbers them. Errors: joint is not below jointCount. */
 SUPPLE_API SuppleResult suppleGetJointInfo(SuppleContext context, SuppleAsset asset, uint32_t joint,
                                            SuppleJointInfo* out);
+/** Fills out. Errors: target is not below morphTargetCount. */
 SUPPLE_API SuppleResult suppleGetMorphTargetInfo(SuppleContext context, SuppleAsset asset, uint32_t target,
                                                  SuppleMorphTargetInfo* out);
-/** Materials and images are numbered as in the file. */
+/** Fills out. Materials are numbered as in the file. Errors: material is not below materialCount. */
 SUPPLE_API SuppleResult suppleGetMaterialInfo(SuppleContext context, SuppleAsset asset, uint32_t material,
                                               SuppleMaterialInfo* out);
+/** Fills out. Images are numbered as in the file. Errors: image is not below imageCount. */
 SUPPLE_API SuppleResult suppleGetImageInfo(SuppleContext context, SuppleAsset asset, uint32_t image,
                                            SuppleImageInfo* out);
 /** Sets mask[joint] and mask of every joint below it to value; the others stay. mask has jointCount values. */
@@ -375,6 +391,7 @@ SUPPLE_API SuppleResult suppleFillJointMask(SuppleContext context, SuppleAsset a
 
 /* ---------------------------------------------------------------------------------------------------- groups */
 
+/** How the deformed cage becomes a surface; docs/schemes.md says which one to choose. */
 typedef enum SuppleScheme {
     SUPPLE_SCHEME_AUTO = 0, /**< P_m */
     SUPPLE_SCHEME_PREP = 1, /**< p-rep: quads, G1 at any valence, one patch a face; creases are ignored */
@@ -387,6 +404,7 @@ typedef enum SuppleScheme {
         100 /**< no surface: the deformed cage alone, of any polygons; no patches, no surface vertices */
 } SuppleScheme;
 
+/** Layout of a surface vertex. Positions have the same bits in both. */
 typedef enum SuppleVertexFormat {
     SUPPLE_VERTEX_16 = 0, /**< float3 position, octahedral normal in 2 x snorm16 (x in the low half) */
     SUPPLE_VERTEX_24 = 1  /**< float3 position, float3 normal */
@@ -394,7 +412,10 @@ typedef enum SuppleVertexFormat {
 
 /** BLEND: what a sharp edge is. CUT: two sheets that meet in it. CURVE: a narrow ridge, as in the paper. */
 typedef enum SuppleCreaseMode { SUPPLE_CREASES_CUT = 0, SUPPLE_CREASES_CURVE = 1 } SuppleCreaseMode;
+/** PREP: DEFAULT scales the tangents of irregular vertices as docs/prep.md derives it, PRINTED as the paper prints it.
+ */
 typedef enum SuppleTangentMode { SUPPLE_TANGENTS_DEFAULT = 0, SUPPLE_TANGENTS_PRINTED = 1 } SuppleTangentMode;
+/** PREP: what a boundary vertex of one face is: SHARP passes through it, SMOOTH rounds it. */
 typedef enum SuppleCornerRule { SUPPLE_CORNERS_SHARP = 0, SUPPLE_CORNERS_SMOOTH = 1 } SuppleCornerRule;
 
 /** How joints move the vertices between them. DUAL_QUATERNION keeps the girth of a limb that twists or bends; joints
@@ -411,6 +432,7 @@ typedef enum SupplePoseSource {
     SUPPLE_POSES_CAGE_BUFFER = 2     /**< SuppleGroupOutput.deformedCage: cage vertices, as from a cloth solver */
 } SupplePoseSource;
 
+/** What a group writes besides surface vertices. */
 typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients (for inspection) */
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
@@ -475,6 +497,7 @@ SUPPLE_API SuppleResult suppleSetClipPose(SuppleContext context, SuppleInstance 
  * weights as sums. */
 typedef enum SuppleLayerMode { SUPPLE_LAYER_BLEND = 0, SUPPLE_LAYER_ADDITIVE = 1 } SuppleLayerMode;
 
+/** Options of a layer. */
 typedef enum SuppleLayerFlags {
     SUPPLE_LAYER_LOOP = 1 /**< times wrap round at the clip's duration; else they are clamped to the clip */
 } SuppleLayerFlags;
@@ -502,6 +525,7 @@ typedef enum SuppleRootMotionFlags {
     SUPPLE_ROOT_MOTION_YAW = 4     /**< the turn about +Y */
 } SuppleRootMotionFlags;
 
+/** Options of a pose. */
 typedef enum SupplePoseFlags {
     SUPPLE_POSE_ROOT_JOINT = 1 /**< rootJoint names the root; else it is the topmost node that clips move or turn, of
                                 * several the one above most joints */
@@ -522,6 +546,7 @@ typedef struct SupplePoseDesc {
 /** The arrays are read during the call. */
 SUPPLE_API SuppleResult suppleSetPose(SuppleContext context, SuppleInstance instance, const SupplePoseDesc* pose);
 
+/** A movement of the root: first the turn, then the translation. */
 typedef struct SuppleRootMotion {
     uint32_t structSize;
     float translation[3];
@@ -569,12 +594,14 @@ typedef struct SuppleSyncScope {
  * runs on several threads. */
 SUPPLE_API SuppleResult suppleRecordUploads(SuppleContext context, VkCommandBuffer commandBuffer);
 
+/** Options of recording. */
 typedef enum SuppleRecordFlags {
     SUPPLE_RECORD_TIMINGS = 1,         /**< write GPU timestamps round every pass */
     SUPPLE_RECORD_NO_ENTRY_BARRIER = 2 /**< the host's own barrier has waited for all earlier uses, Supple's too: see
                                         * suppleGetRecordScopes. `before` is ignored */
 } SuppleRecordFlags;
 
+/** What is recorded, and between which uses of the host's. */
 typedef struct SuppleRecordDesc {
     uint32_t structSize;
     uint32_t flags; /**< SuppleRecordFlags */
@@ -607,6 +634,7 @@ SUPPLE_API SuppleResult suppleGetAcquireBarriers(SuppleContext context, const Su
 
 /* ---------------------------------------------------------------------------------------------------- output */
 
+/** A part of a buffer of Supple's; the handle is Supple's, to read, bind and copy from. */
 typedef struct SuppleBufferView {
     VkBuffer buffer; /**< null when the group was made without it */
     VkDeviceSize offset;
@@ -683,6 +711,7 @@ typedef struct SuppleGroupOutput {
     SuppleBufferView poses;
 } SuppleGroupOutput;
 
+/** Fills out: where a group's buffers are. Needs no frame; the buffers are filled by suppleRecord. */
 SUPPLE_API SuppleResult suppleGetGroupOutput(SuppleContext context, SuppleGroup group, SuppleGroupOutput* out);
 
 /** Classes of patches, and their coefficients in order (docs/prep.md, docs/pm.md). */
@@ -701,6 +730,7 @@ typedef enum SupplePatchClass {
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5
 
+/** A patch, as the cage sees it. */
 typedef struct SupplePatchInfo {
     uint32_t face; /**< source face of the cage; faces of six and more sides are split, each part a patch */
     SupplePatchClass patchClass;
