@@ -29,17 +29,20 @@ Status Context::checkRecord(const SuppleRecordDesc& desc) const {
         return Error{ErrorCode::order, "suppleRecord: no frame has begun, or it is cancelled"};
     }
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
+        // The words are put together only where they are needed: recording allocates nothing.
+        const auto refuse = [g](ErrorCode code, const std::string& reason) {
+            return Error{code, "suppleRecord: group " + std::to_string(g) + ": " + reason};
+        };
         const std::shared_ptr<Group> group = groups.find(desc.groups[g].id);
-        const std::string name = "suppleRecord: group " + std::to_string(g);
         if (group == nullptr) {
-            return Error{ErrorCode::staleHandle, name + ": stale or foreign handle"};
+            return refuse(ErrorCode::staleHandle, "stale or foreign handle");
         }
         if (group->passesFrame() == frame_) {
-            return Error{ErrorCode::order, name + ": recorded twice in frame " + std::to_string(frame_)};
+            return refuse(ErrorCode::order, "recorded twice in frame " + std::to_string(frame_));
         }
         for (uint32_t h = 0; h < g; ++h) {
             if (desc.groups[h].id == desc.groups[g].id) {
-                return Error{ErrorCode::argument, name + ": listed twice"};
+                return refuse(ErrorCode::argument, "listed twice");
             }
         }
     }
