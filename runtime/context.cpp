@@ -104,8 +104,10 @@ Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
     frame_ = frame;
     frameOpen_ = true;
     retire(completedFrame);
-    return timings.beginFrame(frame, completedFrame, [this](const std::string& text) {
-        log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_BUDGET, text);
+    return timings.beginFrame(frame, completedFrame, [this](const char* text) {
+        if (log_ != nullptr) {
+            log_(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_BUDGET, text, logUser_);
+        }
     });
 }
 
