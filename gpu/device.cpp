@@ -205,9 +205,11 @@ Result<Device> Device::create(const DeviceDesc& desc) {
 
     uint32_t familyCount = 0;
     d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, nullptr);
-    if (desc.queueFamily >= familyCount) {
-        return Error{ErrorCode::range, "queue family " + std::to_string(desc.queueFamily) + ": the device has " +
-                                           std::to_string(familyCount)};
+    for (const uint32_t family : {desc.queueFamily, desc.drawQueueFamily}) {
+        if (family >= familyCount) {
+            return Error{ErrorCode::range, "queue family " + std::to_string(family) + ": the device has " +
+                                               std::to_string(familyCount)};
+        }
     }
     std::vector<VkQueueFamilyProperties> families(familyCount);
     d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, families.data());

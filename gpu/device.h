@@ -38,6 +38,7 @@ struct DeviceDesc {
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     uint32_t queueFamily = 0;
+    uint32_t drawQueueFamily = 0; ///< as queueFamily where nothing is handed over
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const VkAllocationCallbacks* allocator = nullptr;

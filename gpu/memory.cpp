@@ -48,6 +48,7 @@ Result<DeviceMemory> DeviceMemory::allocate(const Device& device, const VkMemory
     if (device.memorySource.allocate) {
         const VkResult result = device.memorySource.allocate(requirements, required, preferred, name, piece);
         if (result == VK_SUCCESS && (piece.memory == VK_NULL_HANDLE || (upload && piece.mapped == nullptr))) {
+            device.memorySource.free(piece); // every success has its free
             return Error{ErrorCode::argument, what + ": the host's callback gave none, or did not map it"};
         }
         if (result != VK_SUCCESS) {

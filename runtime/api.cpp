@@ -563,8 +563,11 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
             return refuse(context, ErrorCode::range, kHere,
                           "no such vertexFormat, tangentMode, cornerRule, creaseMode, skinning or poseSource");
         }
-        if (!(desc.sharpThreshold >= 0.0f)) {
-            return refuse(context, ErrorCode::range, kHere, "sharpThreshold is negative or NaN");
+        if (std::isnan(desc.sharpThreshold)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "sharpThreshold is NaN");
+        }
+        if (desc.sharpThreshold < 0.0f) {
+            return refuse(context, ErrorCode::range, kHere, "sharpThreshold is negative");
         }
         if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
             return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");
@@ -867,8 +870,11 @@ SuppleResult suppleGetTimings(SuppleContext handle, SuppleTiming* out, uint32_t*
 
 SuppleResult suppleSetBudget(SuppleContext handle, const char* pass, double nanoseconds) {
     return guarded(handle, "suppleSetBudget", [&](Context& context) {
-        if (!std::isfinite(nanoseconds) || nanoseconds < 0.0) {
-            return refuse(context, ErrorCode::notFinite, "suppleSetBudget", "nanoseconds is negative or not finite");
+        if (!std::isfinite(nanoseconds)) {
+            return refuse(context, ErrorCode::notFinite, "suppleSetBudget", "nanoseconds is not finite");
+        }
+        if (nanoseconds < 0.0) {
+            return refuse(context, ErrorCode::range, "suppleSetBudget", "nanoseconds is negative");
         }
         return context.timings.setBudget(pass, nanoseconds)
                    ? SUPPLE_OK

@@ -77,7 +77,7 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
 Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const std::string& name) {
     const auto refuse = [&](const std::string& reason) { return Error{ErrorCode::asset, name + ": " + reason}; };
     if (desc.positions == nullptr || desc.faceVertexCounts == nullptr || desc.faceVertexIndices == nullptr) {
-        return Error{ErrorCode::argument, name + ": positions, faceVertexCounts or faceVertexIndices is null"};
+        return Error{ErrorCode::nullPointer, name + ": positions, faceVertexCounts or faceVertexIndices is null"};
     }
     if (desc.vertexCount == 0 || desc.faceCount == 0) {
         return refuse("no vertices or no faces");
@@ -132,7 +132,7 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
     if (!present(desc.creaseCount, desc.creaseVertices, desc.creaseSharpnesses) ||
         !present(desc.cornerCount, desc.cornerVertices, desc.cornerSharpnesses) ||
         !present(desc.creaseScalarCount, desc.creaseScalars) || !present(desc.holeCount, desc.holes)) {
-        return Error{ErrorCode::argument, name + ": a count without its array"};
+        return Error{ErrorCode::nullPointer, name + ": a count without its array"};
     }
     for (uint32_t i = 0; i < desc.creaseCount; ++i) {
         cage.creases.push_back(

@@ -46,7 +46,8 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     }
     context->asyncCompute_ = (desc.flags & SUPPLE_CONTEXT_ASYNC_COMPUTE) != 0;
     context->queueFamily_ = desc.queueFamily;
-    context->drawQueueFamily_ = desc.drawQueueFamily;
+    context->drawQueueFamily_ = context->asyncCompute_ ? desc.drawQueueFamily : desc.queueFamily;
+    deviceDesc.drawQueueFamily = context->drawQueueFamily_;
     deviceDesc.debugUtils = (desc.flags & SUPPLE_CONTEXT_DEBUG_UTILS) != 0;
     deviceDesc.mapping = desc.mapping == SUPPLE_MAPPING_NARROW ? gpu::MappingChoice::narrow
                          : desc.mapping == SUPPLE_MAPPING_WIDE ? gpu::MappingChoice::wide
@@ -104,8 +105,10 @@ Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
     frame_ = frame;
     frameOpen_ = true;
     retire(completedFrame);
-    return timings.beginFrame(frame, completedFrame, [this](const std::string& text) {
-        log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_BUDGET, text);
+    return timings.beginFrame(frame, completedFrame, [this](const char* text) {
+        if (log_ != nullptr) {
+            log_(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_BUDGET, text, logUser_);
+        }
     });
 }
 

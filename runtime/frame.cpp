@@ -29,17 +29,20 @@ Status Context::checkRecord(const SuppleRecordDesc& desc) const {
         return Error{ErrorCode::order, "suppleRecord: no frame has begun, or it is cancelled"};
     }
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
+        // The words are put together only where they are needed: recording allocates nothing.
+        const auto refuse = [g](ErrorCode code, const std::string& reason) {
+            return Error{code, "suppleRecord: group " + std::to_string(g) + ": " + reason};
+        };
         const std::shared_ptr<Group> group = groups.find(desc.groups[g].id);
-        const std::string name = "suppleRecord: group " + std::to_string(g);
         if (group == nullptr) {
-            return Error{ErrorCode::staleHandle, name + ": stale or foreign handle"};
+            return refuse(ErrorCode::staleHandle, "stale or foreign handle");
         }
         if (group->passesFrame() == frame_) {
-            return Error{ErrorCode::order, name + ": recorded twice in frame " + std::to_string(frame_)};
+            return refuse(ErrorCode::order, "recorded twice in frame " + std::to_string(frame_));
         }
         for (uint32_t h = 0; h < g; ++h) {
             if (desc.groups[h].id == desc.groups[g].id) {
-                return Error{ErrorCode::argument, name + ": listed twice"};
+                return refuse(ErrorCode::argument, "listed twice");
             }
         }
     }
@@ -176,18 +179,23 @@ Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, S
     if (!asyncCompute_) {
         return Error{ErrorCode::argument, "suppleGetAcquireBarriers: the context has no SUPPLE_CONTEXT_ASYNC_COMPUTE"};
     }
-    uint32_t total = 0;
+    // All checks before the first barrier is written: a call that fails has done nothing.
     for (size_t g = 0; g < wanted.size(); ++g) {
         const std::shared_ptr<Group> group = groups.find(wanted[g].id);
-        const std::string name = "suppleGetAcquireBarriers: group " + std::to_string(g);
+        const auto refuse = [g](ErrorCode code, const char* reason) {
+            return Error{code, "suppleGetAcquireBarriers: group " + std::to_string(g) + ": " + reason};
+        };
         if (group == nullptr) {
-            return Error{ErrorCode::staleHandle, name + ": stale or foreign handle"};
+            return refuse(ErrorCode::staleHandle, "stale or foreign handle");
         }
         if (group->passesFrame() != frame_ || !frameOpen_) {
-            return Error{ErrorCode::order, name + ": not recorded in this frame"};
+            return refuse(ErrorCode::order, "not recorded in this frame");
         }
+    }
+    uint32_t total = 0;
+    for (const SuppleGroup& own : wanted) {
         Group::Transfers transfers;
-        const uint32_t count = group->transfers(transfers);
+        const uint32_t count = groups.find(own.id)->transfers(transfers);
         for (uint32_t i = 0; i < count; ++i, ++total) {
             if (total < out.size()) {
                 out[total] = transfers[i];

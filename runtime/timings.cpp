@@ -65,14 +65,20 @@ Status Timings::collect(Slot& slot) {
 }
 
 Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame,
-                           const std::function<void(const std::string&)>& warn) {
+                           const std::function<void(const char*)>& warn) {
     Status status = success();
-    for (const std::unique_ptr<Slot>& slot : slots_) {
-        if (slot->frame == 0 || slot->frame > completedFrame) {
-            continue;
+    // In the order of frames, so that each is counted when several have completed since the last call.
+    const auto oldest = [&]() -> Slot* {
+        Slot* found = nullptr;
+        for (const std::unique_ptr<Slot>& slot : slots_) {
+            if (slot->frame != 0 && slot->frame <= completedFrame && (found == nullptr || slot->frame < found->frame)) {
+                found = slot.get();
+            }
         }
-        const bool newer = latest_.empty() || slot->frame > latest_.front().frame;
-        if (newer && slot->count.load() > 0) {
+        return found;
+    };
+    while (Slot* const slot = oldest()) {
+        if (slot->count.load() > 0) {
             const uint64_t before = latest_.empty() ? 0 : latest_.front().frame;
             const Status collected = collect(*slot);
             if (!collected) {
@@ -162,7 +168,7 @@ const SuppleBudget* Timings::budget(const char* pass) const {
     return index > kPassCount ? nullptr : &budgets_[index];
 }
 
-void Timings::judge(const std::function<void(const std::string&)>& warn) {
+void Timings::judge(const std::function<void(const char*)>& warn) {
     for (size_t i = 0; i <= kPassCount; ++i) {
         SuppleBudget& budget = budgets_[i];
         if (budget.limit <= 0.0) {

@@ -29,7 +29,7 @@ public:
     /// Collects what completed frames measured; never waits. `warn` is told of passes that have come to exceed their
     /// budget.
     [[nodiscard]] Status beginFrame(uint64_t frame, uint64_t completedFrame,
-                                    const std::function<void(const std::string&)>& warn);
+                                    const std::function<void(const char*)>& warn);
     /// Forgets what the frame has recorded.
     void cancelFrame();
 
@@ -66,7 +66,7 @@ private:
         std::atomic<uint32_t> count = 0;
     };
     [[nodiscard]] Status collect(Slot& slot);
-    void judge(const std::function<void(const std::string&)>& warn);
+    void judge(const std::function<void(const char*)>& warn);
     [[nodiscard]] double nanoseconds(uint64_t ticks) const;
     [[nodiscard]] static size_t budgetIndex(const char* pass);
 
