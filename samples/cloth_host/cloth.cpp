@@ -106,14 +106,14 @@ void Cloth::createSupple(const sample::Device& device, uint32_t rate) {
 }
 
 void Cloth::createSimulation(sample::Device& device) {
-    // A flag on a pole, and a banner under a crossbar, which has a little less room than the cloth is wide.
+    // A flag on a pole, and a heavier banner under a crossbar, which has a little less room than the cloth is wide.
     const Sheet sheets[] = {{{-2.9f, 3.75f, 0.0f, 1.0f},
-                             {1.0f, 0.0f, 0.0f, 0.0f},
+                             {1.0f, 0.0f, 0.0f, 1.0f},
                              {0.0f, -1.0f, 0.0f, 0.0f},
                              {sheets_[0].handle().slot, 0, 0, 0}},
-                            {{0.92f, 3.55f, 0.25f, 0.93f},
-                             {0.0f, -1.0f, 0.0f, 0.0f},
-                             {1.0f, 0.0f, 0.0f, 0.0f},
+                            {{0.95f, 3.55f, 0.40f, 0.93f},
+                             {0.0f, -1.0f, 0.0f, 0.16f},
+                             {0.90f, 0.0f, -0.436f, 0.0f},
                              {sheets_[1].handle().slot, 0, 0, 0}}};
     sheetBuffer_ = sample::Buffer(device, sizeof sheets, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
     std::memcpy(sheetBuffer_.mapped(), sheets, sizeof sheets);

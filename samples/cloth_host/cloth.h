@@ -19,7 +19,7 @@ inline constexpr float kSpacing = 0.1f;  ///< metres between points
 /// Where a sheet is pinned, and which way it is laid out at first. The shader's Sheet.
 struct Sheet {
     glm::vec4 origin; ///< w: spacing along the pinned edge, as a share of kSpacing
-    glm::vec4 along;
+    glm::vec4 along;  ///< w: how light it is in the wind
     glm::vec4 down;
     glm::uvec4 slot;
 };

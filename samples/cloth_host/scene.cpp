@@ -9,7 +9,6 @@
 #include "shaders/sky_frag.h"
 #include "shaders/sky_vert.h"
 
-#define GLM_FORCE_DEPTH_ZERO_TO_ONE
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cstring>
@@ -40,8 +39,8 @@ struct PolePush {
 
 constexpr uint32_t kPoleVertices = 4 * (24 + 1);
 const PolePush kPoles[] = {{{-2.93f, 0.0f, 0.0f, 0.035f}, {-2.93f, 3.95f, 0.0f, 0.0f}},
-                           {{0.74f, 0.0f, 0.25f, 0.035f}, {0.74f, 3.80f, 0.25f, 0.0f}},
-                           {{0.60f, 3.58f, 0.25f, 0.026f}, {2.60f, 3.58f, 0.25f, 0.0f}}};
+                           {{0.77f, 0.0f, 0.487f, 0.035f}, {0.77f, 3.80f, 0.487f, 0.0f}},
+                           {{0.59f, 3.585f, 0.574f, 0.026f}, {2.48f, 3.585f, -0.341f, 0.0f}}};
 
 void imageBarrier(VkCommandBuffer commands, const sample::Image& image, SuppleSyncScope from, SuppleSyncScope to,
                   VkImageLayout before, VkImageLayout after) {
@@ -80,15 +79,15 @@ void setViewport(VkCommandBuffer commands, VkExtent2D extent) {
 
 SceneUniforms lookAtIt(VkExtent2D extent) {
     const glm::vec2 size{static_cast<float>(extent.width), static_cast<float>(extent.height)};
-    const glm::vec3 eye{0.6f, 1.7f, 9.2f};
-    const glm::vec3 sun = glm::normalize(glm::vec3(-0.62f, 0.52f, 0.46f));
-    constexpr float kHalf = 4.6f;
+    const glm::vec3 eye{0.5f, 1.75f, 8.7f};
+    const glm::vec3 sun = glm::normalize(glm::vec3(-0.34f, 0.72f, 0.55f));
+    constexpr float kHalf = 4.2f;
     SceneUniforms uniforms{};
     glm::mat4 projection = glm::perspective(glm::radians(34.0f), size.x / size.y, 0.5f, 200.0f);
     projection[1][1] = -projection[1][1]; // Vulkan's y points down
     const glm::vec3 up{0.0f, 1.0f, 0.0f};
-    uniforms.viewProjection = projection * glm::lookAt(eye, glm::vec3(0.0f, 2.05f, 0.0f), up);
-    const glm::vec3 middle{0.8f, 1.6f, 0.0f};
+    uniforms.viewProjection = projection * glm::lookAt(eye, glm::vec3(-0.05f, 1.95f, 0.0f), up);
+    const glm::vec3 middle{0.5f, 1.6f, -0.8f};
     uniforms.sunViewProjection =
         glm::ortho(-kHalf, kHalf, -kHalf, kHalf, 0.0f, 20.0f) * glm::lookAt(middle + 10.0f * sun, middle, up);
     uniforms.eye = glm::vec4(eye, 1.0f);

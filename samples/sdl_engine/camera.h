@@ -1,7 +1,6 @@
 // Where the show is seen from, and where the sun stands.
 #pragma once
 
-#define GLM_FORCE_DEPTH_ZERO_TO_ONE
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -20,7 +20,7 @@ layout(push_constant) uniform Push {
 
 struct Sheet {
     vec4 origin; // point (0, 0); w: pinned spacing, as a share of that at rest
-    vec4 along;  // the direction of u at the beginning
+    vec4 along;  // the direction of u at the beginning; w: how light it is in the wind
     vec4 down;   // the direction of v
     uvec4 slot;  // x: of the Supple instance
 };
@@ -41,20 +41,20 @@ uint pointOf(uint i, uint j) { return j * columns + i; }
 /// A breeze with gusts that travel with it.
 vec3 windAt(vec3 p) {
     float t = seconds;
-    float gust = 0.62 + 0.38 * sin(0.9 * t - 0.7 * p.x) * sin(0.53 * t + 1.3);
+    float gust = 0.75 + 0.25 * sin(0.9 * t - 0.7 * p.x) * sin(0.53 * t + 1.3);
     vec3 swirl = vec3(0.0, 0.35 * sin(2.1 * t - 1.9 * p.x + 0.8 * p.y),
                       sin(1.7 * t - 2.3 * p.x + 0.6 * p.y) + 0.6 * sin(3.1 * t - 4.1 * p.x - 1.7 * p.y));
-    return vec3(8.5, 0.2, 1.2) * gust + 2.4 * swirl;
+    return vec3(8.0, 0.3, 1.6) * gust + 2.0 * swirl;
 }
 
 /// Air pushes where the cloth stands across it.
-vec3 airForce(uint i, uint j, vec3 velocity) {
+vec3 airForce(uint i, uint j, vec3 velocity, float lightness) {
     vec3 du = place[pointOf(min(i + 1u, columns - 1u), j)].xyz - place[pointOf(max(i, 1u) - 1u, j)].xyz;
     vec3 dv = place[pointOf(i, min(j + 1u, rows - 1u))].xyz - place[pointOf(i, max(j, 1u) - 1u)].xyz;
     vec3 n = cross(du, dv);
     n *= inversesqrt(max(dot(n, n), 1e-12));
     vec3 wind = windAt(place[pointOf(i, j)].xyz) - velocity;
-    return n * (dot(n, wind) * 2.6) + wind * 0.22;
+    return (n * (dot(n, wind) * 7.0) + wind * 0.9) * lightness;
 }
 
 void relax(uint a, uint b, float rest, float stiffness) {
@@ -107,7 +107,7 @@ void main() {
         for (uint k = 0u; k < kPointsPerLane; ++k) {
             uint at = k * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
             if (at < count)
-                forces[k] = airForce(at % columns, at / columns, velocities[k]);
+                forces[k] = airForce(at % columns, at / columns, velocities[k], sheets[sheet].along.w);
         }
         barrier();
         for (uint k = 0u; k < kPointsPerLane; ++k) {
@@ -121,8 +121,8 @@ void main() {
         }
         barrier();
         for (uint iteration = 0u; iteration < 2u; ++iteration) {
-            relaxDirection(2u, 0, 2.0 * spacing, 0.05);
-            relaxDirection(0u, 2, 2.0 * spacing, 0.05);
+            relaxDirection(2u, 0, 2.0 * spacing, 0.15);
+            relaxDirection(0u, 2, 2.0 * spacing, 0.15);
             relaxDirection(1u, 1, sqrt(2.0) * spacing, 0.25);
             relaxDirection(1u, -1, sqrt(2.0) * spacing, 0.25);
             relaxDirection(0u, 1, spacing, 1.0);
