@@ -113,7 +113,7 @@ void Characters::update(double time) {
     walking.weight = 1.0f;
     walking.time = time;
     sample::check(walker_.setPose({&walking, 1}), "suppleSetPose");
-    const float angle = 0.35f + static_cast<float>(time) * kWalkSpeed / kWalkRadius;
+    const float angle = -1.15f + static_cast<float>(time) * kWalkSpeed / kWalkRadius;
     place(walker_, {kWalkRadius * std::sin(angle), 0.0f, kWalkRadius * std::cos(angle)}, angle + glm::half_pi<float>(),
           1.0f);
 
