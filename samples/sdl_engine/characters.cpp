@@ -19,7 +19,7 @@ constexpr float kWalkRadius = 1.75f;
 constexpr float kGuestSize = 0.55f;
 
 /// Where leaps are made, one after the other.
-constexpr glm::vec3 kSpots[] = {{0.0f, 0.0f, 0.1f}, {0.75f, 0.0f, -0.35f}, {-0.7f, 0.0f, -0.25f}};
+constexpr glm::vec3 kSpots[] = {{0.45f, 0.0f, 0.0f}, {-0.55f, 0.0f, -0.4f}, {0.8f, 0.0f, -0.3f}};
 
 void onLog(SuppleSeverity severity, SuppleMessage message, const char* text, void*) {
     if (severity != SUPPLE_SEVERITY_INFO)
