@@ -45,7 +45,7 @@ void check(SuppleResult result, const char* what) {
 
 bool validationWanted() {
     const char* value = std::getenv("SUPPLE_VALIDATION");
-    return value != nullptr && std::string_view(value) != "" && std::string_view(value) != "0";
+    return value != nullptr && *value != 0 && std::string_view(value) != "0";
 }
 
 int validationMessages() {

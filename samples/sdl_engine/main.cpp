@@ -156,6 +156,7 @@ void run(const Options& options) {
     while (options.frames == 0 || frames.frame() < options.frames) {
         if (window && !window->pollEvents())
             break;
+        stale = stale || (window && window->takeResized());
         if (stale) {
             device.waitIdle();
             if (swapchain && !swapchain->create()) {

@@ -47,6 +47,7 @@ bool SdlWindow::pollEvents() {
     bool stays = true;
     for (SDL_Event event; SDL_PollEvent(&event) != 0;) {
         const bool escape = event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_ESCAPE;
+        resized_ = resized_ || (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED);
         stays = stays && event.type != SDL_QUIT && !escape;
     }
     return stays;

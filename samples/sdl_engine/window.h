@@ -23,9 +23,12 @@ public:
     void setTitle(const std::string& title) { SDL_SetWindowTitle(window_, title.c_str()); }
     /// False once the user wants to leave.
     bool pollEvents();
+    /// Whether the size has changed since it was last asked; not every driver tells with the swapchain.
+    bool takeResized() { return std::exchange(resized_, false); }
 
 private:
     SDL_Window* window_ = nullptr;
+    bool resized_ = false;
 };
 
 class Swapchain {
