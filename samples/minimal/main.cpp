@@ -91,7 +91,7 @@ supple::Asset createAsset(const supple::Context& context, const char* path) {
 
 // Everything that has to do with Supple. What it owns goes with the scope, before the device does.
 void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer commands, const char* path) {
-    supple::Context context; // makes every pipeline now, so that recording never does
+    supple::Context context;
     check(supple::Context::create(contextDesc, context), "supple::Context::create");
     const supple::Asset asset = createAsset(context, path);
     auto groupDesc = supple::sized<SuppleGroupDesc>(); // instances of one asset, evaluated together
@@ -99,6 +99,7 @@ void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer co
     groupDesc.capacity = 1;
     groupDesc.rate = 8; // segments along the edge of a patch
     supple::Group group;
+    // Makes the pipelines, so that recording never does.
     check(supple::Group::create(context, groupDesc, group), "supple::Group::create");
     supple::Instance character;
     check(supple::Instance::create(group, character), "supple::Instance::create");
