@@ -81,6 +81,7 @@ supple::Asset createAsset(const supple::Context& context, const char* path) {
     desc.name = path != nullptr ? path : "cube";
     std::ifstream stream(path != nullptr ? path : "", std::ios::binary);
     const std::vector<char> file(std::istreambuf_iterator<char>(stream), {});
+    check(path == nullptr || stream.is_open() ? SUPPLE_OK : SUPPLE_ERROR_ASSET, desc.name);
     desc.bytes = file.data();
     desc.byteCount = file.size();
     desc.cage = path != nullptr ? nullptr : &cage;
@@ -148,7 +149,6 @@ int main(int argc, char** argv) {
     auto contextDesc = supple::sized<SuppleContextDesc>();
     contextDesc.instance = instance;
     contextDesc.getInstanceProcAddr = vkGetInstanceProcAddr;
-    contextDesc.framesInFlight = 1;
     contextDesc.log = onLog;
 
     // The first device that Supple can use, with exactly the features that it asks for.
