@@ -8,7 +8,7 @@ supple_packages=(
     glslang-tools
     libglm-dev libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libstb-dev libcli11-dev
     libnanoflann-dev
-    libglfw3-dev libimgui-dev
+    libglfw3-dev libimgui-dev libsdl2-dev
 )
 # To test as well.
 supple_test_packages=(

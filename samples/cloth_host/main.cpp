@@ -1,0 +1,107 @@
+// Cloth in the wind. The simulation is the host's, on the device: nothing of a frame passes through the CPU.
+#include "scene.h"
+
+#include "common/picture.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace {
+
+struct Options {
+    std::string screenshot;
+    VkExtent2D size{1280, 720};
+    uint32_t rate = 6;
+    uint64_t frames = 240;
+};
+
+constexpr const char* kUsage = "usage: supple_cloth_host [options]\n"
+                               "  --frames N         240, a sixtieth of a second each\n"
+                               "  --screenshot FILE  save the last frame as PNG\n"
+                               "  --size WxH         1280x720\n"
+                               "  --rate R           segments along an edge of the cage: 6\n";
+
+[[noreturn]] void badUsage() {
+    std::fputs(kUsage, stderr);
+    std::exit(2);
+}
+
+Options readOptions(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view name = argv[i];
+        const auto value = [&] { return i + 1 < argc ? argv[++i] : (badUsage(), nullptr); };
+        if (name == "--help") {
+            std::fputs(kUsage, stdout);
+            std::exit(0);
+        } else if (name == "--frames") {
+            options.frames = std::strtoul(value(), nullptr, 10);
+        } else if (name == "--screenshot") {
+            options.screenshot = value();
+        } else if (name == "--size") {
+            char* x = nullptr;
+            options.size.width = static_cast<uint32_t>(std::strtoul(value(), &x, 10));
+            options.size.height = *x == 'x' ? static_cast<uint32_t>(std::strtoul(x + 1, nullptr, 10)) : 0;
+        } else if (name == "--rate") {
+            options.rate = static_cast<uint32_t>(std::strtoul(value(), nullptr, 10));
+        } else {
+            badUsage();
+        }
+    }
+    if (options.frames == 0 || options.size.width == 0 || options.size.height == 0)
+        badUsage();
+    return options;
+}
+
+void copyPicture(VkCommandBuffer commands, const sample::Image& picture, const sample::Buffer& readback) {
+    const VkExtent2D extent = picture.desc().extent;
+    const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                   .imageExtent = {extent.width, extent.height, 1}};
+    vkCmdCopyImageToBuffer(commands, picture.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback.handle(), 1,
+                           &region);
+    const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                  .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                  .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                  .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                  .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+void run(const Options& options) {
+    sample::Device device({.name = "supple_cloth_host"});
+    cloth::Cloth cloth(device, options.rate);
+    const cloth::Scene scene(device, cloth, options.size);
+    const sample::Buffer readback(device, VkDeviceSize{4} * options.size.width * options.size.height,
+                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
+    sample::Frames frames(device);
+    while (frames.frame() < options.frames) {
+        const VkCommandBuffer commands = frames.begin();
+        const bool last = frames.frame() == options.frames;
+        cloth.beginFrame(frames.frame(), frames.completed());
+        cloth.record(commands, static_cast<double>(frames.frame()) / 60.0);
+        if (last || options.screenshot.empty()) { // else only the last frame is seen
+            scene.record(commands);
+            copyPicture(commands, scene.picture(), readback);
+        }
+        frames.submit();
+    }
+    device.waitIdle();
+    if (!options.screenshot.empty())
+        sample::writePng(options.screenshot, options.size.width, options.size.height, readback.mapped());
+    const SuppleGroupOutput& output = cloth.output();
+    std::printf("%llu frames; a sheet: %u cage vertices, %u patches, %u surface vertices\n",
+                static_cast<unsigned long long>(options.frames), output.cageVertexCount, output.patchCount,
+                output.vertexCount);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    run(readOptions(argc, argv));
+    if (sample::validationMessages() != 0)
+        sample::fail("failed: " + std::to_string(sample::validationMessages()) + " validation messages");
+    return 0;
+}

@@ -1,0 +1,245 @@
+#include "scene.h"
+
+#include "shaders/cloth_frag.h"
+#include "shaders/cloth_vert.h"
+#include "shaders/ground_frag.h"
+#include "shaders/ground_vert.h"
+#include "shaders/pole_frag.h"
+#include "shaders/pole_vert.h"
+#include "shaders/sky_frag.h"
+#include "shaders/sky_vert.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cstring>
+
+namespace cloth {
+
+namespace {
+
+constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_UNORM;
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr VkSampleCountFlagBits kSamples = VK_SAMPLE_COUNT_4_BIT;
+constexpr uint32_t kSunMapSize = 2048;
+constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
+/// SuppleRange of shaders/supple_surface.glsl, and whether the sun looks.
+struct SheetPush {
+    uint32_t patchCount;
+    uint32_t firstVertex;
+    uint32_t samplesPerPatch;
+    uint32_t verticesPerInstance;
+    uint32_t shadow;
+};
+
+struct PolePush {
+    glm::vec4 a; ///< w: radius
+    glm::vec4 b; ///< w: 1 for the sun's map
+};
+
+constexpr uint32_t kPoleVertices = 4 * (24 + 1);
+const PolePush kPoles[] = {{{-2.93f, 0.0f, 0.0f, 0.035f}, {-2.93f, 3.95f, 0.0f, 0.0f}},
+                           {{0.77f, 0.0f, 0.487f, 0.035f}, {0.77f, 3.80f, 0.487f, 0.0f}},
+                           {{0.59f, 3.585f, 0.574f, 0.026f}, {2.48f, 3.585f, -0.341f, 0.0f}}};
+
+void imageBarrier(VkCommandBuffer commands, const sample::Image& image, SuppleSyncScope from, SuppleSyncScope to,
+                  VkImageLayout before, VkImageLayout after) {
+    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                                        .srcStageMask = from.stages,
+                                        .srcAccessMask = from.access,
+                                        .dstStageMask = to.stages,
+                                        .dstAccessMask = to.access,
+                                        .oldLayout = before,
+                                        .newLayout = after,
+                                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                        .image = image.handle(),
+                                        .subresourceRange = {image.desc().aspect, 0, 1, 0, 1}};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+constexpr SuppleSyncScope kColorWrites{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                       VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr SuppleSyncScope kDepthWrites{
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr SuppleSyncScope kSampled{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+constexpr SuppleSyncScope kCopied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+
+void setViewport(VkCommandBuffer commands, VkExtent2D extent) {
+    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0f, 1.0f};
+    const VkRect2D scissor{{0, 0}, extent};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+}
+
+SceneUniforms lookAtIt(VkExtent2D extent) {
+    const glm::vec2 size{static_cast<float>(extent.width), static_cast<float>(extent.height)};
+    const glm::vec3 eye{0.5f, 1.75f, 8.7f};
+    const glm::vec3 sun = glm::normalize(glm::vec3(-0.34f, 0.72f, 0.55f));
+    constexpr float kHalf = 4.2f;
+    SceneUniforms uniforms{};
+    glm::mat4 projection = glm::perspective(glm::radians(34.0f), size.x / size.y, 0.5f, 200.0f);
+    projection[1][1] = -projection[1][1]; // Vulkan's y points down
+    const glm::vec3 up{0.0f, 1.0f, 0.0f};
+    uniforms.viewProjection = projection * glm::lookAt(eye, glm::vec3(-0.05f, 1.95f, 0.0f), up);
+    const glm::vec3 middle{0.5f, 1.6f, -0.8f};
+    uniforms.sunViewProjection =
+        glm::ortho(-kHalf, kHalf, -kHalf, kHalf, 0.0f, 20.0f) * glm::lookAt(middle + 10.0f * sun, middle, up);
+    uniforms.eye = glm::vec4(eye, 1.0f);
+    uniforms.sunDirection = glm::vec4(sun, 0.0f);
+    uniforms.viewport = glm::vec4(size, 1.0f / size);
+    return uniforms;
+}
+
+} // namespace
+
+Scene::Scene(sample::Device& device, const Cloth& cloth, VkExtent2D extent) : cloth_(cloth) {
+    sunMap_ = sample::Image(device, {.extent = {kSunMapSize, kSunMapSize},
+                                     .format = kDepthFormat,
+                                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+    color_ = sample::Image(
+        device,
+        {.extent = extent, .format = kColorFormat, .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, .samples = kSamples});
+    depth_ = sample::Image(device, {.extent = extent,
+                                    .format = kDepthFormat,
+                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                    .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                                    .samples = kSamples});
+    picture_ = sample::Image(device, {.extent = extent,
+                                      .format = kColorFormat,
+                                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+    const SceneUniforms uniforms = lookAtIt(extent);
+    uniforms_ = sample::Buffer(device, sizeof uniforms, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
+    std::memcpy(uniforms_.mapped(), &uniforms, sizeof uniforms);
+
+    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    const VkDescriptorSetLayout sceneLayout =
+        sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
+                                         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    // The bindings of shaders/supple_surface.glsl; without previous positions, which are 2.
+    const VkDescriptorSetLayout sheetLayout =
+        sample::createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                         {1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                         {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT}});
+    layout_ =
+        sample::createPipelineLayout(device, {sceneLayout, sheetLayout}, sizeof(PolePush), VK_SHADER_STAGE_VERTEX_BIT);
+    sample::DescriptorPool pool(device, 2);
+    sceneSet_ = pool.allocate(sceneLayout);
+    sheetSet_ = pool.allocate(sheetLayout);
+    pool.write(sceneSet_, {sample::uniformBuffer(0, uniforms_),
+                           sample::sampledImage(1, sunMap_, sample::createSampler(device, VK_FILTER_LINEAR, true))});
+    const SuppleGroupOutput& output = cloth.output();
+    pool.write(sheetSet_, {sample::storageBuffer(0, output.instances), sample::storageBuffer(1, output.surfaceVertices),
+                           sample::storageBuffer(3, output.attributes)});
+
+    sample::GraphicsDesc shadow{.layout = layout_, .depth = kDepthFormat, .depthBias = 1.0f, .depthBiasSlope = 2.0f};
+    shadow.vertexShader = cloth_vert;
+    sheetShadows_ = sample::createGraphicsPipeline(device, shadow);
+    shadow.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
+    shadow.vertexShader = pole_vert;
+    poleShadows_ = sample::createGraphicsPipeline(device, shadow);
+
+    sample::GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat}, .depth = kDepthFormat, .samples = kSamples};
+    scene.vertexShader = cloth_vert;
+    scene.fragmentShader = cloth_frag;
+    sheetPipeline_ = sample::createGraphicsPipeline(device, scene);
+    scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
+    scene.vertexShader = pole_vert;
+    scene.fragmentShader = pole_frag;
+    polePipeline_ = sample::createGraphicsPipeline(device, scene);
+    scene.vertexShader = ground_vert;
+    scene.fragmentShader = ground_frag;
+    groundPipeline_ = sample::createGraphicsPipeline(device, scene);
+    scene.depthWrite = false;
+    scene.vertexShader = sky_vert;
+    scene.fragmentShader = sky_frag;
+    skyPipeline_ = sample::createGraphicsPipeline(device, scene);
+}
+
+void Scene::drawSheets(VkCommandBuffer commands, VkPipeline pipeline, bool shadow) const {
+    const SuppleGroupOutput& output = cloth_.output();
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
+    for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = output.drawRanges[r];
+        const SheetPush push{range.patchCount, range.firstVertex, range.samplesPerPatch, output.verticesPerInstance,
+                             shadow ? 1u : 0u};
+        vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
+        vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
+                                 output.indirect.offset + VkDeviceSize{r} * output.indirect.stride, 1,
+                                 output.indirect.stride);
+    }
+}
+
+void Scene::drawPoles(VkCommandBuffer commands, VkPipeline pipeline, bool shadow) const {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    for (PolePush pole : kPoles) {
+        pole.b.w = shadow ? 1.0f : 0.0f;
+        vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof pole, &pole);
+        vkCmdDraw(commands, kPoleVertices, 1, 0, 0);
+    }
+}
+
+void Scene::record(VkCommandBuffer commands) const {
+    const VkDescriptorSet sets[] = {sceneSet_, sheetSet_};
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
+
+    imageBarrier(commands, sunMap_, kSampled, kDepthWrites, VK_IMAGE_LAYOUT_UNDEFINED,
+                 VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                    .imageView = sunMap_.view(),
+                                    .imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                                    .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                    .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                    .clearValue = {.depthStencil = {1.0f, 0}}};
+    VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                              .renderArea = {{0, 0}, sunMap_.desc().extent},
+                              .layerCount = 1,
+                              .pDepthAttachment = &depth};
+    vkCmdBeginRendering(commands, &rendering);
+    setViewport(commands, sunMap_.desc().extent);
+    drawSheets(commands, sheetShadows_, true);
+    drawPoles(commands, poleShadows_, true);
+    vkCmdEndRendering(commands);
+    imageBarrier(commands, sunMap_, kDepthWrites, kSampled, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+
+    imageBarrier(commands, color_, kColorWrites, kColorWrites, VK_IMAGE_LAYOUT_UNDEFINED,
+                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    imageBarrier(commands, picture_, kCopied, kColorWrites, VK_IMAGE_LAYOUT_UNDEFINED,
+                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    imageBarrier(commands, depth_, kDepthWrites, kDepthWrites, VK_IMAGE_LAYOUT_UNDEFINED,
+                 VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                          .imageView = color_.view(),
+                                          .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                          .resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT,
+                                          .resolveImageView = picture_.view(),
+                                          .resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                          .loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE, // the sky is everywhere
+                                          .storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE};
+    depth.imageView = depth_.view();
+    depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    rendering.renderArea.extent = picture_.desc().extent;
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachments = &color;
+    vkCmdBeginRendering(commands, &rendering);
+    setViewport(commands, picture_.desc().extent);
+    drawSheets(commands, sheetPipeline_, false);
+    drawPoles(commands, polePipeline_, false);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, groundPipeline_);
+    vkCmdDraw(commands, 4, 1, 0, 0);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, skyPipeline_);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+    vkCmdEndRendering(commands);
+    imageBarrier(commands, picture_, kColorWrites, kCopied, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+}
+
+} // namespace cloth

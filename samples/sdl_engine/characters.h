@@ -1,0 +1,61 @@
+// Supple in this engine: a context, two groups of the same character, and who plays what. One walks round the stage on
+// a P_m surface. On a Catmull-Clark surface one leaps, and is somewhere else after every leap; now and then a small one
+// joins.
+#pragma once
+
+#include "graph.h"
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+
+namespace engine {
+
+/// One of the two groups as the passes draw it.
+struct CharacterGroup {
+    supple::Group group;
+    SuppleGroupOutput output{};
+    std::vector<bool> doubleSided; ///< a draw range
+};
+
+/// Where somebody stands, and how much of the sky he takes from the floor.
+struct Footprint {
+    glm::vec3 position{};
+    float radius = 0.0f;
+};
+
+class Characters {
+public:
+    Characters(const sample::Device& device, const std::string& path, uint32_t rate);
+
+    /// Poses everybody for a time of the show. May create and destroy instances, so it comes after beginFrame.
+    void update(double time);
+    void beginFrame(uint64_t frame, uint64_t completed) const;
+    /// The graph's node: every barrier before and after it is the graph's.
+    void addToGraph(Graph& graph, Resource buffers) const;
+
+    const std::array<CharacterGroup, 2>& groups() const { return groups_; }
+    const std::vector<Footprint>& footprints() const { return footprints_; }
+    /// Milliseconds of the device in Supple's passes, of the newest frame that is known.
+    double milliseconds() const;
+
+private:
+    void place(const supple::Instance& instance, glm::vec3 position, float heading, float size);
+    uint32_t findClip(const char* name) const;
+
+    supple::Context context_;
+    supple::Asset asset_;
+    std::array<CharacterGroup, 2> groups_;
+    supple::Instance walker_;
+    supple::Instance leaper_;
+    std::optional<supple::Instance> guest_;
+    int64_t leap_ = -1; ///< the leap that is being shown
+    uint32_t walk_ = 0;
+    uint32_t joy_ = 0;
+    uint32_t idle_ = 0;
+    double joyDuration_ = 1.0;
+    std::vector<Footprint> footprints_;
+    mutable std::vector<SuppleTiming> timings_;
+};
+
+} // namespace engine

@@ -1,0 +1,228 @@
+// A small engine with Supple in it. See README.md for what it shows; this file is the loop.
+#include "taa.h"
+#include "window.h"
+
+#include "common/picture.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <string_view>
+
+namespace {
+
+using namespace engine;
+
+struct Options {
+    std::string character = SUPPLE_SAMPLE_ASSETS "/pip.glb";
+    std::string screenshot;
+    VkExtent2D size{1280, 720};
+    uint32_t rate = 4;
+    uint64_t frames = 0; ///< 0: until the window is closed
+    double start = 0.0;
+    bool offscreen = false;
+};
+
+constexpr const char* kUsage = "usage: supple_sdl_engine [options] [CHARACTER.glb]\n"
+                               "  --frames N         end after N frames, a sixtieth of a second each\n"
+                               "  --screenshot FILE  save the last frame as PNG; needs --frames\n"
+                               "  --offscreen        no window; needs --frames\n"
+                               "  --size WxH         1280x720\n"
+                               "  --rate R           segments along a patch edge: 4\n"
+                               "  --start SECONDS    where in the show to begin\n";
+
+[[noreturn]] void badUsage() {
+    std::fputs(kUsage, stderr);
+    std::exit(2);
+}
+
+Options readOptions(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view name = argv[i];
+        const auto value = [&] { return i + 1 < argc ? argv[++i] : (badUsage(), nullptr); };
+        if (name == "--help") {
+            std::fputs(kUsage, stdout);
+            std::exit(0);
+        } else if (name == "--frames") {
+            options.frames = std::strtoul(value(), nullptr, 10);
+        } else if (name == "--screenshot") {
+            options.screenshot = value();
+        } else if (name == "--offscreen") {
+            options.offscreen = true;
+        } else if (name == "--size") {
+            char* x = nullptr;
+            options.size.width = static_cast<uint32_t>(std::strtoul(value(), &x, 10));
+            options.size.height = *x == 'x' ? static_cast<uint32_t>(std::strtoul(x + 1, nullptr, 10)) : 0;
+        } else if (name == "--rate") {
+            options.rate = static_cast<uint32_t>(std::strtoul(value(), nullptr, 10));
+        } else if (name == "--start") {
+            options.start = std::strtod(value(), nullptr);
+        } else if (name.substr(0, 1) != "-") {
+            options.character = name;
+        } else {
+            badUsage();
+        }
+    }
+    const bool endless = options.frames == 0;
+    if (options.size.width == 0 || options.size.height == 0 || options.start < 0.0 ||
+        (endless && (options.offscreen || !options.screenshot.empty())))
+        badUsage();
+    return options;
+}
+
+std::string describe(double supple, double frameMilliseconds, const std::vector<PassTime>& times) {
+    char text[256];
+    int length = std::snprintf(text, sizeof text, "Supple %.2f ms of %.1f", supple, frameMilliseconds);
+    for (const PassTime& time : times)
+        if (length < static_cast<int>(sizeof text) && std::string_view(time.name) != "show")
+            length += std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length), " | %s %.2f",
+                                    time.name, time.milliseconds);
+    return text;
+}
+
+/// Milliseconds of the graph's passes, averaged over the run.
+class Averages {
+public:
+    void add(const std::vector<PassTime>& times) {
+        for (const PassTime& time : times) {
+            auto& [sum, count] = sums_[time.name];
+            sum += time.milliseconds;
+            ++count;
+        }
+    }
+    void print() const {
+        for (const auto& [name, entry] : sums_)
+            std::printf("%-10s %8.3f ms over %d frames\n", std::string(name).c_str(), entry.first / entry.second,
+                        entry.second);
+    }
+
+private:
+    std::map<std::string_view, std::pair<double, int>> sums_;
+};
+
+/// Copies the picture to memory that the host reads.
+void addReadback(Graph& graph, const Taa& taa, const sample::Buffer& buffer) {
+    graph.add("screenshot",
+              {reads(taa.pictureUse(), {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT},
+                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)},
+              [&](VkCommandBuffer commands) {
+                  const VkExtent2D extent = taa.picture().desc().extent;
+                  const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                                 .imageExtent = {extent.width, extent.height, 1}};
+                  vkCmdCopyImageToBuffer(commands, taa.picture().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                         buffer.handle(), 1, &region);
+                  const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                                .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                                .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                                .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                                .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+                  const VkDependencyInfo dependency{
+                      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
+                  vkCmdPipelineBarrier2(commands, &dependency);
+              });
+}
+
+void run(const Options& options) {
+    std::unique_ptr<SdlWindow> window;
+    sample::DeviceOptions deviceOptions{.name = "supple_sdl_engine"};
+    if (!options.offscreen) {
+        window = std::make_unique<SdlWindow>("Supple", options.size);
+        deviceOptions.instanceExtensions = window->instanceExtensions();
+        deviceOptions.createSurface = [&](VkInstance instance) { return window->createSurface(instance); };
+    }
+    sample::Device device(deviceOptions);
+    Graph graph(device);
+    const Resource characterBuffers = graph.addBuffers();
+    Characters characters(device, options.character, options.rate);
+    Passes passes(device, graph, characters);
+    Taa taa(device, graph);
+    std::unique_ptr<Swapchain> swapchain;
+    if (window)
+        swapchain = std::make_unique<Swapchain>(device, *window, graph);
+    sample::Frames frames(device);
+
+    sample::Buffer readback;
+    Averages averages;
+    VkExtent2D extent{};
+    bool stale = true; // sizes must be looked at
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point last = Clock::now();
+    double time = options.start;
+    double frameMilliseconds = 0.0;
+
+    while (options.frames == 0 || frames.frame() < options.frames) {
+        if (window && !window->pollEvents())
+            break;
+        stale = stale || (window && window->takeResized());
+        if (stale) {
+            device.waitIdle();
+            if (swapchain && !swapchain->create()) {
+                SDL_Delay(50);
+                continue;
+            }
+            extent = swapchain ? swapchain->extent() : options.size;
+            passes.resize(device, graph, extent);
+            taa.resize(device, graph, passes.images());
+            stale = false;
+        }
+        frames.waitForRoom();
+        if (swapchain && !swapchain->acquire(frames.nextSlot())) {
+            stale = true;
+            continue;
+        }
+
+        const VkCommandBuffer commands = frames.begin();
+        const uint32_t slot = frames.slot();
+        characters.beginFrame(frames.frame(), frames.completed());
+        const std::vector<PassTime>& times = graph.readTimes(slot);
+        averages.add(times);
+        if (window && frames.frame() % 30 == 0)
+            window->setTitle(describe(characters.milliseconds(), frameMilliseconds, times));
+
+        characters.update(time);
+        const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+        passes.update(slot, frames.frame(), cameraAt(time, aspect), Taa::jitter(frames.frame()),
+                      characters.footprints());
+        characters.addToGraph(graph, characterBuffers);
+        passes.addToGraph(graph, slot, characterBuffers);
+        taa.addToGraph(graph, passes.images());
+        if (!options.screenshot.empty() && frames.frame() == options.frames) {
+            readback = sample::Buffer(device, VkDeviceSize{4} * extent.width * extent.height,
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
+            addReadback(graph, taa, readback);
+        }
+        if (swapchain)
+            swapchain->addToGraph(graph, taa.picture(), taa.pictureUse());
+        graph.execute(commands, slot);
+
+        if (swapchain) {
+            frames.submit(swapchain->acquired(slot), Swapchain::kFirstUse, swapchain->drawn());
+            stale = !swapchain->present();
+        } else {
+            frames.submit();
+        }
+
+        const Clock::time_point now = Clock::now();
+        const double seconds = std::chrono::duration<double>(now - last).count();
+        last = now;
+        frameMilliseconds += 0.1 * (1e3 * seconds - frameMilliseconds);
+        time += options.frames != 0 ? 1.0 / 60.0 : std::min(seconds, 0.1);
+    }
+    device.waitIdle();
+    if (readback.mapped() != nullptr)
+        sample::writePng(options.screenshot, extent.width, extent.height, readback.mapped());
+    if (options.frames != 0)
+        averages.print();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    run(readOptions(argc, argv));
+    if (sample::validationMessages() != 0)
+        sample::fail("failed: " + std::to_string(sample::validationMessages()) + " validation messages");
+    return 0;
+}

@@ -1,0 +1,226 @@
+#include "passes.h"
+
+#include "shaders/backdrop_frag.h"
+#include "shaders/backdrop_vert.h"
+#include "shaders/character_frag.h"
+#include "shaders/character_shadow_vert.h"
+#include "shaders/character_vert.h"
+#include "shaders/floor_frag.h"
+#include "shaders/floor_vert.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace engine {
+
+namespace {
+
+constexpr uint32_t kSunMapSize = 2048;
+constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kMotionFormat = VK_FORMAT_R16G16_SFLOAT;
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr float kSunRadius = 0.045f; // a veiled sun: shadows of a hand's width soften over two metres
+
+/// SuppleRange of shaders/supple_surface.glsl.
+struct RangePush {
+    uint32_t patchCount;
+    uint32_t firstVertex;
+    uint32_t samplesPerPatch;
+    uint32_t verticesPerInstance;
+};
+
+void setViewport(VkCommandBuffer commands, VkExtent2D extent) {
+    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0f, 1.0f};
+    const VkRect2D scissor{{0, 0}, extent};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+VkRenderingAttachmentInfo attachment(const sample::Image& image, VkImageLayout layout, VkAttachmentLoadOp load,
+                                     VkClearValue clear = {}) {
+    return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+            .imageView = image.view(),
+            .imageLayout = layout,
+            .loadOp = load,
+            .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+            .clearValue = clear};
+}
+
+void beginRendering(VkCommandBuffer commands, VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colors,
+                    const VkRenderingAttachmentInfo& depth) {
+    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                               .renderArea = {{0, 0}, extent},
+                               .layerCount = 1,
+                               .colorAttachmentCount = static_cast<uint32_t>(colors.size()),
+                               .pColorAttachments = colors.data(),
+                               .pDepthAttachment = &depth};
+    vkCmdBeginRendering(commands, &info);
+    setViewport(commands, extent);
+}
+
+constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
+
+} // namespace
+
+Passes::Passes(sample::Device& device, Graph& graph, const Characters& characters)
+    : characters_(characters), sun_(sunOverStage()) {
+    constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    const VkDescriptorSetLayout frameLayout =
+        sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
+                                         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                         {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    // The bindings of shaders/supple_surface.glsl.
+    const VkDescriptorSetLayout groupLayout =
+        sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
+                                         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
+                                         {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
+                                         {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}});
+    layout_ =
+        sample::createPipelineLayout(device, {frameLayout, groupLayout}, sizeof(RangePush), VK_SHADER_STAGE_VERTEX_BIT);
+
+    sunMap_ = sample::Image(device, {.extent = {kSunMapSize, kSunMapSize},
+                                     .format = kDepthFormat,
+                                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+    sunMapUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
+    graph.setImage(sunMapUse_, sunMap_.handle());
+    images_.colorUse = graph.addImage();
+    images_.motionUse = graph.addImage();
+    images_.depthUse = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
+
+    sample::DescriptorPool pool(device, 8);
+    const VkSampler compare = sample::createSampler(device, VK_FILTER_LINEAR, true);
+    const VkSampler plain = sample::createSampler(device, VK_FILTER_NEAREST);
+    for (uint32_t slot = 0; slot < sample::kFramesInFlight; ++slot) {
+        uniforms_[slot] = sample::Buffer(device, sizeof(FrameUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
+        frameSets_[slot] = pool.allocate(frameLayout);
+        pool.write(frameSets_[slot],
+                   {sample::uniformBuffer(0, uniforms_[slot]), sample::sampledImage(1, sunMap_, compare),
+                    sample::sampledImage(2, sunMap_, plain)});
+    }
+    for (std::size_t i = 0; i < groupSets_.size(); ++i) {
+        const SuppleGroupOutput& output = characters.groups()[i].output;
+        groupSets_[i] = pool.allocate(groupLayout);
+        pool.write(groupSets_[i],
+                   {sample::storageBuffer(0, output.instances), sample::storageBuffer(1, output.surfaceVertices),
+                    sample::storageBuffer(2, output.previousPositions), sample::storageBuffer(3, output.attributes)});
+    }
+
+    shadowPipeline_ = sample::createGraphicsPipeline(device, {.layout = layout_,
+                                                              .vertexShader = character_shadow_vert,
+                                                              .depth = kDepthFormat,
+                                                              .depthBias = 1.0f,
+                                                              .depthBiasSlope = 1.5f});
+    sample::GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat, kMotionFormat}, .depth = kDepthFormat};
+    scene.vertexShader = character_vert;
+    scene.fragmentShader = character_frag;
+    characterPipeline_ = sample::createGraphicsPipeline(device, scene);
+    scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
+    scene.vertexShader = floor_vert;
+    scene.fragmentShader = floor_frag;
+    floorPipeline_ = sample::createGraphicsPipeline(device, scene);
+    scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    scene.depthWrite = false;
+    scene.vertexShader = backdrop_vert;
+    scene.fragmentShader = backdrop_frag;
+    backdropPipeline_ = sample::createGraphicsPipeline(device, scene);
+}
+
+void Passes::resize(sample::Device& device, Graph& graph, VkExtent2D extent) {
+    constexpr VkImageUsageFlags kColor = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    images_.color = sample::Image(device, {.extent = extent, .format = kColorFormat, .usage = kColor});
+    images_.motion = sample::Image(device, {.extent = extent, .format = kMotionFormat, .usage = kColor});
+    images_.depth =
+        sample::Image(device, {.extent = extent,
+                               .format = kDepthFormat,
+                               .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                               .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+    graph.setImage(images_.colorUse, images_.color.handle());
+    graph.setImage(images_.motionUse, images_.motion.handle());
+    graph.setImage(images_.depthUse, images_.depth.handle());
+    hasPrevious_ = false;
+}
+
+void Passes::update(uint32_t slot, uint64_t frame, const Camera& camera, glm::vec2 jitter,
+                    const std::vector<Footprint>& footprints) {
+    const VkExtent2D extent = images_.color.desc().extent;
+    const glm::vec2 size{static_cast<float>(extent.width), static_cast<float>(extent.height)};
+    FrameUniforms uniforms{};
+    uniforms.viewProjection = camera.viewProjection;
+    uniforms.jitteredViewProjection =
+        glm::translate(glm::mat4(1.0f), glm::vec3(2.0f * jitter / size, 0.0f)) * camera.viewProjection;
+    uniforms.previousViewProjection = hasPrevious_ ? previousViewProjection_ : camera.viewProjection;
+    uniforms.sunViewProjection = sun_.viewProjection;
+    uniforms.eye = glm::vec4(camera.eye, 1.0f);
+    uniforms.sunDirection = glm::vec4(sun_.direction, kSunRadius);
+    uniforms.viewport = glm::vec4(size, 1.0f / size);
+    for (std::size_t i = 0; i < std::min(footprints.size(), std::size(uniforms.feet)); ++i)
+        uniforms.feet[i] = glm::vec4(footprints[i].position, footprints[i].radius);
+    uniforms.noise = glm::vec4(static_cast<float>(frame % 32), sun_.width / kSunMapSize, sun_.depth, 0.0f);
+    std::memcpy(uniforms_[slot].mapped(), &uniforms, sizeof uniforms);
+    previousViewProjection_ = camera.viewProjection;
+    hasPrevious_ = true;
+}
+
+void Passes::addToGraph(Graph& graph, uint32_t slot, Resource characterBuffers) {
+    graph.add("shadows",
+              {reads(characterBuffers, kDrawn),
+               writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
+              [this, slot](VkCommandBuffer commands) { drawShadows(commands, slot); });
+    graph.add("scene",
+              {reads(characterBuffers, kDrawn),
+               reads(sunMapUse_, kSampledInFragment, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+               writes(images_.colorUse, kColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true),
+               writes(images_.motionUse, kColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true),
+               writes(images_.depthUse, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
+              [this, slot](VkCommandBuffer commands) { drawScene(commands, slot); });
+}
+
+/// One indirect draw for each range of each group: it draws all visible instances.
+void Passes::drawCharacters(VkCommandBuffer commands, VkPipeline pipeline, uint32_t slot, bool cull) const {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    for (std::size_t i = 0; i < groupSets_.size(); ++i) {
+        const CharacterGroup& group = characters_.groups()[i];
+        const SuppleGroupOutput& output = group.output;
+        const VkDescriptorSet sets[] = {frameSets_[slot], groupSets_[i]};
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
+        vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
+        for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
+            const SuppleDrawRange& range = output.drawRanges[r];
+            const RangePush push{range.patchCount, range.firstVertex, range.samplesPerPatch,
+                                 output.verticesPerInstance};
+            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
+            vkCmdSetCullMode(commands, cull && !group.doubleSided[r] ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
+            vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
+                                     output.indirect.offset + VkDeviceSize{r} * output.indirect.stride, 1,
+                                     output.indirect.stride);
+        }
+    }
+}
+
+void Passes::drawShadows(VkCommandBuffer commands, uint32_t slot) const {
+    beginRendering(commands, sunMap_.desc().extent, {},
+                   attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_CLEAR, kFar));
+    drawCharacters(commands, shadowPipeline_, slot, false);
+    vkCmdEndRendering(commands);
+}
+
+void Passes::drawScene(VkCommandBuffer commands, uint32_t slot) const {
+    // The backdrop fills what nothing else does, so that colors need no clearing.
+    const VkRenderingAttachmentInfo colors[] = {
+        attachment(images_.color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_DONT_CARE),
+        attachment(images_.motion, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
+    beginRendering(
+        commands, images_.color.desc().extent, colors,
+        attachment(images_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_CLEAR, kFar));
+    drawCharacters(commands, characterPipeline_, slot, true);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, floorPipeline_);
+    vkCmdDraw(commands, 4, 1, 0, 0);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, backdropPipeline_);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+    vkCmdEndRendering(commands);
+}
+
+} // namespace engine

@@ -1,0 +1,142 @@
+// Drawing for hosts: how a vertex shader finds its surface vertex among what Supple wrote. Self-contained: copy it, or include
+// it from where it lies.
+//
+// One draw a SuppleDrawRange: bind SuppleGroupOutput.gridIndices as uint16 indices at the byte
+// gridIndices.offset, no vertex buffers, and
+//
+//     vkCmdDrawIndexedIndirect(commands, output.indirect.buffer, output.indirect.offset + range * output.indirect.stride, 1, 0);
+//
+// The first half of this file has no bindings: the shader hands in what it knows of the range, as push constants or from a
+// buffer. The second half, for shaders that define SUPPLE_SURFACE_SET, declares the buffers of a SuppleGroupOutput as storage
+// buffers of that descriptor set and reads them:
+//
+//     #define SUPPLE_SURFACE_SET 1
+//     #include "supple_surface.glsl"
+//     layout(push_constant) uniform Push { SuppleRange range; };
+//
+//     void main() {
+//         SuppleVertex at = suppleVertex(range, gl_InstanceIndex, gl_VertexIndex);
+//         vec3 position = supplePosition(at), normal = suppleNormal(at);
+//         vec3 before = supplePreviousPosition(at); // with SUPPLE_GROUP_MOTION
+//         vec2 uv = suppleUv(at);                   // with SUPPLE_GROUP_ATTRIBUTES
+//         vec4 color = suppleColor(at);
+//     }
+//
+// A buffer that a shader does not read needs no descriptor: a shadow pass binds the first two.
+#ifndef SUPPLE_SURFACE_GLSL
+#define SUPPLE_SURFACE_GLSL
+
+/// What a draw must be told, all of it from SuppleGroupOutput and its SuppleDrawRange.
+struct SuppleRange {
+    uint patchCount;          // SuppleDrawRange
+    uint firstVertex;         // SuppleDrawRange
+    uint samplesPerPatch;     // SuppleDrawRange
+    uint verticesPerInstance; // SuppleGroupOutput
+};
+
+/// Which of the visible instances this is: an index into SuppleGroupOutput.instances, where its slot stands.
+uint suppleDrawnInstance(SuppleRange range, uint instanceIndex) { return instanceIndex / range.patchCount; }
+
+/// The patch within the instance, if the range's first one is known: an index of suppleGetPatches.
+uint suppleDrawnPatch(SuppleRange range, uint firstPatch, uint instanceIndex) {
+    return firstPatch + instanceIndex % range.patchCount;
+}
+
+/// The surface vertex within an instance: an index into attributes, uvs1 and faceUvs, which all instances share.
+uint suppleSharedVertex(SuppleRange range, uint instanceIndex, uint vertexIndex) {
+    return range.firstVertex + (instanceIndex % range.patchCount) * range.samplesPerPatch + vertexIndex;
+}
+
+/// The surface vertex: an index into surfaceVertices and previousPositions.
+uint suppleSurfaceVertex(SuppleRange range, uint slot, uint sharedVertex) {
+    return slot * range.verticesPerInstance + sharedVertex;
+}
+
+/// The normal of SUPPLE_VERTEX_16: octahedral, two snorm16.
+vec3 suppleOctahedralNormal(uint word) {
+    vec2 p = unpackSnorm2x16(word);
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0)
+        n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    return normalize(n);
+}
+
+/// The color of SuppleGroupOutput.attributes: linear, four unorm16.
+vec4 suppleUnpackColor(uvec2 words) { return vec4(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y)); }
+
+#ifdef SUPPLE_SURFACE_SET
+
+#ifndef SUPPLE_INSTANCES_BINDING
+#define SUPPLE_INSTANCES_BINDING 0
+#endif
+#ifndef SUPPLE_VERTICES_BINDING
+#define SUPPLE_VERTICES_BINDING 1
+#endif
+#ifndef SUPPLE_PREVIOUS_BINDING
+#define SUPPLE_PREVIOUS_BINDING 2
+#endif
+#ifndef SUPPLE_ATTRIBUTES_BINDING
+#define SUPPLE_ATTRIBUTES_BINDING 3
+#endif
+
+layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_INSTANCES_BINDING, std430) readonly buffer SuppleInstances {
+    uint suppleInstances[];
+};
+#ifdef SUPPLE_SURFACE_VERTEX_24 // SUPPLE_VERTEX_24: three floats of position, three of normal
+layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_VERTICES_BINDING, std430) readonly buffer SuppleVertices {
+    float suppleVertices[];
+};
+#else // SUPPLE_VERTEX_16: three floats of position, a word of normal
+layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_VERTICES_BINDING, std430) readonly buffer SuppleVertices {
+    uvec4 suppleVertices[];
+};
+#endif
+layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_PREVIOUS_BINDING, std430) readonly buffer SupplePrevious {
+    float supplePrevious[]; // three a vertex
+};
+layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_ATTRIBUTES_BINDING, std430) readonly buffer SuppleAttributes {
+    uvec4 suppleAttributes[]; // float2 uv, RGBA in 4 x unorm16
+};
+
+struct SuppleVertex {
+    uint slot;  // of the instance: where a host keeps what it knows of its instances
+    uint own;   // within the instance: index into attributes, uvs1, faceUvs
+    uint index; // index into surfaceVertices, previousPositions
+};
+
+SuppleVertex suppleVertex(SuppleRange range, uint instanceIndex, uint vertexIndex) {
+    SuppleVertex at;
+    at.slot = suppleInstances[suppleDrawnInstance(range, instanceIndex)];
+    at.own = suppleSharedVertex(range, instanceIndex, vertexIndex);
+    at.index = suppleSurfaceVertex(range, at.slot, at.own);
+    return at;
+}
+
+#ifdef SUPPLE_SURFACE_VERTEX_24
+vec3 supplePosition(SuppleVertex at) {
+    uint i = 6u * at.index;
+    return vec3(suppleVertices[i], suppleVertices[i + 1u], suppleVertices[i + 2u]);
+}
+
+vec3 suppleNormal(SuppleVertex at) {
+    uint i = 6u * at.index;
+    return vec3(suppleVertices[i + 3u], suppleVertices[i + 4u], suppleVertices[i + 5u]);
+}
+#else
+vec3 supplePosition(SuppleVertex at) { return uintBitsToFloat(suppleVertices[at.index].xyz); }
+
+vec3 suppleNormal(SuppleVertex at) { return suppleOctahedralNormal(suppleVertices[at.index].w); }
+#endif
+
+/// Where the vertex was in the frame before. For motion vectors: project both without jitter, each with its frame's camera.
+vec3 supplePreviousPosition(SuppleVertex at) {
+    uint i = 3u * at.index;
+    return vec3(supplePrevious[i], supplePrevious[i + 1u], supplePrevious[i + 2u]);
+}
+
+vec2 suppleUv(SuppleVertex at) { return uintBitsToFloat(suppleAttributes[at.own].xy); }
+
+vec4 suppleColor(SuppleVertex at) { return suppleUnpackColor(suppleAttributes[at.own].zw); }
+
+#endif // SUPPLE_SURFACE_SET
+#endif
