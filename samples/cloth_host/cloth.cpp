@@ -111,7 +111,7 @@ void Cloth::createSimulation(sample::Device& device) {
                              {1.0f, 0.0f, 0.0f, 1.0f},
                              {0.0f, -1.0f, 0.0f, 0.0f},
                              {sheets_[0].handle().slot, 0, 0, 0}},
-                            {{0.95f, 3.55f, 0.40f, 0.93f},
+                            {{0.95f, 3.568f, 0.40f, 0.93f},
                              {0.0f, -1.0f, 0.0f, 0.16f},
                              {0.90f, 0.0f, -0.436f, 0.0f},
                              {sheets_[1].handle().slot, 0, 0, 0}}};

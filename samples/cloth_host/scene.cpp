@@ -232,7 +232,9 @@ void Scene::record(VkCommandBuffer commands) const {
     vkCmdBeginRendering(commands, &rendering);
     setViewport(commands, picture_.desc().extent);
     drawSheets(commands, sheetPipeline_, false);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_FRONT_BIT);
     drawPoles(commands, polePipeline_, false);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, groundPipeline_);
     vkCmdDraw(commands, 4, 1, 0, 0);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, skyPipeline_);

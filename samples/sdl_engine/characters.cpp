@@ -47,6 +47,14 @@ CharacterGroup createGroup(const supple::Context& context, const supple::Asset& 
     return created;
 }
 
+/// Layers are of clips; a character without any rests.
+void play(const supple::Instance& instance, std::span<const SuppleClipLayer> layers) {
+    if (layers[0].clip == SUPPLE_REST_POSE)
+        sample::check(instance.setClipPose(SUPPLE_REST_POSE, 0.0), "suppleSetClipPose");
+    else
+        sample::check(instance.setPose(layers), "suppleSetPose");
+}
+
 } // namespace
 
 Characters::Characters(const sample::Device& device, const std::string& path, uint32_t rate) {
@@ -112,7 +120,7 @@ void Characters::update(double time) {
     walking.flags = SUPPLE_LAYER_LOOP;
     walking.weight = 1.0f;
     walking.time = time;
-    sample::check(walker_.setPose({&walking, 1}), "suppleSetPose");
+    play(walker_, {&walking, 1});
     const float angle = -1.15f + static_cast<float>(time) * kWalkSpeed / kWalkRadius;
     place(walker_, {kWalkRadius * std::sin(angle), 0.0f, kWalkRadius * std::cos(angle)}, angle + glm::half_pi<float>(),
           1.0f);
@@ -129,7 +137,7 @@ void Characters::update(double time) {
     layers[1].flags = SUPPLE_LAYER_LOOP;
     layers[1].weight = static_cast<float>(glm::clamp((at - joyDuration_ + 0.2) / 0.4, 0.0, 1.0));
     layers[1].time = at;
-    sample::check(leaper_.setPose(layers), "suppleSetPose");
+    play(leaper_, layers);
     const glm::vec3 spot = kSpots[leap % 3];
     place(leaper_, spot, 0.25f - 0.4f * spot.x, 1.0f);
 

@@ -9,8 +9,8 @@ layout(push_constant) uniform Push {
     uint shadow;
 };
 
-layout(location = 0) out vec3 outPosition;
-layout(location = 1) out vec3 outNormal;
+layout(location = 0) centroid out vec3 outPosition;
+layout(location = 1) centroid out vec3 outNormal;
 layout(location = 2) out vec2 outUv;
 layout(location = 3) flat out uint outSlot;
 

@@ -3,8 +3,8 @@
 #define FRAGMENT
 #include "scene.glsl"
 
-layout(location = 0) in vec3 inPosition;
-layout(location = 1) in vec3 inNormal;
+layout(location = 0) centroid in vec3 inPosition;
+layout(location = 1) centroid in vec3 inNormal;
 layout(location = 0) out vec4 outColor;
 
 void main() {

@@ -8,8 +8,8 @@ layout(push_constant) uniform Push {
     vec4 b; // w: 1 for the sun's map
 };
 
-layout(location = 0) out vec3 outPosition;
-layout(location = 1) out vec3 outNormal;
+layout(location = 0) centroid out vec3 outPosition;
+layout(location = 1) centroid out vec3 outNormal;
 
 const int kSides = 24;
 
