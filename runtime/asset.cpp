@@ -102,6 +102,9 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
     cage.faceStarts.push_back(0);
     uint64_t corners = 0;
     for (uint32_t f = 0; f < desc.faceCount; ++f) {
+        if (desc.faceVertexCounts[f] < 3) {
+            return refuse("face " + std::to_string(f) + ": " + std::to_string(desc.faceVertexCounts[f]) + " corners");
+        }
         corners += desc.faceVertexCounts[f];
         if (corners > 0x7FFFFFFFu) {
             return refuse("face " + std::to_string(f) + ": more than 2^31 corners");
@@ -109,6 +112,14 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
         cage.faceStarts.push_back(static_cast<uint32_t>(corners));
     }
     cage.faceVertices.assign(desc.faceVertexIndices, desc.faceVertexIndices + corners);
+    for (uint32_t f = 0; f < desc.faceCount; ++f) {
+        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
+            if (cage.faceVertices[c] >= desc.vertexCount) {
+                return refuse("face " + std::to_string(f) + ": vertex " + std::to_string(cage.faceVertices[c]) +
+                              " of " + std::to_string(desc.vertexCount));
+            }
+        }
+    }
     if (desc.cornerUvs != nullptr) {
         for (uint64_t c = 0; c < corners; ++c) {
             cage.cornerUvs.emplace_back(desc.cornerUvs[2 * c], desc.cornerUvs[2 * c + 1]);

@@ -272,6 +272,8 @@ Status Group::setRate(uint32_t rate) {
 
 void Group::layOutDraws() {
     const uint32_t rate = evaluation_.rate;
+    positions_ = evaluation_;
+    positions_.vertexFormat = kVertexPosition;
     const std::array<Grid, surface::kDomainCount>& grids = grids_[anyRate_ ? rate - 1 : 0];
     drawRanges_.clear();
     uint32_t firstVertex = 0;

@@ -101,6 +101,7 @@ private:
     uint32_t maxRate_ = 0;
     uint32_t vertexCount_ = 0; ///< surface vertices an instance, without padding
     surface::Evaluation evaluation_;
+    surface::Evaluation positions_; ///< the same, of previous positions
 
     InstancePoses poses_;
     InstanceSlots slots_;

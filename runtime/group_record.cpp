@@ -159,8 +159,6 @@ Group::PassCost Group::recordMotion(VkCommandBuffer commandBuffer) const {
     if (!writesMotion()) {
         return {};
     }
-    surface::Evaluation positions = evaluation_;
-    positions.vertexFormat = kVertexPosition;
     bool first = true;
     const auto evaluate = [&](VkDescriptorSet set, uint32_t from, uint32_t count) {
         if (count == 0) {
@@ -171,7 +169,7 @@ Group::PassCost Group::recordMotion(VkCommandBuffer commandBuffer) const {
             gpu::computeBarrier(*shared_.device, commandBuffer);
         }
         first = false;
-        shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {set, from, count}, positions);
+        shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {set, from, count}, positions_);
     };
     // Instances with a past from the coefficients of the frame before, new ones from today's.
     forWindows([&](const Window& window, uint32_t from, const InstanceSlots::Listed& listed) {
