@@ -372,7 +372,8 @@ private:
     void move(Member& member) {
         // Nowhere twice.
         ++moves_;
-        member.place = {0.25f * static_cast<float>(moves_ % 64), 4.0f * static_cast<float>(moves_ / 64),
+        const uint32_t row = moves_ / 64;
+        member.place = {0.25f * static_cast<float>(moves_ % 64), 4.0f * static_cast<float>(row),
                         static_cast<float>(member.instance.slot)};
         EXPECT_EQ(suppleSetTransform(context_.handle(), member.instance, glm::value_ptr(placedAt(member.place))),
                   SUPPLE_OK);

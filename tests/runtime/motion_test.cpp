@@ -117,10 +117,9 @@ struct MotionCase {
 
     [[nodiscard]] SuppleGroupDesc desc(LoggedContext& context, uint32_t capacity, uint32_t flags) const {
         SuppleGroupDesc desc{};
-        // The kernel's wide mapping is slow where there is no GPU.
+        // A small character where the kernel subdivides: its wide mapping is slow without a GPU.
         const bool subdivides = scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
-        const bool slow = subdivides && mapping == SUPPLE_MAPPING_WIDE;
-        desc.asset = context.asset(scheme == SUPPLE_SCHEME_PREP ? kPipQuads : slow ? kHelmet : kPip);
+        desc.asset = context.asset(scheme == SUPPLE_SCHEME_PREP ? kPipQuads : subdivides ? kHelmet : kPip);
         desc.capacity = capacity;
         desc.scheme = scheme;
         desc.rate = rate;
@@ -135,10 +134,12 @@ std::vector<MotionCase> motionCases() {
     for (const SuppleMapping mapping : kMappings) {
         for (const SuppleVertexFormat format : {SUPPLE_VERTEX_16, SUPPLE_VERTEX_24}) {
             const std::string suffix = format == SUPPLE_VERTEX_16 ? "16" : "24";
+            // At rate 8 the narrow mapping subdivides through scratch memory.
+            const uint32_t kernelRate = mapping == SUPPLE_MAPPING_NARROW ? 8 : 4;
             const MotionCase own[] = {{"Prep", SUPPLE_SCHEME_PREP, 3},
                                       {"Pm", SUPPLE_SCHEME_PM, 3},
-                                      {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, 4},
-                                      {"Loop", SUPPLE_SCHEME_LOOP, 4},
+                                      {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, kernelRate},
+                                      {"Loop", SUPPLE_SCHEME_LOOP, kernelRate},
                                       {"Blend", SUPPLE_SCHEME_BLEND, 4}};
             for (MotionCase c : own) {
                 c.name = mappingName(mapping) + c.name + suffix;
@@ -457,7 +458,6 @@ TEST_F(MotionFrames, WindowsOfInstancesMoveAlike) {
     // A device whose storage buffers end after a few instances, against one window: bits with holes, hidden instances
     // and new ones.
     constexpr uint32_t kCapacity = 19, kRange = 1u << 17;
-    const cage::Cage sphere = cage::makeCubeSphere(4);
     for (const SuppleMapping mapping : kMappings) {
         WrappedVulkan& wrapped = wrappedVulkan();
         host::DeviceOptions options;
@@ -475,10 +475,12 @@ TEST_F(MotionFrames, WindowsOfInstancesMoveAlike) {
                 SCOPED_TRACE(mappingName(mapping) + " scheme " + std::to_string(scheme));
                 const auto desc = [&](LoggedContext& own) {
                     SuppleGroupDesc desc{};
-                    desc.asset = own.createAsset(sphere);
+                    // At rate 8 the narrow mapping subdivides through scratch memory.
+                    const bool subdivides = scheme == SUPPLE_SCHEME_CATMULL_CLARK;
+                    desc.asset = own.createAsset(cage::makeCubeSphere(subdivides ? 2 : 4));
                     desc.capacity = kCapacity;
                     desc.scheme = scheme;
-                    desc.rate = 4;
+                    desc.rate = subdivides ? 8 : 4;
                     desc.flags = SUPPLE_GROUP_MOTION;
                     return desc;
                 };
