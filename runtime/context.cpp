@@ -119,6 +119,10 @@ Status Context::cancelFrame() {
     frameOpen_ = false;
     pairs_.cancelUpload(frame_);
     groups.forEach([this](Group& group) { group.cancelFrame(frame_); });
+    // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
+    for (const std::shared_ptr<Group>& group : retired_) {
+        group->cancelFrame(frame_);
+    }
     timings.cancelFrame();
     return success();
 }

@@ -1,0 +1,297 @@
+#include "tests/support/crowd.h"
+
+#include "cage/gltf_writer.h"
+#include "tools/host/cage_arrays.h"
+
+#include <cstring>
+#include <fstream>
+#include <glm/gtc/type_ptr.hpp>
+#include <gtest/gtest.h>
+#include <iterator>
+
+namespace supple::test {
+
+Commands::Commands(host::Device& device) : device_(device) {
+    VkCommandBufferAllocateInfo allocateInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocateInfo.commandPool = device.commandPool();
+    allocateInfo.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocateInfo.commandBufferCount = 1;
+    EXPECT_EQ(vkAllocateCommandBuffers(device.handle(), &allocateInfo, &buffer_), VK_SUCCESS);
+    const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    EXPECT_EQ(vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence_), VK_SUCCESS);
+}
+
+Commands::~Commands() {
+    wait();
+    vkDestroyFence(device_.handle(), fence_, nullptr);
+    vkFreeCommandBuffers(device_.handle(), device_.commandPool(), 1, &buffer_);
+}
+
+void Commands::record(const std::function<void(VkCommandBuffer)>& body) {
+    // The pool may not allow resetting one buffer.
+    VkCommandBufferAllocateInfo allocateInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocateInfo.commandPool = device_.commandPool();
+    allocateInfo.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocateInfo.commandBufferCount = 1;
+    vkFreeCommandBuffers(device_.handle(), device_.commandPool(), 1, &buffer_);
+    ASSERT_EQ(vkAllocateCommandBuffers(device_.handle(), &allocateInfo, &buffer_), VK_SUCCESS);
+    VkCommandBufferBeginInfo beginInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    beginInfo.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    ASSERT_EQ(vkBeginCommandBuffer(buffer_, &beginInfo), VK_SUCCESS);
+    body(buffer_);
+    ASSERT_EQ(vkEndCommandBuffer(buffer_), VK_SUCCESS);
+}
+
+void Commands::submit() {
+    VkCommandBufferSubmitInfo commandInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    commandInfo.commandBuffer = buffer_;
+    VkSubmitInfo2 submitInfo{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    submitInfo.commandBufferInfoCount = 1;
+    submitInfo.pCommandBufferInfos = &commandInfo;
+    ASSERT_EQ(vkQueueSubmit2(device_.queue(), 1, &submitInfo, fence_), VK_SUCCESS);
+    submitted_ = true;
+}
+
+void Commands::wait() {
+    if (submitted_) {
+        EXPECT_EQ(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX), VK_SUCCESS);
+        EXPECT_EQ(vkResetFences(device_.handle(), 1, &fence_), VK_SUCCESS);
+        submitted_ = false;
+    }
+}
+
+LoggedContext::LoggedContext(host::Device& device, SuppleMapping mapping, uint32_t framesInFlight) : device_(device) {
+    SuppleContextDesc desc = host::contextDesc(device);
+    desc.mapping = mapping;
+    desc.framesInFlight = framesInFlight;
+    desc.log = log;
+    desc.logUser = this;
+    EXPECT_EQ(suppleCreateContext(&desc, &context_), SUPPLE_OK);
+}
+
+LoggedContext::~LoggedContext() {
+    suppleDestroyContext(context_);
+}
+
+void LoggedContext::log(SuppleSeverity severity, SuppleMessage message, const char* text, void* user) {
+    if (severity == SUPPLE_SEVERITY_ERROR) {
+        EXPECT_NE(text, nullptr);
+        static_cast<LoggedContext*>(user)->lastError_ = message;
+    }
+}
+
+SuppleAsset LoggedContext::asset(const std::string& path) {
+    SuppleAsset& own = assets_[path];
+    if (own.id == 0) {
+        std::ifstream file(path, std::ios::binary);
+        const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+        own = createAsset(std::as_bytes(std::span(bytes)), path.c_str());
+    }
+    return own;
+}
+
+SuppleAsset LoggedContext::createAsset(const cage::Cage& cage) {
+    const host::CageArrays arrays(cage);
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.name = "test cage";
+    desc.cage = &arrays.desc;
+    SuppleAsset asset{};
+    EXPECT_EQ(suppleCreateAsset(context_, &desc, &asset), SUPPLE_OK);
+    return asset;
+}
+
+SuppleAsset LoggedContext::createAsset(const cage::Character& character) {
+    const Result<cage::GlbFile> glb = cage::writeGlb(character);
+    EXPECT_TRUE(glb.ok()) << glb.error().message;
+    return glb ? createAsset(glb->bytes, character.name.c_str()) : SuppleAsset{};
+}
+
+SuppleAsset LoggedContext::createAsset(std::span<const std::byte> glb, const char* name) {
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.name = name;
+    desc.bytes = glb.data();
+    desc.byteCount = glb.size();
+    SuppleAsset asset{};
+    EXPECT_EQ(suppleCreateAsset(context_, &desc, &asset), SUPPLE_OK);
+    return asset;
+}
+
+SuppleResult LoggedContext::record(VkCommandBuffer commands, std::span<const SuppleGroup> groups) {
+    SuppleRecordDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.groups = groups.data();
+    desc.groupCount = static_cast<uint32_t>(groups.size());
+    desc.before = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                   VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    desc.after = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    return suppleRecord(context_, commands, &desc);
+}
+
+void LoggedContext::run(std::span<const SuppleGroup> groups, const std::function<void(VkCommandBuffer)>& first) {
+    const uint64_t frame = nextFrame();
+    ASSERT_EQ(suppleBeginFrame(context_, frame, frame - 1), SUPPLE_OK);
+    const Status submitted = device_.submitAndWait([&](VkCommandBuffer commands) {
+        if (first) {
+            first(commands);
+        }
+        EXPECT_EQ(record(commands, groups), SUPPLE_OK);
+    });
+    ASSERT_TRUE(submitted.ok()) << submitted.error().message;
+}
+
+void LoggedContext::cancel(std::span<const SuppleGroup> groups) {
+    const uint64_t frame = nextFrame();
+    ASSERT_EQ(suppleBeginFrame(context_, frame, frame - 1), SUPPLE_OK);
+    Commands dropped(device_);
+    dropped.record([&](VkCommandBuffer commands) { EXPECT_EQ(record(commands, groups), SUPPLE_OK); });
+    EXPECT_EQ(suppleCancelFrame(context_), SUPPLE_OK);
+}
+
+std::map<SuppleMapping, std::unique_ptr<LoggedContext>>& LoggedContexts::contexts() {
+    static std::map<SuppleMapping, std::unique_ptr<LoggedContext>> own;
+    return own;
+}
+
+LoggedContext& LoggedContexts::context(SuppleMapping mapping) {
+    std::unique_ptr<LoggedContext>& own = contexts()[mapping];
+    if (own == nullptr) {
+        own = std::make_unique<LoggedContext>(*testDevice(), mapping);
+    }
+    return *own;
+}
+
+size_t differences(const PositionBits& a, const PositionBits& b) {
+    if (a.size() != b.size()) {
+        return std::max(a.size(), b.size());
+    }
+    size_t count = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        count += a[i] != b[i] ? 1 : 0;
+    }
+    return count;
+}
+
+std::vector<glm::vec3> asPositions(const PositionBits& bits) {
+    std::vector<glm::vec3> positions(bits.size());
+    for (size_t i = 0; i < bits.size(); ++i) {
+        std::memcpy(&positions[i], bits[i].data(), sizeof(positions[i]));
+    }
+    return positions;
+}
+
+Crowd::Crowd(LoggedContext& context, SuppleGroupDesc desc) : context_(context) {
+    desc.structSize = sizeof(desc);
+    EXPECT_EQ(suppleCreateGroup(context.handle(), &desc, &group_), SUPPLE_OK);
+    SuppleAssetInfo info{};
+    info.structSize = sizeof(info);
+    EXPECT_EQ(suppleGetAssetInfo(context.handle(), desc.asset, &info), SUPPLE_OK);
+    clipCount_ = info.clipCount;
+}
+
+Crowd::~Crowd() {
+    end();
+}
+
+void Crowd::end() {
+    if (valid()) {
+        EXPECT_EQ(suppleDestroyGroup(context_.handle(), group_), SUPPLE_OK);
+    }
+    group_ = {};
+}
+
+SuppleGroupOutput Crowd::output() const {
+    SuppleGroupOutput output{};
+    output.structSize = sizeof(output);
+    EXPECT_EQ(suppleGetGroupOutput(context_.handle(), group_, &output), SUPPLE_OK);
+    return output;
+}
+
+SuppleInstance Crowd::spawn() {
+    SuppleInstance instance{};
+    EXPECT_EQ(suppleCreateInstance(context_.handle(), group_, &instance), SUPPLE_OK);
+    return instance;
+}
+
+void Crowd::destroy(SuppleInstance instance) {
+    EXPECT_EQ(suppleDestroyInstance(context_.handle(), instance), SUPPLE_OK);
+}
+
+void Crowd::setVisible(SuppleInstance instance, bool visible) {
+    EXPECT_EQ(suppleSetVisible(context_.handle(), instance, visible ? 1 : 0), SUPPLE_OK);
+}
+
+void Crowd::teleport(SuppleInstance instance) {
+    EXPECT_EQ(suppleTeleport(context_.handle(), instance), SUPPLE_OK);
+}
+
+void Crowd::setRate(uint32_t rate) {
+    EXPECT_EQ(suppleSetRate(context_.handle(), group_, rate), SUPPLE_OK);
+}
+
+void Crowd::pose(SuppleInstance instance, uint32_t clip, double time, const glm::mat4& transform) {
+    EXPECT_EQ(suppleSetClipPose(context_.handle(), instance, clip, time), SUPPLE_OK);
+    EXPECT_EQ(suppleSetTransform(context_.handle(), instance, glm::value_ptr(transform)), SUPPLE_OK);
+}
+
+void Crowd::run(const std::function<void(VkCommandBuffer)>& first) {
+    context_.run(group_, first);
+    read();
+}
+
+std::vector<std::byte> Crowd::read(const SuppleBufferView& view) const {
+    if (view.buffer == VK_NULL_HANDLE) {
+        return {};
+    }
+    Result<std::vector<std::byte>> bytes = context_.device().readBuffer(view);
+    EXPECT_TRUE(bytes.ok());
+    return bytes.ok() ? std::move(*bytes) : std::vector<std::byte>(view.size);
+}
+
+void Crowd::read() {
+    const SuppleGroupOutput now = output();
+    surface_ = read(now.surfaceVertices);
+    previous_ = read(now.previousPositions);
+    surfaceStride_ = now.surfaceVertices.stride;
+    vertexCount_ = now.vertexCount;
+    verticesPerInstance_ = now.verticesPerInstance;
+}
+
+PositionBits Crowd::bits(uint32_t slot, const std::vector<std::byte>& bytes, size_t stride) const {
+    PositionBits result(vertexCount_);
+    const size_t first = size_t{slot} * verticesPerInstance_;
+    if (bytes.size() < (first + vertexCount_) * stride) {
+        ADD_FAILURE() << "slot " << slot << " lies beyond the buffer";
+        return result;
+    }
+    for (size_t v = 0; v < vertexCount_; ++v) {
+        std::memcpy(&result[v], bytes.data() + (first + v) * stride, sizeof(result[v]));
+    }
+    return result;
+}
+
+std::vector<std::byte> Crowd::slotBytes(const SuppleBufferView& view, uint32_t slot) const {
+    const VkDeviceSize bytes = view.size / output().capacity;
+    return read({view.buffer, view.offset + slot * bytes, bytes, view.stride});
+}
+
+std::vector<VkDrawIndexedIndirectCommand> Crowd::draws() const {
+    const std::vector<std::byte> bytes = read(output().indirect);
+    std::vector<VkDrawIndexedIndirectCommand> commands(bytes.size() / sizeof(VkDrawIndexedIndirectCommand));
+    std::memcpy(commands.data(), bytes.data(), commands.size() * sizeof(commands[0]));
+    return commands;
+}
+
+std::vector<uint32_t> Crowd::listed() const {
+    const SuppleGroupOutput now = output();
+    const std::vector<std::byte> bytes = read(now.instances);
+    const std::vector<VkDrawIndexedIndirectCommand> commands = draws();
+    const uint32_t visible = commands.empty() ? 0 : commands[0].instanceCount / now.drawRanges[0].patchCount;
+    std::vector<uint32_t> slots(visible);
+    EXPECT_LE(visible * sizeof(uint32_t), bytes.size());
+    std::memcpy(slots.data(), bytes.data(), slots.size() * sizeof(uint32_t));
+    return slots;
+}
+
+} // namespace supple::test

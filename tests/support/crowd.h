@@ -1,0 +1,145 @@
+// Groups driven through the C interface frame by frame, and what a frame left in their buffers.
+#pragma once
+
+#include "cage/character.h"
+#include "tests/support/gpu_surface.h"
+
+#include <array>
+#include <functional>
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace supple::test {
+
+/// A command buffer that the test submits when it likes, or never. The device must outlive it.
+class Commands {
+public:
+    explicit Commands(host::Device& device);
+    ~Commands(); ///< waits when submitted
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
+
+    void record(const std::function<void(VkCommandBuffer)>& body); ///< anew; not while submitted
+    void submit();
+    void wait(); ///< nothing when not submitted
+
+private:
+    host::Device& device_;
+    VkCommandBuffer buffer_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
+    bool submitted_ = false;
+};
+
+/// A context that keeps what it says. The device must outlive it.
+class LoggedContext {
+public:
+    explicit LoggedContext(host::Device& device, SuppleMapping mapping = SUPPLE_MAPPING_AUTO,
+                           uint32_t framesInFlight = 2);
+    ~LoggedContext();
+    LoggedContext(const LoggedContext&) = delete;
+    LoggedContext& operator=(const LoggedContext&) = delete;
+
+    [[nodiscard]] bool valid() const { return context_ != nullptr; } ///< a failure was recorded when not
+    [[nodiscard]] SuppleContext handle() const { return context_; }
+    [[nodiscard]] host::Device& device() const { return device_; }
+    [[nodiscard]] uint64_t frame() const { return frame_; }
+    [[nodiscard]] uint64_t nextFrame() { return ++frame_; }
+
+    /// The id of the last error since this was asked; 0 when there was none.
+    [[nodiscard]] int takeError() { return std::exchange(lastError_, 0); }
+
+    /// Each file is read once.
+    [[nodiscard]] SuppleAsset asset(const std::string& path);
+    [[nodiscard]] SuppleAsset createAsset(const cage::Cage& cage);
+    [[nodiscard]] SuppleAsset createAsset(const cage::Character& character);
+    [[nodiscard]] SuppleAsset createAsset(std::span<const std::byte> glb, const char* name);
+
+    /// A frame from its beginning until it has run. `first` is what the host records ahead of Supple.
+    void run(std::span<const SuppleGroup> groups, const std::function<void(VkCommandBuffer)>& first = {});
+    void run(SuppleGroup group, const std::function<void(VkCommandBuffer)>& first = {}) { run({&group, 1}, first); }
+    /// A frame that is recorded and cancelled.
+    void cancel(std::span<const SuppleGroup> groups);
+    void cancel(SuppleGroup group) { cancel({&group, 1}); }
+    /// suppleRecord between any host use of the buffers and copies.
+    SuppleResult record(VkCommandBuffer commands, std::span<const SuppleGroup> groups);
+
+private:
+    static void log(SuppleSeverity severity, SuppleMessage message, const char* text, void* user);
+
+    host::Device& device_;
+    SuppleContext context_ = nullptr;
+    uint64_t frame_ = 0;
+    int lastError_ = 0;
+    std::map<std::string, SuppleAsset> assets_;
+};
+
+/// A suite's contexts, made when asked for and gone after its last test.
+class LoggedContexts : public testing::Test {
+protected:
+    static void TearDownTestSuite() { contexts().clear(); }
+    static LoggedContext& context(SuppleMapping mapping);
+    void SetUp() override { ASSERT_NE(testDevice(), nullptr); }
+
+private:
+    static std::map<SuppleMapping, std::unique_ptr<LoggedContext>>& contexts();
+};
+
+/// Positions as bits.
+using PositionBits = std::vector<std::array<uint32_t, 3>>;
+/// Those that differ in some bit; all when the lists differ in length.
+[[nodiscard]] size_t differences(const PositionBits& a, const PositionBits& b);
+[[nodiscard]] std::vector<glm::vec3> asPositions(const PositionBits& bits);
+
+/// A group through the C interface. Failures are recorded in the test; check valid().
+class Crowd {
+public:
+    /// `desc` without structSize.
+    Crowd(LoggedContext& context, SuppleGroupDesc desc);
+    ~Crowd();
+    Crowd(const Crowd&) = delete;
+    Crowd& operator=(const Crowd&) = delete;
+
+    [[nodiscard]] bool valid() const { return group_.id != 0; }
+    void end(); ///< destroys the group now
+    [[nodiscard]] LoggedContext& context() const { return context_; }
+    [[nodiscard]] SuppleGroup group() const { return group_; }
+    [[nodiscard]] SuppleGroupOutput output() const; ///< as it is now
+    [[nodiscard]] uint32_t clipCount() const { return clipCount_; }
+
+    [[nodiscard]] SuppleInstance spawn();
+    void destroy(SuppleInstance instance);
+    void setVisible(SuppleInstance instance, bool visible);
+    void teleport(SuppleInstance instance);
+    void setRate(uint32_t rate);
+    void pose(SuppleInstance instance, uint32_t clip, double time, const glm::mat4& transform);
+
+    /// A frame of this group alone, read back.
+    void run(const std::function<void(VkCommandBuffer)>& first = {});
+    /// Reads what the last frame left.
+    void read();
+    [[nodiscard]] std::vector<std::byte> read(const SuppleBufferView& view) const;
+    [[nodiscard]] PositionBits positions(uint32_t slot) const { return bits(slot, surface_, surfaceStride_); }
+    [[nodiscard]] PositionBits previous(uint32_t slot) const { return bits(slot, previous_, 12); }
+    /// What the slot has of a buffer that is counted by slots.
+    [[nodiscard]] std::vector<std::byte> slotBytes(const SuppleBufferView& view, uint32_t slot) const;
+    [[nodiscard]] std::vector<uint32_t> listed() const; ///< as many of the list of instances as are drawn
+    [[nodiscard]] std::vector<VkDrawIndexedIndirectCommand> draws() const;
+
+private:
+    [[nodiscard]] PositionBits bits(uint32_t slot, const std::vector<std::byte>& bytes, size_t stride) const;
+
+    LoggedContext& context_;
+    SuppleGroup group_{};
+    uint32_t clipCount_ = 0;
+    std::vector<std::byte> surface_, previous_;
+    size_t surfaceStride_ = 0;
+    uint32_t vertexCount_ = 0, verticesPerInstance_ = 0;
+};
+
+} // namespace supple::test
