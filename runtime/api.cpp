@@ -383,7 +383,9 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
             return *fault;
         }
         if ((desc.bytes == nullptr) == (desc.cage == nullptr)) {
-            return refuse(context, ErrorCode::argument, kHere, "give either bytes or cage");
+            return refuse(context, ErrorCode::argument, kHere,
+                          std::string(desc.name != nullptr ? desc.name : "asset") +
+                              (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
         }
         if ((desc.flags & ~uint32_t{SUPPLE_ASSET_PAIR_QUADS}) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");

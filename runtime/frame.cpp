@@ -86,7 +86,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             timing.beginPass();
             const Group::PassCost cost = recordGroup(group);
             if (cost.bytes > 0) {
-                timing.endPass(kind, g, cost.points, cost.bytes);
+                timing.endPass(kind, desc.groups[g], cost.points, cost.bytes);
             }
         }
         device.endLabel(commandBuffer);

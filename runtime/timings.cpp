@@ -64,8 +64,7 @@ Status Timings::collect(Slot& slot) {
     return success();
 }
 
-Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame,
-                           const std::function<void(const char*)>& warn) {
+Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame, const std::function<void(const char*)>& warn) {
     Status status = success();
     // In the order of frames, so that each is counted when several have completed since the last call.
     const auto oldest = [&]() -> Slot* {
@@ -122,7 +121,7 @@ void Timings::Recording::beginPass() {
     }
 }
 
-void Timings::Recording::endPass(Pass pass, uint32_t group, uint64_t points, uint64_t bytes) {
+void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint64_t points, uint64_t bytes) {
     if (timings_ == nullptr) {
         return;
     }

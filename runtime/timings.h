@@ -37,7 +37,7 @@ public:
     class Recording {
     public:
         void beginPass();
-        void endPass(Pass pass, uint32_t group, uint64_t points, uint64_t bytes);
+        void endPass(Pass pass, SuppleGroup group, uint64_t points, uint64_t bytes);
 
     private:
         friend class Timings;

@@ -502,7 +502,7 @@ typedef enum SuppleLayerFlags {
     SUPPLE_LAYER_LOOP = 1 /**< times wrap round at the clip's duration; else they are clamped to the clip */
 } SuppleLayerFlags;
 
-/** One clip of a pose. */
+/** One clip of a pose. The bind and rest poses are no clips: a pose without layers is the rest pose. */
 typedef struct SuppleClipLayer {
     uint32_t clip;
     uint32_t flags; /**< SuppleLayerFlags */
@@ -749,8 +749,8 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
     const char*
-        pass;       /**< static: upload, attributes, deform, vertex, edge (P_m: its facets), patch, evaluate, motion */
-    uint32_t group; /**< index of the group in suppleRecord's array */
+        pass; /**< static: upload, attributes, deform, vertex, edge (P_m: its facets), patch, evaluate, motion */
+    SuppleGroup group;
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */
     double gpuEnd;
@@ -774,7 +774,8 @@ typedef struct SuppleBudget {
 } SuppleBudget;
 
 /** Gives a pass (all groups together; null: all passes) a limit in nanoseconds of GPU time a frame; 0 takes it away.
- * When a completed frame exceeds it and the one before did not, there is a warning (SUPPLE_MESSAGE_BUDGET). */
+ * When a completed frame exceeds it and the one before did not, there is a warning (SUPPLE_MESSAGE_BUDGET). The first
+ * frame of a group also uploads its tables: budgets are better set after it. */
 SUPPLE_API SuppleResult suppleSetBudget(SuppleContext context, const char* pass, double nanoseconds);
 /** SUPPLE_NOT_READY: the pass has no budget. */
 SUPPLE_API SuppleResult suppleGetBudget(SuppleContext context, const char* pass, SuppleBudget* out);
