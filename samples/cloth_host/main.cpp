@@ -1,56 +1,21 @@
 // Cloth in the wind. The simulation is the host's, on the device: nothing of a frame passes through the CPU.
 #include "scene.h"
 
+#include "common/options.h"
 #include "common/picture.h"
 
 #include <cstdio>
-#include <cstdlib>
-#include <string_view>
 
 namespace {
 
-struct Options {
-    std::string screenshot;
-    VkExtent2D size{1280, 720};
-    uint32_t rate = 6;
-    uint64_t frames = 240;
-};
-
-constexpr const char* kUsage = "usage: supple_cloth_host [options]\n"
-                               "  --frames N         240, a sixtieth of a second each\n"
-                               "  --screenshot FILE  save the last frame as PNG\n"
-                               "  --size WxH         1280x720\n"
-                               "  --rate R           segments along an edge of the cage: 6\n";
-
-[[noreturn]] void badUsage() {
-    std::fputs(kUsage, stderr);
-    std::exit(2);
-}
-
-Options readOptions(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view name = argv[i];
-        const auto value = [&] { return i + 1 < argc ? argv[++i] : (badUsage(), nullptr); };
-        if (name == "--help") {
-            std::fputs(kUsage, stdout);
-            std::exit(0);
-        } else if (name == "--frames") {
-            options.frames = std::strtoul(value(), nullptr, 10);
-        } else if (name == "--screenshot") {
-            options.screenshot = value();
-        } else if (name == "--size") {
-            char* x = nullptr;
-            options.size.width = static_cast<uint32_t>(std::strtoul(value(), &x, 10));
-            options.size.height = *x == 'x' ? static_cast<uint32_t>(std::strtoul(x + 1, nullptr, 10)) : 0;
-        } else if (name == "--rate") {
-            options.rate = static_cast<uint32_t>(std::strtoul(value(), nullptr, 10));
-        } else {
-            badUsage();
-        }
-    }
-    if (options.frames == 0 || options.size.width == 0 || options.size.height == 0)
-        badUsage();
+sample::PictureOptions readOptions(int argc, char** argv) {
+    sample::PictureOptions options;
+    options.rate = 6;
+    options.frames = 240;
+    CLI::App app("Cloth in the wind, simulated by the host on the device", "supple_cloth_host");
+    sample::addPictureOptions(app, options);
+    app.get_option("--frames")->check(CLI::PositiveNumber);
+    sample::parse(app, argc, argv);
     return options;
 }
 
@@ -70,7 +35,7 @@ void copyPicture(VkCommandBuffer commands, const sample::Image& picture, const s
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
-void run(const Options& options) {
+void run(const sample::PictureOptions& options) {
     sample::Device device({.name = "supple_cloth_host"});
     cloth::Cloth cloth(device, options.rate);
     const cloth::Scene scene(device, cloth, options.size);

@@ -2,6 +2,7 @@
 #include "taa.h"
 #include "window.h"
 
+#include "common/options.h"
 #include "common/picture.h"
 
 #include <chrono>
@@ -15,61 +16,29 @@ namespace {
 
 using namespace engine;
 
-struct Options {
+struct Options : sample::PictureOptions {
     std::string character = SUPPLE_SAMPLE_ASSETS "/pip.glb";
-    std::string screenshot;
-    VkExtent2D size{1280, 720};
-    uint32_t rate = 4;
-    uint64_t frames = 0; ///< 0: until the window is closed
     double start = 0.0;
     bool offscreen = false;
 };
 
-constexpr const char* kUsage = "usage: supple_sdl_engine [options] [CHARACTER.glb]\n"
-                               "  --frames N         end after N frames, a sixtieth of a second each\n"
-                               "  --screenshot FILE  save the last frame as PNG; needs --frames\n"
-                               "  --offscreen        no window; needs --frames\n"
-                               "  --size WxH         1280x720\n"
-                               "  --rate R           segments along a patch edge: 4\n"
-                               "  --start SECONDS    where in the show to begin\n";
-
-[[noreturn]] void badUsage() {
-    std::fputs(kUsage, stderr);
-    std::exit(2);
-}
-
 Options readOptions(int argc, char** argv) {
     Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view name = argv[i];
-        const auto value = [&] { return i + 1 < argc ? argv[++i] : (badUsage(), nullptr); };
-        if (name == "--help") {
-            std::fputs(kUsage, stdout);
-            std::exit(0);
-        } else if (name == "--frames") {
-            options.frames = std::strtoul(value(), nullptr, 10);
-        } else if (name == "--screenshot") {
-            options.screenshot = value();
-        } else if (name == "--offscreen") {
-            options.offscreen = true;
-        } else if (name == "--size") {
-            char* x = nullptr;
-            options.size.width = static_cast<uint32_t>(std::strtoul(value(), &x, 10));
-            options.size.height = *x == 'x' ? static_cast<uint32_t>(std::strtoul(x + 1, nullptr, 10)) : 0;
-        } else if (name == "--rate") {
-            options.rate = static_cast<uint32_t>(std::strtoul(value(), nullptr, 10));
-        } else if (name == "--start") {
-            options.start = std::strtod(value(), nullptr);
-        } else if (name.substr(0, 1) != "-") {
-            options.character = name;
-        } else {
-            badUsage();
-        }
-    }
-    const bool endless = options.frames == 0;
-    if (options.size.width == 0 || options.size.height == 0 || options.start < 0.0 ||
-        (endless && (options.offscreen || !options.screenshot.empty())))
-        badUsage();
+    options.rate = 4;
+    CLI::App app("A small engine with Supple in it", "supple_sdl_engine");
+    sample::addPictureOptions(app, options);
+    app.get_option("--frames")->description("end after so many, a sixtieth of a second each; 0: with the window");
+    app.get_option("--screenshot")->description("save the last frame as PNG; needs --frames");
+    app.add_flag("--offscreen", options.offscreen, "no window; needs --frames");
+    app.add_option("--start", options.start, "where in the show to begin")
+        ->type_name("SECONDS")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("character", options.character, "a .glb")->capture_default_str();
+    app.callback([&] {
+        if (options.frames == 0 && (options.offscreen || !options.screenshot.empty()))
+            throw CLI::RequiredError("--frames");
+    });
+    sample::parse(app, argc, argv);
     return options;
 }
 
