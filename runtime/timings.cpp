@@ -64,8 +64,7 @@ Status Timings::collect(Slot& slot) {
     return success();
 }
 
-Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame,
-                           const std::function<void(const char*)>& warn) {
+Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame, const std::function<void(const char*)>& warn) {
     Status status = success();
     // In the order of frames, so that each is counted when several have completed since the last call.
     const auto oldest = [&]() -> Slot* {
