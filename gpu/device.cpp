@@ -207,8 +207,8 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, nullptr);
     for (const uint32_t family : {desc.queueFamily, desc.drawQueueFamily}) {
         if (family >= familyCount) {
-            return Error{ErrorCode::range, "queue family " + std::to_string(family) + ": the device has " +
-                                               std::to_string(familyCount)};
+            return Error{ErrorCode::range,
+                         "queue family " + std::to_string(family) + ": the device has " + std::to_string(familyCount)};
         }
     }
     std::vector<VkQueueFamilyProperties> families(familyCount);

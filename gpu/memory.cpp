@@ -41,7 +41,8 @@ Result<DeviceMemory> DeviceMemory::allocate(const Device& device, const VkMemory
     const bool upload = kind == MemoryKind::upload;
     const VkMemoryPropertyFlags required =
         upload ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0;
-    const VkMemoryPropertyFlags preferred = upload ? required : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
+    const VkMemoryPropertyFlags preferred =
+        upload ? required : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
     const std::string what =
         std::string("memory for ") + name + " and its neighbours, " + std::to_string(requirements.size) + " bytes";
     HostMemory piece;

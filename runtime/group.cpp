@@ -92,6 +92,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     }
 
     group->anyRate_ = tables.rate == 0;
+    group->askedRate_ = rate;
     group->maxRate_ = group->anyRate_ ? rate : tables.rate;
     if (!group->anyRate_) {
         const uint32_t taken = tables.rate << tables.isolationSteps;
@@ -157,6 +158,10 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
     if (fit < capacity_) {
         poses_ = InstancePoses(*asset_, capacity_, mode, kPosePadding);
         fit = std::min<VkDeviceSize>(fit, texelLimit / poses_.instanceBytes());
+    }
+    if (!device.mapping.wide && 2 * VkDeviceSize{capacity_} > device.limits.maxTexelBufferElements) {
+        return Error{ErrorCode::limit,
+                     std::to_string(capacity_) + " instances exceed the device's texel-buffer elements"};
     }
     if (fit == 0) {
         return Error{ErrorCode::limit, "one instance exceeds the device's storage-buffer range of " +
@@ -252,12 +257,12 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
 
 Status Group::setRate(uint32_t rate) {
     const std::string& name = asset_->character.name;
-    if (rate == evaluation_.rate) {
-        return success();
-    }
     if (!anyRate_) {
-        return Error{ErrorCode::unsupported, name + ": the tables of " + surface::schemeName(scheme_->recipe.scheme) +
-                                                 " are made for rate " + std::to_string(maxRate_) + " alone"};
+        if (rate == askedRate_) {
+            return success();
+        }
+        return Error{ErrorCode::argument, name + ": the tables of " + surface::schemeName(scheme_->recipe.scheme) +
+                                              " are made for rate " + std::to_string(askedRate_) + " alone"};
     }
     if (rate == 0 || rate > maxRate_) {
         return Error{ErrorCode::range, name + ": rate " + std::to_string(rate) + " of at most " +

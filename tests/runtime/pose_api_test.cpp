@@ -3,42 +3,20 @@
 #include "cage/gltf_reader.h"
 #include "cage/gltf_writer.h"
 #include "skinning/layers.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/posed_group.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/wrapped_vulkan.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <glm/gtc/type_ptr.hpp>
 #include <gtest/gtest.h>
 #include <limits>
-#include <new>
 #include <supple/supple.hpp>
-
-namespace {
-bool countingAllocations = false;
-uint64_t allocations = 0;
-} // namespace
-
-// Every allocation of the program passes here; only the test of steady state looks. Not inlined: GCC would take the
-// malloc in the one for a mismatch of the other.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    allocations += countingAllocations ? 1 : 0;
-    if (void* memory = std::malloc(size == 0 ? 1 : size)) {
-        return memory;
-    }
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 namespace supple::test {
 namespace {
@@ -177,16 +155,17 @@ TEST_F(PoseApi, TellsJointsAndTargets) {
     EXPECT_EQ(roots, 1u);
     auto joint = sized<SuppleJointInfo>();
     const std::string count = std::to_string(info.jointCount);
-    EXPECT_NE(refusal(suppleGetJointInfo(handle(), asset, info.jointCount, &joint))
-                  .find("joint " + count + " of " + count),
-              std::string::npos);
+    EXPECT_NE(
+        refusal(suppleGetJointInfo(handle(), asset, info.jointCount, &joint)).find("joint " + count + " of " + count),
+        std::string::npos);
     joint.structSize = 1;
     EXPECT_NE(refusal(suppleGetJointInfo(handle(), asset, 0, &joint)).find("structSize"), std::string::npos);
     EXPECT_NE(refusal(suppleGetJointInfo(handle(), SuppleAsset{77}, 0, &joint)).find("asset handle"),
               std::string::npos);
     auto target = sized<SuppleMorphTargetInfo>();
-    EXPECT_NE(refusal(suppleGetMorphTargetInfo(handle(), asset, info.morphTargetCount, &target)).find("morph target 0 of 0"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal(suppleGetMorphTargetInfo(handle(), asset, info.morphTargetCount, &target)).find("morph target 0 of 0"),
+        std::string::npos);
     EXPECT_NE(refusal(suppleGetMorphTargetInfo(handle(), asset, 0, nullptr)).find("null"), std::string::npos);
 }
 
@@ -520,9 +499,9 @@ TEST_F(PoseApi, PosingAllocatesNothing) {
     auto motion = sized<SuppleRootMotion>();
     const std::vector<SuppleInstance> groups[] = {instances, instancesOf(makeGroup(SUPPLE_SKINNING_DUAL_QUATERNION))};
     bool good = true;
-    allocations = 0;
-    countingAllocations = true;
+    const uint64_t before = allocationsCounted();
     for (int i = 0; i < 100; ++i) {
+        const AllocationCount count;
         for (SuppleClipLayer& own : layers) {
             own.previousTime = own.time;
             own.time += 0.05;
@@ -537,13 +516,13 @@ TEST_F(PoseApi, PosingAllocatesNothing) {
         good = good && suppleFillJointMask(handle(), asset, 1, 0.01f * static_cast<float>(i), mask.data(),
                                            info.jointCount) == SUPPLE_OK;
     }
-    countingAllocations = false;
     EXPECT_TRUE(good);
-    EXPECT_EQ(allocations, 0u);
-    countingAllocations = true;
-    ::operator delete(::operator new(1)); // and the count counts
-    countingAllocations = false;
-    EXPECT_GE(allocations, 1u);
+    EXPECT_EQ(allocationsCounted(), before);
+    {
+        const AllocationCount count;
+        ::operator delete(::operator new(1)); // and the count counts
+    }
+    EXPECT_GT(allocationsCounted(), before);
 }
 
 TEST_F(PoseApi, TheCppLayerPosesToo) {

@@ -1,5 +1,6 @@
 #include "tests/support/wrapped_vulkan.h"
 
+#include <cstddef>
 #include <cstring>
 
 namespace supple::test {
@@ -20,6 +21,7 @@ struct Table {
     PFN_vkCmdCopyBuffer2 CmdCopyBuffer2;
     PFN_vkInvalidateMappedMemoryRanges InvalidateMappedMemoryRanges;
     PFN_vkGetPhysicalDeviceProperties2 GetPhysicalDeviceProperties2;
+    PFN_vkGetQueryPoolResults GetQueryPoolResults;
 };
 Table real;
 WrappedVulkan state;
@@ -36,14 +38,14 @@ VKAPI_ATTR VkResult VKAPI_CALL flush(VkDevice device, uint32_t count, const VkMa
 VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
                                         const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
     if (static_cast<int64_t>(state.allocations++) == state.failAllocation) {
-        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        return state.allocationFailure;
     }
     return real.AllocateMemory(device, info, allocator, memory);
 }
 VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice device, const VkBufferCreateInfo* info,
                                             const VkAllocationCallbacks* allocator, VkBuffer* buffer) {
     if (static_cast<int64_t>(state.buffers++) == state.failBuffer) {
-        return VK_ERROR_OUT_OF_HOST_MEMORY;
+        return state.bufferFailure;
     }
     return real.CreateBuffer(device, info, allocator, buffer);
 }
@@ -61,6 +63,8 @@ VKAPI_ATTR void VKAPI_CALL fillBuffer(VkCommandBuffer commands, VkBuffer buffer,
     real.CmdFillBuffer(commands, buffer, offset, size, value);
 }
 VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer commands, const VkDependencyInfo* info) {
+    state.bufferBarriers.insert(state.bufferBarriers.end(), info->pBufferMemoryBarriers,
+                                info->pBufferMemoryBarriers + info->bufferMemoryBarrierCount);
     if (static_cast<int64_t>(state.barriers++) != state.dropBarrier) {
         real.CmdPipelineBarrier2(commands, info);
     }
@@ -80,6 +84,18 @@ VKAPI_ATTR void VKAPI_CALL copyBuffer2(VkCommandBuffer commands, const VkCopyBuf
 VKAPI_ATTR VkResult VKAPI_CALL invalidate(VkDevice device, uint32_t count, const VkMappedMemoryRange* ranges) {
     state.invalidates += count;
     return real.InvalidateMappedMemoryRanges(device, count, ranges);
+}
+VKAPI_ATTR VkResult VKAPI_CALL queryResults(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count,
+                                            size_t size, void* data, VkDeviceSize stride, VkQueryResultFlags flags) {
+    if (state.queryFailure < 0) {
+        return state.queryFailure;
+    }
+    const VkResult result = real.GetQueryPoolResults(device, pool, first, count, size, data, stride, flags);
+    for (uint32_t i = 0; i < count && state.ticksAPass != 0; ++i) {
+        const uint64_t tick = 1000 + (first + i) * state.ticksAPass;
+        std::memcpy(static_cast<std::byte*>(data) + i * stride, &tick, sizeof(tick));
+    }
+    return result;
 }
 VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
     real.GetPhysicalDeviceProperties2(device, out);
@@ -135,6 +151,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     }
     if (is("vkCmdCopyBuffer2")) {
         return wrap(real.CmdCopyBuffer2, function, &copyBuffer2);
+    }
+    if (is("vkGetQueryPoolResults")) {
+        return wrap(real.GetQueryPoolResults, function, &queryResults);
     }
     if (is("vkInvalidateMappedMemoryRanges")) {
         return wrap(real.InvalidateMappedMemoryRanges, function, &invalidate);

@@ -1,8 +1,9 @@
-// A function table between Supple and the driver: counts what crosses per frame, drops a barrier, fails an allocation,
-// hides a feature. One test at a time uses it; state is reset by wrappedVulkan().
+// A function table between Supple and the driver: counts what crosses per frame, keeps or drops barriers, fails an
+// allocation, hides a feature, makes timestamps up. One test at a time uses it; state is reset by wrappedVulkan().
 #pragma once
 
 #include <cstdint>
+#include <vector>
 #include <vulkan/vulkan.h>
 
 namespace supple::test {
@@ -12,10 +13,14 @@ struct WrappedVulkan {
     uint64_t maps = 0, flushes = 0, updates = 0, invalidates = 0;
     uint64_t copies = 0, copiedBytes = 0;
     uint64_t fills = 0, barriers = 0, allocations = 0;
+    std::vector<VkBufferMemoryBarrier2> bufferBarriers; ///< of all vkCmdPipelineBarrier2
     // provoked
     int64_t dropBarrier = -1;    ///< index of the vkCmdPipelineBarrier2 to leave out
-    int64_t failAllocation = -1; ///< index of the vkAllocateMemory that fails with VK_ERROR_OUT_OF_DEVICE_MEMORY
-    int64_t failBuffer = -1;     ///< index of the vkCreateBuffer that fails with VK_ERROR_OUT_OF_HOST_MEMORY
+    int64_t failAllocation = -1; ///< index of the vkAllocateMemory that fails
+    int64_t failBuffer = -1;     ///< index of the vkCreateBuffer that fails
+    VkResult allocationFailure = VK_ERROR_OUT_OF_DEVICE_MEMORY, bufferFailure = VK_ERROR_OUT_OF_HOST_MEMORY;
+    VkResult queryFailure = VK_SUCCESS; ///< when not a success: of vkGetQueryPoolResults
+    uint64_t ticksAPass = 0;            ///< when not 0: timestamps are this far apart, one from the next
     uint64_t buffers = 0;
     bool hideSynchronization2 = false;
     uint32_t maxStorageBufferRange = 0; ///< when not 0: what the device says

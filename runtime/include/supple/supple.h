@@ -466,7 +466,7 @@ SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGro
  * completed (suppleBeginFrame). */
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
 /** Changes the rate from the next suppleRecord on; outputs must be queried anew. At most the rate the group was created
- * with. SUPPLE_ERROR_UNSUPPORTED: the tables of CATMULL_CLARK, LOOP and BLEND are made for one rate. */
+ * with; CATMULL_CLARK, LOOP and BLEND have tables for that rate alone. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
 /** An instance in the bind pose, visible, with the identity transform. SUPPLE_ERROR_LIMIT: the group is full. The slot
@@ -580,7 +580,7 @@ SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance
  * is no longer used, and reads finished timestamps; never waits. */
 SUPPLE_API SuppleResult suppleBeginFrame(SuppleContext context, uint64_t frame, uint64_t completedFrame);
 /** What was recorded since suppleBeginFrame will never be submitted (a lost swapchain, say): its uploads are due again,
- * its instances have no motion. Between this and the next suppleBeginFrame nothing can be recorded. */
+ * its instances have no motion. For suppleBeginFrame it counts as completed. Between this and the next suppleBeginFrame nothing can be recorded. */
 SUPPLE_API SuppleResult suppleCancelFrame(SuppleContext context);
 
 /** Stages and accesses on buffers, as synchronization2 has them. */

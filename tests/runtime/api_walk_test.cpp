@@ -1,0 +1,1253 @@
+// Every function of supple.h with every kind of wrong argument: the result, the one line that says why, and that
+// nothing else has happened: what the call was to fill is as it was, and the next frame has the bits it had.
+#include "tests/support/gpu_surface.h"
+#include "tests/support/logged_context.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <regex>
+#include <set>
+
+namespace supple::test {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kIdentity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+constexpr int kSilent = 0; ///< in place of a SuppleMessage
+constexpr uint32_t kClips = 1, kJoints = 3, kTargets = 4, kMaterials = 1, kImages = 1;
+
+/// Where in the course of frames a call is made.
+enum class Phase { fresh, begun, recorded, cancelled };
+
+class World {
+public:
+    explicit World(host::Device& device)
+        : device(device), own(device,
+                              [&](SuppleContextDesc& desc) {
+                                  describe(desc);
+                                  desc.flags |= SUPPLE_CONTEXT_ASYNC_COMPUTE;
+                                  desc.drawQueueFamily = desc.queueFamily;
+                              }),
+          foreign(device, [&](SuppleContextDesc& desc) {
+              describe(desc);
+              desc.drawQueueFamily = 1000; // without the flag it means nothing
+          }) {
+        for (LoggedContext* context : {&own, &foreign}) {
+            EXPECT_EQ(context->result(), SUPPLE_OK);
+            Things& t = context == &own ? mine : theirs;
+            EXPECT_EQ(createTube(context->handle(), t.asset), SUPPLE_OK);
+            t.main = createGroup(context->handle(), t.asset,
+                                 {.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_PATCHES, .capacity = 2});
+            t.subdivision = createGroup(context->handle(), t.asset, {.scheme = SUPPLE_SCHEME_CATMULL_CLARK});
+            EXPECT_EQ(suppleSetClipPose(context->handle(), t.main.instances[0], 0, 0.7), SUPPLE_OK);
+            EXPECT_EQ(suppleSetClipPose(context->handle(), t.subdivision.instances[0], 0, 0.3), SUPPLE_OK);
+        }
+        // What is set where a call is valid; never recorded.
+        spare = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE});
+        buffered =
+            createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_CAGE_BUFFER});
+        // And what is gone.
+        EXPECT_EQ(createTube(handle(), staleAsset), SUPPLE_OK);
+        SmallGroup gone = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE});
+        EXPECT_EQ(gone.result, SUPPLE_OK);
+        staleGroup = gone.group;
+        instanceOfStaleGroup = gone.instances[0];
+        EXPECT_EQ(suppleDestroyAsset(handle(), staleAsset), SUPPLE_OK);
+        EXPECT_EQ(suppleDestroyGroup(handle(), staleGroup), SUPPLE_OK);
+        staleInstance = spare.instances[0];
+        EXPECT_EQ(suppleDestroyInstance(handle(), staleInstance), SUPPLE_OK);
+        EXPECT_EQ(suppleCreateInstance(handle(), spare.group, &spare.instances[0]), SUPPLE_OK);
+        lines.clear();
+    }
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    [[nodiscard]] SuppleContext handle() const { return own.handle(); }
+    [[nodiscard]] SuppleInstance instance() const { return mine.main.instances[0]; }
+    void describe(SuppleContextDesc& desc) {
+        desc.logUser = this;
+        desc.log = [](SuppleSeverity severity, SuppleMessage message, const char* text, void* user) {
+            static_cast<World*>(user)->lines.push_back({severity, message, text});
+        };
+    }
+
+    /// Memory that a call which fails leaves as it is: structSize, then 0xA5. `tail` more bytes stand behind the
+    /// struct.
+    template <class T>
+    T* watched(uint32_t structSize, size_t tail = 0) {
+        std::vector<std::byte>& bytes = keep(sizeof(T) + tail);
+        std::memcpy(bytes.data(), &structSize, sizeof(structSize));
+        snapshots.push_back({&bytes, bytes, false});
+        return reinterpret_cast<T*>(bytes.data());
+    }
+    /// As that, without structSize; `handle`: may be zero as well.
+    template <class T>
+    T* plain(size_t count = 1, bool handle = false) {
+        std::vector<std::byte>& bytes = keep(sizeof(T) * count);
+        snapshots.push_back({&bytes, bytes, handle});
+        return reinterpret_cast<T*>(bytes.data());
+    }
+    template <class T>
+    T* newHandle() {
+        return plain<T>(1, true);
+    }
+    uint32_t* number(uint32_t value) {
+        auto* const n = plain<uint32_t>();
+        *n = value;
+        snapshots.back().before.assign(snapshots.back().now->begin(), snapshots.back().now->end());
+        return n;
+    }
+    /// A description as a later version of the header would have it: `fill` in what this library does not know.
+    template <class T>
+    const T* grown(const T& desc, int fill) {
+        std::vector<std::byte>& bytes = keep(sizeof(T) + 24);
+        T copy = desc;
+        copy.structSize = sizeof(T) + 24;
+        std::memcpy(bytes.data(), &copy, sizeof(copy));
+        std::memset(bytes.data() + sizeof(T), 0, 24);
+        bytes.back() = static_cast<std::byte>(fill);
+        return reinterpret_cast<const T*>(bytes.data());
+    }
+    template <class T>
+    const T* kept(const T& value) {
+        std::vector<std::byte>& bytes = keep(sizeof(T));
+        std::memcpy(bytes.data(), &value, sizeof(value));
+        return reinterpret_cast<const T*>(bytes.data());
+    }
+    void forget() {
+        snapshots.clear();
+        memory.clear();
+        lines.clear();
+    }
+
+    [[nodiscard]] SuppleContextDesc contextDesc() {
+        SuppleContextDesc desc = host::contextDesc(device);
+        describe(desc);
+        return desc;
+    }
+    [[nodiscard]] static SuppleAssetDesc assetDesc() {
+        SuppleAssetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.name = "tube";
+        desc.bytes = tubeFile().data();
+        desc.byteCount = tubeFile().size();
+        return desc;
+    }
+    [[nodiscard]] SuppleGroupDesc groupDesc() const {
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.asset = mine.asset;
+        desc.capacity = 1;
+        desc.rate = 2;
+        desc.scheme = SUPPLE_SCHEME_CAGE;
+        return desc;
+    }
+    /// Kept for the call.
+    [[nodiscard]] SupplePoseDesc poseDesc(const std::function<void(SuppleClipLayer&)>& spoil = {}) {
+        SuppleClipLayer layers[2]{};
+        layers[0].weight = layers[1].weight = 1.0f;
+        layers[1].time = 0.4;
+        if (spoil) {
+            spoil(layers[1]);
+        }
+        SupplePoseDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.layers = kept(layers)[0];
+        desc.layerCount = 2;
+        return desc;
+    }
+    [[nodiscard]] SuppleRecordDesc recordDesc() {
+        SuppleRecordDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.groups = frameGroups();
+        desc.groupCount = 2;
+        desc.before = kAnyUse;
+        desc.after = kAnyUse;
+        return desc;
+    }
+    const SuppleGroup* frameGroups() {
+        groups_[0] = mine.main.group;
+        groups_[1] = mine.subdivision.group;
+        return groups_;
+    }
+
+    host::Device& device;
+    std::vector<LogLine> lines;
+    LoggedContext own, foreign;
+    struct Things {
+        SuppleAsset asset{};
+        SmallGroup main, subdivision;
+    } mine, theirs;
+    SmallGroup spare, buffered;
+    SuppleAsset staleAsset{};
+    SuppleGroup staleGroup{};
+    SuppleInstance staleInstance{}, instanceOfStaleGroup{};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    bool recorded = false; ///< by the call
+
+    struct Snapshot {
+        std::vector<std::byte>* now;
+        std::vector<std::byte> before;
+        bool handle;
+    };
+    std::vector<Snapshot> snapshots;
+
+private:
+    std::vector<std::byte>& keep(size_t size) { return memory.emplace_back(size, std::byte{0xA5}); }
+
+    std::deque<std::vector<std::byte>> memory;
+    SuppleGroup groups_[2]{};
+};
+
+struct Row {
+    std::string function, what;
+    SuppleResult result;
+    int message;
+    std::function<SuppleResult(World&)> call;
+    Phase phase = Phase::begun;
+};
+
+class Rows {
+public:
+    std::vector<Row> rows;
+
+    void add(const char* function, const std::string& what, SuppleResult result, int message,
+             std::function<SuppleResult(World&)> call, Phase phase = Phase::begun) {
+        rows.push_back({function, what, result, message, std::move(call), phase});
+    }
+    void refuse(const char* function, const std::string& what, int message, std::function<SuppleResult(World&)> call,
+                Phase phase = Phase::begun) {
+        add(function, what, SUPPLE_ERROR_ARGUMENT, message, std::move(call), phase);
+    }
+    void accept(const char* function, const std::string& what, std::function<SuppleResult(World&)> call,
+                Phase phase = Phase::begun) {
+        add(function, what, SUPPLE_OK, kSilent, std::move(call), phase);
+    }
+
+    /// A description that is read: null, too small, larger with and without what is unknown.
+    template <class T, class Make, class Call>
+    void description(const char* function, const std::string& name, Make make, Call call, bool nullIsRefused = true) {
+        using Pointer = const T*;
+        if (nullIsRefused) {
+            refuse(function, name + " null", SUPPLE_MESSAGE_NULL_POINTER,
+                   [=](World& w) { return call(w, Pointer{nullptr}); });
+        }
+        for (const size_t size : {size_t{0}, size_t{4}, sizeof(T) - 1}) {
+            refuse(function, name + "->structSize " + std::to_string(size), SUPPLE_MESSAGE_STRUCT_SIZE, [=](World& w) {
+                T desc = make(w);
+                desc.structSize = static_cast<uint32_t>(size);
+                return call(w, Pointer{w.kept(desc)});
+            });
+        }
+        refuse(function, name + " of a later version, with something in it", SUPPLE_MESSAGE_STRUCT_SIZE,
+               [=](World& w) { return call(w, w.grown(make(w), 1)); });
+        accept(function, name + " of a later version", [=](World& w) { return call(w, w.grown(make(w), 0)); });
+    }
+    /// A struct that is written.
+    template <class T, class Call>
+    void output(const char* function, Call call, SuppleResult good = SUPPLE_OK, bool logs = true) {
+        const int null = logs ? int{SUPPLE_MESSAGE_NULL_POINTER} : kSilent;
+        const int size = logs ? int{SUPPLE_MESSAGE_STRUCT_SIZE} : kSilent;
+        refuse(function, "out null", null, [=](World& w) { return call(w, static_cast<T*>(nullptr)); });
+        for (const size_t small : {size_t{0}, size_t{4}, sizeof(T) - 1}) {
+            refuse(function, "out->structSize " + std::to_string(small), size,
+                   [=](World& w) { return call(w, w.template watched<T>(static_cast<uint32_t>(small))); });
+        }
+        add(function, "out", good, kSilent, [=](World& w) { return call(w, w.template watched<T>(sizeof(T))); });
+        add(function, "out of a later version", good, kSilent, [=](World& w) {
+            T* const out = w.template watched<T>(sizeof(T) + 16, 24);
+            const SuppleResult result = call(w, out);
+            const auto* bytes = reinterpret_cast<const unsigned char*>(out);
+            EXPECT_EQ(out->structSize, sizeof(T) + 16);
+            for (size_t i = 0; i < 24; ++i) {
+                EXPECT_EQ(bytes[sizeof(T) + i], i < 16 ? 0u : 0xA5u) << i;
+            }
+            return result;
+        });
+    }
+    template <class Call>
+    void nullContext(const char* function, Call call) {
+        refuse(function, "null context", kSilent, [=](World& w) { return call(w, SuppleContext{nullptr}); });
+    }
+    template <class Call>
+    void assets(const char* function, Call call) {
+        nullContext(function, [=](World& w, SuppleContext c) { return call(w, c, w.mine.asset); });
+        const auto stale = [&](const char* what, auto get) {
+            refuse(function, what, SUPPLE_MESSAGE_STALE_HANDLE, [=](World& w) { return call(w, w.handle(), get(w)); });
+        };
+        stale("zero asset", [](World&) { return SuppleAsset{0}; });
+        stale("stale asset", [](World& w) { return w.staleAsset; });
+        stale("foreign asset", [](World& w) { return w.theirs.asset; });
+        stale("group for asset", [](World& w) { return SuppleAsset{w.mine.main.group.id}; });
+        stale("no asset at all", [](World&) { return SuppleAsset{~0ull}; });
+    }
+    template <class Call>
+    void groups(const char* function, Call call, bool context = true, Phase phase = Phase::begun) {
+        if (context) {
+            nullContext(function, [=](World& w, SuppleContext c) { return call(w, c, w.mine.main.group); });
+        }
+        const auto stale = [&](const char* what, auto get) {
+            refuse(
+                function, what, SUPPLE_MESSAGE_STALE_HANDLE, [=](World& w) { return call(w, w.handle(), get(w)); },
+                phase);
+        };
+        stale("zero group", [](World&) { return SuppleGroup{0}; });
+        stale("stale group", [](World& w) { return w.staleGroup; });
+        stale("foreign group", [](World& w) { return w.theirs.main.group; });
+        stale("asset for group", [](World& w) { return SuppleGroup{w.mine.asset.id}; });
+        stale("no group at all", [](World&) { return SuppleGroup{~0ull}; });
+    }
+    template <class Call>
+    void instances(const char* function, Call call, bool poses) {
+        nullContext(function, [=](World& w, SuppleContext c) { return call(w, c, w.instance()); });
+        const auto stale = [&](const char* what, auto get) {
+            refuse(function, what, SUPPLE_MESSAGE_STALE_HANDLE, [=](World& w) { return call(w, w.handle(), get(w)); });
+        };
+        stale("zero instance", [](World&) { return SuppleInstance{}; });
+        stale("stale instance", [](World& w) { return w.staleInstance; });
+        stale("instance of a stale group", [](World& w) { return w.instanceOfStaleGroup; });
+        stale("foreign instance", [](World& w) { return w.theirs.main.instances[0]; });
+        stale("foreign instance in a group of one's own", [](World& w) {
+            return SuppleInstance{w.mine.main.group, 0, w.theirs.main.instances[0].generation ^ 0x5A5A5A5Au};
+        });
+        stale("another group's instance", [](World& w) {
+            return SuppleInstance{w.mine.main.group, 0, w.spare.instances[0].generation};
+        });
+        stale("slot beyond the capacity", [](World& w) {
+            return SuppleInstance{w.mine.main.group, 2, w.instance().generation};
+        });
+        stale("no slot at all", [](World& w) {
+            return SuppleInstance{w.mine.main.group, ~0u, w.instance().generation};
+        });
+        stale("generation 0", [](World& w) { return SuppleInstance{w.mine.main.group, 0, 0}; });
+        accept(function, "valid", [=](World& w) { return call(w, w.handle(), w.spare.instances[0]); });
+        if (poses) {
+            refuse(function, "the host's buffer poses the group", SUPPLE_MESSAGE_CONFLICT,
+                   [=](World& w) { return call(w, w.handle(), w.buffered.instances[0]); });
+        }
+    }
+};
+
+void withoutContext(Rows& r) {
+    r.accept("suppleGetVersion", "", [](World&) {
+        EXPECT_EQ(suppleGetVersion(), uint32_t{SUPPLE_VERSION});
+        return SUPPLE_OK;
+    });
+    r.accept("suppleResultString", "", [](World&) {
+        EXPECT_STREQ(suppleResultString(SUPPLE_ERROR_DEVICE_LOST), "SUPPLE_ERROR_DEVICE_LOST");
+        EXPECT_STREQ(suppleResultString(static_cast<SuppleResult>(77)), "unknown SuppleResult");
+        return SUPPLE_OK;
+    });
+    r.accept("suppleGetRecordScopes", "null", [](World&) { return suppleGetRecordScopes(nullptr, nullptr); });
+    r.accept("suppleGetRecordScopes", "valid", [](World&) {
+        SuppleSyncScope first{}, last{};
+        const SuppleResult result = suppleGetRecordScopes(&first, &last);
+        EXPECT_NE(first.stages, 0u);
+        EXPECT_NE(last.access, 0u);
+        return result;
+    });
+
+    constexpr const char* kQuery = "suppleQueryRequirements";
+    const auto query = [](World& w, SuppleRequirements* out) {
+        return suppleQueryRequirements(w.device.instance(), w.device.physicalDevice(), vkGetInstanceProcAddr, out);
+    };
+    r.output<SuppleRequirements>(kQuery, query, SUPPLE_OK, false);
+    r.refuse(kQuery, "null instance", kSilent, [](World& w) {
+        return suppleQueryRequirements(VK_NULL_HANDLE, w.device.physicalDevice(), vkGetInstanceProcAddr,
+                                       w.watched<SuppleRequirements>(sizeof(SuppleRequirements)));
+    });
+    r.refuse(kQuery, "null physical device", kSilent, [](World& w) {
+        return suppleQueryRequirements(w.device.instance(), VK_NULL_HANDLE, vkGetInstanceProcAddr,
+                                       w.watched<SuppleRequirements>(sizeof(SuppleRequirements)));
+    });
+    r.refuse(kQuery, "null getInstanceProcAddr", kSilent, [](World& w) {
+        return suppleQueryRequirements(w.device.instance(), w.device.physicalDevice(), nullptr,
+                                       w.watched<SuppleRequirements>(sizeof(SuppleRequirements)));
+    });
+}
+
+void contexts(Rows& r) {
+    constexpr const char* kCreate = "suppleCreateContext";
+    r.accept("suppleDestroyContext", "null context", [](World&) {
+        suppleDestroyContext(nullptr);
+        return SUPPLE_OK;
+    });
+    const auto create = [](World& w, const SuppleContextDesc* desc) {
+        SuppleContext* const out = w.newHandle<SuppleContext>();
+        const SuppleResult result = suppleCreateContext(desc, out);
+        if (result == SUPPLE_OK) {
+            suppleDestroyContext(*out);
+        } else {
+            EXPECT_EQ(*out, nullptr);
+        }
+        return result;
+    };
+    r.refuse(kCreate, "desc null", kSilent, [=](World& w) { return create(w, nullptr); });
+    for (const size_t size : {size_t{0}, size_t{4}, sizeof(SuppleContextDesc) - 1}) {
+        r.refuse(kCreate, "desc->structSize " + std::to_string(size), kSilent, [=](World& w) {
+            SuppleContextDesc desc = w.contextDesc();
+            desc.structSize = static_cast<uint32_t>(size);
+            return create(w, &desc);
+        });
+    }
+    r.refuse(kCreate, "desc of a later version, with something in it", SUPPLE_MESSAGE_STRUCT_SIZE,
+             [=](World& w) { return create(w, w.grown(w.contextDesc(), 1)); });
+    r.accept(kCreate, "desc of a later version", [=](World& w) { return create(w, w.grown(w.contextDesc(), 0)); });
+    r.refuse(kCreate, "out null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        const SuppleContextDesc desc = w.contextDesc();
+        return suppleCreateContext(&desc, nullptr);
+    });
+    const auto spoiled = [&](const char* what, SuppleResult result, int message, auto spoil) {
+        r.add(kCreate, what, result, message, [=](World& w) {
+            SuppleContextDesc desc = w.contextDesc();
+            spoil(desc);
+            return create(w, &desc);
+        });
+    };
+    const auto null = [&](const char* what, auto spoil) {
+        spoiled(what, SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER, spoil);
+    };
+    const auto range = [&](const char* what, auto spoil) {
+        spoiled(what, SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, spoil);
+    };
+    using Desc = SuppleContextDesc;
+    null("instance null", [](Desc& d) { d.instance = VK_NULL_HANDLE; });
+    null("physicalDevice null", [](Desc& d) { d.physicalDevice = VK_NULL_HANDLE; });
+    null("device null", [](Desc& d) { d.device = VK_NULL_HANDLE; });
+    null("getInstanceProcAddr null", [](Desc& d) { d.getInstanceProcAddr = nullptr; });
+    static const SuppleMemoryCallbacks kNoFree{[](const VkMemoryRequirements*, VkMemoryPropertyFlags,
+                                                  VkMemoryPropertyFlags, const char*, SuppleMemory*,
+                                                  void*) { return VK_ERROR_OUT_OF_DEVICE_MEMORY; },
+                                               nullptr, nullptr};
+    static const SuppleMemoryCallbacks kNoAllocate{nullptr, [](const SuppleMemory*, void*) {}, nullptr};
+    null("memory->free null", [](Desc& d) { d.memory = &kNoFree; });
+    null("memory->allocate null", [](Desc& d) { d.memory = &kNoAllocate; });
+    range("framesInFlight 5", [](Desc& d) { d.framesInFlight = SUPPLE_MAX_FRAMES_IN_FLIGHT + 1; });
+    range("mapping 3", [](Desc& d) { d.mapping = static_cast<SuppleMapping>(3); });
+    range("mapping -1", [](Desc& d) { d.mapping = static_cast<SuppleMapping>(-1); });
+    range("flags", [](Desc& d) { d.flags |= 4; });
+    range("queueFamily", [](Desc& d) { d.queueFamily = 1000; });
+    range("drawQueueFamily", [](Desc& d) {
+        d.flags |= SUPPLE_CONTEXT_ASYNC_COMPUTE;
+        d.drawQueueFamily = 1000;
+    });
+    static const VkPhysicalDeviceFeatures2 kNoFeatures{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr, {}};
+    spoiled("no features enabled", SUPPLE_ERROR_UNSUPPORTED, SUPPLE_MESSAGE_FEATURE_DISABLED,
+            [](Desc& d) { d.enabledFeatures = &kNoFeatures; });
+}
+
+void createAsset(Rows& r) {
+    constexpr const char* kCreate = "suppleCreateAsset";
+    const auto create = [](World& w, const SuppleAssetDesc* desc) {
+        SuppleAsset* const out = w.newHandle<SuppleAsset>();
+        const SuppleResult result = suppleCreateAsset(w.handle(), desc, out);
+        if (result == SUPPLE_OK) {
+            EXPECT_EQ(suppleDestroyAsset(w.handle(), *out), SUPPLE_OK);
+        } else {
+            EXPECT_EQ(out->id, 0u);
+        }
+        return result;
+    };
+    r.nullContext(kCreate, [](World& w, SuppleContext c) {
+        const SuppleAssetDesc desc = World::assetDesc();
+        return suppleCreateAsset(c, &desc, w.newHandle<SuppleAsset>());
+    });
+    r.refuse(kCreate, "out null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        const SuppleAssetDesc desc = World::assetDesc();
+        return suppleCreateAsset(w.handle(), &desc, nullptr);
+    });
+    r.description<SuppleAssetDesc>(
+        kCreate, "desc", [](World&) { return World::assetDesc(); }, create);
+    const auto spoiled = [&](const char* what, SuppleResult result, int message, auto spoil) {
+        r.add(kCreate, what, result, message, [=](World& w) {
+            SuppleAssetDesc desc = World::assetDesc();
+            spoil(desc);
+            return create(w, &desc);
+        });
+    };
+    using Desc = SuppleAssetDesc;
+    static const SuppleFiles kNoRead{};
+    static const SuppleCageDesc kNoCage{};
+    spoiled("neither bytes nor cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
+            [](Desc& d) { d.bytes = nullptr; });
+    spoiled("bytes and cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.cage = &kNoCage; });
+    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 2; });
+    spoiled("files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER,
+            [](Desc& d) { d.files = &kNoRead; });
+    spoiled("no bytes", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount = 0; });
+    spoiled("half the file", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount /= 2; });
+
+    // A cage as arrays: two quads that share an edge.
+    static const float kPositions[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
+    static const float kNanPositions[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, kNan, 0, 2, 1, 0};
+    static const float kInfinitePositions[] = {0, 0, 0, 1, kInfinity, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
+    static const uint32_t kCounts[] = {4, 4}, kIndices[] = {0, 1, 4, 3, 1, 2, 5, 4}, kFar[] = {0, 1, 4, 3, 1, 2, 6, 4};
+    static const uint32_t kTwoSided[] = {2, 4}, kTiles[] = {0, SUPPLE_MAX_TRIM_TILES}, kHoles[] = {2};
+    static const SuppleCreaseScalar kScalar{1, 4, kNan};
+    const auto cageDesc = [](World&) {
+        SuppleCageDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.vertexCount = 6;
+        desc.faceCount = 2;
+        desc.positions = kPositions;
+        desc.faceVertexCounts = kCounts;
+        desc.faceVertexIndices = kIndices;
+        return desc;
+    };
+    const auto createCage = [create](World& w, const SuppleCageDesc* cage) {
+        SuppleAssetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.cage = cage;
+        return create(w, &desc);
+    };
+    r.description<SuppleCageDesc>(kCreate, "cage", cageDesc, createCage, false);
+    const auto cage = [&](const char* what, SuppleResult result, int message, auto spoil) {
+        r.add(kCreate, std::string("cage: ") + what, result, message, [=](World& w) {
+            SuppleCageDesc desc = cageDesc(w);
+            spoil(desc);
+            return createCage(w, &desc);
+        });
+    };
+    const auto null = [&](const char* what, auto spoil) {
+        cage(what, SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER, spoil);
+    };
+    const auto malformed = [&](const char* what, auto spoil) {
+        cage(what, SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, spoil);
+    };
+    using Cage = SuppleCageDesc;
+    null("positions null", [](Cage& d) { d.positions = nullptr; });
+    null("faceVertexCounts null", [](Cage& d) { d.faceVertexCounts = nullptr; });
+    null("faceVertexIndices null", [](Cage& d) { d.faceVertexIndices = nullptr; });
+    null("creases null", [](Cage& d) { d.creaseCount = 1; });
+    null("creaseSharpnesses null", [](Cage& d) {
+        d.creaseCount = 1;
+        d.creaseVertices = kIndices;
+    });
+    null("corners null", [](Cage& d) { d.cornerCount = 1; });
+    null("creaseScalars null", [](Cage& d) { d.creaseScalarCount = 1; });
+    null("holes null", [](Cage& d) { d.holeCount = 1; });
+    malformed("no vertices", [](Cage& d) { d.vertexCount = 0; });
+    malformed("no faces", [](Cage& d) { d.faceCount = 0; });
+    malformed("NaN position", [](Cage& d) { d.positions = kNanPositions; });
+    malformed("infinite position", [](Cage& d) { d.positions = kInfinitePositions; });
+    malformed("vertex index", [](Cage& d) { d.faceVertexIndices = kFar; });
+    malformed("face of two sides", [](Cage& d) { d.faceVertexCounts = kTwoSided; });
+    malformed("trim tile", [](Cage& d) { d.faceTrimTiles = kTiles; });
+    malformed("hole", [](Cage& d) {
+        d.holeCount = 1;
+        d.holes = kHoles;
+    });
+    malformed("NaN crease scalar", [](Cage& d) {
+        d.creaseScalarCount = 1;
+        d.creaseScalars = &kScalar;
+    });
+    // What names no edge or vertex is left out with a note, and sharpness that is no number is none.
+}
+
+void assetGetters(Rows& r) {
+    r.assets("suppleDestroyAsset", [](World&, SuppleContext c, SuppleAsset a) { return suppleDestroyAsset(c, a); });
+    const auto info = [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleGetAssetInfo(c, a, w.watched<SuppleAssetInfo>(sizeof(SuppleAssetInfo)));
+    };
+    r.assets("suppleGetAssetInfo", info);
+    r.output<SuppleAssetInfo>("suppleGetAssetInfo", [](World& w, SuppleAssetInfo* out) {
+        return suppleGetAssetInfo(w.handle(), w.mine.asset, out);
+    });
+    const auto part = [&]<class T>(const char* function, uint32_t count,
+                                   SuppleResult (*get)(SuppleContext, SuppleAsset, uint32_t, T*)) {
+        r.assets(function, [=](World& w, SuppleContext c, SuppleAsset a) {
+            return get(c, a, 0, w.template watched<T>(sizeof(T)));
+        });
+        r.output<T>(function, [=](World& w, T* out) { return get(w.handle(), w.mine.asset, 0, out); });
+        for (const uint32_t index : {count, ~0u, SUPPLE_BIND_POSE, SUPPLE_REST_POSE}) {
+            r.refuse(function, "index " + std::to_string(index), SUPPLE_MESSAGE_OUT_OF_RANGE,
+                     [=](World& w) { return get(w.handle(), w.mine.asset, index, w.template watched<T>(sizeof(T))); });
+        }
+    };
+    part("suppleGetClipInfo", kClips, &suppleGetClipInfo);
+    part("suppleGetJointInfo", kJoints, &suppleGetJointInfo);
+    part("suppleGetMorphTargetInfo", kTargets, &suppleGetMorphTargetInfo);
+    part("suppleGetMaterialInfo", kMaterials, &suppleGetMaterialInfo);
+    part("suppleGetImageInfo", kImages, &suppleGetImageInfo);
+
+    constexpr const char* kMask = "suppleFillJointMask";
+    r.assets(kMask, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleFillJointMask(c, a, 0, 0.5f, w.plain<float>(kJoints), kJoints);
+    });
+    r.accept(kMask, "valid", [](World& w) {
+        return suppleFillJointMask(w.handle(), w.mine.asset, kJoints - 1, 1.0f, w.plain<float>(kJoints), kJoints);
+    });
+    r.refuse(kMask, "mask null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleFillJointMask(w.handle(), w.mine.asset, 0, 0.5f, nullptr, kJoints); });
+    const auto mask = [&](const char* what, uint32_t joint, float value, uint32_t count) {
+        r.refuse(kMask, what, SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
+            return suppleFillJointMask(w.handle(), w.mine.asset, joint, value, w.plain<float>(kJoints), count);
+        });
+    };
+    mask("joint", kJoints, 0.5f, kJoints);
+    mask("no joint", SUPPLE_NO_JOINT, 0.5f, kJoints);
+    mask("count too small", 0, 0.5f, kJoints - 1);
+    mask("count too large", 0, 0.5f, kJoints + 1);
+    mask("count 0", 0, 0.5f, 0);
+    mask("value NaN", 0, kNan, kJoints);
+    mask("value infinite", 0, kInfinity, kJoints);
+    mask("value below", 0, -0.01f, kJoints);
+    mask("value above", 0, 1.01f, kJoints);
+}
+
+void groups(Rows& r) {
+    constexpr const char* kCreate = "suppleCreateGroup";
+    const auto create = [](World& w, const SuppleGroupDesc* desc) {
+        SuppleGroup* const out = w.newHandle<SuppleGroup>();
+        const SuppleResult result = suppleCreateGroup(w.handle(), desc, out);
+        if (result == SUPPLE_OK) {
+            EXPECT_EQ(suppleDestroyGroup(w.handle(), *out), SUPPLE_OK);
+        } else {
+            EXPECT_EQ(out->id, 0u);
+        }
+        return result;
+    };
+    r.assets(kCreate, [](World& w, SuppleContext c, SuppleAsset a) {
+        SuppleGroupDesc desc = w.groupDesc();
+        desc.asset = a;
+        return suppleCreateGroup(c, &desc, w.newHandle<SuppleGroup>());
+    });
+    r.refuse(kCreate, "out null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        const SuppleGroupDesc desc = w.groupDesc();
+        return suppleCreateGroup(w.handle(), &desc, nullptr);
+    });
+    r.description<SuppleGroupDesc>(
+        kCreate, "desc", [](World& w) { return w.groupDesc(); }, create);
+    const auto spoiled = [&](const std::string& what, SuppleResult result, int message, auto spoil) {
+        r.add(kCreate, what, result, message, [=](World& w) {
+            SuppleGroupDesc desc = w.groupDesc();
+            spoil(desc);
+            return create(w, &desc);
+        });
+    };
+    const auto range = [&](const std::string& what, auto spoil) {
+        spoiled(what, SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, spoil);
+    };
+    using Desc = SuppleGroupDesc;
+    range("capacity 0", [](Desc& d) { d.capacity = 0; });
+    range("rate 65", [](Desc& d) { d.rate = SUPPLE_MAX_RATE + 1; });
+    range("flags", [](Desc& d) { d.flags = 8; });
+    range("sharpThreshold negative", [](Desc& d) { d.sharpThreshold = -1.0f; });
+    spoiled("sharpThreshold NaN", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NOT_FINITE,
+            [](Desc& d) { d.sharpThreshold = kNan; });
+    for (const int value : {6, 99, 101, -1}) {
+        range("scheme " + std::to_string(value), [=](Desc& d) { d.scheme = static_cast<SuppleScheme>(value); });
+    }
+    for (const int value : {3, -1}) {
+        const std::string n = " " + std::to_string(value);
+        range("vertexFormat" + n, [=](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(value); });
+        range("tangentMode" + n, [=](Desc& d) { d.tangentMode = static_cast<SuppleTangentMode>(value); });
+        range("cornerRule" + n, [=](Desc& d) { d.cornerRule = static_cast<SuppleCornerRule>(value); });
+        range("skinning" + n, [=](Desc& d) { d.skinning = static_cast<SuppleSkinning>(value); });
+        range("creaseMode" + n, [=](Desc& d) { d.creaseMode = static_cast<SuppleCreaseMode>(value); });
+        range("poseSource" + n, [=](Desc& d) { d.poseSource = static_cast<SupplePoseSource>(value); });
+    }
+    spoiled("palette buffer of dual quaternions", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) {
+        d.poseSource = SUPPLE_POSES_PALETTE_BUFFER;
+        d.skinning = SUPPLE_SKINNING_DUAL_QUATERNION;
+    });
+    spoiled("patches of a scheme without", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) {
+        d.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+        d.flags = SUPPLE_GROUP_PATCHES;
+    });
+    spoiled("too many vertices", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT, [](Desc& d) {
+        d.scheme = SUPPLE_SCHEME_PM;
+        d.rate = 64;
+        d.capacity = 0x7FFFFFFF;
+    });
+
+    r.groups("suppleDestroyGroup", [](World&, SuppleContext c, SuppleGroup g) { return suppleDestroyGroup(c, g); });
+    r.groups("suppleSetRate", [](World&, SuppleContext c, SuppleGroup g) { return suppleSetRate(c, g, 1); });
+    for (const uint32_t rate : {0u, 3u, 65u, ~0u}) {
+        r.refuse("suppleSetRate", "rate " + std::to_string(rate), SUPPLE_MESSAGE_OUT_OF_RANGE,
+                 [=](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, rate); });
+    }
+    r.accept("suppleSetRate", "as it is", [](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, 2); });
+    r.add("suppleSetRate", "of a scheme of one rate", SUPPLE_ERROR_UNSUPPORTED, SUPPLE_MESSAGE_DEVICE_UNSUITED,
+          [](World& w) { return suppleSetRate(w.handle(), w.mine.subdivision.group, 4); });
+    const auto output = [](World& w, SuppleContext c, SuppleGroup g) {
+        return suppleGetGroupOutput(c, g, w.watched<SuppleGroupOutput>(sizeof(SuppleGroupOutput)));
+    };
+    r.groups("suppleGetGroupOutput", output);
+    r.output<SuppleGroupOutput>("suppleGetGroupOutput", [](World& w, SuppleGroupOutput* out) {
+        return suppleGetGroupOutput(w.handle(), w.mine.main.group, out);
+    });
+    constexpr const char* kPatches = "suppleGetPatches";
+    r.groups(kPatches, [](World& w, SuppleContext c, SuppleGroup g) {
+        return suppleGetPatches(c, g, w.plain<SupplePatchInfo>(2), w.number(2));
+    });
+    r.refuse(kPatches, "count null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        return suppleGetPatches(w.handle(), w.mine.main.group, w.plain<SupplePatchInfo>(2), nullptr);
+    });
+    r.accept(kPatches, "count alone",
+             [](World& w) { return suppleGetPatches(w.handle(), w.mine.main.group, nullptr, w.number(0)); });
+    r.add(kPatches, "short array", SUPPLE_INCOMPLETE, kSilent, [](World& w) {
+        auto* const patches = w.plain<SupplePatchInfo>(3);
+        uint32_t count = 2;
+        const SuppleResult result = suppleGetPatches(w.handle(), w.mine.main.group, patches, &count);
+        EXPECT_GT(count, 2u);
+        EXPECT_EQ(patches[2].face, 0xA5A5A5A5u);
+        return result;
+    });
+}
+
+void instances(Rows& r) {
+    constexpr const char* kCreate = "suppleCreateInstance";
+    r.groups(kCreate, [](World& w, SuppleContext c, SuppleGroup g) {
+        return suppleCreateInstance(c, g, w.newHandle<SuppleInstance>());
+    });
+    r.refuse(kCreate, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleCreateInstance(w.handle(), w.mine.main.group, nullptr); });
+    r.add(kCreate, "the group is full", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
+          [](World& w) { return suppleCreateInstance(w.handle(), w.mine.main.group, w.newHandle<SuppleInstance>()); });
+    r.instances(
+        "suppleDestroyInstance",
+        [](World& w, SuppleContext c, SuppleInstance i) {
+            const SuppleResult result = suppleDestroyInstance(c, i);
+            if (result == SUPPLE_OK) {
+                EXPECT_EQ(suppleCreateInstance(c, w.spare.group, &w.spare.instances[0]), SUPPLE_OK);
+            }
+            return result;
+        },
+        false);
+    r.instances(
+        "suppleSetVisible", [](World&, SuppleContext c, SuppleInstance i) { return suppleSetVisible(c, i, 0); }, false);
+    for (const uint32_t visible : {2u, ~0u}) {
+        r.refuse("suppleSetVisible", "visible " + std::to_string(visible), SUPPLE_MESSAGE_OUT_OF_RANGE,
+                 [=](World& w) { return suppleSetVisible(w.handle(), w.instance(), visible); });
+    }
+    r.instances(
+        "suppleTeleport", [](World&, SuppleContext c, SuppleInstance i) { return suppleTeleport(c, i); }, false);
+
+    constexpr const char* kClip = "suppleSetClipPose";
+    r.instances(
+        kClip, [](World&, SuppleContext c, SuppleInstance i) { return suppleSetClipPose(c, i, 0, 0.1); }, true);
+    for (const uint32_t clip : {kClips, 0xFFFFFFFDu}) {
+        r.refuse(kClip, "clip " + std::to_string(clip), SUPPLE_MESSAGE_OUT_OF_RANGE,
+                 [=](World& w) { return suppleSetClipPose(w.handle(), w.instance(), clip, 0.0); });
+    }
+    for (const double time : {double{kNan}, double{kInfinity}, -double{kInfinity}}) {
+        r.refuse(kClip, "time " + std::to_string(time), SUPPLE_MESSAGE_NOT_FINITE,
+                 [=](World& w) { return suppleSetClipPose(w.handle(), w.instance(), 0, time); });
+    }
+    constexpr const char* kMorph = "suppleSetMorphWeights";
+    static const float kWeights[kTargets + 1] = {0.1f, 0.2f, 0.3f, 0.4f, 0.5f};
+    r.instances(
+        kMorph,
+        [](World&, SuppleContext c, SuppleInstance i) { return suppleSetMorphWeights(c, i, kWeights, kTargets); },
+        true);
+    for (const uint32_t count : {0u, kTargets - 1, kTargets + 1}) {
+        r.refuse(kMorph, "count " + std::to_string(count), SUPPLE_MESSAGE_OUT_OF_RANGE,
+                 [=](World& w) { return suppleSetMorphWeights(w.handle(), w.instance(), kWeights, count); });
+    }
+    for (const float weight : {kNan, kInfinity}) {
+        r.refuse(kMorph, "weight " + std::to_string(weight), SUPPLE_MESSAGE_NOT_FINITE, [=](World& w) {
+            const float weights[kTargets] = {0, 0, 0, weight};
+            return suppleSetMorphWeights(w.handle(), w.instance(), weights, kTargets);
+        });
+    }
+    r.accept(kMorph, "null", [](World& w) { return suppleSetMorphWeights(w.handle(), w.instance(), nullptr, 77); });
+
+    constexpr const char* kMatrix = "suppleSetMatrixPose";
+    static const std::vector<float> kMatrices = [] {
+        std::vector<float> matrices;
+        for (uint32_t j = 0; j <= kJoints; ++j) {
+            matrices.insert(matrices.end(), std::begin(kIdentity), std::end(kIdentity));
+        }
+        return matrices;
+    }();
+    r.instances(
+        kMatrix,
+        [](World&, SuppleContext c, SuppleInstance i) { return suppleSetMatrixPose(c, i, kMatrices.data(), kJoints); },
+        true);
+    r.refuse(kMatrix, "null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleSetMatrixPose(w.handle(), w.instance(), nullptr, kJoints); });
+    for (const uint32_t count : {0u, kJoints - 1, kJoints + 1}) {
+        r.refuse(kMatrix, "count " + std::to_string(count), SUPPLE_MESSAGE_OUT_OF_RANGE,
+                 [=](World& w) { return suppleSetMatrixPose(w.handle(), w.instance(), kMatrices.data(), count); });
+    }
+    for (const float value : {kNan, -kInfinity}) {
+        r.refuse(kMatrix, "value " + std::to_string(value), SUPPLE_MESSAGE_NOT_FINITE, [=](World& w) {
+            std::vector<float> matrices = kMatrices;
+            matrices[16 * kJoints - 1] = value;
+            return suppleSetMatrixPose(w.handle(), w.instance(), matrices.data(), kJoints);
+        });
+    }
+    constexpr const char* kTransform = "suppleSetTransform";
+    r.instances(
+        kTransform, [](World&, SuppleContext c, SuppleInstance i) { return suppleSetTransform(c, i, kIdentity); },
+        true);
+    r.refuse(kTransform, "null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleSetTransform(w.handle(), w.instance(), nullptr); });
+    const auto transform = [&](const std::string& what, int at, float value, int message) {
+        r.refuse(kTransform, what, message, [=](World& w) {
+            float matrix[16];
+            std::copy_n(kIdentity, 16, matrix);
+            matrix[at] = value;
+            return suppleSetTransform(w.handle(), w.instance(), matrix);
+        });
+    };
+    for (const int at : {0, 13, 15}) {
+        transform("NaN at " + std::to_string(at), at, kNan, SUPPLE_MESSAGE_NOT_FINITE);
+        transform("infinity at " + std::to_string(at), at, kInfinity, SUPPLE_MESSAGE_NOT_FINITE);
+    }
+    for (const int at : {3, 7, 11, 15}) {
+        transform("last row at " + std::to_string(at), at, 0.5f, SUPPLE_MESSAGE_OUT_OF_RANGE);
+    }
+}
+
+void poses(Rows& r) {
+    constexpr const char* kSet = "suppleSetPose";
+    constexpr const char* kMotion = "suppleGetRootMotion";
+    r.instances(
+        kSet,
+        [](World& w, SuppleContext c, SuppleInstance i) {
+            const SupplePoseDesc desc = w.poseDesc();
+            return suppleSetPose(c, i, &desc);
+        },
+        true);
+    r.assets(kMotion, [](World& w, SuppleContext c, SuppleAsset a) {
+        const SupplePoseDesc desc = w.poseDesc();
+        return suppleGetRootMotion(c, a, &desc, w.watched<SuppleRootMotion>(sizeof(SuppleRootMotion)));
+    });
+    r.output<SuppleRootMotion>(kMotion, [](World& w, SuppleRootMotion* out) {
+        const SupplePoseDesc desc = w.poseDesc();
+        return suppleGetRootMotion(w.handle(), w.mine.asset, &desc, out);
+    });
+    const auto make = [](World& w) { return w.poseDesc(); };
+    // A wrong pose goes to an instance that is looked at, a good one elsewhere.
+    r.description<SupplePoseDesc>(kSet, "pose", make, [](World& w, const SupplePoseDesc* pose) {
+        return suppleSetPose(w.handle(), w.spare.instances[0], pose);
+    });
+    const auto motion = [](World& w, const SupplePoseDesc* pose) {
+        return suppleGetRootMotion(w.handle(), w.mine.asset, pose,
+                                   w.watched<SuppleRootMotion>(sizeof(SuppleRootMotion)));
+    };
+    r.description<SupplePoseDesc>(kMotion, "pose", make, motion);
+    const auto pose = [&](const char* what, int message, std::function<void(SupplePoseDesc&)> spoil,
+                          std::function<void(SuppleClipLayer&)> spoilLayer = {}) {
+        const auto spoiled = [=](World& w) {
+            SupplePoseDesc desc = w.poseDesc(spoilLayer);
+            if (spoil) {
+                spoil(desc);
+            }
+            return desc;
+        };
+        r.refuse(kSet, what, message, [=](World& w) {
+            const SupplePoseDesc desc = spoiled(w);
+            return suppleSetPose(w.handle(), w.instance(), &desc);
+        });
+        r.refuse(kMotion, what, message, [=](World& w) {
+            const SupplePoseDesc desc = spoiled(w);
+            return motion(w, &desc);
+        });
+    };
+    using Desc = SupplePoseDesc;
+    using Layer = SuppleClipLayer;
+    constexpr int kRange = SUPPLE_MESSAGE_OUT_OF_RANGE, kFinite = SUPPLE_MESSAGE_NOT_FINITE;
+    pose("layers null", SUPPLE_MESSAGE_NULL_POINTER, [](Desc& d) { d.layers = nullptr; });
+    pose("flags", kRange, [](Desc& d) { d.flags = 2; });
+    pose("rootMotion", kRange, [](Desc& d) { d.rootMotion = 8; });
+    pose("rootJoint", kRange, [](Desc& d) {
+        d.flags = SUPPLE_POSE_ROOT_JOINT;
+        d.rootJoint = kJoints;
+    });
+    const auto layer = [&](const char* what, int message, std::function<void(Layer&)> spoil) {
+        pose(what, message, {}, std::move(spoil));
+    };
+    static const float kOutside[] = {0.5f, 0.5f, 1.5f, 0.5f, 0.5f}, kNans[] = {0.5f, 0.5f, kNan, 0.5f, 0.5f},
+                       kHalf[] = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
+    layer("clip", kRange, [](Layer& l) { l.clip = kClips; });
+    layer("rest pose for a clip", kRange, [](Layer& l) { l.clip = SUPPLE_REST_POSE; });
+    layer("mode 2", kRange, [](Layer& l) { l.mode = static_cast<SuppleLayerMode>(2); });
+    layer("mode -1", kRange, [](Layer& l) { l.mode = static_cast<SuppleLayerMode>(-1); });
+    layer("layer flags", kRange, [](Layer& l) { l.flags = 2; });
+    layer("time", kFinite, [](Layer& l) { l.time = double{kNan}; });
+    layer("previousTime", kFinite, [](Layer& l) { l.previousTime = double{kInfinity}; });
+    layer("referenceTime", kFinite, [](Layer& l) { l.referenceTime = -double{kInfinity}; });
+    layer("weight NaN", kFinite, [](Layer& l) { l.weight = kNan; });
+    layer("weight infinite", kFinite, [](Layer& l) {
+        l.mode = SUPPLE_LAYER_ADDITIVE;
+        l.weight = kInfinity;
+    });
+    layer("weight above", kRange, [](Layer& l) { l.weight = 1.01f; });
+    layer("weight below", kRange, [](Layer& l) { l.weight = -0.01f; });
+    const auto mask = [&](const std::string& what, const float* values, bool joints, uint32_t count) {
+        layer(what.c_str(), kRange, [=](Layer& l) {
+            (joints ? l.jointMask : l.morphMask) = values;
+            (joints ? l.jointMaskCount : l.morphMaskCount) = count;
+        });
+    };
+    for (const bool joints : {true, false}) {
+        const std::string name = joints ? "jointMask" : "morphMask";
+        const uint32_t count = joints ? kJoints : kTargets;
+        mask(name + " null", nullptr, joints, count);
+        mask(name + " too short", kHalf, joints, count - 1);
+        mask(name + " too long", kHalf, joints, count + 1);
+        mask(name + " outside", kOutside, joints, count);
+        mask(name + " NaN", kNans, joints, count);
+    }
+}
+
+void frames(Rows& r) {
+    constexpr const char* kBegin = "suppleBeginFrame";
+    constexpr int kOrder = SUPPLE_MESSAGE_OUT_OF_ORDER, kRange = SUPPLE_MESSAGE_OUT_OF_RANGE;
+    r.nullContext(kBegin, [](World& w, SuppleContext c) { return suppleBeginFrame(c, w.own.frame + 1, w.own.frame); });
+    const auto begin = [&](const char* what, int message, Phase phase, auto frame, auto completed) {
+        r.refuse(
+            kBegin, what, message,
+            [=](World& w) { return suppleBeginFrame(w.handle(), frame(w.own.frame), completed(w.own.frame)); }, phase);
+    };
+    const auto next = [](uint64_t f) { return f + 1; };
+    const auto same = [](uint64_t f) { return f; };
+    const auto zero = [](uint64_t) { return uint64_t{0}; };
+    begin("frame 0", kOrder, Phase::fresh, zero, zero);
+    for (const Phase phase : {Phase::begun, Phase::recorded, Phase::cancelled}) {
+        begin("the same frame", kOrder, phase, same, [](uint64_t f) { return f - 1; });
+        begin(
+            "an earlier frame", kOrder, phase, [](uint64_t f) { return f - 1; }, [](uint64_t f) { return f - 2; });
+        begin("completed itself", kRange, phase, next, next);
+        begin("completed later", kRange, phase, next, [](uint64_t f) { return f + 2; });
+        begin("completed last of all", kRange, phase, next, [](uint64_t) { return ~0ull; });
+        begin("too many in flight", kRange, phase, next, [](uint64_t f) { return f - 2; });
+        begin(
+            "too far ahead", kRange, phase, [](uint64_t f) { return f + 3; }, same);
+    }
+
+    constexpr const char* kCancel = "suppleCancelFrame";
+    r.nullContext(kCancel, [](World&, SuppleContext c) { return suppleCancelFrame(c); });
+    for (const Phase phase : {Phase::fresh, Phase::cancelled}) {
+        r.refuse(
+            kCancel, "no frame", kOrder, [](World& w) { return suppleCancelFrame(w.handle()); }, phase);
+    }
+
+    constexpr const char* kUploads = "suppleRecordUploads";
+    r.nullContext(kUploads, [](World& w, SuppleContext c) { return suppleRecordUploads(c, w.commands); });
+    r.refuse(kUploads, "commandBuffer null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleRecordUploads(w.handle(), VK_NULL_HANDLE); });
+    for (const Phase phase : {Phase::fresh, Phase::cancelled}) {
+        r.refuse(
+            kUploads, "no frame", kOrder, [](World& w) { return suppleRecordUploads(w.handle(), w.commands); }, phase);
+    }
+    for (const Phase phase : {Phase::begun, Phase::recorded}) {
+        r.accept(
+            kUploads, "valid", [](World& w) { return suppleRecordUploads(w.handle(), w.commands); }, phase);
+    }
+
+    constexpr const char* kRecord = "suppleRecord";
+    const auto record = [](World& w, const SuppleRecordDesc* desc) {
+        const SuppleResult result = suppleRecord(w.handle(), w.commands, desc);
+        w.recorded = result == SUPPLE_OK;
+        return result;
+    };
+    r.nullContext(kRecord, [](World& w, SuppleContext c) {
+        const SuppleRecordDesc desc = w.recordDesc();
+        return suppleRecord(c, w.commands, &desc);
+    });
+    r.refuse(kRecord, "commandBuffer null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        const SuppleRecordDesc desc = w.recordDesc();
+        return suppleRecord(w.handle(), VK_NULL_HANDLE, &desc);
+    });
+    r.description<SuppleRecordDesc>(
+        kRecord, "desc", [](World& w) { return w.recordDesc(); }, record);
+    const auto spoiled = [&](const char* what, int message, Phase phase,
+                             std::function<void(World&, SuppleRecordDesc&)> spoil) {
+        r.refuse(
+            kRecord, what, message,
+            [=](World& w) {
+                SuppleRecordDesc desc = w.recordDesc();
+                if (spoil) {
+                    spoil(w, desc);
+                }
+                return record(w, &desc);
+            },
+            phase);
+    };
+    spoiled("groups null", SUPPLE_MESSAGE_NULL_POINTER, Phase::begun,
+            [](World&, SuppleRecordDesc& d) { d.groups = nullptr; });
+    spoiled("flags", kRange, Phase::begun, [](World&, SuppleRecordDesc& d) { d.flags = 4; });
+    spoiled("a group twice", SUPPLE_MESSAGE_CONFLICT, Phase::begun, [](World& w, SuppleRecordDesc& d) {
+        const SuppleGroup twice[2] = {w.mine.main.group, w.mine.main.group};
+        d.groups = *w.kept(twice);
+    });
+    spoiled("no frame", kOrder, Phase::fresh, {});
+    spoiled("a cancelled frame", kOrder, Phase::cancelled, {});
+    spoiled("twice in a frame", kOrder, Phase::recorded, {});
+    spoiled("one of two twice in a frame", kOrder, Phase::recorded, [](World& w, SuppleRecordDesc& d) {
+        const SuppleGroup some[2] = {w.spare.group, w.mine.main.group};
+        d.groups = *w.kept(some);
+    });
+    r.groups(
+        kRecord,
+        [=](World& w, SuppleContext, SuppleGroup g) {
+            SuppleRecordDesc desc = w.recordDesc();
+            const SuppleGroup second[2] = {w.mine.main.group, g}; // nothing of the first is recorded either
+            desc.groups = *w.kept(second);
+            return record(w, &desc);
+        },
+        false);
+
+    constexpr const char* kAcquire = "suppleGetAcquireBarriers";
+    const auto acquire = [](World& w, SuppleContext c, const SuppleGroup* groups, uint32_t count) {
+        return suppleGetAcquireBarriers(c, groups, count, kAnyUse, w.plain<VkBufferMemoryBarrier2>(20), w.number(20));
+    };
+    r.nullContext(kAcquire, [=](World& w, SuppleContext c) { return acquire(w, c, w.frameGroups(), 2); });
+    r.refuse(
+        kAcquire, "count null", SUPPLE_MESSAGE_NULL_POINTER,
+        [](World& w) {
+            return suppleGetAcquireBarriers(w.handle(), w.frameGroups(), 2, kAnyUse,
+                                            w.plain<VkBufferMemoryBarrier2>(20), nullptr);
+        },
+        Phase::recorded);
+    r.refuse(
+        kAcquire, "groups null", SUPPLE_MESSAGE_NULL_POINTER,
+        [=](World& w) { return acquire(w, w.handle(), nullptr, 2); }, Phase::recorded);
+    for (const Phase phase : {Phase::fresh, Phase::begun, Phase::cancelled}) {
+        r.refuse(
+            kAcquire, "not recorded", kOrder, [=](World& w) { return acquire(w, w.handle(), w.frameGroups(), 2); },
+            phase);
+    }
+    r.refuse(
+        kAcquire, "one of two not recorded", kOrder,
+        [=](World& w) {
+            const SuppleGroup some[2] = {w.mine.main.group, w.spare.group};
+            return acquire(w, w.handle(), some, 2);
+        },
+        Phase::recorded);
+    r.refuse(kAcquire, "without the flag", SUPPLE_MESSAGE_CONFLICT,
+             [=](World& w) { return acquire(w, w.foreign.handle(), &w.theirs.main.group, 1); });
+    r.groups(
+        kAcquire,
+        [=](World& w, SuppleContext c, SuppleGroup g) {
+            const SuppleGroup second[2] = {w.mine.main.group, g};
+            return acquire(w, c, second, 2);
+        },
+        false, Phase::recorded);
+    r.add(
+        kAcquire, "short array", SUPPLE_INCOMPLETE, kSilent,
+        [](World& w) {
+            return suppleGetAcquireBarriers(w.handle(), w.frameGroups(), 2, kAnyUse, w.plain<VkBufferMemoryBarrier2>(1),
+                                            w.number(1));
+        },
+        Phase::recorded);
+    r.accept(
+        kAcquire, "count alone",
+        [](World& w) {
+            return suppleGetAcquireBarriers(w.handle(), w.frameGroups(), 2, kAnyUse, nullptr, w.number(0));
+        },
+        Phase::recorded);
+}
+
+void measurements(Rows& r) {
+    constexpr const char* kTimings = "suppleGetTimings";
+    r.nullContext(kTimings,
+                  [](World& w, SuppleContext c) { return suppleGetTimings(c, w.plain<SuppleTiming>(2), w.number(2)); });
+    r.refuse(kTimings, "count null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetTimings(w.handle(), w.plain<SuppleTiming>(2), nullptr); });
+    for (const Phase phase : {Phase::fresh, Phase::begun}) {
+        r.add(
+            kTimings, "nothing timed", SUPPLE_NOT_READY, kSilent,
+            [](World& w) {
+                uint32_t count = 2;
+                auto* const out = w.plain<SuppleTiming>(2);
+                const SuppleResult result = suppleGetTimings(w.handle(), out, &count);
+                EXPECT_EQ(count, 0u);
+                EXPECT_EQ(out->group, 0xA5A5A5A5u);
+                return result;
+            },
+            phase);
+    }
+    constexpr const char* kSet = "suppleSetBudget";
+    constexpr const char* kGet = "suppleGetBudget";
+    r.nullContext(kSet, [](World&, SuppleContext c) { return suppleSetBudget(c, "deform", 1.0); });
+    for (const double value : {double{kNan}, double{kInfinity}, -double{kInfinity}}) {
+        r.refuse(kSet, "nanoseconds " + std::to_string(value), SUPPLE_MESSAGE_NOT_FINITE,
+                 [=](World& w) { return suppleSetBudget(w.handle(), "deform", value); });
+    }
+    r.refuse(kSet, "nanoseconds negative", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [](World& w) { return suppleSetBudget(w.handle(), "deform", -1.0); });
+    for (const char* pass : {"", "Deform", "deform ", "supple"}) {
+        r.refuse(kSet, std::string("pass '") + pass + "'", SUPPLE_MESSAGE_OUT_OF_RANGE,
+                 [=](World& w) { return suppleSetBudget(w.handle(), pass, 1.0); });
+        r.refuse(kGet, std::string("pass '") + pass + "'", SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
+            return suppleGetBudget(w.handle(), pass, w.watched<SuppleBudget>(sizeof(SuppleBudget)));
+        });
+    }
+    r.accept(kSet, "valid, and taken away", [](World& w) {
+        EXPECT_EQ(suppleSetBudget(w.handle(), nullptr, 1e9), SUPPLE_OK);
+        SuppleBudget* const out = w.watched<SuppleBudget>(sizeof(SuppleBudget));
+        EXPECT_EQ(suppleGetBudget(w.handle(), nullptr, out), SUPPLE_OK);
+        EXPECT_EQ(out->limit, 1e9);
+        return suppleSetBudget(w.handle(), nullptr, 0.0);
+    });
+    r.nullContext(kGet, [](World& w, SuppleContext c) {
+        return suppleGetBudget(c, "deform", w.watched<SuppleBudget>(sizeof(SuppleBudget)));
+    });
+    r.output<SuppleBudget>(
+        kGet, [](World& w, SuppleBudget* out) { return suppleGetBudget(w.handle(), "deform", out); }, SUPPLE_NOT_READY);
+}
+
+std::vector<Row> allRows() {
+    Rows r;
+    withoutContext(r);
+    contexts(r);
+    createAsset(r);
+    assetGetters(r);
+    groups(r);
+    instances(r);
+    poses(r);
+    frames(r);
+    measurements(r);
+    return std::move(r.rows);
+}
+
+/// Makes the call and looks at what it should have left alone.
+void walk(World& w, const Row& row) {
+    const testing::ScopedTrace trace(__FILE__, __LINE__, row.function + ": " + row.what);
+    w.forget();
+    w.recorded = false;
+    const SuppleResult result = row.call(w);
+    EXPECT_EQ(result, row.result) << suppleResultString(result);
+    std::vector<LogLine> errors;
+    for (const LogLine& line : w.lines) {
+        if (line.severity == SUPPLE_SEVERITY_ERROR) {
+            errors.push_back(line);
+        }
+    }
+    EXPECT_EQ(errors.size(), row.message == kSilent ? 0u : 1u);
+    for (const LogLine& line : errors) {
+        EXPECT_EQ(int{line.message}, row.message) << line.text;
+        EXPECT_FALSE(line.text.empty());
+        EXPECT_EQ(line.text.find('\n'), std::string::npos) << line.text;
+    }
+    for (const World::Snapshot& snapshot : w.snapshots) {
+        const bool zero =
+            snapshot.handle && std::ranges::all_of(*snapshot.now, [](std::byte b) { return b == std::byte{0}; });
+        EXPECT_TRUE(result >= 0 || zero || *snapshot.now == snapshot.before) << "something was written";
+    }
+}
+
+/// A frame with the call somewhere in it; the surface that it gives.
+std::vector<std::byte> frameWith(World& w, const Row* row) {
+    const auto record = [&] {
+        const SuppleRecordDesc desc = w.recordDesc();
+        EXPECT_EQ(suppleRecord(w.handle(), w.commands, &desc), SUPPLE_OK);
+    };
+    const auto submit = [&](const std::function<void()>& body) {
+        EXPECT_TRUE(w.device
+                        .submitAndWait([&](VkCommandBuffer commands) {
+                            w.commands = commands;
+                            body();
+                        })
+                        .ok());
+    };
+    w.own.beginFrame();
+    if (row != nullptr && row->phase == Phase::cancelled) {
+        // Thrown away: its command buffer is not submitted.
+        VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+        info.commandPool = w.device.commandPool();
+        info.commandBufferCount = 1;
+        EXPECT_EQ(vkAllocateCommandBuffers(w.device.handle(), &info, &w.commands), VK_SUCCESS);
+        const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, 0, nullptr};
+        EXPECT_EQ(vkBeginCommandBuffer(w.commands, &begin), VK_SUCCESS);
+        record();
+        EXPECT_EQ(suppleCancelFrame(w.handle()), SUPPLE_OK);
+        walk(w, *row);
+        vkFreeCommandBuffers(w.device.handle(), w.device.commandPool(), 1, &w.commands);
+        w.own.beginFrame();
+        submit(record);
+    } else {
+        submit([&] {
+            const bool first = row != nullptr && row->phase == Phase::recorded;
+            if (first) {
+                record();
+            }
+            w.recorded = first;
+            if (row != nullptr) {
+                walk(w, *row);
+            }
+            if (!first && !w.recorded) {
+                record();
+            }
+        });
+    }
+    std::vector<std::byte> bits = surfaceBits(w.own, w.mine.main.group);
+    const std::vector<std::byte> more = surfaceBits(w.own, w.mine.subdivision.group);
+    bits.insert(bits.end(), more.begin(), more.end());
+    return bits;
+}
+
+TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    const std::vector<Row> rows = allRows();
+    World w(*device);
+    ASSERT_FALSE(testing::Test::HasFailure());
+    EXPECT_TRUE(device
+                    ->submitAndWait([&](VkCommandBuffer commands) {
+                        w.commands = commands;
+                        for (const Row& row : rows) {
+                            if (row.phase == Phase::fresh) {
+                                walk(w, row);
+                            }
+                        }
+                    })
+                    .ok());
+    // As another context has it, of which nothing wrong was asked.
+    const SuppleGroup theirs[] = {w.theirs.main.group, w.theirs.subdivision.group};
+    w.foreign.evaluate(theirs);
+    std::vector<std::byte> wanted = surfaceBits(w.foreign, theirs[0]);
+    const std::vector<std::byte> more = surfaceBits(w.foreign, theirs[1]);
+    wanted.insert(wanted.end(), more.begin(), more.end());
+    ASSERT_TRUE(frameWith(w, nullptr) == wanted);
+    w.own.beginFrame(); // three frames exist for those that are counted backwards
+    for (const Row& row : rows) {
+        if (row.phase != Phase::fresh) {
+            EXPECT_TRUE(frameWith(w, &row) == wanted) << row.function << ": " << row.what << ": the surface changed";
+        }
+    }
+    std::printf("%zu calls\n", rows.size());
+}
+
+TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
+    std::ifstream file(std::string(SUPPLE_SOURCE_DIR) + "/runtime/include/supple/supple.h");
+    ASSERT_TRUE(file.good());
+    const std::string header((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const std::regex declaration(R"(\nSUPPLE_API [^;(]*?(supple[A-Z]\w*)\(([^)]*)\);)");
+    std::set<std::string> declared, walked, contextual, nulled;
+    for (std::sregex_iterator i(header.begin(), header.end(), declaration), end; i != end; ++i) {
+        declared.insert((*i)[1]);
+        if ((*i)[2].str().starts_with("SuppleContext context")) {
+            contextual.insert((*i)[1]);
+        }
+    }
+    // None of them in another form.
+    const std::regex any(R"(\nSUPPLE_API )");
+    EXPECT_EQ(declared.size(), static_cast<size_t>(std::distance(
+                                   std::sregex_iterator(header.begin(), header.end(), any), std::sregex_iterator())));
+    for (const Row& row : allRows()) {
+        walked.insert(row.function);
+        if (row.what == "null context") {
+            nulled.insert(row.function);
+        }
+    }
+    EXPECT_GT(declared.size(), 35u);
+    EXPECT_EQ(walked, declared);
+    EXPECT_EQ(nulled, contextual);
+}
+
+} // namespace
+} // namespace supple::test

@@ -1,0 +1,163 @@
+// Devices that are lost, and devices that were created without what Supple needs.
+#include "gpu/device.h"
+#include "tests/support/gpu_surface.h"
+#include "tests/support/logged_context.h"
+#include "tests/support/wrapped_vulkan.h"
+
+#include <gtest/gtest.h>
+
+namespace supple::test {
+namespace {
+
+/// The call gave the one result, with the one line about it.
+void expectLost(LoggedContext& context, SuppleResult result, const char* call) {
+    EXPECT_EQ(result, SUPPLE_ERROR_DEVICE_LOST) << call;
+    const std::vector<LogLine> lines = context.takeLines();
+    ASSERT_EQ(lines.size(), 1u) << call;
+    EXPECT_EQ(lines[0].severity, SUPPLE_SEVERITY_ERROR) << call;
+    EXPECT_EQ(lines[0].message, SUPPLE_MESSAGE_DEVICE_LOST) << call << ": " << lines[0].text;
+}
+
+TEST(DeviceLost, StaysLostForTheContextAndForNoOther) {
+    enum class Where { createBuffer, allocateMemory, queryResults };
+    wrappedVulkan();
+    std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+    ASSERT_NE(device, nullptr);
+    const auto validation = device->validation();
+    {
+        LoggedContext healthy(*device);
+        ASSERT_EQ(healthy.result(), SUPPLE_OK);
+        SuppleAsset other{};
+        ASSERT_EQ(createTube(healthy.handle(), other), SUPPLE_OK);
+        const SmallGroup b = createGroup(healthy.handle(), other);
+        for (const Where where : {Where::createBuffer, Where::allocateMemory, Where::queryResults}) {
+            LoggedContext lost(*device);
+            ASSERT_EQ(lost.result(), SUPPLE_OK);
+            SuppleAsset asset{};
+            ASSERT_EQ(createTube(lost.handle(), asset), SUPPLE_OK);
+            const SmallGroup a = createGroup(lost.handle(), asset);
+            lost.evaluate({&a.group, 1}, SUPPLE_RECORD_TIMINGS);
+            healthy.evaluate({&b.group, 1});
+            const std::vector<std::byte> bits = surfaceBits(healthy, b.group);
+            EXPECT_EQ(lost.takeLines().size(), 0u);
+
+            WrappedVulkan& wrapped = wrappedVulkan();
+            SuppleAsset newAsset{77};
+            SuppleGroup newGroup{77};
+            SuppleGroupDesc groupDesc{};
+            groupDesc.structSize = sizeof(groupDesc);
+            groupDesc.asset = asset;
+            groupDesc.capacity = 1;
+            if (where == Where::createBuffer) {
+                wrapped.failBuffer = 2;
+                wrapped.bufferFailure = VK_ERROR_DEVICE_LOST;
+                expectLost(lost, suppleCreateGroup(lost.handle(), &groupDesc, &newGroup), "suppleCreateGroup");
+            } else if (where == Where::allocateMemory) {
+                wrapped.failAllocation = 1;
+                wrapped.allocationFailure = VK_ERROR_DEVICE_LOST;
+                expectLost(lost, createTube(lost.handle(), newAsset), "suppleCreateAsset");
+            } else {
+                wrapped.queryFailure = VK_ERROR_DEVICE_LOST;
+                expectLost(lost, suppleBeginFrame(lost.handle(), 2, 1), "suppleBeginFrame");
+            }
+            wrappedVulkan();
+
+            // What needs the device says so again; the device itself is not asked.
+            newAsset = {77};
+            newGroup = {77};
+            expectLost(lost, createTube(lost.handle(), newAsset), "suppleCreateAsset");
+            expectLost(lost, suppleCreateGroup(lost.handle(), &groupDesc, &newGroup), "suppleCreateGroup");
+            expectLost(lost, suppleBeginFrame(lost.handle(), 3, 2), "suppleBeginFrame");
+            ASSERT_TRUE(device
+                            ->submitAndWait([&](VkCommandBuffer commands) {
+                                expectLost(lost, suppleRecordUploads(lost.handle(), commands), "suppleRecordUploads");
+                                expectLost(lost, lost.record(commands, {&a.group, 1}), "suppleRecord");
+                            })
+                            .ok());
+            EXPECT_EQ(currentWrappedVulkan().buffers + currentWrappedVulkan().allocations +
+                          currentWrappedVulkan().barriers,
+                      0u);
+            // What does not need it works.
+            EXPECT_EQ(suppleSetClipPose(lost.handle(), a.instances[0], 0, 0.5), SUPPLE_OK);
+            EXPECT_EQ(outputOf(lost.handle(), a.group).capacity, 1u);
+
+            healthy.evaluate({&b.group, 1});
+            EXPECT_TRUE(surfaceBits(healthy, b.group) == bits) << "another context goes on";
+            EXPECT_EQ(suppleDestroyGroup(lost.handle(), a.group), SUPPLE_OK);
+            EXPECT_EQ(suppleDestroyAsset(lost.handle(), asset), SUPPLE_OK);
+            EXPECT_EQ(lost.takeLines().size(), 0u);
+        }
+        // And while a context is created.
+        WrappedVulkan& wrapped = wrappedVulkan();
+        wrapped.failAllocation = 0;
+        wrapped.allocationFailure = VK_ERROR_DEVICE_LOST;
+        LoggedContext none(*device);
+        EXPECT_EQ(none.handle(), nullptr);
+        expectLost(none, none.result(), "suppleCreateContext");
+    }
+    device = nullptr;
+    EXPECT_EQ(validation->messageCount(), 0u) << "something leaked";
+}
+
+/// A chain as a host hands it to vkCreateDevice; `without` is off.
+class Chain {
+public:
+    Chain(bool oneByOne, const std::string& without) {
+        features12_.scalarBlockLayout = scalar_.scalarBlockLayout = without != "scalarBlockLayout";
+        features13_.synchronization2 = synchronization2_.synchronization2 = without != "synchronization2";
+        features13_.maintenance4 = maintenance4_.maintenance4 = without != "maintenance4";
+        // Something that Supple does not know stands between.
+        ycbcr_.pNext = oneByOne ? static_cast<void*>(&scalar_) : static_cast<void*>(&features12_);
+        features2_.pNext = &ycbcr_;
+        features12_.pNext = &features13_;
+        scalar_.pNext = &maintenance4_;
+        maintenance4_.pNext = &synchronization2_;
+    }
+    Chain(const Chain&) = delete;
+    Chain& operator=(const Chain&) = delete;
+    [[nodiscard]] const void* first() const { return &features2_; }
+
+private:
+    VkPhysicalDeviceFeatures2 features2_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    VkPhysicalDeviceSamplerYcbcrConversionFeatures ycbcr_{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SAMPLER_YCBCR_CONVERSION_FEATURES};
+    VkPhysicalDeviceVulkan12Features features12_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceVulkan13Features features13_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceScalarBlockLayoutFeatures scalar_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES};
+    VkPhysicalDeviceSynchronization2Features synchronization2_{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
+    VkPhysicalDeviceMaintenance4Features maintenance4_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES};
+};
+
+TEST(EnabledFeatures, WhatTheHostDidNotEnableIsNamed) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    for (const bool oneByOne : {false, true}) {
+        for (const char* feature : {"scalarBlockLayout", "synchronization2", "maintenance4"}) {
+            const Chain chain(oneByOne, feature);
+            LoggedContext context(*device, [&](SuppleContextDesc& desc) { desc.enabledFeatures = chain.first(); });
+            EXPECT_EQ(context.result(), SUPPLE_ERROR_UNSUPPORTED) << feature;
+            EXPECT_EQ(context.handle(), nullptr);
+            const std::vector<LogLine> lines = context.takeLines();
+            ASSERT_EQ(lines.size(), 1u) << feature;
+            EXPECT_EQ(lines[0].severity, SUPPLE_SEVERITY_ERROR);
+            EXPECT_EQ(lines[0].message, SUPPLE_MESSAGE_FEATURE_DISABLED);
+            EXPECT_NE(lines[0].text.find(feature), std::string::npos) << lines[0].text;
+        }
+        EXPECT_EQ(gpu::disabledFeature(Chain(oneByOne, "").first()), "");
+    }
+    // An empty chain enables nothing; none at all is taken on trust.
+    const VkPhysicalDeviceFeatures2 empty{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr, {}};
+    LoggedContext nothing(*device, [&](SuppleContextDesc& desc) { desc.enabledFeatures = &empty; });
+    EXPECT_EQ(nothing.result(), SUPPLE_ERROR_UNSUPPORTED);
+    EXPECT_EQ(nothing.takeCount(SUPPLE_MESSAGE_FEATURE_DISABLED), 1u);
+    const Chain chain(true, "");
+    for (const void* good : {static_cast<const void*>(nullptr), chain.first()}) {
+        const LoggedContext context(*device, [&](SuppleContextDesc& desc) { desc.enabledFeatures = good; });
+        EXPECT_EQ(context.result(), SUPPLE_OK);
+    }
+}
+
+} // namespace
+} // namespace supple::test

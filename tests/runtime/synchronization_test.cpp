@@ -1,0 +1,296 @@
+// What the host synchronizes itself: the handover to a draw queue family, and the barrier before a frame's passes.
+#include "tests/support/gpu_surface.h"
+#include "tests/support/logged_context.h"
+#include "tests/support/wrapped_vulkan.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace supple::test {
+namespace {
+
+constexpr SuppleSyncScope kDraw{
+    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
+    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT};
+
+std::vector<VkBufferMemoryBarrier2> acquires(const LoggedContext& context, std::span<const SuppleGroup> groups) {
+    uint32_t count = 0;
+    EXPECT_EQ(suppleGetAcquireBarriers(context.handle(), groups.data(), static_cast<uint32_t>(groups.size()), kDraw,
+                                       nullptr, &count),
+              SUPPLE_OK);
+    std::vector<VkBufferMemoryBarrier2> barriers(count);
+    EXPECT_EQ(suppleGetAcquireBarriers(context.handle(), groups.data(), static_cast<uint32_t>(groups.size()), kDraw,
+                                       barriers.data(), &count),
+              SUPPLE_OK);
+    EXPECT_EQ(count, barriers.size());
+    return barriers;
+}
+
+std::vector<VkBuffer> buffersOf(const std::vector<VkBufferMemoryBarrier2>& barriers) {
+    std::vector<VkBuffer> buffers;
+    for (const VkBufferMemoryBarrier2& barrier : barriers) {
+        buffers.push_back(barrier.buffer);
+    }
+    std::ranges::sort(buffers);
+    return buffers;
+}
+std::vector<VkBuffer> sorted(std::vector<VkBuffer> buffers) {
+    std::erase(buffers, VkBuffer{VK_NULL_HANDLE});
+    std::ranges::sort(buffers);
+    return buffers;
+}
+
+/// The two halves of a handover are what the specification asks for, and fit each other.
+void expectHalves(const std::vector<VkBufferMemoryBarrier2>& releases,
+                  const std::vector<VkBufferMemoryBarrier2>& acquired, uint32_t from, uint32_t to) {
+    SuppleSyncScope last{};
+    ASSERT_EQ(suppleGetRecordScopes(nullptr, &last), SUPPLE_OK);
+    ASSERT_EQ(releases.size(), acquired.size());
+    for (size_t i = 0; i < releases.size(); ++i) {
+        const VkBufferMemoryBarrier2 &r = releases[i], &a = acquired[i];
+        EXPECT_EQ(r.sType, VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2);
+        EXPECT_EQ(a.sType, VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2);
+        EXPECT_EQ(r.pNext, nullptr);
+        EXPECT_EQ(a.pNext, nullptr);
+        EXPECT_EQ(r.buffer, a.buffer);
+        EXPECT_EQ(r.offset, 0u);
+        EXPECT_EQ(a.offset, 0u);
+        EXPECT_EQ(r.size, VK_WHOLE_SIZE);
+        EXPECT_EQ(a.size, VK_WHOLE_SIZE);
+        for (const VkBufferMemoryBarrier2& half : {r, a}) {
+            EXPECT_EQ(half.srcQueueFamilyIndex, from);
+            EXPECT_EQ(half.dstQueueFamilyIndex, to);
+        }
+        EXPECT_EQ(r.srcStageMask, last.stages);
+        EXPECT_EQ(r.srcAccessMask, last.access);
+        EXPECT_EQ(r.dstStageMask, VK_PIPELINE_STAGE_2_NONE) << "the semaphore's wait is the second scope";
+        EXPECT_EQ(r.dstAccessMask, VK_ACCESS_2_NONE);
+        EXPECT_EQ(a.srcStageMask, VK_PIPELINE_STAGE_2_NONE);
+        EXPECT_EQ(a.srcAccessMask, VK_ACCESS_2_NONE);
+        EXPECT_EQ(a.dstStageMask, kDraw.stages);
+        EXPECT_EQ(a.dstAccessMask, kDraw.access);
+    }
+}
+
+// Most CPU devices have one queue family, and the test's device has queues of one only. Both names of it are the same
+// here: a handover within a family is a barrier as any other, so that validation has nothing to say.
+class AsyncCompute : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        wrappedVulkan();
+        device = deviceThrough(&wrappedGetInstanceProcAddr);
+        ASSERT_NE(device, nullptr);
+        context = std::make_unique<LoggedContext>(*device, [&](SuppleContextDesc& desc) {
+            desc.flags |= SUPPLE_CONTEXT_ASYNC_COMPUTE;
+            desc.drawQueueFamily = device->queueFamily();
+        });
+    }
+    static void TearDownTestSuite() {
+        if (device != nullptr) {
+            const auto log = device->validation();
+            context = nullptr;
+            device = nullptr;
+            EXPECT_EQ(log->messageCount(), 0u);
+        }
+    }
+    void SetUp() override {
+        ASSERT_NE(context, nullptr);
+        ASSERT_EQ(context->result(), SUPPLE_OK);
+        ASSERT_EQ(createTube(context->handle(), asset), SUPPLE_OK);
+        group = createGroup(context->handle(), asset,
+                            {.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION | SUPPLE_GROUP_PATCHES})
+                    .group;
+        const SuppleGroupOutput output = outputOf(context->handle(), group);
+        always = {output.surfaceVertices.buffer, output.previousPositions.buffer, output.deformedCage.buffer,
+                  output.instances.buffer, output.indirect.buffer};
+        attributes = {output.attributes.buffer, output.uvs1.buffer, output.faceUvs.buffer};
+        indices = output.gridIndices.buffer;
+        EXPECT_EQ(sorted(always).size(), 5u);
+    }
+    /// A frame of the groups, drawn from in a second submission; the buffers that change hands.
+    std::vector<VkBuffer> handedOver(std::span<const SuppleGroup> groups) {
+        context->beginFrame();
+        EXPECT_TRUE(device
+                        ->submitAndWait([&](VkCommandBuffer commands) {
+                            wrappedVulkan();
+                            SuppleRecordDesc desc{};
+                            desc.structSize = sizeof(desc);
+                            desc.groups = groups.data();
+                            desc.groupCount = static_cast<uint32_t>(groups.size());
+                            EXPECT_EQ(suppleRecord(context->handle(), commands, &desc), SUPPLE_OK);
+                        })
+                        .ok());
+        const std::vector<VkBufferMemoryBarrier2> acquired = acquires(*context, groups);
+        expectHalves(currentWrappedVulkan().bufferBarriers, acquired, device->queueFamily(), device->queueFamily());
+        EXPECT_TRUE(device
+                        ->submitAndWait([&](VkCommandBuffer commands) {
+                            VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+                            info.bufferMemoryBarrierCount = static_cast<uint32_t>(acquired.size());
+                            info.pBufferMemoryBarriers = acquired.data();
+                            vkCmdPipelineBarrier2(commands, &info);
+                        })
+                        .ok());
+        return buffersOf(acquired);
+    }
+    /// Of the fixture's group.
+    [[nodiscard]] std::vector<VkBuffer> wanted(bool withAttributes, bool withIndices) const {
+        std::vector<VkBuffer> buffers = always;
+        if (withAttributes) {
+            buffers.insert(buffers.end(), attributes.begin(), attributes.end());
+        }
+        if (withIndices) {
+            buffers.push_back(indices);
+        }
+        return sorted(buffers);
+    }
+    void refused(SuppleResult result, SuppleMessage message) {
+        EXPECT_EQ(result, SUPPLE_ERROR_ARGUMENT);
+        const std::vector<LogLine> lines = context->takeLines();
+        ASSERT_EQ(lines.size(), 1u);
+        EXPECT_EQ(lines[0].message, message) << lines[0].text;
+    }
+
+    static inline std::unique_ptr<host::Device> device;
+    static inline std::unique_ptr<LoggedContext> context;
+    SuppleAsset asset{};
+    SuppleGroup group{};
+    std::vector<VkBuffer> always, attributes;
+    VkBuffer indices = VK_NULL_HANDLE;
+};
+
+TEST_F(AsyncCompute, HandsOverWhatTheFrameWrote) {
+    EXPECT_EQ(handedOver({&group, 1}), wanted(true, true)) << "the first frame writes it all";
+    EXPECT_EQ(handedOver({&group, 1}), wanted(false, false));
+    ASSERT_EQ(suppleSetRate(context->handle(), group, 1), SUPPLE_OK);
+    EXPECT_EQ(handedOver({&group, 1}), wanted(true, false)) << "another rate has other attributes";
+    EXPECT_EQ(handedOver({&group, 1}), wanted(false, false));
+    // A second group of the same asset brings its own.
+    const SmallGroup second = createGroup(context->handle(), asset, {.scheme = SUPPLE_SCHEME_CATMULL_CLARK});
+    const SuppleGroup both[] = {group, second.group};
+    const SuppleGroupOutput output = outputOf(context->handle(), second.group);
+    std::vector<VkBuffer> buffers = wanted(false, false);
+    for (const VkBuffer buffer : {output.surfaceVertices.buffer, output.deformedCage.buffer, output.instances.buffer,
+                                  output.indirect.buffer, output.gridIndices.buffer}) {
+        buffers.push_back(buffer);
+    }
+    EXPECT_EQ(handedOver(both), sorted(buffers));
+}
+
+TEST_F(AsyncCompute, UploadsOfAnEarlierFrameAreHandedOverByTheFirstThatRecords) {
+    context->beginFrame();
+    ASSERT_TRUE(device
+                    ->submitAndWait([&](VkCommandBuffer commands) {
+                        EXPECT_EQ(suppleRecordUploads(context->handle(), commands), SUPPLE_OK);
+                    })
+                    .ok());
+    context->beginFrame();
+    EXPECT_EQ(handedOver({&group, 1}), wanted(true, true));
+    EXPECT_EQ(handedOver({&group, 1}), wanted(false, false));
+}
+
+TEST_F(AsyncCompute, ACancelledFrameHandsNothingOver) {
+    context->beginFrame();
+    ASSERT_TRUE(device
+                    ->submitAndWait([&](VkCommandBuffer commands) {
+                        EXPECT_EQ(suppleRecordUploads(context->handle(), commands), SUPPLE_OK);
+                    })
+                    .ok());
+    context->beginFrame();
+    // Recorded, and thrown away.
+    VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    info.commandPool = device->commandPool();
+    info.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    ASSERT_EQ(vkAllocateCommandBuffers(device->handle(), &info, &commands), VK_SUCCESS);
+    const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, 0, nullptr};
+    ASSERT_EQ(vkBeginCommandBuffer(commands, &begin), VK_SUCCESS);
+    EXPECT_EQ(context->record(commands, {&group, 1}), SUPPLE_OK);
+    vkFreeCommandBuffers(device->handle(), device->commandPool(), 1, &commands);
+    ASSERT_EQ(suppleCancelFrame(context->handle()), SUPPLE_OK);
+    uint32_t count = 0;
+    refused(suppleGetAcquireBarriers(context->handle(), &group, 1, kDraw, nullptr, &count),
+            SUPPLE_MESSAGE_OUT_OF_ORDER);
+    EXPECT_EQ(handedOver({&group, 1}), wanted(true, true));
+    EXPECT_EQ(handedOver({&group, 1}), wanted(false, false));
+}
+
+TEST_F(AsyncCompute, ShortArraysAndWrongCalls) {
+    uint32_t count = 3;
+    refused(suppleGetAcquireBarriers(context->handle(), &group, 1, kDraw, nullptr, &count),
+            SUPPLE_MESSAGE_OUT_OF_ORDER);
+    EXPECT_EQ(count, 3u);
+    handedOver({&group, 1});
+    const std::vector<VkBufferMemoryBarrier2> all = acquires(*context, {&group, 1});
+    VkBufferMemoryBarrier2 some[3]{};
+    some[2].size = 1234;
+    count = 2;
+    EXPECT_EQ(suppleGetAcquireBarriers(context->handle(), &group, 1, kDraw, some, &count), SUPPLE_INCOMPLETE);
+    EXPECT_EQ(count, all.size());
+    EXPECT_EQ(some[0].buffer, all[0].buffer);
+    EXPECT_EQ(some[1].buffer, all[1].buffer);
+    EXPECT_EQ(some[2].size, 1234u);
+    // A group that is not there: nothing is written for the one before it.
+    some[0].size = 1234;
+    count = 3;
+    const SuppleGroup groups[] = {group, SuppleGroup{99}};
+    refused(suppleGetAcquireBarriers(context->handle(), groups, 2, kDraw, some, &count), SUPPLE_MESSAGE_STALE_HANDLE);
+    EXPECT_EQ(some[0].size, 1234u);
+    EXPECT_EQ(count, 3u);
+}
+
+TEST(RecordScopes, AHostsOwnBarrierIsEnoughAndNeeded) {
+    SuppleSyncScope first{}, last{};
+    ASSERT_EQ(suppleGetRecordScopes(&first, &last), SUPPLE_OK);
+    EXPECT_EQ(suppleGetRecordScopes(nullptr, nullptr), SUPPLE_OK);
+    constexpr SuppleSyncScope kCopy{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+    wrappedVulkan();
+    std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+    ASSERT_NE(device, nullptr);
+    const auto validation = device->validation();
+    {
+        LoggedContext context(*device, [](SuppleContextDesc& desc) { desc.framesInFlight = 4; });
+        ASSERT_EQ(context.result(), SUPPLE_OK);
+        SuppleAsset asset{};
+        ASSERT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+        const SmallGroup group =
+            createGroup(context.handle(), asset, {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_PATCHES});
+        const SuppleGroupOutput output = outputOf(context.handle(), group.group);
+        Result<host::Buffer> copy =
+            device->createBuffer(output.deformedCage.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, host::MemoryKind::device);
+        ASSERT_TRUE(copy.ok());
+        // Four frames that follow each other in one command buffer, each read by a copy of the host's.
+        const auto frames = [&](uint64_t completed, bool barriers) {
+            ASSERT_TRUE(device
+                            ->submitAndWait([&](VkCommandBuffer commands) {
+                                for (uint64_t frame = completed + 1; frame <= completed + 4; ++frame) {
+                                    EXPECT_EQ(suppleBeginFrame(context.handle(), frame, completed), SUPPLE_OK);
+                                    if (barriers) {
+                                        host::memoryBarrier(
+                                            commands, {last.stages | kCopy.stages, last.access | kCopy.access}, first);
+                                    }
+                                    SuppleRecordDesc desc{};
+                                    desc.structSize = sizeof(desc);
+                                    desc.flags = SUPPLE_RECORD_NO_ENTRY_BARRIER | SUPPLE_RECORD_TIMINGS;
+                                    desc.groups = &group.group;
+                                    desc.groupCount = 1;
+                                    EXPECT_EQ(suppleRecord(context.handle(), commands, &desc), SUPPLE_OK);
+                                    if (barriers) {
+                                        host::memoryBarrier(commands, last, kCopy);
+                                        const VkBufferCopy region{0, 0, output.deformedCage.size};
+                                        vkCmdCopyBuffer(commands, output.deformedCage.buffer, copy->handle(), 1,
+                                                        &region);
+                                    }
+                                }
+                            })
+                            .ok());
+        };
+        frames(0, true);
+        EXPECT_EQ(validation->messageCount(), 0u);
+        const_cast<host::ValidationLog&>(*validation).setQuiet(true);
+        frames(4, false);
+        EXPECT_GT(validation->messageCount(), 0u);
+    }
+}
+
+} // namespace
+} // namespace supple::test

@@ -1,0 +1,187 @@
+// Groups recorded and posed on several threads at the same time: the bits of one thread.
+#include "tests/support/gpu_surface.h"
+#include "tests/support/logged_context.h"
+
+#include <algorithm>
+#include <barrier>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace supple::test {
+namespace {
+
+constexpr uint32_t kFrames = 24;
+constexpr uint32_t kCapacity = 3;
+
+/// A command buffer of a thread's own.
+class Recorder {
+public:
+    explicit Recorder(const host::Device& device) : device_(device.handle()) {
+        const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0,
+                                               device.queueFamily()};
+        EXPECT_EQ(vkCreateCommandPool(device_, &poolInfo, nullptr, &pool_), VK_SUCCESS);
+        VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+        info.commandPool = pool_;
+        info.commandBufferCount = 1;
+        EXPECT_EQ(vkAllocateCommandBuffers(device_, &info, &commands_), VK_SUCCESS);
+    }
+    ~Recorder() { vkDestroyCommandPool(device_, pool_, nullptr); }
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+
+    /// Nothing recorded before may be pending.
+    VkCommandBuffer begin() {
+        vkResetCommandPool(device_, pool_, 0);
+        VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        vkBeginCommandBuffer(commands_, &info);
+        return commands_;
+    }
+    void end() { vkEndCommandBuffer(commands_); }
+    [[nodiscard]] VkCommandBuffer handle() const { return commands_; }
+
+private:
+    VkDevice device_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+};
+
+/// What a frame does to a group's instances: poses, transforms, who is there and who is seen.
+void change(SuppleContext context, uint32_t g, uint32_t frame, SmallGroup& group) {
+    const auto ok = [](SuppleResult result) { EXPECT_EQ(result, SUPPLE_OK); };
+    for (uint32_t i = 0; i < kCapacity; ++i) {
+        ok(suppleSetClipPose(context, group.instances[i], 0, 0.11 * frame + 0.3 * i + g));
+        const glm::mat4 transform =
+            glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(g, i, 0.1f * static_cast<float>(frame))),
+                        0.05f * static_cast<float>(frame), {0.0f, 1.0f, 0.0f});
+        ok(suppleSetTransform(context, group.instances[i], glm::value_ptr(transform)));
+    }
+    const float weights[] = {0.1f * static_cast<float>(frame % 7), 0.5f, 0.0f, -0.2f};
+    ok(suppleSetMorphWeights(context, group.instances[1], frame % 3 == 0 ? nullptr : weights, 4));
+    // Seen at first: what was never written has no bits to compare.
+    ok(suppleSetVisible(context, group.instances[2], frame < 4 || (frame + g) % 4 != 0 ? 1 : 0));
+    if (frame % 5 == g) {
+        ok(suppleDestroyInstance(context, group.instances[0]));
+        ok(suppleCreateInstance(context, group.group, &group.instances[0]));
+    }
+    if (frame % 6 == 2) {
+        ok(suppleTeleport(context, group.instances[1]));
+    }
+    SuppleGroupOutput output{};
+    output.structSize = sizeof(output);
+    ok(suppleGetGroupOutput(context, group.group, &output));
+}
+
+enum class Order { oneThread, asRecorded, reversed };
+
+/// Every frame's bits of every group.
+std::vector<std::vector<std::byte>> run(LoggedContext& context, uint32_t groupCount, Order order) {
+    host::Device& device = context.device();
+    SuppleAsset asset{};
+    EXPECT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+    // Some share their tables.
+    const SuppleGroupDesc descs[] = {
+        {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, .capacity = kCapacity},
+        {.capacity = kCapacity, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION},
+        {.flags = SUPPLE_GROUP_MOTION, .capacity = kCapacity, .scheme = SUPPLE_SCHEME_CATMULL_CLARK},
+        {.capacity = kCapacity, .vertexFormat = SUPPLE_VERTEX_24}};
+    std::vector<SmallGroup> groups;
+    for (uint32_t g = 0; g < groupCount; ++g) {
+        groups.push_back(createGroup(context.handle(), asset, descs[g]));
+        EXPECT_EQ(groups.back().result, SUPPLE_OK);
+    }
+    context.takeLines();
+    std::vector<std::unique_ptr<Recorder>> recorders;
+    for (uint32_t g = 0; g <= groupCount; ++g) {
+        recorders.push_back(std::make_unique<Recorder>(device));
+    }
+    const auto changeAndRecord = [&](uint32_t g, uint32_t frame) {
+        change(context.handle(), g, frame, groups[g]);
+        EXPECT_EQ(context.record(recorders[g]->begin(), {&groups[g].group, 1}, SUPPLE_RECORD_TIMINGS), SUPPLE_OK);
+        recorders[g]->end();
+    };
+
+    std::barrier ready(static_cast<ptrdiff_t>(groupCount) + 1), done(static_cast<ptrdiff_t>(groupCount) + 1);
+    std::vector<std::jthread> threads;
+    for (uint32_t g = 0; g < groupCount && order != Order::oneThread; ++g) {
+        threads.emplace_back([&, g] {
+            for (uint32_t frame = 1; frame <= kFrames; ++frame) {
+                ready.arrive_and_wait();
+                changeAndRecord(g, frame);
+                done.arrive_and_wait();
+            }
+        });
+    }
+    std::vector<std::vector<std::byte>> bits;
+    for (uint32_t frame = 1; frame <= kFrames; ++frame) {
+        context.beginFrame();
+        EXPECT_EQ(suppleRecordUploads(context.handle(), recorders[groupCount]->begin()), SUPPLE_OK);
+        std::vector<VkCommandBuffer> commands;
+        if (order == Order::oneThread) {
+            for (uint32_t g = 0; g < groupCount; ++g) {
+                changeAndRecord(g, frame);
+            }
+        } else {
+            ready.arrive_and_wait();
+            done.arrive_and_wait();
+        }
+        for (uint32_t g = 0; g < groupCount; ++g) {
+            commands.push_back(recorders[g]->handle());
+        }
+        if (order == Order::reversed) {
+            std::ranges::reverse(commands);
+        }
+        recorders[groupCount]->end();
+        commands.insert(commands.begin(), recorders[groupCount]->handle());
+        VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+        submit.commandBufferCount = static_cast<uint32_t>(commands.size());
+        submit.pCommandBuffers = commands.data();
+        EXPECT_EQ(vkQueueSubmit(device.queue(), 1, &submit, VK_NULL_HANDLE), VK_SUCCESS);
+        EXPECT_EQ(vkQueueWaitIdle(device.queue()), VK_SUCCESS);
+        for (const SmallGroup& group : groups) {
+            if (frame % 4 == 0 || frame < 3) {
+                bits.push_back(surfaceBits(context, group.group));
+            }
+        }
+        // What was timed is of every group, and of this frame alone.
+        if (frame > 1) {
+            uint32_t count = 0;
+            EXPECT_EQ(suppleGetTimings(context.handle(), nullptr, &count), SUPPLE_OK);
+            std::vector<SuppleTiming> timings(count);
+            EXPECT_EQ(suppleGetTimings(context.handle(), timings.data(), &count), SUPPLE_OK);
+            uint32_t evaluations = 0;
+            for (const SuppleTiming& timing : timings) {
+                EXPECT_EQ(timing.frame, context.frame - 1);
+                EXPECT_GE(timing.gpuEnd, timing.gpuBegin);
+                evaluations += std::string(timing.pass) == "evaluate" ? 1 : 0;
+            }
+            EXPECT_EQ(evaluations, groupCount);
+        }
+    }
+    EXPECT_EQ(context.takeLines().size(), 0u);
+    for (const SmallGroup& group : groups) {
+        EXPECT_EQ(suppleDestroyGroup(context.handle(), group.group), SUPPLE_OK);
+    }
+    EXPECT_EQ(suppleDestroyAsset(context.handle(), asset), SUPPLE_OK);
+    return bits;
+}
+
+TEST(Threads, RecordTheBitsOfOneThread) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    LoggedContext context(*device);
+    ASSERT_EQ(context.result(), SUPPLE_OK);
+    for (const uint32_t groups : {2u, 4u}) {
+        const std::vector<std::vector<std::byte>> alone = run(context, groups, Order::oneThread);
+        ASSERT_FALSE(alone.empty());
+        EXPECT_FALSE(alone[0].empty());
+        EXPECT_TRUE(alone == run(context, groups, Order::asRecorded)) << groups;
+        EXPECT_TRUE(alone == run(context, groups, Order::reversed)) << groups;
+    }
+}
+
+} // namespace
+} // namespace supple::test

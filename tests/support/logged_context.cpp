@@ -1,0 +1,159 @@
+#include "tests/support/logged_context.h"
+
+#include "cage/gltf_writer.h"
+#include "tests/support/rigged_tube.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace supple::test {
+
+LoggedContext::LoggedContext(host::Device& device, const std::function<void(SuppleContextDesc&)>& adjust)
+    : device_(device) {
+    SuppleContextDesc desc = host::contextDesc(device);
+    desc.log = log;
+    desc.logUser = this;
+    if (adjust) {
+        adjust(desc);
+    }
+    result_ = suppleCreateContext(&desc, &context_);
+}
+
+LoggedContext::~LoggedContext() {
+    suppleDestroyContext(context_);
+}
+
+std::vector<LogLine> LoggedContext::takeLines() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(lines_, {});
+}
+
+uint32_t LoggedContext::takeCount(SuppleMessage message) {
+    const std::vector<LogLine> lines = takeLines();
+    return static_cast<uint32_t>(
+        std::ranges::count_if(lines, [&](const LogLine& line) { return line.message == message; }));
+}
+
+void LoggedContext::beginFrame() {
+    ++frame;
+    ASSERT_EQ(suppleBeginFrame(context_, frame, frame - 1), SUPPLE_OK);
+}
+
+SuppleResult LoggedContext::record(VkCommandBuffer commands, std::span<const SuppleGroup> groups,
+                                   uint32_t flags) const {
+    SuppleRecordDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.flags = flags;
+    desc.groups = groups.data();
+    desc.groupCount = static_cast<uint32_t>(groups.size());
+    desc.before = kAnyUse;
+    desc.after = kAnyUse;
+    return suppleRecord(context_, commands, &desc);
+}
+
+void LoggedContext::evaluate(std::span<const SuppleGroup> groups, uint32_t flags) {
+    beginFrame();
+    ASSERT_TRUE(
+        device_.submitAndWait([&](VkCommandBuffer commands) { EXPECT_EQ(record(commands, groups, flags), SUPPLE_OK); })
+            .ok());
+}
+
+void LoggedContext::log(SuppleSeverity severity, SuppleMessage message, const char* text, void* user) {
+    auto& own = *static_cast<LoggedContext*>(user);
+    const std::scoped_lock lock(own.mutex_);
+    own.lines_.push_back({severity, message, text});
+}
+
+std::unique_ptr<host::Device> deviceThrough(PFN_vkGetInstanceProcAddr functions, bool validation) {
+    host::DeviceOptions options;
+    options.validation = validation;
+    options.suppleGetInstanceProcAddr = functions;
+    Result<std::unique_ptr<host::Device>> device = host::Device::create(options);
+    if (!device) {
+        ADD_FAILURE() << device.error().message;
+        return nullptr;
+    }
+    return std::move(*device);
+}
+
+const std::vector<std::byte>& tubeFile() {
+    static const std::vector<std::byte> bytes = [] {
+        cage::Character tube = riggedTube({.segments = 6, .sides = 6, .morphTargets = 4});
+        tube.morphs.weights = {0.25f, 0.0f, 1.0f, -0.5f};
+        tube.clips.push_back(
+            clipOf({channel(1, cage::ChannelPath::translation, {0, 1, 2}, {0, 0, 0, -1, 0.5f, 0, -2, 0, 0}),
+                    channel(tube.meshNode, cage::ChannelPath::weights, {0, 2}, {0, 0, 0, 0, 1, -1, 2, 0.5f})}));
+        tube.clips[0].name = "walk";
+        constexpr uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 0, 0, 13, 'I',  'H',  'D',  'R', 0,
+                                    0,    0,   1,   0,   0,    0,    1,    8,    6, 0, 0, 0,  0x1F, 0x15, 0xC4, 0x89};
+        cage::Image image;
+        image.name = "pixel";
+        image.mimeType = "image/png";
+        for (const uint8_t b : kPng) {
+            image.bytes.push_back(std::byte{b});
+        }
+        tube.images.push_back(image);
+        cage::Material material;
+        material.name = "skin";
+        material.baseColorImage = 0;
+        tube.materials.push_back(material);
+        tube.cage.faceMaterials.assign(tube.cage.faceCount(), 0);
+        const Result<cage::GlbFile> file = cage::writeGlb(tube);
+        EXPECT_TRUE(file.ok());
+        return file.ok() ? file->bytes : std::vector<std::byte>();
+    }();
+    return bytes;
+}
+
+SuppleResult createTube(SuppleContext context, SuppleAsset& asset) {
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.name = "tube";
+    desc.bytes = tubeFile().data();
+    desc.byteCount = tubeFile().size();
+    return suppleCreateAsset(context, &desc, &asset);
+}
+
+SmallGroup createGroup(SuppleContext context, SuppleAsset asset, SuppleGroupDesc desc) {
+    desc.structSize = sizeof(desc);
+    desc.asset = asset;
+    desc.rate = desc.rate == 0 ? 2 : desc.rate;
+    desc.capacity = std::max(desc.capacity, 1u);
+    SmallGroup made;
+    made.result = suppleCreateGroup(context, &desc, &made.group);
+    if (made.result == SUPPLE_OK) {
+        made.instances.resize(desc.capacity);
+        for (SuppleInstance& instance : made.instances) {
+            EXPECT_EQ(suppleCreateInstance(context, made.group, &instance), SUPPLE_OK);
+        }
+    }
+    return made;
+}
+
+SuppleGroupOutput outputOf(SuppleContext context, SuppleGroup group) {
+    SuppleGroupOutput output{};
+    output.structSize = sizeof(output);
+    EXPECT_EQ(suppleGetGroupOutput(context, group, &output), SUPPLE_OK);
+    return output;
+}
+
+std::vector<std::byte> surfaceBits(const LoggedContext& context, SuppleGroup group) {
+    const SuppleGroupOutput output = outputOf(context.handle(), group);
+    std::vector<std::byte> bits;
+    const auto append = [&](const SuppleBufferView& view, uint32_t count, uint32_t stride) {
+        if (view.buffer == VK_NULL_HANDLE) {
+            return;
+        }
+        const Result<std::vector<std::byte>> bytes = context.device().readBuffer(view);
+        ASSERT_TRUE(bytes.ok());
+        for (uint32_t slot = 0; slot < output.capacity; ++slot) {
+            const auto first = bytes->begin() + static_cast<ptrdiff_t>(size_t{slot} * stride * view.stride);
+            bits.insert(bits.end(), first, first + static_cast<ptrdiff_t>(size_t{count} * view.stride));
+        }
+    };
+    append(output.deformedCage, output.cageVertexCount, output.cageVerticesPerInstance);
+    append(output.surfaceVertices, output.vertexCount, output.verticesPerInstance);
+    return bits;
+}
+
+} // namespace supple::test
