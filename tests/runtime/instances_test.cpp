@@ -19,9 +19,9 @@ namespace {
 const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
 constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
-using Instances = LoggedContexts;
+using Instances = CrowdContexts;
 
-SuppleGroupDesc sphereDesc(LoggedContext& context, uint32_t capacity, uint32_t rate) {
+SuppleGroupDesc sphereDesc(CrowdContext& context, uint32_t capacity, uint32_t rate) {
     SuppleGroupDesc desc{};
     desc.asset = context.createAsset(cage::makeCubeSphere(2));
     desc.capacity = capacity;
@@ -36,7 +36,7 @@ glm::mat4 placedAt(const glm::vec3& place) {
 
 TEST_F(Instances, HandlesDieWithTheirInstance) {
     const ValidationGuard guard;
-    LoggedContext& own = context(SUPPLE_MAPPING_NARROW);
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
     Crowd crowd(own, sphereDesc(own, 3, 1)), neighbour(own, sphereDesc(own, 3, 1));
     ASSERT_TRUE(crowd.valid() && neighbour.valid());
@@ -117,7 +117,7 @@ TEST_F(Instances, WhoIsVisibleIsListedDrawnAndWritten) {
     constexpr uint32_t kCapacity = 7;
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
-        LoggedContext& own = context(mapping);
+        CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
         SuppleGroupDesc desc = sphereDesc(own, kCapacity, 3);
         desc.asset = own.asset(kPip); // several draw ranges
@@ -194,7 +194,7 @@ TEST_F(Instances, WhoIsVisibleIsListedDrawnAndWritten) {
 
 TEST_F(Instances, ANewInstanceKnowsNothingOfTheOneBefore) {
     const ValidationGuard guard;
-    LoggedContext& own = context(SUPPLE_MAPPING_NARROW);
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
     SuppleGroupDesc desc = sphereDesc(own, 1, 1);
     desc.asset = own.asset(kPip);
@@ -220,7 +220,7 @@ public:
     static constexpr uint32_t kCapacity = 6, kMaxRate = 3;
     static constexpr float kTolerance = 2e-5f;
 
-    Script(LoggedContext& context, uint32_t framesInFlight)
+    Script(CrowdContext& context, uint32_t framesInFlight)
         : context_(context), inFlight_(framesInFlight), random_(framesInFlight), crowd_(context, [&] {
               SuppleGroupDesc desc = sphereDesc(context, kCapacity, kMaxRate);
               desc.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES;
@@ -452,7 +452,7 @@ private:
         ++compared_;
     }
 
-    LoggedContext& context_;
+    CrowdContext& context_;
     uint32_t inFlight_;
     std::mt19937 random_;
     Crowd crowd_;
@@ -470,8 +470,8 @@ TEST_F(Instances, ComeAndGoWithFramesInFlight) {
     const ValidationGuard guard;
     for (const uint32_t framesInFlight : {1u, 2u, 3u, 4u}) {
         SCOPED_TRACE(std::to_string(framesInFlight) + " frames in flight");
-        LoggedContext own(*testDevice(), framesInFlight % 2 == 1 ? SUPPLE_MAPPING_NARROW : SUPPLE_MAPPING_WIDE,
-                          framesInFlight);
+        CrowdContext own(*testDevice(), framesInFlight % 2 == 1 ? SUPPLE_MAPPING_NARROW : SUPPLE_MAPPING_WIDE,
+                         framesInFlight);
         ASSERT_TRUE(own.valid());
         Script(own, framesInFlight).run(120);
     }

@@ -115,7 +115,7 @@ struct MotionCase {
     SuppleMapping mapping = SUPPLE_MAPPING_NARROW;
     SuppleVertexFormat format = SUPPLE_VERTEX_16;
 
-    [[nodiscard]] SuppleGroupDesc desc(LoggedContext& context, uint32_t capacity, uint32_t flags) const {
+    [[nodiscard]] SuppleGroupDesc desc(CrowdContext& context, uint32_t capacity, uint32_t flags) const {
         SuppleGroupDesc desc{};
         // A small character where the kernel subdivides: its wide mapping is slow without a GPU.
         const bool subdivides = scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
@@ -152,12 +152,12 @@ std::vector<MotionCase> motionCases() {
     return cases;
 }
 
-class Motion : public LoggedContexts, public testing::WithParamInterface<MotionCase> {};
+class Motion : public CrowdContexts, public testing::WithParamInterface<MotionCase> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, Motion, testing::ValuesIn(motionCases()), [](const auto& c) { return c.param.name; });
 
 TEST_P(Motion, PreviousPositionsAreThoseOfTheRecordBefore) {
     const ValidationGuard guard;
-    LoggedContext& own = context(GetParam().mapping);
+    CrowdContext& own = context(GetParam().mapping);
     ASSERT_TRUE(own.valid());
     Crowd crowd(own, GetParam().desc(own, 6, SUPPLE_GROUP_MOTION));
     Crowd other(own, GetParam().desc(own, 2, 0)); // evaluates single poses, and is recorded when the crowd is not
@@ -219,11 +219,11 @@ TEST_P(Motion, PreviousPositionsAreThoseOfTheRecordBefore) {
     EXPECT_GT(farthest, 0.1f);
 }
 
-class MotionFrames : public LoggedContexts {
+class MotionFrames : public CrowdContexts {
 protected:
     /// One pose at one rate, evaluated by a group that sees nothing else.
     static PositionBits evaluated(const MotionCase& c, uint32_t frame, uint32_t instance) {
-        LoggedContext& own = context(c.mapping);
+        CrowdContext& own = context(c.mapping);
         Crowd alone(own, c.desc(own, 1, 0));
         if (!alone.valid()) {
             return {};
@@ -271,7 +271,7 @@ TEST_F(MotionFrames, AChangedRateHasThePastAtTheNewRate) {
     for (const SuppleMapping mapping : kMappings) {
         for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
             MotionCase c{"", scheme, kMax, mapping, scheme == SUPPLE_SCHEME_PM ? SUPPLE_VERTEX_16 : SUPPLE_VERTEX_24};
-            LoggedContext& own = context(mapping);
+            CrowdContext& own = context(mapping);
             ASSERT_TRUE(own.valid());
             Crowd crowd(own, c.desc(own, 3, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES));
             ASSERT_TRUE(crowd.valid());
@@ -309,7 +309,7 @@ TEST_F(MotionFrames, AChangedRateHasThePastAtTheNewRate) {
 
 TEST_F(MotionFrames, RefusedRatesLeaveEverythingAsItWas) {
     const ValidationGuard guard;
-    LoggedContext& own = context(SUPPLE_MAPPING_NARROW);
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
     const auto refused = [&](const MotionCase& c, uint32_t rate) {
         SCOPED_TRACE(c.name + " at rate " + std::to_string(rate));
@@ -351,7 +351,7 @@ TEST_F(MotionFrames, ACancelledFrameLeavesNoMotion) {
     for (const SuppleMapping mapping : kMappings) {
         for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_LOOP}) {
             const MotionCase c{"", scheme, 2, mapping};
-            LoggedContext& own = context(mapping);
+            CrowdContext& own = context(mapping);
             ASSERT_TRUE(own.valid());
             Crowd crowd(own, c.desc(own, 3, SUPPLE_GROUP_MOTION));
             Crowd bystander(own, c.desc(own, 1, SUPPLE_GROUP_MOTION)); // is not recorded in the cancelled frame
@@ -389,7 +389,7 @@ TEST_F(MotionFrames, ACancelledFrameLeavesNoMotion) {
 TEST_F(MotionFrames, UploadsOfACancelledFrameComeAgain) {
     const ValidationGuard guard;
     // A context that has recorded nothing yet: the parameter pairs are to be uploaded too.
-    LoggedContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
     const MotionCase c{"", SUPPLE_SCHEME_PM, 3, SUPPLE_MAPPING_NARROW};
     Crowd crowd(own, c.desc(own, 1, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES));
@@ -423,7 +423,7 @@ TEST_F(MotionFrames, UploadsOfACancelledFrameComeAgain) {
     const auto compareAttributes = [&](uint32_t rate) {
         MotionCase at = c;
         at.rate = rate;
-        LoggedContext& reference = context(c.mapping);
+        CrowdContext& reference = context(c.mapping);
         Crowd fresh(reference, at.desc(reference, 1, SUPPLE_GROUP_ATTRIBUTES));
         static_cast<void>(fresh.spawn());
         fresh.run();
@@ -468,12 +468,12 @@ TEST_F(MotionFrames, WindowsOfInstancesMoveAlike) {
         wrapped.maxStorageBufferRange = kRange;
         {
             const ValidationGuard guard;
-            LoggedContext small(**device, mapping);
-            LoggedContext& large = context(mapping);
+            CrowdContext small(**device, mapping);
+            CrowdContext& large = context(mapping);
             ASSERT_TRUE(small.valid() && large.valid());
             for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
                 SCOPED_TRACE(mappingName(mapping) + " scheme " + std::to_string(scheme));
-                const auto desc = [&](LoggedContext& own) {
+                const auto desc = [&](CrowdContext& own) {
                     SuppleGroupDesc desc{};
                     // At rate 8 the narrow mapping subdivides through scratch memory.
                     const bool subdivides = scheme == SUPPLE_SCHEME_CATMULL_CLARK;

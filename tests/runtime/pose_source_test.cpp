@@ -15,7 +15,7 @@ namespace {
 const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
 constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
-using PoseSources = LoggedContexts;
+using PoseSources = CrowdContexts;
 
 /// A matrix of quarter turns, powers of two and eighths, so that products of a few are exact; it moves along every
 /// axis.
@@ -37,7 +37,7 @@ TEST_F(PoseSources, PalettesFromABufferPoseAsCallsDo) {
     const cage::Character tube = riggedTube({.joints = kJoints, .morphTargets = kTargets});
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
-        LoggedContext& own = context(mapping);
+        CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
         SuppleGroupDesc desc{};
         desc.asset = own.createAsset(tube);
@@ -122,7 +122,7 @@ TEST_F(PoseSources, PalettesFromABufferPoseAsCallsDo) {
 TEST_F(PoseSources, APaletteCopiedOnTheDevicePosesACharacter) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
-        LoggedContext& own = context(mapping);
+        CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
         SuppleGroupDesc desc{};
         desc.asset = own.asset(kPip);
@@ -161,7 +161,7 @@ TEST_F(PoseSources, CagesFromABufferHaveTheSameSurface) {
                                                             {SUPPLE_MAPPING_WIDE, SUPPLE_SCHEME_PM}};
     for (const auto& [mapping, scheme] : cases) {
         SCOPED_TRACE(mappingName(mapping) + " scheme " + std::to_string(scheme));
-        LoggedContext& own = context(mapping);
+        CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
         SuppleGroupDesc desc{};
         desc.asset = own.asset(kPip);
@@ -212,7 +212,7 @@ TEST_F(PoseSources, CagesFromABufferHaveTheSameSurface) {
 
 TEST_F(PoseSources, WhatIsLeftToTheHostIsRefused) {
     const ValidationGuard guard;
-    LoggedContext& own = context(SUPPLE_MAPPING_NARROW);
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
     for (const SupplePoseSource source : {SUPPLE_POSES_PALETTE_BUFFER, SUPPLE_POSES_CAGE_BUFFER}) {
         SuppleGroupDesc desc{};
@@ -266,7 +266,7 @@ TEST_F(PoseSources, WhatIsLeftToTheHostIsRefused) {
 
 TEST_F(PoseSources, GroupsWithoutASurfaceTakeThemToo) {
     const ValidationGuard guard;
-    LoggedContext& own = context(SUPPLE_MAPPING_NARROW);
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
     for (const SupplePoseSource source : {SUPPLE_POSES_PALETTE_BUFFER, SUPPLE_POSES_CAGE_BUFFER}) {
         SuppleGroupDesc desc{};

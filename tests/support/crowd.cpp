@@ -60,7 +60,7 @@ void Commands::wait() {
     }
 }
 
-LoggedContext::LoggedContext(host::Device& device, SuppleMapping mapping, uint32_t framesInFlight) : device_(device) {
+CrowdContext::CrowdContext(host::Device& device, SuppleMapping mapping, uint32_t framesInFlight) : device_(device) {
     SuppleContextDesc desc = host::contextDesc(device);
     desc.mapping = mapping;
     desc.framesInFlight = framesInFlight;
@@ -69,18 +69,18 @@ LoggedContext::LoggedContext(host::Device& device, SuppleMapping mapping, uint32
     EXPECT_EQ(suppleCreateContext(&desc, &context_), SUPPLE_OK);
 }
 
-LoggedContext::~LoggedContext() {
+CrowdContext::~CrowdContext() {
     suppleDestroyContext(context_);
 }
 
-void LoggedContext::log(SuppleSeverity severity, SuppleMessage message, const char* text, void* user) {
+void CrowdContext::log(SuppleSeverity severity, SuppleMessage message, const char* text, void* user) {
     if (severity == SUPPLE_SEVERITY_ERROR) {
         EXPECT_NE(text, nullptr);
-        static_cast<LoggedContext*>(user)->lastError_ = message;
+        static_cast<CrowdContext*>(user)->lastError_ = message;
     }
 }
 
-SuppleAsset LoggedContext::asset(const std::string& path) {
+SuppleAsset CrowdContext::asset(const std::string& path) {
     SuppleAsset& own = assets_[path];
     if (own.id == 0) {
         std::ifstream file(path, std::ios::binary);
@@ -90,7 +90,7 @@ SuppleAsset LoggedContext::asset(const std::string& path) {
     return own;
 }
 
-SuppleAsset LoggedContext::createAsset(const cage::Cage& cage) {
+SuppleAsset CrowdContext::createAsset(const cage::Cage& cage) {
     const host::CageArrays arrays(cage);
     SuppleAssetDesc desc{};
     desc.structSize = sizeof(desc);
@@ -101,13 +101,13 @@ SuppleAsset LoggedContext::createAsset(const cage::Cage& cage) {
     return asset;
 }
 
-SuppleAsset LoggedContext::createAsset(const cage::Character& character) {
+SuppleAsset CrowdContext::createAsset(const cage::Character& character) {
     const Result<cage::GlbFile> glb = cage::writeGlb(character);
     EXPECT_TRUE(glb.ok()) << glb.error().message;
     return glb ? createAsset(glb->bytes, character.name.c_str()) : SuppleAsset{};
 }
 
-SuppleAsset LoggedContext::createAsset(std::span<const std::byte> glb, const char* name) {
+SuppleAsset CrowdContext::createAsset(std::span<const std::byte> glb, const char* name) {
     SuppleAssetDesc desc{};
     desc.structSize = sizeof(desc);
     desc.name = name;
@@ -118,7 +118,7 @@ SuppleAsset LoggedContext::createAsset(std::span<const std::byte> glb, const cha
     return asset;
 }
 
-SuppleResult LoggedContext::record(VkCommandBuffer commands, std::span<const SuppleGroup> groups) {
+SuppleResult CrowdContext::record(VkCommandBuffer commands, std::span<const SuppleGroup> groups) {
     SuppleRecordDesc desc{};
     desc.structSize = sizeof(desc);
     desc.groups = groups.data();
@@ -129,7 +129,7 @@ SuppleResult LoggedContext::record(VkCommandBuffer commands, std::span<const Sup
     return suppleRecord(context_, commands, &desc);
 }
 
-void LoggedContext::run(std::span<const SuppleGroup> groups, const std::function<void(VkCommandBuffer)>& first) {
+void CrowdContext::run(std::span<const SuppleGroup> groups, const std::function<void(VkCommandBuffer)>& first) {
     const uint64_t frame = nextFrame();
     ASSERT_EQ(suppleBeginFrame(context_, frame, frame - 1), SUPPLE_OK);
     const Status submitted = device_.submitAndWait([&](VkCommandBuffer commands) {
@@ -141,7 +141,7 @@ void LoggedContext::run(std::span<const SuppleGroup> groups, const std::function
     ASSERT_TRUE(submitted.ok()) << submitted.error().message;
 }
 
-void LoggedContext::cancel(std::span<const SuppleGroup> groups) {
+void CrowdContext::cancel(std::span<const SuppleGroup> groups) {
     const uint64_t frame = nextFrame();
     ASSERT_EQ(suppleBeginFrame(context_, frame, frame - 1), SUPPLE_OK);
     Commands dropped(device_);
@@ -149,15 +149,15 @@ void LoggedContext::cancel(std::span<const SuppleGroup> groups) {
     EXPECT_EQ(suppleCancelFrame(context_), SUPPLE_OK);
 }
 
-std::map<SuppleMapping, std::unique_ptr<LoggedContext>>& LoggedContexts::contexts() {
-    static std::map<SuppleMapping, std::unique_ptr<LoggedContext>> own;
+std::map<SuppleMapping, std::unique_ptr<CrowdContext>>& CrowdContexts::contexts() {
+    static std::map<SuppleMapping, std::unique_ptr<CrowdContext>> own;
     return own;
 }
 
-LoggedContext& LoggedContexts::context(SuppleMapping mapping) {
-    std::unique_ptr<LoggedContext>& own = contexts()[mapping];
+CrowdContext& CrowdContexts::context(SuppleMapping mapping) {
+    std::unique_ptr<CrowdContext>& own = contexts()[mapping];
     if (own == nullptr) {
-        own = std::make_unique<LoggedContext>(*testDevice(), mapping);
+        own = std::make_unique<CrowdContext>(*testDevice(), mapping);
     }
     return *own;
 }
@@ -181,7 +181,7 @@ std::vector<glm::vec3> asPositions(const PositionBits& bits) {
     return positions;
 }
 
-Crowd::Crowd(LoggedContext& context, SuppleGroupDesc desc) : context_(context) {
+Crowd::Crowd(CrowdContext& context, SuppleGroupDesc desc) : context_(context) {
     desc.structSize = sizeof(desc);
     EXPECT_EQ(suppleCreateGroup(context.handle(), &desc, &group_), SUPPLE_OK);
     SuppleAssetInfo info{};

@@ -37,13 +37,13 @@ private:
 };
 
 /// A context that keeps what it says. The device must outlive it.
-class LoggedContext {
+class CrowdContext {
 public:
-    explicit LoggedContext(host::Device& device, SuppleMapping mapping = SUPPLE_MAPPING_AUTO,
-                           uint32_t framesInFlight = 2);
-    ~LoggedContext();
-    LoggedContext(const LoggedContext&) = delete;
-    LoggedContext& operator=(const LoggedContext&) = delete;
+    explicit CrowdContext(host::Device& device, SuppleMapping mapping = SUPPLE_MAPPING_AUTO,
+                          uint32_t framesInFlight = 2);
+    ~CrowdContext();
+    CrowdContext(const CrowdContext&) = delete;
+    CrowdContext& operator=(const CrowdContext&) = delete;
 
     [[nodiscard]] bool valid() const { return context_ != nullptr; } ///< a failure was recorded when not
     [[nodiscard]] SuppleContext handle() const { return context_; }
@@ -80,14 +80,14 @@ private:
 };
 
 /// A suite's contexts, made when asked for and gone after its last test.
-class LoggedContexts : public testing::Test {
+class CrowdContexts : public testing::Test {
 protected:
     static void TearDownTestSuite() { contexts().clear(); }
-    static LoggedContext& context(SuppleMapping mapping);
+    static CrowdContext& context(SuppleMapping mapping);
     void SetUp() override { ASSERT_NE(testDevice(), nullptr); }
 
 private:
-    static std::map<SuppleMapping, std::unique_ptr<LoggedContext>>& contexts();
+    static std::map<SuppleMapping, std::unique_ptr<CrowdContext>>& contexts();
 };
 
 /// Positions as bits.
@@ -100,14 +100,14 @@ using PositionBits = std::vector<std::array<uint32_t, 3>>;
 class Crowd {
 public:
     /// `desc` without structSize.
-    Crowd(LoggedContext& context, SuppleGroupDesc desc);
+    Crowd(CrowdContext& context, SuppleGroupDesc desc);
     ~Crowd();
     Crowd(const Crowd&) = delete;
     Crowd& operator=(const Crowd&) = delete;
 
     [[nodiscard]] bool valid() const { return group_.id != 0; }
     void end(); ///< destroys the group now
-    [[nodiscard]] LoggedContext& context() const { return context_; }
+    [[nodiscard]] CrowdContext& context() const { return context_; }
     [[nodiscard]] SuppleGroup group() const { return group_; }
     [[nodiscard]] SuppleGroupOutput output() const; ///< as it is now
     [[nodiscard]] uint32_t clipCount() const { return clipCount_; }
@@ -134,7 +134,7 @@ public:
 private:
     [[nodiscard]] PositionBits bits(uint32_t slot, const std::vector<std::byte>& bytes, size_t stride) const;
 
-    LoggedContext& context_;
+    CrowdContext& context_;
     SuppleGroup group_{};
     uint32_t clipCount_ = 0;
     std::vector<std::byte> surface_, previous_;
