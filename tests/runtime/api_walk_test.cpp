@@ -675,8 +675,8 @@ void groups(Rows& r) {
                  [=](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, rate); });
     }
     r.accept("suppleSetRate", "as it is", [](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, 2); });
-    r.add("suppleSetRate", "of a scheme of one rate", SUPPLE_ERROR_UNSUPPORTED, SUPPLE_MESSAGE_DEVICE_UNSUITED,
-          [](World& w) { return suppleSetRate(w.handle(), w.mine.subdivision.group, 4); });
+    r.add("suppleSetRate", "of a scheme of one rate", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
+          [](World& w) { return suppleSetRate(w.handle(), w.mine.subdivision.group, 64); });
     const auto output = [](World& w, SuppleContext c, SuppleGroup g) {
         return suppleGetGroupOutput(c, g, w.watched<SuppleGroupOutput>(sizeof(SuppleGroupOutput)));
     };
@@ -1064,7 +1064,7 @@ void measurements(Rows& r) {
                 auto* const out = w.plain<SuppleTiming>(2);
                 const SuppleResult result = suppleGetTimings(w.handle(), out, &count);
                 EXPECT_EQ(count, 0u);
-                EXPECT_EQ(out->group, 0xA5A5A5A5u);
+                EXPECT_EQ(out->group.id, 0xA5A5A5A5A5A5A5A5ull);
                 return result;
             },
             phase);
