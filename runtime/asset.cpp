@@ -146,10 +146,17 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
         return Error{ErrorCode::nullPointer, name + ": a count without its array"};
     }
     for (uint32_t i = 0; i < desc.creaseCount; ++i) {
+        const uint32_t a = desc.creaseVertices[2 * size_t{i}], b = desc.creaseVertices[2 * size_t{i} + 1];
+        if (a >= desc.vertexCount || b >= desc.vertexCount || !(desc.creaseSharpnesses[i] >= 0.0f)) {
+            return refuse("crease " + std::to_string(i) + ": no such vertices, or no sharpness of 0 and more");
+        }
         cage.creases.push_back(
             {desc.creaseVertices[2 * size_t{i}], desc.creaseVertices[2 * size_t{i} + 1], desc.creaseSharpnesses[i]});
     }
     for (uint32_t i = 0; i < desc.cornerCount; ++i) {
+        if (desc.cornerVertices[i] >= desc.vertexCount || !(desc.cornerSharpnesses[i] >= 0.0f)) {
+            return refuse("corner " + std::to_string(i) + ": no such vertex, or no sharpness of 0 and more");
+        }
         cage.sharpVertices.push_back({desc.cornerVertices[i], desc.cornerSharpnesses[i]});
     }
     for (uint32_t i = 0; i < desc.creaseScalarCount; ++i) {

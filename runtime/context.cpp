@@ -97,12 +97,17 @@ Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
         return Error{ErrorCode::order, "suppleBeginFrame: frame " + std::to_string(frame) +
                                            " does not rise above frame " + std::to_string(frame_)};
     }
+    if (completedFrame < completedFrame_) {
+        return Error{ErrorCode::range, "suppleBeginFrame: completed frame " + std::to_string(completedFrame) +
+                                           " after frame " + std::to_string(completedFrame_)};
+    }
     if (completedFrame >= frame || frame - completedFrame > framesInFlight_) {
         return Error{ErrorCode::range, "suppleBeginFrame: frame " + std::to_string(frame) + " with completed frame " +
                                            std::to_string(completedFrame) + ": the context keeps " +
                                            std::to_string(framesInFlight_) + " frames in flight"};
     }
     frame_ = frame;
+    completedFrame_ = completedFrame;
     frameOpen_ = true;
     retire(completedFrame);
     return timings.beginFrame(frame, completedFrame, [this](const char* text) {

@@ -65,7 +65,7 @@ private:
     uint32_t framesInFlight_ = 2;
     bool asyncCompute_ = false;
     uint32_t queueFamily_ = 0, drawQueueFamily_ = 0;
-    uint64_t frame_ = 0;
+    uint64_t frame_ = 0, completedFrame_ = 0;
     bool frameOpen_ = false; ///< begun and not cancelled
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;

@@ -97,7 +97,7 @@ private:
     std::shared_ptr<SchemeTables> scheme_;
     SupplePoseSource poseSource_ = SUPPLE_POSES_SET;
     uint32_t capacity_ = 0;
-    bool anyRate_ = false; ///< the scheme's tables serve all rates
+    bool anyRate_ = false;   ///< the scheme's tables serve all rates
     uint32_t askedRate_ = 0; ///< when it was created
     uint32_t maxRate_ = 0;
     uint32_t vertexCount_ = 0; ///< surface vertices an instance, without padding

@@ -11,7 +11,8 @@
  * Structs
  *   - start with structSize, the sizeof of the caller's header; zero in every other field means the default. Later
  *     versions only add fields at the end: a smaller struct of an older caller is taken as if the rest were zero, of a
- *     larger one what this library does not know must be zero. Structs without structSize never change.
+ *     larger one what this library does not know must be zero, and comes back as zero. Structs without structSize never
+ *     change.
  *   - Matrices are column-major float[16] for column vectors, right-handed, +Y up as glTF; angles radians, time
  *     seconds.
  *
@@ -181,8 +182,8 @@ typedef struct SuppleMemory {
     void* allocation; /**< the host's own, e.g. a VmaAllocation */
 } SuppleMemory;
 
-/** Where device memory comes from. Called while assets and groups are created and destroyed and by suppleBeginFrame,
- * on the calling thread, never while recording. */
+/** Where device memory comes from. Called while contexts, assets and groups are created and destroyed and by
+ * suppleBeginFrame, on the calling thread, never while recording. */
 typedef struct SuppleMemoryCallbacks {
     /** VK_SUCCESS with out filled, else the reason. The memory is for buffers (linear), of a type in
      * requirements->memoryTypeBits that has all of `required` and, if that can be had, `preferred`. name is for
@@ -576,11 +577,12 @@ SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance
 /* ---------------------------------------------------------------------------------------------------- frame */
 
 /** Starts a frame. frame rises by at least one each call; completedFrame is the last frame whose command buffers have
- * all finished, 0 before the first. frame - completedFrame must not exceed framesInFlight. Frees what was destroyed and
- * is no longer used, and reads finished timestamps; never waits. */
+ * all finished, 0 before the first; it never falls. frame - completedFrame must not exceed framesInFlight. Frees what
+ * was destroyed and is no longer used, and reads finished timestamps; never waits. */
 SUPPLE_API SuppleResult suppleBeginFrame(SuppleContext context, uint64_t frame, uint64_t completedFrame);
 /** What was recorded since suppleBeginFrame will never be submitted (a lost swapchain, say): its uploads are due again,
- * its instances have no motion. For suppleBeginFrame it counts as completed. Between this and the next suppleBeginFrame nothing can be recorded. */
+ * its instances have no motion. For suppleBeginFrame it counts as completed. Between this and the next suppleBeginFrame
+ * nothing can be recorded. */
 SUPPLE_API SuppleResult suppleCancelFrame(SuppleContext context);
 
 /** Stages and accesses on buffers, as synchronization2 has them. */
