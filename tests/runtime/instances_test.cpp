@@ -255,8 +255,8 @@ public:
             Flight& flight = *flights_[frame % inFlight_];
             land(flight);
             change();
-            ASSERT_EQ(suppleBeginFrame(context_.handle(), frame, frame - std::min<uint64_t>(inFlight_, frame)),
-                      SUPPLE_OK);
+            const uint64_t completed = std::max(first, frame - std::min<uint64_t>(inFlight_, frame));
+            ASSERT_EQ(suppleBeginFrame(context_.handle(), frame, completed), SUPPLE_OK);
             change();
             const bool without = chance(8), cancelled = chance(10);
             flight.commands.record([&](VkCommandBuffer commands) {

@@ -752,7 +752,7 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 typedef struct SuppleTiming {
     const char*
         pass; /**< static: upload, attributes, deform, vertex, edge (P_m: its facets), patch, evaluate, motion */
-    SuppleGroup group;
+    SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */
     double gpuEnd;
