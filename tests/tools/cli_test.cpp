@@ -516,6 +516,20 @@ TEST_F(Cli, MappingsAgreeBitForBit) {
     EXPECT_EQ(narrow.vLines, readObj(file("wide.obj")).vLines);
 }
 
+TEST_F(Cli, ProfileMeasuresMotionWhenAsked) {
+    for (const bool motion : {false, true}) {
+        const Outcome outcome =
+            runOnDevice(std::string("profile cube.gltf --frames 3 --json p.json") + (motion ? " --motion" : ""));
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        uint64_t points = 0;
+        const Json json = Json::parse(readText(file("p.json")));
+        for (const Json& pass : json["runs"][0]["passes"]) {
+            points += pass["pass"] == "motion" ? pass["points"].get<uint64_t>() : 0;
+        }
+        EXPECT_EQ(points, motion ? 6u * 81u : 0u);
+    }
+}
+
 TEST_F(Cli, ProfileWritesTableJsonCsvAndTrace) {
     const Outcome outcome =
         runOnDevice("profile cube.gltf cube.gltf --instances 3 --frames 7 --json p.json --csv p.csv "

@@ -28,6 +28,7 @@ struct ProfileOptions {
     DeviceFlags device;
     uint32_t instances = 1;
     uint32_t frames = 60;
+    bool motion = false;
     std::string json, csv, trace;
 };
 
@@ -173,6 +174,7 @@ private:
         clipDuration_ = clips.empty() ? 0.0 : clips[0].duration;
         SuppleGroupDesc desc{};
         desc.structSize = sizeof desc;
+        desc.flags = options_.motion ? uint32_t{SUPPLE_GROUP_MOTION} : 0;
         desc.asset = asset_;
         desc.capacity = options_.instances;
         desc.scheme = schemeOf(scheme);
@@ -385,6 +387,7 @@ void bindProfile(CLI::App& app, int& exitCode) {
     command->add_option("--frames", options->frames, "Frames to measure, after a few to warm up")
         ->check(CLI::Range(1u, 1000000u))
         ->capture_default_str();
+    command->add_flag("--motion", options->motion, "Previous positions as well, for motion vectors");
     command->add_option("--json", options->json, "Write the figures as JSON")->type_name("OUT.json");
     command->add_option("--csv", options->csv, "Write the figures as CSV, a row a pass")->type_name("OUT.csv");
     command->add_option("--trace", options->trace, "Write every frame as a Chrome trace, for Perfetto")
