@@ -71,7 +71,7 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
 }
 
 Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc) {
-    const Status valid = checkRecord(desc);
+    Status valid = checkRecord(desc);
     if (!valid) {
         return valid;
     }
