@@ -90,7 +90,7 @@ public:
     /// As that, without structSize; `handle`: may be zero as well.
     template <class T>
     T* plain(size_t count = 1, bool handle = false) {
-        std::vector<std::byte>& bytes = keep(sizeof(T) * count);
+        std::vector<std::byte>& bytes = keep(sizeof(T) * count); // NOLINT(bugprone-sizeof-expression): or a handle
         snapshots.push_back({&bytes, bytes, handle});
         return reinterpret_cast<T*>(bytes.data());
     }
@@ -836,8 +836,8 @@ void poses(Rows& r) {
                                    w.watched<SuppleRootMotion>(sizeof(SuppleRootMotion)));
     };
     r.description<SupplePoseDesc>(kMotion, "pose", make, motion);
-    const auto pose = [&](const char* what, int message, std::function<void(SupplePoseDesc&)> spoil,
-                          std::function<void(SuppleClipLayer&)> spoilLayer = {}) {
+    const auto pose = [&](const char* what, int message, const std::function<void(SupplePoseDesc&)>& spoil,
+                          const std::function<void(SuppleClipLayer&)>& spoilLayer = {}) {
         const auto spoiled = [=](World& w) {
             SupplePoseDesc desc = w.poseDesc(spoilLayer);
             if (spoil) {
@@ -963,7 +963,7 @@ void frames(Rows& r) {
     r.description<SuppleRecordDesc>(
         kRecord, "desc", [](World& w) { return w.recordDesc(); }, record);
     const auto spoiled = [&](const char* what, int message, Phase phase,
-                             std::function<void(World&, SuppleRecordDesc&)> spoil) {
+                             const std::function<void(World&, SuppleRecordDesc&)>& spoil) {
         r.refuse(
             kRecord, what, message,
             [=](World& w) {
