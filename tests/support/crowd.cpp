@@ -290,7 +290,9 @@ std::vector<uint32_t> Crowd::listed() const {
     const uint32_t visible = commands.empty() ? 0 : commands[0].instanceCount / now.drawRanges[0].patchCount;
     std::vector<uint32_t> slots(visible);
     EXPECT_LE(visible * sizeof(uint32_t), bytes.size());
-    std::memcpy(slots.data(), bytes.data(), slots.size() * sizeof(uint32_t));
+    if (visible > 0) { // an empty list has no address to copy to
+        std::memcpy(slots.data(), bytes.data(), slots.size() * sizeof(uint32_t));
+    }
     return slots;
 }
 
