@@ -209,8 +209,8 @@ SuppleResult describePart(Context& context, const char* function, const char* pa
 }
 
 template <class E>
-bool within(E value, E last) {
-    return static_cast<uint32_t>(value) <= static_cast<uint32_t>(last);
+bool within(const E& value, E last) {
+    return supple::runtime::rawValue(value) <= static_cast<uint32_t>(last);
 }
 
 bool finite(const float* values, size_t count) {
@@ -551,7 +551,7 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (desc.rate > SUPPLE_MAX_RATE) {
             return refuse(context, ErrorCode::range, kHere, "rate must be 1..64");
         }
-        if (!within(desc.scheme, SUPPLE_SCHEME_BLEND) && desc.scheme != SUPPLE_SCHEME_CAGE) {
+        if (!within(desc.scheme, SUPPLE_SCHEME_BLEND) && supple::runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
         constexpr uint32_t kFlags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION;

@@ -1,5 +1,7 @@
 #include "runtime/pose_desc.h"
 
+#include "runtime/sized.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -30,7 +32,7 @@ Status checkLayer(const cage::Character& character, const SuppleClipLayer& layer
     if (layer.clip >= character.clips.size()) {
         return outside("no such clip");
     }
-    if (static_cast<uint32_t>(layer.mode) > SUPPLE_LAYER_ADDITIVE) {
+    if (rawValue(layer.mode) > SUPPLE_LAYER_ADDITIVE) {
         return outside("no such mode");
     }
     if ((layer.flags & ~uint32_t{SUPPLE_LAYER_LOOP}) != 0) {

@@ -31,6 +31,15 @@ template <class T>
     return true;
 }
 
+/// The number a C caller has put into an enumeration, before it is known to be one of its values.
+template <class E>
+[[nodiscard]] uint32_t rawValue(const E& value) {
+    static_assert(sizeof(E) == sizeof(uint32_t));
+    uint32_t raw = 0;
+    std::memcpy(&raw, &value, sizeof(raw));
+    return raw;
+}
+
 /// Writes what the caller's version has room for. What a newer caller has beyond is zeroed. The caller has checked
 /// that structSize is at least the first version's.
 template <class T>
