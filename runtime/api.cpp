@@ -191,7 +191,19 @@ std::optional<SuppleResult> checkOut(Context& context, const char* function, con
     return std::nullopt;
 }
 
-/// What a getter of one part of an asset does: the checks, then fill(T&).
+/// What a getter does: the check of out, then fill(T&).
+template <class T, class Fill>
+SuppleResult describe(Context& context, const char* function, T* out, Fill&& fill) {
+    if (const auto fault = checkOut(context, function, out)) {
+        return *fault;
+    }
+    T info{};
+    fill(info);
+    supple::runtime::writeSized(info, *out);
+    return SUPPLE_OK;
+}
+
+/// The same for one of `count` parts of an asset.
 template <class T, class Fill>
 SuppleResult describePart(Context& context, const char* function, const char* part, uint32_t index, size_t count,
                           T* out, Fill&& fill) {
@@ -202,10 +214,7 @@ SuppleResult describePart(Context& context, const char* function, const char* pa
         return refuse(context, ErrorCode::range, function,
                       std::string(part) + " " + std::to_string(index) + " of " + std::to_string(count));
     }
-    T info{};
-    fill(info);
-    supple::runtime::writeSized(info, *out);
-    return SUPPLE_OK;
+    return describe(context, function, out, fill);
 }
 
 template <class E>
@@ -417,7 +426,7 @@ SuppleResult suppleDestroyAsset(SuppleContext handle, SuppleAsset asset) {
 
 SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleAssetInfo* out) {
     return withAsset(handle, asset, "suppleGetAssetInfo", [&](Context& context, const Asset& found) {
-        return describePart(context, "suppleGetAssetInfo", "asset", 0, 1, out, [&](SuppleAssetInfo& info) {
+        return describe(context, "suppleGetAssetInfo", out, [&](SuppleAssetInfo& info) {
             const supple::cage::Character& character = found.character;
             info.cageVertexCount = character.cage.vertexCount();
             info.faceCount = character.cage.faceCount();
@@ -608,7 +617,9 @@ SuppleResult suppleCreateInstance(SuppleContext handle, SuppleGroup group, Suppl
             return refuse(context, ErrorCode::limit, kHere,
                           "the group is full: its capacity is " + std::to_string(found.slots().capacity()));
         }
-        found.poses().reset(*slot);
+        if (found.poseSource() == SUPPLE_POSES_SET) {
+            found.poses().reset(*slot);
+        }
         *out = {group, *slot, found.slots().generation(*slot)};
         return SUPPLE_OK;
     });
@@ -831,8 +842,8 @@ SuppleResult suppleGetAcquireBarriers(SuppleContext handle, const SuppleGroup* g
 
 SuppleResult suppleGetGroupOutput(SuppleContext handle, SuppleGroup group, SuppleGroupOutput* out) {
     return withGroup(handle, group, "suppleGetGroupOutput", [&](Context& context, Group& found) {
-        return describePart(context, "suppleGetGroupOutput", "group", 0, 1, out,
-                            [&](SuppleGroupOutput& output) { output = found.output(); });
+        return describe(context, "suppleGetGroupOutput", out,
+                        [&](SuppleGroupOutput& output) { output = found.output(); });
     });
 }
 

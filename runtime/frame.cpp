@@ -58,13 +58,14 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
         return Error{ErrorCode::order, "suppleRecordUploads: no frame has begun, or it is cancelled"};
     }
     const std::scoped_lock lock(uploads_);
-    VkDeviceSize bytes = 0;
+    bool recorded = false;
     groups.forEach([&](Group& group) {
         if (group.staticsPending()) {
-            bytes += recordStatics(commandBuffer, group);
+            recordStatics(commandBuffer, group);
+            recorded = true;
         }
     });
-    if (bytes > 0) {
+    if (recorded) {
         gpu::memoryBarrier(*device_, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, kFirst);
     }
     return success();
@@ -99,9 +100,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         }
         return false;
     };
-    const auto computeBarrier = [&] {
-        gpu::memoryBarrier(device, commandBuffer, {kCompute, kWrite}, {kCompute, kRead | kWrite});
-    };
+    const auto computeBarrier = [&] { gpu::computeBarrier(device, commandBuffer); };
 
     device.beginLabel(commandBuffer, "supple");
     if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {

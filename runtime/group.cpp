@@ -74,6 +74,8 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->asset_ = std::move(asset);
     group->capacity_ = desc.capacity;
     group->poseSource_ = desc.poseSource;
+    group->output_.vertexFormat = desc.vertexFormat;
+    group->output_.surfaceVertices.stride = desc.vertexFormat == SUPPLE_VERTEX_24 ? 24 : 16;
     const std::string& name = group->asset_->character.name;
     const uint32_t rate = desc.rate == 0 ? 8 : desc.rate;
     if (desc.scheme == SUPPLE_SCHEME_CAGE) {
@@ -104,7 +106,6 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         }
     }
     group->evaluation_.rate = group->maxRate_;
-    group->evaluation_.vertexFormat = desc.vertexFormat;
     const uint64_t vertices = group->evaluation_.layOut(tables);
     // Vertex indices are 32 bits on the device.
     if ((vertices + kVertexPadding) * desc.capacity > 0xFFFFFFFFull) {
@@ -116,7 +117,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->evaluation_.cageStride = roundUp(group->asset_->character.cage.vertexCount(), kCagePadding);
 
     Status status = shared.surface->prepare(
-        tables, {group->evaluation_.vertexFormat, (desc.flags & SUPPLE_GROUP_MOTION) != 0,
+        tables, {static_cast<uint32_t>(desc.vertexFormat), (desc.flags & SUPPLE_GROUP_MOTION) != 0,
                  (desc.flags & SUPPLE_GROUP_PATCHES) != 0, (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0});
     if (status) {
         status = group->layOutWindows(desc);
@@ -133,7 +134,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         return Error{status.error().code, name + ": " + status.error().message};
     }
     group->layOutDraws();
-    group->fillOutput(desc);
+    group->fillOutput();
     return group;
 }
 
@@ -142,7 +143,9 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
     const surface::Tables& tables = scheme_->tables;
     const auto mode = desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION ? skinning::SkinningMode::dualQuaternion
                                                                        : skinning::SkinningMode::linear;
-    poses_ = InstancePoses(*asset_, capacity_, mode, 1);
+    // Poses that the host writes on the device need no memory here.
+    const uint32_t posed = poseSource_ == SUPPLE_POSES_SET ? capacity_ : 0;
+    poses_ = InstancePoses(*asset_, posed, mode, 1);
 
     // As many instances a window as every bound range can hold.
     const VkDeviceSize texelLimit = device.bufferWindow(16), storageLimit = device.limits.maxStorageBufferRange;
@@ -156,7 +159,7 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
         fit = bytes > 0 ? std::min(fit, storageLimit / bytes) : fit;
     }
     if (fit < capacity_) {
-        poses_ = InstancePoses(*asset_, capacity_, mode, kPosePadding);
+        poses_ = InstancePoses(*asset_, posed, mode, kPosePadding);
         fit = std::min<VkDeviceSize>(fit, texelLimit / poses_.instanceBytes());
     }
     if (!device.mapping.wide && 2 * VkDeviceSize{capacity_} > device.limits.maxTexelBufferElements) {
@@ -173,11 +176,15 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
 }
 
 VkDeviceSize Group::surfaceBytes() const {
-    return VkDeviceSize{evaluation_.verticesPerInstance} * (evaluation_.vertexFormat == kVertex24 ? 24 : 16);
+    return VkDeviceSize{evaluation_.verticesPerInstance} * output_.surfaceVertices.stride;
+}
+
+VkDeviceSize Group::poseUploadBytes() const {
+    return poseSource_ == SUPPLE_POSES_SET ? buffers_.size(kPoses) : 0;
 }
 
 VkDeviceSize Group::uploadBytes() const {
-    return buffers_.size(kPoses) + buffers_.size(kInstances) + buffers_.size(kIndirect);
+    return poseUploadBytes() + buffers_.size(kInstances) + buffers_.size(kIndirect);
 }
 
 Status Group::createBuffers(const SuppleGroupDesc& desc) {
@@ -195,7 +202,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     const VkDeviceSize attributeBytes =
         (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0 ? VkDeviceSize{vertexCount_} * 16 : 0;
     const VkDeviceSize poolBytes = n * tables.poolStride * kVec4Bytes;
-    requests[kPoses] = {"supple poses", n * poses_.instanceBytes(), kOutput | kCopied};
+    requests[kPoses] = {"supple poses", deforms() ? n * poses_.instanceBytes() : 0, kOutput | kCopied};
     requests[kDeformedCage] = {"supple deformed cage", n * evaluation_.cageStride * kVec4Bytes, kVertices | kCopied};
     requests[kPool] = {"supple coefficient pool", poolBytes, kStorage | kTexels | kCopied};
     requests[kSecondPool] = {"supple second coefficient pool", motion ? poolBytes : 0, kStorage | kTexels | kCopied};
@@ -268,6 +275,9 @@ Status Group::setRate(uint32_t rate) {
         return Error{ErrorCode::range, name + ": rate " + std::to_string(rate) + " of at most " +
                                            std::to_string(maxRate_) + ", with which the group was created"};
     }
+    if (rate == evaluation_.rate) {
+        return success(); // the attributes stand
+    }
     evaluation_.rate = rate;
     vertexCount_ = static_cast<uint32_t>(evaluation_.layOut(scheme_->tables));
     attributesPending_ = buffers_.size(kAttributes) > 0;
@@ -277,8 +287,6 @@ Status Group::setRate(uint32_t rate) {
 
 void Group::layOutDraws() {
     const uint32_t rate = evaluation_.rate;
-    positions_ = evaluation_;
-    positions_.vertexFormat = kVertexPosition;
     const std::array<Grid, surface::kDomainCount>& grids = grids_[anyRate_ ? rate - 1 : 0];
     drawRanges_.clear();
     uint32_t firstVertex = 0;
@@ -302,19 +310,18 @@ void Group::layOutDraws() {
     output_.drawRangeCount = static_cast<uint32_t>(drawRanges_.size());
 }
 
-void Group::fillOutput(const SuppleGroupDesc& desc) {
+void Group::fillOutput() {
     const auto whole = [&](BufferIndex index, VkDeviceSize stride) {
         return SuppleBufferView{buffers_.buffer(index), 0, buffers_.size(index), static_cast<uint32_t>(stride)};
     };
     SuppleGroupOutput& o = output_;
     o.structSize = sizeof(o);
     o.capacity = capacity_;
-    o.vertexFormat = desc.vertexFormat;
     o.patchCount = static_cast<uint32_t>(scheme_->tables.patches.size());
     o.verticesPerInstance = evaluation_.verticesPerInstance;
     o.cageVertexCount = asset_->character.cage.vertexCount();
     o.cageVerticesPerInstance = evaluation_.cageStride;
-    o.surfaceVertices = whole(kSurface, evaluation_.vertexFormat == kVertex24 ? 24 : 16);
+    o.surfaceVertices = whole(kSurface, o.surfaceVertices.stride);
     o.attributes = whole(kAttributes, 16);
     o.uvs1 = whole(kUvs1, 8);
     o.faceUvs = whole(kFaceUvs, 8);

@@ -86,9 +86,10 @@ private:
     Status createBuffers(const SuppleGroupDesc& desc);
     Status createSets();
     void layOutDraws();
-    void fillOutput(const SuppleGroupDesc& desc);
-    [[nodiscard]] VkDeviceSize surfaceBytes() const; ///< an instance
-    [[nodiscard]] VkDeviceSize uploadBytes() const;  ///< a frame in flight
+    void fillOutput();
+    [[nodiscard]] VkDeviceSize surfaceBytes() const;    ///< an instance
+    [[nodiscard]] VkDeviceSize poseUploadBytes() const; ///< a frame in flight; all of its uploads:
+    [[nodiscard]] VkDeviceSize uploadBytes() const;
     template <class F>
     void forWindows(F&& record) const;
 
@@ -102,7 +103,6 @@ private:
     uint32_t maxRate_ = 0;
     uint32_t vertexCount_ = 0; ///< surface vertices an instance, without padding
     surface::Evaluation evaluation_;
-    surface::Evaluation positions_; ///< the same, of previous positions
 
     InstancePoses poses_;
     InstanceSlots slots_;

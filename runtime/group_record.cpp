@@ -57,9 +57,10 @@ Group::PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
     if (poseSource_ == SUPPLE_POSES_SET) {
         poses_.write(end, staging);
         copy(kPoses, 0, 0, end * poses_.instanceBytes());
+        cost.points = uint64_t{poses_.layout().jointCount} * end;
     }
 
-    const VkDeviceSize lists = buffers_.size(kPoses), list = buffers_.size(kInstances) / 2;
+    const VkDeviceSize lists = poseUploadBytes(), list = buffers_.size(kInstances) / 2;
     auto* const all = reinterpret_cast<uint32_t*>(staging + lists);
     visible_ = slots_.list({all, capacity_}, {all + capacity_, capacity_}, windowSize_, listed_);
     copy(kInstances, lists, 0, visible_ * sizeof(uint32_t));
@@ -77,7 +78,6 @@ Group::PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
         target += sizeof(command);
     }
     copy(kIndirect, draws, 0, buffers_.size(kIndirect));
-    cost.points = uint64_t{poses_.layout().jointCount} * visible_;
     return cost;
 }
 
@@ -145,7 +145,7 @@ Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
 Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
     forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
         shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {window.surface[pool_], first, listed.count},
-                                        evaluation_);
+                                        evaluation_, static_cast<uint32_t>(output_.vertexFormat));
     });
     const uint64_t points = uint64_t{vertexCount_} * visible_;
     return {points, points * output_.surfaceVertices.stride};
@@ -169,7 +169,8 @@ Group::PassCost Group::recordMotion(VkCommandBuffer commandBuffer) const {
             gpu::computeBarrier(*shared_.device, commandBuffer);
         }
         first = false;
-        shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {set, from, count}, positions_);
+        shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {set, from, count}, evaluation_,
+                                        kVertexPosition);
     };
     // Instances with a past from the coefficients of the frame before, new ones from today's.
     forWindows([&](const Window& window, uint32_t from, const InstanceSlots::Listed& listed) {

@@ -73,27 +73,29 @@ Status Group::createSets() {
     const VkBufferView instanceView = view(instances, kUint1, 0, buffers_.size(kInstances), "supple instances");
     const VkBuffer deformed = buffers_.buffer(kDeformedCage);
 
-    deformPool_ = makePool(shared_.deform->layout(), windows_.size(), "supple deform");
-    const VkBuffer deformTable = asset_->buffers.buffer(0), poses = buffers_.buffer(kPoses);
-    const VkDeviceSize deformTableBytes = asset_->buffers.size(0);
-    const VkBufferView deformTableView = view(deformTable, kUint4, 0, deformTableBytes, "supple deform table");
-    for (uint32_t w = 0; w < windows_.size(); ++w) {
-        const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
-        const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
-        windows_[w].deform = allocate(shared_.deform->layout(), deformPool_, "supple deform");
-        const gpu::BoundResource resources[] = {
-            {kDeformTableBinding, range(deformTable, 0, deformTableBytes), VK_NULL_HANDLE},
-            {kDeformTableTexelBinding, {}, deformTableView},
-            {kPoseBinding, range(poses, first * poseBytes, count * poseBytes), VK_NULL_HANDLE},
-            {kPoseTexelBinding, {}, view(poses, kFloat4, first * poseBytes, count * poseBytes, "supple poses")},
-            {kDeformedCageBinding, range(deformed, first * cageBytes, count * cageBytes), VK_NULL_HANDLE},
-            {kInstanceBinding, instanceRange, VK_NULL_HANDLE},
-            {kInstanceTexelBinding, {}, instanceView},
-        };
-        if (!status) {
-            return status;
+    if (deforms()) {
+        deformPool_ = makePool(shared_.deform->layout(), windows_.size(), "supple deform");
+        const VkBuffer deformTable = asset_->buffers.buffer(0), poses = buffers_.buffer(kPoses);
+        const VkDeviceSize deformTableBytes = asset_->buffers.size(0);
+        const VkBufferView deformTableView = view(deformTable, kUint4, 0, deformTableBytes, "supple deform table");
+        for (uint32_t w = 0; w < windows_.size(); ++w) {
+            const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
+            const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
+            windows_[w].deform = allocate(shared_.deform->layout(), deformPool_, "supple deform");
+            const gpu::BoundResource resources[] = {
+                {kDeformTableBinding, range(deformTable, 0, deformTableBytes), VK_NULL_HANDLE},
+                {kDeformTableTexelBinding, {}, deformTableView},
+                {kPoseBinding, range(poses, first * poseBytes, count * poseBytes), VK_NULL_HANDLE},
+                {kPoseTexelBinding, {}, view(poses, kFloat4, first * poseBytes, count * poseBytes, "supple poses")},
+                {kDeformedCageBinding, range(deformed, first * cageBytes, count * cageBytes), VK_NULL_HANDLE},
+                {kInstanceBinding, instanceRange, VK_NULL_HANDLE},
+                {kInstanceTexelBinding, {}, instanceView},
+            };
+            if (!status) {
+                return status;
+            }
+            gpu::writeSet(device, windows_[w].deform, resources);
         }
-        gpu::writeSet(device, windows_[w].deform, resources);
     }
 
     if (tables.patches.empty()) {

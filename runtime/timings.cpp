@@ -38,7 +38,7 @@ double Timings::nanoseconds(uint64_t ticks) const {
     return static_cast<double>((ticks - origin_) & tickMask_) * tickPeriod_;
 }
 
-Status Timings::collect(Slot& slot) {
+Result<bool> Timings::collect(Slot& slot) {
     const size_t count = std::min<size_t>(slot.count.load(), SUPPLE_MAX_TIMINGS);
     if (timestamps_) {
         const Result<std::span<const gpu::Timers::Tick>> ticks = slot.timers.read();
@@ -48,7 +48,7 @@ Status Timings::collect(Slot& slot) {
         const auto at = [&](uint32_t mark) { return (*ticks)[mark]; };
         for (size_t i = 0; i < count; ++i) {
             if (at(slot.marks[i] - 1).available == 0 || at(slot.marks[i]).available == 0) {
-                return success(); // the host says that the frame is complete; the device does not
+                return false; // the host says that the frame is complete; the device does not
             }
         }
         if (!originKnown_ && count > 0) {
@@ -61,7 +61,7 @@ Status Timings::collect(Slot& slot) {
         }
     }
     latest_.assign(slot.entries.begin(), slot.entries.begin() + static_cast<ptrdiff_t>(count));
-    return success();
+    return true;
 }
 
 Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame, const std::function<void(const char*)>& warn) {
@@ -78,11 +78,10 @@ Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame, const std::f
     };
     while (Slot* const slot = oldest()) {
         if (slot->count.load() > 0) {
-            const uint64_t before = latest_.empty() ? 0 : latest_.front().frame;
-            const Status collected = collect(*slot);
+            const Result<bool> collected = collect(*slot);
             if (!collected) {
-                status = collected;
-            } else if (!latest_.empty() && latest_.front().frame != before) {
+                status = collected.error();
+            } else if (*collected) {
                 judge(warn);
             }
         }
@@ -128,7 +127,6 @@ void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint64_t points, 
     Slot& slot = *timings_->current_;
     const uint32_t entry = slot.count.fetch_add(1);
     if (entry >= SUPPLE_MAX_TIMINGS) {
-        slot.count.store(SUPPLE_MAX_TIMINGS);
         timings_ = nullptr;
         return;
     }

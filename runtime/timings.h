@@ -65,7 +65,8 @@ private:
         std::vector<uint32_t> marks;       ///< per entry: the timestamp that ends it; the one before begins it
         std::atomic<uint32_t> count = 0;
     };
-    [[nodiscard]] Status collect(Slot& slot);
+    /// Makes it the latest; false where the device has not written all of its timestamps.
+    [[nodiscard]] Result<bool> collect(Slot& slot);
     void judge(const std::function<void(const char*)>& warn);
     [[nodiscard]] double nanoseconds(uint64_t ticks) const;
     [[nodiscard]] static size_t budgetIndex(const char* pass);

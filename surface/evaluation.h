@@ -19,8 +19,7 @@ struct Window {
 /// What a group evaluates, the same for all its windows.
 struct Evaluation {
     uint32_t rate = 8;
-    uint32_t cageStride = 0; ///< cage vertices an instance in the deformed cage
-    uint32_t vertexFormat = shared::kVertex16;
+    uint32_t cageStride = 0;             ///< cage vertices an instance in the deformed cage
     uint32_t verticesPerInstance = 0;    ///< at least vertexCount(): the stride between instances
     std::vector<uint32_t> firstVertices; ///< per patch range: where its vertices begin in an instance
 

@@ -261,9 +261,9 @@ void Passes::recordPatch(VkCommandBuffer commandBuffer, const Tables& tables, co
 }
 
 void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
-                            const Evaluation& evaluation) const {
+                            const Evaluation& evaluation, uint32_t vertexFormat) const {
     if (!tables.fragments.classes.empty()) {
-        kernel_.record(commandBuffer, tables, window, evaluation);
+        kernel_.record(commandBuffer, tables, window, evaluation, vertexFormat);
         return;
     }
     const bool wide = device_->mapping.wide;
@@ -276,7 +276,7 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
         push.patchesPerGroup = wide ? patchesPerGroup(push.samples, device_->mapping.localSize) : 1;
         const uint64_t patches = uint64_t{push.count} * push.instanceCount;
         const uint64_t groups = wide ? (patches + push.patchesPerGroup - 1) / push.patchesPerGroup : groupsFor(patches);
-        const auto& pipelines = evaluate_[static_cast<size_t>(range.patchClass)][evaluation.vertexFormat];
+        const auto& pipelines = evaluate_[static_cast<size_t>(range.patchClass)][vertexFormat];
         record(commandBuffer, pipelines[tables.cornerNormals ? 1 : 0].get(), window.set, push, groups);
     }
 }

@@ -54,8 +54,9 @@ public:
                      const Evaluation& evaluation) const;
     void recordPatch(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
                      const Evaluation& evaluation) const;
+    /// `vertexFormat`: as prepared; shared::kVertexPosition writes where samples are and nothing else.
     void recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
-                        const Evaluation& evaluation) const;
+                        const Evaluation& evaluation, uint32_t vertexFormat) const;
     void recordAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
                           const Evaluation& evaluation) const;
 

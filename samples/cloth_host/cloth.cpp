@@ -1,8 +1,9 @@
 #include "cloth.h"
 
+#include "common/context.h"
+
 #include "shaders/cloth_comp.h"
 
-#include <cstdio>
 #include <cstring>
 
 namespace cloth {
@@ -68,11 +69,6 @@ supple::Asset createGrid(const supple::Context& context) {
     return asset;
 }
 
-void onLog(SuppleSeverity severity, SuppleMessage message, const char* text, void*) {
-    if (severity != SUPPLE_SEVERITY_INFO)
-        std::fprintf(stderr, "supple %d: %s\n", static_cast<int>(message), text);
-}
-
 } // namespace
 
 Cloth::Cloth(sample::Device& device, uint32_t rate) {
@@ -81,16 +77,7 @@ Cloth::Cloth(sample::Device& device, uint32_t rate) {
 }
 
 void Cloth::createSupple(const sample::Device& device, uint32_t rate) {
-    auto contextDesc = supple::sized<SuppleContextDesc>();
-    contextDesc.instance = device.instance();
-    contextDesc.physicalDevice = device.physicalDevice();
-    contextDesc.device = device.handle();
-    contextDesc.queueFamily = device.queueFamily();
-    contextDesc.getInstanceProcAddr = vkGetInstanceProcAddr;
-    contextDesc.framesInFlight = static_cast<uint32_t>(sample::kFramesInFlight);
-    contextDesc.enabledFeatures = device.enabledFeatures();
-    contextDesc.log = onLog;
-    sample::check(supple::Context::create(contextDesc, context_), "suppleCreateContext");
+    context_ = sample::createContext(device);
     asset_ = createGrid(context_);
 
     auto groupDesc = supple::sized<SuppleGroupDesc>();

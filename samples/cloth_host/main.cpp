@@ -19,22 +19,6 @@ sample::PictureOptions readOptions(int argc, char** argv) {
     return options;
 }
 
-void copyPicture(VkCommandBuffer commands, const sample::Image& picture, const sample::Buffer& readback) {
-    const VkExtent2D extent = picture.desc().extent;
-    const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                   .imageExtent = {extent.width, extent.height, 1}};
-    vkCmdCopyImageToBuffer(commands, picture.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback.handle(), 1,
-                           &region);
-    const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                  .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                  .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                  .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                  .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 void run(const sample::PictureOptions& options) {
     sample::Device device({.name = "supple_cloth_host"});
     cloth::Cloth cloth(device, options.rate);
@@ -49,7 +33,7 @@ void run(const sample::PictureOptions& options) {
         cloth.record(commands, static_cast<double>(frames.frame()) / 60.0);
         if (last || options.screenshot.empty()) { // else only the last frame is seen
             scene.record(commands);
-            copyPicture(commands, scene.picture(), readback);
+            sample::copyPicture(commands, scene.picture(), readback);
         }
         frames.submit();
     }

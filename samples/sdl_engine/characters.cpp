@@ -1,10 +1,11 @@
 #include "characters.h"
 
+#include "common/context.h"
+
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -20,11 +21,6 @@ constexpr float kGuestSize = 0.55f;
 
 /// Where leaps are made, one after the other.
 constexpr glm::vec3 kSpots[] = {{0.45f, 0.0f, 0.0f}, {-0.55f, 0.0f, -0.4f}, {0.8f, 0.0f, -0.3f}};
-
-void onLog(SuppleSeverity severity, SuppleMessage message, const char* text, void*) {
-    if (severity != SUPPLE_SEVERITY_INFO)
-        std::fprintf(stderr, "supple %d: %s\n", static_cast<int>(message), text);
-}
 
 CharacterGroup createGroup(const supple::Context& context, const supple::Asset& asset, SuppleScheme scheme,
                            uint32_t capacity, uint32_t rate) {
@@ -58,16 +54,7 @@ void play(const supple::Instance& instance, std::span<const SuppleClipLayer> lay
 } // namespace
 
 Characters::Characters(const sample::Device& device, const std::string& path, uint32_t rate) {
-    auto contextDesc = supple::sized<SuppleContextDesc>();
-    contextDesc.instance = device.instance();
-    contextDesc.physicalDevice = device.physicalDevice();
-    contextDesc.device = device.handle();
-    contextDesc.queueFamily = device.queueFamily();
-    contextDesc.getInstanceProcAddr = vkGetInstanceProcAddr;
-    contextDesc.framesInFlight = static_cast<uint32_t>(sample::kFramesInFlight);
-    contextDesc.enabledFeatures = device.enabledFeatures();
-    contextDesc.log = onLog;
-    sample::check(supple::Context::create(contextDesc, context_), "suppleCreateContext");
+    context_ = sample::createContext(device);
 
     std::ifstream stream(path, std::ios::binary);
     if (!stream)

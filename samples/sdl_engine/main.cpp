@@ -77,21 +77,7 @@ void addReadback(Graph& graph, const Taa& taa, const sample::Buffer& buffer) {
     graph.add("screenshot",
               {reads(taa.pictureUse(), {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT},
                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)},
-              [&](VkCommandBuffer commands) {
-                  const VkExtent2D extent = taa.picture().desc().extent;
-                  const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                                 .imageExtent = {extent.width, extent.height, 1}};
-                  vkCmdCopyImageToBuffer(commands, taa.picture().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                         buffer.handle(), 1, &region);
-                  const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                                .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                                .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                                .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                                .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-                  const VkDependencyInfo dependency{
-                      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
-                  vkCmdPipelineBarrier2(commands, &dependency);
-              });
+              [&](VkCommandBuffer commands) { sample::copyPicture(commands, taa.picture(), buffer); });
 }
 
 void run(const Options& options) {

@@ -105,9 +105,9 @@ void Passes::dispatch(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDesc
 }
 
 void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
-                    const Evaluation& evaluation) const {
+                    const Evaluation& evaluation, uint32_t format) const {
     const Fragments& fragments = tables.fragments;
-    const size_t loop = fragments.loop ? 1 : 0, format = evaluation.vertexFormat;
+    const size_t loop = fragments.loop ? 1 : 0;
     shared::KernelPush push{};
     push.firstInstance = window.firstInstance;
     push.instanceCount = window.instanceCount;

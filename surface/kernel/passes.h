@@ -30,8 +30,8 @@ public:
     [[nodiscard]] uint32_t scratchStride(const Fragments& fragments) const;
 
     /// Puts its own barriers between levels.
-    void record(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
-                const Evaluation& evaluation) const;
+    void record(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window, const Evaluation& evaluation,
+                uint32_t vertexFormat) const;
 
 private:
     /// The first class that goes through the scratch buffer.

@@ -248,9 +248,9 @@ public:
     }
 
     void run(uint32_t frames) {
-        const uint64_t first = context_.frame();
+        const uint64_t first = context_.frame;
         for (uint32_t i = 0; i < frames && !testing::Test::HasFailure(); ++i) {
-            const uint64_t frame = context_.nextFrame();
+            const uint64_t frame = ++context_.frame;
             SCOPED_TRACE("frame " + std::to_string(frame - first));
             Flight& flight = *flights_[frame % inFlight_];
             land(flight);
@@ -281,7 +281,7 @@ public:
             change();
         }
         for (uint64_t i = 1; i <= inFlight_; ++i) { // the oldest first
-            land(*flights_[(context_.frame() + i) % inFlight_]);
+            land(*flights_[(context_.frame + i) % inFlight_]);
         }
         std::printf("%u frames in flight: %u frames compared, %u instances, %u of them with a past, %u cancelled\n",
                     inFlight_, compared_, instances_, withPast_, cancelled_);

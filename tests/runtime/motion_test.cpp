@@ -404,7 +404,7 @@ TEST_F(MotionFrames, UploadsOfACancelledFrameComeAgain) {
         Crowd gone(own, shortLived.desc(own, 1, 0));
         ASSERT_TRUE(gone.valid());
         static_cast<void>(gone.spawn());
-        const uint64_t frame = own.nextFrame();
+        const uint64_t frame = ++own.frame;
         ASSERT_EQ(suppleBeginFrame(own.handle(), frame, frame - 1), SUPPLE_OK);
         Commands dropped(own.device());
         const SuppleGroup groups[] = {crowd.group(), gone.group()};
@@ -439,7 +439,7 @@ TEST_F(MotionFrames, UploadsOfACancelledFrameComeAgain) {
     crowd.setRate(2);
     Crowd young(own, c.desc(own, 1, 0));
     apply(young, young.spawn(), poseOf(1, 1));
-    const uint64_t frame = own.nextFrame();
+    const uint64_t frame = ++own.frame;
     ASSERT_EQ(suppleBeginFrame(own.handle(), frame, frame - 1), SUPPLE_OK);
     Commands dropped(own.device());
     dropped.record([&](VkCommandBuffer commands) {

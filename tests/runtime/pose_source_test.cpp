@@ -31,6 +31,22 @@ glm::mat4 exactMatrix(Noise& noise) {
     return m;
 }
 
+/// A full group that calls pose, and one like it that the host fills.
+struct Twins {
+    Twins(CrowdContext& context, SuppleGroupDesc desc, SupplePoseSource source)
+        : called(context, desc), filled(context, [&] {
+              desc.poseSource = source;
+              return desc;
+          }()) {
+        for (uint32_t i = 0; i < desc.capacity; ++i) {
+            callers.push_back(called.spawn());
+            fillers.push_back(filled.spawn());
+        }
+    }
+    Crowd called, filled;
+    std::vector<SuppleInstance> callers, fillers;
+};
+
 TEST_F(PoseSources, PalettesFromABufferPoseAsCallsDo) {
     const ValidationGuard guard;
     constexpr uint32_t kJoints = 4, kTargets = 5;
@@ -45,15 +61,10 @@ TEST_F(PoseSources, PalettesFromABufferPoseAsCallsDo) {
         desc.scheme = SUPPLE_SCHEME_PM;
         desc.rate = 2;
         desc.flags = SUPPLE_GROUP_MOTION;
-        Crowd called(own, desc);
-        desc.poseSource = SUPPLE_POSES_PALETTE_BUFFER;
-        Crowd filled(own, desc);
+        Twins twins(own, desc, SUPPLE_POSES_PALETTE_BUFFER);
+        Crowd &called = twins.called, &filled = twins.filled;
+        const std::vector<SuppleInstance>&callers = twins.callers, &fillers = twins.fillers;
         ASSERT_TRUE(called.valid() && filled.valid());
-        std::vector<SuppleInstance> callers, fillers;
-        for (uint32_t i = 0; i < desc.capacity; ++i) {
-            callers.push_back(called.spawn());
-            fillers.push_back(filled.spawn());
-        }
         const SuppleBufferView poses = filled.output().poses;
         EXPECT_GE(poses.stride, (12 * kJoints + kTargets) * sizeof(float));
         EXPECT_EQ(poses.stride % 16, 0u);
@@ -169,16 +180,12 @@ TEST_F(PoseSources, CagesFromABufferHaveTheSameSurface) {
         desc.scheme = scheme;
         desc.rate = 4;
         desc.flags = SUPPLE_GROUP_MOTION;
-        Crowd called(own, desc);
-        desc.poseSource = SUPPLE_POSES_CAGE_BUFFER;
-        Crowd filled(own, desc);
+        Twins twins(own, desc, SUPPLE_POSES_CAGE_BUFFER);
+        Crowd &called = twins.called, &filled = twins.filled;
+        const std::vector<SuppleInstance>&callers = twins.callers, &fillers = twins.fillers;
         ASSERT_TRUE(called.valid() && filled.valid());
-        std::vector<SuppleInstance> callers, fillers;
-        for (uint32_t i = 0; i < 3; ++i) {
-            callers.push_back(called.spawn());
-            fillers.push_back(filled.spawn());
-        }
         EXPECT_EQ(called.output().cageVerticesPerInstance, filled.output().cageVerticesPerInstance);
+        EXPECT_EQ(filled.output().poses.buffer, VkBuffer{VK_NULL_HANDLE}) << "nothing would read them";
         for (uint32_t frame = 0; frame < 3; ++frame) {
             SCOPED_TRACE("frame " + std::to_string(frame));
             for (const SuppleInstance& instance : callers) {

@@ -60,24 +60,20 @@ void Commands::wait() {
     }
 }
 
-CrowdContext::CrowdContext(host::Device& device, SuppleMapping mapping, uint32_t framesInFlight) : device_(device) {
-    SuppleContextDesc desc = host::contextDesc(device);
-    desc.mapping = mapping;
-    desc.framesInFlight = framesInFlight;
-    desc.log = log;
-    desc.logUser = this;
-    EXPECT_EQ(suppleCreateContext(&desc, &context_), SUPPLE_OK);
+CrowdContext::CrowdContext(host::Device& device, SuppleMapping mapping, uint32_t framesInFlight)
+    : LoggedContext(device, [&](SuppleContextDesc& desc) {
+          desc.mapping = mapping;
+          desc.framesInFlight = framesInFlight;
+      }) {
+    EXPECT_EQ(result(), SUPPLE_OK);
 }
 
-CrowdContext::~CrowdContext() {
-    suppleDestroyContext(context_);
-}
-
-void CrowdContext::log(SuppleSeverity severity, SuppleMessage message, const char* text, void* user) {
-    if (severity == SUPPLE_SEVERITY_ERROR) {
-        EXPECT_NE(text, nullptr);
-        static_cast<CrowdContext*>(user)->lastError_ = message;
+int CrowdContext::takeError() {
+    int last = 0;
+    for (const LogLine& line : takeLines()) {
+        last = line.severity == SUPPLE_SEVERITY_ERROR ? static_cast<int>(line.message) : last;
     }
+    return last;
 }
 
 SuppleAsset CrowdContext::asset(const std::string& path) {
@@ -97,7 +93,7 @@ SuppleAsset CrowdContext::createAsset(const cage::Cage& cage) {
     desc.name = "test cage";
     desc.cage = &arrays.desc;
     SuppleAsset asset{};
-    EXPECT_EQ(suppleCreateAsset(context_, &desc, &asset), SUPPLE_OK);
+    EXPECT_EQ(suppleCreateAsset(handle(), &desc, &asset), SUPPLE_OK);
     return asset;
 }
 
@@ -114,7 +110,7 @@ SuppleAsset CrowdContext::createAsset(std::span<const std::byte> glb, const char
     desc.bytes = glb.data();
     desc.byteCount = glb.size();
     SuppleAsset asset{};
-    EXPECT_EQ(suppleCreateAsset(context_, &desc, &asset), SUPPLE_OK);
+    EXPECT_EQ(suppleCreateAsset(handle(), &desc, &asset), SUPPLE_OK);
     return asset;
 }
 
@@ -126,13 +122,12 @@ SuppleResult CrowdContext::record(VkCommandBuffer commands, std::span<const Supp
     desc.before = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
     desc.after = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    return suppleRecord(context_, commands, &desc);
+    return suppleRecord(handle(), commands, &desc);
 }
 
 void CrowdContext::run(std::span<const SuppleGroup> groups, const std::function<void(VkCommandBuffer)>& first) {
-    const uint64_t frame = nextFrame();
-    ASSERT_EQ(suppleBeginFrame(context_, frame, frame - 1), SUPPLE_OK);
-    const Status submitted = device_.submitAndWait([&](VkCommandBuffer commands) {
+    beginFrame();
+    const Status submitted = device().submitAndWait([&](VkCommandBuffer commands) {
         if (first) {
             first(commands);
         }
@@ -142,11 +137,10 @@ void CrowdContext::run(std::span<const SuppleGroup> groups, const std::function<
 }
 
 void CrowdContext::cancel(std::span<const SuppleGroup> groups) {
-    const uint64_t frame = nextFrame();
-    ASSERT_EQ(suppleBeginFrame(context_, frame, frame - 1), SUPPLE_OK);
-    Commands dropped(device_);
+    beginFrame();
+    Commands dropped(device());
     dropped.record([&](VkCommandBuffer commands) { EXPECT_EQ(record(commands, groups), SUPPLE_OK); });
-    EXPECT_EQ(suppleCancelFrame(context_), SUPPLE_OK);
+    EXPECT_EQ(suppleCancelFrame(handle()), SUPPLE_OK);
 }
 
 std::map<SuppleMapping, std::unique_ptr<CrowdContext>>& CrowdContexts::contexts() {

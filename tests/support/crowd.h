@@ -3,6 +3,7 @@
 
 #include "cage/character.h"
 #include "tests/support/gpu_surface.h"
+#include "tests/support/logged_context.h"
 
 #include <array>
 #include <functional>
@@ -36,23 +37,16 @@ private:
     bool submitted_ = false;
 };
 
-/// A context that keeps what it says. The device must outlive it.
-class CrowdContext {
+/// A context for groups that are driven frame by frame. The device must outlive it.
+class CrowdContext : public LoggedContext {
 public:
     explicit CrowdContext(host::Device& device, SuppleMapping mapping = SUPPLE_MAPPING_AUTO,
                           uint32_t framesInFlight = 2);
-    ~CrowdContext();
-    CrowdContext(const CrowdContext&) = delete;
-    CrowdContext& operator=(const CrowdContext&) = delete;
 
-    [[nodiscard]] bool valid() const { return context_ != nullptr; } ///< a failure was recorded when not
-    [[nodiscard]] SuppleContext handle() const { return context_; }
-    [[nodiscard]] host::Device& device() const { return device_; }
-    [[nodiscard]] uint64_t frame() const { return frame_; }
-    [[nodiscard]] uint64_t nextFrame() { return ++frame_; }
+    [[nodiscard]] bool valid() const { return handle() != nullptr; } ///< a failure was recorded when not
 
     /// The id of the last error since this was asked; 0 when there was none.
-    [[nodiscard]] int takeError() { return std::exchange(lastError_, 0); }
+    [[nodiscard]] int takeError();
 
     /// Each file is read once.
     [[nodiscard]] SuppleAsset asset(const std::string& path);
@@ -70,12 +64,6 @@ public:
     SuppleResult record(VkCommandBuffer commands, std::span<const SuppleGroup> groups);
 
 private:
-    static void log(SuppleSeverity severity, SuppleMessage message, const char* text, void* user);
-
-    host::Device& device_;
-    SuppleContext context_ = nullptr;
-    uint64_t frame_ = 0;
-    int lastError_ = 0;
     std::map<std::string, SuppleAsset> assets_;
 };
 

@@ -1,33 +1,19 @@
 #!/bin/sh
-# supple view and its window on a display of their own.
+# supple view and its window, on a display (with_display.sh).
 #   view_test.sh SUPPLE_COMMAND CHARACTER [WINDOW_TEST]
-# Exits 77 (skipped) and says why where there is no Xvfb.
+# Exits 77 (skipped) and says why where there is no window to be had.
 set -u
 supple=$1
 character=$2
 window_test=${3:-}
 
-if ! command -v Xvfb >/dev/null 2>&1; then
-    echo "skipped: Xvfb is not installed"
-    exit 77
-fi
 if "$supple" view "$character" --frames 1 2>&1 | grep -q "built without"; then
     echo "skipped: supple was built without a window"
     exit 77
 fi
 
 work=$(mktemp -d)
-# Xvfb picks a free display and writes its number when it is ready.
-mkfifo "$work/display"
-Xvfb -displayfd 3 -screen 0 1024x768x24 -nolisten tcp 3>"$work/display" >"$work/xvfb.log" 2>&1 &
-xvfb=$!
-trap 'kill $xvfb 2>/dev/null; wait $xvfb 2>/dev/null; rm -rf "$work"' EXIT
-read -r number <"$work/display" || { echo "Xvfb did not start:"; cat "$work/xvfb.log"; exit 1; }
-DISPLAY=:$number
-export DISPLAY
-unset WAYLAND_DISPLAY
-XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-$work}
-export XDG_RUNTIME_DIR
+trap 'rm -rf "$work"' EXIT
 
 fail() { echo "failed: $1"; exit 1; }
 

@@ -483,9 +483,9 @@ SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance ins
 
 /* ---------------------------------------------------------------------------------------------------- poses */
 
-/** What crosses to the device each frame: one copy of the poses of the slots in use, and 8 bytes a visible instance. A
- * pose is 48 bytes a joint, or with dual quaternions 64 bytes a joint and 48 more; and with morph targets 4 bytes a
- * target, rounded up to 16. */
+/** What crosses to the device each frame: the poses of the slots in use, 8 bytes a visible instance and 20 a draw
+ * range. A pose is 48 bytes a joint, or with dual quaternions 64 bytes a joint and 48 more; and with morph targets 4
+ * bytes a target, rounded up to 16. */
 
 /** Poses an instance from a clip at a time (clamped to the clip), or SUPPLE_BIND_POSE or SUPPLE_REST_POSE. What the
  * clip does not animate is as in the rest pose. */
@@ -709,7 +709,7 @@ typedef struct SuppleGroupOutput {
     SuppleBufferView previousPositions;
     /** Per slot (stride bytes): three rows of four floats a joint, of the 3x4 matrix that takes a cage vertex from the
      * bind pose to its place: transform * joint * inverse bind; then, with morph targets, a float weight each. Dual
-     * quaternions: see shaders/shared/deform.h. */
+     * quaternions: see shaders/shared/deform.h. Null with SUPPLE_POSES_CAGE_BUFFER. */
     SuppleBufferView poses;
 } SuppleGroupOutput;
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs a program on a display of its own; exits 77 (skipped) where there is no Xvfb.
-#   window_test.sh PROGRAM ARGUMENTS...
+#   with_display.sh PROGRAM ARGUMENTS...
 set -u
 if ! command -v Xvfb >/dev/null 2>&1; then
     echo "skipped: Xvfb is not installed"
