@@ -1,4 +1,4 @@
-// One frame, as the data flows: upload, deform, vertex, edge, patch, evaluate, motion.
+// One frame, as the data flows: upload, deform, vertex, edge, patch, level, solve, place, evaluate, motion.
 #include "runtime/context.h"
 
 namespace supple::runtime {
@@ -45,12 +45,19 @@ Status Context::checkRecord(const SuppleRecordDesc& desc) const {
                 return refuse(ErrorCode::argument, "listed twice");
             }
         }
+        if (group->view() != nullptr && !group->view()->hasCamera()) {
+            return refuse(ErrorCode::order, "its view has no camera yet");
+        }
+        if (group->view() != nullptr && group->view()->lastRecordedFrame() == frame_) {
+            return refuse(ErrorCode::order, "other groups of its view are recorded already: one call takes them all");
+        }
     }
     return success();
 }
 
 VkDeviceSize Context::recordStatics(VkCommandBuffer commandBuffer, Group& group) {
-    return pairs_.recordUpload(commandBuffer, frame_) + group.recordStatics(commandBuffer, frame_);
+    const VkDeviceSize ofView = group.view() != nullptr ? group.view()->recordStatics(commandBuffer, frame_) : 0;
+    return pairs_.recordUpload(commandBuffer, frame_) + ofView + group.recordStatics(commandBuffer, frame_);
 }
 
 Status Context::recordUploads(VkCommandBuffer commandBuffer) {
@@ -101,6 +108,17 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         return false;
     };
     const auto computeBarrier = [&] { gpu::computeBarrier(device, commandBuffer); };
+    // Each view once, with the first of its groups.
+    const auto firstOfView = [&](uint32_t g) {
+        const View* view = groupAt(g).view();
+        for (uint32_t h = 0; view != nullptr && h < g; ++h) {
+            if (groupAt(h).view() == view) {
+                return false;
+            }
+        }
+        return view != nullptr;
+    };
+    const bool views = any([](Group& group) { return group.view() != nullptr; });
 
     device.beginLabel(commandBuffer, "supple");
     if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {
@@ -122,11 +140,14 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         }
         Group::PassCost cost = group.recordUpload(commandBuffer, frame_);
         cost.bytes += statics;
+        if (group.view() != nullptr && group.view()->lastRecordedFrame() != frame_) {
+            cost.bytes += group.view()->recordUpload(commandBuffer, frame_);
+        }
         return cost;
     });
     gpu::memoryBarrier(device, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {kCompute, kRead | kWrite});
 
-    if (any([](Group& group) { return group.attributesPending(); })) {
+    if (any([](Group& group) { return group.view() == nullptr && group.attributesPending(); })) {
         pass(Pass::attributes, [&](Group& group) { return group.recordAttributes(commandBuffer); });
     }
     pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
@@ -141,6 +162,38 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     construct(Stage::edge, Pass::edge);
     if (any([](Group& group) { return group.writesPatches(); })) {
         pass(Pass::patch, [&](Group& group) { return group.recordPatch(commandBuffer); });
+    }
+    if (views) {
+        pass(Pass::level, [&](Group& group) { return group.recordEdgeLevels(commandBuffer); });
+        computeBarrier();
+        pass(Pass::level, [&](Group& group) { return group.recordPatchLevels(commandBuffer); });
+        computeBarrier();
+        device.beginLabel(commandBuffer, passName(Pass::solve));
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            if (firstOfView(g)) {
+                timing.beginPass();
+                uint32_t priorities = 0;
+                for (uint32_t h = g; h < desc.groupCount; ++h) {
+                    priorities |= groupAt(h).view() == groupAt(g).view() ? groupAt(h).priorities() : 0;
+                }
+                groupAt(g).view()->recordSolve(commandBuffer, surface_.lod(), groupAt(g).anySet(), priorities);
+                timing.endPass(Pass::solve, desc.groups[g], shared::kLodBins, sizeof(shared::LodSolution));
+            }
+        }
+        device.endLabel(commandBuffer);
+        gpu::memoryBarrier(device, commandBuffer, {kCompute, kWrite},
+                           {kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | kTransfer,
+                            kRead | kWrite | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT});
+        pass(Pass::place, [&](Group& group) { return group.recordPlaces(commandBuffer); });
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            if (firstOfView(g)) {
+                groupAt(g).view()->recordReadback(commandBuffer);
+            }
+        }
+        computeBarrier();
+        if (any([](Group& group) { return group.writesLodAttributes(); })) {
+            pass(Pass::attributes, [&](Group& group) { return group.recordLodAttributes(commandBuffer); });
+        }
     }
     pass(Pass::evaluate, [&](Group& group) { return group.recordEvaluate(commandBuffer); });
     if (any([](Group& group) { return group.writesMotion(); })) {
