@@ -167,6 +167,46 @@ TEST(LodGrid, trianglesMakeOneDisc) {
     }
 }
 
+TEST(LodGrid, diagonalsPointFromTheNearestCornerInwards) {
+    for (const Form form : kForms) {
+        for (const uint32_t capacity : kCapacities) {
+            SCOPED_TRACE(trace(form, capacity));
+            std::set<std::pair<uint32_t, uint32_t>> joined;
+            for (const auto& triangle : trianglesOf(form, capacity)) {
+                for (uint32_t c = 0; c < 3; ++c) {
+                    joined.insert({triangle[c], triangle[(c + 1) % 3]});
+                    joined.insert({triangle[(c + 1) % 3], triangle[c]});
+                }
+            }
+            std::map<std::array<uint32_t, 3>, uint32_t> samples;
+            for (uint32_t sample = 0; sample < sampleCount(form, capacity); ++sample) {
+                const GridSample at = gridSample(form, capacity, sample);
+                samples[{at.ring, at.side, at.k}] = sample;
+            }
+            const uint32_t h = (capacity - 1) / 2;
+            const uint32_t sidesHere = form == Form::quad ? 1 : sides(form);
+            for (uint32_t ring = 0; ring < (form == Form::quad ? capacity : h); ++ring) {
+                for (uint32_t side = 0; side < sidesHere; ++side) {
+                    // Cells of a ring's side that lie off the rays and off the middle, where both are as near.
+                    const uint32_t first = form == Form::quad ? 0 : ring + 1;
+                    for (uint32_t k = first; k + first < capacity; ++k) {
+                        if (k == h || (form == Form::quad && ring == h)) {
+                            continue;
+                        }
+                        const auto sample = [&](uint32_t r, uint32_t at) {
+                            const auto found = samples.find({r, side, at});
+                            return found != samples.end() ? found->second : samples.at({r, (side + 1) % sidesHere, r});
+                        };
+                        const bool forwards = form == Form::quad ? (k < h) == (ring < h) : k < h;
+                        EXPECT_EQ(joined.count({sample(ring, k), sample(ring + 1, k + 1)}), forwards ? 1U : 0U);
+                        EXPECT_EQ(joined.count({sample(ring, k + 1), sample(ring + 1, k)}), forwards ? 0U : 1U);
+                    }
+                }
+            }
+        }
+    }
+}
+
 TEST(LodGrid, fourRingsHaveAsManyTrianglesAsTheQuad) {
     for (const uint32_t capacity : kCapacities) {
         EXPECT_EQ(trianglesOf(Form::quadRings, capacity).size(), trianglesOf(Form::quad, capacity).size());

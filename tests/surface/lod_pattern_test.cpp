@@ -79,6 +79,20 @@ TEST(LodPattern, wordsNestAndStartAtTheCorner) {
     EXPECT_EQ(firstPatternWord(kCapacities.size()), words.size());
 }
 
+TEST(LodPattern, birthsAreSpreadOverTheEdge) {
+    const std::vector<uint32_t> words = patternWords();
+    for (uint32_t n = 1; n <= 31; ++n) {
+        const uint32_t word = words[firstPatternWord(9) + n];
+        uint32_t longest = 0;
+        uint32_t missing = 0;
+        for (uint32_t j = 0; j < 31; ++j) {
+            missing = (word >> j & 1U) != 0 ? 0 : missing + 1;
+            longest = std::max(longest, missing);
+        }
+        EXPECT_LE(longest, 32 / std::bit_floor(n) - 1) << n << " born";
+    }
+}
+
 TEST(LodPattern, samplesAreWhatTheWordsSay) {
     const std::vector<uint32_t> words = patternWords();
     for (uint32_t c = 0; c < kCapacities.size(); ++c) {
