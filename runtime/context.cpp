@@ -178,8 +178,8 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     if (desc.view.id != 0 && (view = views.find(desc.view.id)) == nullptr) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign view handle"};
     }
-    const GroupShared shared{device_.get(),   &deform_,           &surface_, pairs_.buffer(0), pairs_.size(0),
-                             framesInFlight_, nextGeneration_ | 1u, std::move(view)};
+    const GroupShared shared{device_.get(),  &deform_, &surface_,       pairs_.buffer(0),
+                             pairs_.size(0), view,     framesInFlight_, nextGeneration_ | 1u};
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
     if (!group) {
         return group.error();

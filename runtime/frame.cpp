@@ -1,6 +1,8 @@
 // One frame, as the data flows: upload, deform, vertex, edge, patch, level, solve, place, evaluate, motion.
 #include "runtime/context.h"
 
+#include <algorithm>
+
 namespace supple::runtime {
 
 namespace {
@@ -181,16 +183,16 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             }
         }
         device.endLabel(commandBuffer);
-        gpu::memoryBarrier(device, commandBuffer, {kCompute, kWrite},
-                           {kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | kTransfer,
-                            kRead | kWrite | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT});
+        computeBarrier();
         pass(Pass::place, [&](Group& group) { return group.recordPlaces(commandBuffer); });
+        gpu::memoryBarrier(device, commandBuffer, {kCompute, kWrite},
+                           {kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+                            kRead | kWrite | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT});
         for (uint32_t g = 0; g < desc.groupCount; ++g) {
             if (firstOfView(g)) {
                 groupAt(g).view()->recordReadback(commandBuffer);
             }
         }
-        computeBarrier();
         if (any([](Group& group) { return group.writesLodAttributes(); })) {
             pass(Pass::attributes, [&](Group& group) { return group.recordLodAttributes(commandBuffer); });
         }
@@ -204,19 +206,25 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
 
     if (asyncCompute_) {
-        Group::Transfers transfers;
-        for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            const uint32_t count = groupAt(g).transfers(transfers);
-            for (uint32_t i = 0; i < count; ++i) {
-                transfers[i].srcStageMask = kLast.stages;
-                transfers[i].srcAccessMask = kLast.access;
-                transfers[i].srcQueueFamilyIndex = queueFamily_;
-                transfers[i].dstQueueFamilyIndex = drawQueueFamily_;
+        const auto release = [&](std::span<VkBufferMemoryBarrier2> transfers) {
+            for (VkBufferMemoryBarrier2& barrier : transfers) {
+                barrier.srcStageMask = kLast.stages;
+                barrier.srcAccessMask = kLast.access;
+                barrier.srcQueueFamilyIndex = queueFamily_;
+                barrier.dstQueueFamilyIndex = drawQueueFamily_;
             }
-            VkDependencyInfo release{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-            release.bufferMemoryBarrierCount = count;
-            release.pBufferMemoryBarriers = transfers.data();
-            device.vk.CmdPipelineBarrier2(commandBuffer, &release);
+            VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+            info.bufferMemoryBarrierCount = static_cast<uint32_t>(transfers.size());
+            info.pBufferMemoryBarriers = transfers.data();
+            device.vk.CmdPipelineBarrier2(commandBuffer, &info);
+        };
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            Group::Transfers ofGroup;
+            release({ofGroup.data(), groupAt(g).transfers(ofGroup)});
+            if (firstOfView(g)) {
+                View::Transfers ofView;
+                release({ofView.data(), groupAt(g).view()->transfers(ofView)});
+            }
         }
     }
     if (desc.after.stages != 0) {
@@ -245,17 +253,28 @@ Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, S
         }
     }
     uint32_t total = 0;
-    for (const SuppleGroup& own : wanted) {
-        Group::Transfers transfers;
-        const uint32_t count = groups.find(own.id)->transfers(transfers);
-        for (uint32_t i = 0; i < count; ++i, ++total) {
+    const auto acquire = [&](std::span<const VkBufferMemoryBarrier2> transfers) {
+        for (const VkBufferMemoryBarrier2& barrier : transfers) {
             if (total < out.size()) {
-                out[total] = transfers[i];
+                out[total] = barrier;
                 out[total].dstStageMask = use.stages;
                 out[total].dstAccessMask = use.access;
                 out[total].srcQueueFamilyIndex = queueFamily_;
                 out[total].dstQueueFamilyIndex = drawQueueFamily_;
             }
+            ++total;
+        }
+    };
+    for (size_t g = 0; g < wanted.size(); ++g) {
+        const std::shared_ptr<Group> group = groups.find(wanted[g].id);
+        Group::Transfers ofGroup;
+        acquire({ofGroup.data(), group->transfers(ofGroup)});
+        const bool first =
+            std::none_of(wanted.begin(), wanted.begin() + static_cast<ptrdiff_t>(g),
+                         [&](const SuppleGroup& h) { return groups.find(h.id)->view() == group->view(); });
+        if (group->view() != nullptr && first) {
+            View::Transfers ofView;
+            acquire({ofView.data(), group->view()->transfers(ofView)});
         }
     }
     return total;

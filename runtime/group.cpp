@@ -2,6 +2,7 @@
 
 #include "runtime/group_buffers.h"
 #include "surface/grid.h"
+#include "surface/lod/tables.h"
 
 #include <algorithm>
 #include <bit>
@@ -204,8 +205,7 @@ Group::~Group() {
 }
 
 bool Group::hasMotion(const SuppleGroupDesc& desc) const {
-    return view_ != nullptr ? (view_->desc().flags & SUPPLE_VIEW_MOTION) != 0
-                            : (desc.flags & SUPPLE_GROUP_MOTION) != 0;
+    return view_ != nullptr ? (view_->desc().flags & SUPPLE_VIEW_MOTION) != 0 : (desc.flags & SUPPLE_GROUP_MOTION) != 0;
 }
 
 uint32_t Group::scratchElements() const {
@@ -395,10 +395,10 @@ void Group::fillOutput() {
     o.poses = whole(kPoses, poses_.instanceBytes());
     o.instances = whole(kInstances, sizeof(uint32_t));
     o.instances.size /= 2; // the second list is the passes'
-    o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
     o.indirect = whole(kIndirect, sizeof(VkDrawIndexedIndirectCommand));
     o.deviceBytes = buffers_.allocatedBytes() + static_.deviceBytes();
     if (view_ == nullptr) {
+        o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
         return;
     }
     const auto ofView = [&](View::BufferIndex index, VkDeviceSize stride) {
@@ -416,8 +416,8 @@ void Group::fillOutput() {
     const VkDeviceSize firstDraw = VkDeviceSize{firstRun_} * kCapacityCount;
     o.indirect = words(kLodDraws + 5 * firstDraw, lodDraws_.size(), sizeof(VkDrawIndexedIndirectCommand));
     o.lodBuckets = words(kLodBuckets + 4 * firstDraw, lodDraws_.size(), 16);
-    o.lodPatches = words(kLodRecords, (view_->size(View::kWords) / 4 - kLodRecords) / kLodRecordWords,
-                         kLodRecordWords * 4);
+    o.lodPatches =
+        words(kLodRecords, (view_->size(View::kWords) / 4 - kLodRecords) / kLodRecordWords, kLodRecordWords * 4);
 }
 
 } // namespace supple::runtime

@@ -220,9 +220,8 @@ Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
     if (view_ != nullptr) {
         // How many vertices is known on the device alone: SuppleViewStatistics.
         forWindows([&](const Window& window, uint32_t, const InstanceSlots::Listed&) {
-            shared_.surface->recordLodEvaluate(commandBuffer, scheme_->tables,
-                                               lodWindow(window, window.surface[pool_]), evaluation_,
-                                               static_cast<uint32_t>(output_.vertexFormat));
+            shared_.surface->recordLodEvaluate(commandBuffer, scheme_->tables, lodWindow(window, window.surface[pool_]),
+                                               evaluation_, static_cast<uint32_t>(output_.vertexFormat));
         });
         return {0, visible_};
     }
@@ -295,7 +294,9 @@ uint32_t Group::transfers(Transfers& out) const {
     add(buffers_.buffer(kAttributes), attributes);
     add(buffers_.buffer(kUvs1), attributes);
     add(buffers_.buffer(kFaceUvs), attributes);
-    add(static_.buffer(kGridIndices), indicesReleaseFrame_ == passesFrame_);
+    if (view_ == nullptr) {
+        add(static_.buffer(kGridIndices), indicesReleaseFrame_ == passesFrame_);
+    }
     return count;
 }
 

@@ -1,5 +1,7 @@
 #include "runtime/view.h"
 
+#include "surface/lod/tables.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -16,9 +18,9 @@ static_assert(SUPPLE_GRID_QUAD == kLodQuadForm && SUPPLE_GRID_TRIANGLE_RINGS == 
 static_assert(SUPPLE_PRIORITY_COUNT == kPriorityCount);
 static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t));
 
-constexpr uint32_t kMinSamples = 3;          ///< of a patch: a triangle at capacity 1
-constexpr uint32_t kPaddingOfRun = 3 * 64;   ///< surface vertices that whole draw instances may cost a run
-constexpr uint32_t kFreeRun = 0xFFFFFF00u;   ///< a run of no dispatch
+constexpr uint32_t kMinSamples = 3;        ///< of a patch: a triangle at capacity 1
+constexpr uint32_t kPaddingOfRun = 3 * 64; ///< surface vertices that whole draw instances may cost a run
+constexpr uint32_t kFreeRun = 0xFFFFFF00u; ///< a run of no dispatch
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
 
 } // namespace
@@ -50,8 +52,7 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     requests[kAttributes] = {"supple view, surface attributes", when(SUPPLE_VIEW_ATTRIBUTES, 16), kVertices};
     requests[kUvs1] = {"supple view, second UV set", when(SUPPLE_VIEW_UVS1, 8), kVertices};
     requests[kFaceUvs] = {"supple view, face UVs", when(SUPPLE_VIEW_FACE_UVS, 8), kVertices};
-    const bool texelsFit =
-        device.mapping.wide || requests[kWords].size <= device.bufferWindow(16);
+    const bool texelsFit = device.mapping.wide || requests[kWords].size <= device.bufferWindow(16);
     const bool storageFits = std::all_of(requests.begin(), requests.end(), [&](const gpu::BufferRequest& request) {
         return request.size <= device.limits.maxStorageBufferRange;
     });
@@ -100,8 +101,7 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     const gpu::BufferRequest readback{"supple view statistics", sizeof(LodSolution) * VkDeviceSize{framesInFlight},
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    for (const auto& [target, wanted] :
-         {std::pair(&view->staging_, staging), std::pair(&view->readback_, readback)}) {
+    for (const auto& [target, wanted] : {std::pair(&view->staging_, staging), std::pair(&view->readback_, readback)}) {
         Result<gpu::BufferSet> set = gpu::BufferSet::create(device, {&wanted, 1}, gpu::MemoryKind::upload);
         if (!set) {
             return set.error();
@@ -170,6 +170,7 @@ LodPush View::levelPush() const {
 
 VkDeviceSize View::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
     const VkDeviceSize bytes = static_.recordUpload(commandBuffer, frame);
+    indicesToRelease_ = indicesToRelease_ || bytes > 0;
     if (!cleared_) {
         // Histograms, which the solver clears from then on.
         device_->vk.CmdFillBuffer(commandBuffer, buffers_.buffer(kWords), kLodSolution * VkDeviceSize{4},
@@ -182,6 +183,10 @@ VkDeviceSize View::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) 
 
 VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     recordedFrame_ = frame;
+    if (indicesToRelease_) {
+        indicesToRelease_ = false;
+        indicesReleaseFrame_ = frame;
+    }
     const VkDeviceSize bytes = kLodSolution * VkDeviceSize{4}, run = frame % framesInFlight_ * bytes;
     std::memcpy(staging_.mapped(0) + run, hostWords_.data(), bytes);
     const VkBufferCopy region{run, 0, bytes};
@@ -194,8 +199,8 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
     LodSolvePush push{};
     push.runCount = endOfRuns_;
     const uint32_t padding = endOfRuns_ * kPaddingOfRun;
-    const uint32_t budget = camera_.vertexBudget > 0 ? std::min(camera_.vertexBudget, desc_.maxVertices)
-                                                     : desc_.maxVertices;
+    const uint32_t budget =
+        camera_.vertexBudget > 0 ? std::min(camera_.vertexBudget, desc_.maxVertices) : desc_.maxVertices;
     push.limit = budget > padding ? budget - padding : 0;
     push.priorities = priorities;
     push.forms = forms_;
@@ -231,7 +236,29 @@ void View::cancelFrame(uint64_t frame) {
     if (clearedFrame_ == frame) {
         cleared_ = false;
     }
+    if (indicesReleaseFrame_ == frame) {
+        indicesToRelease_ = true;
+    }
     std::replace(solvedFrames_.begin(), solvedFrames_.end(), frame, uint64_t{0});
+}
+
+uint32_t View::transfers(Transfers& out) const {
+    uint32_t count = 0;
+    const auto add = [&](VkBuffer buffer) {
+        if (buffer != VK_NULL_HANDLE) {
+            VkBufferMemoryBarrier2& barrier = out[count++];
+            barrier = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
+            barrier.buffer = buffer;
+            barrier.size = VK_WHOLE_SIZE;
+        }
+    };
+    for (size_t i = 0; i < kBufferCount; ++i) {
+        add(buffers_.buffer(i));
+    }
+    if (indicesReleaseFrame_ == recordedFrame_) {
+        add(static_.buffer(0));
+    }
+    return count;
 }
 
 bool View::statistics(SuppleViewStatistics& out) const {

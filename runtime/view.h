@@ -45,6 +45,9 @@ public:
     void beginFrame(uint64_t completedFrame);
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
+    /// As Group::transfers, with the first of its groups.
+    using Transfers = std::array<VkBufferMemoryBarrier2, 7>;
+    [[nodiscard]] uint32_t transfers(Transfers& out) const;
     /// SUPPLE_NOT_READY: no frame of it has completed.
     [[nodiscard]] bool statistics(SuppleViewStatistics& out) const;
 
@@ -80,6 +83,8 @@ private:
     uint32_t endOfRuns_ = 0;
     uint32_t forms_ = 0; ///< bits of those that runs have
     bool cleared_ = false;
+    bool indicesToRelease_ = false;
+    uint64_t indicesReleaseFrame_ = 0;
     uint64_t clearedFrame_ = 0, recordedFrame_ = 0;
     std::vector<uint64_t> solvedFrames_; ///< by place in readback_
     SuppleViewStatistics newest_{};

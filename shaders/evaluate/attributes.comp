@@ -88,7 +88,7 @@ void store(uint vertex, uint patchIndex, float w[5]) {
 
 void storeOfRecord(uint index, uint firstSample, uint step) {
     LodRecord r = lodRecord(index);
-    if (r.patchIndex == kNoPatch) return;
+    if (r.patchIndex == kEmptyRecord) return;
     uint samples = kRings ? kCorners * (r.capacity + 1u) * (r.capacity + 1u) / 4u : (r.capacity + 1u) * (r.capacity + 1u);
     for (uint k = firstSample; k < samples; k += step)
         store(r.firstVertex + k, r.patchIndex - push.firstPatch, lodCornerWeights(r, k));

@@ -173,7 +173,7 @@ vec2 lodV(LodRecord r, uint i, uint j) {
 void evaluateNarrowLod() {
     LodRecord r = lodRecord(lodRecordOfLane());
     uint last = r.capacity, side = last + 1u;
-    if (r.patchIndex == kNoPatch) {
+    if (r.patchIndex == kEmptyRecord) {
         for (uint k = 0u; k < side * side; ++k) storeSurfaceVertex(r.firstVertex + k, vec3(0.0), vec3(0.0));
         return;
     }
@@ -263,7 +263,7 @@ void evaluateWideLod() {
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 16u; n += gl_WorkGroupSize.x) {
         uint place = n / 16u;
         LodRecord r = lodRecord(share.firstRecord + place);
-        if (r.patchIndex != kNoPatch)
+        if (r.patchIndex != kEmptyRecord)
             loadShared(place, n - place * 16u, push.table + (r.patchIndex - push.firstPatch) * recordElements(),
                        r.slot * push.poolStride, r.isNew);
     }
@@ -273,7 +273,7 @@ void evaluateWideLod() {
         LodRecord r = lodRecord(share.firstRecord + place);
         uint side = r.capacity + 1u, j = sampleIndex / side, i = sampleIndex - j * side;
         vec3 position = vec3(0.0), normal = vec3(0.0);
-        if (r.patchIndex != kNoPatch) {
+        if (r.patchIndex != kEmptyRecord) {
             Patch c = sharedPatch(place);
             Row row = collapse(c, lodV(r, i, j));
             finish(row, lodU(r, i, j), position, normal);

@@ -6,7 +6,7 @@
 layout(constant_id = 6) const bool kLod = false; // records of a view, else all patches at one rate
 
 struct LodRecord {
-    uint patchIndex; // in device order, or kNoPatch
+    uint patchIndex; // in device order, or kEmptyRecord
     uint slot;       // of the window
     bool isNew;
     uint firstVertex;

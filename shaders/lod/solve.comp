@@ -14,7 +14,6 @@ layout(push_constant) uniform Push { LodSolvePush push; };
 const uint kMaxLanes = 128u; // gpu/mapping.cpp
 shared uint sumHigh[kMaxLanes], sumLow[kMaxLanes];
 shared uint counts[kMaxRuns * kCapacityCount];
-shared uint records[kMaxRuns * kCapacityCount], vertices[kMaxRuns * kCapacityCount], groups[kMaxRuns * kCapacityCount];
 
 
 // The smallest capacity that patches of a bin, and of the one below it, fit into when levels are scaled by
@@ -129,9 +128,9 @@ void main() {
     }
     barrier();
 
-    // Where buckets begin. One lane: there are some hundred at most, and they lie in shared memory.
+    // Where buckets begin. One lane: there are some hundred, and their counts lie in shared memory.
     if (lane == 0u) {
-        uint record = 0u, vertex = 0u, group = 0u, patches = 0u, last = kNoPatch;
+        uint record = 0u, vertex = 0u, group = 0u, patches = 0u, last = kEmptyRecord;
         for (uint run = 0u; run < push.runCount; ++run) {
             uint info = lodWords[kLodRuns + run], form = info & 255u, dispatch = info >> 8u;
             if (dispatch != last) {
@@ -140,9 +139,10 @@ void main() {
             }
             for (uint c = 0u; c < kCapacityCount; ++c) {
                 uint b = run * kCapacityCount + c, samples = formSamples(form, capacityOf(c));
-                records[b] = record;
-                vertices[b] = vertex;
-                groups[b] = group;
+                lodWords[kLodBuckets + 4u * b] = record;
+                lodWords[kLodBuckets + 4u * b + 1u] = vertex;
+                lodWords[kLodBuckets + 4u * b + 2u] = 0u;
+                lodWords[kLodBuckets + 4u * b + 3u] = group;
                 uint whole = padded(counts[b], samples), each = patchesPerGroup(samples);
                 record += whole;
                 vertex += whole * samples;
@@ -158,27 +158,24 @@ void main() {
             lodWords[kLodSolution + 4u + p] = floatBitsToUint(exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
         lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
     }
+    memoryBarrierBuffer();
     barrier();
 
     for (uint b = lane; b < buckets; b += gl_WorkGroupSize.x) {
         uint run = b / kCapacityCount, c = b - run * kCapacityCount;
         uint form = lodWords[kLodRuns + run] & 255u, samples = formSamples(form, capacityOf(c));
         uint perDraw = patchesPerDraw(samples), whole = padded(counts[b], samples);
-        uint bucket = kLodBuckets + 4u * b;
-        lodWords[bucket] = records[b];
-        lodWords[bucket + 1u] = vertices[b];
-        lodWords[bucket + 2u] = 0u;
-        lodWords[bucket + 3u] = groups[b];
+        uint record = lodWords[kLodBuckets + 4u * b], vertex = lodWords[kLodBuckets + 4u * b + 1u];
         uint grid = kLodGrids + 2u * (form * kCapacityCount + c), draw = kLodDraws + 5u * b;
         lodWords[draw] = lodWords[grid + 1u];
         lodWords[draw + 1u] = whole / perDraw;
         lodWords[draw + 2u] = lodWords[grid];
-        lodWords[draw + 3u] = vertices[b];
+        lodWords[draw + 3u] = vertex;
         lodWords[draw + 4u] = 0u;
         for (uint i = counts[b]; i < whole; ++i) { // empty records: evaluation makes points of them
-            uint at = kLodRecords + kLodRecordWords * (records[b] + i);
-            lodWords[at] = kNoPatch;
-            lodWords[at + 2u] = vertices[b] + i * samples;
+            uint at = kLodRecords + kLodRecordWords * (record + i);
+            lodWords[at] = kEmptyRecord;
+            lodWords[at + 2u] = vertex + i * samples;
             lodWords[at + 3u] = c;
         }
     }
@@ -189,16 +186,17 @@ void main() {
         while (end < push.runCount && lodWords[kLodRuns + end] >> 8u == dispatch) ++end;
         uint first = run * kCapacityCount, last = end * kCapacityCount - 1u;
         uint samples = formSamples(lodWords[kLodRuns + end - 1u] & 255u, capacityOf(kCapacityCount - 1u));
-        uint recordCount = records[last] + padded(counts[last], samples) - records[first];
+        uint firstRecord = lodWords[kLodBuckets + 4u * first], whole = padded(counts[last], samples);
+        uint recordCount = lodWords[kLodBuckets + 4u * last] + whole - firstRecord;
         uint each = patchesPerGroup(samples);
-        uint groupCount = kWide ? groups[last] + (padded(counts[last], samples) + each - 1u) / each
+        uint groupCount = kWide ? lodWords[kLodBuckets + 4u * last + 3u] + (whole + each - 1u) / each
                                 : (recordCount + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
         uint rows = max((groupCount + push.maxGroups - 1u) / push.maxGroups, 1u);
         uint at = kLodDispatches + 8u * dispatch;
         lodWords[at] = groupCount > 0u ? (groupCount + rows - 1u) / rows : 0u;
         lodWords[at + 1u] = rows;
         lodWords[at + 2u] = 1u;
-        lodWords[at + 3u] = records[first];
+        lodWords[at + 3u] = firstRecord;
         lodWords[at + 4u] = recordCount;
         lodWords[at + 5u] = first;
         lodWords[at + 6u] = last + 1u - first;

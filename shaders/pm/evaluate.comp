@@ -187,7 +187,7 @@ void evaluateNarrow() {
 void evaluateNarrowLod() {
     LodRecord r = lodRecord(lodRecordOfLane());
     uint last = r.capacity, rings = (last + 1u) / 2u;
-    if (r.patchIndex == kNoPatch) {
+    if (r.patchIndex == kEmptyRecord) {
         uint samples = ringStart(rings, last);
         for (uint k = 0u; k < samples; ++k) storeSurfaceVertex(r.firstVertex + k, vec3(0.0), vec3(0.0));
         return;
@@ -259,7 +259,7 @@ void evaluateWideLod() {
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * kSides; n += gl_WorkGroupSize.x) {
         uint place = n / kSides;
         LodRecord r = lodRecord(share.firstRecord + place);
-        if (r.patchIndex != kNoPatch)
+        if (r.patchIndex != kEmptyRecord)
             storeShared(n, loadSector(push.table + kSides * (r.patchIndex - push.firstPatch), r.slot * push.poolStride,
                                       n - place * kSides, r.isNew));
     }
@@ -268,7 +268,7 @@ void evaluateWideLod() {
         uint place = n / share.samples, sampleIndex = n - place * share.samples;
         LodRecord r = lodRecord(share.firstRecord + place);
         vec3 position = vec3(0.0), normal = vec3(0.0);
-        if (r.patchIndex != kNoPatch) {
+        if (r.patchIndex != kEmptyRecord) {
             uint ring = 0u;
             while (ringStart(ring + 1u, r.capacity) <= sampleIndex) ++ring;
             uint side = r.capacity - 2u * ring, at = sampleIndex - ringStart(ring, r.capacity);

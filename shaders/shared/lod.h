@@ -7,16 +7,17 @@
 //                 instances of a group; a dispatch evaluates the runs of one class, which follow each other
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take
-//   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of kSplitUnit
+//   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
+//   kSplitUnit
 //                 is shared between two bins
 //   counts        by run, priority and bin: patches
 //   buckets       by run and capacity: four words (LodBucket)
 //   dispatches    eight words each (LodDispatch)
 //   draws         by run and capacity: VkDrawIndexedIndirectCommand
 //   records       sixteen words a patch that is drawn, those of a bucket one after the other, filled up with empty ones
-//                 to whole draw instances: (patch in device order, or kNoPatch; slot | kInstanceIsNew; first vertex;
-//                 capacity index), then pairs (a, 1 / L) as float bits: quads u, v inside, then edges 0..3; rings inside,
-//                 then edges 0..4
+//                 to whole draw instances: (patch in device order, or kEmptyRecord; slot | kInstanceIsNew; first
+//                 vertex; capacity index), then pairs (a, 1 / L) as float bits: quads u, v inside, then edges 0..3;
+//                 rings inside, then edges 0..4
 //
 // In an instance's scratch: a float an edge, its level before the budget; then three words a patch (LodPatchLevel).
 #ifndef SUPPLE_SHARED_LOD_H
@@ -63,7 +64,7 @@ SUPPLE_SHARED_CONST kLodDraws = kLodDispatches + 8u * kMaxRuns;
 SUPPLE_SHARED_CONST kLodRecords = kLodDraws + 5u * kMaxRuns * kCapacityCount;
 SUPPLE_SHARED_CONST kLodRecordWords = 16u;
 
-SUPPLE_SHARED_CONST kNoPatch = 0xFFFFFFFFu;
+SUPPLE_SHARED_CONST kEmptyRecord = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kNoBin = 0xFFFFFFFFu; // the patch is not drawn
 
 struct LodSolution {
@@ -109,14 +110,14 @@ struct LodPush {
     uint runCount;      // of the window
     uint orthographic;
     float camera[3];
-    float focal;      // pixels a unit at distance 1; orthographic: pixels a unit
-    float nearest;    // nothing counts as nearer
-    float errorScale; // 3/4 / chord error in pixels; 0: lengths alone count
+    float focal;       // pixels a unit at distance 1; orthographic: pixels a unit
+    float nearest;     // nothing counts as nearer
+    float errorScale;  // 3/4 / chord error in pixels; 0: lengths alone count
     float lengthScale; // 1 / length of an edge in pixels
 };
 struct LodSolvePush {
-    uint runCount; // in use, of the view
-    uint limit;    // vertices
+    uint runCount;          // in use, of the view
+    uint limit;             // vertices
     uint priorities, forms; // bits of those in use
     uint maxGroups;         // of a dispatch in x
     float elasticity[4];
