@@ -157,8 +157,9 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     }
     // Instances of one group must not fit another that takes its place: groups' ids differ, and so do generations.
     nextGeneration_ = nextGeneration_ * 1664525u + 1013904223u;
-    const GroupShared shared{device_.get(),  &deform_,        &surface_,           pairs_.buffer(0),
-                             pairs_.size(0), framesInFlight_, nextGeneration_ | 1u};
+    const GroupShared shared{device_.get(),        &deform_,       &surface_,
+                             pairs_.buffer(0),     pairs_.size(0), framesInFlight_,
+                             nextGeneration_ | 1u, asyncCompute_};
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
     if (!group) {
         return group.error();

@@ -21,9 +21,15 @@ public:
     [[nodiscard]] bool holds(uint32_t slot, uint32_t generation) const;
     [[nodiscard]] uint32_t generation(uint32_t slot) const { return slots_[slot].generation; }
 
-    void setVisible(uint32_t slot, bool visible) { slots_[slot].visible = visible; }
+    void setVisible(uint32_t slot, bool visible) {
+        changed_ = changed_ || slots_[slot].visible != visible;
+        slots_[slot].visible = visible;
+    }
     /// The next frame sees the instance as new.
-    void forget(uint32_t slot) { slots_[slot].evaluated = false; }
+    void forget(uint32_t slot) {
+        changed_ = changed_ || slots_[slot].evaluated;
+        slots_[slot].evaluated = false;
+    }
     void forgetAll();
 
     [[nodiscard]] uint32_t capacity() const { return static_cast<uint32_t>(slots_.size()); }
@@ -35,6 +41,9 @@ public:
         uint32_t count = 0;
         uint32_t withPast = 0;
     };
+    /// Whether list() would give anything else than the last time: in the frame after a change too, when what was new
+    /// has come to have a past.
+    [[nodiscard]] bool changed() const { return changed_; }
     /// Lists the frame's instances and notes them as evaluated. `all`: the visible slots, rising. `byWindow`: slot
     /// numbers from their window's first on, the entries of window w from w * windowSize on; `windows` is filled in.
     /// Both hold capacity() entries. Returns the visible.
@@ -51,6 +60,7 @@ private:
     std::vector<Slot> slots_;
     uint32_t end_ = 0;
     uint32_t lowestFree_ = 0; ///< none is free below
+    bool changed_ = true;
 };
 
 } // namespace supple::runtime
