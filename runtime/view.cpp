@@ -202,6 +202,7 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
     const uint32_t budget =
         camera_.vertexBudget > 0 ? std::min(camera_.vertexBudget, desc_.maxVertices) : desc_.maxVertices;
     push.limit = budget > padding ? budget - padding : 0;
+    push.room = budget;
     push.priorities = priorities;
     push.forms = forms_;
     push.maxGroups = std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);

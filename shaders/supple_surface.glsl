@@ -23,6 +23,13 @@
 //     }
 //
 // A buffer that a shader does not read needs no descriptor: a shadow pass binds the first two.
+//
+// Groups of a view (level of detail): one draw a SuppleLodDraw, bound and drawn alike. With SUPPLE_SURFACE_LOD defined there
+// is suppleLodVertex(draw, gl_InstanceIndex, gl_VertexIndex) instead, and the buffer of instances is not needed:
+//
+//     layout(push_constant) uniform Push { SuppleDraw draw; };
+//
+// Its vertex is the same index everywhere, for attributes of a view are written with the vertices, every frame.
 #ifndef SUPPLE_SURFACE_GLSL
 #define SUPPLE_SURFACE_GLSL
 
@@ -33,6 +40,18 @@ struct SuppleRange {
     uint samplesPerPatch;     // SuppleDrawRange
     uint verticesPerInstance; // SuppleGroupOutput
 };
+
+/// The same for a SuppleLodDraw.
+struct SuppleDraw {
+    uint index;               // of the draw: SuppleGroupOutput.lodDraws[index]
+    uint verticesPerInstance; // SuppleLodDraw
+    uint samplesPerPatch;     // SuppleLodDraw
+};
+
+/// The surface vertex: an index into surfaceVertices, previousPositions, attributes, uvs1 and faceUvs.
+uint suppleLodSurfaceVertex(SuppleDraw draw, uint instanceIndex, uint vertexIndex) {
+    return vertexIndex + instanceIndex * draw.verticesPerInstance;
+}
 
 /// Which of the visible instances this is: an index into SuppleGroupOutput.instances, where its slot stands.
 uint suppleDrawnInstance(SuppleRange range, uint instanceIndex) { return instanceIndex / range.patchCount; }
@@ -79,9 +98,24 @@ vec4 suppleUnpackColor(uvec2 words) { return vec4(unpackUnorm2x16(words.x), unpa
 #define SUPPLE_ATTRIBUTES_BINDING 3
 #endif
 
+#ifdef SUPPLE_SURFACE_LOD
+#ifndef SUPPLE_BUCKETS_BINDING
+#define SUPPLE_BUCKETS_BINDING 4
+#endif
+#ifndef SUPPLE_PATCHES_BINDING
+#define SUPPLE_PATCHES_BINDING 5
+#endif
+layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_BUCKETS_BINDING, std430) readonly buffer SuppleBuckets {
+    uvec4 suppleBuckets[]; // SuppleGroupOutput.lodBuckets
+};
+layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_PATCHES_BINDING, std430) readonly buffer SupplePatches {
+    uvec4 supplePatches[]; // SuppleGroupOutput.lodPatches, four a patch
+};
+#else
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_INSTANCES_BINDING, std430) readonly buffer SuppleInstances {
     uint suppleInstances[];
 };
+#endif
 #ifdef SUPPLE_SURFACE_VERTEX_24 // SUPPLE_VERTEX_24: three floats of position, three of normal
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_VERTICES_BINDING, std430) readonly buffer SuppleVertices {
     float suppleVertices[];
@@ -104,6 +138,22 @@ struct SuppleVertex {
     uint index; // index into surfaceVertices, previousPositions
 };
 
+#ifdef SUPPLE_SURFACE_LOD
+/// The patch of a surface vertex: (patch in the order of suppleGetPatches, slot, first surface vertex, -).
+uvec4 suppleLodPatch(SuppleDraw draw, uint vertex) {
+    uvec4 bucket = suppleBuckets[draw.index];
+    uvec4 found = supplePatches[4u * (bucket.x + (vertex - bucket.y) / draw.samplesPerPatch)];
+    return uvec4(found.x, found.y & 0x0FFFFFFFu, found.zw);
+}
+
+SuppleVertex suppleLodVertex(SuppleDraw draw, uint instanceIndex, uint vertexIndex) {
+    SuppleVertex at;
+    at.index = suppleLodSurfaceVertex(draw, instanceIndex, vertexIndex);
+    at.own = at.index;
+    at.slot = suppleLodPatch(draw, at.index).y;
+    return at;
+}
+#else
 SuppleVertex suppleVertex(SuppleRange range, uint instanceIndex, uint vertexIndex) {
     SuppleVertex at;
     at.slot = suppleInstances[suppleDrawnInstance(range, instanceIndex)];
@@ -111,6 +161,7 @@ SuppleVertex suppleVertex(SuppleRange range, uint instanceIndex, uint vertexInde
     at.index = suppleSurfaceVertex(range, at.slot, at.own);
     return at;
 }
+#endif
 
 #ifdef SUPPLE_SURFACE_VERTEX_24
 vec3 supplePosition(SuppleVertex at) {

@@ -3,7 +3,7 @@
 // joins.
 #pragma once
 
-#include "graph.h"
+#include "common/graph.h"
 
 #include <array>
 #include <glm/glm.hpp>

@@ -53,7 +53,7 @@ void main() {
     } else if (drawn) {
         place = atomicAdd(lodWords[bucket + 2u], 1u);
     }
-    if (!drawn) return;
+    if (!drawn || place >= lodWord(bucket + 4u) - lodWord(bucket)) return;
 
     uint form = lodWord(kLodRuns + push.firstRun + more.y) & 255u, sides = formSides(form);
     float scale = uintBitsToFloat(lodWord(kLodSolution + 4u + priority));

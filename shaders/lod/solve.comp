@@ -72,6 +72,10 @@ uint padded(uint count, uint samples) {
     uint n = patchesPerDraw(samples);
     return (count + n - 1u) / n * n;
 }
+// Of a patch of a bin, at the solution.
+uint solvedCapacity(uint bin, uint priority, float x, bool shortfall) {
+    return shortfall ? 0u : capacityOfBin(bin, push.elasticity[priority] * x);
+}
 uint patchesPerGroup(uint samples) { return clamp(gl_WorkGroupSize.x / samples, 1u, kMaxPatchesPerGroup); }
 
 void main() {
@@ -87,7 +91,7 @@ void main() {
         int low = -1, high = int(kBudgetSteps);
         uvec2 fits = demand(float(high));
         if (above(fits, limit)) {
-            x = float(kBudgetSteps + 1u);
+            x = float(kBudgetSteps);
             shortfall = true;
         } else {
             while (high - low > 1) {
@@ -107,7 +111,7 @@ void main() {
 
     for (uint i = lane; i < kPriorityCount * kLodBins; i += gl_WorkGroupSize.x) {
         uint p = i / kLodBins, bin = i - p * kLodBins;
-        lodWords[kLodCapacities + p * kLodBinStride + bin] = capacityOfBin(bin, push.elasticity[p] * x);
+        lodWords[kLodCapacities + p * kLodBinStride + bin] = solvedCapacity(bin, p, x, shortfall);
     }
     uint buckets = push.runCount * kCapacityCount;
     for (uint i = lane; i < buckets; i += gl_WorkGroupSize.x) counts[i] = 0u;
@@ -119,7 +123,7 @@ void main() {
             uint run = i / kLodBinStride, bin = i - run * kLodBinStride;
             uint at = kLodCounts + (run * kPriorityCount + p) * kLodBinStride + bin, count = lodWords[at];
             if (count > 0u) {
-                atomicAdd(counts[run * kCapacityCount + capacityOfBin(bin, push.elasticity[p] * x)], count);
+                atomicAdd(counts[run * kCapacityCount + solvedCapacity(bin, p, x, shortfall)], count);
                 lodWords[at] = 0u;
             }
         }
@@ -144,6 +148,11 @@ void main() {
                 lodWords[kLodBuckets + 4u * b + 2u] = 0u;
                 lodWords[kLodBuckets + 4u * b + 3u] = group;
                 uint whole = padded(counts[b], samples), each = patchesPerGroup(samples);
+                if (shortfall && whole * samples > push.room - vertex) {
+                    uint n = patchesPerDraw(samples);
+                    whole = (push.room - vertex) / (n * samples) * n;
+                    counts[b] = min(counts[b], whole);
+                }
                 record += whole;
                 vertex += whole * samples;
                 group += (whole + each - 1u) / each;
@@ -155,7 +164,9 @@ void main() {
         lodWords[kLodSolution + 2u] = patches;
         lodWords[kLodSolution + 3u] = shortfall ? 1u : 0u;
         for (uint p = 0u; p < kPriorityCount; ++p)
-            lodWords[kLodSolution + 4u + p] = floatBitsToUint(exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
+            lodWords[kLodSolution + 4u + p] =
+                shortfall ? 0u : floatBitsToUint(exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
+        lodWords[kLodBuckets + 4u * buckets] = record;
         lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
     }
     memoryBarrierBuffer();

@@ -11,7 +11,7 @@
 //   kSplitUnit
 //                 is shared between two bins
 //   counts        by run, priority and bin: patches
-//   buckets       by run and capacity: four words (LodBucket)
+//   buckets       by run and capacity: four words (LodBucket); one more tells where the last one's records end
 //   dispatches    eight words each (LodDispatch)
 //   draws         by run and capacity: VkDrawIndexedIndirectCommand
 //   records       sixteen words a patch that is drawn, those of a bucket one after the other, filled up with empty ones
@@ -59,7 +59,7 @@ SUPPLE_SHARED_CONST kLodCapacities = kLodSolution + 16u;
 SUPPLE_SHARED_CONST kLodSplit = kLodCapacities + kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;
 SUPPLE_SHARED_CONST kLodBuckets = kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride;
-SUPPLE_SHARED_CONST kLodDispatches = kLodBuckets + 4u * kMaxRuns * kCapacityCount;
+SUPPLE_SHARED_CONST kLodDispatches = kLodBuckets + 4u * (kMaxRuns * kCapacityCount + 1u);
 SUPPLE_SHARED_CONST kLodDraws = kLodDispatches + 8u * kMaxRuns;
 SUPPLE_SHARED_CONST kLodRecords = kLodDraws + 5u * kMaxRuns * kCapacityCount;
 SUPPLE_SHARED_CONST kLodRecordWords = 16u;
@@ -71,7 +71,7 @@ struct LodSolution {
     float x;        // of the budget: levels are scaled by 2^(-elasticity x / kBinsPerOctave)
     uint vertices;  // written this frame, padding included
     uint patches;   // drawn
-    uint shortfall; // 1 where even level 1 everywhere is over the budget
+    uint shortfall; // 1 where scaling by elasticity is not enough: all levels are 1, and what has no room is left out
     float scale[4]; // of levels, by priority
     uint wanted;    // vertices that x = 0 would have written
 };
@@ -117,7 +117,8 @@ struct LodPush {
 };
 struct LodSolvePush {
     uint runCount;          // in use, of the view
-    uint limit;             // vertices
+    uint limit;    // vertices, without what fills up draw instances
+    uint room;     // with it
     uint priorities, forms; // bits of those in use
     uint maxGroups;         // of a dispatch in x
     float elasticity[4];

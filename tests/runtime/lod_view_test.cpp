@@ -1,9 +1,13 @@
 // Views: groups drawn at levels of detail, as the device wrote them.
 #include "cage/procedural.h"
+#include "surface/lod/grid.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
+#include "tests/support/pm_surface.h"
+#include "tests/support/prep_surface.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -88,6 +92,293 @@ TEST_P(LodViews, ClosedCagesHaveNoCracks) {
             EXPECT_GE(capacities.size(), 4u);
         }
     }
+}
+
+using surface::lod::Form;
+
+/// Where a sample lies in its patch: u and v on quads, else the weights of a side's corners and the centre.
+struct At {
+    uint32_t side = 0;
+    glm::dvec3 weights{};
+    glm::dvec2 uv{}; ///< in the plane: the patch as a square, or as a regular polygon round the origin
+};
+At sampleAt(const LodSurface::Patch& patch, uint32_t sample) {
+    using surface::lod::LevelPair;
+    const auto form = static_cast<Form>(patch.grid);
+    const surface::lod::GridSample at = surface::lod::gridSample(form, patch.capacity, sample);
+    const auto level = [&](size_t pair) { return LevelPair{patch.levels[2 * pair], patch.levels[2 * pair + 1]}; };
+    const auto parameter = [&](uint32_t i, size_t pair) {
+        return static_cast<double>(surface::lod::parameter(patch.capacity, i, level(pair)).t);
+    };
+    const uint32_t last = patch.capacity;
+    At result;
+    if (form == Form::quad) {
+        const uint32_t i = at.k, j = at.ring;
+        result.uv.x = i == 0 ? 0.0 : i == last ? 1.0 : parameter(i, j == 0 ? 2 : j == last ? 4 : 0);
+        result.uv.y = j == 0 ? 0.0 : j == last ? 1.0 : parameter(j, i == last ? 3 : i == 0 ? 5 : 1);
+        return result;
+    }
+    const size_t pair = at.ring == 0 ? 1 + at.side : 0;
+    const double t = at.ring == 0 ? 0.0 : parameter(at.ring, 0);
+    result.side = at.side;
+    result.weights = {parameter(last - at.k, pair) - t, parameter(at.k, pair) - t, 2.0 * t};
+    const auto corner = [&](uint32_t i) {
+        const double angle = 2.0 * glm::pi<double>() * i / surface::lod::sides(form);
+        return glm::dvec2(std::cos(angle), std::sin(angle));
+    };
+    result.uv = result.weights.x * corner(at.side) + result.weights.y * corner(at.side + 1);
+    return result;
+}
+
+/// The surface of a cage on the CPU, by patches of the group.
+class Reference {
+public:
+    Reference(const CrowdContext& context, SuppleGroup group, const cage::Cage& cage, SuppleScheme scheme) {
+        uint32_t count = 0;
+        EXPECT_EQ(suppleGetPatches(context.handle(), group, nullptr, &count), SUPPLE_OK);
+        patches_.resize(count);
+        EXPECT_EQ(suppleGetPatches(context.handle(), group, patches_.data(), &count), SUPPLE_OK);
+        const std::vector<glm::dvec3> positions(cage.positions.begin(), cage.positions.end());
+        if (scheme == SUPPLE_SCHEME_PREP) {
+            const Result<cage::Topology> topology = cage::buildTopology(cage);
+            const auto coefficients = surface::prep::construct<double>(cage, *topology, positions);
+            for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+                prep_.push_back(surface::prep::gatherPatch<double>(cage, *topology, coefficients, f));
+            }
+        } else {
+            pm_.emplace(pmMesh(cage), positions);
+        }
+    }
+    [[nodiscard]] glm::dvec3 at(uint32_t patch, const At& at) const {
+        const uint32_t face = patches_[patch].face;
+        const glm::dvec2 u{at.uv.x, 1.0 - at.uv.x}, v{at.uv.y, 1.0 - at.uv.y};
+        if (!pm_) {
+            return surface::prep::evaluate<double>(prep_[face], u, v).position;
+        }
+        surface::pm::DomainPoint<double> point;
+        point.u = u;
+        point.v = v;
+        point.sector = at.side;
+        point.weights = at.weights;
+        return surface::pm::evaluate<double>(pm_->patches[face], point).position;
+    }
+
+private:
+    std::vector<SupplePatchInfo> patches_;
+    std::vector<surface::prep::Patch<double>> prep_;
+    std::optional<PmSurface<double>> pm_;
+};
+
+glm::dvec3 asPosition(const std::array<uint32_t, 3>& bits) {
+    glm::vec3 position;
+    std::memcpy(&position, bits.data(), sizeof(position));
+    return position;
+}
+
+TEST_P(LodViews, SamplesLieOnTheSurfaceAndSoDoTheirPasts) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    const cage::Cage cage = perturbed(cage::makeSplitTorus(6, 5), 0.02f, 5);
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        TestView view(context, 200000, SUPPLE_VIEW_MOTION);
+        SuppleGroupDesc desc{};
+        desc.asset = context.createAsset(cage);
+        desc.capacity = 3;
+        desc.scheme = scheme;
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        const Reference reference(context, crowd.group(), cage, scheme);
+        std::vector<SuppleInstance> instances{crowd.spawn(), crowd.spawn()};
+        std::vector<glm::dvec3> before;
+        double largest = 0.0, largestPast = 0.0;
+        size_t samples = 0;
+        for (uint32_t frame = 0; frame < 5; ++frame) {
+            if (frame == 3) {
+                instances.push_back(crowd.spawn()); // has no past
+            }
+            std::vector<glm::dvec3> now;
+            for (size_t i = 0; i < instances.size(); ++i) {
+                now.emplace_back(0.07 * frame * (1.0 + static_cast<double>(i)), 0.05 * frame,
+                                 3.0 * static_cast<double>(i));
+                crowd.pose(instances[i], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), glm::vec3(now[i])));
+            }
+            view.look({0.4f * static_cast<float>(frame), 1.0f, 9.0f - static_cast<float>(frame)});
+            context.run(crowd.group());
+            const LodSurface surface = readLodSurface(crowd);
+            EXPECT_EQ(surface.patches.size(), instances.size() * crowd.output().patchCount);
+            for (const LodSurface::Patch& patch : surface.patches) {
+                const uint32_t count = surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
+                const bool past = patch.slot < before.size();
+                for (uint32_t s = 0; s < count; ++s, ++samples) {
+                    const glm::dvec3 wanted = reference.at(patch.patch, sampleAt(patch, s));
+                    const glm::dvec3 position = asPosition(surface.positions[patch.firstVertex + s]);
+                    largest = std::max(largest, glm::length(position - now[patch.slot] - wanted));
+                    const glm::dvec3 earlier = asPosition(surface.previous[patch.firstVertex + s]);
+                    const glm::dvec3 placed = past ? before[patch.slot] : now[patch.slot];
+                    largestPast = std::max(largestPast, glm::length(earlier - placed - wanted));
+                }
+            }
+            before = now;
+        }
+        std::printf("scheme %d: %zu samples, positions within %.1e, previous ones within %.1e\n", scheme, samples,
+                    largest, largestPast);
+        EXPECT_LE(largest, 1e-5);
+        EXPECT_LE(largestPast, 1e-5);
+    }
+}
+
+/// Material points of a patch and their places in the plane of At::uv, and where a tessellation puts them.
+class Material {
+public:
+    explicit Material(uint32_t sides) {
+        for (uint32_t k = 0; k < 8; ++k) {
+            const double a = 0.12 + 0.11 * k, b = std::fmod(0.37 + 0.618034 * k, 1.0);
+            At at;
+            if (sides == 0) {
+                at.uv = {a, b};
+            } else {
+                at.side = k % sides;
+                at.weights = glm::dvec3(a * b, (1.0 - a) * b, 1.0 - b);
+                const double first = 2.0 * glm::pi<double>() * at.side / sides,
+                             second = first + 2.0 * glm::pi<double>() / sides;
+                at.uv = at.weights.x * glm::dvec2(std::cos(first), std::sin(first)) +
+                        at.weights.y * glm::dvec2(std::cos(second), std::sin(second));
+            }
+            points.push_back(at);
+        }
+    }
+    std::vector<At> points;
+};
+
+TEST_P(LodViews, ADollyMovesNothingButByItsMotion) {
+    if (GetParam() != SUPPLE_MAPPING_NARROW) {
+        GTEST_SKIP() << "bits are the same on both mappings: once is enough";
+    }
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    const cage::Cage cage = perturbed(cage::makeCubeSphere(2), 0.05f, 3);
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        TestView view(context, 200000);
+        SuppleGroupDesc desc{};
+        desc.asset = context.createAsset(cage);
+        desc.capacity = 1;
+        desc.scheme = scheme;
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        const Reference reference(context, crowd.group(), cage, scheme);
+        (void)crowd.spawn();
+        std::map<std::pair<uint32_t, size_t>, glm::dvec2> errors; // in the frame before
+        double largest = 0.0, deviation = 0.0, distance = 30.0;
+        size_t compared = 0;
+        for (uint32_t frame = 0; frame < 320; ++frame, distance *= 0.995) {
+            view.look({0.0f, 0.0f, static_cast<float>(distance)});
+            context.run(crowd.group());
+            const LodSurface surface = readLodSurface(crowd);
+            const auto project = [&](glm::dvec3 p) {
+                return static_cast<double>(view.camera.pixelsPerUnit) / (distance - p.z) * glm::dvec2(p.x, p.y);
+            };
+            for (const LodSurface::Patch& patch : surface.patches) {
+                const auto form = static_cast<Form>(patch.grid);
+                const Material material(form == Form::quad ? 0 : surface::lod::sides(form));
+                const std::vector<uint16_t> indices = surface::lod::gridIndices(form, patch.capacity);
+                const size_t count = indices.size() / surface::lod::patchesPerDraw(form, patch.capacity);
+                std::vector<glm::dvec2> uvs;
+                for (uint32_t s = 0; s < surface::lod::sampleCount(form, patch.capacity); ++s) {
+                    uvs.push_back(sampleAt(patch, s).uv);
+                }
+                for (size_t m = 0; m < material.points.size(); ++m) {
+                    const glm::dvec2 p = material.points[m].uv;
+                    for (size_t t = 0; t < count; t += 3) {
+                        const glm::dvec2 a = uvs[indices[t]], b = uvs[indices[t + 1]], c = uvs[indices[t + 2]];
+                        const auto cross = [](glm::dvec2 x, glm::dvec2 y) { return x.x * y.y - x.y * y.x; };
+                        const double area = cross(b - a, c - a);
+                        const glm::dvec3 w =
+                            glm::dvec3(cross(b - p, c - p), cross(c - p, a - p), cross(a - p, b - p)) / area;
+                        if (!(area > 1e-14 && w.x >= -1e-9 && w.y >= -1e-9 && w.z >= -1e-9)) {
+                            continue;
+                        }
+                        glm::dvec3 drawn(0.0);
+                        for (int i = 0; i < 3; ++i) {
+                            drawn +=
+                                w[i] *
+                                asPosition(surface.positions[patch.firstVertex + indices[t + static_cast<size_t>(i)]]);
+                        }
+                        const glm::dvec2 error =
+                            project(drawn) - project(reference.at(patch.patch, material.points[m]));
+                        deviation = std::max(deviation, glm::length(error));
+                        const auto [found, fresh] = errors.try_emplace({patch.patch, m}, error);
+                        if (!fresh) {
+                            largest = std::max(largest, glm::length(error - found->second));
+                            found->second = error;
+                            ++compared;
+                        }
+                        break;
+                    }
+                }
+            }
+        }
+        std::printf("scheme %d, from 30 to %.1f: %zu points compared, at most %.3f px a frame beyond their motion, "
+                    "%.2f px from the surface\n",
+                    scheme, distance, compared, largest, deviation);
+        EXPECT_GE(compared, 319u * 8 * crowd.output().patchCount);
+        EXPECT_LE(largest, 0.05);
+        EXPECT_LE(deviation, 0.6);
+    }
+}
+
+TEST_P(LodViews, TheBudgetHolds) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 150000);
+    SuppleGroupDesc desc{};
+    desc.asset = context.createAsset(perturbed(cage::makeCubeSphere(3), 0.05f, 3));
+    desc.capacity = 64;
+    desc.scheme = SUPPLE_SCHEME_PREP;
+    desc.view = view.handle();
+    Crowd crowd(context, desc);
+    ASSERT_TRUE(crowd.valid());
+    for (int i = 0; i < 64; ++i) {
+        const SuppleInstance instance = crowd.spawn();
+        EXPECT_EQ(suppleSetPriority(context.handle(), instance, i < 3 ? 2 : 0), SUPPLE_OK);
+        crowd.pose(instance, SUPPLE_BIND_POSE, 0.0,
+                   glm::translate(glm::mat4(1.0f), glm::vec3(3.0f * static_cast<float>(i % 8) - 10.5f, 0.0f,
+                                                             -3.0f * static_cast<float>(i / 8))));
+    }
+    const auto run = [&](uint32_t budget, float z) {
+        view.camera.vertexBudget = budget;
+        view.look({0.0f, 3.0f, z});
+        context.run(crowd.group());
+        context.run(crowd.group()); // statistics come with the frame after
+        return view.statistics();
+    };
+    const SuppleViewStatistics free = run(0, 40.0f);
+    EXPECT_EQ(free.levelScales[0], 1.0f);
+    EXPECT_EQ(free.shortfall, 0u);
+    std::printf("%u vertices wanted, %u written\n", free.wantedVertexCount, free.vertexCount);
+    const uint32_t budget = free.vertexCount * 7 / 10;
+    float scale = 1.0f;
+    for (float z = 40.0f; z > 12.0f; z *= 0.97f) {
+        const SuppleViewStatistics now = run(budget, z);
+        EXPECT_LE(now.vertexCount, budget);
+        EXPECT_GE(now.vertexCount, budget * 85 / 100);
+        EXPECT_EQ(now.patchCount, 64u * crowd.output().patchCount);
+        EXPECT_EQ(now.shortfall, 0u);
+        EXPECT_LE(now.levelScales[0], scale * 1.002f) << "at " << z;
+        EXPECT_NEAR(now.levelScales[2], std::pow(now.levelScales[0], 0.25f), 1e-4f);
+        scale = now.levelScales[0];
+        const Sides sides = matchSides(readLodSurface(crowd));
+        EXPECT_EQ(sides.unmatched, 0u);
+    }
+    std::printf("scale of levels falls to %.3f\n", static_cast<double>(scale));
+    EXPECT_LT(scale, 0.6f);
+    // A tenth of what one would have: all at the coarsest, or less.
+    const SuppleViewStatistics poor = run(free.vertexCount / 10, 12.0f);
+    EXPECT_LE(poor.vertexCount, free.vertexCount / 10);
+    EXPECT_EQ(poor.shortfall, 1u);
+    std::printf("budget %u: %u vertices, shortfall %u, %u patches\n", free.vertexCount / 10, poor.vertexCount,
+                poor.shortfall, poor.patchCount);
 }
 
 } // namespace

@@ -458,7 +458,8 @@ SUPPLE_API SuppleResult suppleSetCamera(SuppleContext context, SuppleView view, 
 /** What a view drew. */
 typedef struct SuppleViewStatistics {
     uint32_t structSize;
-    uint32_t shortfall; /**< 1: even the coarsest levels are above the budget, and patches are missing */
+    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and what even so
+                         * has no room is missing */
     uint64_t frame;
     float levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
     uint32_t vertexCount;                     /**< surface vertices written */

@@ -186,6 +186,50 @@ private:
     SuppleGroup handle_{};
 };
 
+/// Owns a SuppleView. Its context must outlive it.
+class View {
+public:
+    View() = default;
+    View(View&& other) noexcept
+        : context_(std::exchange(other.context_, nullptr)), handle_(std::exchange(other.handle_, {})) {}
+    View& operator=(View&& other) noexcept {
+        std::swap(context_, other.context_);
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~View() {
+        if (context_ != nullptr) {
+            suppleDestroyView(context_, handle_);
+        }
+    }
+
+    /// Replaces what `out` held.
+    [[nodiscard]] static SuppleResult create(const Context& context, const SuppleViewDesc& desc, View& out) {
+        SuppleView handle{};
+        const SuppleResult result = suppleCreateView(context.handle(), &desc, &handle);
+        if (result == SUPPLE_OK) {
+            View created;
+            created.context_ = context.handle();
+            created.handle_ = handle;
+            out = std::move(created);
+        }
+        return result;
+    }
+
+    [[nodiscard]] SuppleView handle() const { return handle_; }
+    [[nodiscard]] SuppleResult setCamera(const SuppleCameraDesc& camera) const {
+        return suppleSetCamera(context_, handle_, &camera);
+    }
+    [[nodiscard]] SuppleResult statistics(SuppleViewStatistics& out) const {
+        out = sized<SuppleViewStatistics>();
+        return suppleGetViewStatistics(context_, handle_, &out);
+    }
+
+private:
+    SuppleContext context_ = nullptr;
+    SuppleView handle_{};
+};
+
 /// Owns a SuppleInstance. Its context and its group must outlive it.
 class Instance {
 public:
@@ -219,6 +263,9 @@ public:
     [[nodiscard]] SuppleInstance handle() const { return handle_; }
     [[nodiscard]] SuppleResult setVisible(bool visible) const {
         return suppleSetVisible(context_, handle_, visible ? 1u : 0u);
+    }
+    [[nodiscard]] SuppleResult setPriority(uint32_t priority) const {
+        return suppleSetPriority(context_, handle_, priority);
     }
     [[nodiscard]] SuppleResult teleport() const { return suppleTeleport(context_, handle_); }
     [[nodiscard]] SuppleResult setClipPose(uint32_t clip, double time) const {

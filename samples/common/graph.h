@@ -2,7 +2,7 @@
 // from that, across frames too, and times the passes. Nobody else in this engine records a barrier, Supple included.
 #pragma once
 
-#include "common/device.h"
+#include "device.h"
 
 #include <string>
 

@@ -1,0 +1,169 @@
+// A thousand characters of three kinds, drawn at levels of detail under one budget. See README.md.
+#include "scene.h"
+
+#include "common/options.h"
+#include "common/picture.h"
+#include "common/window.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+namespace {
+
+using namespace engine;
+
+struct Options : sample::PictureOptions {
+    std::array<std::string, crowd::kKinds> characters{
+        SUPPLE_SAMPLE_ASSETS "/pip.glb", SUPPLE_SAMPLE_ASSETS "/pip_quads.glb", SUPPLE_SAMPLE_ASSETS "/pip_quads.glb"};
+    uint32_t count = 1000;
+    uint32_t budget = 8'000'000;
+    bool offscreen = false;
+    bool levels = false;
+};
+
+Options readOptions(int argc, char** argv) {
+    Options options;
+    CLI::App app("A crowd at levels of detail under one budget", "supple_crowd");
+    sample::addPictureOptions(app, options);
+    app.remove_option(app.get_option("--rate"));
+    app.get_option("--frames")->description("end after so many, a sixtieth of a second each; 0: with the window");
+    app.get_option("--screenshot")->description("save the last frame as PNG; needs --frames");
+    app.add_flag("--offscreen", options.offscreen, "no window; needs --frames");
+    app.add_flag("--levels", options.levels, "paint how fine patches are");
+    app.add_option("--count", options.count, "characters")->check(CLI::Range(3u, 100000u))->capture_default_str();
+    app.add_option("--budget", options.budget, "surface vertices a frame")
+        ->check(CLI::Range(1024u, 200000000u))
+        ->capture_default_str();
+    app.add_option("characters", options.characters, "three .glb")->capture_default_str();
+    app.callback([&] {
+        if (options.frames == 0 && (options.offscreen || !options.screenshot.empty()))
+            throw CLI::RequiredError("--frames");
+    });
+    sample::parse(app, argc, argv);
+    return options;
+}
+
+/// Over the crowd and slowly down to its edge.
+crowd::Camera cameraAt(double time, float reach, VkExtent2D extent) {
+    const float t = static_cast<float>(time);
+    const float height = 1.5f + 2.2f * (0.5f + 0.5f * std::cos(0.13f * t));
+    const float angle = 0.35f + 0.03f * t;
+    crowd::Camera camera;
+    camera.eye = {std::sin(angle) * (reach + 2.0f), height, std::cos(angle) * (reach + 2.0f)};
+    const float fovY = glm::radians(38.0f);
+    const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+    glm::mat4 projection = glm::perspective(fovY, aspect, 0.1f, 400.0f);
+    projection[1][1] = -projection[1][1]; // Vulkan's y points down
+    camera.viewProjection =
+        projection * glm::lookAt(camera.eye, glm::vec3(0.0f, -0.12f * reach, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
+    camera.pixelsPerUnit = 0.5f * static_cast<float>(extent.height) / std::tan(0.5f * fovY);
+    return camera;
+}
+
+void run(const Options& options) {
+    std::unique_ptr<SdlWindow> window;
+    sample::DeviceOptions deviceOptions{.name = "supple_crowd"};
+    if (!options.offscreen) {
+        window = std::make_unique<SdlWindow>("Supple: a crowd", options.size);
+        deviceOptions.instanceExtensions = window->instanceExtensions();
+        deviceOptions.createSurface = [&](VkInstance instance) { return window->createSurface(instance); };
+    }
+    sample::Device device(deviceOptions);
+    Graph graph(device);
+    const Resource buffers = graph.addBuffers();
+    crowd::Crowd crowd(device, options.characters, options.count, options.budget);
+    crowd::Scene scene(device, graph, crowd);
+    std::unique_ptr<Swapchain> swapchain;
+    if (window)
+        swapchain = std::make_unique<Swapchain>(device, *window, graph);
+    sample::Frames frames(device);
+
+    sample::Buffer readback;
+    VkExtent2D extent{};
+    bool stale = true; // sizes must be looked at
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point last = Clock::now();
+    double time = 0.0, frameMilliseconds = 0.0, hostMilliseconds = 0.0;
+    std::vector<std::string> report;
+
+    while (options.frames == 0 || frames.frame() < options.frames) {
+        if (window && !window->pollEvents())
+            break;
+        stale = stale || (window && window->takeResized());
+        if (stale) {
+            device.waitIdle();
+            if (swapchain && !swapchain->create()) {
+                SDL_Delay(50);
+                continue;
+            }
+            extent = swapchain ? swapchain->extent() : options.size;
+            scene.resize(device, graph, extent);
+            stale = false;
+        }
+        frames.waitForRoom();
+        if (swapchain && !swapchain->acquire(frames.nextSlot())) {
+            stale = true;
+            continue;
+        }
+
+        const VkCommandBuffer commands = frames.begin();
+        const uint32_t slot = frames.slot();
+        const Clock::time_point begun = Clock::now();
+        crowd.beginFrame(frames.frame(), frames.completed());
+        const crowd::Camera camera = cameraAt(time, crowd.reach(), extent);
+        crowd.update(time, camera);
+        report = crowd.report();
+        for (const PassTime& pass : graph.readTimes(slot)) {
+            char line[80];
+            std::snprintf(line, sizeof line, "%-10s %8.3f ms", pass.name, pass.milliseconds);
+            if (std::string_view(pass.name) != "supple")
+                report.emplace_back(line);
+        }
+        char line[80];
+        std::snprintf(line, sizeof line, "host %.2f ms, frame %.1f ms", hostMilliseconds, frameMilliseconds);
+        report.emplace_back(line);
+        scene.update(slot, camera, report);
+        crowd.addToGraph(graph, buffers);
+        scene.addToGraph(graph, slot, buffers, options.levels);
+        if (!options.screenshot.empty() && frames.frame() == options.frames) {
+            readback = sample::Buffer(device, VkDeviceSize{4} * extent.width * extent.height,
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
+            graph.add("screenshot",
+                      {reads(scene.pictureUse(), {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT},
+                             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)},
+                      [&](VkCommandBuffer copy) { sample::copyPicture(copy, scene.picture(), readback); });
+        }
+        if (swapchain)
+            swapchain->addToGraph(graph, scene.picture(), scene.pictureUse());
+        graph.execute(commands, slot);
+        hostMilliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+
+        if (swapchain) {
+            frames.submit(swapchain->acquired(slot), Swapchain::kFirstUse, swapchain->drawn());
+            stale = !swapchain->present();
+        } else {
+            frames.submit();
+        }
+        const Clock::time_point now = Clock::now();
+        frameMilliseconds = std::chrono::duration<double, std::milli>(now - last).count();
+        time += options.frames != 0 ? 1.0 / 60.0 : std::min(1e-3 * frameMilliseconds, 0.1);
+        last = now;
+    }
+    device.waitIdle();
+    if (readback.mapped() != nullptr)
+        sample::writePng(options.screenshot, extent.width, extent.height, readback.mapped());
+    for (const std::string& line : report)
+        std::printf("%s\n", line.c_str());
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    run(readOptions(argc, argv));
+    if (sample::validationMessages() != 0)
+        sample::fail("failed: " + std::to_string(sample::validationMessages()) + " validation messages");
+    return 0;
+}

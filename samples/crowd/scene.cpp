@@ -1,0 +1,250 @@
+#include "scene.h"
+
+#include "shaders/character_frag.h"
+#include "shaders/character_vert.h"
+#include "shaders/ground_frag.h"
+#include "shaders/ground_vert.h"
+#include "shaders/text_frag.h"
+#include "shaders/text_vert.h"
+
+#include <stb/stb_easy_font.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace crowd {
+
+namespace {
+
+using namespace engine;
+
+constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_UNORM;
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr uint32_t kSunMapSize = 4096;
+constexpr float kTextSize = 2.0f; ///< pixels a unit of stb_easy_font
+constexpr uint32_t kMaxTextBytes = 1u << 18;
+const glm::vec3 kSunDirection = glm::normalize(glm::vec3(-0.55f, 0.62f, 0.36f));
+constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
+
+struct CharacterPush {
+    uint32_t draw; ///< SuppleDraw of shaders/supple_surface.glsl
+    uint32_t verticesPerInstance;
+    uint32_t samplesPerPatch;
+    uint32_t capacity;
+    uint32_t paint;
+    uint32_t sun;
+    uint32_t kind;
+};
+
+struct TextCorner { // of stb_easy_font
+    float x, y, z;
+    uint32_t color;
+};
+
+void setViewport(VkCommandBuffer commands, VkExtent2D extent) {
+    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0f, 1.0f};
+    const VkRect2D scissor{{0, 0}, extent};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+}
+
+VkRenderingAttachmentInfo attachment(const sample::Image& image, VkImageLayout layout, VkClearValue clear) {
+    return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+            .imageView = image.view(),
+            .imageLayout = layout,
+            .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+            .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+            .clearValue = clear};
+}
+
+} // namespace
+
+Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd) : crowd_(crowd) {
+    constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    sunMap_ = sample::Image(device, {.extent = {kSunMapSize, kSunMapSize},
+                                     .format = kDepthFormat,
+                                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+    sunMapUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
+    graph.setImage(sunMapUse_, sunMap_.handle());
+    pictureUse_ = graph.addImage();
+    depthUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
+
+    const VkDescriptorSetLayout sceneLayout =
+        sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
+                                         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    // The bindings of shaders/supple_surface.glsl at levels of detail: vertices, attributes, buckets, patches.
+    const VkDescriptorSetLayout kindLayout =
+        sample::createSetLayout(device, {{1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                         {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                         {4, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                         {5, kStorage, VK_SHADER_STAGE_VERTEX_BIT}});
+    const VkDescriptorSetLayout textLayout =
+        sample::createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT}});
+    layout_ = sample::createPipelineLayout(device, {sceneLayout, kindLayout}, sizeof(CharacterPush),
+                                           VK_SHADER_STAGE_VERTEX_BIT);
+    textLayout_ = sample::createPipelineLayout(device, {textLayout}, sizeof(glm::vec2), VK_SHADER_STAGE_VERTEX_BIT);
+
+    sample::DescriptorPool pool(device, 2 * sample::kFramesInFlight + kKinds);
+    const VkSampler compare = sample::createSampler(device, VK_FILTER_LINEAR, true);
+    for (uint32_t slot = 0; slot < sample::kFramesInFlight; ++slot) {
+        uniforms_[slot] = sample::Buffer(device, sizeof(SceneUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
+        text_[slot] = sample::Buffer(device, kMaxTextBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
+        sceneSets_[slot] = pool.allocate(sceneLayout);
+        pool.write(sceneSets_[slot],
+                   {sample::uniformBuffer(0, uniforms_[slot]), sample::sampledImage(1, sunMap_, compare)});
+        textSets_[slot] = pool.allocate(textLayout);
+        pool.write(textSets_[slot], {sample::storageBuffer(0, text_[slot].handle(), 0, kMaxTextBytes)});
+    }
+    for (size_t k = 0; k < kKinds; ++k) {
+        const SuppleGroupOutput& output = crowd.kinds()[k].output;
+        kindSets_[k] = pool.allocate(kindLayout);
+        pool.write(kindSets_[k],
+                   {sample::storageBuffer(1, output.surfaceVertices), sample::storageBuffer(3, output.attributes),
+                    sample::storageBuffer(4, output.lodBuckets), sample::storageBuffer(5, output.lodPatches)});
+    }
+
+    sunPipeline_ = sample::createGraphicsPipeline(device, {.layout = layout_,
+                                                           .vertexShader = character_vert,
+                                                           .depth = kDepthFormat,
+                                                           .depthBias = 1.0f,
+                                                           .depthBiasSlope = 1.5f});
+    sample::GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat}, .depth = kDepthFormat};
+    scene.vertexShader = character_vert;
+    scene.fragmentShader = character_frag;
+    characterPipeline_ = sample::createGraphicsPipeline(device, scene);
+    scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
+    scene.vertexShader = ground_vert;
+    scene.fragmentShader = ground_frag;
+    groundPipeline_ = sample::createGraphicsPipeline(device, scene);
+    sample::GraphicsDesc text{
+        .layout = textLayout_, .colors = {kColorFormat}, .depth = kDepthFormat, .depthWrite = false};
+    text.vertexShader = text_vert;
+    text.fragmentShader = text_frag;
+    textPipeline_ = sample::createGraphicsPipeline(device, text);
+}
+
+void Scene::resize(sample::Device& device, Graph& graph, VkExtent2D extent) {
+    picture_ = sample::Image(device, {.extent = extent,
+                                      .format = kColorFormat,
+                                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+    depth_ = sample::Image(device, {.extent = extent,
+                                    .format = kDepthFormat,
+                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                    .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+    graph.setImage(pictureUse_, picture_.handle());
+    graph.setImage(depthUse_, depth_.handle());
+}
+
+void Scene::update(uint32_t slot, const Camera& camera, const std::vector<std::string>& report) {
+    const VkExtent2D extent = picture_.desc().extent;
+    const glm::vec2 size{static_cast<float>(extent.width), static_cast<float>(extent.height)};
+    SceneUniforms uniforms{};
+    uniforms.viewProjection = camera.viewProjection;
+    const float reach = 1.45f * crowd_.reach() + 2.0f;
+    uniforms.sunViewProjection =
+        glm::ortho(-reach, reach, -reach, reach, 0.0f, 4.0f * reach) *
+        glm::lookAt(2.0f * reach * kSunDirection, glm::vec3(0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
+    uniforms.eye = glm::vec4(camera.eye, 1.0f);
+    uniforms.sunDirection = glm::vec4(kSunDirection, 2.0f * reach / static_cast<float>(kSunMapSize));
+    uniforms.viewport = glm::vec4(size, 1.0f / size);
+    std::memcpy(uniforms_[slot].mapped(), &uniforms, sizeof uniforms);
+
+    // The report, with a darker copy behind it.
+    std::string text;
+    for (const std::string& line : report)
+        text += line + "\n";
+    auto* corners = static_cast<TextCorner*>(text_[slot].mapped());
+    textQuads_ = 0;
+    for (const bool behind : {true, false}) {
+        unsigned char color[4] = {255, 255, 255, 255};
+        if (behind)
+            std::fill_n(color, 3, static_cast<unsigned char>(20));
+        const auto left = static_cast<int>(kMaxTextBytes - textQuads_ * 4 * sizeof(TextCorner));
+        TextCorner* const first = corners + size_t{4} * textQuads_;
+        const int quads = stb_easy_font_print(7.0f, 7.0f, text.data(), color, first, left);
+        for (int i = 0; i < 4 * quads; ++i) {
+            first[i].x = kTextSize * first[i].x + (behind ? 1.5f : 0.0f);
+            first[i].y = kTextSize * first[i].y + (behind ? 1.5f : 0.0f);
+        }
+        textQuads_ += static_cast<uint32_t>(quads);
+    }
+}
+
+void Scene::drawCharacters(VkCommandBuffer commands, uint32_t slot, bool sun, bool paint) const {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sun ? sunPipeline_ : characterPipeline_);
+    for (size_t k = 0; k < kKinds; ++k) {
+        const SuppleGroupOutput& output = crowd_.kinds()[k].output;
+        const VkDescriptorSet sets[] = {sceneSets_[slot], kindSets_[k]};
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
+        vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
+        for (uint32_t i = 0; i < output.lodDrawCount; ++i) {
+            const SuppleLodDraw& draw = output.lodDraws[i];
+            const CharacterPush push{i,
+                                     draw.verticesPerInstance,
+                                     draw.samplesPerPatch,
+                                     draw.capacity,
+                                     paint ? 1u : 0u,
+                                     sun ? 1u : 0u,
+                                     static_cast<uint32_t>(k)};
+            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
+            vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
+                                     output.indirect.offset + VkDeviceSize{i} * output.indirect.stride, 1,
+                                     output.indirect.stride);
+        }
+    }
+}
+
+void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint) const {
+    graph.add(
+        "sun",
+        {reads(buffers, kDrawn), writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
+        [this, slot](VkCommandBuffer commands) {
+            const VkRenderingAttachmentInfo depth = attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+            const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                       .renderArea = {{0, 0}, sunMap_.desc().extent},
+                                       .layerCount = 1,
+                                       .pDepthAttachment = &depth};
+            vkCmdBeginRendering(commands, &info);
+            setViewport(commands, sunMap_.desc().extent);
+            drawCharacters(commands, slot, true, false);
+            vkCmdEndRendering(commands);
+        });
+    graph.add(
+        "draw",
+        {reads(buffers, kDrawn), reads(sunMapUse_, kSampledInFragment, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+         writes(pictureUse_, kColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true),
+         writes(depthUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
+        [this, slot, paint](VkCommandBuffer commands) {
+            const VkExtent2D extent = picture_.desc().extent;
+            const VkClearValue haze{.color = {{0.85f, 0.87f, 0.89f, 1.0f}}};
+            const VkRenderingAttachmentInfo color =
+                attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, haze);
+            const VkRenderingAttachmentInfo depth = attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+            const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                       .renderArea = {{0, 0}, extent},
+                                       .layerCount = 1,
+                                       .colorAttachmentCount = 1,
+                                       .pColorAttachments = &color,
+                                       .pDepthAttachment = &depth};
+            vkCmdBeginRendering(commands, &info);
+            setViewport(commands, extent);
+            drawCharacters(commands, slot, false, paint);
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, groundPipeline_);
+            vkCmdDraw(commands, 4, 1, 0, 0);
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textPipeline_);
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textLayout_, 0, 1, &textSets_[slot], 0,
+                                    nullptr);
+            const glm::vec2 scale{2.0f / static_cast<float>(extent.width), 2.0f / static_cast<float>(extent.height)};
+            vkCmdPushConstants(commands, textLayout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof scale, &scale);
+            vkCmdDraw(commands, 6 * textQuads_, 1, 0, 0);
+            vkCmdEndRendering(commands);
+        });
+}
+
+} // namespace crowd

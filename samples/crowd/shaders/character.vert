@@ -1,0 +1,44 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define SUPPLE_SURFACE_SET 1
+#define SUPPLE_SURFACE_LOD
+#include "supple_surface.glsl"
+#include "scene.glsl"
+
+layout(push_constant) uniform Push {
+    SuppleDraw draw;
+    uint capacity; // of its grids
+    uint paint;    // 1: capacities as colors
+    uint sun;      // 1: into the sun's map
+    uint kind;
+};
+
+layout(location = 0) out vec3 outPosition;
+layout(location = 1) out vec3 outNormal;
+layout(location = 2) out vec3 outColor;
+
+// Every slot another shade.
+vec3 shade(uint slot) {
+    uint h = (slot * 3u + kind) * 2654435761u;
+    vec3 t = vec3(h & 255u, (h >> 8u) & 255u, (h >> 16u) & 255u) / 255.0;
+    return 0.62 + 0.5 * t;
+}
+
+// From blue, coarse, to red, fine.
+vec3 capacityColor() {
+    float t = clamp(log2(float(capacity) + 1.0) / 6.0 - 0.12, 0.0, 1.0);
+    return clamp(vec3(2.2 * t - 0.5, 1.0 - abs(2.6 * t - 1.1), 1.25 - 2.4 * t), 0.04, 1.0);
+}
+
+void main() {
+    SuppleVertex at = suppleLodVertex(draw, gl_InstanceIndex, gl_VertexIndex);
+    outPosition = supplePosition(at);
+    if (sun != 0u) {
+        outNormal = outColor = vec3(0.0);
+        gl_Position = scene.sunViewProjection * vec4(outPosition, 1.0);
+        return;
+    }
+    outNormal = suppleNormal(at);
+    outColor = paint != 0u ? capacityColor() : suppleColor(at).rgb * shade(at.slot);
+    gl_Position = scene.viewProjection * vec4(outPosition, 1.0);
+}
