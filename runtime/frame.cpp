@@ -167,7 +167,6 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     if (views) {
         pass(Pass::level, [&](Group& group) { return group.recordEdgeLevels(commandBuffer); });
-        computeBarrier();
         pass(Pass::level, [&](Group& group) { return group.recordPatchLevels(commandBuffer); });
         computeBarrier();
         device.beginLabel(commandBuffer, passName(Pass::solve));
@@ -183,7 +182,6 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             }
         }
         device.endLabel(commandBuffer);
-        computeBarrier();
         pass(Pass::place, [&](Group& group) { return group.recordPlaces(commandBuffer); });
         gpu::memoryBarrier(device, commandBuffer, {kCompute, kWrite},
                            {kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,

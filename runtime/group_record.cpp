@@ -208,6 +208,8 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
         return {};
     }
     forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        // All count into one buffer, with atomics; to synchronization validation it is one resource that they read too.
+        gpu::computeBarrier(*shared_.device, commandBuffer);
         shared_.surface->lod().recordPatches(commandBuffer, window.surface[pool_],
                                              levelPush(window, first, listed.count));
     });
@@ -220,6 +222,7 @@ Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
         return {};
     }
     forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        gpu::computeBarrier(*shared_.device, commandBuffer);
         shared_.surface->lod().recordPlaces(commandBuffer, window.surface[pool_],
                                             levelPush(window, first, listed.count));
     });

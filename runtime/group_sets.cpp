@@ -127,7 +127,8 @@ Status Group::createSets() {
             const VkDescriptorBufferInfo unused = range(pool, first * poolBytes, kVec4Bytes);
             const auto wholeOr = [&](BufferIndex index, View::BufferIndex shared) {
                 if (view_ != nullptr) {
-                    return view_->size(shared) > 0 ? ofView(shared) : unused;
+                    // Not the pool: attributes are evaluated in every frame, beside what reads it.
+                    return view_->size(shared) > 0 ? ofView(shared) : ofView(View::kSurface);
                 }
                 return buffers_.size(index) > 0 ? range(buffers_.buffer(index), 0, VK_WHOLE_SIZE) : unused;
             };

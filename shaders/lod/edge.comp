@@ -20,6 +20,7 @@ void main() {
     precise vec3 chord = x1 - x0, inner = t1 - t0;
     precise float curveLength = 0.5 * (((lengthOf(o0) + lengthOf(o1)) + lengthOf(inner)) + lengthOf(chord));
     precise float radius = 0.5 * curveLength;
-    float level = levelOf(curveLength, max(lengthOf(bend0), lengthOf(bend1)), pixelsPerUnit(middle, radius));
+    // A polar patch's side at the apex, whose coefficients are all the apex, is a point.
+    float level = curve.x == curve.y ? 0.0 : levelOf(curveLength, max(lengthOf(bend0), lengthOf(bend1)), pixelsPerUnit(middle, radius));
     scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);
 }

@@ -11,10 +11,8 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/levels.glsl"
 
-vec3 bicubicPoint(vec3 corner, vec3 offset) { return corner + offset; }
-
 // What the inside of a bicubic patch asks for along u and along v: its net's largest second differences.
-vec2 bicubicLevels(uint record, uint base) {
+vec2 bicubicLevels(uint record, uint base, bool polar) {
     vec3 g[16];
     for (uint row = 0u; row < 4u; ++row) {
         uvec4 indices = base + tableElement(record + row);
@@ -23,13 +21,15 @@ vec2 bicubicLevels(uint record, uint base) {
         g[4u * row + 2u] = poolVector(indices.z);
         g[4u * row + 3u] = poolVector(indices.w);
     }
-    // Offsets from their corners (shared/surface.h); the rows of corners last.
+    // Offsets from their corners (shared/surface.h); the rows of corners last. A polar patch has its apex all along row 3.
     for (uint k = 4u; k < 8u; ++k) g[k] += g[k / 2u % 2u * 3u];
     for (uint k = 8u; k < 12u; ++k) g[k] += g[12u + k / 2u % 2u * 3u];
     g[1] += g[0];
     g[2] += g[3];
-    g[13] += g[12];
-    g[14] += g[15];
+    if (!polar) {
+        g[13] += g[12];
+        g[14] += g[15];
+    }
     vec2 bend = vec2(0.0), curveLength = vec2(0.0);
     for (uint k = 0u; k < 4u; ++k) {
         vec3 a = g[4u * k], b = g[4u * k + 1u], c = g[4u * k + 2u], d = g[4u * k + 3u];
@@ -70,7 +70,7 @@ void main() {
     float level = 0.0;
     for (uint k = 0u; k < sides; ++k)
         level = max(level, uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x))));
-    vec2 own = form == kLodQuadForm ? bicubicLevels(more.z, base) : vec2(sectorLevel(more.z, sides, base));
+    vec2 own = form == kLodQuadForm ? bicubicLevels(more.z, base, more.w == kPolarPatch) : vec2(sectorLevel(more.z, sides, base));
     level = max(level, max(own.x, own.y));
 
     float at = (clamp(log2(max(level, 1e-3)), -float(kOctavesBelow), 7.99) + float(kOctavesBelow)) * float(kBinsPerOctave);
