@@ -1,4 +1,4 @@
-// One frame, as the data flows: upload, deform, vertex, edge, patch, evaluate, motion.
+// One frame, as the data flows: upload, pose, deform, vertex, edge, patch, evaluate, motion.
 #include "runtime/context.h"
 
 namespace supple::runtime {
@@ -128,6 +128,10 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
 
     if (any([](Group& group) { return group.attributesPending(); })) {
         pass(Pass::attributes, [&](Group& group) { return group.recordAttributes(commandBuffer); });
+    }
+    if (any([](Group& group) { return group.plays(); })) {
+        pass(Pass::pose, [&](Group& group) { return group.recordPose(commandBuffer); });
+        computeBarrier();
     }
     pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();

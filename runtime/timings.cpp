@@ -7,7 +7,7 @@
 namespace supple::runtime {
 
 const char* passName(Pass pass) {
-    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "deform",   "vertex",
+    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "pose",     "deform", "vertex",
                                                 "edge",   "patch",      "evaluate", "motion"};
     return kNames[static_cast<size_t>(pass)];
 }
