@@ -55,10 +55,10 @@ Affine globalOf(uint matrices, uint node) {
 }
 
 void storePosed(uint i, Affine m) {
-    precise Affine joint = m;
-    posed[i] = joint.x;
-    posed[i + 1u] = joint.y;
-    posed[i + 2u] = joint.z;
+    precise Affine placed = m;
+    posed[i] = placed.x;
+    posed[i + 1u] = placed.y;
+    posed[i + 2u] = placed.z;
 }
 
 void storeJoint(uint joint, bool bindPose, uint matrices, uint pose, Affine place) {

@@ -123,9 +123,9 @@ TEST(Contract, OnlyPosesCrossPerFrame) {
             // In the second frame the instances have come to have a past; then the lists stand.
             const bool listed = frame == 0;
             EXPECT_EQ(counts.copies, listed ? 4u : 1u) << "poses; the two lists of instances, draws";
-            EXPECT_EQ(
-                counts.copiedBytes,
-                paletteBytes + (listed ? uint64_t{kInstances} * 8 + uint64_t{output.drawRangeCount} * 20 : uint64_t{0}))
+            EXPECT_EQ(counts.copiedBytes,
+                      paletteBytes +
+                          (listed ? uint64_t{kInstances} * 8 + uint64_t{output.drawRangeCount} * 20 : uint64_t{0}))
                 << "joint palettes, who is drawn, and nothing else";
         }
         std::printf("%llu bytes cross per frame: %u instances x %u joints x 48\n",
