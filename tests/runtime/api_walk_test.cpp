@@ -678,7 +678,10 @@ void groups(Rows& r) {
         range("cornerRule" + n, [=](Desc& d) { d.cornerRule = static_cast<SuppleCornerRule>(value); });
         range("skinning" + n, [=](Desc& d) { d.skinning = static_cast<SuppleSkinning>(value); });
         range("creaseMode" + n, [=](Desc& d) { d.creaseMode = static_cast<SuppleCreaseMode>(value); });
-        range("poseSource" + n, [=](Desc& d) { d.poseSource = static_cast<SupplePoseSource>(value); });
+    }
+    for (const int value : {4, -1}) {
+        range("poseSource " + std::to_string(value),
+              [=](Desc& d) { d.poseSource = static_cast<SupplePoseSource>(value); });
     }
     spoiled("palette buffer of dual quaternions", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) {
         d.poseSource = SUPPLE_POSES_PALETTE_BUFFER;
