@@ -57,7 +57,7 @@ Result<Playback> Playback::create(const Desc& desc) {
     push.scratchStride = scratchStride(table);
     push.poseStride = desc.layout.stride;
     push.morphWeights = desc.layout.morphWeights;
-    push.dualQuaternions = desc.layout.mode == skinning::SkinningMode::dualQuaternion ? 1 : 0;
+    playback.mode_ = desc.layout.mode;
 
     playback.states_.resize(size_t{desc.capacity} * push.stateStride * 4);
     playback.masks_.assign(size_t{kMaxMasks} * push.maskStride * 4, 1.0f);
@@ -188,6 +188,10 @@ void Playback::reset(uint32_t slot) {
 
 void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     state(slot).set(asset_->character, asset_->clipTable, desc);
+    features_.roots = features_.roots || desc.root.axes != 0;
+    for (const skinning::PlaybackLayer& layer : desc.layers) {
+        features_.adds = features_.adds || layer.mode == skinning::LayerMode::additive;
+    }
     markChanged(slot);
 }
 
@@ -265,9 +269,9 @@ void Playback::record(VkCommandBuffer commandBuffer, Half half, uint32_t window,
     push.firstInstance = first;
     push.instanceCount = count;
     if (half == Half::locals) {
-        pass_->recordLocals(commandBuffer, sets_[window], push);
+        pass_->recordLocals(commandBuffer, sets_[window], features_, push);
     } else {
-        pass_->recordPalette(commandBuffer, sets_[window], push);
+        pass_->recordPalette(commandBuffer, sets_[window], mode_, push);
     }
 }
 

@@ -75,7 +75,9 @@ private:
     Asset* asset_ = nullptr;
     uint32_t capacity_ = 0, windowSize_ = 0, framesInFlight_ = 2;
     double time_ = 0.0;
-    shared::PosePush push_{}; ///< but for the time and the instances
+    skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
+    skinning::PosePass::Features features_; ///< what some instance has ever been set to play
+    shared::PosePush push_{};               ///< but for the time and the instances
 
     // As it shall be on the device.
     std::vector<uint32_t> states_;

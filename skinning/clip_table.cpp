@@ -159,7 +159,10 @@ private:
             }
         }
         const uint32_t record = next();
-        put({static_cast<uint32_t>(channel.times.size()), interpolationOf(channel), times, values});
+        const auto keys = static_cast<uint32_t>(channel.times.size());
+        const float last = channel.times.back();
+        const float rate = keys > 1 && last > 0.0f ? static_cast<float>(keys - 1) / last : 0.0f;
+        put({4 * keys + interpolationOf(channel), bits(rate), times, values});
         return record;
     }
 

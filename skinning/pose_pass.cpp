@@ -11,7 +11,11 @@ using namespace shared;
 
 static_assert(sizeof(PosePush) <= gpu::kPushConstantBytes);
 
-constexpr uint32_t kSharedRowsConstant = gpu::kFirstPassConstant; // shaders/pose/palette.comp
+// Specialization constants: shaders/pose/locals.comp, palette.comp.
+constexpr uint32_t kRootsConstant = gpu::kFirstPassConstant;
+constexpr uint32_t kAddsConstant = kRootsConstant + 1;
+constexpr uint32_t kSharedRowsConstant = gpu::kFirstPassConstant;
+constexpr uint32_t kDualQuaternionsConstant = kSharedRowsConstant + 1;
 
 } // namespace
 
@@ -36,19 +40,27 @@ Result<PosePass> PosePass::create(const gpu::Device& device) {
         return layout.error();
     }
     pass.layout_ = std::move(*layout);
-    Result<gpu::PipelineHandle> locals =
-        gpu::createComputePipeline(device, pass.layout_, pose_locals_comp, {}, "supple pose, local matrices");
-    if (!locals) {
-        return locals.error();
+    for (uint32_t roots = 0; roots < 2; ++roots) {
+        for (uint32_t adds = 0; adds < 2; ++adds) {
+            const gpu::Constant constants[] = {{kRootsConstant, roots}, {kAddsConstant, adds}};
+            Result<gpu::PipelineHandle> pipeline = gpu::createComputePipeline(device, pass.layout_, pose_locals_comp,
+                                                                              constants, "supple pose, local matrices");
+            if (!pipeline) {
+                return pipeline.error();
+            }
+            pass.locals_[roots][adds] = std::move(*pipeline);
+        }
     }
-    pass.locals_ = std::move(*locals);
-    const gpu::Constant rows{kSharedRowsConstant, device.mapping.wide ? kAffineElements * kSharedNodes : 1};
-    Result<gpu::PipelineHandle> palette =
-        gpu::createComputePipeline(device, pass.layout_, pose_palette_comp, {&rows, 1}, "supple pose, palette");
-    if (!palette) {
-        return palette.error();
+    const uint32_t rows = device.mapping.wide ? kAffineElements * kSharedNodes : 1;
+    for (uint32_t mode = 0; mode < 2; ++mode) {
+        const gpu::Constant constants[] = {{kSharedRowsConstant, rows}, {kDualQuaternionsConstant, mode}};
+        Result<gpu::PipelineHandle> pipeline =
+            gpu::createComputePipeline(device, pass.layout_, pose_palette_comp, constants, "supple pose, palette");
+        if (!pipeline) {
+            return pipeline.error();
+        }
+        pass.palette_[mode] = std::move(*pipeline);
     }
-    pass.palette_ = std::move(*palette);
     return pass;
 }
 
@@ -61,15 +73,19 @@ void PosePass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const 
     gpu::dispatchLinear(*device_, commandBuffer, groups);
 }
 
-void PosePass::recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push) const {
+void PosePass::recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, Features features,
+                            const PosePush& push) const {
     const uint64_t items = uint64_t{push.nodeCount} + 1 + (push.morphCount + 3) / 4;
     const uint64_t local = device_->mapping.localSize;
-    record(commandBuffer, set, push, locals_.get(), (items * push.instanceCount + local - 1) / local);
+    record(commandBuffer, set, push, locals_[features.roots ? 1 : 0][features.adds ? 1 : 0].get(),
+           (items * push.instanceCount + local - 1) / local);
 }
 
-void PosePass::recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push) const {
+void PosePass::recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
+                             const PosePush& push) const {
     const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
-    record(commandBuffer, set, push, palette_.get(), (push.instanceCount + local - 1) / local);
+    record(commandBuffer, set, push, palette_[static_cast<size_t>(mode)].get(),
+           (push.instanceCount + local - 1) / local);
 }
 
 } // namespace supple::skinning

@@ -7,8 +7,16 @@ struct KeySpan {
     float seconds; // 0: the key's own value
 };
 KeySpan keysAt(uvec4 channel, vec2 time) {
-    // The first key later than the time; a key's own time gives its value as it is.
-    uint low = 0u, high = channel.x;
+    // The first key later than the time; a key's own time gives its value as it is. Most clips have keys at even times, so
+    // that the first guess is right and nothing is left to search; what is left has the key between `low` and `high`.
+    uint keys = channel.x >> 2u, low = 0u, high = keys;
+    if (keys > 1u) {
+        uint guess = uint(clamp(time.x * uintBitsToFloat(channel.y), 0.0, float(keys - 2u)));
+        bool before = earlier(time, vec2(packedFloat(channel.z, guess), 0.0));
+        bool within = earlier(time, vec2(packedFloat(channel.z, guess + 1u), 0.0));
+        low = before ? 0u : within ? guess + 1u : guess + 2u;
+        high = before ? guess : within ? guess + 1u : keys;
+    }
     while (low < high) {
         uint middle = (low + high) / 2u;
         if (earlier(time, vec2(packedFloat(channel.z, middle), 0.0))) {
@@ -21,7 +29,7 @@ KeySpan keysAt(uvec4 channel, vec2 time) {
     span.key = max(low, 1u) - 1u;
     span.t = 0.0;
     span.seconds = 0.0;
-    if (low > 0u && low < channel.x && channel.y != kStepKeys) {
+    if (low > 0u && low < keys && (channel.x & 3u) != kStepKeys) {
         float begin = packedFloat(channel.z, span.key), end = packedFloat(channel.z, low);
         precise float seconds = end - begin;
         precise float passed = (time.x - begin) + time.y;
@@ -45,7 +53,7 @@ vec4 splineWeights(KeySpan span) {
 vec4 channelAt(uint record, vec2 time, bool turns) {
     uvec4 channel = table(record);
     KeySpan span = keysAt(channel, time);
-    bool cubic = channel.y == kCubicKeys;
+    bool cubic = (channel.x & 3u) == kCubicKeys;
     uint own = channel.w + (cubic ? 3u * span.key + 1u : span.key);
     uint next = own + (cubic ? 3u : 1u);
     precise vec4 value = tableFloats(own);
@@ -95,7 +103,7 @@ float clipMorphWeight(uint clip, vec2 time, uint target) {
     if (record != 0u) {
         uvec4 channel = table(record);
         KeySpan span = keysAt(channel, time);
-        bool cubic = channel.y == kCubicKeys;
+        bool cubic = (channel.x & 3u) == kCubicKeys;
         uint stride = push.morphCount;
         uint own = (cubic ? 3u * span.key + 1u : span.key) * stride + target;
         uint next = own + (cubic ? 3u : 1u) * stride;

@@ -50,7 +50,7 @@ float masked(Layer layer, uint element, uint i) {
 // The layer's clip at a time of the clip, with the movement of the root taken out.
 Transform layerTransform(uvec4 header, Layer layer, vec2 time, uint node) {
     precise Transform t = clipTransform(layer.clip, time, node);
-    if (header.w != 0u && node == header.z) {
+    if (kRoots && header.w != 0u && node == header.z) {
         RootFrame now = rootFrame(layer.clip, time, node, t);
         Motion motion =
             motionSince(stateFloats(layer.first + 4u).xyz, stateFloats(layer.first + 5u), now, header.w);
@@ -96,7 +96,7 @@ Transform posedTransform(uint first, uint node) {
         float weight = masked(layer, 0u, node);
         if (weight != 0.0) {
             Transform to = layerTransform(header, layer, clipTime(layer, layer.time), node);
-            if ((layer.flags & kLayerAdds) != 0u) {
+            if (kAdds && (layer.flags & kLayerAdds) != 0u) {
                 Transform reference = layerTransform(header, layer, clipTime(layer, referenceTime(layer)), node);
                 pose = added(pose, to, reference, weight);
             } else {
@@ -115,7 +115,7 @@ float posedMorphWeight(uint first, uint target) {
         float weight = masked(layer, (push.nodeCount + 3u) / 4u, target);
         if (weight != 0.0) {
             float to = clipMorphWeight(layer.clip, clipTime(layer, layer.time), target);
-            if ((layer.flags & kLayerAdds) != 0u) {
+            if (kAdds && (layer.flags & kLayerAdds) != 0u) {
                 float from = clipMorphWeight(layer.clip, clipTime(layer, referenceTime(layer)), target);
                 pose = pose + (to - from) * weight;
             } else if (weight == 1.0) {
@@ -132,7 +132,7 @@ float posedMorphWeight(uint first, uint target) {
 Affine placement(uint first) {
     uvec4 header = state(first);
     precise Affine placed = Affine(stateFloats(first + 1u), stateFloats(first + 2u), stateFloats(first + 3u));
-    if ((header.y & kStateTravels) != 0u) {
+    if (kRoots && (header.y & kStateTravels) != 0u) {
         Layer layer = layerAt(first + kStateElements);
         vec4 before = stateFloats(first + 4u), turns = stateFloats(first + 5u), center = stateFloats(first + 6u);
         vec2 time = layer.time;

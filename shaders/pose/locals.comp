@@ -3,6 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"
+
+// What some instance of the group plays: lavapipe steps through what no lane takes, so that it must not be there.
+layout(constant_id = 3) const bool kRoots = true; // root motion
+layout(constant_id = 4) const bool kAdds = true;  // additive layers
+
 #include "shaders/pose/time.glsl"
 #include "shaders/pose/rotation.glsl"
 #include "shaders/pose/affine.glsl"

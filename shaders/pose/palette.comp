@@ -6,6 +6,7 @@
 #include "shaders/pose/rotation.glsl"
 #include "shaders/pose/affine.glsl"
 
+layout(constant_id = 4) const bool kDualQuaternions = false; // the pose has their layout
 layout(constant_id = 3) const uint kSharedRows = 1u; // 3 * kSharedNodes with the wide mapping
 
 layout(set = 0, binding = kScratchPoseBinding, std430) coherent buffer Scratch { vec4 scratch[]; };
@@ -69,7 +70,7 @@ void storeJoint(uint joint, bool bindPose, uint matrices, uint pose, Affine plac
         Affine inverseBind = Affine(tableFloats(first), tableFloats(first + 1u), tableFloats(first + 2u));
         own = combined(globalAt(matrices, node), inverseBind);
     }
-    if (push.dualQuaternions != 0u) {
+    if (kDualQuaternions) {
         uint i = pose + kDualQuaternionTransform + kDualQuaternionElements * joint;
         storePosed(i, own);
         precise vec4 rotation = rotationOf(own);
@@ -106,7 +107,7 @@ void main() {
         }
     }
     if (within) {
-        if (push.dualQuaternions != 0u && lane == 0u) storePosed(pose, place);
+        if (kDualQuaternions && lane == 0u) storePosed(pose, place);
         for (uint joint = lane; joint < push.jointCount; joint += lanes) {
             storeJoint(joint, bindPose, matrices, pose, place);
         }

@@ -10,8 +10,9 @@
 //   clip       one element each, from `clips` on: (first of its nodes' elements, channel of the morph weights or 0,
 //              duration as a high and a low float)
 //   clip node  one element a node: channels of its translation, rotation and scale, or 0
-//   channel    (keys, interpolation, element of the key times, of the values); times four an element; a value is one
-//              element, morph weights are packed; a cubic spline has in-tangent, value, out-tangent a key
+//   channel    (4 * keys + interpolation, keys a second as a float, element of the key times, of the values); times four
+//              an element; a value is one element, morph weights are packed; a cubic spline has in-tangent, value,
+//              out-tangent a key
 //
 // Playback (uvec4 elements, one run of `stateStride` an instance), uploaded when it changes:
 //   header     kStateElements: (layers, flags, root node or kNoNode, root axes);
@@ -98,8 +99,7 @@ struct PosePush {
     uint maskStride;
     uint scratchStride;
     uint poseStride;
-    uint morphWeights;    // first element of the weights in an instance's pose
-    uint dualQuaternions; // 1: the pose has the layout of dual quaternion skinning
+    uint morphWeights; // first element of the weights in an instance's pose
 };
 
 SUPPLE_SHARED_END
