@@ -587,15 +587,15 @@ SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance
  * that time and weight. */
 typedef struct SupplePlaybackLayer {
     uint32_t clip;
-    uint32_t flags; /**< SuppleLayerFlags */
-    SuppleLayerMode mode;
-    uint32_t mask;      /**< a mask of the group's (suppleSetMask); 0: none */
-    float weight;       /**< 0 leaves the layer out */
-    float fadeWeight;   /**< with a fade: where it ends */
-    float fadeDuration; /**< seconds; 0: no fade */
-    float speed;        /**< seconds of the clip a second of T, -1000..1000; 0: the clip stands at offset */
-    double startTime;   /**< T at which the clip is at offset */
-    double offset;      /**< seconds of the clip */
+    uint32_t flags;       /**< SuppleLayerFlags */
+    SuppleLayerMode mode; /**< as in SuppleClipLayer */
+    uint32_t mask;        /**< a mask of the group's (suppleSetMask); 0: none */
+    float weight;         /**< 0 leaves the layer out */
+    float fadeWeight;     /**< with a fade: where it ends */
+    float fadeDuration;   /**< seconds; 0: no fade */
+    float speed;          /**< seconds of the clip a second of T, -1000..1000; 0: the clip stands at offset */
+    double startTime;     /**< T at which the clip is at offset */
+    double offset;        /**< seconds of the clip */
     double fadeStart;
     double referenceTime; /**< additive: 0 is the clip's first pose */
 } SupplePlaybackLayer;

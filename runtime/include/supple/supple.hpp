@@ -176,6 +176,7 @@ public:
     [[nodiscard]] SuppleGroup handle() const { return handle_; }
     [[nodiscard]] SuppleContext context() const { return context_; }
     [[nodiscard]] SuppleResult setRate(uint32_t rate) const { return suppleSetRate(context_, handle_, rate); }
+    /// By which its instances play (SUPPLE_POSES_PLAYBACK).
     [[nodiscard]] SuppleResult setTime(double seconds) const { return suppleSetTime(context_, handle_, seconds); }
     /// Empty: none of the kind.
     [[nodiscard]] SuppleResult setMask(uint32_t mask, std::span<const float> joints,
@@ -246,6 +247,7 @@ public:
         pose.layerCount = static_cast<uint32_t>(layers.size());
         return suppleSetPose(context_, handle_, &pose);
     }
+    /// From now on, on the device (SUPPLE_POSES_PLAYBACK).
     [[nodiscard]] SuppleResult setPlayback(const SupplePlaybackDesc& playback) const {
         return suppleSetPlayback(context_, handle_, &playback);
     }
