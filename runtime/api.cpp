@@ -4,6 +4,7 @@
 #include "cage/character_reader.h"
 #include "cage/trim.h"
 #include "runtime/context.h"
+#include "runtime/playback_desc.h"
 #include "runtime/pose_desc.h"
 #include "runtime/sized.h"
 
@@ -162,13 +163,45 @@ SuppleResult withView(SuppleContext handle, SuppleView view, const char* functio
     });
 }
 
+/// Whether the group's poses come from `source`, or from `other`.
+std::optional<SuppleResult> checkSource(Context& context, const char* function, const Group& group,
+                                        SupplePoseSource source, SupplePoseSource other) {
+    const SupplePoseSource own = group.poseSource();
+    if (own == source || own == other) {
+        return std::nullopt;
+    }
+    const char* reason = own == SUPPLE_POSES_SET        ? "the group was created without SUPPLE_POSES_PLAYBACK"
+                         : own == SUPPLE_POSES_PLAYBACK ? "the group plays its clips on the device: suppleSetPlayback"
+                                                        : "the group takes its poses from a buffer that the host fills";
+    return refuse(context, ErrorCode::argument, function, reason);
+}
+
+template <class Body>
+SuppleResult withPoses(SuppleContext handle, SuppleInstance instance, const char* function, SupplePoseSource source,
+                       SupplePoseSource other, Body&& body) noexcept {
+    return withInstance(handle, instance, function, [&](Context& context, Group& found) {
+        if (const auto fault = checkSource(context, function, found, source, other)) {
+            return *fault;
+        }
+        return body(context, found);
+    });
+}
 /// For what sets the pose of an instance.
 template <class Body>
 SuppleResult withPose(SuppleContext handle, SuppleInstance instance, const char* function, Body&& body) noexcept {
-    return withInstance(handle, instance, function, [&](Context& context, Group& found) {
-        if (found.poseSource() != SUPPLE_POSES_SET) {
-            return refuse(context, ErrorCode::argument, function,
-                          "the group takes its poses from a buffer that the host fills");
+    return withPoses(handle, instance, function, SUPPLE_POSES_SET, SUPPLE_POSES_SET, body);
+}
+/// For what goes with a pose, whether it is set or played.
+template <class Body>
+SuppleResult withAnyPose(SuppleContext handle, SuppleInstance instance, const char* function, Body&& body) noexcept {
+    return withPoses(handle, instance, function, SUPPLE_POSES_SET, SUPPLE_POSES_PLAYBACK, body);
+}
+/// For what belongs to a group that plays on the device.
+template <class Body>
+SuppleResult withPlayback(SuppleContext handle, SuppleGroup group, const char* function, Body&& body) noexcept {
+    return withGroup(handle, group, function, [&](Context& context, Group& found) {
+        if (const auto fault = checkSource(context, function, found, SUPPLE_POSES_PLAYBACK, SUPPLE_POSES_PLAYBACK)) {
+            return *fault;
         }
         return body(context, found);
     });
@@ -664,7 +697,7 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.tangentMode, SUPPLE_TANGENTS_PRINTED) ||
             !within(desc.cornerRule, SUPPLE_CORNERS_SMOOTH) || !within(desc.creaseMode, SUPPLE_CREASES_CURVE) ||
             !within(desc.skinning, SUPPLE_SKINNING_DUAL_QUATERNION) ||
-            !within(desc.poseSource, SUPPLE_POSES_CAGE_BUFFER)) {
+            !within(desc.poseSource, SUPPLE_POSES_PLAYBACK)) {
             return refuse(context, ErrorCode::range, kHere,
                           "no such vertexFormat, tangentMode, cornerRule, creaseMode, skinning or poseSource");
         }
@@ -716,6 +749,8 @@ SuppleResult suppleCreateInstance(SuppleContext handle, SuppleGroup group, Suppl
         }
         if (found.poseSource() == SUPPLE_POSES_SET) {
             found.poses().reset(*slot);
+        } else if (found.plays()) {
+            found.playback().reset(*slot);
         }
         *out = {group, *slot, found.slots().generation(*slot)};
         return SUPPLE_OK;
@@ -832,7 +867,7 @@ SuppleResult suppleGetRootMotion(SuppleContext handle, SuppleAsset asset, const 
 SuppleResult suppleSetMorphWeights(SuppleContext handle, SuppleInstance instance, const float* weights,
                                    uint32_t morphTargetCount) {
     constexpr const char* kHere = "suppleSetMorphWeights";
-    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
+    return withAnyPose(handle, instance, kHere, [&](Context& context, Group& found) {
         if (weights != nullptr) {
             const size_t targets = found.asset().character.morphs.targets.size();
             if (morphTargetCount != targets) {
@@ -844,7 +879,11 @@ SuppleResult suppleSetMorphWeights(SuppleContext handle, SuppleInstance instance
                 return refuse(context, ErrorCode::notFinite, kHere, "a weight is not finite");
             }
         }
-        found.poses().setMorphWeights(instance.slot, weights);
+        if (found.plays()) {
+            found.playback().setMorphWeights(instance.slot, weights);
+        } else {
+            found.poses().setMorphWeights(instance.slot, weights);
+        }
         return SUPPLE_OK;
     });
 }
@@ -871,7 +910,7 @@ SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleInstance instance, 
 
 SuppleResult suppleSetTransform(SuppleContext handle, SuppleInstance instance, const float* transform) {
     constexpr const char* kHere = "suppleSetTransform";
-    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
+    return withAnyPose(handle, instance, kHere, [&](Context& context, Group& found) {
         if (transform == nullptr) {
             return refuse(context, ErrorCode::nullPointer, kHere, "transform is null");
         }
@@ -881,7 +920,58 @@ SuppleResult suppleSetTransform(SuppleContext handle, SuppleInstance instance, c
         if (transform[3] != 0.0f || transform[7] != 0.0f || transform[11] != 0.0f || transform[15] != 1.0f) {
             return refuse(context, ErrorCode::range, kHere, "the last row is not 0, 0, 0, 1");
         }
-        found.poses().setTransform(instance.slot, glm::make_mat4(transform));
+        if (found.plays()) {
+            found.playback().setTransform(instance.slot, glm::make_mat4(transform));
+        } else {
+            found.poses().setTransform(instance.slot, glm::make_mat4(transform));
+        }
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetPlayback(SuppleContext handle, SuppleInstance instance, const SupplePlaybackDesc* given) {
+    constexpr const char* kHere = "suppleSetPlayback";
+    return withPoses(
+        handle, instance, kHere, SUPPLE_POSES_PLAYBACK, SUPPLE_POSES_PLAYBACK, [&](Context& context, Group& found) {
+            SupplePlaybackDesc desc{};
+            if (const auto fault = takeIn(context, kHere, "playback", given, desc)) {
+                return *fault;
+            }
+            const supple::Status valid = supple::runtime::checkPlayback(found.asset(), found.playback(), desc);
+            if (!valid) {
+                return refuse(context, valid.error().code, kHere, valid.error().message);
+            }
+            supple::runtime::PlaybackLayers layers;
+            found.playback().set(instance.slot, supple::runtime::playbackOf(found.asset(), desc, layers));
+            return SUPPLE_OK;
+        });
+}
+
+SuppleResult suppleSetTime(SuppleContext handle, SuppleGroup group, double seconds) {
+    constexpr const char* kHere = "suppleSetTime";
+    return withPlayback(handle, group, kHere, [&](Context& context, Group& found) {
+        const supple::Status valid = supple::runtime::checkTime(seconds);
+        if (!valid) {
+            return refuse(context, valid.error().code, kHere, valid.error().message);
+        }
+        found.playback().setTime(seconds);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetMask(SuppleContext handle, SuppleGroup group, const SuppleMaskDesc* given) {
+    constexpr const char* kHere = "suppleSetMask";
+    return withPlayback(handle, group, kHere, [&](Context& context, Group& found) {
+        SuppleMaskDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "mask", given, desc)) {
+            return *fault;
+        }
+        const supple::Status valid = supple::runtime::checkMask(found.asset(), desc);
+        if (!valid) {
+            return refuse(context, valid.error().code, kHere, valid.error().message);
+        }
+        found.playback().setMask(desc.mask, {desc.jointMask, desc.jointMaskCount},
+                                 {desc.morphMask, desc.morphMaskCount});
         return SUPPLE_OK;
     });
 }

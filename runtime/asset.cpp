@@ -74,6 +74,26 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
     return scheme;
 }
 
+Status Asset::makeClips(const gpu::Device& device) {
+    if (clips.deviceBytes() > 0) {
+        return success();
+    }
+    skinning::ClipTable table = skinning::buildClipTable(character);
+    Status fits = checkTableSize(device, character.name, "clip tables", table.words.size() * 4);
+    if (!fits) {
+        return fits;
+    }
+    const gpu::StaticRequest request{"supple clips", kTableUsage, std::as_bytes(std::span(table.words))};
+    Result<gpu::StaticBuffers> buffers = gpu::StaticBuffers::create(device, {&request, 1});
+    if (!buffers) {
+        return buffers.error();
+    }
+    clips = std::move(*buffers);
+    clipTable = std::move(table);
+    clipTable.words = {};
+    return success();
+}
+
 Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const std::string& name) {
     const auto refuse = [&](const std::string& reason) { return Error{ErrorCode::asset, name + ": " + reason}; };
     if (desc.positions == nullptr || desc.faceVertexCounts == nullptr || desc.faceVertexIndices == nullptr) {

@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "cage/character.h"
 #include "gpu/static_buffers.h"
+#include "skinning/clip_table.h"
 #include "skinning/layers.h"
 #include "supple/supple.h"
 #include "surface/schemes.h"
@@ -25,12 +26,17 @@ struct Asset {
     gpu::StaticBuffers buffers;   ///< 0: the deform table
     uint32_t firstInfluences = 0; ///< skinning::DeformTable
     skinning::Rig rig;
+    // Made for the first group that plays on the device:
+    skinning::ClipTable clipTable; ///< `words` is emptied once it lies in the staging memory
+    gpu::StaticBuffers clips;      ///< 0: the clip table
     std::vector<std::shared_ptr<SchemeTables>> schemes;
 
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device, cage::Character character);
     /// Finds or builds the tables of a recipe; refuses what the scheme cannot take.
     [[nodiscard]] Result<std::shared_ptr<SchemeTables>> tablesFor(const gpu::Device& device,
                                                                   const surface::Recipe& recipe);
+    /// Sees to it that clipTable and clips are there.
+    [[nodiscard]] Status makeClips(const gpu::Device& device);
 };
 
 /// A character without skeleton or clips from the host's arrays: one joint, every vertex bound to it.

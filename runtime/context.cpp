@@ -172,15 +172,22 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     if (asset == nullptr) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign asset handle"};
     }
+    if (desc.poseSource == SUPPLE_POSES_PLAYBACK && pose_ == nullptr) {
+        Result<skinning::PosePass> pose = skinning::PosePass::create(*device_);
+        if (!pose) {
+            return pose.error();
+        }
+        pose_ = std::make_unique<skinning::PosePass>(std::move(*pose));
+    }
     // Instances of one group must not fit another that takes its place: groups' ids differ, and so do generations.
     nextGeneration_ = nextGeneration_ * 1664525u + 1013904223u;
     std::shared_ptr<View> view;
     if (desc.view.id != 0 && (view = views.find(desc.view.id)) == nullptr) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign view handle"};
     }
-    const GroupShared shared{device_.get(),  &deform_, &surface_,       pairs_.buffer(0),
-                             pairs_.size(0), view,     framesInFlight_, nextGeneration_ | 1u,
-                             asyncCompute_};
+    const GroupShared shared{device_.get(),        &deform_,       pose_.get(), &surface_,
+                             pairs_.buffer(0),     pairs_.size(0), view,        framesInFlight_,
+                             nextGeneration_ | 1u, asyncCompute_};
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
     if (!group) {
         return group.error();

@@ -1,4 +1,4 @@
-// One frame, as the data flows: upload, deform, vertex, edge, patch, level, solve, place, evaluate, motion.
+// One frame, as the data flows: upload, pose, deform, vertex, edge, patch, level, solve, place, evaluate, motion.
 #include "runtime/context.h"
 
 #include <algorithm>
@@ -151,6 +151,10 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
 
     if (any([](Group& group) { return group.view() == nullptr && group.attributesPending(); })) {
         pass(Pass::attributes, [&](Group& group) { return group.recordAttributes(commandBuffer); });
+    }
+    if (any([](Group& group) { return group.plays(); })) {
+        pass(Pass::pose, [&](Group& group) { return group.recordPose(commandBuffer); });
+        computeBarrier();
     }
     pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();

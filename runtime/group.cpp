@@ -129,6 +129,9 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     needs.attributes = needs.lod ? (group->view_->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
                                  : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
     Status status = shared.surface->prepare(tables, needs);
+    if (status && group->plays()) {
+        status = group->asset_->makeClips(*shared.device);
+    }
     if (status) {
         status = group->layOutWindows(desc);
     }
@@ -146,6 +149,9 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         group->slots_ = InstanceSlots(desc.capacity, shared.firstGeneration);
         group->listed_.resize(group->windows_.size());
         status = group->createBuffers(desc);
+    }
+    if (status && group->plays()) {
+        status = group->createPlayback();
     }
     if (status) {
         status = group->createSets();
@@ -174,7 +180,8 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
     const VkDeviceSize largest = std::max({VkDeviceSize{evaluation_.cageStride}, VkDeviceSize{tables.poolStride},
                                            VkDeviceSize{scratchElements()}, VkDeviceSize{1}}) *
                                  kVec4Bytes;
-    VkDeviceSize fit = texelLimit / std::max<VkDeviceSize>(largest, poses_.instanceBytes());
+    const VkDeviceSize played = plays() ? Playback::windowBytes(*asset_, poses_.layout()) : 0;
+    VkDeviceSize fit = texelLimit / std::max<VkDeviceSize>({largest, poses_.instanceBytes(), played});
     for (const VkDeviceSize bytes : {surfaceBytes(), patchBytes}) {
         fit = bytes > 0 ? std::min(fit, storageLimit / bytes) : fit;
     }
@@ -311,6 +318,17 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     return success();
 }
 
+Status Group::createPlayback() {
+    Result<Playback> playback = Playback::create(
+        {shared_.device, shared_.pose, asset_.get(), poses_.layout(), capacity_, windowSize_, shared_.framesInFlight,
+         buffers_.buffer(kPoses), buffers_.buffer(kInstances), buffers_.size(kInstances)});
+    if (!playback) {
+        return playback.error();
+    }
+    playback_ = std::move(*playback);
+    return success();
+}
+
 Status Group::setRate(uint32_t rate) {
     const std::string& name = asset_->character.name;
     if (view_ != nullptr) {
@@ -400,7 +418,7 @@ void Group::fillOutput() {
     o.instances = whole(kInstances, sizeof(uint32_t));
     o.instances.size /= 2; // the second list is the passes'
     o.indirect = whole(kIndirect, sizeof(VkDrawIndexedIndirectCommand));
-    o.deviceBytes = buffers_.allocatedBytes() + static_.deviceBytes();
+    o.deviceBytes = buffers_.allocatedBytes() + static_.deviceBytes() + playback_.deviceBytes();
     if (view_ == nullptr) {
         o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
         return;

@@ -7,6 +7,7 @@
 #include "runtime/asset.h"
 #include "runtime/instance_poses.h"
 #include "runtime/instance_slots.h"
+#include "runtime/playback.h"
 #include "runtime/view.h"
 #include "skinning/deform_pass.h"
 #include "supple/supple.h"
@@ -22,6 +23,7 @@ namespace supple::runtime {
 struct GroupShared {
     const gpu::Device* device = nullptr;
     const skinning::DeformPass* deform = nullptr;
+    const skinning::PosePass* pose = nullptr; ///< for groups that play on the device
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
@@ -44,7 +46,8 @@ public:
     [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
     [[nodiscard]] SupplePoseSource poseSource() const { return poseSource_; }
 
-    [[nodiscard]] InstancePoses& poses() { return poses_; }
+    [[nodiscard]] InstancePoses& poses() { return poses_; }  ///< SUPPLE_POSES_SET
+    [[nodiscard]] Playback& playback() { return playback_; } ///< SUPPLE_POSES_PLAYBACK
     [[nodiscard]] InstanceSlots& slots() { return slots_; }
     [[nodiscard]] const InstanceSlots& slots() const { return slots_; }
 
@@ -65,6 +68,8 @@ public:
     PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
     PassCost recordAttributes(VkCommandBuffer commandBuffer); ///< nothing after the first time at a rate
     [[nodiscard]] bool attributesPending() const { return attributesPending_; }
+    [[nodiscard]] bool plays() const { return poseSource_ == SUPPLE_POSES_PLAYBACK; }
+    PassCost recordPose(VkCommandBuffer commandBuffer) const; ///< with a barrier in it
     [[nodiscard]] bool deforms() const { return poseSource_ != SUPPLE_POSES_CAGE_BUFFER; }
     PassCost recordDeform(VkCommandBuffer commandBuffer) const;
     PassCost recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const;
@@ -108,6 +113,7 @@ private:
     };
     Status layOutWindows(const SuppleGroupDesc& desc);
     Status createBuffers(const SuppleGroupDesc& desc);
+    Status createPlayback();
     Status createSets();
     void layOutDraws();
     void fillOutput();
@@ -137,6 +143,7 @@ private:
 
     InstancePoses poses_;
     InstanceSlots slots_;
+    Playback playback_;
 
     gpu::BufferSet buffers_;    ///< see the enumeration in group_buffers.h
     gpu::BufferSet staging_;    ///< poses; lists and draws: each one run a frame in flight

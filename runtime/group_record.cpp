@@ -9,12 +9,13 @@ namespace supple::runtime {
 using namespace supple::shared;
 
 bool Group::staticsPending() const {
-    return asset_->buffers.uploadPending() || scheme_->buffers.uploadPending() || static_.uploadPending() ||
-           (!cleared_ && buffers_.size(kPool) > 0);
+    return asset_->buffers.uploadPending() || asset_->clips.uploadPending() || scheme_->buffers.uploadPending() ||
+           static_.uploadPending() || (!cleared_ && buffers_.size(kPool) > 0);
 }
 
 VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
     VkDeviceSize bytes = asset_->buffers.recordUpload(commandBuffer, frame);
+    bytes += asset_->clips.recordUpload(commandBuffer, frame);
     bytes += scheme_->buffers.recordUpload(commandBuffer, frame);
     const VkDeviceSize own = static_.recordUpload(commandBuffer, frame);
     indicesToRelease_ = indicesToRelease_ || own > 0;
@@ -58,6 +59,8 @@ Group::PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
         poses_.write(end, staging_.mapped(kPoseStaging) + run);
         copy(kPoseStaging, kPoses, run, 0, end * poses_.instanceBytes());
         cost.points = uint64_t{poses_.layout().jointCount} * end;
+    } else if (plays()) {
+        cost.bytes += playback_.recordUpload(commandBuffer, frame);
     }
 
     // Lists and draws stand on the device until something changes. Their runs are taken up one a change, so that the
@@ -125,6 +128,22 @@ Group::PassCost Group::recordLodAttributes(VkCommandBuffer commandBuffer) const 
                                              evaluation_);
     });
     return {0, visible_};
+}
+
+Group::PassCost Group::recordPose(VkCommandBuffer commandBuffer) const {
+    if (!plays()) {
+        return {};
+    }
+    for (const Playback::Half half : {Playback::Half::locals, Playback::Half::palette}) {
+        if (half == Playback::Half::palette) {
+            gpu::computeBarrier(*shared_.device, commandBuffer);
+        }
+        forWindows([&](const Window& own, uint32_t first, const InstanceSlots::Listed& listed) {
+            const auto window = static_cast<uint32_t>(&own - windows_.data());
+            playback_.record(commandBuffer, half, window, first, listed.count);
+        });
+    }
+    return {uint64_t{poses_.layout().jointCount} * visible_, poses_.instanceBytes() * visible_};
 }
 
 Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
@@ -316,6 +335,8 @@ uint32_t Group::transfers(Transfers& out) const {
 
 void Group::cancelFrame(uint64_t frame) {
     asset_->buffers.cancelUpload(frame);
+    asset_->clips.cancelUpload(frame);
+    playback_.cancelUpload(frame);
     scheme_->buffers.cancelUpload(frame);
     static_.cancelUpload(frame);
     if (clearedFrame_ == frame) {
@@ -334,6 +355,7 @@ void Group::cancelFrame(uint64_t frame) {
 
 void Group::releaseStaging(uint64_t completedFrame) {
     asset_->buffers.releaseStaging(completedFrame);
+    asset_->clips.releaseStaging(completedFrame);
     scheme_->buffers.releaseStaging(completedFrame);
     static_.releaseStaging(completedFrame);
 }

@@ -172,7 +172,8 @@ Status Group::createSets() {
                     {kScratchTexelBinding, {}, scratchView},
                     {kInstanceBinding, instanceRange, VK_NULL_HANDLE},
                     {kInstanceTexelBinding, {}, instanceView},
-                    {kLodBinding, view_ != nullptr ? ofView(View::kWords) : range(table, 0, tableBytes), VK_NULL_HANDLE},
+                    {kLodBinding, view_ != nullptr ? ofView(View::kWords) : range(table, 0, tableBytes),
+                     VK_NULL_HANDLE},
                     {kLodTexelBinding, {}, view_ != nullptr ? words : table4},
                 };
                 if (!status) {

@@ -15,18 +15,6 @@ static_assert(uint32_t{SUPPLE_ROOT_MOTION_HEIGHT} == uint32_t{skinning::kRootHei
 static_assert(uint32_t{SUPPLE_ROOT_MOTION_YAW} == uint32_t{skinning::kRootYaw});
 constexpr uint32_t kRootFlags = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_HEIGHT | SUPPLE_ROOT_MOTION_YAW;
 
-/// What is wrong with a mask, or null.
-const char* maskFault(const float* mask, uint32_t count, size_t wanted) {
-    if (mask == nullptr) {
-        return count == 0 ? nullptr : "is null, but its count is not 0";
-    }
-    if (count != wanted) {
-        return "has not one value for each";
-    }
-    const bool inside = std::all_of(mask, mask + count, [](float x) { return x >= 0.0f && x <= 1.0f; });
-    return inside ? nullptr : "leaves 0..1";
-}
-
 Status checkLayer(const cage::Character& character, const SuppleClipLayer& layer) {
     const auto outside = [](const std::string& reason) { return Error{ErrorCode::range, reason}; };
     if (layer.clip >= character.clips.size()) {
@@ -58,22 +46,47 @@ Status checkLayer(const cage::Character& character, const SuppleClipLayer& layer
 
 } // namespace
 
+const char* maskFault(const float* mask, uint32_t count, size_t wanted) {
+    if (mask == nullptr) {
+        return count == 0 ? nullptr : "is null, but its count is not 0";
+    }
+    if (count != wanted) {
+        return "has not one value for each";
+    }
+    const bool inside = std::all_of(mask, mask + count, [](float x) { return x >= 0.0f && x <= 1.0f; });
+    return inside ? nullptr : "leaves 0..1";
+}
+
+Status checkRoot(const Asset& asset, uint32_t rootMotion, const uint32_t* rootJoint) {
+    const cage::Character& character = asset.character;
+    const auto refuse = [](const std::string& reason) { return Error{ErrorCode::range, reason}; };
+    if ((rootMotion & ~kRootFlags) != 0) {
+        return refuse("unknown flags");
+    }
+    if (rootJoint != nullptr) {
+        if (*rootJoint >= character.skin.joints.size()) {
+            return refuse("rootJoint: no such joint");
+        }
+        if (character.skeleton.nodes[character.skin.joints[*rootJoint]].hasMatrix) {
+            return refuse("rootJoint has a fixed matrix");
+        }
+    }
+    return success();
+}
+
 Status checkPose(const Asset& asset, const SupplePoseDesc& desc) {
     const cage::Character& character = asset.character;
     const auto refuse = [](const std::string& reason) { return Error{ErrorCode::range, reason}; };
     if (desc.layerCount > 0 && desc.layers == nullptr) {
         return Error{ErrorCode::nullPointer, "layers is null"};
     }
-    if ((desc.flags & ~uint32_t{SUPPLE_POSE_ROOT_JOINT}) != 0 || (desc.rootMotion & ~kRootFlags) != 0) {
+    if ((desc.flags & ~uint32_t{SUPPLE_POSE_ROOT_JOINT}) != 0) {
         return refuse("unknown flags");
     }
-    if ((desc.flags & SUPPLE_POSE_ROOT_JOINT) != 0) {
-        if (desc.rootJoint >= character.skin.joints.size()) {
-            return refuse("rootJoint: no such joint");
-        }
-        if (character.skeleton.nodes[character.skin.joints[desc.rootJoint]].hasMatrix) {
-            return refuse("rootJoint has a fixed matrix");
-        }
+    const bool named = (desc.flags & SUPPLE_POSE_ROOT_JOINT) != 0;
+    Status root = checkRoot(asset, desc.rootMotion, named ? &desc.rootJoint : nullptr);
+    if (!root) {
+        return root;
     }
     for (uint32_t i = 0; i < desc.layerCount; ++i) {
         const Status valid = checkLayer(character, desc.layers[i]);

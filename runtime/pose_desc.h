@@ -6,8 +6,15 @@
 #include "skinning/layers.h"
 #include "supple/supple.h"
 
+#include <cstddef>
+#include <cstdint>
+
 namespace supple::runtime {
 
+/// What is wrong with a mask, or null.
+[[nodiscard]] const char* maskFault(const float* mask, uint32_t count, size_t wanted);
+/// Of SuppleRootMotionFlags and the joint that is named for the root, if any.
+[[nodiscard]] Status checkRoot(const Asset& asset, uint32_t rootMotion, const uint32_t* rootJoint);
 /// Success, or the first rule of supple.h that `desc` breaks.
 [[nodiscard]] Status checkPose(const Asset& asset, const SupplePoseDesc& desc);
 

@@ -21,6 +21,7 @@ namespace supple::runtime {
 enum class Pass : uint32_t {
     upload,
     attributes,
+    pose,
     deform,
     vertex,
     edge,

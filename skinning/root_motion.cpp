@@ -139,6 +139,11 @@ uint32_t findRoot(const cage::Character& character) {
     return most == joints.end() || *most == 0 ? cage::kNone : static_cast<uint32_t>(most - joints.begin());
 }
 
+RootPlace rootPlaceAt(const cage::Character& character, const cage::Clip& clip, uint32_t node, double time) {
+    const RootFrame frame = rootFrameAt(character, clip, node, time);
+    return {frame.position, frame.rotation};
+}
+
 void removeRootMotion(const cage::Character& character, const cage::Clip& clip, const RootSelection& root, Pose& pose) {
     if (root.axes == 0 || root.node == cage::kNone) {
         return;

@@ -42,6 +42,14 @@ struct LoopTime {
 /// kNone where no clip does.
 [[nodiscard]] uint32_t findRoot(const cage::Character& character);
 
+/// Where a node is in model space at a time of the clip, and how it is turned.
+struct RootPlace {
+    glm::dvec3 position{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+};
+[[nodiscard]] RootPlace rootPlaceAt(const cage::Character& character, const cage::Clip& clip, uint32_t node,
+                                    double time);
+
 /// Takes the movement since the clip's start out of `pose`, a sample of `clip`: the root stays where it starts. What
 /// was taken, applied to the whole model, would put it back.
 void removeRootMotion(const cage::Character& character, const cage::Clip& clip, const RootSelection& root, Pose& pose);

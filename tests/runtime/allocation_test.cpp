@@ -271,17 +271,19 @@ TEST(Allocation, FramesTakeNoMemory) {
                         {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_PATCHES,
                          .capacity = kCapacity,
                          .rate = 1}),
-            createGroup(handle, asset,
-                        {.capacity = kCapacity, .rate = 1, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION})};
-        const SuppleGroup both[] = {groups[0].group, groups[1].group};
-        ASSERT_EQ(groups[0].result, SUPPLE_OK);
-        ASSERT_EQ(groups[1].result, SUPPLE_OK);
+            createGroup(handle, asset, {.capacity = kCapacity, .rate = 1, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION}),
+            createGroup(handle, asset, {.capacity = kCapacity, .rate = 1, .poseSource = SUPPLE_POSES_PLAYBACK})};
+        const SuppleGroup all[] = {groups[0].group, groups[1].group, groups[2].group};
+        for (const SmallGroup& group : groups) {
+            ASSERT_EQ(group.result, SUPPLE_OK);
+        }
+        const std::vector<float> ones(3, 1.0f);
         // Never kept, never always broken: warnings come and go.
         ASSERT_EQ(suppleSetBudget(handle, nullptr, 1e5), SUPPLE_OK);
         ASSERT_EQ(suppleSetBudget(handle, "evaluate", 1e-3), SUPPLE_OK);
         ASSERT_EQ(suppleSetBudget(handle, "deform", 1e12), SUPPLE_OK);
         for (int i = 0; i < 3; ++i) { // uploads; then their staging memory goes
-            context.evaluate(both, SUPPLE_RECORD_TIMINGS);
+            context.evaluate(all, SUPPLE_RECORD_TIMINGS);
         }
         log = {};
         const uint64_t before = allocationsCounted(), allocatorBefore = allocator.calls(),
@@ -297,10 +299,32 @@ TEST(Allocation, FramesTakeNoMemory) {
                 const auto ok = [&](SuppleResult result) { good = good && result == SUPPLE_OK; };
                 // Every third frame the one before is still on its way.
                 ok(suppleBeginFrame(handle, frame, frame - (n % 3 == 2 ? 2 : 1)));
+                const auto play = [&](SuppleInstance instance, double offset) {
+                    SupplePlaybackLayer layer{};
+                    layer.weight = layer.speed = 1.0f;
+                    layer.offset = offset;
+                    layer.mask = 1;
+                    SupplePlaybackDesc desc{};
+                    desc.structSize = sizeof(desc);
+                    desc.layers = &layer;
+                    desc.layerCount = 1;
+                    desc.rootMotion = SUPPLE_ROOT_MOTION_GROUND;
+                    desc.flags = SUPPLE_PLAYBACK_TRAVEL;
+                    return suppleSetPlayback(handle, instance, &desc);
+                };
+                SuppleMaskDesc mask{};
+                mask.structSize = sizeof(mask);
+                mask.mask = 1;
+                mask.jointMask = ones.data();
+                mask.jointMaskCount = static_cast<uint32_t>(ones.size());
+                ok(suppleSetMask(handle, groups[2].group, &mask));
+                ok(suppleSetTime(handle, groups[2].group, 0.02 * static_cast<double>(n)));
                 for (SmallGroup& group : groups) {
+                    const bool played = &group == &groups[2];
                     for (uint32_t i = 0; i < kCapacity; ++i) {
                         const SuppleInstance instance = group.instances[i];
-                        ok(suppleSetClipPose(handle, instance, 0, 0.01 * static_cast<double>(n + i)));
+                        const double time = 0.01 * static_cast<double>(n + i);
+                        ok(played ? play(instance, time) : suppleSetClipPose(handle, instance, 0, time));
                         const glm::mat4 transform =
                             glm::translate(glm::mat4(1.0f), glm::vec3(0.01f * static_cast<float>(n)));
                         ok(suppleSetTransform(handle, instance, glm::value_ptr(transform)));
@@ -323,13 +347,13 @@ TEST(Allocation, FramesTakeNoMemory) {
                             ->submitAndWait([&](VkCommandBuffer commands) {
                                 const AllocationCount count;
                                 const SuppleResult result =
-                                    context.record(commands, both, n % 5 == 4 ? 0 : SUPPLE_RECORD_TIMINGS);
+                                    context.record(commands, all, n % 5 == 4 ? 0 : SUPPLE_RECORD_TIMINGS);
                                 good = good && result == SUPPLE_OK;
                                 if (n % 250 == 249) { // thrown away, and begun anew
                                     ++frame;
                                     good = good && suppleCancelFrame(handle) == SUPPLE_OK &&
                                            suppleBeginFrame(handle, frame, frame - 1) == SUPPLE_OK &&
-                                           context.record(commands, both) == SUPPLE_OK;
+                                           context.record(commands, all) == SUPPLE_OK;
                                 }
                             })
                             .ok());

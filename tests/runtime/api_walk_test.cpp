@@ -53,6 +53,7 @@ public:
         spare = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE});
         buffered =
             createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_CAGE_BUFFER});
+        played = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
         // And what is gone.
         EXPECT_EQ(createTube(handle(), staleAsset), SUPPLE_OK);
         SmallGroup gone = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE});
@@ -163,6 +164,30 @@ public:
         desc.layerCount = 2;
         return desc;
     }
+    /// Kept for the call.
+    [[nodiscard]] SupplePlaybackDesc playbackDesc(const std::function<void(SupplePlaybackLayer&)>& spoil = {}) {
+        SupplePlaybackLayer layers[2]{};
+        layers[0].weight = layers[1].weight = 1.0f;
+        layers[1].offset = 0.4;
+        if (spoil) {
+            spoil(layers[1]);
+        }
+        SupplePlaybackDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.layers = kept(layers)[0];
+        desc.layerCount = 2;
+        return desc;
+    }
+    [[nodiscard]] SuppleMaskDesc maskDesc() {
+        static const float values[] = {0.5f, 0.5f, 0.5f, 0.5f};
+        SuppleMaskDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.mask = 2;
+        desc.jointMask = desc.morphMask = values;
+        desc.jointMaskCount = kJoints;
+        desc.morphMaskCount = kTargets;
+        return desc;
+    }
     [[nodiscard]] SuppleRecordDesc recordDesc() {
         SuppleRecordDesc desc{};
         desc.structSize = sizeof(desc);
@@ -185,7 +210,7 @@ public:
         SuppleAsset asset{};
         SmallGroup main, subdivision;
     } mine, theirs;
-    SmallGroup spare, buffered;
+    SmallGroup spare, buffered, played;
     SuppleAsset staleAsset{};
     SuppleGroup staleGroup{};
     SuppleInstance staleInstance{}, instanceOfStaleGroup{};
@@ -304,8 +329,9 @@ public:
         stale("asset for group", [](World& w) { return SuppleGroup{w.mine.asset.id}; });
         stale("no group at all", [](World&) { return SuppleGroup{~0ull}; });
     }
+    /// `valid`: whose instance takes the call.
     template <class Call>
-    void instances(const char* function, Call call, bool poses) {
+    void instances(const char* function, Call call, bool poses, SmallGroup World::*valid = &World::spare) {
         nullContext(function, [=](World& w, SuppleContext c) { return call(w, c, w.instance()); });
         const auto stale = [&](const char* what, auto get) {
             refuse(function, what, SUPPLE_MESSAGE_STALE_HANDLE, [=](World& w) { return call(w, w.handle(), get(w)); });
@@ -327,7 +353,7 @@ public:
             return SuppleInstance{w.mine.main.group, ~0u, w.instance().generation};
         });
         stale("generation 0", [](World& w) { return SuppleInstance{w.mine.main.group, 0, 0}; });
-        accept(function, "valid", [=](World& w) { return call(w, w.handle(), w.spare.instances[0]); });
+        accept(function, "valid", [=](World& w) { return call(w, w.handle(), (w.*valid).instances[0]); });
         if (poses) {
             refuse(function, "the host's buffer poses the group", SUPPLE_MESSAGE_CONFLICT,
                    [=](World& w) { return call(w, w.handle(), w.buffered.instances[0]); });
@@ -652,7 +678,10 @@ void groups(Rows& r) {
         range("cornerRule" + n, [=](Desc& d) { d.cornerRule = static_cast<SuppleCornerRule>(value); });
         range("skinning" + n, [=](Desc& d) { d.skinning = static_cast<SuppleSkinning>(value); });
         range("creaseMode" + n, [=](Desc& d) { d.creaseMode = static_cast<SuppleCreaseMode>(value); });
-        range("poseSource" + n, [=](Desc& d) { d.poseSource = static_cast<SupplePoseSource>(value); });
+    }
+    for (const int value : {4, -1}) {
+        range("poseSource " + std::to_string(value),
+              [=](Desc& d) { d.poseSource = static_cast<SupplePoseSource>(value); });
     }
     spoiled("palette buffer of dual quaternions", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) {
         d.poseSource = SUPPLE_POSES_PALETTE_BUFFER;
@@ -901,6 +930,126 @@ void poses(Rows& r) {
     }
 }
 
+void playback(Rows& r) {
+    constexpr const char* kSet = "suppleSetPlayback";
+    constexpr const char* kTime = "suppleSetTime";
+    constexpr const char* kMask = "suppleSetMask";
+    constexpr int kRange = SUPPLE_MESSAGE_OUT_OF_RANGE, kFinite = SUPPLE_MESSAGE_NOT_FINITE,
+                  kNull = SUPPLE_MESSAGE_NULL_POINTER, kConflict = SUPPLE_MESSAGE_CONFLICT;
+    r.instances(
+        kSet,
+        [](World& w, SuppleContext c, SuppleInstance i) {
+            const SupplePlaybackDesc desc = w.playbackDesc();
+            return suppleSetPlayback(c, i, &desc);
+        },
+        false, &World::played);
+    const auto set = [](World& w, const SupplePlaybackDesc* desc) {
+        return suppleSetPlayback(w.handle(), w.played.instances[0], desc);
+    };
+    r.description<SupplePlaybackDesc>(
+        kSet, "playback", [](World& w) { return w.playbackDesc(); }, set);
+    for (SmallGroup World::*const other : {&World::spare, &World::buffered}) {
+        r.refuse(kSet, "poses from elsewhere", kConflict, [=](World& w) {
+            const SupplePlaybackDesc desc = w.playbackDesc();
+            return suppleSetPlayback(w.handle(), (w.*other).instances[0], &desc);
+        });
+    }
+    using Desc = SupplePlaybackDesc;
+    using Layer = SupplePlaybackLayer;
+    const auto spoiled = [&](const char* what, int message, const std::function<void(Desc&)>& spoil,
+                             const std::function<void(Layer&)>& spoilLayer = {}) {
+        r.refuse(kSet, what, message, [=](World& w) {
+            Desc desc = w.playbackDesc(spoilLayer);
+            if (spoil) {
+                spoil(desc);
+            }
+            return set(w, &desc);
+        });
+    };
+    spoiled("layers null", kNull, [](Desc& d) { d.layers = nullptr; });
+    spoiled("too many layers", kRange, [](Desc& d) { d.layerCount = SUPPLE_MAX_PLAYBACK_LAYERS + 1; });
+    spoiled("flags", kRange, [](Desc& d) { d.flags = 4; });
+    spoiled("rootMotion", kRange, [](Desc& d) { d.rootMotion = 8; });
+    spoiled("rootJoint", kRange, [](Desc& d) {
+        d.flags = SUPPLE_PLAYBACK_ROOT_JOINT;
+        d.rootJoint = kJoints;
+    });
+    spoiled("travel by nothing", kConflict, [](Desc& d) { d.flags = SUPPLE_PLAYBACK_TRAVEL; });
+    const auto layer = [&](const char* what, int message, std::function<void(Layer&)> spoil) {
+        spoiled(what, message, {}, std::move(spoil));
+    };
+    layer("clip", kRange, [](Layer& l) { l.clip = kClips; });
+    layer("bind pose for a clip", kRange, [](Layer& l) { l.clip = SUPPLE_BIND_POSE; });
+    layer("mode 2", kRange, [](Layer& l) { l.mode = static_cast<SuppleLayerMode>(2); });
+    layer("mode -1", kRange, [](Layer& l) { l.mode = static_cast<SuppleLayerMode>(-1); });
+    layer("layer flags", kRange, [](Layer& l) { l.flags = 2; });
+    layer("mask never set", kRange, [](Layer& l) { l.mask = 1; });
+    layer("mask", kRange, [](Layer& l) { l.mask = SUPPLE_MAX_MASKS + 1; });
+    layer("weight NaN", kFinite, [](Layer& l) { l.weight = kNan; });
+    layer("fadeWeight infinite", kFinite, [](Layer& l) {
+        l.mode = SUPPLE_LAYER_ADDITIVE;
+        l.fadeWeight = kInfinity;
+    });
+    layer("weight above", kRange, [](Layer& l) { l.weight = 1.01f; });
+    layer("fadeWeight below", kRange, [](Layer& l) { l.fadeWeight = -0.01f; });
+    layer("speed NaN", kFinite, [](Layer& l) { l.speed = kNan; });
+    layer("speed above", kRange, [](Layer& l) { l.speed = 1000.1f; });
+    layer("speed below", kRange, [](Layer& l) { l.speed = -1000.1f; });
+    layer("fadeDuration infinite", kFinite, [](Layer& l) { l.fadeDuration = kInfinity; });
+    layer("fadeDuration negative", kRange, [](Layer& l) { l.fadeDuration = -1.0f; });
+    for (double Layer::*const time : {&Layer::startTime, &Layer::offset, &Layer::fadeStart, &Layer::referenceTime}) {
+        layer("a time NaN", kFinite, [=](Layer& l) { l.*time = double{kNan}; });
+        layer("a time infinite", kFinite, [=](Layer& l) { l.*time = -double{kInfinity}; });
+        layer("a time too far", kRange, [=](Layer& l) { l.*time = 1.001 * SUPPLE_MAX_TIME; });
+    }
+
+    r.groups(kTime, [](World&, SuppleContext c, SuppleGroup g) { return suppleSetTime(c, g, 1.0); });
+    r.accept(kTime, "valid", [](World& w) { return suppleSetTime(w.handle(), w.played.group, -SUPPLE_MAX_TIME); });
+    const auto time = [&](const char* what, int message, double value) {
+        r.refuse(kTime, what, message, [=](World& w) { return suppleSetTime(w.handle(), w.played.group, value); });
+    };
+    time("NaN", kFinite, double{kNan});
+    time("infinite", kFinite, double{kInfinity});
+    time("too far", kRange, 1.001 * SUPPLE_MAX_TIME);
+    time("too far back", kRange, -1.001 * SUPPLE_MAX_TIME);
+    r.refuse(kTime, "poses from elsewhere", kConflict,
+             [](World& w) { return suppleSetTime(w.handle(), w.spare.group, 1.0); });
+
+    r.groups(kMask, [](World& w, SuppleContext c, SuppleGroup g) {
+        const SuppleMaskDesc desc = w.maskDesc();
+        return suppleSetMask(c, g, &desc);
+    });
+    const auto mask = [](World& w, const SuppleMaskDesc* desc) {
+        return suppleSetMask(w.handle(), w.played.group, desc);
+    };
+    r.description<SuppleMaskDesc>(
+        kMask, "mask", [](World& w) { return w.maskDesc(); }, mask);
+    r.refuse(kMask, "poses from elsewhere", kConflict, [](World& w) {
+        const SuppleMaskDesc desc = w.maskDesc();
+        return suppleSetMask(w.handle(), w.buffered.group, &desc);
+    });
+    const auto wrong = [&](const char* what, int message, const std::function<void(SuppleMaskDesc&)>& spoil) {
+        r.refuse(kMask, what, message, [=](World& w) {
+            SuppleMaskDesc desc = w.maskDesc();
+            spoil(desc);
+            return mask(w, &desc);
+        });
+    };
+    static const float kOutside[] = {0.5f, 0.5f, 1.5f, 0.5f}, kNans[] = {0.5f, kNan, 0.5f, 0.5f};
+    wrong("number 0", kRange, [](SuppleMaskDesc& d) { d.mask = 0; });
+    wrong("number", kRange, [](SuppleMaskDesc& d) { d.mask = SUPPLE_MAX_MASKS + 1; });
+    wrong("both null", kNull, [](SuppleMaskDesc& d) {
+        d.jointMask = d.morphMask = nullptr;
+        d.jointMaskCount = d.morphMaskCount = 0;
+    });
+    wrong("jointMask null with a count", kRange, [](SuppleMaskDesc& d) { d.jointMask = nullptr; });
+    wrong("morphMask null with a count", kRange, [](SuppleMaskDesc& d) { d.morphMask = nullptr; });
+    wrong("jointMask too short", kRange, [](SuppleMaskDesc& d) { d.jointMaskCount = kJoints - 1; });
+    wrong("morphMask too long", kRange, [](SuppleMaskDesc& d) { d.morphMaskCount = kTargets + 1; });
+    wrong("jointMask outside", kRange, [](SuppleMaskDesc& d) { d.jointMask = kOutside; });
+    wrong("morphMask NaN", kRange, [](SuppleMaskDesc& d) { d.morphMask = kNans; });
+}
+
 void frames(Rows& r) {
     constexpr const char* kBegin = "suppleBeginFrame";
     constexpr int kOrder = SUPPLE_MESSAGE_OUT_OF_ORDER, kRange = SUPPLE_MESSAGE_OUT_OF_RANGE;
@@ -1108,6 +1257,7 @@ std::vector<Row> allRows() {
     groups(r);
     instances(r);
     poses(r);
+    playback(r);
     frames(r);
     measurements(r);
     return std::move(r.rows);

@@ -120,14 +120,16 @@ TEST(Contract, OnlyPosesCrossPerFrame) {
             EXPECT_EQ(counts.fills, 0u);
             EXPECT_EQ(counts.allocations, 0u);
             EXPECT_EQ(counts.buffers, 0u);
-            EXPECT_EQ(counts.copies, 4u) << "poses, the two lists of instances, draws";
+            // In the second frame the instances have come to have a past; then the lists stand.
+            const bool listed = frame == 0;
+            EXPECT_EQ(counts.copies, listed ? 4u : 1u) << "poses; the two lists of instances, draws";
             EXPECT_EQ(counts.copiedBytes,
-                      paletteBytes + uint64_t{kInstances} * 8 + uint64_t{output.drawRangeCount} * 20)
+                      paletteBytes +
+                          (listed ? uint64_t{kInstances} * 8 + uint64_t{output.drawRangeCount} * 20 : uint64_t{0}))
                 << "joint palettes, who is drawn, and nothing else";
         }
-        std::printf("%llu bytes cross per frame: %u instances x (%u joints x 48 + 8) + %u draw ranges x 20\n",
-                    static_cast<unsigned long long>(paletteBytes + kInstances * 8 + output.drawRangeCount * 20),
-                    kInstances, info.jointCount, output.drawRangeCount);
+        std::printf("%llu bytes cross per frame: %u instances x %u joints x 48\n",
+                    static_cast<unsigned long long>(paletteBytes), kInstances, info.jointCount);
     }
     EXPECT_EQ(device->validationMessageCount(), 0u);
 }

@@ -33,7 +33,7 @@ TEST(CppLayer, OwnsWhatItMakes) {
     auto assetDesc = supple::sized<SuppleAssetDesc>();
     assetDesc.name = "cube";
     assetDesc.cage = &cage;
-    supple::Group group;
+    supple::Group group, players;
     {
         supple::Asset asset;
         ASSERT_EQ(supple::Asset::create(context, assetDesc, asset), SUPPLE_OK);
@@ -44,6 +44,8 @@ TEST(CppLayer, OwnsWhatItMakes) {
         groupDesc.asset = asset.handle();
         groupDesc.capacity = 1;
         ASSERT_EQ(supple::Group::create(context, groupDesc, group), SUPPLE_OK);
+        groupDesc.poseSource = SUPPLE_POSES_PLAYBACK;
+        ASSERT_EQ(supple::Group::create(context, groupDesc, players), SUPPLE_OK);
     } // the group keeps what it needs of the asset
 
     std::array<float, 16> identity{};
@@ -58,6 +60,16 @@ TEST(CppLayer, OwnsWhatItMakes) {
     EXPECT_EQ(instance.setVisible(true), SUPPLE_OK);
     EXPECT_EQ(instance.teleport(), SUPPLE_OK);
     EXPECT_EQ(group.setRate(4), SUPPLE_OK);
+    supple::Instance player;
+    ASSERT_EQ(supple::Instance::create(players, player), SUPPLE_OK);
+    const float mask[] = {0.5f};
+    EXPECT_EQ(players.setMask(3, mask), SUPPLE_OK);
+    EXPECT_EQ(players.setTime(1.5), SUPPLE_OK);
+    EXPECT_EQ(player.setPlayback(std::span<const SupplePlaybackLayer>()), SUPPLE_OK) << "the rest pose";
+    auto playback = supple::sized<SupplePlaybackDesc>();
+    playback.rootMotion = SUPPLE_ROOT_MOTION_GROUND;
+    EXPECT_EQ(player.setPlayback(playback), SUPPLE_OK);
+    EXPECT_EQ(player.setClipPose(SUPPLE_BIND_POSE, 0.0), SUPPLE_ERROR_ARGUMENT) << "it plays";
     std::vector<SuppleTiming> timings;
     EXPECT_EQ(context.timings(timings), SUPPLE_NOT_READY);
     for (uint64_t frame = 1; frame <= 2; ++frame) {

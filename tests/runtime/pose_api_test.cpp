@@ -596,8 +596,10 @@ TEST(PoseUpload, OneCopyOfPosesAFrame) {
                 const WrappedVulkan& counts = wrappedVulkan();
                 gpu.poses().setMorphWeights(1, weights.data());
                 gpu.deform();
-                EXPECT_EQ(counts.copies, 3u) << "poses, the two lists of instances";
-                EXPECT_EQ(counts.copiedBytes, kInstances * (c.bytes + 8));
+                // In the second frame the instances have come to have a past; then the lists stand.
+                const bool listed = frame == 0;
+                EXPECT_EQ(counts.copies, listed ? 3u : 1u) << "poses; the two lists of instances";
+                EXPECT_EQ(counts.copiedBytes, kInstances * (c.bytes + (listed ? 8 : 0)));
                 EXPECT_EQ(counts.maps + counts.updates + counts.fills + counts.invalidates, 0u);
                 EXPECT_LE(counts.flushes, 1u);
             }

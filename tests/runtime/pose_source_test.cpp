@@ -265,7 +265,7 @@ TEST_F(PoseSources, WhatIsLeftToTheHostIsRefused) {
             EXPECT_EQ(suppleDestroyGroup(handle, group), SUPPLE_OK);
         }
         desc.skinning = SUPPLE_SKINNING_LINEAR;
-        desc.poseSource = static_cast<SupplePoseSource>(3);
+        desc.poseSource = static_cast<SupplePoseSource>(4);
         EXPECT_EQ(suppleCreateGroup(handle, &desc, &group), SUPPLE_ERROR_ARGUMENT);
         EXPECT_EQ(own.takeError(), SUPPLE_MESSAGE_OUT_OF_RANGE);
     }

@@ -87,7 +87,7 @@ struct Key {
 
 class Walk {
 public:
-    explicit Walk(std::span<const uint32_t> words) { parse(words); }
+    Walk(std::span<const uint32_t> words, bool roots) : roots_(roots) { parse(words); }
 
     std::vector<std::string> run(const std::string& positionName, uint32_t& checked) {
         for (const auto& [id, name] : names_) {
@@ -220,6 +220,12 @@ private:
         }
     }
 
+    /// Of GLSL.std.450, what has no rounding.
+    [[nodiscard]] static bool exactBuiltIn(uint32_t instruction) {
+        return instruction == 4 || instruction == 8 || instruction == 37 ||
+               instruction == 40; // FAbs, Floor, FMin, FMax
+    }
+
     void visit(Key key) {
         const auto found = byResult_.find(key.id);
         if (found == byResult_.end()) {
@@ -299,6 +305,12 @@ private:
         default:
             break;
         }
+        if (i.op == kExtInst && (exactBuiltIn(i.operands[1]) || (roots_ && i.operands[1] == kSqrt))) {
+            for (size_t a = 2; a < i.operands.size(); ++a) {
+                push({i.operands[a], -1});
+            }
+            return;
+        }
         if (arithmeticName(i.op) == nullptr && !harmless(i.op)) {
             unknown_.insert(key.id); // a built-in, a matrix product: nothing says that it rounds the same on both sides
         }
@@ -312,6 +324,9 @@ private:
         }
     }
 
+    static constexpr uint32_t kSqrt = 31;
+
+    bool roots_ = false;
     std::map<uint32_t, std::string> names_;
     std::map<uint32_t, Instruction> byResult_;
     std::map<uint32_t, uint32_t> pointees_;
@@ -357,8 +372,8 @@ std::string stripped(const std::string& source, const std::string& name, uint32_
 } // namespace
 
 std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> spirv, const std::string& positionName,
-                                                     uint32_t& checked) {
-    return Walk(spirv).run(positionName, checked);
+                                                     uint32_t& checked, bool roots) {
+    return Walk(spirv, roots).run(positionName, checked);
 }
 
 std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip) {

@@ -12,9 +12,11 @@ namespace supple::test {
 
 /// Walks back from every variable and parameter of the given OpName (the module must carry names) through stores, calls
 /// and struct members to the buffers the values come from. Returns one line an offending instruction: its opcode and
-/// function. `checked` counts the arithmetic instructions met.
+/// function. `checked` counts the arithmetic instructions met. `roots`: square roots are allowed, for what is computed
+/// in one place alone.
 [[nodiscard]] std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> spirv,
-                                                                   const std::string& positionName, uint32_t& checked);
+                                                                   const std::string& positionName, uint32_t& checked,
+                                                                   bool roots = false);
 
 /// GLSL below shaders/, compiled with names kept. `strip`: the name of a function whose `precise` qualifiers are
 /// removed first, wherever it is defined; "*": everywhere; empty leaves the source alone. Empty result: it did not

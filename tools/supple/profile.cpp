@@ -29,6 +29,7 @@ struct ProfileOptions {
     uint32_t instances = 1;
     uint32_t frames = 60;
     bool motion = false;
+    bool playback = false;
     std::string json, csv, trace;
 };
 
@@ -122,6 +123,7 @@ public:
         result.scheme = resolvedScheme(scheme);
         result.rate = options_.surface.rate;
         result.instances = options_.instances;
+        result.playback = options_.playback;
         Status status = createGroup(file, scheme, result);
         FrameRing ring(*session_.device);
         if (status) {
@@ -180,9 +182,13 @@ private:
         desc.scheme = schemeOf(scheme);
         desc.rate = options_.surface.rate;
         describeSurface(options_.surface, desc);
+        desc.poseSource = options_.playback ? SUPPLE_POSES_PLAYBACK : SUPPLE_POSES_SET;
         Status status = check(suppleCreateGroup(context(), &desc, &group_), "suppleCreateGroup");
         if (status) {
             status = session_.context->createInstances(group_, options_.instances, instances_);
+        }
+        if (status && options_.playback) {
+            status = startPlayback();
         }
         if (status) {
             SuppleGroupOutput output{};
@@ -195,12 +201,34 @@ private:
         return status;
     }
 
-    /// All instances play clip 0 in a loop, spread evenly over its length.
-    Status setPoses(uint32_t index) {
+    // All instances play clip 0 in a loop, spread evenly over its length.
+    [[nodiscard]] double phase(uint32_t instance) const { return clipDuration_ * instance / options_.instances; }
+
+    Status startPlayback() {
         Status status = success();
         for (uint32_t i = 0; status && clip_ != SUPPLE_BIND_POSE && i < options_.instances; ++i) {
-            const double phase = clipDuration_ * i / options_.instances;
-            const double time = clipDuration_ > 0.0 ? std::fmod(index * kFrameTime + phase, clipDuration_) : 0.0;
+            SupplePlaybackLayer layer{};
+            layer.clip = clip_;
+            layer.flags = SUPPLE_LAYER_LOOP;
+            layer.weight = 1.0f;
+            layer.speed = 1.0f;
+            layer.offset = phase(i);
+            SupplePlaybackDesc playback{};
+            playback.structSize = sizeof playback;
+            playback.layers = &layer;
+            playback.layerCount = 1;
+            status = check(suppleSetPlayback(context(), instances_[i], &playback), "suppleSetPlayback");
+        }
+        return status;
+    }
+
+    Status setPoses(uint32_t index) {
+        if (options_.playback) {
+            return check(suppleSetTime(context(), group_, index * kFrameTime), "suppleSetTime");
+        }
+        Status status = success();
+        for (uint32_t i = 0; status && clip_ != SUPPLE_BIND_POSE && i < options_.instances; ++i) {
+            const double time = clipDuration_ > 0.0 ? std::fmod(index * kFrameTime + phase(i), clipDuration_) : 0.0;
             status = check(suppleSetClipPose(context(), instances_[i], clip_, time), "suppleSetClipPose");
         }
         return status;
@@ -388,11 +416,12 @@ void bindProfile(CLI::App& app, int& exitCode) {
         ->check(CLI::Range(1u, 1000000u))
         ->capture_default_str();
     command->add_flag("--motion", options->motion, "Previous positions as well, for motion vectors");
+    command->add_flag("--playback", options->playback, "Poses on the device, from the group's time alone");
     command->add_option("--json", options->json, "Write the figures as JSON")->type_name("OUT.json");
     command->add_option("--csv", options->csv, "Write the figures as CSV, a row a pass")->type_name("OUT.csv");
     command->add_option("--trace", options->trace, "Write every frame as a Chrome trace, for Perfetto")
         ->type_name("OUT.json");
-    bindSurface(*command, options->surface, {"all"});
+    bindSurface(*command, options->surface, {"all", "cage"});
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] { exitCode = runProfile(*options); });
 }

@@ -155,8 +155,8 @@ std::string toTable(const ProfileRun& run, const RunSummary& summary) {
         table += tableRow(pass);
     }
     table += tableRow(summary.total);
-    table += format("  CPU a frame: %.4f ms to set the poses, %.4f ms to record (medians)\n", summary.pose.median,
-                    summary.record.median);
+    table += format("  CPU a frame: %.4f ms to set the %s, %.4f ms to record (medians)\n", summary.pose.median,
+                    run.playback ? "time" : "poses", summary.record.median);
     return table;
 }
 
@@ -168,14 +168,9 @@ nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun
     json["runs"] = Json::array();
     for (const ProfileRun& run : runs) {
         const RunSummary summary = summarizeRun(run);
-        Json entry = {{"file", run.file},
-                      {"scheme", run.scheme},
-                      {"rate", run.rate},
-                      {"patchRate", run.patchRate},
-                      {"instances", run.instances},
-                      {"patches", run.patches},
-                      {"frames", run.frames.size()},
-                      {"deviceBytes", run.deviceBytes},
+        Json entry = {{"file", run.file},           {"scheme", run.scheme},        {"rate", run.rate},
+                      {"patchRate", run.patchRate}, {"instances", run.instances},  {"playback", run.playback},
+                      {"patches", run.patches},     {"frames", run.frames.size()}, {"deviceBytes", run.deviceBytes},
                       {"passes", Json::array()}};
         for (const PassSummary& pass : summary.passes) {
             entry["passes"].push_back(toJson(pass));

@@ -37,6 +37,7 @@ struct ProfileRun {
     uint32_t rate = 0;
     uint32_t patchRate = 0; ///< segments along a patch edge: less than the rate where an edge of the cage has several
     uint32_t instances = 0;
+    bool playback = false;    ///< poses on the device
     uint32_t patches = 0;     ///< an instance
     uint64_t deviceBytes = 0; ///< of the group
     std::vector<FrameSample> frames;

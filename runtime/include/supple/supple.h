@@ -77,6 +77,9 @@ extern "C" {
 #define SUPPLE_MAX_RATE 64u            /**< segments along a patch edge */
 #define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u /**< see suppleBeginFrame */
 #define SUPPLE_PRIORITY_COUNT 4u       /**< see suppleSetPriority */
+#define SUPPLE_MAX_PLAYBACK_LAYERS 8u  /**< see suppleSetPlayback */
+#define SUPPLE_MAX_MASKS 16u           /**< a group's: see suppleSetMask */
+#define SUPPLE_MAX_TIME 1e9            /**< seconds: times of playback lie between minus this and this */
 #define SUPPLE_MAX_TIMINGS 512u        /**< entries a frame: passes x groups; what goes beyond is not timed */
 
 /** A context borrows the host's device; assets and groups belong to one context. */
@@ -458,13 +461,14 @@ SUPPLE_API SuppleResult suppleSetCamera(SuppleContext context, SuppleView view, 
 /** What a view drew. */
 typedef struct SuppleViewStatistics {
     uint32_t structSize;
-    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and what even so
-                         * has no room is missing */
+    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and what even
+                         * so has no room is missing */
     uint64_t frame;
-    float levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
-    uint32_t vertexCount;                     /**< surface vertices written */
-    uint32_t wantedVertexCount;               /**< without a budget, up to a few per cent more */
-    uint32_t patchCount;                      /**< drawn */
+    float
+        levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
+    uint32_t vertexCount;                   /**< surface vertices written */
+    uint32_t wantedVertexCount;             /**< without a budget, up to a few per cent more */
+    uint32_t patchCount;                    /**< drawn */
 } SuppleViewStatistics;
 
 /** Of the newest completed frame; never blocks. SUPPLE_NOT_READY: there is none. */
@@ -504,7 +508,8 @@ typedef enum SuppleSkinning { SUPPLE_SKINNING_LINEAR = 0, SUPPLE_SKINNING_DUAL_Q
 typedef enum SupplePoseSource {
     SUPPLE_POSES_SET = 0,            /**< suppleSetClipPose, suppleSetPose, suppleSetMatrixPose, ... */
     SUPPLE_POSES_PALETTE_BUFFER = 1, /**< SuppleGroupOutput.poses: joint palettes and morph weights */
-    SUPPLE_POSES_CAGE_BUFFER = 2     /**< SuppleGroupOutput.deformedCage: cage vertices, as from a cloth solver */
+    SUPPLE_POSES_CAGE_BUFFER = 2,    /**< SuppleGroupOutput.deformedCage: cage vertices, as from a cloth solver */
+    SUPPLE_POSES_PLAYBACK = 3        /**< suppleSetPlayback: clips that the device plays by the group's time */
 } SupplePoseSource;
 
 /** What a group writes besides surface vertices. */
@@ -563,9 +568,10 @@ SUPPLE_API SuppleResult suppleSetPriority(SuppleContext context, SuppleInstance 
 
 /* ---------------------------------------------------------------------------------------------------- poses */
 
-/** What crosses to the device each frame: the poses of the slots in use, 8 bytes a visible instance and 20 a draw
- * range. A pose is 48 bytes a joint, or with dual quaternions 64 bytes a joint and 48 more; and with morph targets 4
- * bytes a target, rounded up to 16. */
+/** What crosses to the device each frame: with SUPPLE_POSES_SET the poses of the slots in use; in frames where
+ * instances came, went, were hidden, shown or teleported, and in the next ones, 8 bytes a visible instance and 20 a
+ * draw range (with SUPPLE_CONTEXT_ASYNC_COMPUTE in every frame). A pose is 48 bytes a joint, or with dual quaternions
+ * 64 bytes a joint and 48 more; and with morph targets 4 bytes a target, rounded up to 16. */
 
 /** Poses an instance from a clip at a time (clamped to the clip), or SUPPLE_BIND_POSE or SUPPLE_REST_POSE. What the
  * clip does not animate is as in the rest pose. */
@@ -653,6 +659,71 @@ SUPPLE_API SuppleResult suppleSetMatrixPose(SuppleContext context, SuppleInstanc
 /** Places an instance: an affine float[16] (last row 0, 0, 0, 1) applied after the pose, so that surface vertices come
  * out in the space it maps to. A mirroring transform turns the winding and with it the normals. */
 SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance instance, const float* transform);
+
+/* ---------------------------------------------------------------------------------------------------- playback */
+
+/** One clip of what an instance plays, with T for the group's time (suppleSetTime): its time is
+ * offset + speed * (T - startTime), its weight the one that stands or, with a fade, goes from weight to fadeWeight,
+ * straight, while T goes from fadeStart to fadeStart + fadeDuration. At every T the layer is the SuppleClipLayer of
+ * that time and weight. */
+typedef struct SupplePlaybackLayer {
+    uint32_t clip;
+    uint32_t flags;       /**< SuppleLayerFlags */
+    SuppleLayerMode mode; /**< as in SuppleClipLayer */
+    uint32_t mask;        /**< a mask of the group's (suppleSetMask); 0: none */
+    float weight;         /**< 0 leaves the layer out */
+    float fadeWeight;     /**< with a fade: where it ends */
+    float fadeDuration;   /**< seconds; 0: no fade */
+    float speed;          /**< seconds of the clip a second of T, -1000..1000; 0: the clip stands at offset */
+    double startTime;     /**< T at which the clip is at offset */
+    double offset;        /**< seconds of the clip */
+    double fadeStart;
+    double referenceTime; /**< additive: 0 is the clip's first pose */
+} SupplePlaybackLayer;
+
+/** Options of playback. */
+typedef enum SupplePlaybackFlags {
+    SUPPLE_PLAYBACK_ROOT_JOINT = 1, /**< as SUPPLE_POSE_ROOT_JOINT */
+    SUPPLE_PLAYBACK_TRAVEL = 2      /**< the instance moves by what rootMotion takes out of the first layer's clip:
+                                     * placed by T * M, with T of suppleSetTransform and M the movement since the
+                                     * layer's startTime, on over the ends of a looping clip. The layer's weight and
+                                     * mask make no difference to it */
+} SupplePlaybackFlags;
+
+/** Layers are applied in order to the rest pose, as those of SupplePoseDesc. */
+typedef struct SupplePlaybackDesc {
+    uint32_t structSize;
+    uint32_t flags; /**< SupplePlaybackFlags */
+    const SupplePlaybackLayer* layers;
+    uint32_t layerCount; /**< at most SUPPLE_MAX_PLAYBACK_LAYERS */
+    uint32_t rootMotion; /**< SuppleRootMotionFlags: what is taken out of every layer's clip */
+    uint32_t rootJoint;
+} SupplePlaybackDesc;
+
+/** For groups with SUPPLE_POSES_PLAYBACK: what an instance plays from the next suppleRecord on, until it is set anew.
+ * The array is read during the call. Poses then follow from the group's time alone, on the device; in a frame where
+ * nothing is set, nothing is uploaded, and the host's part costs the same for any number of instances.
+ * suppleSetTransform and suppleSetMorphWeights go with it. Poses agree with suppleSetPose's but for rounding
+ * (docs/playback.md). */
+SUPPLE_API SuppleResult suppleSetPlayback(SuppleContext context, SuppleInstance instance,
+                                          const SupplePlaybackDesc* playback);
+/** Sets T, the time by which the instances of a group with SUPPLE_POSES_PLAYBACK play; 0 at first. It may go any way.
+ */
+SUPPLE_API SuppleResult suppleSetTime(SuppleContext context, SuppleGroup group, double seconds);
+
+/** A mask for the layers of a group's instances. */
+typedef struct SuppleMaskDesc {
+    uint32_t structSize;
+    uint32_t mask;          /**< its number, 1..SUPPLE_MAX_MASKS */
+    const float* jointMask; /**< as in SuppleClipLayer, and so the next; not both null */
+    const float* morphMask;
+    uint32_t jointMaskCount;
+    uint32_t morphMaskCount;
+} SuppleMaskDesc;
+/** Sets one of the masks of a group with SUPPLE_POSES_PLAYBACK, before layers name it; layers that name it already
+ * follow.
+ */
+SUPPLE_API SuppleResult suppleSetMask(SuppleContext context, SuppleGroup group, const SuppleMaskDesc* mask);
 
 /* ---------------------------------------------------------------------------------------------------- frame */
 
@@ -818,9 +889,10 @@ typedef struct SuppleGroupOutput {
      * has draws no instances. */
     const SuppleLodDraw* lodDraws;
     uint32_t lodDrawCount;
-    SuppleBufferView lodBuckets; /**< per draw four uint32: first entry of lodPatches, first surface vertex, patches, - */
-    SuppleBufferView lodPatches; /**< per patch 64 bytes: uint32 patch (0xFFFFFFFF: none), slot in the low 28 bits, first
-                                  * surface vertex, - ; then levels (docs/lod.md) */
+    SuppleBufferView
+        lodBuckets; /**< per draw four uint32: first entry of lodPatches, first surface vertex, patches, - */
+    SuppleBufferView lodPatches; /**< per patch 64 bytes: uint32 patch (0xFFFFFFFF: none), slot in the low 28 bits,
+                                  * first surface vertex, - ; then levels (docs/lod.md) */
 } SuppleGroupOutput;
 
 /** Fills out: where a group's buffers are. Needs no frame; the buffers are filled by suppleRecord. */
@@ -860,9 +932,8 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
-    const char*
-        pass; /**< static: upload, attributes, deform, vertex, edge (P_m: its facets), patch, evaluate, motion; groups of a
-               * view also level, solve (once a view), place */
+    const char* pass;  /**< static: upload, attributes, pose, deform, vertex, edge (P_m: its facets), patch, evaluate,
+                        * motion; groups of a  view also level, solve (once a view), place */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */

@@ -176,6 +176,19 @@ public:
     [[nodiscard]] SuppleGroup handle() const { return handle_; }
     [[nodiscard]] SuppleContext context() const { return context_; }
     [[nodiscard]] SuppleResult setRate(uint32_t rate) const { return suppleSetRate(context_, handle_, rate); }
+    /// By which its instances play (SUPPLE_POSES_PLAYBACK).
+    [[nodiscard]] SuppleResult setTime(double seconds) const { return suppleSetTime(context_, handle_, seconds); }
+    /// Empty: none of the kind.
+    [[nodiscard]] SuppleResult setMask(uint32_t mask, std::span<const float> joints,
+                                       std::span<const float> morphs = {}) const {
+        SuppleMaskDesc desc = sized<SuppleMaskDesc>();
+        desc.mask = mask;
+        desc.jointMask = joints.empty() ? nullptr : joints.data();
+        desc.jointMaskCount = static_cast<uint32_t>(joints.size());
+        desc.morphMask = morphs.empty() ? nullptr : morphs.data();
+        desc.morphMaskCount = static_cast<uint32_t>(morphs.size());
+        return suppleSetMask(context_, handle_, &desc);
+    }
     [[nodiscard]] SuppleResult output(SuppleGroupOutput& out) const {
         out = sized<SuppleGroupOutput>();
         return suppleGetGroupOutput(context_, handle_, &out);
@@ -280,6 +293,17 @@ public:
         pose.layers = layers.data();
         pose.layerCount = static_cast<uint32_t>(layers.size());
         return suppleSetPose(context_, handle_, &pose);
+    }
+    /// From now on, on the device (SUPPLE_POSES_PLAYBACK).
+    [[nodiscard]] SuppleResult setPlayback(const SupplePlaybackDesc& playback) const {
+        return suppleSetPlayback(context_, handle_, &playback);
+    }
+    /// Plain layers without root motion.
+    [[nodiscard]] SuppleResult setPlayback(std::span<const SupplePlaybackLayer> layers) const {
+        SupplePlaybackDesc playback = sized<SupplePlaybackDesc>();
+        playback.layers = layers.data();
+        playback.layerCount = static_cast<uint32_t>(layers.size());
+        return suppleSetPlayback(context_, handle_, &playback);
     }
     /// Empty: the poses' own again.
     [[nodiscard]] SuppleResult setMorphWeights(std::span<const float> weights) const {

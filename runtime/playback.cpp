@@ -1,0 +1,278 @@
+#include "runtime/playback.h"
+
+#include "skinning/split_time.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace supple::runtime {
+
+namespace {
+
+using namespace supple::shared;
+
+constexpr VkDeviceSize kElementBytes = 16;
+/// Elements: descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits).
+constexpr uint32_t kPadding = 16;
+constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kUint4 = VK_FORMAT_R32G32B32A32_UINT;
+
+uint32_t padded(uint32_t elements) {
+    return (elements + kPadding - 1) / kPadding * kPadding;
+}
+
+uint32_t stateStride(const skinning::PoseLayout& layout) {
+    return padded(skinning::PlaybackState::elements(layout.morphCount));
+}
+
+uint32_t scratchStride(const skinning::ClipTable& table) {
+    return padded(kAffineElements * (static_cast<uint32_t>(table.nodes.size()) + 1));
+}
+
+} // namespace
+
+VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout) {
+    return std::max(stateStride(layout), scratchStride(asset.clipTable)) * kElementBytes;
+}
+
+Result<Playback> Playback::create(const Desc& desc) {
+    const skinning::ClipTable& table = desc.asset->clipTable;
+    Playback playback;
+    playback.device_ = desc.device;
+    playback.pass_ = desc.pass;
+    playback.asset_ = desc.asset;
+    playback.capacity_ = desc.capacity;
+    playback.windowSize_ = desc.windowSize;
+    playback.framesInFlight_ = desc.framesInFlight;
+    PosePush& push = playback.push_;
+    push.nodeCount = static_cast<uint32_t>(table.nodes.size());
+    push.jointCount = table.jointCount;
+    push.morphCount = desc.layout.morphCount;
+    push.joints = table.joints;
+    push.levels = table.levels;
+    push.levelCount = table.levelCount;
+    push.restWeights = table.restWeights;
+    push.clips = table.clips;
+    push.stateStride = stateStride(desc.layout);
+    push.maskStride = skinning::maskElements(table);
+    push.scratchStride = scratchStride(table);
+    push.poseStride = desc.layout.stride;
+    push.morphWeights = desc.layout.morphWeights;
+    playback.mode_ = desc.layout.mode;
+
+    playback.states_.resize(size_t{desc.capacity} * push.stateStride * 4);
+    playback.masks_.assign(size_t{kMaxMasks} * push.maskStride * 4, 1.0f);
+    playback.changed_.resize(desc.capacity, false);
+    playback.changedSlots_.reserve(desc.capacity);
+    playback.uploadedSlots_.reserve(desc.capacity);
+    playback.regions_.reserve(size_t{desc.capacity} / 2 + 1); // runs of slots with others between
+    Status status = playback.createBuffers(desc);
+    if (status) {
+        status = playback.createSets(desc);
+    }
+    if (!status) {
+        return status.error();
+    }
+    return playback;
+}
+
+Status Playback::createBuffers(const Desc& desc) {
+    constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    constexpr VkBufferUsageFlags kTexels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkDeviceSize maskBytes = masks_.size() * sizeof(float);
+    std::vector<gpu::BufferRequest> requests(kBufferCount);
+    requests[kStates] = {"supple playback", capacity_ * stateBytes(), kStorage | kTexels | kCopied};
+    requests[kMasks] = {"supple masks", maskBytes, kStorage | kTexels | kCopied};
+    requests[kScratch] = {"supple node matrices", capacity_ * push_.scratchStride * kElementBytes, kStorage | kTexels};
+    Result<gpu::BufferSet> buffers = gpu::BufferSet::create(*desc.device, requests, gpu::MemoryKind::deviceLocal);
+    if (!buffers) {
+        return buffers.error();
+    }
+    buffers_ = std::move(*buffers);
+    std::vector<gpu::BufferRequest> staging(kStagingCount);
+    staging[kStateStaging] = {"supple playback staging", capacity_ * stateBytes() * framesInFlight_,
+                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+    staging[kMaskStaging] = {"supple mask staging", maskBytes * framesInFlight_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+    Result<gpu::BufferSet> stagingSet = gpu::BufferSet::create(*desc.device, staging, gpu::MemoryKind::upload);
+    if (!stagingSet) {
+        return stagingSet.error();
+    }
+    staging_ = std::move(*stagingSet);
+    return success();
+}
+
+Status Playback::createSets(const Desc& desc) {
+    const gpu::Device& device = *desc.device;
+    const uint32_t windows = (capacity_ + windowSize_ - 1) / windowSize_;
+    Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(device, pass_->layout(), windows, "supple pose");
+    if (!pool) {
+        return pool.error();
+    }
+    pool_ = std::move(*pool);
+    Status status = success();
+    const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
+        VkBufferView created = VK_NULL_HANDLE;
+        if (status) {
+            Result<gpu::BufferViewHandle> result = gpu::createTexelView(device, buffer, format, offset, size, name);
+            if (result) {
+                created = result->get();
+                views_.push_back(std::move(*result));
+            } else {
+                status = result.error();
+            }
+        }
+        return created;
+    };
+    const VkBuffer table = asset_->clips.buffer(0), masks = buffers_.buffer(kMasks);
+    const VkDeviceSize tableBytes = asset_->clips.size(0), maskBytes = buffers_.size(kMasks);
+    const VkBufferView tableView = view(table, kUint4, 0, tableBytes, "supple clips");
+    const VkBufferView maskView = view(masks, kFloat4, 0, maskBytes, "supple masks");
+    const VkBufferView instanceView =
+        view(desc.instances, VK_FORMAT_R32_UINT, 0, desc.instanceBytes, "supple instances");
+    const VkDeviceSize poseBytes = push_.poseStride * kElementBytes, scratchBytes = push_.scratchStride * kElementBytes;
+    for (uint32_t w = 0; w < windows && status; ++w) {
+        const Result<VkDescriptorSet> set = gpu::allocateSet(device, pass_->layout(), pool_.get(), "supple pose");
+        if (!set) {
+            return set.error();
+        }
+        sets_.push_back(*set);
+        const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
+        const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
+        const auto range = [&](VkBuffer buffer, VkDeviceSize bytes) {
+            return VkDescriptorBufferInfo{buffer, first * bytes, count * bytes};
+        };
+        const VkBuffer states = buffers_.buffer(kStates), scratch = buffers_.buffer(kScratch);
+        const gpu::BoundResource resources[] = {
+            {kClipTableBinding, {table, 0, tableBytes}, VK_NULL_HANDLE},
+            {kClipTableTexelBinding, {}, tableView},
+            {kStateBinding, range(states, stateBytes()), VK_NULL_HANDLE},
+            {kStateTexelBinding,
+             {},
+             view(states, kUint4, first * stateBytes(), count * stateBytes(), "supple playback")},
+            {kMaskBinding, {masks, 0, maskBytes}, VK_NULL_HANDLE},
+            {kMaskTexelBinding, {}, maskView},
+            {kScratchPoseBinding, range(scratch, scratchBytes), VK_NULL_HANDLE},
+            {kScratchPoseTexelBinding,
+             {},
+             view(scratch, kFloat4, first * scratchBytes, count * scratchBytes, "supple node matrices")},
+            {kPosedBinding, range(desc.poses, poseBytes), VK_NULL_HANDLE},
+            {kInstanceBinding, {desc.instances, 0, desc.instanceBytes}, VK_NULL_HANDLE},
+            {kInstanceTexelBinding, {}, instanceView},
+        };
+        if (status) {
+            gpu::writeSet(device, *set, resources);
+        }
+    }
+    return status;
+}
+
+skinning::PlaybackState Playback::state(uint32_t slot) {
+    const size_t words = size_t{push_.stateStride} * 4;
+    return skinning::PlaybackState(std::span(states_).subspan(slot * words, words));
+}
+
+void Playback::markChanged(uint32_t slot) {
+    if (!changed_[slot]) {
+        changed_[slot] = true;
+        changedSlots_.push_back(slot);
+    }
+}
+
+void Playback::reset(uint32_t slot) {
+    skinning::PlaybackState own = state(slot);
+    own.setMorphWeights(nullptr, 0);
+    own.setBindPose();
+    own.setTransform(glm::mat4(1.0f));
+    markChanged(slot);
+}
+
+void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
+    state(slot).set(asset_->character, asset_->clipTable, desc);
+    features_.roots = features_.roots || desc.root.axes != 0;
+    for (const skinning::PlaybackLayer& layer : desc.layers) {
+        features_.adds = features_.adds || layer.mode == skinning::LayerMode::additive;
+    }
+    markChanged(slot);
+}
+
+void Playback::setTransform(uint32_t slot, const glm::mat4& transform) {
+    state(slot).setTransform(transform);
+    markChanged(slot);
+}
+
+void Playback::setMorphWeights(uint32_t slot, const float* weights) {
+    state(slot).setMorphWeights(weights, push_.morphCount);
+    markChanged(slot);
+}
+
+void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs) {
+    const size_t values = size_t{push_.maskStride} * 4;
+    skinning::writeMask(asset_->clipTable, asset_->rig, joints, morphs,
+                        std::span(masks_).subspan((mask - 1) * values, values));
+    masksSet_[mask - 1] = true;
+    masksChanged_ = true;
+}
+
+VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
+    VkDeviceSize bytes = 0;
+    const VkDeviceSize run = frame % framesInFlight_;
+    if (!changedSlots_.empty()) {
+        // Packed in the order of slots: a region of the copy for every run of neighbors.
+        std::ranges::sort(changedSlots_);
+        regions_.clear();
+        const VkDeviceSize size = stateBytes(), first = run * capacity_ * size;
+        VkDeviceSize from = first;
+        for (const uint32_t slot : changedSlots_) {
+            std::memcpy(staging_.mapped(kStateStaging) + from, states_.data() + slot * size / sizeof(uint32_t), size);
+            const VkDeviceSize to = slot * size;
+            if (!regions_.empty() && regions_.back().dstOffset + regions_.back().size == to) {
+                regions_.back().size += size;
+            } else {
+                regions_.push_back({from, to, size});
+            }
+            from += size;
+            changed_[slot] = false;
+        }
+        device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(kStateStaging), buffers_.buffer(kStates),
+                                  static_cast<uint32_t>(regions_.size()), regions_.data());
+        bytes += from - first;
+        std::swap(uploadedSlots_, changedSlots_);
+        changedSlots_.clear();
+        uploadFrame_ = frame;
+    }
+    if (masksChanged_) {
+        const VkDeviceSize size = buffers_.size(kMasks);
+        std::memcpy(staging_.mapped(kMaskStaging) + run * size, masks_.data(), size);
+        const VkBufferCopy region{run * size, 0, size};
+        device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(kMaskStaging), buffers_.buffer(kMasks), 1, &region);
+        bytes += size;
+        masksChanged_ = false;
+        masksFrame_ = frame;
+    }
+    return bytes;
+}
+
+void Playback::cancelUpload(uint64_t frame) {
+    if (uploadFrame_ == frame) {
+        for (const uint32_t slot : uploadedSlots_) {
+            markChanged(slot);
+        }
+    }
+    masksChanged_ = masksChanged_ || masksFrame_ == frame;
+}
+
+void Playback::record(VkCommandBuffer commandBuffer, Half half, uint32_t window, uint32_t first, uint32_t count) const {
+    PosePush push = push_;
+    const skinning::SplitTime time = skinning::splitTime(time_);
+    push.timeHigh = time.high;
+    push.timeLow = time.low;
+    push.firstInstance = first;
+    push.instanceCount = count;
+    if (half == Half::locals) {
+        pass_->recordLocals(commandBuffer, sets_[window], features_, push);
+    } else {
+        pass_->recordPalette(commandBuffer, sets_[window], mode_, push);
+    }
+}
+
+} // namespace supple::runtime

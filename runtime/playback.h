@@ -1,0 +1,100 @@
+// What a group's instances play on the device: their states, uploaded when they change, and the group's share of the
+// pose pass.
+#pragma once
+
+#include "base/result.h"
+#include "gpu/memory.h"
+#include "runtime/asset.h"
+#include "skinning/deform_pass.h"
+#include "skinning/playback.h"
+#include "skinning/pose_pass.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace supple::runtime {
+
+/// Setting and recording allocate nothing. A frame without anything set uploads nothing and costs the same for any
+/// number of instances.
+class Playback {
+public:
+    struct Desc {
+        const gpu::Device* device = nullptr;
+        const skinning::PosePass* pass = nullptr;
+        Asset* asset = nullptr; ///< with its clip table; must outlive this
+        skinning::PoseLayout layout;
+        uint32_t capacity = 0;
+        uint32_t windowSize = 0; ///< instances that one descriptor set reaches
+        uint32_t framesInFlight = 2;
+        VkBuffer poses = VK_NULL_HANDLE;     ///< written
+        VkBuffer instances = VK_NULL_HANDLE; ///< the lists of instances
+        VkDeviceSize instanceBytes = 0;
+    };
+    Playback() = default;
+    [[nodiscard]] static Result<Playback> create(const Desc& desc);
+    /// The most that an instance takes of a buffer that is bound by windows; a multiple of every descriptor alignment.
+    [[nodiscard]] static VkDeviceSize windowBytes(const Asset& asset, const skinning::PoseLayout& layout);
+
+    void reset(uint32_t slot); ///< bind pose, no morph weights of the host's, identity transform
+    void set(uint32_t slot, const skinning::PlaybackDesc& desc);
+    void setTransform(uint32_t slot, const glm::mat4& transform);
+    void setMorphWeights(uint32_t slot, const float* weights); ///< null: the clips' own again
+    void setTime(double seconds) { time_ = seconds; }
+
+    /// Masks are numbered from 1; a layer's mask must have been set.
+    void setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs);
+    [[nodiscard]] bool hasMask(uint32_t mask) const { return masksSet_[mask - 1]; }
+
+    /// What has changed since it was recorded last; the bytes of it.
+    VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
+    /// The command buffers of `frame` will never run: what was recorded in it is due again.
+    void cancelUpload(uint64_t frame);
+
+    /// The pass over `count` instances of a window, whose entries of the list begin at `first`.
+    enum class Half { locals, palette };
+    void record(VkCommandBuffer commandBuffer, Half half, uint32_t window, uint32_t first, uint32_t count) const;
+
+    [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes(); }
+
+private:
+    enum BufferIndex : size_t { kStates, kMasks, kScratch, kBufferCount };
+    enum StagingIndex : size_t { kStateStaging, kMaskStaging, kStagingCount };
+
+    Status createBuffers(const Desc& desc);
+    Status createSets(const Desc& desc);
+    [[nodiscard]] VkDeviceSize stateBytes() const { return VkDeviceSize{push_.stateStride} * 16; }
+    [[nodiscard]] skinning::PlaybackState state(uint32_t slot);
+    void markChanged(uint32_t slot);
+
+    const gpu::Device* device_ = nullptr;
+    const skinning::PosePass* pass_ = nullptr;
+    Asset* asset_ = nullptr;
+    uint32_t capacity_ = 0, windowSize_ = 0, framesInFlight_ = 2;
+    double time_ = 0.0;
+    skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
+    skinning::PosePass::Features features_; ///< what some instance has ever been set to play
+    shared::PosePush push_{};               ///< but for the time and the instances
+
+    // As it shall be on the device.
+    std::vector<uint32_t> states_;
+    std::vector<float> masks_;
+    std::array<bool, shared::kMaxMasks> masksSet_{};
+
+    std::vector<bool> changed_;           ///< by slot
+    std::vector<uint32_t> changedSlots_;  ///< those, in any order
+    std::vector<uint32_t> uploadedSlots_; ///< of uploadFrame_
+    std::vector<VkBufferCopy> regions_;   ///< memory of recordUpload
+    bool masksChanged_ = true;
+    uint64_t uploadFrame_ = 0, masksFrame_ = 0; ///< that last recorded an upload
+
+    gpu::BufferSet buffers_, staging_;
+    std::vector<gpu::BufferViewHandle> views_;
+    gpu::DescriptorPoolHandle pool_;
+    std::vector<VkDescriptorSet> sets_; ///< by window
+};
+
+} // namespace supple::runtime

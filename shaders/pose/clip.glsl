@@ -1,0 +1,123 @@
+// Sampling a clip, node by node: the keys of a channel, STEP, LINEAR and CUBICSPLINE as glTF has them, clamped outside.
+
+// Where a time falls among a channel's keys: at key `key`, or at fraction `t` of the `seconds` from it to the next one.
+struct KeySpan {
+    uint key;
+    float t;
+    float seconds; // 0: the key's own value
+};
+KeySpan keysAt(uvec4 channel, vec2 time) {
+    // The first key later than the time; a key's own time gives its value as it is. Most clips have keys at even times, so
+    // that the first guess is right and nothing is left to search; what is left has the key between `low` and `high`.
+    uint keys = channel.x >> 2u, low = 0u, high = keys;
+    if (keys > 1u) {
+        uint guess = uint(clamp(time.x * uintBitsToFloat(channel.y), 0.0, float(keys - 2u)));
+        bool before = earlier(time, vec2(packedFloat(channel.z, guess), 0.0));
+        bool within = earlier(time, vec2(packedFloat(channel.z, guess + 1u), 0.0));
+        low = before ? 0u : within ? guess + 1u : guess + 2u;
+        high = before ? guess : within ? guess + 1u : keys;
+    }
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (earlier(time, vec2(packedFloat(channel.z, middle), 0.0))) {
+            high = middle;
+        } else {
+            low = middle + 1u;
+        }
+    }
+    KeySpan span;
+    span.key = max(low, 1u) - 1u;
+    span.t = 0.0;
+    span.seconds = 0.0;
+    if (low > 0u && low < keys && (channel.x & 3u) != kStepKeys) {
+        float begin = packedFloat(channel.z, span.key), end = packedFloat(channel.z, low);
+        precise float seconds = end - begin;
+        precise float passed = (time.x - begin) + time.y;
+        precise float t = passed / seconds;
+        if (passed > 0.0) {
+            span.t = t;
+            span.seconds = seconds;
+        }
+    }
+    return span;
+}
+
+// Hermite's weights of a key, its tangent on leaving, the next key and its tangent on arriving.
+vec4 splineWeights(KeySpan span) {
+    precise float t = span.t, t2 = t * t, t3 = t2 * t;
+    precise vec4 weights = vec4((2.0 * t3 - 3.0 * t2) + 1.0, span.seconds * ((t3 - 2.0 * t2) + t), 3.0 * t2 - 2.0 * t3,
+                                span.seconds * (t3 - t2));
+    return weights;
+}
+
+vec4 channelAt(uint record, vec2 time, bool turns) {
+    uvec4 channel = table(record);
+    KeySpan span = keysAt(channel, time);
+    bool cubic = (channel.x & 3u) == kCubicKeys;
+    uint own = channel.w + (cubic ? 3u * span.key + 1u : span.key);
+    uint next = own + (cubic ? 3u : 1u);
+    precise vec4 value = tableFloats(own);
+    if (span.seconds > 0.0) {
+        vec4 other = tableFloats(next);
+        if (cubic) {
+            vec4 w = splineWeights(span);
+            value = (value * w.x + tableFloats(own + 1u) * w.y) + (other * w.z + tableFloats(next - 1u) * w.w);
+        } else if (turns) {
+            value = slerp(value, other, span.t);
+        } else {
+            value = value + (other - value) * span.t;
+        }
+    }
+    return value;
+}
+
+uint parentOf(uint node) { return table(kNodeElements * node).x; }
+bool isFixed(uint node) { return table(kNodeElements * node).y != 0u; }
+
+Transform restTransform(uint node) {
+    uint first = kNodeElements * node;
+    return Transform(tableFloats(first + 1u).xyz, tableFloats(first + 2u), tableFloats(first + 3u).xyz);
+}
+
+Transform clipTransform(uint clip, vec2 time, uint node) {
+    uvec4 channels = table(table(push.clips + clip).x + node);
+    precise Transform t = restTransform(node);
+    if (channels.x != 0u) t.translation = channelAt(channels.x, time, false).xyz;
+    if (channels.y != 0u) t.rotation = channelAt(channels.y, time, true);
+    if (channels.z != 0u) t.scale = channelAt(channels.z, time, false).xyz;
+    return t;
+}
+
+Affine localMatrix(uint node, Transform t) {
+    precise Affine m = composed(t);
+    if (isFixed(node)) {
+        uint first = kNodeElements * node;
+        m = Affine(tableFloats(first + 1u), tableFloats(first + 2u), tableFloats(first + 3u));
+    }
+    return m;
+}
+
+float clipMorphWeight(uint clip, vec2 time, uint target) {
+    uint record = table(push.clips + clip).y;
+    precise float weight = packedFloat(push.restWeights, target);
+    if (record != 0u) {
+        uvec4 channel = table(record);
+        KeySpan span = keysAt(channel, time);
+        bool cubic = (channel.x & 3u) == kCubicKeys;
+        uint stride = push.morphCount;
+        uint own = (cubic ? 3u * span.key + 1u : span.key) * stride + target;
+        uint next = own + (cubic ? 3u : 1u) * stride;
+        weight = packedFloat(channel.w, own);
+        if (span.seconds > 0.0) {
+            float other = packedFloat(channel.w, next);
+            if (cubic) {
+                vec4 w = splineWeights(span);
+                weight = (weight * w.x + packedFloat(channel.w, own + stride) * w.y) +
+                         (other * w.z + packedFloat(channel.w, next - stride) * w.w);
+            } else {
+                weight = weight + (other - weight) * span.t;
+            }
+        }
+    }
+    return weight;
+}

@@ -1,0 +1,156 @@
+// What an instance plays: its layers at the group's time, applied in order to the rest pose; as skinning/layers.h has it.
+
+struct Layer {
+    uint first; // state element
+    uint clip;
+    uint flags;
+    uint mask;
+    float weight;
+    vec2 time; // runs on
+};
+
+Layer layerAt(uint first) {
+    uvec4 ids = state(first);
+    vec4 begin = stateFloats(first + 1u), course = stateFloats(first + 2u);
+    vec2 now = vec2(push.timeHigh, push.timeLow);
+    precise Layer layer;
+    layer.first = first;
+    layer.clip = ids.x;
+    layer.flags = ids.y;
+    layer.mask = ids.z;
+    layer.time = timeSum(begin.zw, timeProduct(timeSum(now, -begin.xy), course.x));
+    layer.weight = course.y;
+    if (course.w > 0.0) {
+        vec2 since = timeSum(now, -stateFloats(first + 3u).xy);
+        precise float faded = since.x / course.w;
+        precise float weight = course.y + (course.z - course.y) * faded;
+        layer.weight = faded <= 0.0 ? course.y : faded >= 1.0 ? course.z : weight;
+    }
+    return layer;
+}
+
+vec2 clipDuration(uint clip) { return tableFloats(push.clips + clip).zw; }
+
+vec2 clipTime(Layer layer, vec2 time) {
+    vec2 result = time;
+    if ((layer.flags & kLayerLoops) != 0u) result = loopTime(time, clipDuration(layer.clip)).time;
+    return result;
+}
+vec2 referenceTime(Layer layer) { return stateFloats(layer.first + 3u).zw; }
+
+// A weight of the layer's mask: of a node, or behind the nodes of a morph target.
+float masked(Layer layer, uint element, uint i) {
+    precise float weight = layer.weight;
+    if (layer.mask != 0u) {
+        weight = weight * component(maskValues((layer.mask - 1u) * push.maskStride + element + i / 4u), i & 3u);
+    }
+    return weight;
+}
+
+// The layer's clip at a time of the clip, with the movement of the root taken out.
+Transform layerTransform(uvec4 header, Layer layer, vec2 time, uint node) {
+    precise Transform t = clipTransform(layer.clip, time, node);
+    if (kRoots && header.w != 0u && node == header.z) {
+        RootFrame now = rootFrame(layer.clip, time, node, t);
+        Motion motion =
+            motionSince(stateFloats(layer.first + 4u).xyz, stateFloats(layer.first + 5u), now, header.w);
+        t = stayingRoot(now, motion, t, header.w);
+    }
+    return t;
+}
+
+Transform blended(Transform pose, Transform to, float weight) {
+    precise Transform t = to;
+    if (weight != 1.0) {
+        t.translation = pose.translation + (to.translation - pose.translation) * weight;
+        t.rotation = slerp(unit(pose.rotation), unit(to.rotation), weight);
+        t.scale = pose.scale + (to.scale - pose.scale) * weight;
+    }
+    return t;
+}
+
+float scaledBy(float scale, float to, float reference, float weight) {
+    precise float result = scale;
+    if (reference != 0.0) result = scale * (1.0 + weight * (to / reference - 1.0)); // of nothing, no factor makes something
+    return result;
+}
+Transform added(Transform pose, Transform to, Transform reference, float weight) {
+    precise Transform t;
+    t.translation = pose.translation + (to.translation - reference.translation) * weight;
+    t.rotation = pose.rotation;
+    if (to.rotation != reference.rotation) {
+        vec4 difference = turned(conjugated(unit(reference.rotation)), unit(to.rotation));
+        t.rotation = turned(unit(pose.rotation), slerp(vec4(0.0, 0.0, 0.0, 1.0), difference, weight));
+    }
+    t.scale = vec3(scaledBy(pose.scale.x, to.scale.x, reference.scale.x, weight),
+                   scaledBy(pose.scale.y, to.scale.y, reference.scale.y, weight),
+                   scaledBy(pose.scale.z, to.scale.z, reference.scale.z, weight));
+    return t;
+}
+
+Transform posedTransform(uint first, uint node) {
+    uvec4 header = state(first);
+    precise Transform pose = restTransform(node);
+    for (uint i = 0u; i < header.x; ++i) {
+        Layer layer = layerAt(first + kStateElements + i * kLayerElements);
+        float weight = masked(layer, 0u, node);
+        if (weight != 0.0) {
+            Transform to = layerTransform(header, layer, clipTime(layer, layer.time), node);
+            if (kAdds && (layer.flags & kLayerAdds) != 0u) {
+                Transform reference = layerTransform(header, layer, clipTime(layer, referenceTime(layer)), node);
+                pose = added(pose, to, reference, weight);
+            } else {
+                pose = blended(pose, to, weight);
+            }
+        }
+    }
+    return pose;
+}
+
+float posedMorphWeight(uint first, uint target) {
+    uvec4 header = state(first);
+    precise float pose = packedFloat(push.restWeights, target);
+    for (uint i = 0u; i < header.x; ++i) {
+        Layer layer = layerAt(first + kStateElements + i * kLayerElements);
+        float weight = masked(layer, (push.nodeCount + 3u) / 4u, target);
+        if (weight != 0.0) {
+            float to = clipMorphWeight(layer.clip, clipTime(layer, layer.time), target);
+            if (kAdds && (layer.flags & kLayerAdds) != 0u) {
+                float from = clipMorphWeight(layer.clip, clipTime(layer, referenceTime(layer)), target);
+                pose = pose + (to - from) * weight;
+            } else if (weight == 1.0) {
+                pose = to;
+            } else {
+                pose = pose + (to - pose) * weight;
+            }
+        }
+    }
+    return pose;
+}
+
+// The instance's transform, with what the first layer's root has travelled before it.
+Affine placement(uint first) {
+    uvec4 header = state(first);
+    precise Affine placed = Affine(stateFloats(first + 1u), stateFloats(first + 2u), stateFloats(first + 3u));
+    if (kRoots && (header.y & kStateTravels) != 0u) {
+        Layer layer = layerAt(first + kStateElements);
+        vec4 before = stateFloats(first + 4u), turns = stateFloats(first + 5u), center = stateFloats(first + 6u);
+        vec2 time = layer.time;
+        precise float loops = 0.0;
+        if ((layer.flags & kLayerLoops) != 0u) {
+            LoopTime looped = loopTime(layer.time, clipDuration(layer.clip));
+            time = looped.time;
+            loops = looped.loops - before.w;
+        }
+        RootFrame now = rootFrame(layer.clip, time, header.z, clipTransform(layer.clip, time, header.z));
+        precise Motion motion =
+            motionSince(stateFloats(layer.first + 4u).xyz, stateFloats(layer.first + 5u), now, header.w);
+        motion = combinedMotion(loopsMotion(loops, turns.zw, center), motion);
+        motion = combinedMotion(Motion(before.xyz, turns.xy), motion);
+        vec3 x = turnedAboutY(motion.halfTurn, vec3(1.0, 0.0, 0.0)), z = turnedAboutY(motion.halfTurn, vec3(0.0, 0.0, 1.0));
+        placed = combined(placed, Affine(vec4(x.x, 0.0, z.x, motion.translation.x),
+                                         vec4(0.0, 1.0, 0.0, motion.translation.y),
+                                         vec4(x.z, 0.0, z.z, motion.translation.z)));
+    }
+    return placed;
+}

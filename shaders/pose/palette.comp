@@ -1,0 +1,115 @@
+// Pose pass, second half: parents before children, then the joint palette. Narrow: one lane an instance. Wide: one
+// workgroup an instance, a level of the hierarchy at a time, the matrices in shared memory where they fit.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/pose/tables.glsl"
+#include "shaders/pose/rotation.glsl"
+#include "shaders/pose/affine.glsl"
+
+layout(constant_id = 4) const bool kDualQuaternions = false; // the pose has their layout
+layout(constant_id = 3) const uint kSharedRows = 1u; // 3 * kSharedNodes with the wide mapping
+
+layout(set = 0, binding = kScratchPoseBinding, std430) coherent buffer Scratch { vec4 scratch[]; };
+layout(set = 0, binding = kScratchPoseTexelBinding) uniform samplerBuffer scratchTexels;
+
+shared vec4 sharedRows[kSharedRows];
+
+vec4 localRow(uint i) {
+    if (kWide) return scratch[i];
+    return texelFetch(scratchTexels, int(i));
+}
+Affine localAt(uint i) { return Affine(localRow(i), localRow(i + 1u), localRow(i + 2u)); }
+
+bool shares() { return kWide && push.nodeCount <= kSharedNodes; }
+
+Affine globalAt(uint matrices, uint node) {
+    uint i = kAffineElements * node;
+    Affine m;
+    if (shares()) {
+        m = Affine(sharedRows[i], sharedRows[i + 1u], sharedRows[i + 2u]);
+    } else {
+        i += matrices;
+        m = Affine(scratch[i], scratch[i + 1u], scratch[i + 2u]);
+    }
+    return m;
+}
+void keepGlobal(uint matrices, uint node, Affine global) {
+    precise Affine m = global;
+    uint i = kAffineElements * node;
+    if (shares()) {
+        sharedRows[i] = m.x;
+        sharedRows[i + 1u] = m.y;
+        sharedRows[i + 2u] = m.z;
+    } else {
+        i += matrices;
+        scratch[i] = m.x;
+        scratch[i + 1u] = m.y;
+        scratch[i + 2u] = m.z;
+    }
+}
+
+Affine globalOf(uint matrices, uint node) {
+    uint parent = table(kNodeElements * node).x;
+    precise Affine global = localAt(matrices + kAffineElements * node);
+    if (parent != kNoNode) global = combined(globalAt(matrices, parent), global);
+    return global;
+}
+
+void storePosed(uint i, Affine m) {
+    precise Affine placed = m;
+    posed[i] = placed.x;
+    posed[i + 1u] = placed.y;
+    posed[i + 2u] = placed.z;
+}
+
+void storeJoint(uint joint, bool bindPose, uint matrices, uint pose, Affine place) {
+    precise Affine own = identity();
+    if (!bindPose) {
+        uint first = push.joints + kJointElements * joint;
+        uint node = table(first + 3u).x;
+        Affine inverseBind = Affine(tableFloats(first), tableFloats(first + 1u), tableFloats(first + 2u));
+        own = combined(globalAt(matrices, node), inverseBind);
+    }
+    if (kDualQuaternions) {
+        uint i = pose + kDualQuaternionTransform + kDualQuaternionElements * joint;
+        storePosed(i, own);
+        precise vec4 rotation = rotationOf(own);
+        posed[i + 3u] = rotation;
+    } else {
+        storePosed(pose + kLinearElements * joint, combined(place, own));
+    }
+}
+
+void main() {
+    uint id = kWide ? workgroupIndex() : invocationIndex();
+    bool within = id < push.instanceCount;
+    uint instance = instanceSlot(min(id, push.instanceCount - 1u));
+    uint matrices = instance * push.scratchStride, pose = instance * push.poseStride;
+    uint lane = kWide ? gl_LocalInvocationID.x : 0u, lanes = kWide ? gl_WorkGroupSize.x : 1u;
+    bool bindPose = (state(instance * push.stateStride).y & kStateBindPose) != 0u;
+    Affine place = localAt(matrices + kAffineElements * push.nodeCount);
+    // Matrices change in their places: lanes beyond the instances must not store.
+    if (kWide) {
+        for (uint level = 0u; level < push.levelCount; ++level) {
+            uvec4 nodes = table(push.levels + level);
+            for (uint node = nodes.x + lane; node < nodes.y; node += lanes) {
+                Affine global = globalOf(matrices, node);
+                if (within) keepGlobal(matrices, node, global);
+            }
+            memoryBarrierBuffer();
+            memoryBarrierShared();
+            barrier();
+        }
+    } else {
+        for (uint node = 0u; node < push.nodeCount; ++node) {
+            Affine global = globalOf(matrices, node);
+            if (within) keepGlobal(matrices, node, global);
+        }
+    }
+    if (within) {
+        if (kDualQuaternions && lane == 0u) storePosed(pose, place);
+        for (uint joint = lane; joint < push.jointCount; joint += lanes) {
+            storeJoint(joint, bindPose, matrices, pose, place);
+        }
+    }
+}

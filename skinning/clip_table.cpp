@@ -1,0 +1,187 @@
+#include "skinning/clip_table.h"
+
+#include "shaders/shared/pose.h"
+#include "skinning/pose.h"
+#include "skinning/split_time.h"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <numeric>
+#include <span>
+
+namespace supple::skinning {
+namespace {
+
+using namespace shared;
+using cage::Channel;
+using cage::ChannelPath;
+
+uint32_t bits(float value) {
+    return std::bit_cast<uint32_t>(value);
+}
+
+uint32_t interpolationOf(const Channel& channel) {
+    switch (channel.interpolation) {
+    case cage::Interpolation::step:
+        return kStepKeys;
+    case cage::Interpolation::linear:
+        return kLinearKeys;
+    case cage::Interpolation::cubicSpline:
+        return kCubicKeys;
+    }
+    return kStepKeys;
+}
+
+/// Puts the table together, element by element.
+class Builder {
+public:
+    Builder(const cage::Character& character, ClipTable& table) : character_(character), table_(table) {}
+
+    void orderNodes() {
+        const cage::Skeleton& skeleton = character_.skeleton;
+        std::vector<bool> moves(skeleton.nodes.size(), false);
+        for (const uint32_t joint : character_.skin.joints) {
+            for (uint32_t node = joint; node != cage::kNone && !moves[node]; node = skeleton.nodes[node].parent) {
+                moves[node] = true;
+            }
+        }
+        std::vector<uint32_t> depths(skeleton.nodes.size(), 0);
+        for (const uint32_t node : skeleton.parentsFirst) {
+            const uint32_t parent = skeleton.nodes[node].parent;
+            depths[node] = parent == cage::kNone ? 0 : depths[parent] + 1;
+            if (moves[node]) {
+                table_.nodes.push_back(node);
+            }
+        }
+        std::ranges::stable_sort(table_.nodes, {}, [&](uint32_t node) { return depths[node]; });
+        table_.places.assign(skeleton.nodes.size(), cage::kNone);
+        for (uint32_t place = 0; place < table_.nodes.size(); ++place) {
+            table_.places[table_.nodes[place]] = place;
+            const uint32_t depth = depths[table_.nodes[place]];
+            levelEnds_.resize(depth + 1);
+            levelEnds_[depth] = place + 1;
+        }
+    }
+
+    void putNodes() {
+        for (const uint32_t node : table_.nodes) {
+            const cage::Node& from = character_.skeleton.nodes[node];
+            put({from.parent == cage::kNone ? kNoNode : table_.places[from.parent], from.hasMatrix ? 1u : 0u, 0u, 0u});
+            if (from.hasMatrix) {
+                putRows(from.matrix);
+            } else {
+                const glm::vec3 &t = from.translation, &s = from.scale;
+                const glm::quat& q = from.rotation;
+                put({bits(t.x), bits(t.y), bits(t.z), 0u});
+                put({bits(q.x), bits(q.y), bits(q.z), bits(q.w)});
+                put({bits(s.x), bits(s.y), bits(s.z), 0u});
+            }
+        }
+    }
+
+    void putSkin() {
+        const cage::Skin& skin = character_.skin;
+        table_.jointCount = static_cast<uint32_t>(skin.joints.size());
+        table_.joints = next();
+        for (size_t j = 0; j < skin.joints.size(); ++j) {
+            putRows(skin.inverseBinds[j]);
+            put({table_.places[skin.joints[j]], 0u, 0u, 0u});
+        }
+        table_.levels = next();
+        table_.levelCount = static_cast<uint32_t>(levelEnds_.size());
+        uint32_t begin = 0;
+        for (const uint32_t end : levelEnds_) {
+            put({begin, end, 0u, 0u});
+            begin = end;
+        }
+        table_.targetCount = static_cast<uint32_t>(character_.morphs.targets.size());
+        table_.restWeights = putPacked(character_.morphs.weights);
+    }
+
+    void putClips() {
+        const std::vector<cage::Clip>& clips = character_.clips;
+        const size_t nodeCount = table_.nodes.size();
+        table_.clips = next();
+        const uint32_t clipNodes = table_.clips + static_cast<uint32_t>(clips.size());
+        table_.words.resize(table_.words.size() + 4 * clips.size() * (1 + nodeCount), 0u);
+        for (size_t c = 0; c < clips.size(); ++c) {
+            const uint32_t first = clipNodes + static_cast<uint32_t>(c * nodeCount);
+            const SplitTime duration = splitTime(clips[c].duration);
+            uint32_t weights = 0;
+            for (const Channel& channel : clips[c].channels) {
+                if (channel.path == ChannelPath::weights) {
+                    weights = putChannel(channel, static_cast<uint32_t>(table_.targetCount));
+                } else if (const uint32_t place = table_.places[channel.node]; place != cage::kNone) {
+                    // Of several channels for one property the last one counts, as in sampleClip.
+                    const uint32_t record = putChannel(channel, channel.path == ChannelPath::rotation ? 4 : 3);
+                    table_.words[4 * size_t{first + place} + static_cast<size_t>(channel.path)] = record;
+                }
+            }
+            const uint32_t clip[] = {first, weights, bits(duration.high), bits(duration.low)};
+            std::ranges::copy(clip, table_.words.begin() + static_cast<ptrdiff_t>(4 * (table_.clips + c)));
+        }
+    }
+
+private:
+    static_assert(static_cast<int>(ChannelPath::translation) == 0 && static_cast<int>(ChannelPath::rotation) == 1 &&
+                  static_cast<int>(ChannelPath::scale) == 2);
+
+    [[nodiscard]] uint32_t next() const { return static_cast<uint32_t>(table_.words.size() / 4); }
+    void put(const std::array<uint32_t, 4>& element) {
+        table_.words.insert(table_.words.end(), element.begin(), element.end());
+    }
+    void putRows(const glm::mat4& matrix) {
+        for (const glm::vec4& row : toAffine(matrix).rows) {
+            put({bits(row.x), bits(row.y), bits(row.z), bits(row.w)});
+        }
+    }
+    uint32_t putPacked(std::span<const float> values) {
+        const uint32_t first = next();
+        std::ranges::transform(values, std::back_inserter(table_.words), bits);
+        table_.words.resize((table_.words.size() + 3) / 4 * 4, 0u);
+        return first;
+    }
+    /// `width`: floats a value; four and three have an element each, others (morph weights) are packed.
+    uint32_t putChannel(const Channel& channel, uint32_t width) {
+        uint32_t& times = times_[channel.times];
+        if (times == 0) { // many channels have the same; no element 0 is one of them
+            times = putPacked(channel.times);
+        }
+        uint32_t values = 0;
+        if (channel.path == ChannelPath::weights) {
+            values = putPacked(channel.values);
+        } else {
+            values = next();
+            for (size_t i = 0; i < channel.values.size(); i += width) {
+                const float* v = &channel.values[i];
+                put({bits(v[0]), bits(v[1]), bits(v[2]), width == 4 ? bits(v[3]) : 0u});
+            }
+        }
+        const uint32_t record = next();
+        const auto keys = static_cast<uint32_t>(channel.times.size());
+        const float last = channel.times.back();
+        const float rate = keys > 1 && last > 0.0f ? static_cast<float>(keys - 1) / last : 0.0f;
+        put({4 * keys + interpolationOf(channel), bits(rate), times, values});
+        return record;
+    }
+
+    const cage::Character& character_;
+    ClipTable& table_;
+    std::vector<uint32_t> levelEnds_;
+    std::map<std::vector<float>, uint32_t> times_; ///< element of key times already put
+};
+
+} // namespace
+
+ClipTable buildClipTable(const cage::Character& character) {
+    ClipTable table;
+    Builder builder(character, table);
+    builder.orderNodes();
+    builder.putNodes();
+    builder.putSkin();
+    builder.putClips();
+    return table;
+}
+
+} // namespace supple::skinning

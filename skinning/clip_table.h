@@ -1,0 +1,26 @@
+// Skeleton and clips in the layout that the pose pass reads (shaders/shared/pose.h).
+#pragma once
+
+#include "cage/character.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace supple::skinning {
+
+/// Only nodes that move a joint are in the table, in an order of its own. Sections are given by their first element.
+struct ClipTable {
+    std::vector<uint32_t> words;  ///< four an element
+    std::vector<uint32_t> nodes;  ///< by place in the table: the node
+    std::vector<uint32_t> places; ///< by node: its place, or kNone
+    uint32_t jointCount = 0;
+    uint32_t targetCount = 0;
+    uint32_t joints = 0;
+    uint32_t levels = 0;
+    uint32_t levelCount = 0;
+    uint32_t restWeights = 0;
+    uint32_t clips = 0;
+};
+[[nodiscard]] ClipTable buildClipTable(const cage::Character& character);
+
+} // namespace supple::skinning

@@ -1,0 +1,150 @@
+#include "skinning/playback.h"
+
+#include "shaders/shared/pose.h"
+#include "skinning/pose.h"
+#include "skinning/split_time.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+namespace supple::skinning {
+namespace {
+
+using namespace shared;
+
+static_assert(uint32_t{kRootGround} == kGroundAxes && uint32_t{kRootHeight} == kHeightAxis &&
+              uint32_t{kRootYaw} == kYawAxis);
+
+constexpr double kTurn = 6.283185307179586;
+
+uint32_t bits(float value) {
+    return std::bit_cast<uint32_t>(value);
+}
+
+} // namespace
+
+Layer layerAt(const cage::Character& character, const PlaybackLayer& layer, double time) {
+    Layer result;
+    result.clip = &character.clips[layer.clip];
+    result.time = layer.offset + static_cast<double>(layer.speed) * (time - layer.start);
+    result.referenceTime = layer.referenceTime;
+    result.weight = static_cast<double>(layer.weight);
+    if (layer.fadeDuration > 0.0f) {
+        const double faded = (time - layer.fadeStart) / static_cast<double>(layer.fadeDuration);
+        const double from = result.weight, to = static_cast<double>(layer.fadeWeight);
+        result.weight = faded <= 0.0 ? from : faded >= 1.0 ? to : from + (to - from) * faded;
+    }
+    result.mode = layer.mode;
+    result.loop = layer.loop;
+    return result;
+}
+
+uint32_t PlaybackState::elements(uint32_t morphCount) {
+    return kStateElements + kMaxPlaybackLayers * kLayerElements + (morphCount + 3) / 4;
+}
+
+void PlaybackState::put(uint32_t element, float x, float y, float z, float w) {
+    const std::array<uint32_t, 4> values = {bits(x), bits(y), bits(z), bits(w)};
+    std::ranges::copy(values, words_.begin() + static_cast<ptrdiff_t>(4 * size_t{element}));
+}
+
+void PlaybackState::setBindPose() {
+    words_[0] = 0;
+    words_[1] = (words_[1] & kStateHostWeights) | kStateBindPose;
+    words_[2] = kNoNode;
+    words_[3] = 0;
+}
+
+void PlaybackState::set(const cage::Character& character, const ClipTable& table, const PlaybackDesc& desc) {
+    assert(desc.layers.size() <= kMaxPlaybackLayers);
+    const bool rooted = desc.root.axes != 0 && desc.root.node != cage::kNone;
+    const bool travels = desc.travels && rooted && !desc.layers.empty();
+    words_[0] = static_cast<uint32_t>(desc.layers.size());
+    words_[1] = (words_[1] & kStateHostWeights) | (travels ? kStateTravels : 0u);
+    words_[2] = rooted ? table.places[desc.root.node] : kNoNode;
+    words_[3] = rooted ? desc.root.axes : 0;
+    for (uint32_t i = 0; i < desc.layers.size(); ++i) {
+        const PlaybackLayer& layer = desc.layers[i];
+        const uint32_t first = kStateElements + i * kLayerElements;
+        const std::array<uint32_t, 4> ids = {
+            layer.clip, (layer.loop ? kLayerLoops : 0u) | (layer.mode == LayerMode::additive ? kLayerAdds : 0u),
+            layer.mask, 0u};
+        std::ranges::copy(ids, words_.begin() + static_cast<ptrdiff_t>(4 * size_t{first}));
+        const SplitTime start = splitTime(layer.start), offset = splitTime(layer.offset),
+                        fade = splitTime(layer.fadeStart), reference = splitTime(layer.referenceTime);
+        put(first + 1, start.high, start.low, offset.high, offset.low);
+        put(first + 2, layer.speed, layer.weight, layer.fadeWeight, layer.fadeDuration);
+        put(first + 3, fade.high, fade.low, reference.high, reference.low);
+        if (rooted) {
+            const RootPlace begin = rootPlaceAt(character, character.clips[layer.clip], desc.root.node, 0.0);
+            const glm::vec3 p(begin.position);
+            const glm::dquat& q = begin.rotation;
+            put(first + 4, p.x, p.y, p.z, 0.0f);
+            put(first + 5, static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z),
+                static_cast<float>(q.w));
+        }
+    }
+    if (travels) {
+        setTravel(character, desc.layers.front(), desc.root);
+    }
+}
+
+void PlaybackState::setTravel(const cage::Character& character, const PlaybackLayer& layer, const RootSelection& root) {
+    const cage::Clip& clip = character.clips[layer.clip];
+    const LoopTime begin = layer.loop ? loopTime(layer.offset, clip.duration) : LoopTime{layer.offset, 0.0};
+    const RootMotion back = inverse(rootMotionBetween(character, clip, root, 0.0, begin.time, false));
+    put(4, static_cast<float>(back.translation.x), static_cast<float>(back.translation.y),
+        static_cast<float>(back.translation.z), static_cast<float>(begin.loops));
+    const RootMotion loop = rootMotionBetween(character, clip, root, 0.0, clip.duration, false);
+    // What turns by less than this walks straight on for longer than floats count loops.
+    constexpr double kStraight = 1e-9;
+    const bool straight = std::abs(loop.yaw) < kStraight;
+    const SplitTime turns = splitTime(straight ? 0.0 : loop.yaw / (2.0 * kTurn));
+    put(5, static_cast<float>(std::sin(0.5 * back.yaw)), static_cast<float>(std::cos(0.5 * back.yaw)), turns.high,
+        turns.low);
+    glm::dvec3 center = loop.translation;
+    if (!straight) {
+        // The point on the ground that the loop turns about: c = R c + translation.
+        const double half = 0.5 * std::cos(0.5 * loop.yaw) / std::sin(0.5 * loop.yaw);
+        const double x = loop.translation.x, z = loop.translation.z;
+        center = {0.5 * x + half * z, loop.translation.y, 0.5 * z - half * x};
+    }
+    put(6, static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z),
+        straight ? 1.0f : 0.0f);
+}
+
+void PlaybackState::setTransform(const glm::mat4& transform) {
+    const Affine rows = toAffine(transform);
+    for (uint32_t row = 0; row < 3; ++row) {
+        const glm::vec4& r = rows.rows[row];
+        put(1 + row, r.x, r.y, r.z, r.w);
+    }
+}
+
+void PlaybackState::setMorphWeights(const float* weights, size_t count) {
+    words_[1] = (words_[1] & ~kStateHostWeights) | (weights != nullptr ? kStateHostWeights : 0u);
+    const size_t first = 4 * size_t{kStateElements + kMaxPlaybackLayers * kLayerElements};
+    for (size_t i = 0; weights != nullptr && i < count; ++i) {
+        words_[first + i] = bits(weights[i]);
+    }
+}
+
+uint32_t maskElements(const ClipTable& table) {
+    return static_cast<uint32_t>((table.nodes.size() + 3) / 4 + (table.targetCount + 3) / 4);
+}
+
+void writeMask(const ClipTable& table, const Rig& rig, std::span<const float> jointMask,
+               std::span<const float> morphMask, std::span<float> values) {
+    for (size_t place = 0; place < table.nodes.size(); ++place) {
+        const uint32_t joint = rig.maskJoints[table.nodes[place]];
+        values[place] = jointMask.empty() || joint == cage::kNone ? 1.0f : jointMask[joint];
+    }
+    const std::span<float> targets = values.subspan((table.nodes.size() + 3) / 4 * 4);
+    for (size_t target = 0; target < table.targetCount; ++target) {
+        targets[target] = !morphMask.empty() ? morphMask[target] : jointMask.empty() ? 1.0f : 0.0f;
+    }
+}
+
+} // namespace supple::skinning
