@@ -8,7 +8,7 @@
 namespace supple::surface::lod::budget {
 namespace {
 
-constexpr double kHigh = 1.0 / (1u << 20);
+constexpr double kShort = 1.0 / (1u << 20);
 
 std::array<glm::dvec3, 4> reversed(const std::array<glm::dvec3, 4>& cubic) {
     return {cubic[3], cubic[2], cubic[1], cubic[0]};
@@ -46,7 +46,7 @@ TEST(LodLevel, keepsTheChordErrorAndTheShortestSegment) {
             measure.camera = {0.0, 0.0, distance};
             measure.focal = distance;
             measure.chordError = error;
-            measure.edgeLength = kHigh;
+            measure.edgeLength = kShort;
             const double level = edgeLevel(quarterCircle(radius), measure);
             EXPECT_NEAR(radius * (1.0 - std::cos(std::acos(-1.0) / 4.0 / level)) / error, 1.0, 0.15) << level;
             measure.edgeLength = 8.0;
@@ -190,14 +190,15 @@ TEST(LodBudget, isAFunctionOfTheFrameUnderTurningCamerasAndHeroes) {
     for (const bool turning : {false, true}) {
         const std::vector<double> elasticities = turning ? std::vector<double>{1.0} : std::vector<double>{1.0, 0.25};
         double last = 0.0, largest = 0.0;
-        for (uint32_t frame = 0; frame < kFrames; frame += turning ? 1 : 4) {
+        for (uint32_t frame = 0; frame < kFrames; frame += 2) {
             const std::vector<Priority> priorities = crowd.priorities(frame, elasticities, turning);
-            const Solution solution = solve(priorities, kLimit / 2);
+            const Solution solution = solve(priorities, kLimit);
             ASSERT_TRUE(solution.fits);
-            ASSERT_LE(written(crowd, frame, elasticities, solution.x, turning), kLimit / 2) << "frame " << frame;
+            ASSERT_LE(written(crowd, frame, elasticities, solution.x, turning), kLimit) << "frame " << frame;
             largest = std::max(largest, frame > 0 ? std::abs(solution.x - last) : 0.0);
             last = solution.x;
         }
+        RecordProperty(turning ? "turning" : "heroes", std::to_string(largest));
         EXPECT_LT(largest, 4.0);
     }
 }
