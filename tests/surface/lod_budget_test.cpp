@@ -239,27 +239,37 @@ TEST(LodBudget, xRisesWithEveryPatch) {
 }
 
 TEST(LodBudget, xFollowsAContinuousChangeOfLevelsContinuously) {
-    // All levels a 32nd of a bin up a step: x goes along, never back, and a whole bin costs a whole step.
-    std::mt19937 random(15);
-    std::uniform_real_distribution<double> octave(0.0, 4.0);
-    std::vector<double> octaves;
-    for (uint32_t n = 0; n < 3000; ++n) {
-        octaves.push_back(octave(random));
-    }
-    std::vector<double> xs;
-    for (uint32_t step = 0; step <= 320; ++step) {
-        std::vector<Priority> priorities(1);
-        for (uint32_t n = 0; n < octaves.size(); ++n) {
-            priorities[0].forms[n % 4].add(std::exp2(octaves[n] + step / 32.0 / kBinsPerOctave));
+    // All levels a 32nd of a bin up a step: x goes along, never back, and a whole bin costs a whole step. Levels spread
+    // over octaves, and seven lumps of equal ones, which leave their bins all at once.
+    for (const bool lumps : {false, true}) {
+        std::mt19937 random(15);
+        std::uniform_real_distribution<double> octave(0.0, 4.0);
+        std::vector<double> octaves;
+        for (uint32_t n = 0; n < 3000; ++n) {
+            octaves.push_back(lumps ? 0.7 + n % 7 * 0.4143 : octave(random));
         }
-        xs.push_back(solve(priorities, 60'000).x);
-    }
-    EXPECT_GT(xs.front(), 0.0);
-    for (uint32_t step = 1; step < xs.size(); ++step) {
-        EXPECT_GE(xs[step], xs[step - 1] - 1e-9);
-        EXPECT_LT(xs[step] - xs[step - 1], 0.25);
-        if (step >= 32) {
-            EXPECT_NEAR(xs[step] - xs[step - 32], 1.0, 0.01);
+        const auto risen = [&](uint32_t step) {
+            std::vector<Priority> priorities(1);
+            for (uint32_t n = 0; n < octaves.size(); ++n) {
+                priorities[0].forms[n % 4].add(std::exp2(octaves[n] + step / 32.0 / kBinsPerOctave));
+            }
+            return priorities;
+        };
+        constexpr uint32_t kSteps = 640, kEnough = 100;
+        // Off a plateau of the lumps' demand: there x is continuous too, but as steep as the limit is near it.
+        const uint64_t limit = demand(risen(kEnough), -1.0) / kSplitUnit * 103 / 100;
+        std::vector<double> xs;
+        for (uint32_t step = 0; step <= kSteps; ++step) {
+            xs.push_back(solve(risen(step), limit).x);
+        }
+        EXPECT_EQ(xs[kEnough / 2], 0.0);
+        EXPECT_GT(xs[kSteps], 4.0);
+        for (uint32_t step = 1; step <= kSteps; ++step) {
+            ASSERT_GE(xs[step], xs[step - 1] - 1e-9) << step;
+            ASSERT_LT(xs[step] - xs[step - 1], lumps ? 0.8 : 0.25) << step;
+            if (step >= 32 && xs[step - 32] > 0.0) {
+                ASSERT_NEAR(xs[step] - xs[step - 32], 1.0, 0.01) << step;
+            }
         }
     }
 }
