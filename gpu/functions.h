@@ -47,6 +47,7 @@ namespace supple::gpu {
     X(CmdBindDescriptorSets)                                                                                           \
     X(CmdPushConstants)                                                                                                \
     X(CmdDispatch)                                                                                                     \
+    X(CmdDispatchIndirect)                                                                                             \
     X(CmdCopyBuffer)                                                                                                   \
     X(CmdFillBuffer)
 

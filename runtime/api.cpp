@@ -21,6 +21,7 @@ using supple::ErrorCode;
 using supple::runtime::Asset;
 using supple::runtime::Context;
 using supple::runtime::Group;
+using supple::runtime::View;
 
 struct SuppleContext_T {
     std::unique_ptr<Context> context;
@@ -149,6 +150,15 @@ SuppleResult withInstance(SuppleContext handle, SuppleInstance instance, const c
                           "stale or foreign instance handle (slot " + std::to_string(instance.slot) + ")");
         }
         return body(context, found);
+    });
+}
+
+template <class Body>
+SuppleResult withView(SuppleContext handle, SuppleView view, const char* function, Body&& body) noexcept {
+    return onDevice(handle, function, [&](Context& context) {
+        const std::shared_ptr<View> found = context.views.find(view.id);
+        return found == nullptr ? refuse(context, ErrorCode::staleHandle, function, "stale or foreign view handle")
+                                : body(context, *found);
     });
 }
 
@@ -543,6 +553,90 @@ SuppleResult suppleFillJointMask(SuppleContext handle, SuppleAsset asset, uint32
     });
 }
 
+SuppleResult suppleCreateView(SuppleContext handle, const SuppleViewDesc* given, SuppleView* out) {
+    constexpr const char* kHere = "suppleCreateView";
+    return onDevice(handle, kHere, [&](Context& context) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        out->id = 0;
+        SuppleViewDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
+            return *fault;
+        }
+        constexpr uint32_t kFlags =
+            SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_FACE_UVS;
+        if ((desc.flags & ~kFlags) != 0 || !within(desc.vertexFormat, SUPPLE_VERTEX_24)) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags, or no such vertexFormat");
+        }
+        if ((desc.flags & (SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_FACE_UVS)) != 0 &&
+            (desc.flags & SUPPLE_VIEW_ATTRIBUTES) == 0) {
+            return refuse(context, ErrorCode::argument, kHere, "UVS1 and FACE_UVS go with ATTRIBUTES");
+        }
+        if (desc.maxVertices < 1024) {
+            return refuse(context, ErrorCode::range, kHere, "maxVertices is below 1024");
+        }
+        if (!std::all_of(std::begin(desc.elasticities), std::end(desc.elasticities),
+                         [](float e) { return e >= 0.0f && e <= 1.0f; })) {
+            return refuse(context, ErrorCode::range, kHere, "an elasticity leaves 0..1");
+        }
+        supple::Result<uint64_t> id = context.createView(desc);
+        if (!id) {
+            return report(context, id.error());
+        }
+        out->id = *id;
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleDestroyView(SuppleContext handle, SuppleView view) {
+    return guarded(handle, "suppleDestroyView", [&](Context& context) {
+        return context.destroyView(view.id)
+                   ? SUPPLE_OK
+                   : refuse(context, ErrorCode::staleHandle, "suppleDestroyView", "stale or foreign view handle");
+    });
+}
+
+SuppleResult suppleSetCamera(SuppleContext handle, SuppleView view, const SuppleCameraDesc* given) {
+    constexpr const char* kHere = "suppleSetCamera";
+    return withView(handle, view, kHere, [&](Context& context, View& found) {
+        SuppleCameraDesc camera{};
+        if (const auto fault = takeIn(context, kHere, "camera", given, camera)) {
+            return *fault;
+        }
+        if ((camera.flags & ~uint32_t{SUPPLE_CAMERA_ORTHOGRAPHIC}) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        }
+        const float values[] = {camera.position[0], camera.position[1], camera.position[2],  camera.pixelsPerUnit,
+                                camera.nearest,     camera.chordError,  camera.smallestEdge, camera.edgeLength};
+        if (!std::all_of(std::begin(values), std::end(values), [](float x) { return std::isfinite(x); })) {
+            return refuse(context, ErrorCode::notFinite, kHere, "the camera is not finite");
+        }
+        if (camera.pixelsPerUnit <= 0.0f ||
+            std::any_of(std::begin(values) + 4, std::end(values), [](float x) { return x < 0.0f; })) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "pixelsPerUnit must be positive; nearest, chordError, smallestEdge and edgeLength not "
+                          "negative");
+        }
+        found.setCamera(camera);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetViewStatistics(SuppleContext handle, SuppleView view, SuppleViewStatistics* out) {
+    constexpr const char* kHere = "suppleGetViewStatistics";
+    return withView(handle, view, kHere, [&](Context& context, View& found) {
+        if (const auto fault = checkOut(context, kHere, out)) {
+            return *fault;
+        }
+        SuppleViewStatistics statistics{};
+        statistics.structSize = sizeof(statistics);
+        const bool ready = found.statistics(statistics);
+        supple::runtime::writeSized(statistics, *out);
+        return ready ? SUPPLE_OK : SUPPLE_NOT_READY;
+    });
+}
+
 SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* given, SuppleGroup* out) {
     constexpr const char* kHere = "suppleCreateGroup";
     return onDevice(handle, kHere, [&](Context& context) {
@@ -582,6 +676,9 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         }
         if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
             return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");
+        }
+        if (desc.view.id != 0 && desc.flags != 0) {
+            return refuse(context, ErrorCode::argument, kHere, "a group of a view has the view's flags");
         }
         supple::Result<uint64_t> id = context.createGroup(desc);
         if (!id) {
@@ -645,6 +742,21 @@ SuppleResult suppleSetVisible(SuppleContext handle, SuppleInstance instance, uin
 SuppleResult suppleTeleport(SuppleContext handle, SuppleInstance instance) {
     return withInstance(handle, instance, "suppleTeleport", [&](Context&, Group& found) {
         found.slots().forget(instance.slot);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetPriority(SuppleContext handle, SuppleInstance instance, uint32_t priority) {
+    constexpr const char* kHere = "suppleSetPriority";
+    return withInstance(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (found.view() == nullptr) {
+            return refuse(context, ErrorCode::argument, kHere, "the group belongs to no view");
+        }
+        if (priority >= SUPPLE_PRIORITY_COUNT) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "priority " + std::to_string(priority) + " of " + std::to_string(SUPPLE_PRIORITY_COUNT));
+        }
+        found.slots().setPriority(instance.slot, priority);
         return SUPPLE_OK;
     });
 }

@@ -117,6 +117,14 @@ Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
     });
 }
 
+template <class F>
+void Context::forViews(F&& visit) {
+    views.forEach(visit);
+    for (const std::shared_ptr<View>& view : retiredViews_) {
+        visit(*view);
+    }
+}
+
 Status Context::cancelFrame() {
     if (!frameOpen_) {
         return Error{ErrorCode::order, "suppleCancelFrame: no frame has begun, or it is cancelled"};
@@ -124,6 +132,7 @@ Status Context::cancelFrame() {
     frameOpen_ = false;
     pairs_.cancelUpload(frame_);
     groups.forEach([this](Group& group) { group.cancelFrame(frame_); });
+    forViews([this](View& view) { view.cancelFrame(frame_); });
     // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
     for (const std::shared_ptr<Group>& group : retired_) {
         group->cancelFrame(frame_);
@@ -135,6 +144,14 @@ Status Context::cancelFrame() {
 void Context::retire(uint64_t completedFrame) {
     std::erase_if(retired_,
                   [&](const std::shared_ptr<Group>& group) { return group->lastRecordedFrame() <= completedFrame; });
+    forViews([&](View& view) {
+        view.beginFrame(completedFrame);
+        view.releaseStaging(completedFrame);
+    });
+    // Those that groups still use stay, as groups may be recorded again.
+    std::erase_if(retiredViews_, [&](const std::shared_ptr<View>& view) {
+        return view.use_count() == 1 && view->lastRecordedFrame() <= completedFrame;
+    });
     pairs_.releaseStaging(completedFrame);
     groups.forEach([&](Group& group) { group.releaseStaging(completedFrame); });
 }
@@ -157,8 +174,12 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     }
     // Instances of one group must not fit another that takes its place: groups' ids differ, and so do generations.
     nextGeneration_ = nextGeneration_ * 1664525u + 1013904223u;
-    const GroupShared shared{device_.get(),  &deform_,        &surface_,           pairs_.buffer(0),
-                             pairs_.size(0), framesInFlight_, nextGeneration_ | 1u};
+    std::shared_ptr<View> view;
+    if (desc.view.id != 0 && (view = views.find(desc.view.id)) == nullptr) {
+        return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign view handle"};
+    }
+    const GroupShared shared{device_.get(),  &deform_, &surface_,       pairs_.buffer(0),
+                             pairs_.size(0), view,     framesInFlight_, nextGeneration_ | 1u};
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
     if (!group) {
         return group.error();
@@ -170,6 +191,23 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
         log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_RATE_CHANGED, asset->character.name + ": " + (*group)->rateNote());
     }
     return groups.insert(std::move(*group));
+}
+
+Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
+    Result<std::shared_ptr<View>> view = View::create(*device_, framesInFlight_, desc);
+    if (!view) {
+        return view.error();
+    }
+    return views.insert(std::move(*view));
+}
+
+bool Context::destroyView(uint64_t id) {
+    std::shared_ptr<View> view = views.remove(id);
+    if (view == nullptr) {
+        return false;
+    }
+    retiredViews_.push_back(std::move(view));
+    return true;
 }
 
 bool Context::destroyGroup(uint64_t id) {

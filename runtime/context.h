@@ -7,6 +7,7 @@
 #include "runtime/group.h"
 #include "runtime/slot_map.h"
 #include "runtime/timings.h"
+#include "runtime/view.h"
 #include "skinning/deform_pass.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
@@ -50,13 +51,18 @@ public:
     [[nodiscard]] Result<uint64_t> createAsset(cage::Character character);
     [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
     bool destroyGroup(uint64_t id);
+    [[nodiscard]] Result<uint64_t> createView(const SuppleViewDesc& desc);
+    bool destroyView(uint64_t id);
 
     Timings timings;
     SlotMap<Asset> assets;
     SlotMap<Group> groups;
+    SlotMap<View> views;
 
 private:
     void retire(uint64_t completedFrame);
+    template <class F>
+    void forViews(F&& visit); ///< those too that only groups hold
     [[nodiscard]] Status checkRecord(const SuppleRecordDesc& desc) const;
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, Group& group);
 
@@ -73,7 +79,9 @@ private:
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;
     std::mutex uploads_; ///< static tables are shared by groups that may be recorded at the same time
-    std::vector<std::shared_ptr<Group>> retired_; ///< destroyed by the host, perhaps still in flight
+    // Destroyed by the host, perhaps still in flight.
+    std::vector<std::shared_ptr<Group>> retired_;
+    std::vector<std::shared_ptr<View>> retiredViews_;
 };
 
 } // namespace supple::runtime

@@ -1,5 +1,7 @@
-// One frame, as the data flows: upload, deform, vertex, edge, patch, evaluate, motion.
+// One frame, as the data flows: upload, deform, vertex, edge, patch, level, solve, place, evaluate, motion.
 #include "runtime/context.h"
+
+#include <algorithm>
 
 namespace supple::runtime {
 
@@ -45,12 +47,19 @@ Status Context::checkRecord(const SuppleRecordDesc& desc) const {
                 return refuse(ErrorCode::argument, "listed twice");
             }
         }
+        if (group->view() != nullptr && !group->view()->hasCamera()) {
+            return refuse(ErrorCode::order, "its view has no camera yet");
+        }
+        if (group->view() != nullptr && group->view()->lastRecordedFrame() == frame_) {
+            return refuse(ErrorCode::order, "other groups of its view are recorded already: one call takes them all");
+        }
     }
     return success();
 }
 
 VkDeviceSize Context::recordStatics(VkCommandBuffer commandBuffer, Group& group) {
-    return pairs_.recordUpload(commandBuffer, frame_) + group.recordStatics(commandBuffer, frame_);
+    const VkDeviceSize ofView = group.view() != nullptr ? group.view()->recordStatics(commandBuffer, frame_) : 0;
+    return pairs_.recordUpload(commandBuffer, frame_) + ofView + group.recordStatics(commandBuffer, frame_);
 }
 
 Status Context::recordUploads(VkCommandBuffer commandBuffer) {
@@ -101,6 +110,17 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         return false;
     };
     const auto computeBarrier = [&] { gpu::computeBarrier(device, commandBuffer); };
+    // Each view once, with the first of its groups.
+    const auto firstOfView = [&](uint32_t g) {
+        const View* view = groupAt(g).view();
+        for (uint32_t h = 0; view != nullptr && h < g; ++h) {
+            if (groupAt(h).view() == view) {
+                return false;
+            }
+        }
+        return view != nullptr;
+    };
+    const bool views = any([](Group& group) { return group.view() != nullptr; });
 
     device.beginLabel(commandBuffer, "supple");
     if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {
@@ -122,11 +142,14 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         }
         Group::PassCost cost = group.recordUpload(commandBuffer, frame_);
         cost.bytes += statics;
+        if (group.view() != nullptr && group.view()->lastRecordedFrame() != frame_) {
+            cost.bytes += group.view()->recordUpload(commandBuffer, frame_);
+        }
         return cost;
     });
     gpu::memoryBarrier(device, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {kCompute, kRead | kWrite});
 
-    if (any([](Group& group) { return group.attributesPending(); })) {
+    if (any([](Group& group) { return group.view() == nullptr && group.attributesPending(); })) {
         pass(Pass::attributes, [&](Group& group) { return group.recordAttributes(commandBuffer); });
     }
     pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
@@ -142,6 +165,38 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     if (any([](Group& group) { return group.writesPatches(); })) {
         pass(Pass::patch, [&](Group& group) { return group.recordPatch(commandBuffer); });
     }
+    if (views) {
+        pass(Pass::level, [&](Group& group) { return group.recordEdgeLevels(commandBuffer); });
+        computeBarrier();
+        pass(Pass::level, [&](Group& group) { return group.recordPatchLevels(commandBuffer); });
+        computeBarrier();
+        device.beginLabel(commandBuffer, passName(Pass::solve));
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            if (firstOfView(g)) {
+                timing.beginPass();
+                uint32_t priorities = 0;
+                for (uint32_t h = g; h < desc.groupCount; ++h) {
+                    priorities |= groupAt(h).view() == groupAt(g).view() ? groupAt(h).priorities() : 0;
+                }
+                groupAt(g).view()->recordSolve(commandBuffer, surface_.lod(), groupAt(g).anySet(), priorities);
+                timing.endPass(Pass::solve, desc.groups[g], shared::kLodBins, sizeof(shared::LodSolution));
+            }
+        }
+        device.endLabel(commandBuffer);
+        computeBarrier();
+        pass(Pass::place, [&](Group& group) { return group.recordPlaces(commandBuffer); });
+        gpu::memoryBarrier(device, commandBuffer, {kCompute, kWrite},
+                           {kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+                            kRead | kWrite | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT});
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            if (firstOfView(g)) {
+                groupAt(g).view()->recordReadback(commandBuffer);
+            }
+        }
+        if (any([](Group& group) { return group.writesLodAttributes(); })) {
+            pass(Pass::attributes, [&](Group& group) { return group.recordLodAttributes(commandBuffer); });
+        }
+    }
     pass(Pass::evaluate, [&](Group& group) { return group.recordEvaluate(commandBuffer); });
     if (any([](Group& group) { return group.writesMotion(); })) {
         if (any([](Group& group) { return group.writesMotion() && group.usesScratch(); })) {
@@ -151,19 +206,25 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
 
     if (asyncCompute_) {
-        Group::Transfers transfers;
-        for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            const uint32_t count = groupAt(g).transfers(transfers);
-            for (uint32_t i = 0; i < count; ++i) {
-                transfers[i].srcStageMask = kLast.stages;
-                transfers[i].srcAccessMask = kLast.access;
-                transfers[i].srcQueueFamilyIndex = queueFamily_;
-                transfers[i].dstQueueFamilyIndex = drawQueueFamily_;
+        const auto release = [&](std::span<VkBufferMemoryBarrier2> transfers) {
+            for (VkBufferMemoryBarrier2& barrier : transfers) {
+                barrier.srcStageMask = kLast.stages;
+                barrier.srcAccessMask = kLast.access;
+                barrier.srcQueueFamilyIndex = queueFamily_;
+                barrier.dstQueueFamilyIndex = drawQueueFamily_;
             }
-            VkDependencyInfo release{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-            release.bufferMemoryBarrierCount = count;
-            release.pBufferMemoryBarriers = transfers.data();
-            device.vk.CmdPipelineBarrier2(commandBuffer, &release);
+            VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+            info.bufferMemoryBarrierCount = static_cast<uint32_t>(transfers.size());
+            info.pBufferMemoryBarriers = transfers.data();
+            device.vk.CmdPipelineBarrier2(commandBuffer, &info);
+        };
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            Group::Transfers ofGroup;
+            release({ofGroup.data(), groupAt(g).transfers(ofGroup)});
+            if (firstOfView(g)) {
+                View::Transfers ofView;
+                release({ofView.data(), groupAt(g).view()->transfers(ofView)});
+            }
         }
     }
     if (desc.after.stages != 0) {
@@ -192,17 +253,28 @@ Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, S
         }
     }
     uint32_t total = 0;
-    for (const SuppleGroup& own : wanted) {
-        Group::Transfers transfers;
-        const uint32_t count = groups.find(own.id)->transfers(transfers);
-        for (uint32_t i = 0; i < count; ++i, ++total) {
+    const auto acquire = [&](std::span<const VkBufferMemoryBarrier2> transfers) {
+        for (const VkBufferMemoryBarrier2& barrier : transfers) {
             if (total < out.size()) {
-                out[total] = transfers[i];
+                out[total] = barrier;
                 out[total].dstStageMask = use.stages;
                 out[total].dstAccessMask = use.access;
                 out[total].srcQueueFamilyIndex = queueFamily_;
                 out[total].dstQueueFamilyIndex = drawQueueFamily_;
             }
+            ++total;
+        }
+    };
+    for (size_t g = 0; g < wanted.size(); ++g) {
+        const std::shared_ptr<Group> group = groups.find(wanted[g].id);
+        Group::Transfers ofGroup;
+        acquire({ofGroup.data(), group->transfers(ofGroup)});
+        const bool first =
+            std::none_of(wanted.begin(), wanted.begin() + static_cast<ptrdiff_t>(g),
+                         [&](const SuppleGroup& h) { return groups.find(h.id)->view() == group->view(); });
+        if (group->view() != nullptr && first) {
+            View::Transfers ofView;
+            acquire({ofView.data(), group->view()->transfers(ofView)});
         }
     }
     return total;

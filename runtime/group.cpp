@@ -2,6 +2,7 @@
 
 #include "runtime/group_buffers.h"
 #include "surface/grid.h"
+#include "surface/lod/tables.h"
 
 #include <algorithm>
 #include <bit>
@@ -37,6 +38,7 @@ static_assert(SUPPLE_VERTEX_16 == kVertex16 && SUPPLE_VERTEX_24 == kVertex24);
 constexpr uint32_t kCagePadding = 16;
 constexpr uint32_t kVertexPadding = 64;
 constexpr uint32_t kPosePadding = 16;
+constexpr uint32_t kScratchPadding = 16;
 
 surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate) {
     surface::Recipe recipe;
@@ -56,6 +58,7 @@ surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate) {
         recipe.prep.cornerRule = desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth
                                                                           : surface::prep::CornerRule::sharp;
     }
+    recipe.lod = desc.view.id != 0;
     return recipe;
 }
 
@@ -72,10 +75,12 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     auto group = std::make_shared<Group>();
     group->shared_ = shared;
     group->asset_ = std::move(asset);
+    group->view_ = shared.view;
     group->capacity_ = desc.capacity;
     group->poseSource_ = desc.poseSource;
-    group->output_.vertexFormat = desc.vertexFormat;
-    group->output_.surfaceVertices.stride = desc.vertexFormat == SUPPLE_VERTEX_24 ? 24 : 16;
+    const SuppleVertexFormat format = shared.view ? shared.view->desc().vertexFormat : desc.vertexFormat;
+    group->output_.vertexFormat = format;
+    group->output_.surfaceVertices.stride = format == SUPPLE_VERTEX_24 ? 24 : 16;
     const std::string& name = group->asset_->character.name;
     const uint32_t rate = desc.rate == 0 ? 8 : desc.rate;
     if (desc.scheme == SUPPLE_SCHEME_CAGE) {
@@ -106,7 +111,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         }
     }
     group->evaluation_.rate = group->maxRate_;
-    const uint64_t vertices = group->evaluation_.layOut(tables);
+    const uint64_t vertices = group->view_ != nullptr ? 0 : group->evaluation_.layOut(tables);
     // Vertex indices are 32 bits on the device.
     if ((vertices + kVertexPadding) * desc.capacity > 0xFFFFFFFFull) {
         return Error{ErrorCode::limit, name + ": " + std::to_string(desc.capacity) + " instances at rate " +
@@ -116,13 +121,28 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->evaluation_.verticesPerInstance = roundUp(group->vertexCount_, kVertexPadding);
     group->evaluation_.cageStride = roundUp(group->asset_->character.cage.vertexCount(), kCagePadding);
 
-    Status status = shared.surface->prepare(
-        tables, {static_cast<uint32_t>(desc.vertexFormat), (desc.flags & SUPPLE_GROUP_MOTION) != 0,
-                 (desc.flags & SUPPLE_GROUP_PATCHES) != 0, (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0});
+    surface::Needs needs;
+    needs.vertexFormat = static_cast<uint32_t>(format);
+    needs.motion = group->hasMotion(desc);
+    needs.patches = (desc.flags & SUPPLE_GROUP_PATCHES) != 0;
+    needs.lod = group->view_ != nullptr;
+    needs.attributes = needs.lod ? (group->view_->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
+                                 : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
+    Status status = shared.surface->prepare(tables, needs);
     if (status) {
         status = group->layOutWindows(desc);
     }
     if (status) {
+        if (group->view_ != nullptr) {
+            const auto windows = static_cast<uint32_t>(group->windows_.size());
+            const std::optional<uint32_t> first = group->view_->takeRuns(tables.lod, windows);
+            if (!first) {
+                return Error{ErrorCode::limit, name + ": the view is full: its groups have more than " +
+                                                   std::to_string(kMaxRuns) + " runs of patches"};
+            }
+            group->firstRun_ = *first;
+            group->hasRuns_ = true;
+        }
         group->slots_ = InstanceSlots(desc.capacity, shared.firstGeneration);
         group->listed_.resize(group->windows_.size());
         status = group->createBuffers(desc);
@@ -152,7 +172,7 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
     const VkDeviceSize patchBytes =
         (desc.flags & SUPPLE_GROUP_PATCHES) != 0 ? tables.patches.size() * kPatchStride * kVec4Bytes : 0;
     const VkDeviceSize largest = std::max({VkDeviceSize{evaluation_.cageStride}, VkDeviceSize{tables.poolStride},
-                                           VkDeviceSize{shared_.surface->scratchStride(tables)}, VkDeviceSize{1}}) *
+                                           VkDeviceSize{scratchElements()}, VkDeviceSize{1}}) *
                                  kVec4Bytes;
     VkDeviceSize fit = texelLimit / std::max<VkDeviceSize>(largest, poses_.instanceBytes());
     for (const VkDeviceSize bytes : {surfaceBytes(), patchBytes}) {
@@ -172,7 +192,28 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
     }
     windowSize_ = static_cast<uint32_t>(std::min<VkDeviceSize>(fit, capacity_));
     windows_.resize((capacity_ + windowSize_ - 1) / windowSize_);
+    for (uint32_t w = 0; w < windows_.size(); ++w) {
+        windows_[w].index = w;
+    }
     return success();
+}
+
+Group::~Group() {
+    if (hasRuns_) {
+        view_->giveRuns(firstRun_, static_cast<uint32_t>(scheme_->tables.lod.runs.size() * windows_.size()));
+    }
+}
+
+bool Group::hasMotion(const SuppleGroupDesc& desc) const {
+    return view_ != nullptr ? (view_->desc().flags & SUPPLE_VIEW_MOTION) != 0 : (desc.flags & SUPPLE_GROUP_MOTION) != 0;
+}
+
+uint32_t Group::scratchElements() const {
+    if (view_ == nullptr) {
+        return shared_.surface->scratchStride(scheme_->tables);
+    }
+    const surface::LodTables& lod = scheme_->tables.lod;
+    return roundUp((lod.edges.count + kLodPatchLevelWords * lod.patches.count + 3) / 4, kScratchPadding);
 }
 
 VkDeviceSize Group::surfaceBytes() const {
@@ -191,7 +232,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     const gpu::Device& device = *shared_.device;
     const surface::Tables& tables = scheme_->tables;
     const VkDeviceSize n = capacity_;
-    const bool motion = (desc.flags & SUPPLE_GROUP_MOTION) != 0 && !tables.patches.empty();
+    const bool motion = hasMotion(desc) && !tables.patches.empty();
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     constexpr VkBufferUsageFlags kTexels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
@@ -199,6 +240,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     constexpr VkBufferUsageFlags kVertices = kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
 
     std::vector<gpu::BufferRequest> requests(kBufferCount);
+    // What a group of a view has no vertices of its own for is the view's.
     const VkDeviceSize attributeBytes =
         (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0 ? VkDeviceSize{vertexCount_} * 16 : 0;
     const VkDeviceSize poolBytes = n * tables.poolStride * kVec4Bytes;
@@ -216,10 +258,11 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     requests[kAttributes] = {"supple surface attributes", attributeBytes, kVertices};
     requests[kUvs1] = {"supple second UV set", tables.uvSets == 2 ? attributeBytes / 2 : 0, kVertices};
     requests[kFaceUvs] = {"supple face UVs", tables.faceUvs ? attributeBytes / 2 : 0, kVertices};
-    requests[kScratch] = {"supple fragments", n * shared_.surface->scratchStride(tables) * kVec4Bytes,
+    requests[kScratch] = {view_ != nullptr ? "supple levels" : "supple fragments", n * scratchElements() * kVec4Bytes,
                           kStorage | kTexels};
     requests[kInstances] = {"supple instances", 2 * n * sizeof(uint32_t), kOutput | kCopied};
-    requests[kIndirect] = {"supple indirect arguments", tables.drawRanges.size() * sizeof(VkDrawIndexedIndirectCommand),
+    requests[kIndirect] = {"supple indirect arguments",
+                           view_ != nullptr ? 0 : tables.drawRanges.size() * sizeof(VkDrawIndexedIndirectCommand),
                            kOutput | kCopied | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
     attributesPending_ = attributeBytes > 0;
     if (attributeBytes > device.limits.maxStorageBufferRange) {
@@ -240,6 +283,9 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     staging_ = std::move(*stagingSet);
 
     // The indices of every domain in use and every rate that may be set, one after the other.
+    if (view_ != nullptr) {
+        return success(); // the view has them
+    }
     std::vector<uint16_t> indices;
     for (uint32_t rate = anyRate_ ? 1 : maxRate_; rate <= maxRate_; ++rate) {
         std::array<Grid, surface::kDomainCount>& grids = grids_.emplace_back();
@@ -264,6 +310,9 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
 
 Status Group::setRate(uint32_t rate) {
     const std::string& name = asset_->character.name;
+    if (view_ != nullptr) {
+        return Error{ErrorCode::argument, name + ": the group has its view's levels, not a rate"};
+    }
     if (!anyRate_) {
         if (rate == askedRate_) {
             return success();
@@ -286,6 +335,21 @@ Status Group::setRate(uint32_t rate) {
 }
 
 void Group::layOutDraws() {
+    if (view_ != nullptr) {
+        for (size_t w = 0; w < windows_.size(); ++w) {
+            for (const surface::LodTables::Run& run : scheme_->tables.lod.runs) {
+                for (const uint32_t capacity : surface::lod::kCapacities) {
+                    const surface::lod::Form form = surface::lod::formOf(run.patchClass);
+                    const uint32_t samples = surface::lod::sampleCount(form, capacity);
+                    lodDraws_.push_back({run.material, static_cast<SuppleGrid>(form), capacity, samples,
+                                         samples * surface::lod::patchesPerDraw(form, capacity)});
+                }
+            }
+        }
+        output_.lodDraws = lodDraws_.data();
+        output_.lodDrawCount = static_cast<uint32_t>(lodDraws_.size());
+        return;
+    }
     const uint32_t rate = evaluation_.rate;
     const std::array<Grid, surface::kDomainCount>& grids = grids_[anyRate_ ? rate - 1 : 0];
     drawRanges_.clear();
@@ -331,9 +395,29 @@ void Group::fillOutput() {
     o.poses = whole(kPoses, poses_.instanceBytes());
     o.instances = whole(kInstances, sizeof(uint32_t));
     o.instances.size /= 2; // the second list is the passes'
-    o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
     o.indirect = whole(kIndirect, sizeof(VkDrawIndexedIndirectCommand));
     o.deviceBytes = buffers_.allocatedBytes() + static_.deviceBytes();
+    if (view_ == nullptr) {
+        o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
+        return;
+    }
+    const auto ofView = [&](View::BufferIndex index, VkDeviceSize stride) {
+        return SuppleBufferView{view_->buffer(index), 0, view_->size(index), static_cast<uint32_t>(stride)};
+    };
+    o.surfaceVertices = ofView(View::kSurface, o.surfaceVertices.stride);
+    o.previousPositions = ofView(View::kPreviousPositions, kPreviousPositionBytes);
+    o.attributes = ofView(View::kAttributes, 16);
+    o.uvs1 = ofView(View::kUvs1, 8);
+    o.faceUvs = ofView(View::kFaceUvs, 8);
+    o.gridIndices = {view_->indices(), 0, view_->indexBytes(), 2};
+    const auto words = [&](VkDeviceSize first, VkDeviceSize count, uint32_t stride) {
+        return SuppleBufferView{view_->buffer(View::kWords), first * 4, count * stride, stride};
+    };
+    const VkDeviceSize firstDraw = VkDeviceSize{firstRun_} * kCapacityCount;
+    o.indirect = words(kLodDraws + 5 * firstDraw, lodDraws_.size(), sizeof(VkDrawIndexedIndirectCommand));
+    o.lodBuckets = words(kLodBuckets + 4 * firstDraw, lodDraws_.size(), 16);
+    o.lodPatches =
+        words(kLodRecords, (view_->size(View::kWords) / 4 - kLodRecords) / kLodRecordWords, kLodRecordWords * 4);
 }
 
 } // namespace supple::runtime

@@ -7,6 +7,7 @@
 #include "runtime/asset.h"
 #include "runtime/instance_poses.h"
 #include "runtime/instance_slots.h"
+#include "runtime/view.h"
 #include "skinning/deform_pass.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
@@ -24,12 +25,14 @@ struct GroupShared {
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
+    std::shared_ptr<View> view; ///< of the description
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
 };
 
 class Group {
 public:
+    ~Group();
     [[nodiscard]] static Result<std::shared_ptr<Group>> create(const GroupShared& shared, std::shared_ptr<Asset> asset,
                                                                const SuppleGroupDesc& desc);
 
@@ -45,6 +48,8 @@ public:
     [[nodiscard]] const InstanceSlots& slots() const { return slots_; }
 
     [[nodiscard]] Status setRate(uint32_t rate);
+    /// Null for groups of one rate.
+    [[nodiscard]] View* view() const { return view_.get(); }
 
     // The passes of a frame, each recorded without barriers; runtime/frame.cpp puts them in order.
     struct PassCost {
@@ -65,8 +70,19 @@ public:
     [[nodiscard]] bool writesPatches() const { return output_.patchCoefficients.buffer != VK_NULL_HANDLE; }
     PassCost recordPatch(VkCommandBuffer commandBuffer) const;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const;
+
+    // Groups of a view: the levels of edges, then of patches, then, when the view has solved its budget, places.
+    PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const;
+    PassCost recordPatchLevels(VkCommandBuffer commandBuffer) const;
+    PassCost recordPlaces(VkCommandBuffer commandBuffer) const;
+    [[nodiscard]] bool writesLodAttributes() const;
+    PassCost recordLodAttributes(VkCommandBuffer commandBuffer) const;
+    /// A set that binds the view's words.
+    [[nodiscard]] VkDescriptorSet anySet() const { return windows_.front().surface[pool_]; }
+    [[nodiscard]] uint32_t priorities() const { return slots_.priorities(); }
+
     /// Previous positions; its scratch memory is evaluation's, so a barrier stands between the two.
-    [[nodiscard]] bool writesMotion() const { return output_.previousPositions.buffer != VK_NULL_HANDLE; }
+    [[nodiscard]] bool writesMotion() const;
     [[nodiscard]] bool usesScratch() const;
     PassCost recordMotion(VkCommandBuffer commandBuffer) const;
 
@@ -82,6 +98,13 @@ public:
     void releaseStaging(uint64_t completedFrame);
 
 private:
+    /// Instances that a descriptor can reach: windowSize_ slots, the last window fewer.
+    struct Window {
+        VkDescriptorSet deform = VK_NULL_HANDLE;
+        std::array<VkDescriptorSet, 2> surface{}; ///< by pool
+        std::array<VkDescriptorSet, 2> motion{};  ///< by pool, writing previous positions
+        uint32_t index = 0;
+    };
     Status layOutWindows(const SuppleGroupDesc& desc);
     Status createBuffers(const SuppleGroupDesc& desc);
     Status createSets();
@@ -92,6 +115,10 @@ private:
     [[nodiscard]] VkDeviceSize uploadBytes() const;
     template <class F>
     void forWindows(F&& record) const;
+    [[nodiscard]] shared::LodPush levelPush(const Window& window, uint32_t first, uint32_t count) const;
+    [[nodiscard]] surface::LodWindow lodWindow(const Window& window, VkDescriptorSet set) const;
+    [[nodiscard]] bool hasMotion(const SuppleGroupDesc& desc) const;
+    [[nodiscard]] uint32_t scratchElements() const; ///< an instance
 
     GroupShared shared_;
     std::shared_ptr<Asset> asset_;
@@ -103,6 +130,9 @@ private:
     uint32_t maxRate_ = 0;
     uint32_t vertexCount_ = 0; ///< surface vertices an instance, without padding
     surface::Evaluation evaluation_;
+    std::shared_ptr<View> view_;
+    uint32_t firstRun_ = 0; ///< in the view; all windows one after the other
+    bool hasRuns_ = false;
 
     InstancePoses poses_;
     InstanceSlots slots_;
@@ -112,12 +142,6 @@ private:
     gpu::StaticBuffers static_; ///< grid indices
     gpu::DescriptorPoolHandle deformPool_, surfacePool_;
     std::vector<gpu::BufferViewHandle> views_;
-    /// Instances that a descriptor can reach: windowSize_ slots, the last window fewer.
-    struct Window {
-        VkDescriptorSet deform = VK_NULL_HANDLE;
-        std::array<VkDescriptorSet, 2> surface{}; ///< by pool
-        std::array<VkDescriptorSet, 2> motion{};  ///< by pool, writing previous positions
-    };
     uint32_t windowSize_ = 0;
     std::vector<Window> windows_;
     std::vector<InstanceSlots::Listed> listed_; ///< by window, of the frame being recorded
@@ -130,6 +154,7 @@ private:
     std::vector<std::array<Grid, surface::kDomainCount>> grids_; ///< by rate - 1, or the one
     SuppleGroupOutput output_{};
     std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
+    std::vector<SuppleLodDraw> lodDraws_;
     std::string rateNote_;
     bool cleared_ = false;
     bool attributesPending_ = false;

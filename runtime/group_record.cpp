@@ -101,6 +101,21 @@ Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
     return {vertexCount_, buffers_.size(kAttributes) + buffers_.size(kUvs1) + buffers_.size(kFaceUvs)};
 }
 
+bool Group::writesLodAttributes() const {
+    return view_ != nullptr && view_->size(View::kAttributes) > 0;
+}
+
+Group::PassCost Group::recordLodAttributes(VkCommandBuffer commandBuffer) const {
+    if (!writesLodAttributes()) {
+        return {};
+    }
+    forWindows([&](const Window& window, uint32_t, const InstanceSlots::Listed&) {
+        shared_.surface->recordLodAttributes(commandBuffer, scheme_->tables, lodWindow(window, window.surface[pool_]),
+                                             evaluation_);
+    });
+    return {0, visible_};
+}
+
 Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
     if (!deforms()) {
         return {};
@@ -142,7 +157,74 @@ Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
     return {points, points * kPatchStride * kVec4Bytes};
 }
 
+LodPush Group::levelPush(const Window& window, uint32_t first, uint32_t count) const {
+    const surface::Tables& tables = scheme_->tables;
+    const auto runs = static_cast<uint32_t>(tables.lod.runs.size());
+    LodPush push = view_->levelPush();
+    push.count = tables.lod.patches.count;
+    push.instanceCount = count;
+    push.firstInstance = first;
+    push.firstSlot = window.index * windowSize_;
+    push.edges = tables.lod.edges.table;
+    push.patches = tables.lod.patches.table;
+    push.edgeCount = tables.lod.edges.count;
+    push.poolStride = tables.poolStride;
+    push.scratchStride = scratchElements();
+    push.firstRun = firstRun_ + window.index * runs;
+    push.runCount = runs;
+    return push;
+}
+
+surface::LodWindow Group::lodWindow(const Window& window, VkDescriptorSet set) const {
+    const auto runs = static_cast<uint32_t>(scheme_->tables.lod.runs.size());
+    return {set, view_->buffer(View::kWords), window.index * windowSize_, firstRun_ + window.index * runs};
+}
+
+Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
+    if (view_ == nullptr) {
+        return {};
+    }
+    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        shared_.surface->lod().recordEdges(commandBuffer, window.surface[pool_],
+                                           levelPush(window, first, listed.count));
+    });
+    const uint64_t points = uint64_t{scheme_->tables.lod.edges.count} * visible_;
+    return {points, points * sizeof(float)};
+}
+
+Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
+    if (view_ == nullptr) {
+        return {};
+    }
+    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        shared_.surface->lod().recordPatches(commandBuffer, window.surface[pool_],
+                                             levelPush(window, first, listed.count));
+    });
+    const uint64_t points = uint64_t{output_.patchCount} * visible_;
+    return {points, points * kLodPatchLevelWords * sizeof(uint32_t)};
+}
+
+Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
+    if (view_ == nullptr) {
+        return {};
+    }
+    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        shared_.surface->lod().recordPlaces(commandBuffer, window.surface[pool_],
+                                            levelPush(window, first, listed.count));
+    });
+    const uint64_t points = uint64_t{output_.patchCount} * visible_;
+    return {points, points * kLodRecordWords * sizeof(uint32_t)};
+}
+
 Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
+    if (view_ != nullptr) {
+        // How many vertices is known on the device alone: SuppleViewStatistics.
+        forWindows([&](const Window& window, uint32_t, const InstanceSlots::Listed&) {
+            shared_.surface->recordLodEvaluate(commandBuffer, scheme_->tables, lodWindow(window, window.surface[pool_]),
+                                               evaluation_, static_cast<uint32_t>(output_.vertexFormat));
+        });
+        return {0, visible_};
+    }
     forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
         shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {window.surface[pool_], first, listed.count},
                                         evaluation_, static_cast<uint32_t>(output_.vertexFormat));
@@ -152,12 +234,24 @@ Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
 }
 
 bool Group::usesScratch() const {
-    return buffers_.size(kScratch) > 0;
+    return view_ == nullptr && buffers_.size(kScratch) > 0;
+}
+
+bool Group::writesMotion() const {
+    return buffers_.size(kSecondPool) > 0;
 }
 
 Group::PassCost Group::recordMotion(VkCommandBuffer commandBuffer) const {
     if (!writesMotion()) {
         return {};
+    }
+    if (view_ != nullptr) {
+        forWindows([&](const Window& window, uint32_t, const InstanceSlots::Listed&) {
+            shared_.surface->recordLodEvaluate(commandBuffer, scheme_->tables,
+                                               lodWindow(window, window.motion[1 - pool_]), evaluation_,
+                                               kVertexPosition);
+        });
+        return {0, visible_};
     }
     bool first = true;
     const auto evaluate = [&](VkDescriptorSet set, uint32_t from, uint32_t count) {
@@ -200,7 +294,9 @@ uint32_t Group::transfers(Transfers& out) const {
     add(buffers_.buffer(kAttributes), attributes);
     add(buffers_.buffer(kUvs1), attributes);
     add(buffers_.buffer(kFaceUvs), attributes);
-    add(static_.buffer(kGridIndices), indicesReleaseFrame_ == passesFrame_);
+    if (view_ == nullptr) {
+        add(static_.buffer(kGridIndices), indicesReleaseFrame_ == passesFrame_);
+    }
     return count;
 }
 

@@ -26,7 +26,7 @@ Status Group::createSets() {
     const VkDeviceSize poseBytes = poses_.instanceBytes();
     const VkDeviceSize cageBytes = evaluation_.cageStride * kVec4Bytes;
     const VkDeviceSize poolBytes = tables.poolStride * kVec4Bytes;
-    const VkDeviceSize scratchBytes = shared_.surface->scratchStride(tables) * kVec4Bytes;
+    const VkDeviceSize scratchBytes = scratchElements() * kVec4Bytes;
     const VkDeviceSize previousBytes = evaluation_.verticesPerInstance * kPreviousPositionBytes;
     const VkDeviceSize patchBytes =
         buffers_.size(kPatchCoefficients) > 0 ? tables.patches.size() * kPatchStride * kVec4Bytes : 0;
@@ -101,7 +101,11 @@ Status Group::createSets() {
     if (tables.patches.empty()) {
         return status;
     }
-    const bool motion = buffers_.size(kPreviousPositions) > 0;
+    const bool motion = writesMotion();
+    const auto ofView = [&](View::BufferIndex index) { return range(view_->buffer(index), 0, VK_WHOLE_SIZE); };
+    const VkBufferView words =
+        view_ != nullptr ? view(view_->buffer(View::kWords), kUint4, 0, view_->size(View::kWords), "supple view")
+                         : VK_NULL_HANDLE;
     surfacePool_ = makePool(shared_.surface->layout(), windows_.size() * (motion ? 4 : 1), "supple surface");
     const VkBuffer table = scheme_->buffers.buffer(0);
     const VkDeviceSize tableBytes = scheme_->buffers.size(0);
@@ -121,7 +125,10 @@ Status Group::createSets() {
             const VkBufferView poolView = view(pool, kFloat4, first * poolBytes, count * poolBytes, "supple pool");
             // Bindings a group does without point at the pool: every binding of the layout must be valid.
             const VkDescriptorBufferInfo unused = range(pool, first * poolBytes, kVec4Bytes);
-            const auto wholeOr = [&](BufferIndex index) {
+            const auto wholeOr = [&](BufferIndex index, View::BufferIndex shared) {
+                if (view_ != nullptr) {
+                    return view_->size(shared) > 0 ? ofView(shared) : unused;
+                }
                 return buffers_.size(index) > 0 ? range(buffers_.buffer(index), 0, VK_WHOLE_SIZE) : unused;
             };
             const VkBufferView scratchView = scratchBytes > 0
@@ -134,27 +141,38 @@ Status Group::createSets() {
                 }
                 VkDescriptorSet& set = (previous ? windows_[w].motion : windows_[w].surface)[p];
                 set = allocate(shared_.surface->layout(), surfacePool_, "supple surface");
+                // Levels of detail, previous positions: today's coefficients in the place of the cage, which no
+                // evaluation reads (shaders/evaluate/bicubic.comp).
+                const bool today = previous && view_ != nullptr;
+                const BufferIndex other = p == 0 ? kSecondPool : kPool;
+                const VkBufferView otherView =
+                    today ? view(buffers_.buffer(other), kFloat4, first * poolBytes, count * poolBytes, "supple pool")
+                          : cageView;
+                const VkDescriptorBufferInfo vertices =
+                    view_ != nullptr ? ofView(previous ? View::kPreviousPositions : View::kSurface)
+                    : previous       ? window(kPreviousPositions, previousBytes)
+                                     : window(kSurface, surfaceBytes());
                 const gpu::BoundResource resources[] = {
                     {kTableBinding, range(table, 0, tableBytes), VK_NULL_HANDLE},
                     {kTable4TexelBinding, {}, table4},
                     {kTable1TexelBinding, {}, table1},
-                    {kCageBinding, window(kDeformedCage, cageBytes), VK_NULL_HANDLE},
-                    {kCageTexelBinding, {}, cageView},
+                    {kCageBinding, today ? window(other, poolBytes) : window(kDeformedCage, cageBytes), VK_NULL_HANDLE},
+                    {kCageTexelBinding, {}, otherView},
                     {kPoolBinding, window(poolIndex, poolBytes), VK_NULL_HANDLE},
                     {kPoolTexelBinding, {}, poolView},
-                    {kSurfaceBinding,
-                     previous ? window(kPreviousPositions, previousBytes) : window(kSurface, surfaceBytes()),
-                     VK_NULL_HANDLE},
+                    {kSurfaceBinding, vertices, VK_NULL_HANDLE},
                     {kPatchCoefficientBinding, patchBytes > 0 ? window(kPatchCoefficients, patchBytes) : unused,
                      VK_NULL_HANDLE},
-                    {kAttributeBinding, wholeOr(kAttributes), VK_NULL_HANDLE},
-                    {kUv1Binding, wholeOr(kUvs1), VK_NULL_HANDLE},
-                    {kFaceUvBinding, wholeOr(kFaceUvs), VK_NULL_HANDLE},
+                    {kAttributeBinding, wholeOr(kAttributes, View::kAttributes), VK_NULL_HANDLE},
+                    {kUv1Binding, wholeOr(kUvs1, View::kUvs1), VK_NULL_HANDLE},
+                    {kFaceUvBinding, wholeOr(kFaceUvs, View::kFaceUvs), VK_NULL_HANDLE},
                     {kPairBinding, range(shared_.pairs, 0, shared_.pairBytes), VK_NULL_HANDLE},
                     {kScratchBinding, scratchBytes > 0 ? window(kScratch, scratchBytes) : unused, VK_NULL_HANDLE},
                     {kScratchTexelBinding, {}, scratchView},
                     {kInstanceBinding, instanceRange, VK_NULL_HANDLE},
                     {kInstanceTexelBinding, {}, instanceView},
+                    {kLodBinding, view_ != nullptr ? ofView(View::kWords) : unused, VK_NULL_HANDLE},
+                    {kLodTexelBinding, {}, view_ != nullptr ? words : poolView},
                 };
                 if (!status) {
                     return status;

@@ -1,5 +1,7 @@
 #include "runtime/instance_slots.h"
 
+#include "shaders/shared/instances.h"
+
 #include <algorithm>
 
 namespace supple::runtime {
@@ -21,6 +23,7 @@ std::optional<uint32_t> InstanceSlots::create() {
     slot.live = true;
     slot.visible = true;
     slot.evaluated = false;
+    slot.priority = 0;
     end_ = std::max(end_, lowestFree_ + 1);
     return lowestFree_++;
 }
@@ -50,6 +53,7 @@ void InstanceSlots::forgetAll() {
 uint32_t InstanceSlots::list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,
                              std::span<Listed> windows) {
     uint32_t visible = 0;
+    priorities_ = 0;
     for (size_t w = 0; w < windows.size(); ++w) {
         const uint32_t first = static_cast<uint32_t>(w) * windowSize;
         const uint32_t last = std::min(first + windowSize, end_);
@@ -57,7 +61,10 @@ uint32_t InstanceSlots::list(std::span<uint32_t> all, std::span<uint32_t> byWind
         for (const bool past : {true, false}) {
             for (uint32_t s = first; s < last; ++s) {
                 if (slots_[s].live && slots_[s].visible && slots_[s].evaluated == past) {
-                    byWindow[first + listed.count++] = s - first;
+                    byWindow[first + listed.count++] = (s - first) |
+                                                       slots_[s].priority << shared::kInstancePriorityShift |
+                                                       (past ? 0 : shared::kInstanceIsNew);
+                    priorities_ |= 1u << slots_[s].priority;
                 }
             }
             if (past) {

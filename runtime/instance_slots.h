@@ -22,6 +22,10 @@ public:
     [[nodiscard]] uint32_t generation(uint32_t slot) const { return slots_[slot].generation; }
 
     void setVisible(uint32_t slot, bool visible) { slots_[slot].visible = visible; }
+    /// Groups of a view: 0..kPriorityCount - 1; 0 when created.
+    void setPriority(uint32_t slot, uint32_t priority) { slots_[slot].priority = priority; }
+    /// Bits of those that the last listed instances have.
+    [[nodiscard]] uint32_t priorities() const { return priorities_; }
     /// The next frame sees the instance as new.
     void forget(uint32_t slot) { slots_[slot].evaluated = false; }
     void forgetAll();
@@ -35,8 +39,8 @@ public:
         uint32_t count = 0;
         uint32_t withPast = 0;
     };
-    /// Lists the frame's instances and notes them as evaluated. `all`: the visible slots, rising. `byWindow`: slot
-    /// numbers from their window's first on, the entries of window w from w * windowSize on; `windows` is filled in.
+    /// Lists the frame's instances and notes them as evaluated. `all`: the visible slots, rising. `byWindow`: as
+    /// shaders/shared/instances.h has them, slot numbers from their window's first on, the entries of window w from w * windowSize on; `windows` is filled in.
     /// Both hold capacity() entries. Returns the visible.
     uint32_t list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,
                   std::span<Listed> windows);
@@ -47,10 +51,12 @@ private:
         bool live = false;
         bool visible = true;
         bool evaluated = false; ///< in the group's last recorded frame
+        uint32_t priority = 0;
     };
     std::vector<Slot> slots_;
     uint32_t end_ = 0;
     uint32_t lowestFree_ = 0; ///< none is free below
+    uint32_t priorities_ = 1;
 };
 
 } // namespace supple::runtime

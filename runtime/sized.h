@@ -1,6 +1,8 @@
 // Structs of supple.h that begin with structSize, across versions: read from older and newer callers, written to them.
 #pragma once
 
+#include "supple/supple.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +14,10 @@ namespace supple::runtime {
 /// its old size; a new field must not lie where an older struct had padding.
 template <class T>
 inline constexpr size_t kFirstSize = sizeof(T);
+template <>
+inline constexpr size_t kFirstSize<SuppleGroupDesc> = offsetof(SuppleGroupDesc, view);
+template <>
+inline constexpr size_t kFirstSize<SuppleGroupOutput> = offsetof(SuppleGroupOutput, lodDraws);
 
 /// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with
 /// something in fields that this library does not know.

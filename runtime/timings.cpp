@@ -7,8 +7,8 @@
 namespace supple::runtime {
 
 const char* passName(Pass pass) {
-    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "deform",   "vertex",
-                                                "edge",   "patch",      "evaluate", "motion"};
+    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "deform", "vertex", "edge",    "patch",
+                                                "level",  "solve",      "place",  "evaluate", "motion"};
     return kNames[static_cast<size_t>(pass)];
 }
 

@@ -16,6 +16,14 @@ struct Window {
     uint32_t instanceCount = 0;
 };
 
+/// The same for a view's patches.
+struct LodWindow {
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    VkBuffer view = VK_NULL_HANDLE; ///< shaders/shared/lod.h
+    uint32_t firstSlot = 0;
+    uint32_t firstDispatch = 0; ///< of the view: one a patch range
+};
+
 /// What a group evaluates, the same for all its windows.
 struct Evaluation {
     uint32_t rate = 8;

@@ -9,6 +9,10 @@
 #include "shaders/kernel_isolate_comp.h"
 #include "shaders/kernel_limit_comp.h"
 #include "shaders/kernel_refine_comp.h"
+#include "shaders/lod_edge_comp.h"
+#include "shaders/lod_patch_comp.h"
+#include "shaders/lod_place_comp.h"
+#include "shaders/lod_solve_comp.h"
 #include "shaders/pm_evaluate_comp.h"
 #include "shaders/pm_facet_comp.h"
 #include "shaders/pm_patch_comp.h"
@@ -33,6 +37,8 @@ static_assert(sizeof(shared::KernelPush) <= sizeof(shared::SurfacePush));
 constexpr uint32_t kKindConstant = gpu::kFirstPassConstant;
 constexpr uint32_t kVertexFormatConstant = kKindConstant + 1;
 constexpr uint32_t kCornerNormalsConstant = kKindConstant + 2;
+constexpr uint32_t kLodConstant = kKindConstant + 3;
+constexpr uint32_t kRingsConstant = kKindConstant + 4;
 
 shared::SurfacePush pushFor(const Tables& tables, const Section& section, const Window& window,
                             const Evaluation& evaluation) {
@@ -91,6 +97,7 @@ Shaders Shaders::embedded() {
     shaders.patch = evaluate_patch_comp;
     shaders.bicubic = evaluate_bicubic_comp;
     shaders.attributes = evaluate_attributes_comp;
+    shaders.lod = {lod_edge_comp, lod_patch_comp, lod_solve_comp, lod_place_comp};
     return shaders;
 }
 
@@ -114,7 +121,8 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
         {kPoolTexelBinding, kTexels},  {kSurfaceBinding, kStorage},     {kPatchCoefficientBinding, kStorage},
         {kAttributeBinding, kStorage}, {kUv1Binding, kStorage},         {kPairBinding, kStorage},
         {kScratchBinding, kStorage},   {kScratchTexelBinding, kTexels}, {kFaceUvBinding, kStorage},
-        {kInstanceBinding, kStorage},  {kInstanceTexelBinding, kTexels}};
+        {kInstanceBinding, kStorage},  {kInstanceTexelBinding, kTexels},
+        {kLodBinding, kStorage},       {kLodTexelBinding, kTexels}};
     Passes passes;
     passes.device_ = &device;
     passes.shaders_ = shaders;
@@ -125,6 +133,7 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     }
     passes.layout_ = std::move(*layout);
     passes.kernel_ = kernel::Passes(device, shaders.kernel);
+    passes.lod_ = lod::Passes(device, shaders.lod);
     return passes;
 }
 
@@ -181,10 +190,32 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         formats.push_back(kVertexPosition);
     }
     const uint32_t normals = tables.cornerNormals ? 1 : 0;
+    if (status && needs.lod) {
+        status = lod_.prepare(layout_);
+    }
     for (const PatchRange& range : tables.ranges) {
         const auto patchClass = static_cast<uint32_t>(range.patchClass);
         const std::string name = className(range.patchClass);
         const bool bicubic = patchClass <= kPolarPatch;
+        if (needs.lod) {
+            for (size_t f = 0; status && f < formats.size(); ++f) {
+                status = make(lodEvaluate_[formats[f]][patchClass][normals],
+                              bicubic ? shaders_.bicubic : shaders_.pmEvaluate,
+                              {{kKindConstant, patchClass},
+                               {kVertexFormatConstant, formats[f]},
+                               {kCornerNormalsConstant, normals},
+                               {kLodConstant, VK_TRUE}},
+                              "supple evaluate at levels, " + name);
+            }
+            if (status && needs.attributes) {
+                status = make(lodAttributes_[patchClass], shaders_.attributes,
+                              {{kKindConstant, static_cast<uint32_t>(domainOf(range.patchClass))},
+                               {kLodConstant, VK_TRUE},
+                               {kRingsConstant, bicubic ? VK_FALSE : VK_TRUE}},
+                              "supple attributes at levels, " + name);
+            }
+            continue;
+        }
         if (status && needs.attributes) {
             const auto domain = static_cast<uint32_t>(domainOf(range.patchClass));
             status = make(attributes_[domain], shaders_.attributes, {{kKindConstant, domain}}, "supple attributes");
@@ -208,7 +239,7 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
             }
         }
     }
-    for (size_t f = 0; status && f < formats.size(); ++f) {
+    for (size_t f = 0; status && f < formats.size() && !needs.lod; ++f) {
         status = kernel_.prepare(layout_, tables.fragments, formats[f]);
     }
     return status;
@@ -292,6 +323,43 @@ void Passes::recordAttributes(VkCommandBuffer commandBuffer, const Tables& table
         push.samples = samples;
         push.firstVertex = evaluation.firstVertices[r];
         record(commandBuffer, attributes_[static_cast<size_t>(domain)].get(), window.set, push, groupsFor(push.count));
+    }
+}
+
+void Passes::recordIndirect(VkCommandBuffer commandBuffer, VkPipeline pipeline, const LodWindow& window,
+                            const shared::SurfacePush& push) const {
+    const VkPipelineLayout layout = layout_.pipelineLayout.get();
+    device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &window.set, 0,
+                                      nullptr);
+    device_->vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
+    device_->vk.CmdDispatchIndirect(commandBuffer, window.view,
+                                    sizeof(uint32_t) * (shared::kLodDispatches + VkDeviceSize{8} * push.dispatch));
+}
+
+void Passes::recordLodEvaluate(VkCommandBuffer commandBuffer, const Tables& tables, const LodWindow& window,
+                               const Evaluation& evaluation, uint32_t vertexFormat) const {
+    for (size_t r = 0; r < tables.ranges.size(); ++r) {
+        const PatchRange& range = tables.ranges[r];
+        shared::SurfacePush push = pushFor(tables, range.section, {window.set, 0, 0}, evaluation);
+        push.firstPatch = range.firstPatch;
+        push.firstSlot = window.firstSlot;
+        push.dispatch = window.firstDispatch + static_cast<uint32_t>(r);
+        const auto& pipelines = lodEvaluate_[vertexFormat][static_cast<size_t>(range.patchClass)];
+        recordIndirect(commandBuffer, pipelines[tables.cornerNormals ? 1 : 0].get(), window, push);
+    }
+}
+
+void Passes::recordLodAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const LodWindow& window,
+                                 const Evaluation& evaluation) const {
+    for (size_t r = 0; r < tables.ranges.size(); ++r) {
+        const PatchRange& range = tables.ranges[r];
+        shared::SurfacePush push =
+            pushFor(tables, {range.attributes, range.section.count}, {window.set, 0, 0}, evaluation);
+        push.firstPatch = range.firstPatch;
+        push.firstSlot = window.firstSlot;
+        push.dispatch = window.firstDispatch + static_cast<uint32_t>(r);
+        recordIndirect(commandBuffer, lodAttributes_[static_cast<size_t>(range.patchClass)].get(), window, push);
     }
 }
 

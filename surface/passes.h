@@ -6,6 +6,7 @@
 #include "shaders/shared/surface.h"
 #include "surface/evaluation.h"
 #include "surface/kernel/passes.h"
+#include "surface/lod/passes.h"
 
 #include <array>
 #include <cstdint>
@@ -24,6 +25,7 @@ struct Shaders {
     std::span<const uint32_t> blendChart, blendEvaluate;
     kernel::Passes::Shaders kernel;
     std::span<const uint32_t> patch, bicubic, attributes;
+    lod::Passes::Shaders lod;
     [[nodiscard]] static Shaders embedded();
 };
 
@@ -33,6 +35,7 @@ struct Needs {
     bool motion = false; ///< positions alone as well
     bool patches = false;
     bool attributes = false;
+    bool lod = false; ///< records of a view instead of all patches at a rate
 };
 
 /// The pipelines, each created when tables first need it. Recording needs no memory and creates nothing. Between the
@@ -60,6 +63,14 @@ public:
     void recordAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
                           const Evaluation& evaluation) const;
 
+    /// Level of detail: what chooses and places the patches of a view.
+    [[nodiscard]] const lod::Passes& lod() const { return lod_; }
+    /// As recordEvaluate and recordAttributes, of the patches that a view has placed for this window.
+    void recordLodEvaluate(VkCommandBuffer commandBuffer, const Tables& tables, const LodWindow& window,
+                           const Evaluation& evaluation, uint32_t vertexFormat) const;
+    void recordLodAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const LodWindow& window,
+                             const Evaluation& evaluation) const;
+
 private:
     [[nodiscard]] Status make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv,
                               std::initializer_list<gpu::Constant> constants, const std::string& name);
@@ -67,6 +78,9 @@ private:
     void record(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
                 const shared::SurfacePush& push, uint64_t groups) const;
     [[nodiscard]] uint64_t groupsFor(uint64_t lanes) const;
+
+    void recordIndirect(VkCommandBuffer commandBuffer, VkPipeline pipeline, const LodWindow& window,
+                        const shared::SurfacePush& push) const;
 
     static constexpr size_t kClasses = kPatchClassCount;
     const gpu::Device* device_ = nullptr;
@@ -77,7 +91,10 @@ private:
     // By class and by corner normals, which only p-rep's classes have; evaluate_ also by vertex format.
     std::array<std::array<gpu::PipelineHandle, 2>, kClasses> patch_;
     std::array<std::array<std::array<gpu::PipelineHandle, 2>, shared::kVertexFormats>, kClasses> evaluate_;
+    std::array<std::array<gpu::PipelineHandle, 2>, kClasses> lodEvaluate_[shared::kVertexFormats];
+    std::array<gpu::PipelineHandle, kClasses> lodAttributes_;
     kernel::Passes kernel_;
+    lod::Passes lod_;
 };
 
 } // namespace supple::surface

@@ -59,6 +59,7 @@ struct PatchInfo {
     PatchClass patchClass = PatchClass::regular;
     uint32_t cornerCount = 4;
     std::array<uint32_t, kMaxSides> corners{}; ///< cage vertices; cage::kNone where the scheme put a point of its own
+    uint32_t material = cage::kNone;
 };
 
 /// A run of records in the tables.
@@ -134,6 +135,18 @@ struct Fragments {
     std::vector<Class> classes; ///< sharedPoints rise
 };
 
+/// What level of detail adds (surface/lod/tables.h); empty where it is not asked for.
+struct LodTables {
+    Section edges;   ///< one element each
+    Section patches; ///< two elements each, all classes, in device order
+    struct Run {
+        PatchClass patchClass = PatchClass::regular;
+        uint32_t material = cage::kNone;
+        uint32_t patchCount = 0;
+    };
+    std::vector<Run> runs; ///< of one class and material, in device order
+};
+
 /// What depends on connectivity alone: the tables of shaders/shared/{surface,prep,pm,kernel}.h, and where everything
 /// lies in them. Patches are ordered by class, then by material, then by face.
 struct Tables {
@@ -152,6 +165,7 @@ struct Tables {
     std::vector<PatchRange> ranges;
     std::vector<PatchInfo> patches;
     std::vector<DrawRange> drawRanges;
+    LodTables lod;
     std::vector<std::string> notes; ///< what was changed about the cage, one line each
 
     [[nodiscard]] bool has(Stage stage) const;

@@ -3,6 +3,7 @@
 #include "cage/trim.h"
 #include "surface/blend/scheme.h"
 #include "surface/kernel/scheme.h"
+#include "surface/lod/tables.h"
 #include "surface/pm/scheme.h"
 #include "surface/prep/scheme.h"
 
@@ -13,7 +14,7 @@ namespace supple::surface {
 
 namespace {
 
-Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> buildScheme(const Recipe& recipe, const cage::Cage& cage) {
     if (recipe.scheme == SchemeId::pm) {
         Result<pm::Mesh> mesh = pm::buildMesh(cage);
         if (!mesh) {
@@ -48,6 +49,17 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
         return accepted.error();
     }
     return prep::buildTables(cage, *topology, recipe.prep);
+}
+
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+    Result<Tables> tables = buildScheme(recipe, cage);
+    if (tables && recipe.lod) {
+        if (!hasLevels(recipe.scheme)) {
+            return Error{ErrorCode::argument, std::string(schemeName(recipe.scheme)) + " has no levels of detail"};
+        }
+        lod::appendTables(*tables);
+    }
+    return tables;
 }
 
 } // namespace

@@ -17,6 +17,7 @@ struct Recipe {
     prep::Options prep;
     blend::Options blend;
     uint32_t rate = 0; ///< segments along an edge of the cage; 0 for schemes whose tables serve all rates
+    bool lod = false;  ///< with what level of detail needs
 
     bool operator==(const Recipe&) const = default;
 };
@@ -32,6 +33,11 @@ struct Recipe {
 /// Whether its tables are made for one rate.
 [[nodiscard]] constexpr bool hasRate(SchemeId scheme) {
     return subdivides(scheme) || scheme == SchemeId::blend;
+}
+
+/// Whether its patches can be drawn at real-valued levels.
+[[nodiscard]] constexpr bool hasLevels(SchemeId scheme) {
+    return scheme == SchemeId::prep || scheme == SchemeId::pm;
 }
 
 /// Builds the scheme's tables, or says why it cannot take the cage: "face 12 has 5 sides: p-rep takes quads only".

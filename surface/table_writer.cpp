@@ -54,6 +54,7 @@ void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches
         }
         ++tables.drawRanges.back().patchCount;
         tables.patches.push_back(patch.info);
+        tables.patches.back().material = patch.material;
     }
 }
 

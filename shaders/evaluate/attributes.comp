@@ -1,13 +1,15 @@
-// Surface attributes that no pose changes: UV sets and color, interpolated between the corners of each patch. Run once a
-// group. One invocation a patch sample; output per sample (u, v, linear color as RG and BA in 16-bit unorm: 8 bits would
+// Surface attributes: UV sets and color, interpolated between the corners of each patch. No pose changes them: they are
+// evaluated once a group, one invocation a patch sample; with level of detail in every frame, where samples lie then. Output per sample (u, v, linear color as RG and BA in 16-bit unorm: 8 bits would
 // band in the dark), and the second UV set and the face UVs where there are any.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
+#include "shaders/lod/record.glsl"
 
 layout(constant_id = 3) const uint kDomain = kQuadDomain;
+layout(constant_id = 7) const bool kRings = false; // with level of detail: samples lie in rings round a centre
 
 layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes { uvec4 attributes[]; };
 layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1[]; };
@@ -17,13 +19,16 @@ const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ?
 
 // Linear on triangles, bilinear on quads; pentagons are linear between an edge and the centre, the mean of the corners;
 // on polar patches the corner at the apex takes over linearly.
+float[5] bilinear(vec2 u, vec2 v) { return float[5](u.y * v.y, u.x * v.y, u.x * v.x, u.y * v.x, 0.0); }
+float[5] polar(vec2 u, vec2 v) { return float[5](u.y * v.y, u.x * v.y, v.x, 0.0, 0.0); }
+
 float[5] cornerWeights(uint index) {
     uvec3 at = uvec3(index % (push.rate + 1u), index / (push.rate + 1u), 0u);
     if (kDomain == kTriangleDomain) at.xy = triangleSample(push.rate + 1u, index);
     if (kDomain == kPentagonDomain) at = pentagonSample(push.rate, index);
     vec2 u = parameterPair(at.x, push.rate, push.pairs), v = parameterPair(at.y, push.rate, push.pairs);
-    if (kDomain == kQuadDomain) return float[5](u.y * v.y, u.x * v.y, u.x * v.x, u.y * v.x, 0.0);
-    if (kDomain == kPolarDomain) return float[5](u.y * v.y, u.x * v.y, v.x, 0.0, 0.0);
+    if (kDomain == kQuadDomain) return bilinear(u, v);
+    if (kDomain == kPolarDomain) return polar(u, v);
     float rest = parameterPair(push.rate - at.x - at.y, push.rate, push.pairs).x;
     if (kDomain == kTriangleDomain) return float[5](rest, u.x, v.x, 0.0, 0.0);
     float w[5];
@@ -32,11 +37,38 @@ float[5] cornerWeights(uint index) {
     return w;
 }
 
-void main() {
-    uint id = invocationIndex();
-    if (id >= push.count) return;
-    uint patchIndex = id / push.samples;
-    float w[5] = cornerWeights(id - patchIndex * push.samples);
+// The same where a record says that samples lie (surface/lod/grid.h).
+float[5] lodCornerWeights(LodRecord r, uint index) {
+    uint last = r.capacity;
+    if (!kRings) {
+        uint j = index / (last + 1u), i = index - j * (last + 1u);
+        LodPattern alongU = lodPattern(j == 0u ? r.pairs[2] : j == last ? r.pairs[4] : r.pairs[0], r.capacityIndex);
+        LodPattern alongV = lodPattern(i == last ? r.pairs[3] : i == 0u ? r.pairs[5] : r.pairs[1], r.capacityIndex);
+        vec2 u = i == 0u ? vec2(0.0, 1.0) : i == last ? vec2(1.0, 0.0) : lodPair(alongU, i, last);
+        vec2 v = j == 0u ? vec2(0.0, 1.0) : j == last ? vec2(1.0, 0.0) : lodPair(alongV, j, last);
+        if (kDomain == kPolarDomain) return polar(u, v);
+        return bilinear(u, v);
+    }
+    uint ring = 0u;
+    while (kCorners * (ring + 1u) * (last - ring) <= index) ++ring;
+    uint at = index - kCorners * ring * (last + 1u - ring), side = last - 2u * ring;
+    uint sector = at / side, k = ring + at - sector * side;
+    float t = lodPair(lodPattern(r.pairs[0], r.capacityIndex), ring, last).x;
+    vec2 along = lodPair(lodPattern(ring == 0u ? r.pairs[1u + sector] : r.pairs[0], r.capacityIndex), k, last);
+    vec3 l = vec3(along.y - t, along.x - t, 2.0 * t);
+    if (kDomain == kQuadDomain) {
+        const vec2 kSquare[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
+        vec2 p = l.x * kSquare[sector & 3u] + l.y * kSquare[(sector + 1u) & 3u] + l.z * vec2(0.5);
+        return bilinear(vec2(p.x, 1.0 - p.x), vec2(p.y, 1.0 - p.y));
+    }
+    float w[5];
+    for (uint c = 0u; c < 5u; ++c)
+        w[c] = c < kCorners ? l.z / float(kCorners) + (c == sector ? l.x : 0.0) + (c == (sector + 1u) % kCorners ? l.y : 0.0)
+                            : 0.0;
+    return w;
+}
+
+void store(uint vertex, uint patchIndex, float w[5]) {
     bool second = push.uvSets == 2u, face = push.faceUvs != 0u;
     uint elements = second || face ? 2u : 1u;
     vec2 uv = vec2(0.0);
@@ -49,7 +81,35 @@ void main() {
         color += w[k] * vec4(unpackUnorm2x16(corner.z), unpackUnorm2x16(corner.w));
         if (elements == 2u) more += w[k] * uintBitsToFloat(tableElement(element + 1u));
     }
-    attributes[push.firstVertex + id] = uvec4(floatBitsToUint(uv), packUnorm2x16(color.xy), packUnorm2x16(color.zw));
-    if (second) uvs1[push.firstVertex + id] = more.xy;
-    if (face) faceUvs[push.firstVertex + id] = more.zw;
+    attributes[vertex] = uvec4(floatBitsToUint(uv), packUnorm2x16(color.xy), packUnorm2x16(color.zw));
+    if (second) uvs1[vertex] = more.xy;
+    if (face) faceUvs[vertex] = more.zw;
+}
+
+void storeOfRecord(uint index, uint firstSample, uint step) {
+    LodRecord r = lodRecord(index);
+    if (r.patchIndex == kEmptyRecord) return;
+    uint samples = kRings ? kCorners * (r.capacity + 1u) * (r.capacity + 1u) / 4u : (r.capacity + 1u) * (r.capacity + 1u);
+    for (uint k = firstSample; k < samples; k += step)
+        store(r.firstVertex + k, r.patchIndex - push.firstPatch, lodCornerWeights(r, k));
+}
+
+void main() {
+    if (kLod) {
+        const uint kForm = !kRings ? kLodQuadForm
+                         : kDomain == kTriangleDomain ? kLodTriangleForm
+                         : kDomain == kPentagonDomain ? kLodPentagonForm : kLodQuadRingsForm;
+        if (kWide) {
+            LodShare share = lodShareOfGroup(kForm);
+            for (uint n = 0u; n < share.recordCount; ++n)
+                storeOfRecord(share.firstRecord + n, gl_LocalInvocationID.x, gl_WorkGroupSize.x);
+        } else {
+            storeOfRecord(lodRecordOfLane(), 0u, 1u);
+        }
+        return;
+    }
+    uint id = invocationIndex();
+    if (id >= push.count) return;
+    uint patchIndex = id / push.samples;
+    store(push.firstVertex + id, patchIndex, cornerWeights(id - patchIndex * push.samples));
 }

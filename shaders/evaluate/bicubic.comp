@@ -1,7 +1,8 @@
 // Evaluation of bicubic patches: regular, p-rep's with the sparse bi-5 perturbation (docs/prep.md), polar (docs/pm.md).
 // Coefficients are gathered from the pool by index. Narrow mapping: one lane a patch, everything in registers, rows collapsed
 // in v first. Wide mapping: a workgroup takes a few patches into shared memory, its lanes share the samples. Both use the functions
-// collapse() and finish(), so positions agree bit for bit.
+// collapse() and finish(), so positions agree bit for bit. With level of detail samples lie where the patch's record says
+// instead of at i / rate (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -11,6 +12,8 @@
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 #include "shaders/evaluate/bicubic.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/lod/record.glsl"
 
 const bool kPerturbed = kClass == kPerturbedPatch;
 const bool kPolar = kClass == kPolarPatch;
@@ -84,32 +87,34 @@ void finish(Row row, vec2 u, out vec3 position, out vec3 normal) {
     normal = unitNormal(cross(du, dv)); // outwards
 }
 
-vec3 cornerNormal(vec3 normal, uint i, uint j, uvec4 slots, uint base) {
-    bool left = i == 0u, right = i == push.rate, bottom = j == 0u, top = j == push.rate;
+vec3 cornerNormal(vec3 normal, uint i, uint j, uint rate, uvec4 slots, uint base) {
+    bool left = i == 0u, right = i == rate, bottom = j == 0u, top = j == rate;
     if (!((left || right) && (bottom || top))) return normal;
     uint slot = bottom ? (left ? slots.x : slots.y) : (left ? slots.w : slots.z);
     return slot == kNoNormal ? normal : unitNormal(poolVector(base + slot));
 }
 
-void evaluateNarrow() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uint patchIndex = id - entry * push.count;
-    uint record = push.table + patchIndex * recordElements();
-    uint base = instance * push.poolStride;
+// Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
+// place of the cage.
+vec3 coefficient(uint i, bool today) {
+    if (kLod && kVertexFormat == kVertexPosition && today) return cageVertex(i);
+    return poolVector(i);
+}
+
+Patch loadPatch(uint record, uint base, bool today) {
     Patch c;
     for (uint k = 0u; k < 4u; ++k) {
         uvec4 indices = base + tableElement(record + k);
-        c.g[4u * k] = poolVector(indices.x);
-        c.g[4u * k + 1u] = poolVector(indices.y);
-        c.g[4u * k + 2u] = poolVector(indices.z);
-        c.g[4u * k + 3u] = poolVector(indices.w);
+        c.g[4u * k] = coefficient(indices.x, today);
+        c.g[4u * k + 1u] = coefficient(indices.y, today);
+        c.g[4u * k + 2u] = coefficient(indices.z, today);
+        c.g[4u * k + 3u] = coefficient(indices.w, today);
         if (kPerturbed) {
             indices = base + tableElement(record + 4u + k);
-            c.h[4u * k] = poolVector(indices.x);
-            c.h[4u * k + 1u] = poolVector(indices.y);
-            c.h[4u * k + 2u] = poolVector(indices.z);
-            c.h[4u * k + 3u] = poolVector(indices.w);
+            c.h[4u * k] = coefficient(indices.x, today);
+            c.h[4u * k + 1u] = coefficient(indices.y, today);
+            c.h[4u * k + 2u] = coefficient(indices.z, today);
+            c.h[4u * k + 3u] = coefficient(indices.w, today);
         }
     }
     for (uint k = 0u; k < 16u; ++k) {
@@ -118,8 +123,21 @@ void evaluateNarrow() {
         c.relative[k] = relativeTo(c.g[0], c.g[corner], offset);
         if (k != corner) c.g[k] = placed(c.g[corner], offset);
     }
-    uvec4 normalSlots = uvec4(kNoNormal);
-    if (kCornerNormals) normalSlots = tableElement(record + recordElements() - 1u);
+    return c;
+}
+
+uvec4 normalSlots(uint record) {
+    return kCornerNormals ? tableElement(record + recordElements() - 1u) : uvec4(kNoNormal);
+}
+
+void evaluateNarrow() {
+    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uint patchIndex = id - entry * push.count;
+    uint record = push.table + patchIndex * recordElements();
+    uint base = instance * push.poolStride;
+    Patch c = loadPatch(record, base, false);
+    uvec4 slots = normalSlots(record);
 
     uint side = push.rate + 1u;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
@@ -129,9 +147,55 @@ void evaluateNarrow() {
             vec3 position, normal;
             finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
             if (kPolar && j == push.rate) position = c.g[12]; // the apex itself, from every patch round it
-            if (kCornerNormals) normal = cornerNormal(normal, i, j, normalSlots, base);
+            if (kCornerNormals) normal = cornerNormal(normal, i, j, push.rate, slots, base);
             storeSurfaceVertex(vertex, position, normal);
             ++vertex;
+        }
+    }
+}
+
+// Parameters of a sample on a border are the edge's, else the patch's own. At a corner they are 0 and 1 themselves.
+vec2 lodU(LodRecord r, uint i, uint j) {
+    if (i == 0u) return vec2(0.0, 1.0);
+    if (i == r.capacity) return vec2(1.0, 0.0);
+    vec2 level = j == 0u ? r.pairs[2] : j == r.capacity ? r.pairs[4] : r.pairs[0];
+    return lodPair(lodPattern(level, r.capacityIndex), i, r.capacity);
+}
+vec2 lodV(LodRecord r, uint i, uint j) {
+    if (j == 0u) return vec2(0.0, 1.0);
+    if (j == r.capacity) return vec2(1.0, 0.0);
+    vec2 level = i == r.capacity ? r.pairs[3] : i == 0u ? r.pairs[5] : r.pairs[1];
+    return lodPair(lodPattern(level, r.capacityIndex), j, r.capacity);
+}
+
+// A lane a patch. Rows first, the inner ones without their ends: those lie on the borders u = 0 and u = 1, which have
+// levels of their own, and follow one by one.
+void evaluateNarrowLod() {
+    LodRecord r = lodRecord(lodRecordOfLane());
+    uint last = r.capacity, side = last + 1u;
+    if (r.patchIndex == kEmptyRecord) {
+        for (uint k = 0u; k < side * side; ++k) storeSurfaceVertex(r.firstVertex + k, vec3(0.0), vec3(0.0));
+        return;
+    }
+    uint record = push.table + (r.patchIndex - push.firstPatch) * recordElements(), base = r.slot * push.poolStride;
+    Patch c = loadPatch(record, base, r.isNew);
+    uvec4 slots = normalSlots(record);
+    uint rows = side, columns = 2u * (side - 2u);
+    for (uint n = 0u; n < rows + columns; ++n) {
+        bool column = n >= rows;
+        uint j = column ? 1u + (n - rows) / 2u : n;
+        uint first = column ? ((n - rows) & 1u) * last : j == 0u || j == last ? 0u : 1u;
+        uint end = column ? first + 1u : j == 0u || j == last ? side : last;
+        Row row = collapse(c, lodV(r, column ? first : 1u, j));
+        vec2 level = j == 0u ? r.pairs[2] : j == last ? r.pairs[4] : r.pairs[0];
+        LodPattern along = lodPattern(level, r.capacityIndex);
+        for (uint i = first; i < end; ++i) {
+            vec2 u = i == 0u ? vec2(0.0, 1.0) : i == last ? vec2(1.0, 0.0) : lodPair(along, i, last);
+            vec3 position, normal;
+            finish(row, u, position, normal);
+            if (kPolar && j == last) position = c.g[12];
+            if (kCornerNormals) normal = cornerNormal(normal, i, j, last, slots, base);
+            storeSurfaceVertex(r.firstVertex + j * side + i, position, normal);
         }
     }
 }
@@ -139,52 +203,96 @@ void evaluateNarrow() {
 const uint kSharedStride = kPerturbed ? 48u : 32u; // g, relative, h
 shared vec4 sharedCoefficients[kMaxPatchesPerGroup * kSharedStride];
 
+// Coefficient k of the patch in a place of the workgroup.
+void loadShared(uint place, uint k, uint record, uint base, bool today) {
+    uint words = 4u * record, corner = cornerOf(k);
+    vec3 origin = coefficient(base + tableWord(words), today);
+    vec3 v = coefficient(base + tableWord(words + corner), today), offset = vec3(0.0);
+    if (k != corner) offset = coefficient(base + tableWord(words + k), today);
+    uint to = place * kSharedStride + k;
+    sharedCoefficients[to] = vec4(k == corner ? v : placed(v, offset), 0.0);
+    sharedCoefficients[to + 16u] = vec4(relativeTo(origin, v, offset), 0.0);
+    if (kPerturbed)
+        sharedCoefficients[to + 32u] = vec4(coefficient(base + tableWord(words + 16u + k), today), 0.0);
+}
+
+Patch sharedPatch(uint place) {
+    Patch c;
+    for (uint n = 0u; n < 16u; ++n) {
+        uint from = place * kSharedStride + n;
+        c.g[n] = sharedCoefficients[from].xyz;
+        c.relative[n] = sharedCoefficients[from + 16u].xyz;
+        if (kPerturbed) c.h[n] = sharedCoefficients[from + 32u].xyz;
+    }
+    return c;
+}
+
 void evaluateWide() {
     uint total = push.count * push.instanceCount;
     uint first = workgroupIndex() * push.patchesPerGroup;
     uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
     for (uint n = gl_LocalInvocationID.x; n < here * 16u; n += gl_WorkGroupSize.x) {
-        uint slot = n / 16u, k = n - slot * 16u, corner = cornerOf(k);
-        uint id = first + slot;
+        uint place = n / 16u, id = first + place;
         uint entry = id / push.count, instance = instanceSlot(entry);
-        uint words = 4u * (push.table + (id - entry * push.count) * recordElements()), base = instance * push.poolStride;
-        vec3 origin = poolVector(base + tableWord(words)), v = poolVector(base + tableWord(words + corner));
-        vec3 offset = vec3(0.0);
-        if (k != corner) offset = poolVector(base + tableWord(words + k));
-        uint to = slot * kSharedStride + k;
-        sharedCoefficients[to] = vec4(k == corner ? v : placed(v, offset), 0.0);
-        sharedCoefficients[to + 16u] = vec4(relativeTo(origin, v, offset), 0.0);
-        if (kPerturbed) sharedCoefficients[to + 32u] = vec4(poolVector(base + tableWord(words + 16u + k)), 0.0);
+        loadShared(place, n - place * 16u, push.table + (id - entry * push.count) * recordElements(),
+                   instance * push.poolStride, false);
     }
     barrier();
     uint side = push.rate + 1u, samples = push.samples;
     for (uint k = gl_LocalInvocationID.x; k < here * samples; k += gl_WorkGroupSize.x) {
-        uint slot = k / samples, sampleIndex = k - slot * samples;
+        uint place = k / samples, sampleIndex = k - place * samples;
         uint j = sampleIndex / side, i = sampleIndex - j * side;
-        uint id = first + slot;
+        uint id = first + place;
         uint entry = id / push.count, instance = instanceSlot(entry);
         uint patchIndex = id - entry * push.count;
-        Patch c;
-        for (uint n = 0u; n < 16u; ++n) {
-            uint from = slot * kSharedStride + n;
-            c.g[n] = sharedCoefficients[from].xyz;
-            c.relative[n] = sharedCoefficients[from + 16u].xyz;
-            if (kPerturbed) c.h[n] = sharedCoefficients[from + 32u].xyz;
-        }
+        Patch c = sharedPatch(place);
         Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
         vec3 position, normal;
         finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
         if (kPolar && j == push.rate) position = c.g[12];
-        if (kCornerNormals) {
-            uvec4 slots = tableElement(push.table + patchIndex * recordElements() + recordElements() - 1u);
-            normal = cornerNormal(normal, i, j, slots, instance * push.poolStride);
-        }
+        if (kCornerNormals)
+            normal = cornerNormal(normal, i, j, push.rate, normalSlots(push.table + patchIndex * recordElements()),
+                                  instance * push.poolStride);
         storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples + sampleIndex,
                            position, normal);
     }
 }
 
+void evaluateWideLod() {
+    LodShare share = lodShareOfGroup(kLodQuadForm);
+    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 16u; n += gl_WorkGroupSize.x) {
+        uint place = n / 16u;
+        LodRecord r = lodRecord(share.firstRecord + place);
+        if (r.patchIndex != kEmptyRecord)
+            loadShared(place, n - place * 16u, push.table + (r.patchIndex - push.firstPatch) * recordElements(),
+                       r.slot * push.poolStride, r.isNew);
+    }
+    barrier();
+    for (uint k = gl_LocalInvocationID.x; k < share.recordCount * share.samples; k += gl_WorkGroupSize.x) {
+        uint place = k / share.samples, sampleIndex = k - place * share.samples;
+        LodRecord r = lodRecord(share.firstRecord + place);
+        uint side = r.capacity + 1u, j = sampleIndex / side, i = sampleIndex - j * side;
+        vec3 position = vec3(0.0), normal = vec3(0.0);
+        if (r.patchIndex != kEmptyRecord) {
+            Patch c = sharedPatch(place);
+            Row row = collapse(c, lodV(r, i, j));
+            finish(row, lodU(r, i, j), position, normal);
+            if (kPolar && j == r.capacity) position = c.g[12];
+            if (kCornerNormals)
+                normal = cornerNormal(normal, i, j, r.capacity,
+                                      normalSlots(push.table + (r.patchIndex - push.firstPatch) * recordElements()),
+                                      r.slot * push.poolStride);
+        }
+        storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
+    }
+}
+
 void main() {
-    if (kWide) evaluateWide();
-    else evaluateNarrow();
+    if (kWide) {
+        if (kLod) evaluateWideLod();
+        else evaluateWide();
+    } else {
+        if (kLod) evaluateNarrowLod();
+        else evaluateNarrow();
+    }
 }

@@ -2,7 +2,8 @@
 // gathered from the pool by index; a sector's 15 are expanded from the patch's 6 m + 1. Samples on a border come from the
 // border's cubic alone, by the same sum as every other class of patch. Narrow mapping: one lane a patch, sector by sector.
 // Wide mapping: a workgroup expands the sectors of a few patches into shared memory, its lanes share the samples. Both use
-// loadSector() and finish(), so positions agree bit for bit.
+// loadSector() and finish(), so positions agree bit for bit. With level of detail samples lie in rings, where the patch's
+// record says (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,6 +14,8 @@
 #include "shaders/evaluate/domain.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 #include "shaders/pm/pm.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/lod/record.glsl"
 
 // Samples of a sector lie in rows parallel to its edge, kRowStep / rate of the way to the centre apart.
 const uint kRowStep = kClass == kP5Patch ? 1u : kClass == kP4Patch ? 2u : 3u;
@@ -35,23 +38,30 @@ vec3[3] rayPoints(vec3 v, vec3 p310, vec3 p130, vec3 p211, vec3 p121, vec3 after
     return vec3[3](x1, x2, x3);
 }
 
-Sector loadSector(uint record, uint base, uint i) {
+// Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
+// place of the cage.
+vec3 coefficient(uint i, bool today) {
+    if (kLod && kVertexFormat == kVertexPosition && today) return cageVertex(i);
+    return poolVector(i);
+}
+
+Sector loadSector(uint record, uint base, uint i, bool today) {
     const uint m = kSides;
     uint n = i + 1u == m ? 0u : i + 1u, l = i == 0u ? m - 1u : i - 1u;
     uint inner = base + tableElement(record).w;
     uvec4 own = base + tableElement(record + i), next = base + tableElement(record + n), last = base + tableElement(record + l);
     Sector s;
-    s.centre = poolVector(inner);
-    vec3 v0 = poolVector(own.x), t0 = poolVector(own.y), t1 = poolVector(own.z), v1 = poolVector(next.x);
+    s.centre = coefficient(inner, today);
+    vec3 v0 = coefficient(own.x, today), t0 = coefficient(own.y, today), t1 = coefficient(own.z, today), v1 = coefficient(next.x, today);
     precise vec3 border1 = v0 + t0, border2 = v1 + t1;
     s.border = vec3[4](v0, border1, border2, v1);
     precise vec3 a = v0 - s.centre, d = v1 - s.centre;
     uint at = inner + 1u + 3u * i, atNext = inner + 1u + 3u * n, atLast = inner + 1u + 3u * l;
-    precise vec3 p211 = a + poolVector(at), p121 = d + poolVector(at + 1u), p112 = poolVector(at + 2u);
-    precise vec3 last121 = a + poolVector(atLast + 1u), last112 = poolVector(atLast + 2u);
-    precise vec3 next211 = d + poolVector(atNext), next112 = poolVector(atNext + 2u);
+    precise vec3 p211 = a + coefficient(at, today), p121 = d + coefficient(at + 1u, today), p112 = coefficient(at + 2u, today);
+    precise vec3 last121 = a + coefficient(atLast + 1u, today), last112 = coefficient(atLast + 2u, today);
+    precise vec3 next211 = d + coefficient(atNext, today), next112 = coefficient(atNext + 2u, today);
     precise vec3 p310 = a + 0.75 * t0, p130 = d + 0.75 * t1;
-    precise vec3 last130 = a + 0.75 * poolVector(last.z), next310 = d + 0.75 * poolVector(next.y);
+    precise vec3 last130 = a + 0.75 * coefficient(last.z, today), next310 = d + 0.75 * coefficient(next.y, today);
     precise vec3 p220 = ((a + t0) + (d + t1)) * 0.5;
     vec3 left[3] = rayPoints(a, p310, last130, p211, last121, p112, last112);
     vec3 right[3] = rayPoints(d, next310, p130, next211, p121, next112, p112);
@@ -77,24 +87,44 @@ void cubicBlends(Sector s, vec3 w, out vec3 first, out vec3 second, out vec3 inn
     inner = r;
 }
 
-// The sample (k, l) of a sector: weights (rate - k - l, k, l) / rate. `singular`: its corner has parallel tangents.
-void finish(Sector s, uint k, uint l, bool singular, out vec3 position, out vec3 normal) {
-    vec2 second = parameterPair(k, push.rate, push.pairs), third = parameterPair(l, push.rate, push.pairs);
-    vec3 w = vec3(parameterPair(push.rate - k - l, push.rate, push.pairs).x, second.x, third.x);
+// The sample of these weights of a sector's corners and the centre. On the border its parameter there is `along`.
+// `singular`: it is a corner with parallel tangents.
+void finish(Sector s, vec3 w, bool onBorder, vec2 along, bool singular, out vec3 position, out vec3 normal) {
     vec3 a, b, c;
     cubicBlends(s, w, a, b, c);
     precise vec3 p = s.centre + ((w.x * a + w.y * b) + w.z * c);
-    if (l == 0u) {
-        precise vec3 onBorder = sum4(bernstein3(second), s.border[0], s.border[1], s.border[2], s.border[3]);
-        p = onBorder;
+    if (onBorder) {
+        precise vec3 q = sum4(bernstein3(along), s.border[0], s.border[1], s.border[2], s.border[3]);
+        p = q;
     }
-    if (singular && k == 0u && l == 0u) {
+    if (singular) {
         const float kStep = 1e-3 / 3.0; // a step inside, where there is a normal
         cubicBlends(s, vec3(1.0 - 2.0 * kStep, kStep, kStep), a, b, c);
     }
     position = p;
     normal = unitNormal(cross(b - a, c - a)); // outwards
 }
+
+// The sample (k, l) of a sector: weights (rate - k - l, k, l) / rate.
+void finishAtRate(Sector s, uint k, uint l, bool singular, out vec3 position, out vec3 normal) {
+    vec2 second = parameterPair(k, push.rate, push.pairs), third = parameterPair(l, push.rate, push.pairs);
+    vec3 w = vec3(parameterPair(push.rate - k - l, push.rate, push.pairs).x, second.x, third.x);
+    finish(s, w, l == 0u, second, singular && k == 0u && l == 0u, position, normal);
+}
+
+// The sample k of ring r of a sector, at levels of detail.
+void finishInRing(Sector s, LodRecord record, uint sector, uint r, uint k, bool singular, out vec3 position,
+                  out vec3 normal) {
+    vec2 level = r == 0u ? record.pairs[1u + sector] : record.pairs[0];
+    vec2 along = lodPair(lodPattern(level, record.capacityIndex), k, record.capacity);
+    float t = lodPair(lodPattern(record.pairs[0], record.capacityIndex), r, record.capacity).x;
+    precise vec3 w = vec3(along.y - t, along.x - t, 2.0 * t);
+    finish(s, w, r == 0u, along, singular && r == 0u && k == 0u, position, normal);
+}
+
+// Samples before ring r, and before a side of it (surface/lod/grid.h).
+uint ringStart(uint r, uint capacity) { return kSides * r * (capacity + 1u - r); }
+uint sideStart(uint r, uint sector, uint capacity) { return ringStart(r, capacity) + sector * (capacity - 2u * r); }
 
 // Grid sample of (k, l) in a sector.
 uint sampleOf(uint sector, uint k, uint l) {
@@ -141,20 +171,60 @@ void evaluateNarrow() {
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
     uint singular = tableElement(record + 1u).w;
     for (uint sector = 0u; sector < kSides; ++sector) {
-        Sector s = loadSector(record, base, sector);
+        Sector s = loadSector(record, base, sector, false);
         bool step = (singular & (1u << sector)) != 0u;
         for (uint l = 0u; l <= push.rate; l += kRowStep) {
             uint end = l < push.rate ? push.rate - l : sector == 0u ? 1u : 0u; // the centre is sector 0's
             for (uint k = 0u; k < end; ++k) {
                 vec3 position, normal;
-                finish(s, k, l, step, position, normal);
+                finishAtRate(s, k, l, step, position, normal);
                 storeSurfaceVertex(vertex + sampleOf(sector, k, l), position, normal);
             }
         }
     }
 }
 
+void evaluateNarrowLod() {
+    LodRecord r = lodRecord(lodRecordOfLane());
+    uint last = r.capacity, rings = (last + 1u) / 2u;
+    if (r.patchIndex == kEmptyRecord) {
+        uint samples = ringStart(rings, last);
+        for (uint k = 0u; k < samples; ++k) storeSurfaceVertex(r.firstVertex + k, vec3(0.0), vec3(0.0));
+        return;
+    }
+    uint record = push.table + kSides * (r.patchIndex - push.firstPatch), base = r.slot * push.poolStride;
+    uint singular = tableElement(record + 1u).w;
+    for (uint sector = 0u; sector < kSides; ++sector) {
+        Sector s = loadSector(record, base, sector, r.isNew);
+        bool step = (singular & (1u << sector)) != 0u;
+        for (uint ring = 0u; ring < rings; ++ring) {
+            uint vertex = r.firstVertex + sideStart(ring, sector, last);
+            for (uint k = ring; k < last - ring; ++k) {
+                vec3 position, normal;
+                finishInRing(s, r, sector, ring, k, step, position, normal);
+                storeSurfaceVertex(vertex, position, normal);
+                ++vertex;
+            }
+        }
+    }
+}
+
 shared vec4 sharedPoints[kMaxPatchesPerGroup * kSides * kSectorPoints];
+
+void storeShared(uint n, Sector s) {
+    uint to = n * kSectorPoints;
+    sharedPoints[to] = vec4(s.centre, 0.0);
+    for (uint i = 0u; i < 4u; ++i) sharedPoints[to + 1u + i] = vec4(s.border[i], 0.0);
+    for (uint i = 0u; i < 15u; ++i) sharedPoints[to + 5u + i] = vec4(s.c[i], 0.0);
+}
+Sector sharedSector(uint n) {
+    uint from = n * kSectorPoints;
+    Sector s;
+    s.centre = sharedPoints[from].xyz;
+    for (uint i = 0u; i < 4u; ++i) s.border[i] = sharedPoints[from + 1u + i].xyz;
+    for (uint i = 0u; i < 15u; ++i) s.c[i] = sharedPoints[from + 5u + i].xyz;
+    return s;
+}
 
 void evaluateWide() {
     uint total = push.count * push.instanceCount;
@@ -164,11 +234,7 @@ void evaluateWide() {
         uint slot = n / kSides, id = first + slot;
         uint entry = id / push.count, instance = instanceSlot(entry);
         uint record = push.table + kSides * (id - entry * push.count);
-        Sector s = loadSector(record, instance * push.poolStride, n - slot * kSides);
-        uint to = n * kSectorPoints;
-        sharedPoints[to] = vec4(s.centre, 0.0);
-        for (uint i = 0u; i < 4u; ++i) sharedPoints[to + 1u + i] = vec4(s.border[i], 0.0);
-        for (uint i = 0u; i < 15u; ++i) sharedPoints[to + 5u + i] = vec4(s.c[i], 0.0);
+        storeShared(n, loadSector(record, instance * push.poolStride, n - slot * kSides, false));
     }
     barrier();
     uint samples = push.samples;
@@ -178,20 +244,49 @@ void evaluateWide() {
         uint entry = id / push.count, instance = instanceSlot(entry);
         uint patchIndex = id - entry * push.count;
         uvec3 at = sectorOf(sampleIndex);
-        uint from = (slot * kSides + at.z) * kSectorPoints;
-        Sector s;
-        s.centre = sharedPoints[from].xyz;
-        for (uint i = 0u; i < 4u; ++i) s.border[i] = sharedPoints[from + 1u + i].xyz;
-        for (uint i = 0u; i < 15u; ++i) s.c[i] = sharedPoints[from + 5u + i].xyz;
+        Sector s = sharedSector(slot * kSides + at.z);
         uint singular = tableElement(push.table + kSides * patchIndex + 1u).w;
         vec3 position, normal;
-        finish(s, at.x, at.y, (singular & (1u << at.z)) != 0u, position, normal);
+        finishAtRate(s, at.x, at.y, (singular & (1u << at.z)) != 0u, position, normal);
         storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples + sampleIndex,
                            position, normal);
     }
 }
 
+void evaluateWideLod() {
+    const uint kForm = kClass == kP3Patch ? kLodTriangleForm : kClass == kP4Patch ? kLodQuadRingsForm : kLodPentagonForm;
+    LodShare share = lodShareOfGroup(kForm);
+    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * kSides; n += gl_WorkGroupSize.x) {
+        uint place = n / kSides;
+        LodRecord r = lodRecord(share.firstRecord + place);
+        if (r.patchIndex != kEmptyRecord)
+            storeShared(n, loadSector(push.table + kSides * (r.patchIndex - push.firstPatch), r.slot * push.poolStride,
+                                      n - place * kSides, r.isNew));
+    }
+    barrier();
+    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * share.samples; n += gl_WorkGroupSize.x) {
+        uint place = n / share.samples, sampleIndex = n - place * share.samples;
+        LodRecord r = lodRecord(share.firstRecord + place);
+        vec3 position = vec3(0.0), normal = vec3(0.0);
+        if (r.patchIndex != kEmptyRecord) {
+            uint ring = 0u;
+            while (ringStart(ring + 1u, r.capacity) <= sampleIndex) ++ring;
+            uint side = r.capacity - 2u * ring, at = sampleIndex - ringStart(ring, r.capacity);
+            uint sector = at / side, k = ring + at - sector * side;
+            uint singular = tableElement(push.table + kSides * (r.patchIndex - push.firstPatch) + 1u).w;
+            finishInRing(sharedSector(place * kSides + sector), r, sector, ring, k, (singular & (1u << sector)) != 0u,
+                         position, normal);
+        }
+        storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
+    }
+}
+
 void main() {
-    if (kWide) evaluateWide();
-    else evaluateNarrow();
+    if (kWide) {
+        if (kLod) evaluateWideLod();
+        else evaluateWide();
+    } else {
+        if (kLod) evaluateNarrowLod();
+        else evaluateNarrow();
+    }
 }

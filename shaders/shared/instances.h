@@ -1,5 +1,6 @@
 // The list of instances a dispatch works on: entries of a buffer that both the deform pass and the surface passes bind, each
-// the slot of an instance within the window of slots that the other buffers are bound by.
+// the slot of an instance within the window of slots that the other buffers are bound by, and what the passes must know of
+// it.
 #ifndef SUPPLE_SHARED_INSTANCES_H
 #define SUPPLE_SHARED_INSTANCES_H
 
@@ -7,9 +8,13 @@
 
 SUPPLE_SHARED_BEGIN
 
-// Set 0 of either layout, above all other bindings.
+// Set 0 of either layout.
 SUPPLE_SHARED_CONST kInstanceBinding = 15u;
 SUPPLE_SHARED_CONST kInstanceTexelBinding = 16u;
+
+SUPPLE_SHARED_CONST kInstanceSlotMask = 0x0FFFFFFFu;
+SUPPLE_SHARED_CONST kInstancePriorityShift = 28u; // two bits
+SUPPLE_SHARED_CONST kInstanceIsNew = 0x80000000u; // has no past: its previous positions are its positions
 
 SUPPLE_SHARED_END
 

@@ -1,4 +1,25 @@
 // Level of detail (docs/lod.md): what the passes that choose levels, the budget's solver and evaluation share.
+//
+// A view has one buffer, of words; what lies where is a constant, so that no pass is told:
+//   patterns      the words of all capacities (surface/lod/pattern.h)
+//   grids         by form and capacity: (first index, index count) of a draw instance
+//   runs          one word a run: form | dispatch << 8. A run is the patches of one class and material of a window of
+//                 instances of a group; a dispatch evaluates the runs of one class, which follow each other
+//   solution      LodSolution
+//   capacities    by priority and bin: the index of the capacity that patches of the bin take
+//   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
+//   kSplitUnit
+//                 is shared between two bins
+//   counts        by run, priority and bin: patches
+//   buckets       by run and capacity: four words (LodBucket)
+//   dispatches    eight words each (LodDispatch)
+//   draws         by run and capacity: VkDrawIndexedIndirectCommand
+//   records       sixteen words a patch that is drawn, those of a bucket one after the other, filled up with empty ones
+//                 to whole draw instances: (patch in device order, or kEmptyRecord; slot | kInstanceIsNew; first
+//                 vertex; capacity index), then pairs (a, 1 / L) as float bits: quads u, v inside, then edges 0..3;
+//                 rings inside, then edges 0..4
+//
+// In an instance's scratch: a float an edge, its level before the budget; then three words a patch (LodPatchLevel).
 #ifndef SUPPLE_SHARED_LOD_H
 #define SUPPLE_SHARED_LOD_H
 
@@ -6,7 +27,13 @@
 
 SUPPLE_SHARED_BEGIN
 
+// Set 0 of the surface layout.
+SUPPLE_SHARED_CONST kLodBinding = 17u;
+SUPPLE_SHARED_CONST kLodTexelBinding = 18u;
+
 SUPPLE_SHARED_CONST kCapacityCount = 10u;
+SUPPLE_SHARED_CONST kPriorityCount = 4u;
+SUPPLE_SHARED_CONST kMaxRuns = 256u; // of a view, and dispatches
 
 // Forms of grids (surface/lod/grid.h).
 SUPPLE_SHARED_CONST kLodQuadForm = 0u;
@@ -14,6 +41,87 @@ SUPPLE_SHARED_CONST kLodTriangleForm = 1u;
 SUPPLE_SHARED_CONST kLodQuadRingsForm = 2u;
 SUPPLE_SHARED_CONST kLodPentagonForm = 3u;
 SUPPLE_SHARED_CONST kLodForms = 4u;
+
+// Bins of log2 level: kBinsPerOctave an octave from 2^-kOctavesBelow on.
+SUPPLE_SHARED_CONST kBinsPerOctave = 64u;
+SUPPLE_SHARED_CONST kOctavesBelow = 6u;
+SUPPLE_SHARED_CONST kLodBins = 898u;
+SUPPLE_SHARED_CONST kLodBinStride = 900u;
+SUPPLE_SHARED_CONST kSplitUnit = 256u;
+SUPPLE_SHARED_CONST kBudgetSteps = 512u; // the budget scales levels by 2^(-x / kBinsPerOctave), x = 0..kBudgetSteps
+
+SUPPLE_SHARED_CONST kPatternWordCount = 108u;
+SUPPLE_SHARED_CONST kLodPatterns = 0u;
+SUPPLE_SHARED_CONST kLodGrids = kLodPatterns + kPatternWordCount;
+SUPPLE_SHARED_CONST kLodRuns = kLodGrids + 2u * kLodForms * kCapacityCount;
+SUPPLE_SHARED_CONST kLodSolution = kLodRuns + kMaxRuns; // what stands before it comes from the host
+SUPPLE_SHARED_CONST kLodCapacities = kLodSolution + 16u;
+SUPPLE_SHARED_CONST kLodSplit = kLodCapacities + kPriorityCount * kLodBinStride;
+SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;
+SUPPLE_SHARED_CONST kLodBuckets = kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride;
+SUPPLE_SHARED_CONST kLodDispatches = kLodBuckets + 4u * kMaxRuns * kCapacityCount;
+SUPPLE_SHARED_CONST kLodDraws = kLodDispatches + 8u * kMaxRuns;
+SUPPLE_SHARED_CONST kLodRecords = kLodDraws + 5u * kMaxRuns * kCapacityCount;
+SUPPLE_SHARED_CONST kLodRecordWords = 16u;
+
+SUPPLE_SHARED_CONST kEmptyRecord = 0xFFFFFFFFu;
+SUPPLE_SHARED_CONST kNoBin = 0xFFFFFFFFu; // the patch is not drawn
+
+struct LodSolution {
+    float x;        // of the budget: levels are scaled by 2^(-elasticity x / kBinsPerOctave)
+    uint vertices;  // written this frame, padding included
+    uint patches;   // drawn
+    uint shortfall; // 1 where even level 1 everywhere is over the budget
+    float scale[4]; // of levels, by priority
+    uint wanted;    // vertices that x = 0 would have written
+};
+struct LodBucket {
+    uint firstRecord;
+    uint firstVertex;
+    uint cursor;     // records placed so far
+    uint firstGroup; // wide mapping: of the dispatch's workgroups
+};
+struct LodDispatch {
+    uint x, y, z; // VkDispatchIndirectCommand
+    uint firstRecord;
+    uint recordCount;
+    uint firstBucket;
+    uint bucketCount;
+    uint groups;
+};
+
+// Table elements.
+//   edges     pool indices (end, its tangent, the other end's tangent, other end)
+//   patches   two elements: edges 0..3; (edge 4, run within the window's, first element of its patch record, class)
+SUPPLE_SHARED_CONST kLodPatchLevelWords = 3u; // bin, levels the inside asks for along u and along v
+
+// What the passes before evaluation are told.
+struct LodPush {
+    uint count; // edges or patches an instance
+    uint instanceCount;
+    uint firstInstance; // of the list
+    uint firstSlot;     // of the window
+    uint edges;         // first table element of the edges
+    uint patches;       // and of the patches
+    uint edgeCount;
+    uint poolStride;
+    uint scratchStride; // elements an instance
+    uint firstRun;      // of the window, in the view
+    uint runCount;      // of the window
+    uint orthographic;
+    float camera[3];
+    float focal;       // pixels a unit at distance 1; orthographic: pixels a unit
+    float nearest;     // nothing counts as nearer
+    float errorScale;  // 3/4 / chord error in pixels; 0: lengths alone count
+    float lengthScale; // 1 / length of an edge in pixels
+};
+struct LodSolvePush {
+    uint runCount;          // in use, of the view
+    uint limit;             // vertices
+    uint priorities, forms; // bits of those in use
+    uint maxGroups;         // of a dispatch in x
+    float elasticity[4];
+};
 
 SUPPLE_SHARED_END
 

@@ -87,6 +87,8 @@ struct SurfacePush {
     uint uvSets;          // 1 or 2
     uint faceUvs;         // 1 where corners have a place in their face's trim tile
     uint firstInstance;   // of the list
+    uint firstSlot;       // level of detail: of the window, and
+    uint dispatch;        // the view's dispatch (shared/lod.h)
 };
 
 SUPPLE_SHARED_END

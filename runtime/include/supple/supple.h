@@ -76,6 +76,7 @@ extern "C" {
 #define SUPPLE_MAX_TRIM_TILES 1024u
 #define SUPPLE_MAX_RATE 64u            /**< segments along a patch edge */
 #define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u /**< see suppleBeginFrame */
+#define SUPPLE_PRIORITY_COUNT 4u       /**< see suppleSetPriority */
 #define SUPPLE_MAX_TIMINGS 512u        /**< entries a frame: passes x groups; what goes beyond is not timed */
 
 /** A context borrows the host's device; assets and groups belong to one context. */
@@ -88,6 +89,10 @@ typedef struct SuppleAsset {
 typedef struct SuppleGroup {
     uint64_t id; /**< 0 is never a valid handle */
 } SuppleGroup;
+/** A camera's level of detail, for the groups it sees. */
+typedef struct SuppleView {
+    uint64_t id; /**< 0 is never a valid handle */
+} SuppleView;
 /** One character of a group. */
 typedef struct SuppleInstance {
     SuppleGroup group;
@@ -390,6 +395,80 @@ SUPPLE_API SuppleResult suppleGetImageInfo(SuppleContext context, SuppleAsset as
 SUPPLE_API SuppleResult suppleFillJointMask(SuppleContext context, SuppleAsset asset, uint32_t joint, float value,
                                             float* mask, uint32_t jointCount);
 
+/* ---------------------------------------------------------------------------------------------------- views */
+
+/** Layout of a surface vertex. Positions have the same bits in both. */
+typedef enum SuppleVertexFormat {
+    SUPPLE_VERTEX_16 = 0, /**< float3 position, octahedral normal in 2 x snorm16 (x in the low half) */
+    SUPPLE_VERTEX_24 = 1  /**< float3 position, float3 normal */
+} SuppleVertexFormat;
+
+/** Level of detail. A group that belongs to a view is drawn with as many triangles as the view's camera needs: every
+ * edge has a real-valued level that both patches at it take from its boundary curve alone, so that there are no cracks
+ * and, since levels and patterns move continuously, no pops; nothing changes while the camera only turns. All groups
+ * of a view share its surface vertices. What they want in a frame is counted before anything is written: when it does
+ * not fit, all levels are scaled down together, by one continuous factor (docs/lod.md). */
+
+/** What a view writes besides surface vertices, for all its groups. */
+typedef enum SuppleViewFlags {
+    SUPPLE_VIEW_MOTION = 1,     /**< where every surface vertex was in the frame before */
+    SUPPLE_VIEW_ATTRIBUTES = 2, /**< surface attributes, every frame anew */
+    SUPPLE_VIEW_UVS1 = 4,       /**< with ATTRIBUTES: second UV sets */
+    SUPPLE_VIEW_FACE_UVS = 8    /**< with ATTRIBUTES: where vertices lie in their faces' trim tiles */
+} SuppleViewFlags;
+
+/** How much a view may write. */
+typedef struct SuppleViewDesc {
+    uint32_t structSize;
+    uint32_t flags;       /**< SuppleViewFlags */
+    uint32_t maxVertices; /**< surface vertices a frame, of all groups: what memory is kept for. 1024 or more */
+    SuppleVertexFormat vertexFormat;
+    /** By priority, 0..1: what part of the scaling down an instance takes, as the exponent of the factor. 1: all of it,
+     * 0: none. All zero: 1, 1/2, 1/4, 0. */
+    float elasticities[SUPPLE_PRIORITY_COUNT];
+} SuppleViewDesc;
+
+/** A view without groups. */
+SUPPLE_API SuppleResult suppleCreateView(SuppleContext context, const SuppleViewDesc* desc, SuppleView* out);
+/** The handle is dead at once; its groups keep what they need. */
+SUPPLE_API SuppleResult suppleDestroyView(SuppleContext context, SuppleView view);
+
+/** Options of a camera. */
+typedef enum SuppleCameraFlags {
+    SUPPLE_CAMERA_ORTHOGRAPHIC = 1 /**< pixelsPerUnit everywhere; position does not matter */
+} SuppleCameraFlags;
+
+/** From where levels are measured, and how fine they are. */
+typedef struct SuppleCameraDesc {
+    uint32_t structSize;
+    uint32_t flags;      /**< SuppleCameraFlags */
+    float position[3];   /**< in the space surface vertices come out in */
+    float pixelsPerUnit; /**< of a thing of unit size at unit distance: viewport height / (2 tan(field of view / 2)) */
+    float nearest;       /**< nothing counts as nearer, 0 = 0.01 */
+    float chordError;    /**< pixels between an edge and its segments, 0 = 0.25 */
+    float smallestEdge;  /**< pixels: segments are not made shorter, 0 = 3 */
+    float edgeLength;    /**< pixels: segments of this length whatever the error; 0: by the two above */
+    uint32_t vertexBudget; /**< surface vertices a frame; 0, and at most: the view's maxVertices */
+} SuppleCameraDesc;
+
+/** Moves a view's camera; stands until set again. A view needs one before its groups are recorded. Shadow passes and
+ * mirrors draw what the main camera chose: other levels would shadow themselves. */
+SUPPLE_API SuppleResult suppleSetCamera(SuppleContext context, SuppleView view, const SuppleCameraDesc* camera);
+
+/** What a view drew. */
+typedef struct SuppleViewStatistics {
+    uint32_t structSize;
+    uint32_t shortfall; /**< 1: even the coarsest levels are above the budget, and patches are missing */
+    uint64_t frame;
+    float levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
+    uint32_t vertexCount;                     /**< surface vertices written */
+    uint32_t wantedVertexCount;               /**< without a budget, up to a few per cent more */
+    uint32_t patchCount;                      /**< drawn */
+} SuppleViewStatistics;
+
+/** Of the newest completed frame; never blocks. SUPPLE_NOT_READY: there is none. */
+SUPPLE_API SuppleResult suppleGetViewStatistics(SuppleContext context, SuppleView view, SuppleViewStatistics* out);
+
 /* ---------------------------------------------------------------------------------------------------- groups */
 
 /** How the deformed cage becomes a surface; docs/schemes.md says which one to choose. */
@@ -404,12 +483,6 @@ typedef enum SuppleScheme {
     SUPPLE_SCHEME_CAGE =
         100 /**< no surface: the deformed cage alone, of any polygons; no patches, no surface vertices */
 } SuppleScheme;
-
-/** Layout of a surface vertex. Positions have the same bits in both. */
-typedef enum SuppleVertexFormat {
-    SUPPLE_VERTEX_16 = 0, /**< float3 position, octahedral normal in 2 x snorm16 (x in the low half) */
-    SUPPLE_VERTEX_24 = 1  /**< float3 position, float3 normal */
-} SuppleVertexFormat;
 
 /** BLEND: what a sharp edge is. CUT: two sheets that meet in it. CURVE: a narrow ridge, as in the paper. */
 typedef enum SuppleCreaseMode { SUPPLE_CREASES_CUT = 0, SUPPLE_CREASES_CURVE = 1 } SuppleCreaseMode;
@@ -458,6 +531,9 @@ typedef struct SuppleGroupDesc {
     SuppleCreaseMode creaseMode; /**< BLEND */
     float sharpThreshold;        /**< BLEND: edges of this sharpness and more are sharp; 0 = 1 */
     SupplePoseSource poseSource; /**< PALETTE_BUFFER goes with linear skinning only */
+    /** Optional: the group is drawn at this view's levels of detail. PREP and PM. rate, vertexFormat and flags are then
+     * the view's; see SuppleGroupOutput.lodDraws. */
+    SuppleView view;
 } SuppleGroupDesc;
 
 /** A group without instances. Compiles the pipelines that no group before has needed: create one of each kind while
@@ -480,6 +556,9 @@ SUPPLE_API SuppleResult suppleSetVisible(SuppleContext context, SuppleInstance i
 /** The next suppleRecord sees the instance as new: its previous positions are its positions, so that it leaves no
  * motion behind. Instances that were not visible in the group's last suppleRecord are new by themselves. */
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
+
+/** Groups of a view: 0..SUPPLE_PRIORITY_COUNT-1, 0 at first; see SuppleViewDesc.elasticities. */
+SUPPLE_API SuppleResult suppleSetPriority(SuppleContext context, SuppleInstance instance, uint32_t priority);
 
 /* ---------------------------------------------------------------------------------------------------- poses */
 
@@ -670,6 +749,28 @@ typedef struct SuppleDrawRange {
     uint32_t indexCount;
 } SuppleDrawRange;
 
+/** Grids of a view's patches; R is the capacity, odd.
+ * QUAD   (R+1)^2 samples, as SUPPLE_DOMAIN_QUAD counts them; polar patches too
+ * RINGS  of m sides: ring r = 0..(R-1)/2 has m (R - 2r) samples, side by side, from the border inwards */
+typedef enum SuppleGrid {
+    SUPPLE_GRID_QUAD = 0,
+    SUPPLE_GRID_TRIANGLE_RINGS = 1,
+    SUPPLE_GRID_QUAD_RINGS = 2,
+    SUPPLE_GRID_PENTAGON_RINGS = 3
+} SuppleGrid;
+
+/** An indexed indirect draw of a view's group: patches of one material whose samples lie in grids of one capacity.
+ * Surface vertex of a draw: gl_VertexIndex + gl_InstanceIndex * verticesPerInstance. Its patch is
+ * SuppleGroupOutput.lodPatches[bucket.firstPatch + (vertex - bucket.firstVertex) / samplesPerPatch] with
+ * bucket = lodBuckets[index of the draw]. */
+typedef struct SuppleLodDraw {
+    uint32_t material; /**< index among the file's materials, or SUPPLE_NO_MATERIAL */
+    SuppleGrid grid;
+    uint32_t capacity; /**< segments along a side: levels above the capacity before and up to this one */
+    uint32_t samplesPerPatch;
+    uint32_t verticesPerInstance; /**< of whole patches; those of the last that are none are points */
+} SuppleLodDraw;
+
 /** The buffers of a group, valid until the group is destroyed or its rate is set. What is counted per instance lies at
  * the instance's slot. Buffers have usage STORAGE, UNIFORM_TEXEL, TRANSFER_SRC and, where it makes sense, TRANSFER_DST,
  * VERTEX, INDEX or INDIRECT. */
@@ -711,6 +812,14 @@ typedef struct SuppleGroupOutput {
      * bind pose to its place: transform * joint * inverse bind; then, with morph targets, a float weight each. Dual
      * quaternions: see shaders/shared/deform.h. Null with SUPPLE_POSES_CAGE_BUFFER. */
     SuppleBufferView poses;
+    /** Groups of a view: surfaceVertices, attributes, uvs1, faceUvs, previousPositions and gridIndices are the view's,
+     * drawRanges is null, and the draws are these: draw i has the i-th command of `indirect`. A capacity that no patch
+     * has draws no instances. */
+    const SuppleLodDraw* lodDraws;
+    uint32_t lodDrawCount;
+    SuppleBufferView lodBuckets; /**< per draw four uint32: first entry of lodPatches, first surface vertex, patches, - */
+    SuppleBufferView lodPatches; /**< per patch 64 bytes: uint32 patch (0xFFFFFFFF: none), slot in the low 28 bits, first
+                                  * surface vertex, - ; then levels (docs/lod.md) */
 } SuppleGroupOutput;
 
 /** Fills out: where a group's buffers are. Needs no frame; the buffers are filled by suppleRecord. */
@@ -751,7 +860,8 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
     const char*
-        pass; /**< static: upload, attributes, deform, vertex, edge (P_m: its facets), patch, evaluate, motion */
+        pass; /**< static: upload, attributes, deform, vertex, edge (P_m: its facets), patch, evaluate, motion; groups of a
+               * view also level, solve (once a view), place */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */

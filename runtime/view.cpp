@@ -1,0 +1,271 @@
+#include "runtime/view.h"
+
+#include "surface/lod/tables.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+using surface::lod::Form;
+
+namespace {
+
+static_assert(SUPPLE_GRID_QUAD == kLodQuadForm && SUPPLE_GRID_TRIANGLE_RINGS == kLodTriangleForm &&
+              SUPPLE_GRID_QUAD_RINGS == kLodQuadRingsForm && SUPPLE_GRID_PENTAGON_RINGS == kLodPentagonForm);
+static_assert(SUPPLE_PRIORITY_COUNT == kPriorityCount);
+static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t));
+
+constexpr uint32_t kMinSamples = 3;        ///< of a patch: a triangle at capacity 1
+constexpr uint32_t kPaddingOfRun = 3 * 64; ///< surface vertices that whole draw instances may cost a run
+constexpr uint32_t kFreeRun = 0xFFFFFF00u; ///< a run of no dispatch
+constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
+
+} // namespace
+
+Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t framesInFlight,
+                                           const SuppleViewDesc& desc) {
+    auto view = std::make_shared<View>();
+    view->device_ = &device;
+    view->framesInFlight_ = framesInFlight;
+    view->desc_ = desc;
+    if (std::all_of(std::begin(desc.elasticities), std::end(desc.elasticities), [](float e) { return e == 0.0f; })) {
+        std::copy_n(std::array{1.0f, 0.5f, 0.25f, 0.0f}.begin(), kPriorityCount, view->desc_.elasticities);
+    }
+
+    constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    constexpr VkBufferUsageFlags kOutput =
+        kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    constexpr VkBufferUsageFlags kVertices = kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+    const VkDeviceSize vertices = desc.maxVertices;
+    const auto when = [&](uint32_t flag, VkDeviceSize bytes) {
+        return (desc.flags & flag) != 0 ? vertices * bytes : 0;
+    };
+    std::array<gpu::BufferRequest, kBufferCount> requests;
+    requests[kWords] = {"supple view", kLodRecords * VkDeviceSize{4} + vertices / kMinSamples * kRecordBytes,
+                        kOutput | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
+    requests[kSurface] = {"supple view, surface vertices", vertices * (desc.vertexFormat == SUPPLE_VERTEX_24 ? 24 : 16),
+                          kVertices};
+    requests[kPreviousPositions] = {"supple view, previous positions", when(SUPPLE_VIEW_MOTION, 12), kVertices};
+    requests[kAttributes] = {"supple view, surface attributes", when(SUPPLE_VIEW_ATTRIBUTES, 16), kVertices};
+    requests[kUvs1] = {"supple view, second UV set", when(SUPPLE_VIEW_UVS1, 8), kVertices};
+    requests[kFaceUvs] = {"supple view, face UVs", when(SUPPLE_VIEW_FACE_UVS, 8), kVertices};
+    const bool texelsFit = device.mapping.wide || requests[kWords].size <= device.bufferWindow(16);
+    const bool storageFits = std::all_of(requests.begin(), requests.end(), [&](const gpu::BufferRequest& request) {
+        return request.size <= device.limits.maxStorageBufferRange;
+    });
+    if (!texelsFit || !storageFits) {
+        return Error{ErrorCode::limit, std::to_string(desc.maxVertices) +
+                                           " surface vertices exceed the device's storage-buffer range or texel-buffer "
+                                           "elements"};
+    }
+    Result<gpu::BufferSet> buffers = gpu::BufferSet::create(device, requests, gpu::MemoryKind::deviceLocal);
+    if (!buffers) {
+        return buffers.error();
+    }
+    view->buffers_ = std::move(*buffers);
+
+    // The indices of all grids, one after the other.
+    std::vector<uint16_t> indices;
+    for (uint32_t form = 0; form < kLodForms; ++form) {
+        for (uint32_t c = 0; c < kCapacityCount; ++c) {
+            const std::vector<uint16_t> own =
+                surface::lod::gridIndices(static_cast<Form>(form), surface::lod::kCapacities[c]);
+            view->grids_[form][c] = {static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(own.size())};
+            indices.insert(indices.end(), own.begin(), own.end());
+        }
+    }
+    const gpu::StaticRequest request{"supple view, grid indices", kOutput | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                     std::as_bytes(std::span(indices))};
+    Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(device, {&request, 1});
+    if (!statics) {
+        return statics.error();
+    }
+    view->static_ = std::move(*statics);
+
+    view->hostWords_.resize(kLodSolution);
+    const std::vector<uint32_t> patterns = surface::lod::patternWords();
+    std::copy(patterns.begin(), patterns.end(), view->hostWords_.begin() + kLodPatterns);
+    for (uint32_t form = 0; form < kLodForms; ++form) {
+        for (uint32_t c = 0; c < kCapacityCount; ++c) {
+            uint32_t* const entry = &view->hostWords_[kLodGrids + 2 * (form * kCapacityCount + c)];
+            entry[0] = view->grids_[form][c].firstIndex;
+            entry[1] = view->grids_[form][c].indexCount;
+        }
+    }
+    std::fill_n(view->hostWords_.begin() + kLodRuns, kMaxRuns, kFreeRun);
+    view->takenRuns_.resize(kMaxRuns);
+    const gpu::BufferRequest staging{"supple view staging", kLodSolution * VkDeviceSize{4} * framesInFlight,
+                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+    const gpu::BufferRequest readback{"supple view statistics", sizeof(LodSolution) * VkDeviceSize{framesInFlight},
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    for (const auto& [target, wanted] : {std::pair(&view->staging_, staging), std::pair(&view->readback_, readback)}) {
+        Result<gpu::BufferSet> set = gpu::BufferSet::create(device, {&wanted, 1}, gpu::MemoryKind::upload);
+        if (!set) {
+            return set.error();
+        }
+        *target = std::move(*set);
+    }
+    view->solvedFrames_.resize(framesInFlight);
+    return view;
+}
+
+void View::setCamera(const SuppleCameraDesc& camera) {
+    camera_ = camera;
+    hasCamera_ = true;
+}
+
+std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, uint32_t windows) {
+    const auto each = static_cast<uint32_t>(lod.runs.size());
+    const uint64_t wanted = uint64_t{each} * windows;
+    uint32_t first = 0, length = 0;
+    for (uint32_t r = 0; r < kMaxRuns && length < wanted; ++r) {
+        length = takenRuns_[r] ? 0 : length + 1;
+        first = r + 1 - length;
+    }
+    if (length < wanted) {
+        return std::nullopt;
+    }
+    for (uint32_t w = 0; w < windows; ++w) {
+        uint32_t range = 0;
+        for (uint32_t r = 0; r < each; ++r) {
+            range += r > 0 && lod.runs[r].patchClass != lod.runs[r - 1].patchClass ? 1 : 0;
+            const auto form = static_cast<uint32_t>(surface::lod::formOf(lod.runs[r].patchClass));
+            const uint32_t run = first + w * each + r;
+            takenRuns_[run] = true;
+            hostWords_[kLodRuns + run] = form | (first + w * each + range) << 8;
+            forms_ |= 1u << form;
+        }
+    }
+    endOfRuns_ = std::max(endOfRuns_, first + static_cast<uint32_t>(wanted));
+    return first;
+}
+
+void View::giveRuns(uint32_t first, uint32_t count) {
+    for (uint32_t r = first; r < first + count; ++r) {
+        takenRuns_[r] = false;
+        hostWords_[kLodRuns + r] = kFreeRun;
+    }
+    while (endOfRuns_ > 0 && !takenRuns_[endOfRuns_ - 1]) {
+        --endOfRuns_;
+    }
+}
+
+LodPush View::levelPush() const {
+    LodPush push{};
+    push.orthographic = (camera_.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0 ? 1 : 0;
+    std::copy_n(camera_.position, 3, push.camera);
+    push.focal = camera_.pixelsPerUnit;
+    push.nearest = camera_.nearest > 0.0f ? camera_.nearest : 0.01f;
+    if (camera_.edgeLength > 0.0f) {
+        push.lengthScale = 1.0f / camera_.edgeLength;
+    } else {
+        push.errorScale = 0.75f / (camera_.chordError > 0.0f ? camera_.chordError : 0.25f);
+        push.lengthScale = 1.0f / (camera_.smallestEdge > 0.0f ? camera_.smallestEdge : 3.0f);
+    }
+    return push;
+}
+
+VkDeviceSize View::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
+    const VkDeviceSize bytes = static_.recordUpload(commandBuffer, frame);
+    indicesToRelease_ = indicesToRelease_ || bytes > 0;
+    if (!cleared_) {
+        // Histograms, which the solver clears from then on.
+        device_->vk.CmdFillBuffer(commandBuffer, buffers_.buffer(kWords), kLodSolution * VkDeviceSize{4},
+                                  (kLodRecords - kLodSolution) * VkDeviceSize{4}, 0);
+        cleared_ = true;
+        clearedFrame_ = frame;
+    }
+    return bytes;
+}
+
+VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
+    recordedFrame_ = frame;
+    if (indicesToRelease_) {
+        indicesToRelease_ = false;
+        indicesReleaseFrame_ = frame;
+    }
+    const VkDeviceSize bytes = kLodSolution * VkDeviceSize{4}, run = frame % framesInFlight_ * bytes;
+    std::memcpy(staging_.mapped(0) + run, hostWords_.data(), bytes);
+    const VkBufferCopy region{run, 0, bytes};
+    device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kWords), 1, &region);
+    return bytes;
+}
+
+void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
+                       uint32_t priorities) const {
+    LodSolvePush push{};
+    push.runCount = endOfRuns_;
+    const uint32_t padding = endOfRuns_ * kPaddingOfRun;
+    const uint32_t budget =
+        camera_.vertexBudget > 0 ? std::min(camera_.vertexBudget, desc_.maxVertices) : desc_.maxVertices;
+    push.limit = budget > padding ? budget - padding : 0;
+    push.priorities = priorities;
+    push.forms = forms_;
+    push.maxGroups = std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+    std::copy_n(desc_.elasticities, kPriorityCount, push.elasticity);
+    passes.recordSolve(commandBuffer, set, push);
+}
+
+void View::recordReadback(VkCommandBuffer commandBuffer) {
+    const uint64_t place = recordedFrame_ % framesInFlight_;
+    solvedFrames_[place] = recordedFrame_;
+    const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, place * sizeof(LodSolution), sizeof(LodSolution)};
+    device_->vk.CmdCopyBuffer(commandBuffer, buffers_.buffer(kWords), readback_.buffer(0), 1, &region);
+}
+
+void View::beginFrame(uint64_t completedFrame) {
+    for (size_t i = 0; i < solvedFrames_.size(); ++i) {
+        if (solvedFrames_[i] > newest_.frame && solvedFrames_[i] <= completedFrame) {
+            LodSolution solution;
+            std::memcpy(&solution, readback_.mapped(0) + i * sizeof(LodSolution), sizeof(solution));
+            newest_.frame = solvedFrames_[i];
+            std::copy_n(solution.scale, kPriorityCount, newest_.levelScales);
+            newest_.vertexCount = solution.vertices;
+            newest_.patchCount = solution.patches;
+            newest_.wantedVertexCount = solution.wanted;
+            newest_.shortfall = solution.shortfall;
+        }
+    }
+}
+
+void View::cancelFrame(uint64_t frame) {
+    static_.cancelUpload(frame);
+    if (clearedFrame_ == frame) {
+        cleared_ = false;
+    }
+    if (indicesReleaseFrame_ == frame) {
+        indicesToRelease_ = true;
+    }
+    std::replace(solvedFrames_.begin(), solvedFrames_.end(), frame, uint64_t{0});
+}
+
+uint32_t View::transfers(Transfers& out) const {
+    uint32_t count = 0;
+    const auto add = [&](VkBuffer buffer) {
+        if (buffer != VK_NULL_HANDLE) {
+            VkBufferMemoryBarrier2& barrier = out[count++];
+            barrier = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
+            barrier.buffer = buffer;
+            barrier.size = VK_WHOLE_SIZE;
+        }
+    };
+    for (size_t i = 0; i < kBufferCount; ++i) {
+        add(buffers_.buffer(i));
+    }
+    if (indicesReleaseFrame_ == recordedFrame_) {
+        add(static_.buffer(0));
+    }
+    return count;
+}
+
+bool View::statistics(SuppleViewStatistics& out) const {
+    const uint32_t structSize = out.structSize;
+    out = newest_;
+    out.structSize = structSize;
+    return newest_.frame > 0;
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,93 @@
+// A camera's level of detail: its budget and the buffers that the groups it sees share (shaders/shared/lod.h).
+#pragma once
+
+#include "gpu/memory.h"
+#include "gpu/static_buffers.h"
+#include "shaders/shared/lod.h"
+#include "supple/supple.h"
+#include "surface/lod/grid.h"
+#include "surface/lod/passes.h"
+#include "surface/scheme.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace supple::runtime {
+
+class View {
+public:
+    [[nodiscard]] static Result<std::shared_ptr<View>> create(const gpu::Device& device, uint32_t framesInFlight,
+                                                              const SuppleViewDesc& desc);
+
+    [[nodiscard]] const SuppleViewDesc& desc() const { return desc_; }
+    void setCamera(const SuppleCameraDesc& camera); ///< as checked by the caller
+    [[nodiscard]] bool hasCamera() const { return hasCamera_; }
+
+    /// A group's windows take runs when it is created and give them back when it goes. The runs of `windows` windows,
+    /// one after the other, each as `lod` lists them; patch ranges r of a window evaluate as dispatch firstRun + r.
+    [[nodiscard]] std::optional<uint32_t> takeRuns(const surface::LodTables& lod, uint32_t windows);
+    void giveRuns(uint32_t first, uint32_t count);
+
+    /// The scales, in the coordinates surfaces come out in; what belongs to the window is the caller's to fill in.
+    [[nodiscard]] shared::LodPush levelPush() const;
+
+    [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || !cleared_; }
+    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
+    VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
+    /// `priorities`: bits of those that instances have.
+    void recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
+                     uint32_t priorities) const;
+    /// Copies what the solver found out to where the host reads it frames later.
+    void recordReadback(VkCommandBuffer commandBuffer);
+    void beginFrame(uint64_t completedFrame);
+    void cancelFrame(uint64_t frame);
+    void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
+    /// As Group::transfers, with the first of its groups.
+    using Transfers = std::array<VkBufferMemoryBarrier2, 7>;
+    [[nodiscard]] uint32_t transfers(Transfers& out) const;
+    /// SUPPLE_NOT_READY: no frame of it has completed.
+    [[nodiscard]] bool statistics(SuppleViewStatistics& out) const;
+
+    [[nodiscard]] uint64_t lastRecordedFrame() const { return recordedFrame_; }
+
+    enum BufferIndex : size_t { kWords, kSurface, kPreviousPositions, kAttributes, kUvs1, kFaceUvs, kBufferCount };
+    [[nodiscard]] VkBuffer buffer(BufferIndex index) const { return buffers_.buffer(index); }
+    [[nodiscard]] VkDeviceSize size(BufferIndex index) const { return buffers_.size(index); }
+    [[nodiscard]] VkBuffer indices() const { return static_.buffer(0); }
+    [[nodiscard]] VkDeviceSize indexBytes() const { return static_.size(0); }
+    [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes() + static_.deviceBytes(); }
+    struct Grid {
+        uint32_t firstIndex = 0, indexCount = 0;
+    };
+    [[nodiscard]] const Grid& grid(surface::lod::Form form, uint32_t capacityIndex) const {
+        return grids_[static_cast<size_t>(form)][capacityIndex];
+    }
+
+private:
+    const gpu::Device* device_ = nullptr;
+    uint32_t framesInFlight_ = 2;
+    SuppleViewDesc desc_{};
+    SuppleCameraDesc camera_{};
+    bool hasCamera_ = false;
+
+    gpu::BufferSet buffers_;
+    gpu::BufferSet staging_;  ///< the host's part of the words, a run a frame in flight
+    gpu::BufferSet readback_; ///< solutions, one a frame in flight
+    gpu::StaticBuffers static_;
+    std::array<std::array<Grid, shared::kCapacityCount>, shared::kLodForms> grids_;
+    std::vector<uint32_t> hostWords_; ///< up to kLodSolution
+    std::vector<bool> takenRuns_;
+    uint32_t endOfRuns_ = 0;
+    uint32_t forms_ = 0; ///< bits of those that runs have
+    bool cleared_ = false;
+    bool indicesToRelease_ = false;
+    uint64_t indicesReleaseFrame_ = 0;
+    uint64_t clearedFrame_ = 0, recordedFrame_ = 0;
+    std::vector<uint64_t> solvedFrames_; ///< by place in readback_
+    SuppleViewStatistics newest_{};
+};
+
+} // namespace supple::runtime

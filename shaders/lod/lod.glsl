@@ -1,0 +1,29 @@
+// The buffer of a view (shared/lod.h), read. A pass that writes it defines LOD_WRITE before the include; what it has written
+// itself it reads from `lodWords`.
+#include "shaders/shared/lod.h"
+
+#ifdef LOD_WRITE
+layout(set = 0, binding = kLodBinding, std430) coherent buffer Lod { uint lodWords[]; };
+#else
+layout(set = 0, binding = kLodBinding, std430) readonly buffer Lod { uint lodWords[]; };
+#endif
+layout(set = 0, binding = kLodBinding, std430) readonly buffer LodElements { uvec4 lodElements[]; };
+layout(set = 0, binding = kLodTexelBinding) uniform usamplerBuffer lodTexels;
+
+uvec4 lodElement(uint i) {
+    if (kWide) return lodElements[i];
+    return texelFetch(lodTexels, int(i));
+}
+uint lodWord(uint i) {
+    if (kWide) return lodWords[i];
+    return texelFetch(lodTexels, int(i >> 2u))[i & 3u];
+}
+
+uint capacityOf(uint index) {
+    const uint kCapacities[kCapacityCount] = uint[kCapacityCount](1u, 3u, 5u, 7u, 11u, 15u, 23u, 31u, 47u, 63u);
+    return kCapacities[index];
+}
+uint formSides(uint form) { return form == kLodTriangleForm ? 3u : form == kLodPentagonForm ? 5u : 4u; }
+uint formSamples(uint form, uint capacity) { return formSides(form) * (capacity + 1u) * (capacity + 1u) / 4u; }
+// Patches of one draw instance (surface/lod/grid.h).
+uint patchesPerDraw(uint samples) { return samples < 64u ? 64u / samples : 1u; }

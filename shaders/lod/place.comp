@@ -1,0 +1,90 @@
+// Puts the patches of a frame into their buckets: levels after the budget, and the record evaluation works from
+// (docs/lod.md, sections 3 and 6). One invocation a patch and instance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define LOD_WRITE
+#define PUSH_CONSTANTS LodPush
+#include "shaders/shared/lod.h"
+#include "shaders/surface/tables.glsl"
+#include "shaders/lod/lod.glsl"
+#include "shaders/lod/levels.glsl"
+
+layout(set = 0, binding = kLodBinding, std430) writeonly buffer LodTargets { uvec4 lodTargets[]; };
+
+shared uint taken[kMaxRuns * kCapacityCount];
+
+// a = (L - 1) / 2 and 1 / L, as bits.
+uvec2 levelPair(float level) {
+    precise float a = (level - 1.0) * 0.5;
+    return floatBitsToUint(vec2(a, 1.0 / level));
+}
+
+void main() {
+    uint id = invocationIndex(), lane = gl_LocalInvocationID.x;
+    uint bucketCount = push.runCount * kCapacityCount;
+    if (kWide) {
+        for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) taken[i] = 0u;
+        barrier();
+    }
+    bool inside = id < push.count * push.instanceCount;
+    id = min(id, push.count * push.instanceCount - 1u);
+    uint entry = id / push.count, listed = instanceEntry(entry), patchIndex = id - entry * push.count;
+    uint instance = listed & kInstanceSlotMask, priority = (listed >> kInstancePriorityShift) & (kPriorityCount - 1u);
+    uint words = levelBase(instance), at = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
+    uint bin = levelWord(at);
+    vec2 own = uintBitsToFloat(uvec2(levelWord(at + 1u), levelWord(at + 2u)));
+    uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
+    bool drawn = inside && bin != kNoBin;
+    uint capacity = 0u;
+    if (drawn) capacity = lodWord(kLodCapacities + priority * kLodBinStride + bin);
+
+    // A place in the bucket. On GPUs a workgroup takes its places together.
+    uint local = more.y * kCapacityCount + capacity, bucket = kLodBuckets + 4u * (push.firstRun * kCapacityCount + local);
+    uint place = 0u;
+    if (kWide) {
+        if (drawn) place = atomicAdd(taken[local], 1u);
+        barrier();
+        for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) {
+            uint n = taken[i];
+            if (n > 0u) taken[i] = atomicAdd(lodWords[kLodBuckets + 4u * (push.firstRun * kCapacityCount + i) + 2u], n);
+        }
+        barrier();
+        place += taken[local];
+    } else if (drawn) {
+        place = atomicAdd(lodWords[bucket + 2u], 1u);
+    }
+    if (!drawn) return;
+
+    uint form = lodWord(kLodRuns + push.firstRun + more.y) & 255u, sides = formSides(form);
+    float scale = uintBitsToFloat(lodWord(kLodSolution + 4u + priority));
+    precise float level[5];
+    float largest = 1.0;
+    for (uint k = 0u; k < 5u; ++k) {
+        level[k] = 1.0;
+        if (k < sides) {
+            precise float scaled = scale * uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x)));
+            level[k] = clamp(scaled, 1.0, 63.0);
+            largest = max(largest, level[k]);
+        }
+    }
+    own = clamp(own * scale, 1.0, 63.0);
+    float most = max(largest, max(own.x, own.y));
+    uvec2 pairs[6];
+    if (form == kLodQuadForm) {
+        // Three and more as soon as an edge has them: the first inner row keeps its distance from the border.
+        float least = min(3.0, most);
+        pairs[0] = levelPair(max(max(level[0], level[2]), max(own.x, least)));
+        pairs[1] = levelPair(max(max(level[1], level[3]), max(own.y, least)));
+        for (uint k = 0u; k < 4u; ++k) pairs[2u + k] = levelPair(level[k]);
+    } else {
+        pairs[0] = levelPair(most);
+        for (uint k = 0u; k < 5u; ++k) pairs[1u + k] = levelPair(level[k]);
+    }
+    uint samples = formSamples(form, capacityOf(capacity));
+    uint to = kLodRecords / 4u + kLodRecordWords / 4u * (lodWord(bucket) + place);
+    lodTargets[to] = uvec4(patchIndex, (push.firstSlot + instance) | (listed & kInstanceIsNew),
+                           lodWord(bucket + 1u) + place * samples, capacity);
+    lodTargets[to + 1u] = uvec4(pairs[0], pairs[1]);
+    lodTargets[to + 2u] = uvec4(pairs[2], pairs[3]);
+    lodTargets[to + 3u] = uvec4(pairs[4], pairs[5]);
+}

@@ -1,0 +1,205 @@
+// The budget: how far all levels are scaled down so that the vertices of a frame fit, from this frame's histograms alone
+// (docs/lod.md, section 6), and from that where everything lies: capacities, buckets, indirect arguments. One workgroup.
+// Sums are of integers: the answer does not depend on the order in which patches were counted.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define LOD_WRITE
+#define PUSH_CONSTANTS LodSolvePush
+#include "shaders/shared/mapping.glsl"
+#include "shaders/shared/surface.h"
+#include "shaders/lod/lod.glsl"
+
+layout(push_constant) uniform Push { LodSolvePush push; };
+
+const uint kMaxLanes = 128u; // gpu/mapping.cpp
+shared uint sumHigh[kMaxLanes], sumLow[kMaxLanes];
+shared uint counts[kMaxRuns * kCapacityCount];
+
+
+// The smallest capacity that patches of a bin, and of the one below it, fit into when levels are scaled by
+// 2^(-scaled / kBinsPerOctave). A sixteenth of a bin guards the rounding of log2 and exp2.
+uint capacityOfBin(uint bin, float scaled) {
+    float level = exp2((float(bin) + 1.0625 - scaled) / float(kBinsPerOctave) - float(kOctavesBelow));
+    uint index = 0u;
+    while (index + 1u < kCapacityCount && float(capacityOf(index)) < level) ++index;
+    return index;
+}
+
+void add(inout uvec2 sum, uint a, uint b) { // sum (high, low) + a * b
+    uint high, low, carry;
+    umulExtended(a, b, high, low);
+    sum.y = uaddCarry(sum.y, low, carry);
+    sum.x += high + carry;
+}
+bool above(uvec2 a, uvec2 b) { return a.x > b.x || (a.x == b.x && a.y > b.y); }
+float toFloat(uvec2 a) { return float(a.x) * 4294967296.0 + float(a.y); }
+uvec2 minus(uvec2 a, uvec2 b) {
+    uint borrow;
+    uint low = usubBorrow(a.y, b.y, borrow);
+    return uvec2(a.x - b.x - borrow, low);
+}
+
+// Vertices that the split histogram asks for at a step, in units of 1 / kSplitUnit: an upper bound of what is written.
+uvec2 demand(float x) {
+    uint lane = gl_LocalInvocationID.x;
+    uvec2 sum = uvec2(0u);
+    for (uint p = 0u; p < kPriorityCount; ++p) {
+        if ((push.priorities & (1u << p)) == 0u) continue;
+        for (uint f = 0u; f < kLodForms; ++f) {
+            if ((push.forms & (1u << f)) == 0u) continue;
+            for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
+                uint weight = lodWords[kLodSplit + (p * kLodForms + f) * kLodBinStride + bin];
+                if (weight > 0u)
+                    add(sum, weight, formSamples(f, capacityOf(capacityOfBin(bin, push.elasticity[p] * x))));
+            }
+        }
+    }
+    sumHigh[lane] = sum.x;
+    sumLow[lane] = sum.y;
+    barrier();
+    uvec2 total = uvec2(0u);
+    for (uint i = 0u; i < gl_WorkGroupSize.x; ++i) {
+        uint carry;
+        total.y = uaddCarry(total.y, sumLow[i], carry);
+        total.x += sumHigh[i] + carry;
+    }
+    barrier();
+    return total;
+}
+
+// Draw instances are whole: what a bucket may be filled up by.
+uint padded(uint count, uint samples) {
+    uint n = patchesPerDraw(samples);
+    return (count + n - 1u) / n * n;
+}
+uint patchesPerGroup(uint samples) { return clamp(gl_WorkGroupSize.x / samples, 1u, kMaxPatchesPerGroup); }
+
+void main() {
+    uint lane = gl_LocalInvocationID.x;
+    uvec2 limit = uvec2(0u);
+    add(limit, push.limit, kSplitUnit);
+
+    float x = 0.0;
+    bool shortfall = false;
+    uvec2 over = demand(-1.0);
+    uvec2 wanted = demand(0.0);
+    if (above(over, limit)) {
+        int low = -1, high = int(kBudgetSteps);
+        uvec2 fits = demand(float(high));
+        if (above(fits, limit)) {
+            x = float(kBudgetSteps + 1u);
+            shortfall = true;
+        } else {
+            while (high - low > 1) {
+                int middle = (low + high) >> 1;
+                uvec2 d = demand(float(middle));
+                if (above(d, limit)) {
+                    low = middle;
+                    over = d;
+                } else {
+                    high = middle;
+                    fits = d;
+                }
+            }
+            x = float(high) + toFloat(minus(over, limit)) / toFloat(minus(over, fits));
+        }
+    }
+
+    for (uint i = lane; i < kPriorityCount * kLodBins; i += gl_WorkGroupSize.x) {
+        uint p = i / kLodBins, bin = i - p * kLodBins;
+        lodWords[kLodCapacities + p * kLodBinStride + bin] = capacityOfBin(bin, push.elasticity[p] * x);
+    }
+    uint buckets = push.runCount * kCapacityCount;
+    for (uint i = lane; i < buckets; i += gl_WorkGroupSize.x) counts[i] = 0u;
+    barrier();
+    // Exact counts; what was counted is cleared for the next frame.
+    for (uint p = 0u; p < kPriorityCount; ++p) {
+        if ((push.priorities & (1u << p)) == 0u) continue;
+        for (uint i = lane; i < push.runCount * kLodBinStride; i += gl_WorkGroupSize.x) {
+            uint run = i / kLodBinStride, bin = i - run * kLodBinStride;
+            uint at = kLodCounts + (run * kPriorityCount + p) * kLodBinStride + bin, count = lodWords[at];
+            if (count > 0u) {
+                atomicAdd(counts[run * kCapacityCount + capacityOfBin(bin, push.elasticity[p] * x)], count);
+                lodWords[at] = 0u;
+            }
+        }
+        for (uint i = lane; i < kLodForms * kLodBinStride; i += gl_WorkGroupSize.x)
+            lodWords[kLodSplit + p * kLodForms * kLodBinStride + i] = 0u;
+    }
+    barrier();
+
+    // Where buckets begin. One lane: there are some hundred, and their counts lie in shared memory.
+    if (lane == 0u) {
+        uint record = 0u, vertex = 0u, group = 0u, patches = 0u, last = kEmptyRecord;
+        for (uint run = 0u; run < push.runCount; ++run) {
+            uint info = lodWords[kLodRuns + run], form = info & 255u, dispatch = info >> 8u;
+            if (dispatch != last) {
+                group = 0u;
+                last = dispatch;
+            }
+            for (uint c = 0u; c < kCapacityCount; ++c) {
+                uint b = run * kCapacityCount + c, samples = formSamples(form, capacityOf(c));
+                lodWords[kLodBuckets + 4u * b] = record;
+                lodWords[kLodBuckets + 4u * b + 1u] = vertex;
+                lodWords[kLodBuckets + 4u * b + 2u] = 0u;
+                lodWords[kLodBuckets + 4u * b + 3u] = group;
+                uint whole = padded(counts[b], samples), each = patchesPerGroup(samples);
+                record += whole;
+                vertex += whole * samples;
+                group += (whole + each - 1u) / each;
+                patches += counts[b];
+            }
+        }
+        lodWords[kLodSolution] = floatBitsToUint(x);
+        lodWords[kLodSolution + 1u] = vertex;
+        lodWords[kLodSolution + 2u] = patches;
+        lodWords[kLodSolution + 3u] = shortfall ? 1u : 0u;
+        for (uint p = 0u; p < kPriorityCount; ++p)
+            lodWords[kLodSolution + 4u + p] = floatBitsToUint(exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
+        lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
+    }
+    memoryBarrierBuffer();
+    barrier();
+
+    for (uint b = lane; b < buckets; b += gl_WorkGroupSize.x) {
+        uint run = b / kCapacityCount, c = b - run * kCapacityCount;
+        uint form = lodWords[kLodRuns + run] & 255u, samples = formSamples(form, capacityOf(c));
+        uint perDraw = patchesPerDraw(samples), whole = padded(counts[b], samples);
+        uint record = lodWords[kLodBuckets + 4u * b], vertex = lodWords[kLodBuckets + 4u * b + 1u];
+        uint grid = kLodGrids + 2u * (form * kCapacityCount + c), draw = kLodDraws + 5u * b;
+        lodWords[draw] = lodWords[grid + 1u];
+        lodWords[draw + 1u] = whole / perDraw;
+        lodWords[draw + 2u] = lodWords[grid];
+        lodWords[draw + 3u] = vertex;
+        lodWords[draw + 4u] = 0u;
+        for (uint i = counts[b]; i < whole; ++i) { // empty records: evaluation makes points of them
+            uint at = kLodRecords + kLodRecordWords * (record + i);
+            lodWords[at] = kEmptyRecord;
+            lodWords[at + 2u] = vertex + i * samples;
+            lodWords[at + 3u] = c;
+        }
+    }
+    for (uint run = lane; run < push.runCount; run += gl_WorkGroupSize.x) {
+        uint dispatch = lodWords[kLodRuns + run] >> 8u;
+        if (run > 0u && lodWords[kLodRuns + run - 1u] >> 8u == dispatch) continue;
+        uint end = run + 1u;
+        while (end < push.runCount && lodWords[kLodRuns + end] >> 8u == dispatch) ++end;
+        uint first = run * kCapacityCount, last = end * kCapacityCount - 1u;
+        uint samples = formSamples(lodWords[kLodRuns + end - 1u] & 255u, capacityOf(kCapacityCount - 1u));
+        uint firstRecord = lodWords[kLodBuckets + 4u * first], whole = padded(counts[last], samples);
+        uint recordCount = lodWords[kLodBuckets + 4u * last] + whole - firstRecord;
+        uint each = patchesPerGroup(samples);
+        uint groupCount = kWide ? lodWords[kLodBuckets + 4u * last + 3u] + (whole + each - 1u) / each
+                                : (recordCount + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
+        uint rows = max((groupCount + push.maxGroups - 1u) / push.maxGroups, 1u);
+        uint at = kLodDispatches + 8u * dispatch;
+        lodWords[at] = groupCount > 0u ? (groupCount + rows - 1u) / rows : 0u;
+        lodWords[at + 1u] = rows;
+        lodWords[at + 2u] = 1u;
+        lodWords[at + 3u] = firstRecord;
+        lodWords[at + 4u] = recordCount;
+        lodWords[at + 5u] = first;
+        lodWords[at + 6u] = last + 1u - first;
+        lodWords[at + 7u] = groupCount;
+    }
+}

@@ -1,0 +1,67 @@
+#include "surface/lod/passes.h"
+
+namespace supple::surface::lod {
+
+static_assert(sizeof(shared::LodPush) <= gpu::kPushConstantBytes);
+static_assert(sizeof(shared::LodSolvePush) <= sizeof(shared::LodPush));
+static_assert(shared::kLodRecords % 4 == 0, "records are read as elements");
+
+Passes::Passes(const gpu::Device& device, const Shaders& shaders) : device_(&device), shaders_(shaders) {}
+
+Status Passes::prepare(const gpu::ComputeLayout& layout) {
+    layout_ = layout.pipelineLayout.get();
+    const struct {
+        std::span<const uint32_t> spirv;
+        const char* name;
+    } sources[kKernels] = {{shaders_.edge, "supple levels of edges"},
+                           {shaders_.patch, "supple levels of patches"},
+                           {shaders_.solve, "supple level budget"},
+                           {shaders_.place, "supple level places"}};
+    for (size_t k = 0; k < kKernels; ++k) {
+        if (pipelines_[k].get() == VK_NULL_HANDLE) {
+            Result<gpu::PipelineHandle> pipeline =
+                gpu::createComputePipeline(*device_, layout, sources[k].spirv, {}, sources[k].name);
+            if (!pipeline) {
+                return pipeline.error();
+            }
+            pipelines_[k] = std::move(*pipeline);
+        }
+    }
+    return success();
+}
+
+void Passes::bind(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet set, const void* push,
+                  uint32_t bytes) const {
+    device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[kernel].get());
+    device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set, 0, nullptr);
+    device_->vk.CmdPushConstants(commandBuffer, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, bytes, push);
+}
+
+void Passes::dispatch(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet set,
+                      const shared::LodPush& push) const {
+    const uint64_t lanes = uint64_t{push.count} * push.instanceCount, local = device_->mapping.localSize;
+    if (lanes > 0) {
+        bind(commandBuffer, kernel, set, &push, sizeof(push));
+        gpu::dispatchLinear(*device_, commandBuffer, (lanes + local - 1) / local);
+    }
+}
+
+void Passes::recordEdges(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const {
+    push.count = push.edgeCount;
+    dispatch(commandBuffer, kEdge, set, push);
+}
+
+void Passes::recordPatches(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const {
+    dispatch(commandBuffer, kPatch, set, push);
+}
+
+void Passes::recordSolve(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::LodSolvePush& push) const {
+    bind(commandBuffer, kSolve, set, &push, sizeof(push));
+    device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
+}
+
+void Passes::recordPlaces(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const {
+    dispatch(commandBuffer, kPlace, set, push);
+}
+
+} // namespace supple::surface::lod

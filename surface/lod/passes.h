@@ -1,0 +1,41 @@
+// The passes that choose the levels of a view's patches: levels of edges and patches, the budget, places.
+#pragma once
+
+#include "gpu/pipeline.h"
+#include "shaders/shared/lod.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace supple::surface::lod {
+
+/// Recorded in this order with a barrier (compute to compute) between each two; solve once a view, the others once a
+/// window of instances. The solver writes indirect arguments too.
+class Passes {
+public:
+    struct Shaders {
+        std::span<const uint32_t> edge, patch, solve, place;
+    };
+    Passes() = default;
+    Passes(const gpu::Device& device, const Shaders& shaders);
+
+    [[nodiscard]] Status prepare(const gpu::ComputeLayout& layout);
+
+    void recordEdges(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const;
+    void recordPatches(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const;
+    void recordSolve(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::LodSolvePush& push) const;
+    void recordPlaces(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const;
+
+private:
+    enum Kernel : size_t { kEdge, kPatch, kSolve, kPlace, kKernels };
+    void bind(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet set, const void* push, uint32_t bytes) const;
+    void dispatch(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet set, const shared::LodPush& push) const;
+
+    const gpu::Device* device_ = nullptr;
+    Shaders shaders_;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    std::array<gpu::PipelineHandle, kKernels> pipelines_;
+};
+
+} // namespace supple::surface::lod
