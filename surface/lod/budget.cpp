@@ -5,10 +5,13 @@
 
 namespace supple::surface::lod::budget {
 
+using namespace shared;
+
 namespace {
 
 /// Highest octave that is told apart, short of where its last bin ends.
 constexpr double kHighest = 7.99;
+constexpr double kLowest = -double(kOctavesBelow);
 /// Guards the device's rounding of log2 and exp2, in bins.
 constexpr double kGuard = 1.0 / 16.0;
 
@@ -17,9 +20,9 @@ template <class Patches>
 uint64_t weigh(std::span<const Priority> priorities, double x, Patches&& patches) {
     uint64_t sum = 0;
     for (const Priority& priority : priorities) {
-        for (uint32_t bin = 0; bin < kBins; ++bin) {
+        for (uint32_t bin = 0; bin < kLodBins; ++bin) {
             const uint32_t capacity = kCapacities[capacityOfBin(bin, priority.elasticity, x)];
-            for (uint32_t form = 0; form < shared::kLodForms; ++form) {
+            for (uint32_t form = 0; form < kLodForms; ++form) {
                 sum += uint64_t{patches(priority.forms[form])[bin]} * sampleCount(Form{form}, capacity);
             }
         }
@@ -45,9 +48,8 @@ double edgeLevel(const std::array<glm::dvec3, 4>& cubic, const Measure& measure)
 }
 
 Place placeOf(double level) {
-    const double lowest = kLowestOctave;
-    const double octave = std::clamp(std::log2(std::max(level, std::exp2(lowest))), lowest, kHighest);
-    const double at = (octave - lowest) * kBinsPerOctave;
+    const double octave = std::clamp(std::log2(std::max(level, std::exp2(kLowest))), kLowest, kHighest);
+    const double at = (octave - kLowest) * kBinsPerOctave;
     const double bin = std::floor(at);
     return {static_cast<uint32_t>(bin), static_cast<uint32_t>((at - bin) * kSplitUnit)};
 }
@@ -60,7 +62,7 @@ void Histogram::add(double level) {
 }
 
 uint32_t capacityOfBin(uint32_t bin, double elasticity, double x) {
-    const double octave = (bin + 1.0 + kGuard - elasticity * x) / kBinsPerOctave + kLowestOctave;
+    const double octave = (bin + 1.0 + kGuard - elasticity * x) / kBinsPerOctave + kLowest;
     const double level = std::exp2(octave);
     uint32_t index = 0;
     while (index + 1 < kCapacities.size() && kCapacities[index] < level) {
@@ -91,14 +93,14 @@ Solution solve(std::span<const Priority> priorities, uint64_t limit) {
     if (before <= room) {
         return {};
     }
-    for (uint32_t step = 0; step <= kSteps; ++step) {
+    for (uint32_t step = 0; step <= kBudgetSteps; ++step) {
         const uint64_t here = demand(priorities, step);
         if (here <= room) {
             return {step + static_cast<double>(before - room) / static_cast<double>(before - here), true};
         }
         before = here;
     }
-    return {kSteps + 1.0, false};
+    return {kBudgetSteps + 1.0, false};
 }
 
 } // namespace supple::surface::lod::budget

@@ -16,12 +16,6 @@
 
 namespace supple::surface::lod::budget {
 
-inline constexpr uint32_t kBinsPerOctave = 64;
-inline constexpr int32_t kLowestOctave = -6;
-inline constexpr uint32_t kBins = 14 * kBinsPerOctave + 2;
-inline constexpr uint32_t kSplitUnit = 256; ///< a patch's weight in the shared histogram
-inline constexpr uint32_t kSteps = 512;
-
 /// What edges are measured by, in pixels.
 struct Measure {
     glm::dvec3 camera{0.0};
@@ -42,8 +36,8 @@ struct Place {
 
 /// Patches of one form and priority.
 struct Histogram {
-    std::vector<uint32_t> counts = std::vector<uint32_t>(kBins, 0);
-    std::vector<uint32_t> split = std::vector<uint32_t>(kBins, 0);
+    std::vector<uint32_t> counts = std::vector<uint32_t>(shared::kLodBins, 0);
+    std::vector<uint32_t> split = std::vector<uint32_t>(shared::kLodBins, 0);
     void add(double level);
 };
 struct Priority {

@@ -6,6 +6,8 @@
 #include <random>
 
 namespace supple::surface::lod::budget {
+using namespace shared;
+
 namespace {
 
 constexpr double kShort = 1.0 / (1u << 20);
@@ -70,9 +72,9 @@ TEST(LodBudget, binsCoverEveryLevel) {
     EXPECT_EQ(placeOf(std::exp2(0.5 / 64)).share, 128U);
     EXPECT_EQ(placeOf(1e30).bin, 895U);
     EXPECT_EQ(placeOf(HUGE_VAL).bin, 895U);
-    EXPECT_LT(placeOf(1e30).bin + 1, kBins);
+    EXPECT_LT(placeOf(1e30).bin + 1, kLodBins);
     std::mt19937 random(2);
-    std::uniform_real_distribution<double> octave(-8.0, 7.99), step(0.0, kSteps + 1.0);
+    std::uniform_real_distribution<double> octave(-8.0, 7.99), step(0.0, kBudgetSteps + 1.0);
     for (uint32_t n = 0; n < 200'000; ++n) {
         const double level = std::exp2(octave(random));
         const double x = step(random), elasticity = n % 3 * 0.5;
@@ -283,7 +285,7 @@ TEST(LodBudget, theSharedHistogramBoundsTheCount) {
         priorities[n % 2].forms[n / 2 % 4].add(std::exp2(octave(random)));
     }
     uint64_t last = demand(priorities, -1.0);
-    for (uint32_t k = 0; k <= kSteps; ++k) {
+    for (uint32_t k = 0; k <= kBudgetSteps; ++k) {
         const uint64_t here = demand(priorities, k);
         ASSERT_LE(here, last);
         ASSERT_LE(vertexCount(priorities, k) * kSplitUnit, here);
@@ -297,7 +299,7 @@ TEST(LodBudget, theSharedHistogramBoundsTheCount) {
             ASSERT_LE(vertexCount(priorities, solution.x), limit);
             ++hard;
         } else {
-            ASSERT_GT(demand(priorities, kSteps), limit * kSplitUnit);
+            ASSERT_GT(demand(priorities, kBudgetSteps), limit * kSplitUnit);
         }
     }
     EXPECT_GT(hard, 50U);
