@@ -179,7 +179,8 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign view handle"};
     }
     const GroupShared shared{device_.get(),  &deform_, &surface_,       pairs_.buffer(0),
-                             pairs_.size(0), view,     framesInFlight_, nextGeneration_ | 1u};
+                             pairs_.size(0), view,     framesInFlight_, nextGeneration_ | 1u,
+                             asyncCompute_};
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
     if (!group) {
         return group.error();

@@ -224,8 +224,8 @@ VkDeviceSize Group::poseUploadBytes() const {
     return poseSource_ == SUPPLE_POSES_SET ? buffers_.size(kPoses) : 0;
 }
 
-VkDeviceSize Group::uploadBytes() const {
-    return poseUploadBytes() + buffers_.size(kInstances) + buffers_.size(kIndirect);
+VkDeviceSize Group::listUploadBytes() const {
+    return buffers_.size(kInstances) + buffers_.size(kIndirect);
 }
 
 Status Group::createBuffers(const SuppleGroupDesc& desc) {
@@ -274,9 +274,12 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     }
     buffers_ = std::move(*buffers);
 
-    const gpu::BufferRequest staging{"supple frame staging", uploadBytes() * shared_.framesInFlight,
-                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
-    Result<gpu::BufferSet> stagingSet = gpu::BufferSet::create(device, {&staging, 1}, gpu::MemoryKind::upload);
+    std::vector<gpu::BufferRequest> staging(kStagingCount);
+    staging[kPoseStaging] = {"supple pose staging", poseUploadBytes() * shared_.framesInFlight,
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+    staging[kListStaging] = {"supple list staging", listUploadBytes() * shared_.framesInFlight,
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+    Result<gpu::BufferSet> stagingSet = gpu::BufferSet::create(device, staging, gpu::MemoryKind::upload);
     if (!stagingSet) {
         return stagingSet.error();
     }
@@ -350,6 +353,7 @@ void Group::layOutDraws() {
         output_.lodDrawCount = static_cast<uint32_t>(lodDraws_.size());
         return;
     }
+    drawsChanged_ = true;
     const uint32_t rate = evaluation_.rate;
     const std::array<Grid, surface::kDomainCount>& grids = grids_[anyRate_ ? rate - 1 : 0];
     drawRanges_.clear();

@@ -28,6 +28,7 @@ struct GroupShared {
     std::shared_ptr<View> view; ///< of the description
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
+    bool handsOver = false;       ///< to another queue family: every output is written anew in every frame
 };
 
 class Group {
@@ -111,8 +112,8 @@ private:
     void layOutDraws();
     void fillOutput();
     [[nodiscard]] VkDeviceSize surfaceBytes() const;    ///< an instance
-    [[nodiscard]] VkDeviceSize poseUploadBytes() const; ///< a frame in flight; all of its uploads:
-    [[nodiscard]] VkDeviceSize uploadBytes() const;
+    [[nodiscard]] VkDeviceSize poseUploadBytes() const; ///< a frame in flight
+    [[nodiscard]] VkDeviceSize listUploadBytes() const; ///< lists and draws, when they change
     template <class F>
     void forWindows(F&& record) const;
     [[nodiscard]] shared::LodPush levelPush(const Window& window, uint32_t first, uint32_t count) const;
@@ -138,7 +139,7 @@ private:
     InstanceSlots slots_;
 
     gpu::BufferSet buffers_;    ///< see the enumeration in group_buffers.h
-    gpu::BufferSet staging_;    ///< poses, lists and draws, one run a frame in flight
+    gpu::BufferSet staging_;    ///< poses; lists and draws: each one run a frame in flight
     gpu::StaticBuffers static_; ///< grid indices
     gpu::DescriptorPoolHandle deformPool_, surfacePool_;
     std::vector<gpu::BufferViewHandle> views_;
@@ -146,7 +147,9 @@ private:
     std::vector<Window> windows_;
     std::vector<InstanceSlots::Listed> listed_; ///< by window, of the frame being recorded
     uint32_t visible_ = 0;
-    uint32_t pool_ = 0; ///< the coefficient pool of the newest frame; motion has two
+    uint32_t listRun_ = 0;     ///< of the staging memory: the newest lists and draws
+    bool drawsChanged_ = true; ///< since they were written there
+    uint32_t pool_ = 0;        ///< the coefficient pool of the newest frame; motion has two
 
     struct Grid {
         uint32_t firstIndex = 0, indexCount = 0;

@@ -42,42 +42,53 @@ Group::PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
     if (writesMotion()) {
         pool_ = 1 - pool_;
     }
-    const VkDeviceSize run = frame % shared_.framesInFlight * uploadBytes();
-    std::byte* const staging = staging_.mapped(0) + run;
     PassCost cost;
-    const auto copy = [&](BufferIndex target, VkDeviceSize from, VkDeviceSize to, VkDeviceSize bytes) {
+    const auto copy = [&](StagingIndex staging, BufferIndex target, VkDeviceSize from, VkDeviceSize to,
+                          VkDeviceSize bytes) {
         if (bytes > 0) {
-            const VkBufferCopy region{run + from, to, bytes};
-            device.vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(target), 1, &region);
+            const VkBufferCopy region{from, to, bytes};
+            device.vk.CmdCopyBuffer(commandBuffer, staging_.buffer(staging), buffers_.buffer(target), 1, &region);
             cost.bytes += bytes;
         }
     };
 
-    const uint32_t end = slots_.end();
     if (poseSource_ == SUPPLE_POSES_SET) {
-        poses_.write(end, staging);
-        copy(kPoses, 0, 0, end * poses_.instanceBytes());
+        const uint32_t end = slots_.end();
+        const VkDeviceSize run = frame % shared_.framesInFlight * poseUploadBytes();
+        poses_.write(end, staging_.mapped(kPoseStaging) + run);
+        copy(kPoseStaging, kPoses, run, 0, end * poses_.instanceBytes());
         cost.points = uint64_t{poses_.layout().jointCount} * end;
     }
 
-    const VkDeviceSize lists = poseUploadBytes(), list = buffers_.size(kInstances) / 2;
-    auto* const all = reinterpret_cast<uint32_t*>(staging + lists);
-    visible_ = slots_.list({all, capacity_}, {all + capacity_, capacity_}, windowSize_, listed_);
-    copy(kInstances, lists, 0, visible_ * sizeof(uint32_t));
-    for (uint32_t w = 0; w < windows_.size(); ++w) {
-        const VkDeviceSize at = list + VkDeviceSize{w} * windowSize_ * sizeof(uint32_t);
-        copy(kInstances, lists + at, at, listed_[w].count * sizeof(uint32_t));
+    // Lists and draws stand on the device until something changes. Their runs are taken up one a change, so that the
+    // newest is whole even where it is copied again: the run overwritten was last read before as many changes, and
+    // thus frames, as there may be frames in flight.
+    const bool listed = slots_.changed() || drawsChanged_;
+    if (listed) {
+        listRun_ = (listRun_ + 1) % shared_.framesInFlight;
     }
-
+    const VkDeviceSize lists = listRun_ * listUploadBytes(), list = buffers_.size(kInstances) / 2;
     const VkDeviceSize draws = lists + 2 * list;
-    std::byte* target = staging + draws;
-    for (const SuppleDrawRange& range : drawRanges_) {
-        const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * visible_, range.firstIndex, 0,
-                                                   0};
-        std::memcpy(target, &command, sizeof(command));
-        target += sizeof(command);
+    if (listed) {
+        auto* const all = reinterpret_cast<uint32_t*>(staging_.mapped(kListStaging) + lists);
+        visible_ = slots_.list({all, capacity_}, {all + capacity_, capacity_}, windowSize_, listed_);
+        std::byte* target = staging_.mapped(kListStaging) + draws;
+        for (const SuppleDrawRange& range : drawRanges_) {
+            const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * visible_, range.firstIndex,
+                                                       0, 0};
+            std::memcpy(target, &command, sizeof(command));
+            target += sizeof(command);
+        }
+        drawsChanged_ = false;
     }
-    copy(kIndirect, draws, 0, buffers_.size(kIndirect));
+    if (listed || shared_.handsOver) {
+        copy(kListStaging, kInstances, lists, 0, visible_ * sizeof(uint32_t));
+        for (uint32_t w = 0; w < windows_.size(); ++w) {
+            const VkDeviceSize at = list + VkDeviceSize{w} * windowSize_ * sizeof(uint32_t);
+            copy(kListStaging, kInstances, lists + at, at, listed_[w].count * sizeof(uint32_t));
+        }
+        copy(kListStaging, kIndirect, draws, 0, buffers_.size(kIndirect));
+    }
     return cost;
 }
 

@@ -171,8 +171,8 @@ Status Group::createSets() {
                     {kScratchTexelBinding, {}, scratchView},
                     {kInstanceBinding, instanceRange, VK_NULL_HANDLE},
                     {kInstanceTexelBinding, {}, instanceView},
-                    {kLodBinding, view_ != nullptr ? ofView(View::kWords) : unused, VK_NULL_HANDLE},
-                    {kLodTexelBinding, {}, view_ != nullptr ? words : poolView},
+                    {kLodBinding, view_ != nullptr ? ofView(View::kWords) : range(table, 0, tableBytes), VK_NULL_HANDLE},
+                    {kLodTexelBinding, {}, view_ != nullptr ? words : table4},
                 };
                 if (!status) {
                     return status;

@@ -24,12 +24,14 @@ std::optional<uint32_t> InstanceSlots::create() {
     slot.visible = true;
     slot.evaluated = false;
     slot.priority = 0;
+    changed_ = true;
     end_ = std::max(end_, lowestFree_ + 1);
     return lowestFree_++;
 }
 
 void InstanceSlots::destroy(uint32_t slot) {
     slots_[slot].live = false;
+    changed_ = true;
     ++slots_[slot].generation;
     if (slots_[slot].generation == 0) {
         slots_[slot].generation = 1; // 0 is never valid
@@ -45,6 +47,7 @@ bool InstanceSlots::holds(uint32_t slot, uint32_t generation) const {
 }
 
 void InstanceSlots::forgetAll() {
+    changed_ = true;
     for (Slot& slot : slots_) {
         slot.evaluated = false;
     }
@@ -54,6 +57,7 @@ uint32_t InstanceSlots::list(std::span<uint32_t> all, std::span<uint32_t> byWind
                              std::span<Listed> windows) {
     uint32_t visible = 0;
     priorities_ = 0;
+    changed_ = false;
     for (size_t w = 0; w < windows.size(); ++w) {
         const uint32_t first = static_cast<uint32_t>(w) * windowSize;
         const uint32_t last = std::min(first + windowSize, end_);
@@ -72,6 +76,7 @@ uint32_t InstanceSlots::list(std::span<uint32_t> all, std::span<uint32_t> byWind
             }
         }
         windows[w] = listed;
+        changed_ = changed_ || listed.withPast < listed.count;
     }
     for (uint32_t s = 0; s < end_; ++s) {
         slots_[s].evaluated = slots_[s].live && slots_[s].visible;

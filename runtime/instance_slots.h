@@ -21,13 +21,22 @@ public:
     [[nodiscard]] bool holds(uint32_t slot, uint32_t generation) const;
     [[nodiscard]] uint32_t generation(uint32_t slot) const { return slots_[slot].generation; }
 
-    void setVisible(uint32_t slot, bool visible) { slots_[slot].visible = visible; }
+    void setVisible(uint32_t slot, bool visible) {
+        changed_ = changed_ || slots_[slot].visible != visible;
+        slots_[slot].visible = visible;
+    }
     /// Groups of a view: 0..kPriorityCount - 1; 0 when created.
-    void setPriority(uint32_t slot, uint32_t priority) { slots_[slot].priority = priority; }
+    void setPriority(uint32_t slot, uint32_t priority) {
+        changed_ = changed_ || slots_[slot].priority != priority;
+        slots_[slot].priority = priority;
+    }
     /// Bits of those that the last listed instances have.
     [[nodiscard]] uint32_t priorities() const { return priorities_; }
     /// The next frame sees the instance as new.
-    void forget(uint32_t slot) { slots_[slot].evaluated = false; }
+    void forget(uint32_t slot) {
+        changed_ = changed_ || slots_[slot].evaluated;
+        slots_[slot].evaluated = false;
+    }
     void forgetAll();
 
     [[nodiscard]] uint32_t capacity() const { return static_cast<uint32_t>(slots_.size()); }
@@ -39,8 +48,12 @@ public:
         uint32_t count = 0;
         uint32_t withPast = 0;
     };
+    /// Whether list() would give anything else than the last time: in the frame after a change too, when what was new
+    /// has come to have a past.
+    [[nodiscard]] bool changed() const { return changed_; }
     /// Lists the frame's instances and notes them as evaluated. `all`: the visible slots, rising. `byWindow`: as
-    /// shaders/shared/instances.h has them, slot numbers from their window's first on, the entries of window w from w * windowSize on; `windows` is filled in.
+    /// shaders/shared/instances.h has them, slot numbers from their window's first on, the entries of window w from
+    /// w * windowSize on; `windows` is filled in.
     /// Both hold capacity() entries. Returns the visible.
     uint32_t list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,
                   std::span<Listed> windows);
@@ -57,6 +70,7 @@ private:
     uint32_t end_ = 0;
     uint32_t lowestFree_ = 0; ///< none is free below
     uint32_t priorities_ = 1;
+    bool changed_ = true;
 };
 
 } // namespace supple::runtime

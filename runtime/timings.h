@@ -18,7 +18,20 @@
 namespace supple::runtime {
 
 /// The passes of a frame, in order.
-enum class Pass : uint32_t { upload, attributes, deform, vertex, edge, patch, level, solve, place, evaluate, motion, count };
+enum class Pass : uint32_t {
+    upload,
+    attributes,
+    deform,
+    vertex,
+    edge,
+    patch,
+    level,
+    solve,
+    place,
+    evaluate,
+    motion,
+    count
+};
 inline constexpr size_t kPassCount = static_cast<size_t>(Pass::count);
 [[nodiscard]] const char* passName(Pass pass);
 
