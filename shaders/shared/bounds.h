@@ -12,6 +12,7 @@
 // the host list does not say kInstanceIsNew.
 // List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has them,
 // those with a past first, either kind rising.
+// Between the two, `occlude` may take more instances out of sight, by a depth pyramid.
 // Table (uvec4 elements): windows, then arguments.
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
 //   argument   (elements an instance, elements a workgroup or 0 for a draw, ListCount, word in the argument buffer); those of
@@ -73,6 +74,20 @@ struct ListPush {
     uint all; // first entry in the list
     uint argumentStride;
     uint maxGroups; // of a dispatch in x
+};
+
+// Occlusion has a layout of its own: bounds, states and the host's list as above, and the pyramid.
+SUPPLE_SHARED_CONST kPyramidBinding = 11u;
+
+// Texel (x, y) of level l holds the farthest depth of all that its rectangle, (x..x+1, y..y+1) / size of the level, touches
+// in the picture; levels halve in size, rounded down.
+struct OcclusionPush {
+    float columns[16]; // to clip space, of the picture that the pyramid was made of
+    uint firstEntry;   // of the host list
+    uint instanceCount;
+    uint width, height; // of level 0
+    uint levels;
+    uint reversed; // near is 1 and far 0
 };
 
 SUPPLE_SHARED_CONST kListHeaderWords = 4u; // of all, and of every window

@@ -1,5 +1,6 @@
 // Bounds, culling and the list of what is seen, on hand-made cages: what the device wrote against the same on the CPU.
 #include "surface/bounds_pass.h"
+#include "surface/occlusion_pass.h"
 
 #include "gpu/memory.h"
 #include "tests/support/gpu_comparison.h"
@@ -34,6 +35,44 @@ std::vector<T> valuesOf(const std::vector<std::byte>& bytes) {
     return values;
 }
 
+/// Depths of a picture, and the levels above it: texels have the farthest of all that their rectangle touches.
+struct Pyramid {
+    uint32_t width = 0, height = 0;
+    bool reversed = false;
+    std::array<float, 16> columns{};
+    std::vector<std::vector<float>> levels;
+
+    [[nodiscard]] uint32_t widthOf(uint32_t level) const { return std::max(width >> level, 1u); }
+    [[nodiscard]] uint32_t heightOf(uint32_t level) const { return std::max(height >> level, 1u); }
+    [[nodiscard]] float farther(float a, float b) const { return reversed ? std::min(a, b) : std::max(a, b); }
+    /// The farthest depth of the pixels first..last, and whether there are any.
+    [[nodiscard]] float farthest(glm::ivec2 first, glm::ivec2 last) const {
+        float depth = reversed ? 1.0f : 0.0f;
+        for (int y = first.y; y <= last.y; ++y) {
+            for (int x = first.x; x <= last.x; ++x) {
+                depth = farther(depth, levels[0][static_cast<size_t>(y) * width + static_cast<size_t>(x)]);
+            }
+        }
+        return depth;
+    }
+    void build(std::vector<float> depths) {
+        levels.assign(1, std::move(depths));
+        while (widthOf(static_cast<uint32_t>(levels.size()) - 1) > 1 ||
+               heightOf(static_cast<uint32_t>(levels.size()) - 1) > 1) {
+            const auto level = static_cast<uint32_t>(levels.size());
+            const uint32_t w = widthOf(level), h = heightOf(level);
+            std::vector<float> texels;
+            for (uint32_t y = 0; y < h; ++y) {
+                for (uint32_t x = 0; x < w; ++x) {
+                    texels.push_back(farthest({x * width / w, y * height / h},
+                                              {((x + 1) * width + w - 1) / w - 1, ((y + 1) * height + h - 1) / h - 1}));
+                }
+            }
+            levels.push_back(std::move(texels));
+        }
+    }
+};
+
 /// A group's slots and what a frame knows of them.
 struct Scene {
     uint32_t vertexCount = 0, cageStride = 0, windowSize = 0, slots = 0;
@@ -41,6 +80,7 @@ struct Scene {
     std::vector<uint32_t> host;   ///< the host's list
     CullView view{};
     std::vector<ListArgument> arguments;
+    Pyramid pyramid; ///< without levels: nothing is occluded
 
     Scene(uint32_t vertices, uint32_t count, uint32_t window)
         : vertexCount(vertices), cageStride(vertices + 3), windowSize(window), slots(count),
@@ -100,6 +140,12 @@ public:
             return nullptr;
         }
         rig->pass_ = std::move(*pass);
+        Result<OcclusionPass> occlusion = OcclusionPass::create(rig->device_);
+        if (!occlusion) {
+            ADD_FAILURE() << occlusion.error().message;
+            return nullptr;
+        }
+        rig->occlusion_ = std::move(*occlusion);
         return rig;
     }
 
@@ -169,6 +215,25 @@ public:
             gpu::writeSet(device_, *set, resources);
             sets.push_back(*set);
         }
+        const Pyramid& pyramid = scene.pyramid;
+        Result<gpu::DescriptorPoolHandle> occlusionPool =
+            gpu::createDescriptorPool(device_, occlusion_.layout(), 1, "test");
+        EXPECT_TRUE(occlusionPool.ok());
+        VkDescriptorSet occlusionSet = VK_NULL_HANDLE;
+        const host::Image image = imageOf(pyramid);
+        if (!pyramid.levels.empty()) {
+            Result<VkDescriptorSet> set = gpu::allocateSet(device_, occlusion_.layout(), occlusionPool->get(), "test");
+            EXPECT_TRUE(set.ok());
+            occlusionSet = *set;
+            const gpu::BoundResource resources[] = {
+                {kBoundsBinding, {bounds.handle(), 0, VK_WHOLE_SIZE}},
+                {kBoundsStateBinding, {states_.handle(), 0, VK_WHOLE_SIZE}},
+                {kHostListBinding, {hostList.handle(), 0, VK_WHOLE_SIZE}},
+                {kHostListTexelBinding, {}, hostTexels},
+            };
+            gpu::writeSet(device_, occlusionSet, resources);
+            occlusion_.writePyramid(occlusionSet, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        }
         EXPECT_TRUE(host_
                         .submitAndWait([&](VkCommandBuffer commands) {
                             for (uint32_t w = 0; w < count; ++w) {
@@ -177,6 +242,18 @@ public:
                                                     windows[w].entries, windows[w].firstSlot, kMargin});
                             }
                             gpu::computeBarrier(device_, commands);
+                            if (occlusionSet != VK_NULL_HANDLE) {
+                                OcclusionPush push{{},
+                                                   0,
+                                                   static_cast<uint32_t>(scene.host.size()),
+                                                   pyramid.width,
+                                                   pyramid.height,
+                                                   static_cast<uint32_t>(pyramid.levels.size()),
+                                                   pyramid.reversed ? 1u : 0u};
+                                std::copy(pyramid.columns.begin(), pyramid.columns.end(), push.columns);
+                                occlusion_.record(commands, occlusionSet, push);
+                                gpu::computeBarrier(device_, commands);
+                            }
                             ListPush push{count, static_cast<uint32_t>(scene.arguments.size()), 0, kArgumentStride, 0};
                             pass_.recordList(commands, sets[0], push);
                             gpu::memoryBarrier(device_, commands,
@@ -194,10 +271,51 @@ public:
     }
 
 private:
+    /// Ready for compute shaders to read.
+    host::Image imageOf(const Pyramid& pyramid) {
+        if (pyramid.levels.empty()) {
+            return {};
+        }
+        host::ImageDesc desc;
+        desc.format = VK_FORMAT_R32_SFLOAT;
+        desc.extent = {pyramid.width, pyramid.height};
+        desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        desc.mipLevels = static_cast<uint32_t>(pyramid.levels.size());
+        Result<host::Image> image = host_.createImage(desc);
+        EXPECT_TRUE(image.ok());
+        std::vector<float> texels;
+        std::vector<VkBufferImageCopy> copies;
+        for (uint32_t level = 0; level < desc.mipLevels; ++level) {
+            VkBufferImageCopy copy{};
+            copy.bufferOffset = texels.size() * sizeof(float);
+            copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
+            copy.imageExtent = {pyramid.widthOf(level), pyramid.heightOf(level), 1};
+            copies.push_back(copy);
+            texels.insert(texels.end(), pyramid.levels[level].begin(), pyramid.levels[level].end());
+        }
+        Result<host::Buffer> staging =
+            host_.uploadBuffer(texels.data(), texels.size() * sizeof(float), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+        EXPECT_TRUE(staging.ok());
+        EXPECT_TRUE(host_
+                        .submitAndWait([&](VkCommandBuffer commands) {
+                            const host::ImageUse copied{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                                        {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT}};
+                            host::imageBarrier(commands, *image, {VK_IMAGE_LAYOUT_UNDEFINED, {}}, copied);
+                            vkCmdCopyBufferToImage(commands, staging->handle(), image->handle(), copied.layout,
+                                                   desc.mipLevels, copies.data());
+                            host::imageBarrier(commands, *image, copied,
+                                               {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT}});
+                        })
+                        .ok());
+        return std::move(*image);
+    }
+
     Rig(host::Device& host, gpu::Device device) : host_(host), device_(std::move(device)) {}
     host::Device& host_;
     gpu::Device device_;
     BoundsPass pass_;
+    OcclusionPass occlusion_;
     host::Buffer states_;
 };
 
@@ -379,7 +497,7 @@ TEST_P(Bounds, EveryPlaneCullsByItself) {
         Expected expected(scene);
         const std::array<float, 24> all = openView();
         std::copy_n(&all[4 * plane], 4, &scene.view.planes[4 * plane]);
-        scene.view.planes[4 * plane + 3] -= plane == 5 ? 80.0f : 0.0f; // the far plane, into the scene
+        scene.view.planes[4 * plane + 3] -= plane == 5 ? 80.0f / 99.0f : 0.0f; // the far plane, into the scene
         (void)check(scene, expected);
         EXPECT_GT(expected.all.size(), 0u);
         EXPECT_LT(expected.all.size(), scene.host.size()) << "plane " << plane;
@@ -534,6 +652,82 @@ TEST_P(Bounds, SeventyThousandInstances) {
         }
         EXPECT_TRUE(split);
         rig = Rig::create(*testDevice(), GetParam());
+    }
+}
+
+TEST_P(Bounds, WhatAPyramidHidesIsHiddenAndNothingElse) {
+    // Walls at different depths over parts of the picture, and boxes before, behind and across them.
+    for (const bool reversed : {false, true}) {
+        for (const glm::uvec2 size : {glm::uvec2(256, 128), glm::uvec2(201, 117)}) {
+            std::mt19937 random(130);
+            std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
+            Scene scene(6, 1500, 700);
+            Pyramid& pyramid = scene.pyramid;
+            pyramid.width = size.x;
+            pyramid.height = size.y;
+            pyramid.reversed = reversed;
+            pyramid.columns = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -100.0f / 99.0f, -1, 0, 0, -100.0f / 99.0f, 0};
+            if (reversed) {
+                pyramid.columns[10] = -1.0f - pyramid.columns[10];
+                pyramid.columns[14] = -pyramid.columns[14];
+            }
+            const auto depthAt = [&](float distance) {
+                return (pyramid.columns[14] - distance * pyramid.columns[10]) / distance;
+            };
+            std::vector<float> depths(size_t{size.x} * size.y, depthAt(100.0f));
+            for (uint32_t y = 0; y < size.y; ++y) {
+                for (uint32_t x = 0; x < size.x; ++x) {
+                    float& depth = depths[size_t{y} * size.x + x];
+                    if (x < size.x / 2 && y > size.y / 5) {
+                        depth = depthAt(12.0f);
+                    } else if (x > size.x * 2 / 3) {
+                        depth = depthAt(30.0f + 20.0f * static_cast<float>(y) / static_cast<float>(size.y));
+                    }
+                }
+            }
+            pyramid.build(depths);
+            for (uint32_t slot = 0; slot < scene.slots; ++slot) {
+                const float away = 3.0f + 57.0f * std::abs(unit(random));
+                scene.box(slot, {0.98f * away * unit(random), 0.98f * away * unit(random), -away},
+                          0.01f + 0.08f * away * std::abs(unit(random)), random);
+            }
+            scene.vertex(7, 2).x = kNaN;
+            scene.addAll();
+            const Written written = rig->run(scene);
+            uint32_t hidden = 0, couldBe = 0, seen = 0;
+            for (uint32_t slot = 0; slot < scene.slots; ++slot) {
+                // On the CPU from every pixel that the box touches.
+                const glm::dvec3 low = written.bounds[2 * slot], high = written.bounds[2 * slot + 1];
+                glm::dvec2 least(1e30), most(-1e30);
+                double nearest = reversed ? 0.0 : 1.0;
+                bool known = written.bounds[2 * slot + 1].w == 0.0f;
+                for (uint32_t k = 0; k < 8; ++k) {
+                    const glm::dvec3 p((k & 1) != 0 ? high.x : low.x, (k & 2) != 0 ? high.y : low.y,
+                                       (k & 4) != 0 ? high.z : low.z);
+                    const double depth = (pyramid.columns[14] + p.z * pyramid.columns[10]) / -p.z;
+                    known = known && p.z < 0.0;
+                    const glm::dvec2 at = (0.5 * glm::dvec2(p) / -p.z + 0.5) * glm::dvec2(size);
+                    least = glm::min(least, at);
+                    most = glm::max(most, at);
+                    nearest = reversed ? std::max(nearest, depth) : std::min(nearest, depth);
+                }
+                known = known && least.x >= 0.0 && least.y >= 0.0 && most.x < size.x && most.y < size.y;
+                const double wall =
+                    known ? static_cast<double>(pyramid.farthest(glm::floor(least), glm::floor(most))) : 0.0;
+                const bool behind = known && (reversed ? nearest < wall : nearest > wall);
+                const bool gone = written.states[2 * slot] == 0;
+                EXPECT_TRUE(!gone || behind) << "slot " << slot << " is seen";
+                couldBe += behind ? 1 : 0;
+                hidden += gone ? 1 : 0;
+                seen += gone ? 0 : 1;
+            }
+            EXPECT_EQ(written.arguments[0], seen);
+            EXPECT_GT(couldBe, 200u);
+            EXPECT_GT(hidden * 10, couldBe * 7) << "of " << couldBe;
+            EXPECT_LT(couldBe, scene.slots * 3 / 4);
+            std::printf("%ux%u%s: %u hidden of %u\n", size.x, size.y, reversed ? " reversed" : "", hidden, couldBe);
+            rig = Rig::create(*testDevice(), GetParam());
+        }
     }
 }
 
