@@ -96,17 +96,20 @@ Result<PipelineHandle> createComputePipeline(const Device& device, const Compute
 
 Result<DescriptorPoolHandle> createDescriptorPool(const Device& device, const ComputeLayout& layout, uint32_t setCount,
                                                   const char* name) {
-    uint32_t texelBuffers = 0;
+    std::vector<VkDescriptorPoolSize> sizes; // one a type
     for (const Binding& binding : layout.bindings) {
-        texelBuffers += binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER ? 1 : 0;
+        const auto known = std::find_if(sizes.begin(), sizes.end(),
+                                        [&](const VkDescriptorPoolSize& size) { return size.type == binding.type; });
+        if (known == sizes.end()) {
+            sizes.push_back({binding.type, setCount});
+        } else {
+            known->descriptorCount += setCount;
+        }
     }
-    const uint32_t storageBuffers = static_cast<uint32_t>(layout.bindings.size()) - texelBuffers;
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, storageBuffers * setCount},
-                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, texelBuffers * setCount}};
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     info.maxSets = setCount;
-    info.poolSizeCount = texelBuffers > 0 ? 2 : 1;
-    info.pPoolSizes = sizes;
+    info.poolSizeCount = static_cast<uint32_t>(sizes.size());
+    info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
     const VkResult result = device.vk.CreateDescriptorPool(device.handle, &info, device.allocator, &pool);
     if (result != VK_SUCCESS) {

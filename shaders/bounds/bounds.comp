@@ -1,0 +1,93 @@
+// Bounds pass: the box of every listed instance's deformed cage, and whether a view sees it. Narrow mapping: one lane an
+// instance. Wide mapping: one workgroup an instance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/bounds/cull.glsl"
+
+layout(set = 0, binding = kBoundsCageBinding, std430) readonly buffer Cage { vec4 cage[]; };
+layout(set = 0, binding = kBoundsCageTexelBinding) uniform samplerBuffer cageTexels;
+layout(set = 0, binding = kBoundsBinding, std430) writeonly buffer Bounds { vec4 bounds[]; };
+layout(set = 0, binding = kCullViewBinding, std430) readonly buffer View { CullView view; };
+layout(push_constant) uniform Push { BoundsPush push; };
+
+const float kFloatMax = 3.402823466e38;
+const uint kMaxLanes = 128u; // gpu/mapping.cpp
+shared vec3 lows[kMaxLanes], highs[kMaxLanes];
+shared bool sounds[kMaxLanes];
+
+vec3 cageVertex(uint i) {
+    if (kWide) return cage[i].xyz;
+    return texelFetch(cageTexels, int(i)).xyz;
+}
+
+struct Box {
+    vec3 low, high;
+    bool sound; // all vertices are finite
+};
+
+// By bits: compilers may take it that there is no NaN.
+bool finite(vec3 p) { return all(lessThan(floatBitsToUint(p) & 0x7FFFFFFFu, uvec3(0x7F800000u))); }
+
+// The box of every step-th vertex from `first` on.
+Box boxOf(uint base, uint first, uint step) {
+    Box box = Box(vec3(kFloatMax), vec3(-kFloatMax), true);
+    for (uint v = first; v < push.vertexCount; v += step) {
+        vec3 p = cageVertex(base + v);
+        bool usable = finite(p);
+        box.low = usable ? min(box.low, p) : box.low;
+        box.high = usable ? max(box.high, p) : box.high;
+        box.sound = box.sound && usable;
+    }
+    return box;
+}
+
+// Comparisons say "outside", so that what is not a number is seen.
+bool isSeen(vec3 low, vec3 high) {
+    vec3 middle = 0.5 * low + 0.5 * high, extent = 0.5 * high - 0.5 * low;
+    bool seen = true;
+    for (uint k = 0u; k < 6u; ++k) {
+        vec3 normal = vec3(view.planes[4u * k], view.planes[4u * k + 1u], view.planes[4u * k + 2u]);
+        seen = seen && !(dot(normal, middle) + view.planes[4u * k + 3u] + dot(abs(normal), extent) < 0.0);
+    }
+    vec3 camera = vec3(view.camera[0], view.camera[1], view.camera[2]);
+    vec3 beyond = max(max(low - camera, camera - high), vec3(0.0));
+    if (view.farthest > 0.0) seen = seen && !(length(beyond) > view.farthest);
+    float away = view.orthographic != 0u ? 1.0 : length(middle - camera);
+    return seen && !(length(extent) * view.focal < view.smallest * away);
+}
+
+void store(uint slot, Box box) {
+    precise vec3 grown = push.margin * (box.high - box.low);
+    bool empty = box.low.x > box.high.x;
+    precise vec3 low = empty ? box.low : box.low - grown;
+    precise vec3 high = empty ? box.high : box.high + grown;
+    bounds[2u * slot] = vec4(low, 0.0);
+    bounds[2u * slot + 1u] = vec4(high, box.sound ? 0.0 : 1.0);
+    states[slot].x = !box.sound || isSeen(low, high) ? 1u : 0u;
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x;
+    uint index = kWide ? workgroupIndex() : invocationIndex();
+    if (kWide && index >= push.instanceCount) return; // the whole workgroup
+    uint slot = hostEntry(push.firstEntry + min(index, push.instanceCount - 1u)) & kInstanceSlotMask;
+    uint base = (slot - push.firstSlot) * push.cageStride;
+    if (!kWide) {
+        store(slot, boxOf(base, 0u, 1u));
+        return;
+    }
+    Box box = boxOf(base, lane, gl_WorkGroupSize.x);
+    lows[lane] = box.low;
+    highs[lane] = box.high;
+    sounds[lane] = box.sound;
+    barrier();
+    for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {
+        if (lane < width) {
+            lows[lane] = min(lows[lane], lows[lane + width]);
+            highs[lane] = max(highs[lane], highs[lane + width]);
+            sounds[lane] = sounds[lane] && sounds[lane + width];
+        }
+        barrier();
+    }
+    if (lane == 0u) store(slot, Box(lows[0], highs[0], sounds[0]));
+}

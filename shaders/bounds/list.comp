@@ -1,0 +1,99 @@
+// List pass: the instances that are seen, in the host's order, and the arguments of what is dispatched and drawn for them.
+// One workgroup; every lane takes a run of entries, so that places follow from counts alone and are the same every time.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/bounds/cull.glsl"
+
+layout(set = 0, binding = kBoundsStateTexelBinding) uniform usamplerBuffer stateTexels;
+layout(set = 0, binding = kListBinding, std430) writeonly buffer List { uint list[]; };
+layout(set = 0, binding = kListArgumentBinding, std430) writeonly buffer Arguments { uint argumentWords[]; };
+layout(set = 0, binding = kListTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
+layout(push_constant) uniform Push { ListPush push; };
+
+const uint kMaxLanes = 128u; // gpu/mapping.cpp
+shared uvec2 countsOf[kMaxLanes]; // with a past, new
+
+uvec2 state(uint slot) {
+    if (kWide) return states[slot];
+    return texelFetch(stateTexels, int(slot)).xy;
+}
+
+// The entry with kInstanceIsNew as it is now.
+uint withPast(uint entry, uvec2 state) { return state.y != 0u ? entry : entry | kInstanceIsNew; }
+
+// (1, 0): seen and with a past; (0, 1): seen and new; (0, 0)
+uvec2 kind(uint entry, uvec2 state) {
+    if (state.x == 0u) return uvec2(0u);
+    return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec2(0u, 1u) : uvec2(1u, 0u);
+}
+
+void storeHeader(uint at, uvec2 counts, uint listed) {
+    argumentWords[at] = counts.x + counts.y;
+    argumentWords[at + 1u] = counts.x;
+    argumentWords[at + 2u] = listed;
+    argumentWords[at + 3u] = 0u;
+}
+
+// Lanes share the arguments of a window, or of the group.
+void storeArguments(uvec2 counts, bool ofGroup, uint offset) {
+    for (uint i = gl_LocalInvocationID.x; i < push.argumentCount; i += gl_WorkGroupSize.x) {
+        uvec4 argument = tableElements[push.windowCount + i];
+        if ((argument.z == kCountAll) != ofGroup) continue;
+        uint instances = argument.z == kCountWithPast ? counts.x : argument.z == kCountNew ? counts.y : counts.x + counts.y;
+        uint elements = argument.x * instances, at = argument.w + offset;
+        if (argument.y == 0u) {
+            argumentWords[at] = elements;
+            continue;
+        }
+        uint groups = elements / argument.y + (elements % argument.y != 0u ? 1u : 0u);
+        uint rows = max(groups / push.maxGroups + (groups % push.maxGroups != 0u ? 1u : 0u), 1u);
+        argumentWords[at] = groups / rows + (groups % rows != 0u ? 1u : 0u);
+        argumentWords[at + 1u] = rows;
+        argumentWords[at + 2u] = 1u;
+    }
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x;
+    uvec2 total = uvec2(0u);
+    uint listed = 0u;
+    for (uint w = 0u; w < push.windowCount; ++w) {
+        uvec4 window = tableElements[w];
+        uint each = (window.y + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
+        uint begin = window.x + min(lane * each, window.y), end = window.x + min((lane + 1u) * each, window.y);
+        uvec2 own = uvec2(0u);
+        for (uint i = begin; i < end; ++i) {
+            uint entry = hostEntry(i);
+            own += kind(entry, state(entry & kInstanceSlotMask));
+        }
+        countsOf[lane] = own;
+        barrier();
+        uvec2 before = uvec2(0u), counts = uvec2(0u);
+        for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
+            if (l == lane) before = counts;
+            counts += countsOf[l];
+        }
+        barrier();
+
+        uint all = push.all + total.x + total.y + before.x + before.y;
+        uvec2 places = window.w + uvec2(before.x, counts.x + before.y);
+        for (uint i = begin; i < end; ++i) {
+            uint entry = hostEntry(i), slot = entry & kInstanceSlotMask;
+            uvec2 now = state(slot), one = kind(entry, now);
+            if (now.x != 0u) {
+                list[all] = slot;
+                ++all;
+                list[one.x != 0u ? places.x : places.y] =
+                    (slot - window.z) | (withPast(entry, now) & ~kInstanceSlotMask);
+                places += one;
+            }
+            states[slot].y = now.x;
+        }
+        if (lane == 0u) storeHeader(kListHeaderWords * (w + 1u), counts, window.y);
+        storeArguments(counts, false, push.argumentStride * w);
+        total += counts;
+        listed += window.y;
+    }
+    if (lane == 0u) storeHeader(0u, total, listed);
+    storeArguments(total, true, 0u);
+}

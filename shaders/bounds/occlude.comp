@@ -1,0 +1,61 @@
+// Occlusion: takes instances out of sight whose bounds lie behind what a depth pyramid has everywhere they would be drawn.
+// One lane an instance, between the bounds pass and the list pass.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shaders/bounds/cull.glsl"
+
+layout(set = 0, binding = kBoundsBinding, std430) readonly buffer Bounds { vec4 bounds[]; };
+layout(set = 0, binding = kPyramidBinding) uniform texture2D pyramid;
+layout(push_constant) uniform Push { OcclusionPush push; };
+
+// Pixels of level 0, and depth: more than the projection's rounding.
+const float kPixelSlack = 0.02;
+const float kDepthSlack = 1e-7, kRelativeDepthSlack = 2e-6;
+
+vec4 clip(vec3 p) {
+    vec4 q;
+    for (uint r = 0u; r < 4u; ++r)
+        q[r] = push.columns[r] * p.x + push.columns[4u + r] * p.y + push.columns[8u + r] * p.z + push.columns[12u + r];
+    return q;
+}
+
+bool isHidden(vec3 low, vec3 high) {
+    // Depths so that near is less, whichever way the pyramid has them.
+    float turn = push.reversed != 0u ? -1.0 : 1.0;
+    vec2 least = vec2(1e30), most = vec2(-1e30);
+    float nearest = 1e30;
+    for (uint k = 0u; k < 8u; ++k) {
+        vec4 q = clip(vec3((k & 1u) != 0u ? high.x : low.x, (k & 2u) != 0u ? high.y : low.y,
+                           (k & 4u) != 0u ? high.z : low.z));
+        if (!(q.w > 1e-6)) return false; // reaches behind the eye
+        vec3 p = q.xyz / q.w;
+        least = min(least, p.xy);
+        most = max(most, p.xy);
+        nearest = min(nearest, turn * p.z);
+    }
+    vec2 size = vec2(push.width, push.height);
+    vec2 from = (0.5 * least + 0.5) * size - kPixelSlack, to = (0.5 * most + 0.5) * size + kPixelSlack;
+    // What lies outside the picture is not known.
+    if (!(all(greaterThanEqual(from, vec2(0.0))) && all(lessThan(to, size)))) return false;
+
+    vec2 extent = to - from;
+    uint level = 0u; // at which no side is longer than a texel: two by two then cover it
+    while (level + 1u < push.levels && max(extent.x, extent.y) > float(1u << level)) ++level;
+    ivec2 texels = max(ivec2(push.width, push.height) >> level, ivec2(1));
+    ivec2 first = ivec2(floor(from / size * vec2(texels))), last = ivec2(floor(to / size * vec2(texels)));
+    if (any(greaterThan(last - first, ivec2(1)))) return false;
+    first = clamp(first, ivec2(0), texels - 1);
+    last = clamp(last, ivec2(0), texels - 1);
+    int l = int(level);
+    float farthest = max(max(turn * texelFetch(pyramid, first, l).x, turn * texelFetch(pyramid, ivec2(last.x, first.y), l).x),
+                         max(turn * texelFetch(pyramid, ivec2(first.x, last.y), l).x, turn * texelFetch(pyramid, last, l).x));
+    return nearest - (kDepthSlack + kRelativeDepthSlack * abs(nearest)) > farthest;
+}
+
+void main() {
+    uint index = min(invocationIndex(), push.instanceCount - 1u);
+    uint slot = hostEntry(push.firstEntry + index) & kInstanceSlotMask;
+    vec4 low = bounds[2u * slot], high = bounds[2u * slot + 1u];
+    if (high.w == 0.0 && isHidden(low.xyz, high.xyz)) states[slot].x = 0u;
+}

@@ -1,0 +1,127 @@
+#include "surface/bounds_pass.h"
+
+#include "cage/topology.h"
+#include "shaders/bounds_bounds_comp.h"
+#include "shaders/bounds_list_comp.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supple::surface {
+
+using namespace shared;
+
+static_assert(sizeof(CullView) == 128);
+static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16);
+static_assert(std::max(sizeof(BoundsPush), sizeof(ListPush)) <= gpu::kPushConstantBytes);
+
+namespace {
+
+/// Whether a chart of the blending surface may be open. One that is not has smaller weights.
+bool openOrSharp(const cage::Cage& cage) {
+    const Result<cage::Topology> topology = cage::buildTopology(cage);
+    return !cage.creases.empty() || !cage.sharpVertices.empty() || !topology.ok() ||
+           std::any_of(topology->boundary.begin(), topology->boundary.end(), [](uint8_t b) { return b != 0; });
+}
+
+} // namespace
+
+float boundsMargin(SchemeId scheme, const cage::Cage& cage) {
+    // A little above what was found (tests/surface/bounds_test.cpp), for rounding and for rarer valences.
+    switch (scheme) {
+    case SchemeId::prep:
+        return 0.02f; // 0.0128
+    case SchemeId::pm:
+        return 0.21f; // 0.1896
+    case SchemeId::blend:
+        return openOrSharp(cage) ? 1.05f : 0.3f; // 1.0126; 0.2812
+    default:
+        return 0.001f; // points of the limit are means of the cage's
+    }
+}
+
+std::vector<uint32_t> listTable(std::span<const ListWindow> windows, std::span<const ListArgument> arguments) {
+    std::vector<uint32_t> words;
+    words.reserve(4 * (windows.size() + arguments.size()));
+    for (const ListWindow& window : windows) {
+        words.insert(words.end(), {window.firstEntry, window.entries, window.firstSlot, window.target});
+    }
+    for (const ListArgument& argument : arguments) {
+        words.insert(words.end(),
+                     {argument.elements, argument.perGroup, static_cast<uint32_t>(argument.count), argument.target});
+    }
+    return words;
+}
+
+std::array<float, 24> frustumPlanes(const std::array<float, 16>& columns) {
+    const auto row = [&](size_t r) {
+        return std::array<float, 4>{columns[r], columns[4 + r], columns[8 + r], columns[12 + r]};
+    };
+    const std::array<float, 4> x = row(0), y = row(1), z = row(2), w = row(3);
+    std::array<float, 24> planes{};
+    for (size_t c = 0; c < 4; ++c) { // -w <= x <= w, -w <= y <= w, 0 <= z <= w
+        const float sides[6] = {w[c] + x[c], w[c] - x[c], w[c] + y[c], w[c] - y[c], z[c], w[c] - z[c]};
+        for (size_t k = 0; k < 6; ++k) {
+            planes[4 * k + c] = sides[k];
+        }
+    }
+    return planes;
+}
+
+Result<BoundsPass> BoundsPass::create(const gpu::Device& device) {
+    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    constexpr VkDescriptorType kTexels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    const gpu::Binding bindings[] = {
+        {kBoundsCageBinding, kStorage},  {kBoundsCageTexelBinding, kTexels}, {kBoundsBinding, kStorage},
+        {kBoundsStateBinding, kStorage}, {kHostListBinding, kStorage},       {kBoundsStateTexelBinding, kTexels},
+        {kListBinding, kStorage},        {kHostListTexelBinding, kTexels},   {kListArgumentBinding, kStorage},
+        {kListTableBinding, kStorage},   {kCullViewBinding, kStorage},
+    };
+    BoundsPass pass;
+    pass.device_ = &device;
+    Result<gpu::ComputeLayout> layout =
+        gpu::ComputeLayout::create(device, bindings, std::max(sizeof(BoundsPush), sizeof(ListPush)), "supple bounds");
+    if (!layout) {
+        return layout.error();
+    }
+    pass.layout_ = std::move(*layout);
+    Result<gpu::PipelineHandle> bounds =
+        gpu::createComputePipeline(device, pass.layout_, bounds_bounds_comp, {}, "supple bounds");
+    if (!bounds) {
+        return bounds.error();
+    }
+    pass.bounds_ = std::move(*bounds);
+    Result<gpu::PipelineHandle> list =
+        gpu::createComputePipeline(device, pass.layout_, bounds_list_comp, {}, "supple list of instances");
+    if (!list) {
+        return list.error();
+    }
+    pass.list_ = std::move(*list);
+    return pass;
+}
+
+void BoundsPass::bind(VkCommandBuffer commandBuffer, const gpu::PipelineHandle& pipeline, VkDescriptorSet set,
+                      const void* push, uint32_t bytes) const {
+    const VkPipelineLayout layout = layout_.pipelineLayout.get();
+    device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+    device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+    device_->vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, bytes, push);
+}
+
+void BoundsPass::recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const BoundsPush& push) const {
+    if (push.instanceCount == 0) {
+        return;
+    }
+    bind(commandBuffer, bounds_, set, &push, sizeof(push));
+    const uint32_t local = device_->mapping.localSize;
+    gpu::dispatchLinear(*device_, commandBuffer,
+                        device_->mapping.wide ? push.instanceCount : (push.instanceCount + local - 1) / local);
+}
+
+void BoundsPass::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {
+    push.maxGroups = std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+    bind(commandBuffer, list_, set, &push, sizeof(push));
+    device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
+}
+
+} // namespace supple::surface

@@ -1,0 +1,72 @@
+// Bounds of deformed cages, culling against a view, and the list of the instances that are left, with the arguments of
+// what is dispatched and drawn for them (shaders/shared/bounds.h).
+//
+// A group needs: bounds (two vec4 a slot) and states (two words a slot), written by the passes alone, the states
+// cleared to zero once; the host's list, the table and the view, uploaded; the list and the arguments, written by the
+// list pass. Record the bounds of every window, a barrier (compute to compute), the list, and a barrier to what reads
+// its list and arguments (compute, vertex shaders, indirect commands).
+#pragma once
+
+#include "cage/character.h"
+#include "gpu/pipeline.h"
+#include "shaders/shared/bounds.h"
+#include "surface/schemes.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace supple::surface {
+
+/// How far the surface may lie outside the box of its cage, as a part of the box's size: what a sample's negative
+/// weights sum to at most, whatever the positions.
+[[nodiscard]] float boundsMargin(SchemeId scheme, const cage::Cage& cage);
+
+struct ListWindow {
+    uint32_t firstEntry = 0; ///< in the host's list
+    uint32_t entries = 0;
+    uint32_t firstSlot = 0;
+    uint32_t target = 0; ///< first entry in the list
+};
+enum class ListCount : uint32_t {
+    window = shared::kCountWindow,
+    withPast = shared::kCountWithPast, ///< of the window
+    fresh = shared::kCountNew,         ///< of the window
+    all = shared::kCountAll
+};
+struct ListArgument {
+    uint32_t elements = 0; ///< an instance: lanes, patches, instances of a draw
+    uint32_t perGroup = 0; ///< elements a workgroup takes; 0: a draw, whose instance count alone is written
+    ListCount count = ListCount::window;
+    uint32_t target = 0; ///< word in the argument buffer; of window w argumentStride * w words further, but for `all`
+};
+/// The words of kListTableBinding.
+[[nodiscard]] std::vector<uint32_t> listTable(std::span<const ListWindow> windows,
+                                              std::span<const ListArgument> arguments);
+
+/// Planes of a matrix that takes points to clip space with depths 0..w (rows as in Vulkan); reversed and infinite depth
+/// too.
+[[nodiscard]] std::array<float, 24> frustumPlanes(const std::array<float, 16>& columns);
+
+class BoundsPass {
+public:
+    [[nodiscard]] static Result<BoundsPass> create(const gpu::Device& device);
+
+    [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
+    /// `set` binds the window's cages. Nothing where push.instanceCount is 0.
+    void recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::BoundsPush& push) const;
+    /// For empty groups too: the arguments are then those of no instances. Any window's set; push.maxGroups is filled
+    /// in.
+    void recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::ListPush push) const;
+
+private:
+    void bind(VkCommandBuffer commandBuffer, const gpu::PipelineHandle& pipeline, VkDescriptorSet set, const void* push,
+              uint32_t bytes) const;
+
+    const gpu::Device* device_ = nullptr;
+    gpu::ComputeLayout layout_;
+    gpu::PipelineHandle bounds_, list_;
+};
+
+} // namespace supple::surface
