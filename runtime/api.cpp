@@ -598,7 +598,7 @@ SuppleResult suppleCreateView(SuppleContext handle, const SuppleViewDesc* given,
             return *fault;
         }
         constexpr uint32_t kFlags =
-            SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_FACE_UVS;
+            SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_FACE_UVS | SUPPLE_VIEW_CULL;
         if ((desc.flags & ~kFlags) != 0 || !within(desc.vertexFormat, SUPPLE_VERTEX_24)) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags, or no such vertexFormat");
         }
@@ -640,16 +640,16 @@ SuppleResult suppleSetCamera(SuppleContext handle, SuppleView view, const Supple
         if ((camera.flags & ~uint32_t{SUPPLE_CAMERA_ORTHOGRAPHIC}) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
-        const float values[] = {camera.position[0], camera.position[1], camera.position[2],  camera.pixelsPerUnit,
-                                camera.nearest,     camera.chordError,  camera.smallestEdge, camera.edgeLength};
-        if (!std::all_of(std::begin(values), std::end(values), [](float x) { return std::isfinite(x); })) {
+        const float values[] = {camera.position[0], camera.position[1],   camera.position[2],  camera.pixelsPerUnit,
+                                camera.nearest,     camera.chordError,    camera.smallestEdge, camera.edgeLength,
+                                camera.farthest,    camera.smallestRadius};
+        if (!finite(values, std::size(values)) || !finite(camera.viewProjection, 16)) {
             return refuse(context, ErrorCode::notFinite, kHere, "the camera is not finite");
         }
         if (camera.pixelsPerUnit <= 0.0f ||
             std::any_of(std::begin(values) + 4, std::end(values), [](float x) { return x < 0.0f; })) {
             return refuse(context, ErrorCode::range, kHere,
-                          "pixelsPerUnit must be positive; nearest, chordError, smallestEdge and edgeLength not "
-                          "negative");
+                          "pixelsPerUnit must be positive; all other lengths not negative");
         }
         found.setCamera(camera);
         return SUPPLE_OK;

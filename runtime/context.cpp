@@ -185,9 +185,18 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     if (desc.view.id != 0 && (view = views.find(desc.view.id)) == nullptr) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign view handle"};
     }
-    const GroupShared shared{device_.get(),        &deform_,       pose_.get(), &surface_,
-                             pairs_.buffer(0),     pairs_.size(0), view,        framesInFlight_,
-                             nextGeneration_ | 1u, asyncCompute_};
+    GroupShared shared;
+    shared.device = device_.get();
+    shared.deform = &deform_;
+    shared.pose = pose_.get();
+    shared.surface = &surface_;
+    shared.pairs = pairs_.buffer(0);
+    shared.pairBytes = pairs_.size(0);
+    shared.bounds = bounds_.get();
+    shared.view = std::move(view);
+    shared.framesInFlight = framesInFlight_;
+    shared.firstGeneration = nextGeneration_ | 1u;
+    shared.handsOver = asyncCompute_;
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
     if (!group) {
         return group.error();
@@ -202,6 +211,13 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
 }
 
 Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
+    if ((desc.flags & SUPPLE_VIEW_CULL) != 0 && bounds_ == nullptr) {
+        Result<surface::BoundsPass> bounds = surface::BoundsPass::create(*device_);
+        if (!bounds) {
+            return bounds.error();
+        }
+        bounds_ = std::make_unique<surface::BoundsPass>(std::move(*bounds));
+    }
     Result<std::shared_ptr<View>> view = View::create(*device_, framesInFlight_, desc);
     if (!view) {
         return view.error();

@@ -11,6 +11,7 @@
 #include "skinning/deform_pass.h"
 #include "skinning/pose_pass.h"
 #include "supple/supple.h"
+#include "surface/bounds_pass.h"
 #include "surface/passes.h"
 
 #include <atomic>
@@ -77,7 +78,8 @@ private:
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     skinning::DeformPass deform_;
-    std::unique_ptr<skinning::PosePass> pose_; ///< made for the first group that plays on the device
+    std::unique_ptr<surface::BoundsPass> bounds_; ///< made by the first view that culls
+    std::unique_ptr<skinning::PosePass> pose_;    ///< made for the first group that plays on the device
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;
     std::mutex uploads_; ///< static tables are shared by groups that may be recorded at the same time

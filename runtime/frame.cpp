@@ -1,4 +1,5 @@
-// One frame, as the data flows: upload, pose, deform, vertex, edge, patch, level, solve, place, evaluate, motion.
+// One frame, as the data flows: upload, pose, deform, bounds, vertex, edge, patch, level, solve, place, evaluate,
+// motion.
 #include "runtime/context.h"
 
 #include <algorithm>
@@ -158,6 +159,19 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();
+    if (any([](Group& group) { return group.culls(); })) {
+        pass(Pass::bounds, [&](Group& group) {
+            const Group::PassCost cost = group.recordBounds(commandBuffer);
+            if (group.culls()) {
+                computeBarrier();
+                group.recordSeen(commandBuffer);
+            }
+            return cost;
+        });
+        gpu::memoryBarrier(
+            device, commandBuffer, {kCompute, kWrite},
+            {kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, kRead | kWrite | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+    }
     const auto construct = [&](Stage stage, Pass kind) {
         if (any([&](Group& group) { return group.tables().has(stage); })) {
             pass(kind, [&](Group& group) { return group.recordStage(commandBuffer, stage); });

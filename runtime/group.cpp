@@ -231,6 +231,10 @@ VkDeviceSize Group::poseUploadBytes() const {
     return poseSource_ == SUPPLE_POSES_SET ? buffers_.size(kPoses) : 0;
 }
 
+VkDeviceSize Group::cullUploadBytes() const {
+    return culls() ? VkDeviceSize{capacity_} * sizeof(uint32_t) + culling_.tableBytes() : 0;
+}
+
 VkDeviceSize Group::listUploadBytes() const {
     return buffers_.size(kInstances) + buffers_.size(kIndirect);
 }
@@ -281,7 +285,13 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     }
     buffers_ = std::move(*buffers);
 
+    const Status culling = createCulling();
+    if (!culling) {
+        return culling;
+    }
     std::vector<gpu::BufferRequest> staging(kStagingCount);
+    staging[kCullStaging] = {"supple list staging of culling", cullUploadBytes() * shared_.framesInFlight,
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     staging[kPoseStaging] = {"supple pose staging", poseUploadBytes() * shared_.framesInFlight,
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     staging[kListStaging] = {"supple list staging", listUploadBytes() * shared_.framesInFlight,
@@ -315,6 +325,39 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
         return statics.error();
     }
     static_ = std::move(*statics);
+    return success();
+}
+
+Status Group::createCulling() {
+    if (view_ == nullptr || view_->buffer(View::kCull) == VK_NULL_HANDLE) {
+        return success();
+    }
+    const surface::Tables& tables = scheme_->tables;
+    std::vector<uint32_t> elements;
+    for (const surface::Construction& c : tables.constructions) {
+        elements.push_back(c.section.count);
+    }
+    elements.push_back(tables.lod.edges.count);
+    elements.push_back(tables.lod.patches.count);
+    const cage::Cage& cage = asset_->character.cage;
+    Culling::Desc desc;
+    desc.device = shared_.device;
+    desc.pass = shared_.bounds;
+    desc.capacity = capacity_;
+    desc.windowSize = windowSize_;
+    desc.windows = static_cast<uint32_t>(windows_.size());
+    desc.cageVertices = cage.vertexCount();
+    desc.cageStride = evaluation_.cageStride;
+    desc.margin = surface::boundsMargin(scheme_->recipe.scheme, cage);
+    desc.cages = buffers_.buffer(kDeformedCage);
+    desc.hostList = buffers_.buffer(kInstances);
+    desc.view = view_->buffer(View::kCull);
+    desc.elements = elements;
+    Result<Culling> culling = Culling::create(desc);
+    if (!culling) {
+        return culling.error();
+    }
+    culling_ = std::move(*culling);
     return success();
 }
 
@@ -419,6 +462,11 @@ void Group::fillOutput() {
     o.instances.size /= 2; // the second list is the passes'
     o.indirect = whole(kIndirect, sizeof(VkDrawIndexedIndirectCommand));
     o.deviceBytes = buffers_.allocatedBytes() + static_.deviceBytes() + playback_.deviceBytes();
+    if (culls()) {
+        o.deviceBytes += culling_.deviceBytes();
+        o.instances = {culling_.list(), 0, VkDeviceSize{capacity_} * sizeof(uint32_t), sizeof(uint32_t)};
+        o.bounds = {culling_.bounds(), 0, culling_.boundsBytes(), 32};
+    }
     if (view_ == nullptr) {
         o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
         return;

@@ -5,6 +5,7 @@
 #include "gpu/memory.h"
 #include "gpu/static_buffers.h"
 #include "runtime/asset.h"
+#include "runtime/culling.h"
 #include "runtime/instance_poses.h"
 #include "runtime/instance_slots.h"
 #include "runtime/playback.h"
@@ -27,7 +28,8 @@ struct GroupShared {
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
-    std::shared_ptr<View> view; ///< of the description
+    const surface::BoundsPass* bounds = nullptr; ///< for groups of views that cull
+    std::shared_ptr<View> view;                  ///< of the description
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
     bool handsOver = false;       ///< to another queue family: every output is written anew in every frame
@@ -77,6 +79,11 @@ public:
     PassCost recordPatch(VkCommandBuffer commandBuffer) const;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const;
 
+    /// Views that cull: bounds of the deformed cages, and after a barrier the list of those that are seen.
+    [[nodiscard]] bool culls() const { return culling_.active(); }
+    PassCost recordBounds(VkCommandBuffer commandBuffer) const;
+    void recordSeen(VkCommandBuffer commandBuffer) const { culling_.recordList(commandBuffer); }
+
     // Groups of a view: the levels of edges, then of patches, then, when the view has solved its budget, places.
     PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const;
     PassCost recordPatchLevels(VkCommandBuffer commandBuffer) const;
@@ -94,7 +101,7 @@ public:
 
     /// What a frame hands from the compute to the draw queue family: buffers written in every frame, and those written
     /// in this one.
-    using Transfers = std::array<VkBufferMemoryBarrier2, 9>;
+    using Transfers = std::array<VkBufferMemoryBarrier2, 11>;
     [[nodiscard]] uint32_t transfers(Transfers& out) const;
 
     /// The last frame that has the group's passes, and the last that has anything of it.
@@ -119,10 +126,16 @@ private:
     void fillOutput();
     [[nodiscard]] VkDeviceSize surfaceBytes() const;    ///< an instance
     [[nodiscard]] VkDeviceSize poseUploadBytes() const; ///< a frame in flight
-    [[nodiscard]] VkDeviceSize listUploadBytes() const; ///< lists and draws, when they change
+    [[nodiscard]] VkDeviceSize listUploadBytes() const;
+    [[nodiscard]] VkDeviceSize cullUploadBytes() const; ///< lists and draws, when they change
     template <class F>
     void forWindows(F&& record) const;
-    [[nodiscard]] shared::LodPush levelPush(const Window& window, uint32_t first, uint32_t count) const;
+    /// The same with what surface passes are recorded with.
+    template <class F>
+    void forSurfaceWindows(F&& record) const;
+    [[nodiscard]] shared::LodPush levelPush(const Window& window) const;
+    [[nodiscard]] VkDeviceSize levelArguments(const surface::Window& window) const;
+    Status createCulling();
     [[nodiscard]] surface::LodWindow lodWindow(const Window& window, VkDescriptorSet set) const;
     [[nodiscard]] bool hasMotion(const SuppleGroupDesc& desc) const;
     [[nodiscard]] uint32_t scratchElements() const; ///< an instance
@@ -140,6 +153,7 @@ private:
     std::shared_ptr<View> view_;
     uint32_t firstRun_ = 0; ///< in the view; all windows one after the other
     bool hasRuns_ = false;
+    Culling culling_;
 
     InstancePoses poses_;
     InstanceSlots slots_;

@@ -23,7 +23,7 @@ enum BufferIndex : size_t {
     kIndirect,
     kBufferCount
 };
-enum StagingIndex : size_t { kPoseStaging, kListStaging, kStagingCount };
+enum StagingIndex : size_t { kPoseStaging, kListStaging, kCullStaging, kStagingCount };
 inline constexpr size_t kGridIndices = 0; // among the static buffers
 
 inline constexpr VkDeviceSize kVec4Bytes = 16;

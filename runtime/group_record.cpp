@@ -20,6 +20,9 @@ VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame)
     const VkDeviceSize own = static_.recordUpload(commandBuffer, frame);
     indicesToRelease_ = indicesToRelease_ || own > 0;
     if (!cleared_) {
+        if (culling_.active()) {
+            culling_.recordClear(commandBuffer);
+        }
         // The zero coefficient and the slots no stage writes.
         for (const BufferIndex pool : {kPool, kSecondPool}) {
             if (buffers_.size(pool) > 0) {
@@ -74,7 +77,16 @@ Group::PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
     const VkDeviceSize draws = lists + 2 * list;
     if (listed) {
         auto* const all = reinterpret_cast<uint32_t*>(staging_.mapped(kListStaging) + lists);
+        uint32_t* const culled =
+            culls() ? reinterpret_cast<uint32_t*>(staging_.mapped(kCullStaging) + listRun_ * cullUploadBytes())
+                    : nullptr;
+        if (culls()) {
+            (void)slots_.listForCulling({culled, capacity_});
+        }
         visible_ = slots_.list({all, capacity_}, {all + capacity_, capacity_}, windowSize_, listed_);
+        if (culls()) {
+            culling_.writeTable(listed_, reinterpret_cast<std::byte*>(culled + capacity_));
+        }
         std::byte* target = staging_.mapped(kListStaging) + draws;
         for (const SuppleDrawRange& range : drawRanges_) {
             const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * visible_, range.firstIndex,
@@ -85,7 +97,16 @@ Group::PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
         drawsChanged_ = false;
     }
     if (listed || shared_.handsOver) {
-        copy(kListStaging, kInstances, lists, 0, visible_ * sizeof(uint32_t));
+        if (culls()) {
+            // In the place of the slots: what is seen of them is the device's to list.
+            const VkDeviceSize run = listRun_ * cullUploadBytes(), entries = VkDeviceSize{capacity_} * sizeof(uint32_t);
+            copy(kCullStaging, kInstances, run, 0, visible_ * sizeof(uint32_t));
+            const VkBufferCopy region{run + entries, 0, culling_.tableBytes()};
+            device.vk.CmdCopyBuffer(commandBuffer, staging_.buffer(kCullStaging), culling_.table(), 1, &region);
+            cost.bytes += region.size;
+        } else {
+            copy(kListStaging, kInstances, lists, 0, visible_ * sizeof(uint32_t));
+        }
         for (uint32_t w = 0; w < windows_.size(); ++w) {
             const VkDeviceSize at = list + VkDeviceSize{w} * windowSize_ * sizeof(uint32_t);
             copy(kListStaging, kInstances, lists + at, at, listed_[w].count * sizeof(uint32_t));
@@ -102,6 +123,22 @@ void Group::forWindows(F&& record) const {
             record(windows_[w], capacity_ + w * windowSize_, listed_[w]);
         }
     }
+}
+
+template <class F>
+void Group::forSurfaceWindows(F&& record) const {
+    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+        const VkDescriptorSet set = window.surface[pool_];
+        record(window, culls() ? culling_.window(window.index, set) : surface::Window{set, first, listed.count});
+    });
+}
+
+Group::PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
+    if (!culls()) {
+        return {};
+    }
+    culling_.recordBounds(commandBuffer, listed_);
+    return {visible_, visible_ * VkDeviceSize{32}};
 }
 
 Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
@@ -161,9 +198,8 @@ Group::PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
 }
 
 Group::PassCost Group::recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const {
-    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
-        shared_.surface->recordStage(commandBuffer, stage, scheme_->tables,
-                                     {window.surface[pool_], first, listed.count}, evaluation_);
+    forSurfaceWindows([&](const Window&, const surface::Window& window) {
+        shared_.surface->recordStage(commandBuffer, stage, scheme_->tables, window, evaluation_);
     });
     PassCost cost;
     for (const surface::Construction& c : scheme_->tables.constructions) {
@@ -187,13 +223,11 @@ Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
     return {points, points * kPatchStride * kVec4Bytes};
 }
 
-LodPush Group::levelPush(const Window& window, uint32_t first, uint32_t count) const {
+LodPush Group::levelPush(const Window& window) const {
     const surface::Tables& tables = scheme_->tables;
     const auto runs = static_cast<uint32_t>(tables.lod.runs.size());
     LodPush push = view_->levelPush();
     push.count = tables.lod.patches.count;
-    push.instanceCount = count;
-    push.firstInstance = first;
     push.firstSlot = window.index * windowSize_;
     push.edges = tables.lod.edges.table;
     push.patches = tables.lod.patches.table;
@@ -205,6 +239,10 @@ LodPush Group::levelPush(const Window& window, uint32_t first, uint32_t count) c
     return push;
 }
 
+VkDeviceSize Group::levelArguments(const surface::Window& window) const {
+    return window.firstArgument + scheme_->tables.constructions.size() * sizeof(VkDispatchIndirectCommand);
+}
+
 surface::LodWindow Group::lodWindow(const Window& window, VkDescriptorSet set) const {
     const auto runs = static_cast<uint32_t>(scheme_->tables.lod.runs.size());
     return {set, view_->buffer(View::kWords), window.index * windowSize_, firstRun_ + window.index * runs};
@@ -214,9 +252,8 @@ Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
     if (view_ == nullptr) {
         return {};
     }
-    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
-        shared_.surface->lod().recordEdges(commandBuffer, window.surface[pool_],
-                                           levelPush(window, first, listed.count));
+    forSurfaceWindows([&](const Window& own, const surface::Window& window) {
+        shared_.surface->lod().recordEdges(commandBuffer, window, levelArguments(window), levelPush(own));
     });
     const uint64_t points = uint64_t{scheme_->tables.lod.edges.count} * visible_;
     return {points, points * sizeof(float)};
@@ -226,11 +263,10 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
     if (view_ == nullptr) {
         return {};
     }
-    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+    forSurfaceWindows([&](const Window& own, const surface::Window& window) {
         // All count into one buffer, with atomics; to synchronization validation it is one resource that they read too.
         gpu::computeBarrier(*shared_.device, commandBuffer);
-        shared_.surface->lod().recordPatches(commandBuffer, window.surface[pool_],
-                                             levelPush(window, first, listed.count));
+        shared_.surface->lod().recordPatches(commandBuffer, window, levelArguments(window), levelPush(own));
     });
     const uint64_t points = uint64_t{output_.patchCount} * visible_;
     return {points, points * kLodPatchLevelWords * sizeof(uint32_t)};
@@ -240,10 +276,9 @@ Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
     if (view_ == nullptr) {
         return {};
     }
-    forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
+    forSurfaceWindows([&](const Window& own, const surface::Window& window) {
         gpu::computeBarrier(*shared_.device, commandBuffer);
-        shared_.surface->lod().recordPlaces(commandBuffer, window.surface[pool_],
-                                            levelPush(window, first, listed.count));
+        shared_.surface->lod().recordPlaces(commandBuffer, window, levelArguments(window), levelPush(own));
     });
     const uint64_t points = uint64_t{output_.patchCount} * visible_;
     return {points, points * kLodRecordWords * sizeof(uint32_t)};
@@ -324,6 +359,10 @@ uint32_t Group::transfers(Transfers& out) const {
     add(buffers_.buffer(kDeformedCage), deforms());
     add(buffers_.buffer(kInstances), true);
     add(buffers_.buffer(kIndirect), true);
+    if (culls()) {
+        add(culling_.list(), true);
+        add(culling_.bounds(), true);
+    }
     add(buffers_.buffer(kAttributes), attributes);
     add(buffers_.buffer(kUvs1), attributes);
     add(buffers_.buffer(kFaceUvs), attributes);

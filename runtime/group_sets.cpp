@@ -72,6 +72,10 @@ Status Group::createSets() {
     const VkDescriptorBufferInfo instanceRange = range(instances, 0, VK_WHOLE_SIZE);
     const VkBufferView instanceView = view(instances, kUint1, 0, buffers_.size(kInstances), "supple instances");
     const VkBuffer deformed = buffers_.buffer(kDeformedCage);
+    // What surface passes work on may be fewer than what is deformed.
+    const VkDescriptorBufferInfo seenRange = culls() ? range(culling_.list(), 0, VK_WHOLE_SIZE) : instanceRange;
+    const VkBufferView seenView =
+        culls() ? view(culling_.list(), kUint1, 0, culling_.listBytes(), "supple instances seen") : instanceView;
 
     if (deforms()) {
         deformPool_ = makePool(shared_.deform->layout(), windows_.size(), "supple deform");
@@ -170,8 +174,8 @@ Status Group::createSets() {
                     {kPairBinding, range(shared_.pairs, 0, shared_.pairBytes), VK_NULL_HANDLE},
                     {kScratchBinding, scratchBytes > 0 ? window(kScratch, scratchBytes) : unused, VK_NULL_HANDLE},
                     {kScratchTexelBinding, {}, scratchView},
-                    {kInstanceBinding, instanceRange, VK_NULL_HANDLE},
-                    {kInstanceTexelBinding, {}, instanceView},
+                    {kInstanceBinding, seenRange, VK_NULL_HANDLE},
+                    {kInstanceTexelBinding, {}, seenView},
                     {kLodBinding, view_ != nullptr ? ofView(View::kWords) : range(table, 0, tableBytes),
                      VK_NULL_HANDLE},
                     {kLodTexelBinding, {}, view_ != nullptr ? words : table4},

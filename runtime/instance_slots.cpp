@@ -53,6 +53,17 @@ void InstanceSlots::forgetAll() {
     }
 }
 
+uint32_t InstanceSlots::listForCulling(std::span<uint32_t> all) const {
+    uint32_t count = 0;
+    for (uint32_t s = 0; s < end_; ++s) {
+        if (slots_[s].live && slots_[s].visible) {
+            all[count++] = s | slots_[s].priority << shared::kInstancePriorityShift |
+                           (slots_[s].evaluated ? 0 : shared::kInstanceIsNew);
+        }
+    }
+    return count;
+}
+
 uint32_t InstanceSlots::list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,
                              std::span<Listed> windows) {
     uint32_t visible = 0;

@@ -7,7 +7,7 @@
 namespace supple::runtime {
 
 const char* passName(Pass pass) {
-    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "pose",  "deform", "vertex",   "edge",
+    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "pose",  "deform", "bounds",   "vertex", "edge",
                                                 "patch",  "level",      "solve", "place",  "evaluate", "motion"};
     return kNames[static_cast<size_t>(pass)];
 }

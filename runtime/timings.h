@@ -23,6 +23,7 @@ enum class Pass : uint32_t {
     attributes,
     pose,
     deform,
+    bounds,
     vertex,
     edge,
     patch,

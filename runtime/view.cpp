@@ -1,5 +1,6 @@
 #include "runtime/view.h"
 
+#include "surface/bounds_pass.h"
 #include "surface/lod/tables.h"
 
 #include <algorithm>
@@ -46,6 +47,8 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     std::array<gpu::BufferRequest, kBufferCount> requests;
     requests[kWords] = {"supple view", kLodRecords * VkDeviceSize{4} + vertices / kMinSamples * kRecordBytes,
                         kOutput | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
+    requests[kCull] = {"supple view, frustum", (desc.flags & SUPPLE_VIEW_CULL) != 0 ? sizeof(CullView) : 0,
+                       kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     requests[kSurface] = {"supple view, surface vertices", vertices * (desc.vertexFormat == SUPPLE_VERTEX_24 ? 24 : 16),
                           kVertices};
     requests[kPreviousPositions] = {"supple view, previous positions", when(SUPPLE_VIEW_MOTION, 12), kVertices};
@@ -97,7 +100,7 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     }
     std::fill_n(view->hostWords_.begin() + kLodRuns, kMaxRuns, kFreeRun);
     view->takenRuns_.resize(kMaxRuns);
-    const gpu::BufferRequest staging{"supple view staging", kLodSolution * VkDeviceSize{4} * framesInFlight,
+    const gpu::BufferRequest staging{"supple view staging", view->uploadBytes() * framesInFlight,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     const gpu::BufferRequest readback{"supple view statistics", sizeof(LodSolution) * VkDeviceSize{framesInFlight},
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT};
@@ -187,11 +190,35 @@ VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
         indicesToRelease_ = false;
         indicesReleaseFrame_ = frame;
     }
-    const VkDeviceSize bytes = kLodSolution * VkDeviceSize{4}, run = frame % framesInFlight_ * bytes;
+    const VkDeviceSize bytes = kLodSolution * VkDeviceSize{4}, run = frame % framesInFlight_ * uploadBytes();
     std::memcpy(staging_.mapped(0) + run, hostWords_.data(), bytes);
     const VkBufferCopy region{run, 0, bytes};
     device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kWords), 1, &region);
-    return bytes;
+    if (buffers_.size(kCull) > 0) {
+        const CullView cull = cullView();
+        std::memcpy(staging_.mapped(0) + run + bytes, &cull, sizeof(cull));
+        const VkBufferCopy own{run + bytes, 0, sizeof(cull)};
+        device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kCull), 1, &own);
+    }
+    return uploadBytes();
+}
+
+VkDeviceSize View::uploadBytes() const {
+    return kLodSolution * VkDeviceSize{4} + buffers_.size(kCull);
+}
+
+CullView View::cullView() const {
+    CullView view{};
+    std::array<float, 16> columns{};
+    std::copy_n(camera_.viewProjection, 16, columns.begin());
+    const std::array<float, 24> planes = surface::frustumPlanes(columns);
+    std::copy(planes.begin(), planes.end(), view.planes);
+    std::copy_n(camera_.position, 3, view.camera);
+    view.farthest = camera_.farthest;
+    view.focal = camera_.pixelsPerUnit;
+    view.smallest = camera_.smallestRadius;
+    view.orthographic = (camera_.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0 ? 1 : 0;
+    return view;
 }
 
 void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
@@ -254,7 +281,9 @@ uint32_t View::transfers(Transfers& out) const {
         }
     };
     for (size_t i = 0; i < kBufferCount; ++i) {
-        add(buffers_.buffer(i));
+        if (i != kCull) { // the passes' alone
+            add(buffers_.buffer(i));
+        }
     }
     if (indicesReleaseFrame_ == recordedFrame_) {
         add(static_.buffer(0));

@@ -3,6 +3,7 @@
 
 #include "gpu/memory.h"
 #include "gpu/static_buffers.h"
+#include "shaders/shared/bounds.h"
 #include "shaders/shared/lod.h"
 #include "supple/supple.h"
 #include "surface/lod/grid.h"
@@ -24,6 +25,7 @@ public:
 
     [[nodiscard]] const SuppleViewDesc& desc() const { return desc_; }
     void setCamera(const SuppleCameraDesc& camera); ///< as checked by the caller
+    [[nodiscard]] shared::CullView cullView() const;
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
 
     /// A group's windows take runs when it is created and give them back when it goes. The runs of `windows` windows,
@@ -46,18 +48,28 @@ public:
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
     /// As Group::transfers, with the first of its groups.
-    using Transfers = std::array<VkBufferMemoryBarrier2, 7>;
+    using Transfers = std::array<VkBufferMemoryBarrier2, 8>;
     [[nodiscard]] uint32_t transfers(Transfers& out) const;
     /// SUPPLE_NOT_READY: no frame of it has completed.
     [[nodiscard]] bool statistics(SuppleViewStatistics& out) const;
 
     [[nodiscard]] uint64_t lastRecordedFrame() const { return recordedFrame_; }
 
-    enum BufferIndex : size_t { kWords, kSurface, kPreviousPositions, kAttributes, kUvs1, kFaceUvs, kBufferCount };
+    enum BufferIndex : size_t {
+        kWords,
+        kCull,
+        kSurface,
+        kPreviousPositions,
+        kAttributes,
+        kUvs1,
+        kFaceUvs,
+        kBufferCount
+    };
     [[nodiscard]] VkBuffer buffer(BufferIndex index) const { return buffers_.buffer(index); }
     [[nodiscard]] VkDeviceSize size(BufferIndex index) const { return buffers_.size(index); }
     [[nodiscard]] VkBuffer indices() const { return static_.buffer(0); }
     [[nodiscard]] VkDeviceSize indexBytes() const { return static_.size(0); }
+    [[nodiscard]] VkDeviceSize uploadBytes() const;
     [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes() + static_.deviceBytes(); }
     struct Grid {
         uint32_t firstIndex = 0, indexCount = 0;
@@ -74,7 +86,7 @@ private:
     bool hasCamera_ = false;
 
     gpu::BufferSet buffers_;
-    gpu::BufferSet staging_;  ///< the host's part of the words, a run a frame in flight
+    gpu::BufferSet staging_;  ///< the host's part of the words, and the view to cull by, a run a frame in flight
     gpu::BufferSet readback_; ///< solutions, one a frame in flight
     gpu::StaticBuffers static_;
     std::array<std::array<Grid, shared::kCapacityCount>, shared::kLodForms> grids_;

@@ -13,7 +13,11 @@ namespace supple::surface {
 struct Window {
     VkDescriptorSet set = VK_NULL_HANDLE;
     uint32_t firstInstance = 0; ///< in the list of instances (shaders/shared/instances.h)
-    uint32_t instanceCount = 0;
+    uint32_t instanceCount = 0; ///< or shared::kCountOnDevice and where it stands: then
+    /// three words each: the groups to dispatch for every entry of Tables::constructions, for edges' and for patches'
+    /// levels.
+    VkBuffer arguments = VK_NULL_HANDLE;
+    VkDeviceSize firstArgument = 0;
 };
 
 /// The same for a view's patches.

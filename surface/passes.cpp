@@ -116,13 +116,13 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     constexpr VkDescriptorType kTexels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     const gpu::Binding bindings[] = {
-        {kTableBinding, kStorage},     {kTable4TexelBinding, kTexels},  {kTable1TexelBinding, kTexels},
-        {kCageBinding, kStorage},      {kCageTexelBinding, kTexels},    {kPoolBinding, kStorage},
-        {kPoolTexelBinding, kTexels},  {kSurfaceBinding, kStorage},     {kPatchCoefficientBinding, kStorage},
-        {kAttributeBinding, kStorage}, {kUv1Binding, kStorage},         {kPairBinding, kStorage},
-        {kScratchBinding, kStorage},   {kScratchTexelBinding, kTexels}, {kFaceUvBinding, kStorage},
-        {kInstanceBinding, kStorage},  {kInstanceTexelBinding, kTexels},
-        {kLodBinding, kStorage},       {kLodTexelBinding, kTexels}};
+        {kTableBinding, kStorage},     {kTable4TexelBinding, kTexels},   {kTable1TexelBinding, kTexels},
+        {kCageBinding, kStorage},      {kCageTexelBinding, kTexels},     {kPoolBinding, kStorage},
+        {kPoolTexelBinding, kTexels},  {kSurfaceBinding, kStorage},      {kPatchCoefficientBinding, kStorage},
+        {kAttributeBinding, kStorage}, {kUv1Binding, kStorage},          {kPairBinding, kStorage},
+        {kScratchBinding, kStorage},   {kScratchTexelBinding, kTexels},  {kFaceUvBinding, kStorage},
+        {kInstanceBinding, kStorage},  {kInstanceTexelBinding, kTexels}, {kLodBinding, kStorage},
+        {kLodTexelBinding, kTexels}};
     Passes passes;
     passes.device_ = &device;
     passes.shaders_ = shaders;
@@ -265,7 +265,8 @@ void Passes::record(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescri
 void Passes::recordStage(VkCommandBuffer commandBuffer, Stage stage, const Tables& tables, const Window& window,
                          const Evaluation& evaluation) const {
     bool first = true;
-    for (const Construction& c : tables.constructions) {
+    for (size_t i = 0; i < tables.constructions.size(); ++i) {
+        const Construction& c = tables.constructions[i];
         if (c.stage == stage) {
             if (stage == Stage::edge && !first) {
                 // No facet kernel of P_m reads what another writes. Synchronization validation cannot know: to it the
@@ -274,8 +275,13 @@ void Passes::recordStage(VkCommandBuffer commandBuffer, Stage stage, const Table
             }
             first = false;
             const shared::SurfacePush push = pushFor(tables, c.section, window, evaluation);
-            record(commandBuffer, construction_[static_cast<size_t>(c.kernel)].get(), window.set, push,
-                   groupsFor(uint64_t{push.count} * push.instanceCount));
+            const VkPipeline pipeline = construction_[static_cast<size_t>(c.kernel)].get();
+            if (window.arguments != VK_NULL_HANDLE && push.count > 0) {
+                recordIndirect(commandBuffer, pipeline, window.set, push, window.arguments,
+                               window.firstArgument + i * sizeof(VkDispatchIndirectCommand));
+            } else {
+                record(commandBuffer, pipeline, window.set, push, groupsFor(uint64_t{push.count} * push.instanceCount));
+            }
         }
     }
 }
@@ -326,15 +332,19 @@ void Passes::recordAttributes(VkCommandBuffer commandBuffer, const Tables& table
     }
 }
 
-void Passes::recordIndirect(VkCommandBuffer commandBuffer, VkPipeline pipeline, const LodWindow& window,
-                            const shared::SurfacePush& push) const {
+void Passes::recordIndirect(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
+                            const shared::SurfacePush& push, VkBuffer arguments, VkDeviceSize offset) const {
     const VkPipelineLayout layout = layout_.pipelineLayout.get();
     device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &window.set, 0,
-                                      nullptr);
+    device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
     device_->vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
-    device_->vk.CmdDispatchIndirect(commandBuffer, window.view,
-                                    sizeof(uint32_t) * (shared::kLodDispatches + VkDeviceSize{8} * push.dispatch));
+    device_->vk.CmdDispatchIndirect(commandBuffer, arguments, offset);
+}
+
+void Passes::recordLod(VkCommandBuffer commandBuffer, VkPipeline pipeline, const LodWindow& window,
+                       const shared::SurfacePush& push) const {
+    recordIndirect(commandBuffer, pipeline, window.set, push, window.view,
+                   sizeof(uint32_t) * (shared::kLodDispatches + VkDeviceSize{8} * push.dispatch));
 }
 
 void Passes::recordLodEvaluate(VkCommandBuffer commandBuffer, const Tables& tables, const LodWindow& window,
@@ -346,7 +356,7 @@ void Passes::recordLodEvaluate(VkCommandBuffer commandBuffer, const Tables& tabl
         push.firstSlot = window.firstSlot;
         push.dispatch = window.firstDispatch + static_cast<uint32_t>(r);
         const auto& pipelines = lodEvaluate_[vertexFormat][static_cast<size_t>(range.patchClass)];
-        recordIndirect(commandBuffer, pipelines[tables.cornerNormals ? 1 : 0].get(), window, push);
+        recordLod(commandBuffer, pipelines[tables.cornerNormals ? 1 : 0].get(), window, push);
     }
 }
 
@@ -359,7 +369,7 @@ void Passes::recordLodAttributes(VkCommandBuffer commandBuffer, const Tables& ta
         push.firstPatch = range.firstPatch;
         push.firstSlot = window.firstSlot;
         push.dispatch = window.firstDispatch + static_cast<uint32_t>(r);
-        recordIndirect(commandBuffer, lodAttributes_[static_cast<size_t>(range.patchClass)].get(), window, push);
+        recordLod(commandBuffer, lodAttributes_[static_cast<size_t>(range.patchClass)].get(), window, push);
     }
 }
 

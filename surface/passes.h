@@ -79,8 +79,10 @@ private:
                 const shared::SurfacePush& push, uint64_t groups) const;
     [[nodiscard]] uint64_t groupsFor(uint64_t lanes) const;
 
-    void recordIndirect(VkCommandBuffer commandBuffer, VkPipeline pipeline, const LodWindow& window,
-                        const shared::SurfacePush& push) const;
+    void recordIndirect(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
+                        const shared::SurfacePush& push, VkBuffer arguments, VkDeviceSize offset) const;
+    void recordLod(VkCommandBuffer commandBuffer, VkPipeline pipeline, const LodWindow& window,
+                   const shared::SurfacePush& push) const;
 
     static constexpr size_t kClasses = kPatchClassCount;
     const gpu::Device* device_ = nullptr;

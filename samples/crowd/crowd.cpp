@@ -54,7 +54,7 @@ Crowd::Crowd(const sample::Device& device, const std::array<std::string, kKinds>
              uint32_t budget)
     : context_(sample::createContext(device)), budget_(budget) {
     auto viewDesc = supple::sized<SuppleViewDesc>();
-    viewDesc.flags = SUPPLE_VIEW_ATTRIBUTES;
+    viewDesc.flags = SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;
     viewDesc.maxVertices = budget;
     sample::check(supple::View::create(context_, viewDesc, view_), "suppleCreateView");
 
@@ -125,6 +125,7 @@ void Crowd::update(double time, const Camera& camera) {
     auto desc = supple::sized<SuppleCameraDesc>();
     std::memcpy(desc.position, &camera.eye, sizeof desc.position);
     desc.pixelsPerUnit = camera.pixelsPerUnit;
+    std::memcpy(desc.viewProjection, &camera.castersViewProjection, sizeof desc.viewProjection);
     sample::check(view_.setCamera(desc), "suppleSetCamera");
 }
 

@@ -36,6 +36,7 @@ struct Walker {
 struct Camera {
     glm::vec3 eye{};
     glm::mat4 viewProjection{1.0f};
+    glm::mat4 castersViewProjection{1.0f}; ///< wider: what casts a shadow into the picture is in it
     float pixelsPerUnit = 1.0f;
 };
 

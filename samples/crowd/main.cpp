@@ -57,8 +57,9 @@ crowd::Camera cameraAt(double time, float reach, VkExtent2D extent) {
     const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
     glm::mat4 projection = glm::perspective(fovY, aspect, 0.1f, 400.0f);
     projection[1][1] = -projection[1][1]; // Vulkan's y points down
-    camera.viewProjection =
-        projection * glm::lookAt(camera.eye, glm::vec3(0.0f, -0.12f * reach, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
+    const glm::mat4 view = glm::lookAt(camera.eye, glm::vec3(0.0f, -0.12f * reach, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
+    camera.viewProjection = projection * view;
+    camera.castersViewProjection = glm::perspective(fovY + glm::radians(14.0f), aspect, 0.1f, 400.0f) * view;
     camera.pixelsPerUnit = 0.5f * static_cast<float>(extent.height) / std::tan(0.5f * fovY);
     return camera;
 }

@@ -16,7 +16,7 @@ vec3 vertexAt(uint instance, uint i) {
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uvec4 record = tableElement(push.table + (id - entry * push.count));
     vec3 vertex = vertexAt(instance, record.x);

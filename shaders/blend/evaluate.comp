@@ -119,7 +119,7 @@ void evaluateSample(Corner corners[4], uint i, uint j, bool still, out vec3 posi
 }
 
 void evaluateNarrow() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint patchIndex = id - entry * push.count;
     uint base = instance * push.poolStride;
@@ -156,7 +156,7 @@ void evaluateNarrow() {
 shared vec4 sharedCoefficients[kMaxPatchesPerGroup * 36u];
 
 void evaluateWide() {
-    uint total = push.count * push.instanceCount;
+    uint total = push.count * instanceCount();
     uint first = workgroupIndex() * push.patchesPerGroup;
     uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
     for (uint n = gl_LocalInvocationID.x; n < here * 36u; n += gl_WorkGroupSize.x) {

@@ -131,7 +131,7 @@ uvec4 normalSlots(uint record) {
 }
 
 void evaluateNarrow() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint patchIndex = id - entry * push.count;
     uint record = push.table + patchIndex * recordElements();
@@ -228,7 +228,7 @@ Patch sharedPatch(uint place) {
 }
 
 void evaluateWide() {
-    uint total = push.count * push.instanceCount;
+    uint total = push.count * instanceCount();
     uint first = workgroupIndex() * push.patchesPerGroup;
     uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
     for (uint n = gl_LocalInvocationID.x; n < here * 16u; n += gl_WorkGroupSize.x) {

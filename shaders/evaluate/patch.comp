@@ -14,7 +14,7 @@ layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer Pat
 const uint kFaceEdgeOrder[16] = uint[16](SUPPLE_PREP_FACE_EDGE_ORDER);
 
 void main() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint patchIndex = id - entry * push.count;
     uint record = push.table + patchIndex * recordElements();

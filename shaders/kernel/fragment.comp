@@ -29,7 +29,7 @@ void writePoint(uint at, vec3 p) {
 
 void main() {
     // Workgroups past the last repeat it: all lanes must meet at the barriers.
-    uint id = min(workgroupIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(workgroupIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uvec4 record = tableElement(push.records + (id - entry * push.count));
     uint header = record.x, fragment = record.y;

@@ -9,7 +9,7 @@
 #include "shaders/surface/cage.glsl"
 
 void main() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uvec4 record = tableElement(push.table + (id - entry * push.count));
     uint cageBase = instance * push.cageStride;

@@ -16,7 +16,7 @@ Lane lane;
 
 void findLane() {
     uint id = invocationIndex();
-    uint block = min(id / kBlockLanes, push.count * push.instanceCount - 1u);
+    uint block = min(id / kBlockLanes, push.count * instanceCount() - 1u);
     uint entry = block / push.count;
     lane.instance = instanceSlot(entry);
     lane.record = push.records + 3u * (block - entry * push.count);

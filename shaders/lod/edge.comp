@@ -11,7 +11,7 @@
 #include "shaders/lod/levels.glsl"
 
 void main() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry), edge = id - entry * push.count;
     uvec4 curve = instance * push.poolStride + tableElement(push.edges + edge);
     vec3 x0 = poolVector(curve.x), o0 = poolVector(curve.y), o1 = poolVector(curve.z), x1 = poolVector(curve.w);

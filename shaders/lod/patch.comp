@@ -60,7 +60,7 @@ float sectorLevel(uint record, uint sides, uint base) {
 
 void main() {
     uint id = invocationIndex();
-    if (id >= push.count * push.instanceCount) return;
+    if (id >= push.count * instanceCount()) return;
     uint entry = id / push.count, listed = instanceEntry(entry), patchIndex = id - entry * push.count;
     uint instance = listed & kInstanceSlotMask, priority = (listed >> kInstancePriorityShift) & (kPriorityCount - 1u);
     uint words = levelBase(instance), base = instance * push.poolStride;

@@ -26,8 +26,9 @@ void main() {
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) taken[i] = 0u;
         barrier();
     }
-    bool inside = id < push.count * push.instanceCount;
-    id = min(id, push.count * push.instanceCount - 1u);
+    uint total = push.count * instanceCount();
+    bool inside = id < total;
+    id = min(id, total - 1u);
     uint entry = id / push.count, listed = instanceEntry(entry), patchIndex = id - entry * push.count;
     uint instance = listed & kInstanceSlotMask, priority = (listed >> kInstancePriorityShift) & (kPriorityCount - 1u);
     uint words = levelBase(instance), at = words + push.edgeCount + kLodPatchLevelWords * patchIndex;

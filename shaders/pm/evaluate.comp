@@ -163,7 +163,7 @@ uvec3 sectorOf(uint index) {
 }
 
 void evaluateNarrow() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint patchIndex = id - entry * push.count;
     uint record = push.table + kSides * patchIndex, base = instance * push.poolStride;
@@ -227,7 +227,7 @@ Sector sharedSector(uint n) {
 }
 
 void evaluateWide() {
-    uint total = push.count * push.instanceCount;
+    uint total = push.count * instanceCount();
     uint first = workgroupIndex() * push.patchesPerGroup;
     uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
     for (uint n = gl_LocalInvocationID.x; n < here * kSides; n += gl_WorkGroupSize.x) {

@@ -90,7 +90,7 @@ void innerFacet(uint record, uint base) {
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint facet = id - entry * push.count, base = instance * push.poolStride;
     if (kClass == kPolarPatch) polarFacet(push.table + 2u * facet, base);

@@ -101,7 +101,7 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uvec4 record = tableElement(push.table + (id - entry * push.count));
     uint base = instance * push.poolStride, cageBase = instance * push.cageStride;

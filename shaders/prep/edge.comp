@@ -15,7 +15,7 @@ vec3 weighted(float w[6], vec3 tA, vec3 tB, vec3 B, vec3 SA, vec3 SB) {
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint record = push.table + 3u * (id - entry * push.count);
     uint base = instance * push.poolStride;

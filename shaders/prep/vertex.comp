@@ -19,7 +19,7 @@ vec3 ringDiagonal(uint words, uint k, uint cageBase, vec3 p0) {
 #include "shaders/surface/vertex.glsl"
 
 void main() {
-    uint id = min(invocationIndex(), push.count * push.instanceCount - 1u);
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uvec4 record = tableElement(push.table + (id - entry * push.count));
     uint base = instance * push.poolStride, cageBase = instance * push.cageStride;

@@ -16,6 +16,9 @@ SUPPLE_SHARED_CONST kInstanceSlotMask = 0x0FFFFFFFu;
 SUPPLE_SHARED_CONST kInstancePriorityShift = 28u; // two bits
 SUPPLE_SHARED_CONST kInstanceIsNew = 0x80000000u; // has no past: its previous positions are its positions
 
+// A count of instances that is a word of the list's buffer: this bit and the word's index.
+SUPPLE_SHARED_CONST kCountOnDevice = 0x80000000u;
+
 SUPPLE_SHARED_END
 
 #endif

@@ -1,4 +1,5 @@
-// Grids of a level of detail: samples of a patch at a capacity R (surface/lod/pattern.h), and the triangles between them.
+// Grids of a level of detail: samples of a patch at a capacity R (surface/lod/pattern.h), and the triangles between
+// them.
 #pragma once
 
 #include "surface/lod/pattern.h"

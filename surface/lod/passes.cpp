@@ -37,22 +37,31 @@ void Passes::bind(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet 
     device_->vk.CmdPushConstants(commandBuffer, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, bytes, push);
 }
 
-void Passes::dispatch(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet set,
-                      const shared::LodPush& push) const {
-    const uint64_t lanes = uint64_t{push.count} * push.instanceCount, local = device_->mapping.localSize;
-    if (lanes > 0) {
-        bind(commandBuffer, kernel, set, &push, sizeof(push));
+void Passes::dispatch(VkCommandBuffer commandBuffer, Kernel kernel, const Window& window, VkDeviceSize arguments,
+                      shared::LodPush push) const {
+    push.firstInstance = window.firstInstance;
+    push.instanceCount = window.instanceCount;
+    if (push.count == 0) {
+        return;
+    }
+    bind(commandBuffer, kernel, window.set, &push, sizeof(push));
+    if (window.arguments != VK_NULL_HANDLE) {
+        device_->vk.CmdDispatchIndirect(commandBuffer, window.arguments, arguments);
+    } else {
+        const uint64_t lanes = uint64_t{push.count} * push.instanceCount, local = device_->mapping.localSize;
         gpu::dispatchLinear(*device_, commandBuffer, (lanes + local - 1) / local);
     }
 }
 
-void Passes::recordEdges(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const {
+void Passes::recordEdges(VkCommandBuffer commandBuffer, const Window& window, VkDeviceSize arguments,
+                         shared::LodPush push) const {
     push.count = push.edgeCount;
-    dispatch(commandBuffer, kEdge, set, push);
+    dispatch(commandBuffer, kEdge, window, arguments, push);
 }
 
-void Passes::recordPatches(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const {
-    dispatch(commandBuffer, kPatch, set, push);
+void Passes::recordPatches(VkCommandBuffer commandBuffer, const Window& window, VkDeviceSize arguments,
+                           const shared::LodPush& push) const {
+    dispatch(commandBuffer, kPatch, window, arguments + sizeof(VkDispatchIndirectCommand), push);
 }
 
 void Passes::recordSolve(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::LodSolvePush& push) const {
@@ -60,8 +69,9 @@ void Passes::recordSolve(VkCommandBuffer commandBuffer, VkDescriptorSet set, con
     device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
 }
 
-void Passes::recordPlaces(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const {
-    dispatch(commandBuffer, kPlace, set, push);
+void Passes::recordPlaces(VkCommandBuffer commandBuffer, const Window& window, VkDeviceSize arguments,
+                          const shared::LodPush& push) const {
+    dispatch(commandBuffer, kPlace, window, arguments + sizeof(VkDispatchIndirectCommand), push);
 }
 
 } // namespace supple::surface::lod

@@ -3,6 +3,7 @@
 
 #include "gpu/pipeline.h"
 #include "shaders/shared/lod.h"
+#include "surface/evaluation.h"
 
 #include <array>
 #include <cstdint>
@@ -22,15 +23,22 @@ public:
 
     [[nodiscard]] Status prepare(const gpu::ComputeLayout& layout);
 
-    void recordEdges(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const;
-    void recordPatches(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const;
+    /// `window`: its instances go into the push; where their number is known to the device alone, `arguments` tells
+    /// the groups of edges and, three words on, of patches (Window::arguments behind those of the constructions).
+    void recordEdges(VkCommandBuffer commandBuffer, const Window& window, VkDeviceSize arguments,
+                     shared::LodPush push) const;
+    void recordPatches(VkCommandBuffer commandBuffer, const Window& window, VkDeviceSize arguments,
+                       const shared::LodPush& push) const;
     void recordSolve(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::LodSolvePush& push) const;
-    void recordPlaces(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::LodPush push) const;
+    void recordPlaces(VkCommandBuffer commandBuffer, const Window& window, VkDeviceSize arguments,
+                      const shared::LodPush& push) const;
 
 private:
     enum Kernel : size_t { kEdge, kPatch, kSolve, kPlace, kKernels };
-    void bind(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet set, const void* push, uint32_t bytes) const;
-    void dispatch(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet set, const shared::LodPush& push) const;
+    void bind(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet set, const void* push,
+              uint32_t bytes) const;
+    void dispatch(VkCommandBuffer commandBuffer, Kernel kernel, const Window& window, VkDeviceSize arguments,
+                  shared::LodPush push) const;
 
     const gpu::Device* device_ = nullptr;
     Shaders shaders_;

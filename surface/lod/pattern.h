@@ -1,9 +1,9 @@
 // The pattern of a level of detail: where the samples of an edge, a row or a column lie for a real-valued level.
 //
 // A level L in [1, 63] is a number of segments: an odd integer has L equal ones; in between, one pair of segments grows
-// from nothing. Samples are counted by a capacity R >= L, odd: segments that L does not have are of zero width. Distinct
-// parameters depend on L alone, not on R. After Moreton, "Watertight tessellation using forward differencing" (2001) and
-// the fractional odd spacing of D3D11 and Vulkan, with a fixed order of birth so that patterns are nested.
+// from nothing. Samples are counted by a capacity R >= L, odd: segments that L does not have are of zero width.
+// Distinct parameters depend on L alone, not on R. After Moreton, "Watertight tessellation using forward differencing"
+// (2001) and the fractional odd spacing of D3D11 and Vulkan, with a fixed order of birth so that patterns are nested.
 #pragma once
 
 #include "shaders/shared/lod.h"

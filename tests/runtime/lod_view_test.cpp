@@ -381,5 +381,81 @@ TEST_P(LodViews, TheBudgetHolds) {
                 poor.shortfall, poor.patchCount);
 }
 
+TEST_P(LodViews, WhatTheCameraDoesNotSeeHasNoSurface) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        TestView view(context, 200000, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL);
+        SuppleGroupDesc desc{};
+        desc.asset = context.createAsset(perturbed(cage::makeCubeSphere(2), 0.05f, 3));
+        desc.capacity = 12;
+        desc.scheme = scheme;
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        std::vector<SuppleInstance> instances;
+        for (int i = 0; i < 10; ++i) {
+            instances.push_back(crowd.spawn());
+        }
+        const auto place = [&](float drift) {
+            for (size_t i = 0; i < instances.size(); ++i) {
+                const glm::vec3 at(6.0f * static_cast<float>(i) + drift, 0.0f, 0.0f);
+                crowd.pose(instances[i], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
+            }
+        };
+        std::map<uint32_t, double> moved; // along x, by slot
+        // Sees about 12 units of the row, from `left` on.
+        const auto drawn = [&](float left, float drift) {
+            place(drift);
+            const glm::mat4 projection = glm::orthoRH_ZO(-6.0f, 6.0f, -4.0f, 4.0f, 0.1f, 100.0f);
+            const glm::mat4 both =
+                projection * glm::lookAt(glm::vec3(left + 6.0f, 0.0f, 30.0f), glm::vec3(left + 6.0f, 0.0f, 0.0f),
+                                         glm::vec3(0.0f, 1.0f, 0.0f));
+            std::memcpy(view.camera.viewProjection, &both, sizeof(both));
+            view.look({left + 6.0f, 0.0f, 30.0f});
+            context.run(crowd.group());
+            const LodSurface surface = readLodSurface(crowd);
+            EXPECT_EQ(matchSides(surface).unmatched, 0u);
+            std::map<uint32_t, uint32_t> slots; // patches by slot
+            for (const LodSurface::Patch& patch : surface.patches) {
+                ++slots[patch.slot];
+                const glm::dvec3 now = asPosition(surface.positions[patch.firstVertex]);
+                const glm::dvec3 before = asPosition(surface.previous[patch.firstVertex]);
+                moved[patch.slot] = now.x - before.x;
+            }
+            std::set<uint32_t> seen;
+            for (const auto& [slot, patches] : slots) {
+                EXPECT_EQ(patches, crowd.output().patchCount);
+                seen.insert(slot);
+            }
+            return seen;
+        };
+        EXPECT_EQ(drawn(-3.0f, 0.0f), (std::set<uint32_t>{0, 1}));
+        EXPECT_EQ(drawn(3.0f, 0.25f), (std::set<uint32_t>{1, 2}));
+        EXPECT_NEAR(moved[1], 0.25, 1e-5);
+        EXPECT_NEAR(moved[2], 0.0, 1e-5) << "was not seen before: has no past";
+        EXPECT_EQ(drawn(21.0f, 0.5f), (std::set<uint32_t>{4, 5}));
+        EXPECT_EQ(drawn(200.0f, 0.75f), std::set<uint32_t>{});
+        EXPECT_EQ(drawn(3.0f, 1.0f), (std::set<uint32_t>{1, 2}));
+        EXPECT_NEAR(moved[1], 0.0, 1e-5) << "was not seen in the frame before";
+        crowd.setVisible(instances[1], false);
+        EXPECT_EQ(drawn(3.0f, 1.25f), (std::set<uint32_t>{2}));
+        EXPECT_NEAR(moved[2], 0.25, 1e-5);
+        // Bounds hold the surface.
+        const std::vector<std::byte> bounds = crowd.slotBytes(crowd.output().bounds, 2);
+        float box[8];
+        std::memcpy(box, bounds.data(), sizeof(box));
+        for (const auto& bits : readLodSurface(crowd).positions) {
+            const glm::dvec3 p = asPosition(bits);
+            if (std::abs(p.x - 13.25) < 2.9 && glm::length(p) > 0.0) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    EXPECT_GE(p[axis], static_cast<double>(box[axis]));
+                    EXPECT_LE(p[axis], static_cast<double>(box[4 + axis]));
+                }
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace supple::test

@@ -417,7 +417,8 @@ typedef enum SuppleViewFlags {
     SUPPLE_VIEW_MOTION = 1,     /**< where every surface vertex was in the frame before */
     SUPPLE_VIEW_ATTRIBUTES = 2, /**< surface attributes, every frame anew */
     SUPPLE_VIEW_UVS1 = 4,       /**< with ATTRIBUTES: second UV sets */
-    SUPPLE_VIEW_FACE_UVS = 8    /**< with ATTRIBUTES: where vertices lie in their faces' trim tiles */
+    SUPPLE_VIEW_FACE_UVS = 8,   /**< with ATTRIBUTES: where vertices lie in their faces' trim tiles */
+    SUPPLE_VIEW_CULL = 16 /**< instances that the camera does not see are deformed, but no surface is made of them */
 } SuppleViewFlags;
 
 /** How much a view may write. */
@@ -452,6 +453,11 @@ typedef struct SuppleCameraDesc {
     float smallestEdge;  /**< pixels: segments are not made shorter, 0 = 3 */
     float edgeLength;    /**< pixels: segments of this length whatever the error; 0: by the two above */
     uint32_t vertexBudget; /**< surface vertices a frame; 0, and at most: the view's maxVertices */
+    /** SUPPLE_VIEW_CULL: what is outside of it is not seen; column-major, depth 0..w (or reversed, or without end). All
+     * zero: everything is inside. Shadow maps want what casts a shadow into the picture: a larger volume. */
+    float viewProjection[16];
+    float farthest;       /**< CULL: what is farther from position is not seen; 0: no limit */
+    float smallestRadius; /**< CULL: pixels: what is smaller is not seen */
 } SuppleCameraDesc;
 
 /** Moves a view's camera; stands until set again. A view needs one before its groups are recorded. Shadow passes and
@@ -893,6 +899,8 @@ typedef struct SuppleGroupOutput {
         lodBuckets; /**< per draw four uint32: first entry of lodPatches, first surface vertex, patches, - */
     SuppleBufferView lodPatches; /**< per patch 64 bytes: uint32 patch (0xFFFFFFFF: none), slot in the low 28 bits,
                                   * first surface vertex, - ; then levels (docs/lod.md) */
+    SuppleBufferView bounds; /**< SUPPLE_VIEW_CULL: two float4 a slot: the least corner of a box round the surface and
+                              * 0; the greatest and 1 where a cage vertex is not finite, else 0 */
 } SuppleGroupOutput;
 
 /** Fills out: where a group's buffers are. Needs no frame; the buffers are filled by suppleRecord. */

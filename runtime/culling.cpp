@@ -1,0 +1,159 @@
+#include "runtime/culling.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+
+namespace {
+
+constexpr VkDeviceSize kBoundsBytes = 32, kStateBytes = 8, kWordBytes = 4, kElementBytes = 16;
+constexpr uint32_t kOffsetWords = 64; ///< descriptor offsets need at most 256-byte alignment
+
+} // namespace
+
+uint32_t Culling::firstArgument() const {
+    return (2 * capacity_ + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+}
+
+VkDeviceSize Culling::tableBytes() const {
+    return (windows_ + elements_.size()) * kElementBytes;
+}
+
+Result<Culling> Culling::create(const Desc& desc) {
+    Culling culling;
+    culling.device_ = desc.device;
+    culling.pass_ = desc.pass;
+    culling.capacity_ = desc.capacity;
+    culling.windowSize_ = desc.windowSize;
+    culling.windows_ = desc.windows;
+    culling.elements_.assign(desc.elements.begin(), desc.elements.end());
+    culling.push_.vertexCount = desc.cageVertices;
+    culling.push_.cageStride = desc.cageStride;
+    culling.push_.margin = desc.margin;
+
+    constexpr VkBufferUsageFlags kStorage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkDeviceSize n = desc.capacity;
+    const VkDeviceSize words =
+        culling.firstArgument() + culling.headerWords() + VkDeviceSize{culling.argumentStride()} * desc.windows;
+    gpu::BufferRequest requests[kBufferCount];
+    requests[kBounds] = {"supple bounds", n * kBoundsBytes, kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+    requests[kStates] = {"supple visibility", n * kStateBytes, kStorage | kCopied};
+    requests[kList] = {"supple instances seen", words * kWordBytes,
+                       kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
+    requests[kTable] = {"supple list table", culling.tableBytes(), kStorage | kCopied};
+    Result<gpu::BufferSet> buffers = gpu::BufferSet::create(*desc.device, requests, gpu::MemoryKind::deviceLocal);
+    if (!buffers) {
+        return buffers.error();
+    }
+    culling.buffers_ = std::move(*buffers);
+    const Status sets = culling.createSets(desc);
+    if (!sets) {
+        return sets.error();
+    }
+    return culling;
+}
+
+Status Culling::createSets(const Desc& desc) {
+    const gpu::Device& device = *device_;
+    Result<gpu::DescriptorPoolHandle> pool =
+        gpu::createDescriptorPool(device, pass_->layout(), windows_, "supple bounds");
+    if (!pool) {
+        return pool.error();
+    }
+    pool_ = std::move(*pool);
+    Status status = success();
+    const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
+        Result<gpu::BufferViewHandle> made = gpu::createTexelView(device, buffer, format, offset, size, name);
+        if (!made) {
+            status = made.error();
+            return VkBufferView{};
+        }
+        views_.push_back(std::move(*made));
+        return views_.back().get();
+    };
+    const VkBufferView states =
+        view(buffers_.buffer(kStates), VK_FORMAT_R32G32_UINT, 0, buffers_.size(kStates), "supple visibility");
+    const VkBufferView hostList =
+        view(desc.hostList, VK_FORMAT_R32_UINT, 0, VkDeviceSize{capacity_} * kWordBytes, "supple instances");
+    const VkDeviceSize cageBytes = VkDeviceSize{desc.cageStride} * kElementBytes;
+    const auto whole = [&](VkBuffer buffer) { return VkDescriptorBufferInfo{buffer, 0, VK_WHOLE_SIZE}; };
+    for (uint32_t w = 0; w < windows_ && status; ++w) {
+        const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
+        const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
+        const VkBufferView cages = view(desc.cages, VK_FORMAT_R32G32B32A32_SFLOAT, first * cageBytes, count * cageBytes,
+                                        "supple deformed cage");
+        const Result<VkDescriptorSet> set = gpu::allocateSet(device, pass_->layout(), pool_.get(), "supple bounds");
+        if (!set) {
+            return set.error();
+        }
+        const VkDeviceSize arguments = VkDeviceSize{firstArgument()} * kWordBytes;
+        const gpu::BoundResource resources[] = {
+            {kBoundsCageBinding, {desc.cages, first * cageBytes, count * cageBytes}, VK_NULL_HANDLE},
+            {kBoundsCageTexelBinding, {}, cages},
+            {kBoundsBinding, whole(buffers_.buffer(kBounds)), VK_NULL_HANDLE},
+            {kBoundsStateBinding, whole(buffers_.buffer(kStates)), VK_NULL_HANDLE},
+            {kBoundsStateTexelBinding, {}, states},
+            {kHostListBinding, {desc.hostList, 0, VkDeviceSize{capacity_} * kWordBytes}, VK_NULL_HANDLE},
+            {kHostListTexelBinding, {}, hostList},
+            {kListBinding, {buffers_.buffer(kList), 0, arguments}, VK_NULL_HANDLE},
+            {kListArgumentBinding, {buffers_.buffer(kList), arguments, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
+            {kListTableBinding, whole(buffers_.buffer(kTable)), VK_NULL_HANDLE},
+            {kCullViewBinding, whole(desc.view), VK_NULL_HANDLE},
+        };
+        if (status) {
+            gpu::writeSet(device, *set, resources);
+            sets_.push_back(*set);
+        }
+    }
+    return status;
+}
+
+void Culling::writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target) const {
+    uint32_t first = 0;
+    const auto put = [&](std::initializer_list<uint32_t> words) {
+        std::memcpy(target, words.begin(), words.size() * kWordBytes);
+        target += words.size() * kWordBytes;
+    };
+    for (uint32_t w = 0; w < windows_; ++w) {
+        put({first, windows[w].count, w * windowSize_, capacity_ + w * windowSize_});
+        first += windows[w].count;
+    }
+    for (uint32_t i = 0; i < elements_.size(); ++i) {
+        put({elements_[i], device_->mapping.localSize, kCountWindow, headerWords() + 3 * i});
+    }
+}
+
+void Culling::recordClear(VkCommandBuffer commandBuffer) const {
+    device_->vk.CmdFillBuffer(commandBuffer, buffers_.buffer(kStates), 0, VK_WHOLE_SIZE, 0);
+}
+
+void Culling::recordBounds(VkCommandBuffer commandBuffer, std::span<const InstanceSlots::Listed> windows) const {
+    BoundsPush push = push_;
+    for (uint32_t w = 0; w < windows_; ++w) {
+        push.instanceCount = windows[w].count;
+        push.firstSlot = w * windowSize_;
+        pass_->recordBounds(commandBuffer, sets_[w], push);
+        push.firstEntry += windows[w].count;
+    }
+}
+
+void Culling::recordList(VkCommandBuffer commandBuffer) const {
+    ListPush push{};
+    push.windowCount = windows_;
+    push.argumentCount = static_cast<uint32_t>(elements_.size());
+    push.argumentStride = argumentStride();
+    pass_->recordList(commandBuffer, sets_.front(), push);
+}
+
+surface::Window Culling::window(uint32_t window, VkDescriptorSet set) const {
+    const uint32_t count = firstArgument() + kListHeaderWords * (1 + window);
+    return {set, capacity_ + window * windowSize_, count | kCountOnDevice, buffers_.buffer(kList),
+            VkDeviceSize{firstArgument() + headerWords() + argumentStride() * window} * kWordBytes};
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,75 @@
+// Which instances of a group its view sees: bounds of their deformed cages, the list of those that are left, and the
+// arguments of what is dispatched for them (surface/bounds_pass.h).
+#pragma once
+
+#include "base/result.h"
+#include "gpu/memory.h"
+#include "runtime/instance_slots.h"
+#include "surface/bounds_pass.h"
+#include "surface/evaluation.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace supple::runtime {
+
+/// Recording allocates nothing.
+class Culling {
+public:
+    struct Desc {
+        const gpu::Device* device = nullptr;
+        const surface::BoundsPass* pass = nullptr;
+        uint32_t capacity = 0;
+        uint32_t windowSize = 0, windows = 0;
+        uint32_t cageVertices = 0, cageStride = 0;
+        float margin = 0.0f;                ///< surface::boundsMargin
+        VkBuffer cages = VK_NULL_HANDLE;    ///< read
+        VkBuffer hostList = VK_NULL_HANDLE; ///< capacity entries, as shaders/shared/bounds.h has them
+        VkBuffer view = VK_NULL_HANDLE;     ///< shared::CullView
+        std::span<const uint32_t> elements; ///< lanes an instance, of the dispatches that follow
+    };
+    Culling() = default;
+    [[nodiscard]] static Result<Culling> create(const Desc& desc);
+    [[nodiscard]] bool active() const { return pass_ != nullptr; }
+
+    /// The table of the list pass, to be uploaded whenever the host's list changes.
+    [[nodiscard]] VkDeviceSize tableBytes() const;
+    void writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target) const;
+    [[nodiscard]] VkBuffer table() const { return buffers_.buffer(kTable); }
+
+    /// Once, before anything else.
+    void recordClear(VkCommandBuffer commandBuffer) const;
+    void recordBounds(VkCommandBuffer commandBuffer, std::span<const InstanceSlots::Listed> windows) const;
+    void recordList(VkCommandBuffer commandBuffer) const;
+
+    /// What passes after the list work on, in the place of a window of the host's list: `set` stays the caller's.
+    [[nodiscard]] surface::Window window(uint32_t window, VkDescriptorSet set) const;
+    [[nodiscard]] VkBuffer list() const { return buffers_.buffer(kList); }
+    [[nodiscard]] VkDeviceSize listBytes() const { return buffers_.size(kList); }
+    [[nodiscard]] VkBuffer bounds() const { return buffers_.buffer(kBounds); }
+    [[nodiscard]] VkDeviceSize boundsBytes() const { return buffers_.size(kBounds); }
+    [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes(); }
+
+private:
+    /// kList: all that are seen, those of every window, then the arguments.
+    enum BufferIndex : size_t { kBounds, kStates, kList, kTable, kBufferCount };
+    [[nodiscard]] Status createSets(const Desc& desc);
+    [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(elements_.size()); }
+    /// Words of kList.
+    [[nodiscard]] uint32_t firstArgument() const;
+    [[nodiscard]] uint32_t headerWords() const { return shared::kListHeaderWords * (1 + windows_); }
+
+    const gpu::Device* device_ = nullptr;
+    const surface::BoundsPass* pass_ = nullptr;
+    uint32_t capacity_ = 0, windowSize_ = 0, windows_ = 0;
+    shared::BoundsPush push_{};
+    std::vector<uint32_t> elements_;
+    gpu::BufferSet buffers_;
+    gpu::DescriptorPoolHandle pool_;
+    std::vector<gpu::BufferViewHandle> views_;
+    std::vector<VkDescriptorSet> sets_; ///< by window
+};
+
+} // namespace supple::runtime
