@@ -25,22 +25,6 @@ uint32_t bits(float value) {
 
 } // namespace
 
-Layer layerAt(const cage::Character& character, const PlaybackLayer& layer, double time) {
-    Layer result;
-    result.clip = &character.clips[layer.clip];
-    result.time = layer.offset + static_cast<double>(layer.speed) * (time - layer.start);
-    result.referenceTime = layer.referenceTime;
-    result.weight = static_cast<double>(layer.weight);
-    if (layer.fadeDuration > 0.0f) {
-        const double faded = (time - layer.fadeStart) / static_cast<double>(layer.fadeDuration);
-        const double from = result.weight, to = static_cast<double>(layer.fadeWeight);
-        result.weight = faded <= 0.0 ? from : faded >= 1.0 ? to : from + (to - from) * faded;
-    }
-    result.mode = layer.mode;
-    result.loop = layer.loop;
-    return result;
-}
-
 uint32_t PlaybackState::elements(uint32_t morphCount) {
     return kStateElements + kMaxPlaybackLayers * kLayerElements + (morphCount + 3) / 4;
 }

@@ -30,9 +30,6 @@ struct PlaybackLayer {
     double referenceTime = 0.0;
 };
 
-/// What a layer is at a time, but for its masks: the definition that the device follows.
-[[nodiscard]] Layer layerAt(const cage::Character& character, const PlaybackLayer& layer, double time);
-
 struct PlaybackDesc {
     std::span<const PlaybackLayer> layers; ///< at most shared::kMaxPlaybackLayers
     RootSelection root;

@@ -82,9 +82,16 @@ Transform restTransform(uint node) {
 Transform clipTransform(uint clip, vec2 time, uint node) {
     uvec4 channels = table(table(push.clips + clip).x + node);
     precise Transform t = restTransform(node);
-    if (channels.x != 0u) t.translation = channelAt(channels.x, time, false).xyz;
-    if (channels.y != 0u) t.rotation = channelAt(channels.y, time, true);
-    if (channels.z != 0u) t.scale = channelAt(channels.z, time, false).xyz;
+    // A loop over those that are there, so that the code is there once.
+    uint paths = (channels.x != 0u ? 1u : 0u) | (channels.y != 0u ? 2u : 0u) | (channels.z != 0u ? 4u : 0u);
+    for (; paths != 0u; paths &= paths - 1u) {
+        uint path = uint(findLSB(paths));
+        uint record = path == 0u ? channels.x : path == 1u ? channels.y : channels.z;
+        precise vec4 value = channelAt(record, time, path == 1u);
+        if (path == 0u) t.translation = value.xyz;
+        if (path == 1u) t.rotation = value;
+        if (path == 2u) t.scale = value.xyz;
+    }
     return t;
 }
 

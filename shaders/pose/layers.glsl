@@ -51,7 +51,7 @@ float masked(Layer layer, uint element, uint i) {
 Transform layerTransform(uvec4 header, Layer layer, vec2 time, uint node) {
     precise Transform t = clipTransform(layer.clip, time, node);
     if (kRoots && header.w != 0u && node == header.z) {
-        RootFrame now = rootFrame(layer.clip, time, node, t);
+        RootFrame now = rootFrame(layer.clip, time, node, header.w, t);
         Motion motion =
             motionSince(stateFloats(layer.first + 4u).xyz, stateFloats(layer.first + 5u), now, header.w);
         t = stayingRoot(now, motion, t, header.w);
@@ -95,9 +95,20 @@ Transform posedTransform(uint first, uint node) {
         Layer layer = layerAt(first + kStateElements + i * kLayerElements);
         float weight = masked(layer, 0u, node);
         if (weight != 0.0) {
-            Transform to = layerTransform(header, layer, clipTime(layer, layer.time), node);
-            if (kAdds && (layer.flags & kLayerAdds) != 0u) {
-                Transform reference = layerTransform(header, layer, clipTime(layer, referenceTime(layer)), node);
+            // A loop, so that the code is there once: what the layer adds to, then what it shows.
+            bool adds = kAdds && (layer.flags & kLayerAdds) != 0u;
+            precise Transform reference = pose, to = pose;
+            if (kAdds) {
+                for (uint sampled = adds ? 0u : 1u; sampled < 2u; ++sampled) {
+                    vec2 time = layer.time;
+                    if (sampled == 0u) time = referenceTime(layer);
+                    reference = to;
+                    to = layerTransform(header, layer, clipTime(layer, time), node);
+                }
+            } else {
+                to = layerTransform(header, layer, clipTime(layer, layer.time), node);
+            }
+            if (adds) {
                 pose = added(pose, to, reference, weight);
             } else {
                 pose = blended(pose, to, weight);
@@ -142,7 +153,7 @@ Affine placement(uint first) {
             time = looped.time;
             loops = looped.loops - before.w;
         }
-        RootFrame now = rootFrame(layer.clip, time, header.z, clipTransform(layer.clip, time, header.z));
+        RootFrame now = rootFrame(layer.clip, time, header.z, header.w, clipTransform(layer.clip, time, header.z));
         precise Motion motion =
             motionSince(stateFloats(layer.first + 4u).xyz, stateFloats(layer.first + 5u), now, header.w);
         motion = combinedMotion(loopsMotion(loops, turns.zw, center), motion);

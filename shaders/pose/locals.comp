@@ -30,8 +30,10 @@ vec4 morphWeights(uint first, uint quad) {
     if ((flags & kStateHostWeights) != 0u) {
         weights = stateFloats(first + kStateElements + kMaxPlaybackLayers * kLayerElements + quad);
     } else if ((flags & kStateBindPose) == 0u) {
-        for (uint k = 0u; k < 4u; ++k) {
-            if (4u * quad + k < push.morphCount) weights[k] = posedMorphWeight(first, 4u * quad + k);
+        uint count = min(push.morphCount - 4u * quad, 4u);
+        for (uint k = 0u; k < count; ++k) {
+            precise float weight = posedMorphWeight(first, 4u * quad + k);
+            weights = mix(weights, vec4(weight), equal(uvec4(k), uvec4(0u, 1u, 2u, 3u)));
         }
     }
     return weights;

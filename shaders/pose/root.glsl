@@ -24,10 +24,11 @@ Motion combinedMotion(Motion a, Motion b) {
 
 struct RootFrame {
     Affine parent; // global matrix of what the root hangs on
+    vec4 parentRotation;
     vec3 position;
     vec4 rotation;
 };
-RootFrame rootFrame(uint clip, vec2 time, uint root, Transform local) {
+RootFrame rootFrame(uint clip, vec2 time, uint root, uint axes, Transform local) {
     precise RootFrame frame;
     frame.parent = identity();
     for (uint node = parentOf(root); node != kNoNode; node = parentOf(node)) {
@@ -35,7 +36,16 @@ RootFrame rootFrame(uint clip, vec2 time, uint root, Transform local) {
     }
     precise Affine global = combined(frame.parent, localMatrix(root, local));
     frame.position = vec3(global.x.w, global.y.w, global.z.w);
-    frame.rotation = rotationOf(global);
+    frame.rotation = frame.parentRotation = vec4(0.0, 0.0, 0.0, 1.0);
+    // A loop, so that the code is there once; only turns need it.
+    uint rotations = (axes & kYawAxis) != 0u ? 2u : 0u;
+    for (uint i = 0u; i < rotations; ++i) {
+        precise Affine m = global;
+        if (i != 0u) m = frame.parent;
+        precise vec4 rotation = rotationOf(m);
+        if (i == 0u) frame.rotation = rotation;
+        if (i != 0u) frame.parentRotation = rotation;
+    }
     return frame;
 }
 
@@ -67,7 +77,7 @@ Transform stayingRoot(RootFrame now, Motion motion, Transform local, uint axes) 
         precise vec3 d = position - vec3(now.parent.x.w, now.parent.y.w, now.parent.z.w);
         result.translation = ((bc * d.x + ca * d.y) + ab * d.z) / determinant;
         if ((axes & kYawAxis) != 0u) {
-            vec4 parent = rotationOf(now.parent);
+            vec4 parent = now.parentRotation;
             vec4 turn = vec4(0.0, back.x, 0.0, back.y);
             result.rotation = turned(turned(conjugated(parent), turn), turned(parent, unit(local.rotation)));
         }

@@ -155,16 +155,16 @@ vec4 nearestRotation(vec3 x, vec3 y, vec3 z) {
             precise vec4 sharper = (form[0] * q.x + form[1] * q.y) + (form[2] * q.z + form[3] * q.w);
             result = unit(sharper);
         } else {
+            // Three rounds make all six pairs: the first column stays, the others change places. In rounds, not pair by pair,
+            // there is less code to compile.
             precise mat4 vectors = mat4(1.0);
-            bool rotated = true;
-            for (int sweep = 0; sweep < 8 && rotated; ++sweep) {
+            int still = 0;
+            for (int round = 0; round < 24 && still < 3; ++round) {
                 bool any = annihilate(form, vectors, 0, 1);
-                any = annihilate(form, vectors, 0, 2) || any;
-                any = annihilate(form, vectors, 0, 3) || any;
-                any = annihilate(form, vectors, 1, 2) || any;
-                any = annihilate(form, vectors, 1, 3) || any;
                 any = annihilate(form, vectors, 2, 3) || any;
-                rotated = any;
+                still = any ? 0 : still + 1;
+                form = mat4(form[0].xzwy, form[2].xzwy, form[3].xzwy, form[1].xzwy);
+                vectors = mat4(vectors[0], vectors[2], vectors[3], vectors[1]);
             }
             result = unit(largestColumn(vectors, form));
         }

@@ -922,6 +922,66 @@ TEST_F(PlaybackOnGpu, WhatIsNotSetIsNotUploaded) {
     EXPECT_EQ(device->validationMessageCount(), 0u);
 }
 
+TEST_F(PlaybackOnGpu, EveryBarrierOfItCounts) {
+    // In order: entry, uploads, between the halves of the pose pass, behind it, behind deform, exit.
+    for (const int64_t dropped : {1, 2, 3}) {
+        wrappedVulkan();
+        const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+        ASSERT_NE(device, nullptr);
+        const auto log = device->validation();
+        {
+            CrowdContext own(*device);
+            ASSERT_TRUE(own.valid());
+            Walkers walkers(own, cageGroup(own.createAsset(noisyTube(3, 0)), 2));
+            ASSERT_TRUE(walkers.crowd.valid());
+            own.run(walkers.crowd.group());
+            own.run(walkers.crowd.group());
+            ASSERT_EQ(log->messageCount(), 0u);
+            WrappedVulkan& wrapped = wrappedVulkan();
+            wrapped.dropBarrier = dropped;
+            const_cast<host::ValidationLog&>(*log).setQuiet(true);
+            walkers.play(1, 1, 0.3);
+            own.run(walkers.crowd.group());
+            EXPECT_EQ(wrapped.barriers, 6u) << "the frame has other barriers now: look at the indices above";
+        }
+        EXPECT_GT(log->messageCount(), 0u) << "barrier " << dropped;
+    }
+}
+
+TEST_F(PlaybackOnGpu, OutOfMemoryIsAnError) {
+    for (const bool hostMemory : {false, true}) {
+        wrappedVulkan();
+        const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+        ASSERT_NE(device, nullptr);
+        const auto log = device->validation();
+        uint32_t failures = 0;
+        {
+            CrowdContext own(*device);
+            ASSERT_TRUE(own.valid());
+            SuppleGroupDesc desc = cageGroup(own.createAsset(noisyTube(3, 2)), 2);
+            desc.structSize = sizeof(desc);
+            desc.poseSource = SUPPLE_POSES_PLAYBACK;
+            SuppleGroup group{};
+            for (int64_t n = 0; n < 100; ++n) {
+                WrappedVulkan& wrapped = wrappedVulkan();
+                (hostMemory ? wrapped.failBuffer : wrapped.failAllocation) = n;
+                const SuppleResult result = suppleCreateGroup(own.handle(), &desc, &group);
+                if (result == SUPPLE_OK) {
+                    break;
+                }
+                ++failures;
+                EXPECT_EQ(result, hostMemory ? SUPPLE_ERROR_HOST_MEMORY : SUPPLE_ERROR_DEVICE_MEMORY) << n;
+            }
+            wrappedVulkan();
+            SuppleInstance instance{};
+            EXPECT_EQ(suppleCreateInstance(own.handle(), group, &instance), SUPPLE_OK);
+            own.run(group);
+        }
+        EXPECT_GE(failures, 4u);
+        EXPECT_EQ(log->messageCount(), 0u);
+    }
+}
+
 TEST_F(PlaybackOnGpu, IsAPassOfItsOwn) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);

@@ -530,6 +530,18 @@ TEST_F(Cli, ProfileMeasuresMotionWhenAsked) {
     }
 }
 
+TEST_F(Cli, ProfilePlaysOnTheDeviceWhenAsked) {
+    for (const bool playback : {false, true}) {
+        const Outcome outcome = runOnDevice(std::string("profile cube.gltf --scheme cage --frames 3 --json p.json") +
+                                            (playback ? " --playback" : ""));
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const Json json = Json::parse(readText(file("p.json")));
+        const Json& run = json["runs"][0];
+        EXPECT_EQ(run["playback"].get<bool>(), playback);
+        EXPECT_EQ(run["passes"][0]["pass"], playback ? "pose" : "upload") << "nothing is uploaded where nothing is set";
+    }
+}
+
 TEST_F(Cli, ProfileWritesTableJsonCsvAndTrace) {
     const Outcome outcome =
         runOnDevice("profile cube.gltf cube.gltf --instances 3 --frames 7 --json p.json --csv p.csv "
