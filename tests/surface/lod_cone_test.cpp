@@ -24,7 +24,8 @@ TEST(LodCone, holdsEveryNormal) {
         BicubicNet g;
         const double roughness = 0.02 + 0.1 * (n % 5);
         for (uint32_t k = 0; k < 16; ++k) {
-            g[k] = {k % 4 + roughness * normal(random), k / 4 + roughness * normal(random), roughness * normal(random)};
+            const uint32_t row = k / 4;
+            g[k] = {k % 4 + roughness * normal(random), row + roughness * normal(random), roughness * normal(random)};
         }
         const NormalCone cones[] = {coneOfProducts(g), coneOfDifferences(g)};
         prep::Patch<double> patch{};
