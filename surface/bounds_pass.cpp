@@ -30,7 +30,7 @@ float boundsMargin(SchemeId scheme, const cage::Cage& cage) {
     // A little above what was found (tests/surface/bounds_test.cpp), for rounding and for rarer valences.
     switch (scheme) {
     case SchemeId::prep:
-        return 0.02f; // 0.0128
+        return 0.04f; // 0.0276, at valence 59
     case SchemeId::pm:
         return 0.21f; // 0.1896
     case SchemeId::blend:

@@ -55,8 +55,8 @@ struct Pyramid {
         }
         return depth;
     }
-    void build(std::vector<float> depths) {
-        levels.assign(1, std::move(depths));
+    void build(const std::vector<float>& depths) {
+        levels.assign(1, depths);
         while (widthOf(static_cast<uint32_t>(levels.size()) - 1) > 1 ||
                heightOf(static_cast<uint32_t>(levels.size()) - 1) > 1) {
             const auto level = static_cast<uint32_t>(levels.size());
@@ -442,7 +442,7 @@ protected:
     }
     /// A frame that must come out as on the CPU, and far enough from every decision's edge to say so.
     Written check(const Scene& scene, Expected& expected) {
-        const Written written = rig->run(scene);
+        Written written = rig->run(scene);
         expected.frame(scene);
         EXPECT_GT(expected.closest, 1e-5) << "the scene does not decide";
         expected.compare(scene, written);
@@ -610,7 +610,8 @@ TEST_P(Bounds, SeventyThousandInstances) {
         }
         Scene scene(1, slots, window);
         for (uint32_t slot = 0; slot < slots; ++slot) { // on a lattice that no plane touches
-            const auto x = static_cast<float>(slot % 100), y = static_cast<float>(slot / 100);
+            const uint32_t row = slot / 100;
+            const auto x = static_cast<float>(slot % 100), y = static_cast<float>(row);
             scene.vertex(slot, 0) = {x - 50.0f + 0.25f, 0.0f, -0.1f * y - 1.013f, 1.0f};
         }
         scene.addAll(0);

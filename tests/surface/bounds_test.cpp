@@ -137,6 +137,10 @@ std::vector<std::pair<std::string, cage::Cage>> zoo(SchemeId scheme) {
         add("trapezohedron " + std::to_string(n), test::trapezohedron(n));
         add("open fan " + std::to_string(n), test::fan(n, 2, 5.0, false));
     }
+    for (const uint32_t n : {24U, 40U, 59U}) {
+        add("trapezohedron " + std::to_string(n), test::trapezohedron(n));
+        add("open fan " + std::to_string(n), test::fan(n, 1, 5.0, false));
+    }
     add("cube", test::cube());
     add("grid", test::grid(4, 4));
     add("jack", test::jack());
