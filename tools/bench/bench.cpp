@@ -171,9 +171,14 @@ Status Run::load() {
     result_["loading"] = Json::array();
     result_["pipelines"] = Json::array();
     std::set<SuppleScheme> compiled;
-    // The demo characters, which come last, have patches of all classes: pipelines are taken from the last cage that
-    // has the scheme.
-    for (auto cage = cages_.rbegin(); cage != cages_.rend(); ++cage) {
+    // The demo characters, the last of the built-in cages, have patches of all classes: pipelines are taken from the
+    // first in this order that has the scheme.
+    std::vector<const BenchCage*> order;
+    for (const BenchCage& cage : cages_) {
+        order.push_back(&cage);
+    }
+    std::reverse(order.begin(), order.begin() + static_cast<ptrdiff_t>(options_.cages.size()));
+    for (const BenchCage* cage : order) {
         for (const SuppleScheme scheme : cage->schemes) {
             Result<Loading> loading =
                 measureLoading(device_, *workbench_, *cage, scheme, options_.quick ? kQuickLoads : kLoads);

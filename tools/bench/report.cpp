@@ -18,7 +18,7 @@ std::string number(const Json& value) {
     }
     const double x = value.get<double>();
     char text[32];
-    std::snprintf(text, sizeof text, x >= 100 ? "%.0f" : x >= 10 ? "%.1f" : x >= 0.1 ? "%.2f" : "%.4f", x);
+    std::snprintf(text, sizeof text, x >= 100 ? "%.0f" : x >= 10 ? "%.1f" : x >= 0.1 || x == 0 ? "%.2f" : "%.4f", x);
     return text;
 }
 
@@ -143,11 +143,38 @@ std::string pipelineTables(const Json& result) {
     return sums.empty() ? "" : sums.text() + each.text(2);
 }
 
+/// A line a target and limit: in how many places it is met, and where the value is worst.
 std::string targetTable(const Json& result) {
-    Table table({"target", "where", "measured", "at most", "met"});
+    struct Line {
+        std::string what, limit, note;
+        uint32_t places = 0, met = 0;
+        const Json* worst = nullptr;
+    };
+    std::vector<Line> lines;
     for (const Json& target : result["targets"]) {
-        const std::string met = target["met"].is_null() ? target.value("note", "") : target["met"] ? "yes" : "NO";
-        table.add({target["what"], target["where"], number(target["value"]), number(target["limit"]), met});
+        const std::string what = target["what"], limit = number(target["limit"]);
+        auto line = std::find_if(lines.begin(), lines.end(),
+                                 [&](const Line& known) { return known.what == what && known.limit == limit; });
+        if (line == lines.end()) {
+            line = lines.insert(line, {what, limit, target.value("note", ""), 0, 0, nullptr});
+        }
+        if (target["value"].is_null()) {
+            continue;
+        }
+        ++line->places;
+        line->met += target["met"] ? 1 : 0;
+        if (line->worst == nullptr || target["value"] > (*line->worst)["value"]) {
+            line->worst = &target;
+        }
+    }
+    Table table({"target", "worst at", "worst", "at most", "met in"});
+    for (const Line& line : lines) {
+        if (line.worst == nullptr) {
+            table.add({line.what, "", "", line.limit, line.note});
+        } else {
+            table.add({line.what, (*line.worst)["where"], number((*line.worst)["value"]), line.limit,
+                       std::to_string(line.met) + " of " + std::to_string(line.places)});
+        }
     }
     return table.empty() ? "" : table.text(2);
 }
