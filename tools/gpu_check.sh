@@ -2,12 +2,13 @@
 # One call on a machine with a GPU: builds, runs the tests, measures, and leaves everything in one folder. Needs no network
 # where the packages of tools/packages.sh are installed. Works on CPU devices, too.
 # Usage: tools/gpu_check.sh [--out FOLDER] [--steps build,tests,bench,profile] [--quick] [--device NAME|INDEX]
-#                           [--instances N] [--no-validation] [--no-install]
+#                           [--instances N] [--tests REGEX] [--no-validation] [--no-install]
 #   --out         build/gpu-check
 #   --steps       all four
 #   --quick       the benchmark's quick form and a crowd of 8: does it all work?
 #   --device      for the measurements; tests take the best device there is
 #   --instances   of the crowd: 1000
+#   --tests       only these, as ctest -R has them
 # What it leaves: machine.txt, tests.txt, bench.json, bench.txt, profile.json, profile.txt, clocks.csv (where nvidia-smi is).
 # Exit code: 0 when every step succeeded; otherwise the steps that failed are named at the end.
 set -euo pipefail
@@ -20,6 +21,7 @@ steps=build,tests,bench,profile
 quick=no
 device=()
 instances=
+selection=()
 validation=1
 install=yes
 usage() { sed -n '4,5p' tools/gpu_check.sh | sed 's/^# //' >&2; exit 2; }
@@ -30,6 +32,7 @@ while [ $# -gt 0 ]; do
         --quick) quick=yes ;;
         --device) device=(--device "${2:?}"); shift ;;
         --instances) instances=${2:?}; shift ;;
+        --tests) selection=(-R "${2:?}"); shift ;;
         --no-validation) validation=0 ;;
         --no-install) install=no ;;
         *) usage ;;
@@ -98,7 +101,7 @@ if command -v nvidia-smi >/dev/null; then
 fi
 
 if wanted tests; then
-    run tests "$out/tests.txt" env SUPPLE_VALIDATION=$validation ctest --preset release -j "$jobs"
+    run tests "$out/tests.txt" env SUPPLE_VALIDATION=$validation ctest --preset release -j "$jobs" "${selection[@]}"
     grep -E 'tests passed|\(Failed\)|\(Timeout\)|\*\*\*' "$out/tests.txt" | sed 's/^/    /' || true
 fi
 if wanted bench; then

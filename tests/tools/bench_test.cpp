@@ -82,7 +82,8 @@ TEST_F(Bench, QuickRunIsWhole) {
         }
         for (const std::string& scheme : expected.schemes) {
             contestants.insert({scheme + " evaluate", scheme + " frame"});
-            ratios.insert({scheme + " frame / " + scheme + " evaluate", scheme + " evaluate / plain C++ bi-3"});
+            ratios.insert({scheme + " frame / " + scheme + " evaluate", scheme + " evaluate / plain C++ bi-3",
+                           scheme + " frame / plain C++ bi-3"});
         }
         if (expected.peers) {
             contestants.insert({"prep evaluate 24 B", "prep frame 24 B"});
@@ -146,7 +147,11 @@ TEST_F(Bench, QuickRunIsWhole) {
 
 /// A result with one ratio, as far as --check looks.
 std::string resultWith(double median) {
-    const Json ratios = {{{"name", "prep evaluate / AVX2 bi-3"}, {"median", median}}};
+    const Json ratios = {{{"name", "prep evaluate / AVX2 bi-3"},
+                          {"of", "prep evaluate"},
+                          {"over", "AVX2 bi-3"},
+                          {"yardstick", true},
+                          {"median", median}}};
     const Json row = {{"cage", "sphere"}, {"faces", 1350},           {"rate", 8}, {"contestants", Json::array()},
                       {"ratios", ratios}, {"refused", Json::array()}};
     return Json{

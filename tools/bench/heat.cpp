@@ -192,8 +192,8 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
         return device_.isCpu() ? s.cpu : s.gpu.empty() ? s.wall : s.gpu;
     };
     row["ratios"] = Json::array();
-    const auto add = [&](const std::string& a, const std::string& b) {
-        const Series *above = seriesOf(a), *below = seriesOf(b);
+    const auto add = [&](const std::string& of, const std::string& over, bool yardstick) {
+        const Series *above = seriesOf(of), *below = seriesOf(over);
         if (above == nullptr || below == nullptr) {
             return;
         }
@@ -202,29 +202,34 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
             ratios.push_back(cost(*above)[i] / cost(*below)[i]);
         }
         std::sort(ratios.begin(), ratios.end());
-        row["ratios"].push_back({{"name", a + " / " + b},
+        row["ratios"].push_back({{"name", of + " / " + over},
+                                 {"of", of},
+                                 {"over", over},
+                                 {"yardstick", yardstick},
                                  {"median", tools::quantile(ratios, 0.5)},
                                  {"least", ratios.front()},
                                  {"largest", ratios.back()}});
     };
     for (const std::string& scheme : schemes_) {
         for (const std::string suffix : {"", " 24 B"}) {
-            const std::string evaluate = scheme + " evaluate" + suffix;
-            add(scheme + " frame" + suffix, evaluate);
-            add(evaluate, kAvx2);
-            add(evaluate, kPlain);
+            const std::string evaluate = scheme + " evaluate" + suffix, frame = scheme + " frame" + suffix;
+            add(frame, evaluate, false);
+            for (const std::string& ours : {evaluate, frame}) {
+                add(ours, kAvx2, true);
+                add(ours, kPlain, true);
+            }
         }
         if (scheme != schemes_.front()) {
-            add(scheme + " evaluate", schemes_.front() + " evaluate");
+            add(scheme + " evaluate", schemes_.front() + " evaluate", false);
         }
         if (scheme == "prep" || scheme == "catmull-clark") {
             for (const Peer& peer : peers_) {
-                add(scheme + " evaluate", peer.name);
+                add(scheme + " evaluate", peer.name, true);
             }
         }
     }
-    add(kPlain, kAvx2);
-    add(kAvx2, kWrite);
+    add(kPlain, kAvx2, false);
+    add(kAvx2, kWrite, false);
 }
 
 Result<Json> Heat::run() {

@@ -18,7 +18,7 @@ constexpr double kLeft = 66, kRight = 580, kTop = 44, kBottom = 410;
 constexpr double kLabelDistance = 16; ///< between the lines' names, at least
 /// Okabe and Ito's colors, which color-blind eyes can tell apart; dashes go on where they are used up.
 constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
-constexpr const char* kDashes[] = {"", "7 4", "2 3"};
+constexpr const char* kDashes[] = {"none", "7 4", "2 3"};
 
 std::string format(const char* pattern, auto... values) {
     char text[512];
@@ -77,10 +77,12 @@ Axis axisOf(const LinePlot& plot) {
     } else {
         const double power = std::pow(10.0, std::floor(std::log10(largest)));
         const double step = largest / power > 5.0 ? power : largest / power > 2.0 ? power / 2.0 : power / 5.0;
-        for (double tick = 0.0; tick < largest + step; tick += step) {
-            axis.ticks.push_back(tick);
+        // What lies far above 0, and close together, has no use for it.
+        const double first = least > largest / 2.0 ? std::floor(least / step) : 0.0;
+        for (double tick = first; (tick - 1.0) * step < largest; tick += 1.0) {
+            axis.ticks.push_back(tick * step);
         }
-        axis.least = 0.0;
+        axis.least = axis.ticks.front();
     }
     axis.largest = axis.ticks.back();
     return axis;

@@ -16,7 +16,7 @@ struct LinePlot {
     std::string title, yTitle;
     std::vector<std::string> labels; ///< of the x axis
     std::vector<Line> lines;
-    bool logarithmic = false; ///< the y axis; else it begins at 0
+    bool logarithmic = false; ///< the y axis
 };
 [[nodiscard]] std::string toSvg(const LinePlot& plot);
 

@@ -192,9 +192,10 @@ std::string whyNoResult(const Json& json) {
             return "has a row without cage, rate or ratios";
         }
         for (const Json& ratio : row["ratios"]) {
-            if (!ratio.is_object() || !ratio.contains("name") || !ratio.contains("median") ||
-                !ratio["median"].is_number()) {
-                return "has a ratio without name or median";
+            const auto isText = [&](const char* key) { return ratio.contains(key) && ratio[key].is_string(); };
+            if (!ratio.is_object() || !isText("name") || !isText("of") || !isText("over") ||
+                !ratio.contains("median") || !ratio["median"].is_number()) {
+                return "has a ratio without name, of, over or median";
             }
         }
     }

@@ -62,10 +62,11 @@ Status check(const Json& stored, const Json& result) {
         std::printf("REGRESSION %s\n", line.c_str());
     }
     if (!regressions.empty()) {
-        return Error{ErrorCode::asset, std::to_string(regressions.size()) + " ratios are worse by more than 15 % or " +
+        return Error{ErrorCode::asset, std::to_string(regressions.size()) +
+                                           " contestants are dearer by more than 15 % or " +
                                            "missing, the first: " + regressions.front()};
     }
-    std::printf("No ratio is worse by more than 15 %%.\n");
+    std::printf("Nothing is dearer by more than 15 %%.\n");
     return success();
 }
 
@@ -155,7 +156,7 @@ void bindBench(CLI::App& app, int& exitCode) {
     command->add_option("--plots", flags->plots, "Write plots of the result to this folder")->type_name("FOLDER");
     command
         ->add_option("--check", flags->check,
-                     "Fail where a ratio is worse by more than 15 % than in this earlier result, or is missing")
+                     "Fail where something is dearer by more than 15 % than in this earlier result, or is missing")
         ->type_name("RESULT.json");
     command->add_option("--from", flags->from, "Report on this earlier result instead of measuring")
         ->type_name("RESULT.json");
