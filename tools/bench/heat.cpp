@@ -211,8 +211,10 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
                                  {"largest", ratios.back()}});
     };
     for (const std::string& scheme : schemes_) {
-        for (const std::string suffix : {"", " 24 B"}) {
-            const std::string evaluate = scheme + " evaluate" + suffix, frame = scheme + " frame" + suffix;
+        for (const char* suffix : {"", " 24 B"}) {
+            std::string evaluate = scheme + " evaluate", frame = scheme + " frame";
+            evaluate += suffix;
+            frame += suffix;
             add(frame, evaluate, false);
             for (const std::string& ours : {evaluate, frame}) {
                 add(ours, kAvx2, true);

@@ -7,11 +7,12 @@
 namespace supple::bench {
 
 struct WatchedFunctions {
-    PipelineWatch* watch = nullptr;
-    PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
-    PFN_vkCreateShaderModule createShaderModule = nullptr;
-    PFN_vkCreateComputePipelines createComputePipelines = nullptr;
-    PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
+    PipelineWatch* watch;
+    // Set before the library can call what stands for them.
+    PFN_vkGetDeviceProcAddr getDeviceProcAddr;
+    PFN_vkCreateShaderModule createShaderModule;
+    PFN_vkCreateComputePipelines createComputePipelines;
+    PFN_vkSetDebugUtilsObjectNameEXT setName;
 
     static WatchedFunctions& now() {
         static WatchedFunctions functions;
