@@ -13,7 +13,7 @@ supple_packages=(
 # To test as well.
 supple_test_packages=(
     libgtest-dev vulkan-validationlayers
-    libosd-dev
+    libosd-dev libegl-dev libgl-dev
     xvfb xauth
     abigail-tools pkg-config
     doxygen python3

@@ -1,6 +1,6 @@
 #include "tests/support/catmull_clark_limit.h"
 
-#include "tests/support/opensubdiv_refiner.h"
+#include "tools/bench/opensubdiv_refiner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ struct CatmullClarkLimit::Surfaces {
     };
 
     Surfaces(const cage::Cage& cage, const std::vector<glm::dvec3>& positions)
-        : refiner(opensubdivRefiner(cage, Sdc::SCHEME_CATMARK)), factory(*refiner, approximation()),
+        : refiner(bench::opensubdivRefiner(cage, Sdc::SCHEME_CATMARK)), factory(*refiner, approximation()),
           faces(cage.faceCount()) {
         for (uint32_t f = 0; f < cage.faceCount(); ++f) {
             Face& face = faces[f];

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 #ifdef SUPPLE_HAS_OPENSUBDIV
-#include "tests/support/opensubdiv_refiner.h"
+#include "tools/bench/opensubdiv_refiner.h"
 
 #include <opensubdiv/far/primvarRefiner.h>
 #endif
@@ -47,8 +47,8 @@ struct Primvar {
 class Uniform {
 public:
     Uniform(const cage::Cage& cage, Subdivision subdivision, uint32_t depth)
-        : refiner_(test::opensubdivRefiner(cage, subdivision == Subdivision::catmullClark ? Sdc::SCHEME_CATMARK
-                                                                                          : Sdc::SCHEME_LOOP)) {
+        : refiner_(bench::opensubdivRefiner(cage, subdivision == Subdivision::catmullClark ? Sdc::SCHEME_CATMARK
+                                                                                           : Sdc::SCHEME_LOOP)) {
         Far::TopologyRefiner::UniformOptions options(static_cast<int>(depth));
         options.fullTopologyInLastLevel = true;
         refiner_->RefineUniform(options);

@@ -1,6 +1,7 @@
 // supple profile: runs the frame loop of a host without a window and reports what every pass took.
 #include "tools/host/character_file.h"
 #include "tools/supple/command.h"
+#include "tools/supple/machine.h"
 #include "tools/supple/profile_report.h"
 #include "tools/supple/session.h"
 #include "tools/supple/text_file.h"
@@ -10,7 +11,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -320,33 +320,12 @@ private:
     std::array<SuppleTiming, 64> timings_{};
 };
 
-std::string cpuName() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);) {
-        const size_t colon = line.find(": ");
-        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-            return line.substr(colon + 2);
-        }
-    }
-    return "unknown";
-}
-
-Machine describe(const host::Device& device, const DeviceFlags& flags) {
-    VkPhysicalDeviceDriverProperties driver{};
-    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
-    VkPhysicalDeviceProperties2 properties{};
-    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-    properties.pNext = &driver;
-    vkGetPhysicalDeviceProperties2(device.physicalDevice(), &properties);
-    return {device.name(), driver.driverName, driver.driverInfo, flags.mapping, cpuName()};
-}
-
 std::string dump(const nlohmann::ordered_json& json, int indent) {
     return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 Status profile(Session& session, const ProfileOptions& options, const std::vector<host::CharacterFile>& files) {
-    const Machine machine = describe(*session.device, options.device);
+    const Machine machine = describeMachine(*session.device, options.device.mapping);
     std::printf("%s (%s %s), %s mapping, CPU %s\n", machine.device.c_str(), machine.driver.c_str(),
                 machine.driverInfo.c_str(), machine.mapping.c_str(), machine.cpu.c_str());
     const bool all = options.surface.scheme == "all";

@@ -1,6 +1,7 @@
 // What supple profile measured, and its four forms: table, JSON, CSV, Chrome trace.
 #pragma once
 
+#include "tools/supple/machine.h"
 #include "tools/supple/statistics.h"
 
 #include <cstdint>
@@ -41,10 +42,6 @@ struct ProfileRun {
     uint32_t patches = 0;     ///< an instance
     uint64_t deviceBytes = 0; ///< of the group
     std::vector<FrameSample> frames;
-};
-
-struct Machine {
-    std::string device, driver, driverInfo, mapping, cpu;
 };
 
 /// One pass over all frames of a run; times in milliseconds.

@@ -1,11 +1,11 @@
-#include "tests/support/opensubdiv_refiner.h"
+#include "tools/bench/opensubdiv_refiner.h"
 
 #include <cstdint>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 #include <vector>
 
-namespace supple::test {
+namespace supple::bench {
 
 using namespace OpenSubdiv;
 
@@ -44,4 +44,4 @@ std::unique_ptr<Far::TopologyRefiner> opensubdivRefiner(const cage::Cage& cage, 
     return std::unique_ptr<Far::TopologyRefiner>(Factory::Create(descriptor, Factory::Options(scheme, options)));
 }
 
-} // namespace supple::test
+} // namespace supple::bench

@@ -1,33 +1,10 @@
-#include "tools/supple/plain_evaluation.h"
+#include "tools/bench/plain_evaluation.h"
+
+#include "tools/bench/bicubic_weights.h"
 
 #include <cmath>
 
-namespace supple::tools {
-
-namespace {
-
-constexpr uint32_t kSide = 65;
-
-/// Weights of every sample of a row, one array a Bernstein polynomial, so that the loop over a row vectorizes.
-struct Weights {
-    float b[4][kSide], d[4][kSide];
-};
-
-void fill(Weights& w, uint32_t rate) {
-    for (uint32_t k = 0; k <= rate; ++k) {
-        const float t = static_cast<float>(k) / static_cast<float>(rate);
-        const float s = static_cast<float>(rate - k) / static_cast<float>(rate);
-        const float tt = t * t, ss = s * s, ts = t * s;
-        const float b[4] = {ss * s, 3.0f * (t * ss), 3.0f * (s * tt), tt * t};
-        const float d[4] = {-3.0f * ss, 3.0f * ss - 6.0f * ts, 6.0f * ts - 3.0f * tt, 3.0f * tt};
-        for (int i = 0; i < 4; ++i) {
-            w.b[i][k] = b[i];
-            w.d[i][k] = d[i];
-        }
-    }
-}
-
-} // namespace
+namespace supple::bench {
 
 const char* plainEvaluationTarget() {
 #if defined(__AVX512F__)
@@ -43,14 +20,13 @@ const char* plainEvaluationTarget() {
 #endif
 }
 
-void evaluatePlain(std::span<const float> coefficients, uint32_t rate, std::vector<float>& samples) {
+void evaluatePlain(std::span<const float> coefficients, uint32_t rate, std::span<float> samples) {
     const uint32_t side = rate + 1;
     const size_t patches = coefficients.size() / 64;
-    samples.resize(patches * side * side * 6);
     float* out = samples.data();
-    Weights w;
-    fill(w, rate);
-    float row[6][kSide]; // x, y, z, normal
+    BicubicWeights w;
+    fillBicubicWeights(w, rate);
+    float row[6][kMaxSide]; // x, y, z, normal
     for (size_t p = 0; p < patches; ++p) {
         const float* g = coefficients.data() + 64 * p;
         for (uint32_t j = 0; j < side; ++j) {
@@ -90,4 +66,4 @@ void evaluatePlain(std::span<const float> coefficients, uint32_t rate, std::vect
     }
 }
 
-} // namespace supple::tools
+} // namespace supple::bench

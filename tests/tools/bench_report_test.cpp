@@ -1,0 +1,250 @@
+// What supple bench makes of a result, on results made up here; and its yardsticks.
+#include "tools/bench/avx2_evaluation.h"
+#include "tools/bench/check.h"
+#include "tools/bench/plain_evaluation.h"
+#include "tools/bench/plot.h"
+#include "tools/bench/report.h"
+#include "tools/bench/targets.h"
+#include "tools/bench/write_bandwidth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <random>
+
+namespace {
+
+using namespace supple::bench;
+using Json = nlohmann::ordered_json;
+
+/// Two rates of one cage, two ratios each.
+Json madeUp() {
+    Json result = Json::parse(R"({
+        "version": "0.1.0", "cpuDevice": true, "rounds": 3,
+        "machine": {"device": "d", "driver": "r", "driverInfo": "i", "mapping": "auto", "cpu": "c", "threads": 2},
+        "peers": {"AVX2": "by hand"}, "agreement": [{"what": "a & b", "difference": 1e-7, "bound": 1e-5}],
+        "rows": [], "loading": [], "pipelines": [], "targets": []})");
+    for (const int rate : {4, 8}) {
+        Json row{{"cage", "sphere"}, {"faces", 1350}, {"rate", rate}, {"refused", Json::array()}};
+        for (const char* name : {"prep evaluate", "prep frame", "AVX2 bi-3"}) {
+            row["contestants"].push_back({{"name", name},
+                                          {"points", 100},
+                                          {"cpuNanosecondsPerPoint", 20.0},
+                                          {"wallNanosecondsPerPoint", 10.0},
+                                          {"gpuNanosecondsPerPoint", nullptr}});
+        }
+        const auto ratio = [&](const char* of, const char* over, bool yardstick, double median) {
+            row["ratios"].push_back({{"name", std::string(of) + " / " + over},
+                                     {"of", of},
+                                     {"over", over},
+                                     {"yardstick", yardstick},
+                                     {"median", median},
+                                     {"least", 0.9 * median},
+                                     {"largest", 2.0 * median}});
+        };
+        ratio("prep evaluate", "AVX2 bi-3", true, 4.0);
+        ratio("prep evaluate", "plain C++ bi-3", true, 1.0);
+        ratio("prep frame", "prep evaluate", false, 1.3);
+        result["rows"].push_back(row);
+    }
+    return result;
+}
+
+TEST(BenchCheck, TheSameResultPasses) {
+    EXPECT_TRUE(findRegressions(madeUp(), madeUp()).empty());
+}
+
+TEST(BenchCheck, FifteenPercentIsTheLine) {
+    Json now = madeUp();
+    Json& ratios = now["rows"][1]["ratios"];
+    ratios[0]["median"] = 4.0 * 1.16;
+    ratios[1]["median"] = 1.0 * 1.149;
+    EXPECT_TRUE(findRegressions(madeUp(), now).empty()) << "one yardstick alone had a good day";
+    ratios[1]["median"] = 1.0 * 1.151;
+    const std::vector<std::string> lines = findRegressions(madeUp(), now);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0], "sphere, rate 8: prep evaluate / plain C++ bi-3: 1.15, was 1 (+15 %)");
+}
+
+TEST(BenchCheck, AnImprovementPassesAndSoDoesWhatIsNew) {
+    Json now = madeUp();
+    Json& ratios = now["rows"][0]["ratios"];
+    ratios[0]["median"] = 2.0;
+    ratios[1]["median"] = 0.5;
+    ratios[2]["median"] = 2.6; // the frame is what it was
+    Json added = ratios[0];
+    added["name"] = "loop evaluate / AVX2 bi-3";
+    added["of"] = "loop evaluate";
+    added["median"] = 90.0;
+    ratios.push_back(added);
+    EXPECT_TRUE(findRegressions(madeUp(), now).empty());
+}
+
+TEST(BenchCheck, WhatIsGoneIsNamed) {
+    Json now = madeUp();
+    now["rows"].erase(0);
+    const std::vector<std::string> lines = findRegressions(madeUp(), now);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0], "sphere, rate 4: prep evaluate / AVX2 bi-3: not measured");
+    EXPECT_EQ(lines[1], "sphere, rate 4: prep evaluate / plain C++ bi-3: not measured");
+}
+
+TEST(BenchTargets, LimitsFollowTheRate) {
+    const Json targets = judge(madeUp());
+    const auto met = [&](const std::string& what, const std::string& where) {
+        for (const Json& target : targets) {
+            if (target["what"] == what && target["where"] == where) {
+                return target["met"];
+            }
+        }
+        return Json("absent");
+    };
+    EXPECT_EQ(met("prep evaluate / AVX2 bi-3", "sphere, rate 4"), true);
+    EXPECT_EQ(met("prep evaluate / AVX2 bi-3, worst round", "sphere, rate 4"), false);
+    EXPECT_EQ(met("prep frame / prep evaluate", "sphere, rate 4"), true);  // at most 1.6
+    EXPECT_EQ(met("prep frame / prep evaluate", "sphere, rate 8"), false); // at most 1.25
+    EXPECT_EQ(met("shared-samples evaluate / AVX2 bi-3", "sphere"), Json());
+    EXPECT_EQ(met("loop frame / loop evaluate", "sphere, rate 8"), "absent");
+}
+
+TEST(BenchTargets, LoadingAndPipelines) {
+    Json result = madeUp();
+    result["loading"].push_back(
+        {{"cage", "pip"}, {"scheme", "pm"}, {"untilRecordedUsPerFace", 4.0}, {"staticBytesPerFace", 200.0}});
+    result["loading"].push_back(
+        {{"cage", "pip"}, {"scheme", "loop"}, {"untilRecordedUsPerFace", 6.0}, {"staticBytesPerFace", 200.0}});
+    result["pipelines"].push_back(
+        {{"scheme", "pm"}, {"coldMs", 400.0}, {"warmMs", 40.0}, {"createdWhileRecording", 1}});
+    std::vector<std::string> missed;
+    for (const Json& target : judge(result)) {
+        if (target["met"] == false && target["where"].get<std::string>().find("rate") == std::string::npos) {
+            missed.push_back(target["what"].get<std::string>() + " | " + target["where"].get<std::string>());
+        }
+    }
+    const std::vector<std::string> expected{
+        "static device data, bytes a face | pip, pm", "load until the first frame is recorded, us a face | pip, loop",
+        "pipelines created with a warm cache, ms | pm", "pipelines created while recording | pm"};
+    EXPECT_EQ(missed, expected);
+}
+
+TEST(BenchTargets, RatiosOfGpusHaveNone) {
+    Json result = madeUp();
+    result["cpuDevice"] = false;
+    EXPECT_TRUE(judge(result).empty());
+}
+
+TEST(BenchReport, TablesNameWhatWasMeasured) {
+    const std::string text = toTables(madeUp());
+    for (const char* piece : {"device  d, r i, auto mapping", "peer    AVX2: by hand", "## sphere, 1350 faces",
+                              "| CPU ns a point | rate 4 | rate 8 |", "| prep frame     |   20.0 |   20.0 |",
+                              "| prep frame / prep evaluate     |   1.30 |   1.30 |"}) {
+        EXPECT_NE(text.find(piece), std::string::npos) << piece << "\n" << text;
+    }
+    EXPECT_EQ(text.find("device timestamps"), std::string::npos) << "nothing has any";
+}
+
+TEST(BenchReport, WhatIsNoResultIsRefused) {
+    EXPECT_EQ(whyNoResult(madeUp()), "");
+    EXPECT_EQ(whyNoResult(Json::parse("[1]")), "has no \"machine\"");
+    Json result = madeUp();
+    result["rows"][0]["ratios"][0].erase("median");
+    EXPECT_EQ(whyNoResult(result), "has a ratio without name, of, over or median");
+    result["rows"][0].erase("cage");
+    EXPECT_EQ(whyNoResult(result), "has a row without cage, rate or ratios");
+}
+
+TEST(BenchPlot, LinesAndNamesAreThere) {
+    LinePlot plot;
+    plot.title = "a < b & c";
+    plot.labels = {"rate 4", "rate 8", "rate 16"};
+    plot.lines = {{"one", {1.0, 10.0, 100.0}}, {"two", {1.0, NAN, 2.0}}};
+    plot.logarithmic = true;
+    const std::string svg = toSvg(plot);
+    EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos);
+    EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
+    EXPECT_NE(svg.find(">one</text>"), std::string::npos);
+    EXPECT_NE(svg.find(">rate 16</text>"), std::string::npos);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    size_t dots = 0;
+    for (size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) {
+        ++dots;
+    }
+    EXPECT_EQ(dots, 5u);
+}
+
+TEST(BenchPlot, TwoPicturesACageOfSeveralRates) {
+    Json result = madeUp();
+    const std::vector<Picture> pictures = plotsOf(result);
+    ASSERT_EQ(pictures.size(), 2u);
+    EXPECT_EQ(pictures[0].fileName, "bench_sphere_points.svg");
+    EXPECT_NE(pictures[0].svg.find(">AVX2 bi-3</text>"), std::string::npos);
+    EXPECT_EQ(pictures[0].svg.find(">prep frame</text>"), std::string::npos);
+    EXPECT_NE(pictures[1].svg.find(">prep</text>"), std::string::npos);
+    result["rows"].erase(1);
+    EXPECT_TRUE(plotsOf(result).empty());
+}
+
+/// Patches like those of a surface: a sheet with a little noise, so that no normal degenerates.
+std::vector<float> coefficients(size_t patches) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> noise(-0.1f, 0.1f);
+    std::vector<float> result;
+    for (size_t p = 0; p < patches; ++p) {
+        for (int k = 0; k < 16; ++k) {
+            const float x = static_cast<float>(k % 4) + noise(random), y = static_cast<float>(k / 4) + noise(random);
+            result.insert(result.end(), {x, y, noise(random), 1.0f});
+        }
+    }
+    return result;
+}
+
+TEST(BenchYardsticks, PlainEvaluationMeetsItsCorners) {
+    const std::vector<float> g = coefficients(3);
+    for (const uint32_t rate : {1u, 2u, 7u, 64u}) {
+        const uint32_t side = rate + 1;
+        std::vector<float> samples(size_t{3} * side * side * 6);
+        evaluatePlain(g, rate, samples);
+        const std::pair<uint32_t, uint32_t> corners[] = {
+            {0, 0}, {rate, 3}, {side * rate, 12}, {side * side - 1, 15}}; // sample and coefficient
+        for (size_t p = 0; p < 3; ++p) {
+            for (const auto& [sample, coefficient] : corners) {
+                for (size_t axis = 0; axis < 3; ++axis) {
+                    EXPECT_EQ(samples[6 * (p * side * side + sample) + axis], g[64 * p + 4 * coefficient + axis]);
+                }
+            }
+        }
+    }
+}
+
+TEST(BenchYardsticks, Avx2IsThePlainEvaluation) {
+    if (!hasAvx2Evaluation()) {
+        GTEST_SKIP() << "no AVX2 and FMA on this CPU";
+    }
+    for (const size_t patches : {1u, 7u, 8u, 19u}) { // also counts that do not fill the lanes
+        const std::vector<float> g = coefficients(patches);
+        for (const uint32_t rate : {1u, 4u, 8u, 15u, 64u}) {
+            const size_t floats = patches * (rate + 1) * (rate + 1) * 6;
+            std::vector<float> plain(floats), avx2(floats + 1, -7.0f);
+            evaluatePlain(g, rate, plain);
+            BicubicWeights weights;
+            fillBicubicWeights(weights, rate);
+            evaluateAvx2(g.data(), patches, rate, weights, avx2.data());
+            double largest = 0.0;
+            for (size_t i = 0; i < floats; ++i) {
+                largest = std::max(largest, std::abs(static_cast<double>(plain[i]) - static_cast<double>(avx2[i])));
+            }
+            EXPECT_LT(largest, 1e-5) << patches << " patches at rate " << rate;
+            EXPECT_EQ(avx2[floats], -7.0f) << "written past the end";
+        }
+    }
+}
+
+TEST(BenchYardsticks, WritingReachesEveryFloat) {
+    std::vector<float> samples(1001, -1.0f);
+    writeAll(samples, 3);
+    EXPECT_TRUE(std::all_of(samples.begin(), samples.end(), [](float x) { return x == 3.0f; }));
+}
+
+} // namespace

@@ -1,0 +1,198 @@
+// supple bench run as a user would: is every row there, do the contestants do the same job. Times are not judged.
+#include "tests/tools/command_runner.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace {
+
+using Json = nlohmann::json;
+
+using supple::test::Outcome;
+using supple::test::readText;
+using supple::test::writeText;
+
+class Bench : public supple::test::CommandTest {};
+
+std::set<std::string> names(const Json& list) {
+    std::set<std::string> result;
+    for (const Json& entry : list) {
+        result.insert(entry["name"]);
+    }
+    return result;
+}
+
+bool finitePositive(const Json& value) {
+    return value.is_number() && std::isfinite(value.get<double>()) && value.get<double>() > 0.0;
+}
+
+struct Expected {
+    const char* cage;
+    uint32_t faces;
+    std::vector<std::string> schemes;
+    bool peers;
+};
+const std::vector<Expected> kExpected{
+    {"sphere", 1350, {"prep", "pm", "catmull-clark", "blend"}, true},
+    {"irregular", 1296, {"prep", "pm", "catmull-clark", "blend"}, true},
+    {"triangles", 2700, {"pm", "catmull-clark", "loop", "blend"}, false},
+    {"pip_quads", 1496, {"prep", "pm", "catmull-clark", "blend"}, false},
+    {"pip", 1832, {"pm", "catmull-clark", "loop", "blend"}, false},
+};
+
+TEST_F(Bench, QuickRunIsWhole) {
+    const Outcome outcome = runOnDevice("bench --quick --json quick.json --plots plots");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Json result = Json::parse(readText(file("quick.json")), nullptr, false);
+    ASSERT_TRUE(result.is_object());
+    for (const char* key : {"device", "driver", "driverInfo", "cpu"}) {
+        EXPECT_FALSE(result["machine"][key].get<std::string>().empty()) << key;
+        EXPECT_NE(outcome.out.find(result["machine"][key].get<std::string>()), std::string::npos) << key;
+    }
+
+    const bool cpuPeer = result["peers"]["OpenSubdiv CPU"].get<std::string>().find("not ") == std::string::npos;
+    const bool avx2 = result["peers"]["AVX2"].get<std::string>().find("not ") == std::string::npos;
+    const bool hasGlsl = result["peers"]["OpenSubdiv GLSL"].get<std::string>().find("OpenGL 4") != std::string::npos;
+#ifdef SUPPLE_HAS_OPENSUBDIV
+    EXPECT_TRUE(cpuPeer);
+#endif
+    for (const auto& [peer, what] : result["peers"].items()) { // what is missing is said
+        EXPECT_NE(outcome.out.find(peer + ": " + what.get<std::string>()), std::string::npos) << peer;
+    }
+    size_t agreements = 1 + (avx2 ? 1 : 0) + (cpuPeer ? 4 : 0) + (cpuPeer && hasGlsl ? 4 : 0);
+    EXPECT_EQ(result["agreement"].size(), agreements);
+    for (const Json& one : result["agreement"]) {
+        EXPECT_LE(one["difference"].get<double>(), one["bound"].get<double>()) << one["what"];
+    }
+
+    ASSERT_EQ(result["rows"].size(), kExpected.size());
+    for (size_t i = 0; i < kExpected.size(); ++i) {
+        const Expected& expected = kExpected[i];
+        const Json& row = result["rows"][i];
+        SCOPED_TRACE(expected.cage);
+        EXPECT_EQ(row["cage"], expected.cage);
+        EXPECT_EQ(row["faces"], expected.faces);
+        EXPECT_EQ(row["rate"], 8);
+        EXPECT_TRUE(row["refused"].empty()) << row["refused"];
+        std::set<std::string> contestants{"plain C++ bi-3", "write 24 B"}, ratios;
+        if (avx2) {
+            contestants.insert("AVX2 bi-3");
+            ratios.insert({"plain C++ bi-3 / AVX2 bi-3", "AVX2 bi-3 / write 24 B"});
+        }
+        for (const std::string& scheme : expected.schemes) {
+            contestants.insert({scheme + " evaluate", scheme + " frame"});
+            ratios.insert({scheme + " frame / " + scheme + " evaluate", scheme + " evaluate / plain C++ bi-3",
+                           scheme + " frame / plain C++ bi-3"});
+        }
+        if (expected.peers) {
+            contestants.insert({"prep evaluate 24 B", "prep frame 24 B"});
+            for (const std::string job : {"limit stencils", "patches"}) {
+                if (cpuPeer) {
+                    contestants.insert("OpenSubdiv CPU, " + job);
+                    ratios.insert("prep evaluate / OpenSubdiv CPU, " + job);
+                }
+                if (cpuPeer && hasGlsl) {
+                    contestants.insert("OpenSubdiv GLSL, " + job);
+                    ratios.insert("catmull-clark evaluate / OpenSubdiv GLSL, " + job);
+                }
+            }
+        }
+        EXPECT_EQ(names(row["contestants"]), contestants);
+        const std::set<std::string> measured = names(row["ratios"]);
+        EXPECT_TRUE(std::includes(measured.begin(), measured.end(), ratios.begin(), ratios.end())) << row["ratios"];
+        for (const Json& contestant : row["contestants"]) {
+            EXPECT_TRUE(finitePositive(contestant["points"])) << contestant;
+            EXPECT_TRUE(finitePositive(contestant["cpuNanosecondsPerPoint"])) << contestant;
+            EXPECT_TRUE(finitePositive(contestant["wallNanosecondsPerPoint"])) << contestant;
+            const std::string name = contestant["name"];
+            const bool device = name.find(" evaluate") != std::string::npos || name.find(" frame") != std::string::npos;
+            EXPECT_EQ(finitePositive(contestant["gpuNanosecondsPerPoint"]), device) << contestant;
+        }
+        for (const Json& ratio : row["ratios"]) {
+            EXPECT_TRUE(finitePositive(ratio["median"])) << ratio;
+            EXPECT_LE(ratio["least"].get<double>(), ratio["median"].get<double>()) << ratio;
+            EXPECT_GE(ratio["largest"].get<double>(), ratio["median"].get<double>()) << ratio;
+        }
+    }
+
+    std::set<std::string> loaded, expectedLoads, compiled;
+    for (const Expected& expected : kExpected) {
+        for (const std::string& scheme : expected.schemes) {
+            expectedLoads.insert(std::string(expected.cage) + " " + scheme);
+        }
+    }
+    for (const Json& loading : result["loading"]) {
+        loaded.insert(loading["cage"].get<std::string>() + " " + loading["scheme"].get<std::string>());
+        for (const auto& [key, value] : loading.items()) {
+            EXPECT_TRUE(value.is_string() || finitePositive(value)) << key << " of " << loading;
+        }
+    }
+    EXPECT_EQ(loaded, expectedLoads);
+    for (const Json& scheme : result["pipelines"]) {
+        compiled.insert(scheme["scheme"]);
+        EXPECT_GT(scheme["count"], 4);
+        EXPECT_EQ(scheme["count"], scheme["pipelines"].size());
+        EXPECT_EQ(scheme["createdWhileRecording"], 0);
+        for (const Json& pipeline : scheme["pipelines"]) {
+            EXPECT_TRUE(finitePositive(pipeline["spirvBytes"])) << pipeline;
+            EXPECT_TRUE(finitePositive(pipeline["coldMs"])) << pipeline;
+            EXPECT_TRUE(finitePositive(pipeline["warmMs"])) << pipeline;
+        }
+    }
+    EXPECT_EQ(compiled, (std::set<std::string>{"prep", "pm", "catmull-clark", "loop", "blend"}));
+    EXPECT_FALSE(result["targets"].empty());
+    EXPECT_FALSE(std::filesystem::exists(file("plots/bench_sphere_points.svg"))) << "one rate makes no line";
+}
+
+/// A result with one ratio, as far as --check looks.
+std::string resultWith(double median) {
+    const Json ratios = {{{"name", "prep evaluate / AVX2 bi-3"},
+                          {"of", "prep evaluate"},
+                          {"over", "AVX2 bi-3"},
+                          {"yardstick", true},
+                          {"median", median}}};
+    const Json row = {{"cage", "sphere"}, {"faces", 1350},           {"rate", 8}, {"contestants", Json::array()},
+                      {"ratios", ratios}, {"refused", Json::array()}};
+    return Json{
+        {"machine",
+         {{"device", "d"}, {"driver", "r"}, {"driverInfo", ""}, {"mapping", "auto"}, {"cpu", ""}, {"threads", 2}}},
+        {"rounds", 3},
+        {"peers", Json::object()},
+        {"agreement", Json::array()},
+        {"rows", {row}},
+        {"loading", Json::array()},
+        {"pipelines", Json::array()},
+        {"targets", Json::array()}}
+        .dump();
+}
+
+TEST_F(Bench, CheckComparesWithAStoredResult) {
+    writeText(file("stored.json"), resultWith(4.0));
+    writeText(file("better.json"), resultWith(3.0));
+    writeText(file("worse.json"), resultWith(4.7));
+    const Outcome better = run("bench --from better.json --check stored.json");
+    EXPECT_EQ(better.exitCode, 0) << better.err;
+    const Outcome worse = run("bench --from worse.json --check stored.json");
+    EXPECT_EQ(worse.exitCode, 1);
+    EXPECT_NE(worse.err.find("sphere, rate 8: prep evaluate / AVX2 bi-3: 4.7, was 4"), std::string::npos) << worse.err;
+    EXPECT_NE(worse.out.find("REGRESSION sphere, rate 8"), std::string::npos) << worse.out;
+    writeText(
+        file("empty.json"),
+        Json::parse(resultWith(4.0)).patch(Json::parse(R"([{"op": "replace", "path": "/rows", "value": []}])")).dump());
+    const Outcome missing = run("bench --from empty.json --check stored.json");
+    EXPECT_EQ(missing.exitCode, 1);
+    EXPECT_NE(missing.err.find("not measured"), std::string::npos) << missing.err;
+}
+
+TEST_F(Bench, RefusesWhatIsNoResult) {
+    writeText(file("no.json"), "{");
+    writeText(file("other.json"), "{}");
+    expectFailure(run("bench --check no.json"), 1, "no.json: is no JSON");
+    expectFailure(run("bench --check other.json"), 1, "other.json: is no result of supple bench");
+    expectFailure(run("bench --from missing.json"), 1, "missing.json: cannot be opened");
+    expectFailure(run("bench --cages cow"), 2, "cow is none of");
+    expectFailure(run("bench missing.glb --cages none"), 1, "missing.glb");
+}
+
+} // namespace

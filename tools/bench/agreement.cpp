@@ -1,0 +1,199 @@
+#include "tools/bench/agreement.h"
+
+#include "tools/bench/avx2_evaluation.h"
+#include "tools/bench/plain_evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/glm.hpp>
+
+namespace supple::bench {
+
+namespace {
+
+/// A power of two, at which Catmull-Clark's samples lie where OpenSubdiv's grid has its own.
+constexpr uint32_t kRate = 8;
+constexpr uint32_t kSide = kRate + 1;
+constexpr double kArithmeticBound = 1e-5;
+/// Unit normals of small patches, from a device that rounds as it likes.
+constexpr double kDeviceBound = 1e-4;
+/// OpenSubdiv ends its refinement with Gregory patches, which only come near the limit.
+constexpr double kLimitBound = 1e-3;
+
+double largestDifference(std::span<const float> a, std::span<const float> b) {
+    double largest = a.size() == b.size() ? 0.0 : INFINITY;
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+        const double difference = std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i]));
+        largest = std::isfinite(difference) ? std::max(largest, difference) : INFINITY;
+    }
+    return largest;
+}
+
+/// A group of the cage after one frame, destroyed when this goes.
+struct Evaluated {
+    Workbench& workbench;
+    SuppleGroup group;
+    ~Evaluated() { workbench.destroy(group); }
+};
+
+Result<std::unique_ptr<Evaluated>> evaluated(host::Device& device, Workbench& workbench, const BenchCage& cage,
+                                             SuppleScheme scheme, uint32_t flags) {
+    Result<SuppleAsset> asset = workbench.createAsset(cage.character);
+    if (!asset) {
+        return asset.error();
+    }
+    SuppleGroupDesc desc{};
+    desc.asset = *asset;
+    desc.scheme = scheme;
+    desc.rate = kRate;
+    desc.vertexFormat = SUPPLE_VERTEX_24;
+    desc.flags = flags;
+    Result<SuppleGroup> group = workbench.createGroup(desc);
+    workbench.destroy(*asset);
+    if (!group) {
+        return group.error();
+    }
+    std::unique_ptr<Evaluated> result(new Evaluated{workbench, *group});
+    Status recorded = success();
+    const Status submitted =
+        device.submitAndWait([&](VkCommandBuffer commands) { recorded = workbench.recordFrame(*group, commands); });
+    if (!recorded || !submitted) {
+        return recorded ? submitted.error() : recorded.error();
+    }
+    return result;
+}
+
+Result<std::vector<float>> readFloats(host::Device& device, const SuppleBufferView& view) {
+    Result<std::vector<std::byte>> bytes = device.readBuffer(view);
+    if (!bytes) {
+        return bytes.error();
+    }
+    std::vector<float> floats(bytes->size() / sizeof(float));
+    std::memcpy(floats.data(), bytes->data(), floats.size() * sizeof(float));
+    return floats;
+}
+
+double nearest(const glm::vec3& from, std::span<const glm::vec3> points) {
+    double best = INFINITY;
+    for (const glm::vec3& point : points) {
+        best = std::min(best, static_cast<double>(glm::distance(from, point)));
+    }
+    return best;
+}
+
+} // namespace
+
+Result<std::vector<float>> bicubicCoefficients(host::Device& device, Workbench& workbench, const BenchCage& quads) {
+    Result<std::unique_ptr<Evaluated>> frame =
+        evaluated(device, workbench, quads, SUPPLE_SCHEME_PREP, SUPPLE_GROUP_PATCHES);
+    if (!frame) {
+        return frame.error();
+    }
+    const SuppleGroupOutput& output = workbench.output((*frame)->group);
+    Result<std::vector<float>> all = readFloats(device, output.patchCoefficients);
+    if (!all) {
+        return all.error();
+    }
+    std::vector<float> bicubic;
+    for (uint32_t p = 0; p < output.patchCount; ++p) {
+        const auto first = all->begin() + ptrdiff_t{4} * SUPPLE_PATCH_STRIDE * p;
+        bicubic.insert(bicubic.end(), first, first + 64);
+    }
+    return bicubic;
+}
+
+Result<std::vector<Agreement>> compareEvaluations(host::Device& device, Workbench& workbench, const BenchCage& sphere,
+                                                  std::span<const float> coefficients) {
+    std::vector<Agreement> result;
+    const size_t patches = coefficients.size() / 64;
+    std::vector<float> plain(patches * kSide * kSide * 6);
+    evaluatePlain(coefficients, kRate, plain);
+    if (hasAvx2Evaluation()) {
+        BicubicWeights weights;
+        fillBicubicWeights(weights, kRate);
+        std::vector<float> avx2(plain.size());
+        evaluateAvx2(coefficients.data(), patches, kRate, weights, avx2.data());
+        result.push_back({"AVX2 against plain C++", largestDifference(avx2, plain), kArithmeticBound});
+    }
+    Result<std::unique_ptr<Evaluated>> frame = evaluated(device, workbench, sphere, SUPPLE_SCHEME_PREP, 0);
+    if (!frame) {
+        return frame.error();
+    }
+    const SuppleGroup group = (*frame)->group;
+    const Result<std::vector<float>> surface = readFloats(device, workbench.output(group).surfaceVertices);
+    if (!surface) {
+        return surface.error();
+    }
+    const size_t regular = size_t{6} * kSide * kSide * workbench.regularPatches(group);
+    result.push_back({"device's p-rep, regular patches, against plain C++",
+                      largestDifference(std::span(*surface).first(regular), std::span(plain).first(regular)),
+                      kDeviceBound});
+    return result;
+}
+
+Result<std::vector<Agreement>> comparePeers(host::Device& device, Workbench& workbench, const OpensubdivPeers& peers,
+                                            const BenchCage& quads) {
+    std::vector<Agreement> result;
+    Result<std::vector<Peer>> all = peers.make(quads.character.cage, kRate);
+    if (!all) {
+        return all.error();
+    }
+    std::vector<float> reference;
+    for (const Peer& peer : *all) {
+        const Status status = peer.run();
+        if (!status) {
+            return status.error();
+        }
+        const std::vector<float> positions = peer.positions();
+        if (reference.empty()) {
+            reference = positions;
+        } else {
+            result.push_back({quads.name + ": " + peer.name + " against " + all->front().name,
+                              largestDifference(positions, reference), kArithmeticBound});
+        }
+    }
+    if (reference.empty()) {
+        return result;
+    }
+
+    Result<std::unique_ptr<Evaluated>> frame = evaluated(device, workbench, quads, SUPPLE_SCHEME_CATMULL_CLARK, 0);
+    if (!frame) {
+        return frame.error();
+    }
+    const SuppleGroup group = (*frame)->group;
+    const SuppleGroupOutput& output = workbench.output(group);
+    const Result<std::vector<float>> surface = readFloats(device, output.surfaceVertices);
+    if (!surface) {
+        return surface.error();
+    }
+    // Orders differ, the places are the same: every sample of a face has one of the other's near it, both ways.
+    const std::vector<uint32_t> faces = workbench.patchFaces(group);
+    std::vector<std::vector<glm::vec3>> ours(quads.character.cage.faceCount());
+    for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = output.drawRanges[r];
+        for (uint32_t p = 0; p < range.patchCount; ++p) {
+            for (uint32_t s = 0; s < range.samplesPerPatch; ++s) {
+                const float* v = &(*surface)[size_t{6} * (range.firstVertex + p * range.samplesPerPatch + s)];
+                ours[faces[range.firstPatch + p]].emplace_back(v[0], v[1], v[2]);
+            }
+        }
+    }
+    double largest = 0.0;
+    for (size_t f = 0; f < ours.size(); ++f) {
+        std::vector<glm::vec3> theirs;
+        for (size_t k = f * kSide * kSide; k < (f + 1) * kSide * kSide; ++k) {
+            theirs.emplace_back(reference[3 * k], reference[3 * k + 1], reference[3 * k + 2]);
+        }
+        for (const glm::vec3& p : theirs) {
+            largest = std::max(largest, nearest(p, ours[f]));
+        }
+        for (const glm::vec3& p : ours[f]) {
+            largest = std::max(largest, nearest(p, theirs));
+        }
+    }
+    result.push_back({quads.name + ": device's Catmull-Clark against " + all->front().name, largest, kLimitBound});
+    return result;
+}
+
+} // namespace supple::bench

@@ -1,0 +1,33 @@
+// The benchmark itself: what runs, in which heats, and the result as JSON (docs/benchmarks.md).
+#pragma once
+
+#include "base/result.h"
+#include "tools/bench/cages.h"
+#include "tools/supple/machine.h"
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace supple::bench {
+
+struct BenchOptions {
+    std::vector<std::string> cages = builtInCages();
+    std::vector<std::string> files;
+    std::vector<std::string> schemes; ///< empty: all
+    std::vector<uint32_t> rates = {4, 8, 16, 32};
+    uint32_t rounds = 7;
+    bool quick = false; ///< shorter turns, fewer loads
+    SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
+};
+
+/// Before the first Vulkan call of the process: has drivers compile anew what an earlier run left in their own caches
+/// on disk, as far as they can be told.
+void disableDriverCaches();
+
+/// Fails where contestants do not do the same job.
+[[nodiscard]] Result<nlohmann::ordered_json> runBench(host::Device& device, const tools::Machine& machine,
+                                                      const BenchOptions& options);
+
+} // namespace supple::bench

@@ -1,0 +1,112 @@
+#include "tools/bench/cages.h"
+
+#include "bench_characters.h"
+#include "cage/character_reader.h"
+#include "cage/procedural.h"
+#include "runtime/asset.h"
+#include "tools/host/cage_arrays.h"
+#include "tools/host/character_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <span>
+
+namespace supple::bench {
+
+namespace {
+
+constexpr uint32_t kSphereSide = 15;
+constexpr uint32_t kTorusAround = 18, kTorusAcross = 12;
+
+/// Every quad cut along a diagonal.
+cage::Cage triangulated(const cage::Cage& quads) {
+    cage::Cage cage;
+    cage.positions = quads.positions;
+    cage.faceStarts.push_back(0);
+    for (uint32_t f = 0; f < quads.faceCount(); ++f) {
+        const uint32_t* v = &quads.faceVertices[quads.faceStarts[f]];
+        for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) {
+            cage.faceVertices.push_back(v[corner]);
+        }
+        cage.faceStarts.push_back(cage.faceStarts.back() + 3);
+        cage.faceStarts.push_back(cage.faceStarts.back() + 3);
+    }
+    return cage;
+}
+
+/// All schemes that take it and mean it: p-rep wants quads, Loop cuts them.
+std::vector<SuppleScheme> schemesFor(const cage::Cage& cage) {
+    uint32_t quads = 0, triangles = 0;
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        quads += cage.sides(f) == 4 ? 1 : 0;
+        triangles += cage.sides(f) == 3 ? 1 : 0;
+    }
+    std::vector<SuppleScheme> schemes;
+    if (quads == cage.faceCount()) {
+        schemes.push_back(SUPPLE_SCHEME_PREP);
+    }
+    schemes.insert(schemes.end(), {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK});
+    if (triangles > 0) {
+        schemes.push_back(SUPPLE_SCHEME_LOOP);
+    }
+    schemes.push_back(SUPPLE_SCHEME_BLEND);
+    return schemes;
+}
+
+Result<BenchCage> fromCage(const std::string& name, const cage::Cage& cage) {
+    const host::CageArrays arrays(cage);
+    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, name);
+    if (!character) {
+        return character.error();
+    }
+    BenchCage made{name, std::move(*character), schemesFor(cage), false, false};
+    made.peers = made.bothFormats = made.schemes.front() == SUPPLE_SCHEME_PREP;
+    return made;
+}
+
+Result<BenchCage> embedded(const std::string& name, std::span<const uint8_t> bytes) {
+    Result<cage::Character> character = cage::readCharacter(std::as_bytes(bytes), name, "");
+    if (!character) {
+        return character.error();
+    }
+    std::vector<SuppleScheme> schemes = schemesFor(character->cage);
+    return BenchCage{name, std::move(*character), std::move(schemes), false, false};
+}
+
+} // namespace
+
+const std::vector<std::string>& builtInCages() {
+    static const std::vector<std::string> names{"sphere", "irregular", "triangles", "pip_quads", "pip"};
+    return names;
+}
+
+Result<BenchCage> makeCage(const std::string& name) {
+    if (name == "sphere") {
+        return fromCage(name, cage::makeCubeSphere(kSphereSide));
+    }
+    if (name == "irregular") {
+        return fromCage(name, cage::makeSplitTorus(kTorusAround, kTorusAcross));
+    }
+    if (name == "triangles") {
+        return fromCage(name, triangulated(cage::makeCubeSphere(kSphereSide)));
+    }
+    if (name == "pip") {
+        return embedded(name, kPip);
+    }
+    if (name == "pip_quads") {
+        return embedded(name, kPipQuads);
+    }
+    return Error{ErrorCode::argument, "no cage is called " + name};
+}
+
+Result<BenchCage> readCage(const std::string& path) {
+    Result<host::CharacterFile> file = host::readCharacterFile(path);
+    if (!file) {
+        return file.error();
+    }
+    std::vector<SuppleScheme> schemes = schemesFor(file->character.cage);
+    return BenchCage{std::filesystem::path(path).stem().string(), std::move(file->character), std::move(schemes), false,
+                     false};
+}
+
+} // namespace supple::bench

@@ -1,0 +1,28 @@
+// What the benchmark is run on: cages made on the spot, the demo character, which is embedded, and files.
+#pragma once
+
+#include "base/result.h"
+#include "cage/character.h"
+
+#include <supple/supple.h>
+
+#include <string>
+#include <vector>
+
+namespace supple::bench {
+
+struct BenchCage {
+    std::string name; ///< as --cages takes it
+    cage::Character character;
+    std::vector<SuppleScheme> schemes; ///< that it is measured under
+    bool peers = false;                ///< OpenSubdiv is measured on it too; all of its faces are quads
+    bool bothFormats = false;          ///< p-rep also with 24-byte vertices
+};
+
+/// The names of the built-in ones.
+[[nodiscard]] const std::vector<std::string>& builtInCages();
+[[nodiscard]] Result<BenchCage> makeCage(const std::string& name);
+/// From a file, called as the file without its folder and suffix.
+[[nodiscard]] Result<BenchCage> readCage(const std::string& path);
+
+} // namespace supple::bench

@@ -1,0 +1,88 @@
+#include "tools/bench/gl_context.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/gl.h>
+#include <cstring>
+
+namespace supple::bench {
+
+namespace {
+
+template <class Function>
+Function load(const char* name) {
+    return reinterpret_cast<Function>(eglGetProcAddress(name));
+}
+
+EGLDisplay openDisplay() {
+    const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    const auto has = [&](const char* extension) {
+        return extensions != nullptr && std::strstr(extensions, extension) != nullptr;
+    };
+    const auto usable = [](EGLDisplay display) {
+        return display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
+    };
+    const auto platformDisplay = load<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+    if (platformDisplay != nullptr && has("EGL_EXT_platform_device") && has("EGL_EXT_device_enumeration")) {
+        // A GPU's driver, where there is one; Mesa lists its software renderer last.
+        const auto queryDevices = load<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+        EGLDeviceEXT device = nullptr;
+        EGLint count = 0;
+        if (queryDevices != nullptr && queryDevices(1, &device, &count) == EGL_TRUE && count == 1) {
+            const EGLDisplay display = platformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+            if (usable(display)) {
+                return display;
+            }
+        }
+    }
+    if (platformDisplay != nullptr && has("EGL_MESA_platform_surfaceless")) {
+        const EGLDisplay display = platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        if (usable(display)) {
+            return display;
+        }
+    }
+    return EGL_NO_DISPLAY;
+}
+
+} // namespace
+
+Result<std::unique_ptr<GlContext>> GlContext::create() {
+    std::unique_ptr<GlContext> gl(new GlContext);
+    gl->display_ = openDisplay();
+    if (gl->display_ == EGL_NO_DISPLAY) {
+        return Error{ErrorCode::unsupported, "EGL has no display without a window"};
+    }
+    const EGLint attributes[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    if (eglBindAPI(EGL_OPENGL_API) == EGL_TRUE) {
+        gl->context_ = eglCreateContext(gl->display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    }
+    if (gl->context_ == EGL_NO_CONTEXT ||
+        eglMakeCurrent(gl->display_, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context_) != EGL_TRUE) {
+        return Error{ErrorCode::unsupported, "EGL has no OpenGL 4.3 context"};
+    }
+    gl->finish_ = load<void (*)()>("glFinish");
+    const auto getString = load<const GLubyte* (*)(GLenum)>("glGetString");
+    if (gl->finish_ == nullptr || getString == nullptr) {
+        return Error{ErrorCode::unsupported, "EGL gives no OpenGL functions"};
+    }
+    for (const GLenum what : {GL_RENDERER, GL_VERSION}) {
+        const GLubyte* text = getString(what);
+        gl->name_ += std::string(gl->name_.empty() ? "" : ", OpenGL ") +
+                     (text == nullptr ? "?" : reinterpret_cast<const char*>(text));
+    }
+    return gl;
+}
+
+GlContext::~GlContext() {
+    if (display_ != EGL_NO_DISPLAY) {
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (context_ != EGL_NO_CONTEXT) {
+            eglDestroyContext(display_, context_);
+        }
+        eglTerminate(display_);
+    }
+}
+
+} // namespace supple::bench

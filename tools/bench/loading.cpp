@@ -1,0 +1,166 @@
+#include "tools/bench/loading.h"
+
+#include "tools/bench/clocks.h"
+#include "tools/bench/pipeline_watch.h"
+#include "tools/bench/scheme_names.h"
+#include "tools/host/context.h"
+#include "tools/host/vk_struct.h"
+#include "tools/supple/statistics.h"
+
+#include <algorithm>
+
+namespace supple::bench {
+
+namespace {
+
+constexpr uint32_t kRate = 8;
+
+SuppleGroupDesc groupDesc(const BenchCage& cage, SuppleScheme scheme, SuppleAsset asset) {
+    SuppleGroupDesc desc{};
+    desc.asset = asset;
+    desc.scheme = scheme;
+    desc.rate = kRate;
+    desc.flags = cage.character.cage.cornerUvs.empty() ? 0 : SUPPLE_GROUP_ATTRIBUTES;
+    return desc;
+}
+
+struct FrameTimes {
+    double record = 0.0, submit = 0.0; ///< milliseconds
+};
+
+Result<FrameTimes> frame(host::Device& device, Workbench& workbench, SuppleGroup group) {
+    FrameTimes times;
+    Status recorded = success();
+    double end = 0.0;
+    const Status submitted = device.submitAndWait([&](VkCommandBuffer commands) {
+        const double begin = wallSeconds();
+        recorded = workbench.recordFrame(group, commands);
+        end = wallSeconds();
+        times.record = 1e3 * (end - begin);
+    });
+    times.submit = 1e3 * (wallSeconds() - end);
+    if (!recorded || !submitted) {
+        return recorded ? submitted.error() : recorded.error();
+    }
+    return times;
+}
+
+struct OneLoad {
+    LoadTimes times;
+    SuppleGroup group{};
+};
+
+/// The caller destroys the group.
+Result<OneLoad> load(host::Device& device, Workbench& workbench, const BenchCage& cage, SuppleScheme scheme) {
+    OneLoad one;
+    cage::Character character = cage.character;
+    const double begin = wallSeconds();
+    Result<SuppleAsset> asset = workbench.createAsset(std::move(character));
+    const double made = wallSeconds();
+    if (!asset) {
+        return asset.error();
+    }
+    Result<SuppleGroup> group = workbench.createGroup(groupDesc(cage, scheme, *asset));
+    const double grouped = wallSeconds();
+    workbench.destroy(*asset);
+    if (!group) {
+        return group.error();
+    }
+    const Result<FrameTimes> first = frame(device, workbench, *group);
+    const Result<FrameTimes> second = first ? frame(device, workbench, *group) : first;
+    if (!second) {
+        workbench.destroy(*group);
+        return second.error();
+    }
+    one.times = {1e3 * (made - begin), 1e3 * (grouped - made), first->record, first->submit, second->submit};
+    one.group = *group;
+    return one;
+}
+
+} // namespace
+
+Result<Loading> measureLoading(host::Device& device, Workbench& workbench, const BenchCage& cage, SuppleScheme scheme,
+                               uint32_t loads) {
+    Loading loading;
+    loading.cage = cage.name;
+    loading.scheme = schemeName(scheme);
+    loading.faces = cage.character.cage.faceCount();
+    std::vector<LoadTimes> all;
+    for (uint32_t i = 0; i < loads + 1; ++i) { // the first one makes the pipelines
+        const Result<OneLoad> one = load(device, workbench, cage, scheme);
+        if (!one) {
+            return one.error();
+        }
+        loading.patches = workbench.output(one->group).patchCount;
+        loading.bytes = workbench.staticBytes(one->group);
+        workbench.destroy(one->group);
+        if (i > 0) {
+            all.push_back(one->times);
+        }
+    }
+    for (double LoadTimes::*step : {&LoadTimes::createAsset, &LoadTimes::createGroup, &LoadTimes::record,
+                                    &LoadTimes::submit, &LoadTimes::secondSubmit}) {
+        std::vector<double> values;
+        for (const LoadTimes& times : all) {
+            values.push_back(times.*step);
+        }
+        loading.times.*step = tools::summarize(values).median;
+    }
+    return loading;
+}
+
+Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, const BenchCage& cage,
+                                   SuppleScheme scheme) {
+    Pipelines result;
+    result.cage = cage.name;
+    result.scheme = schemeName(scheme);
+    const auto cacheInfo = host::vkStruct<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    const VkResult created = vkCreatePipelineCache(device.handle(), &cacheInfo, nullptr, &cache);
+    if (created != VK_SUCCESS) {
+        return host::vulkanError(created, "vkCreatePipelineCache");
+    }
+    Status status = success();
+    for (const bool warm : {false, true}) {
+        PipelineWatch watch;
+        SuppleContextDesc desc = host::contextDesc(device);
+        desc.mapping = mapping;
+        desc.pipelineCache = cache;
+        desc.getInstanceProcAddr = PipelineWatch::getInstanceProcAddr();
+        Result<std::unique_ptr<Workbench>> workbench = Workbench::create(desc);
+        if (!workbench) {
+            status = workbench.error();
+            break;
+        }
+        Result<SuppleAsset> asset = (*workbench)->createAsset(cage.character);
+        Result<SuppleGroup> group =
+            asset ? (*workbench)->createGroup(groupDesc(cage, scheme, *asset)) : Result<SuppleGroup>(asset.error());
+        const size_t made = watch.pipelines().size();
+        Result<FrameTimes> first = group ? frame(device, **workbench, *group) : Result<FrameTimes>(group.error());
+        Result<FrameTimes> second = first ? frame(device, **workbench, *group) : first;
+        if (!second) {
+            status = second.error();
+            break;
+        }
+        (warm ? result.warmFirstFrame : result.coldFirstFrame) = first->submit;
+        (warm ? result.warmSecondFrame : result.coldSecondFrame) = second->submit;
+        result.createdWhileRecording += static_cast<uint32_t>(watch.pipelines().size() - made);
+        for (size_t i = 0; i < watch.pipelines().size(); ++i) {
+            const WatchedPipeline& seen = watch.pipelines()[i];
+            const double milliseconds = 1e3 * (seen.seconds + seen.moduleSeconds);
+            if (!warm) {
+                result.pipelines.push_back({seen.name, seen.spirvBytes, milliseconds, 0.0});
+            } else if (i < result.pipelines.size()) {
+                result.pipelines[i].warm = milliseconds;
+            }
+            (warm ? result.warm : result.cold) += milliseconds;
+        }
+    }
+    vkDestroyPipelineCache(device.handle(), cache, nullptr);
+    if (!status) {
+        return status.error();
+    }
+    return result;
+}
+
+} // namespace supple::bench

@@ -1,0 +1,55 @@
+// From a parsed character to its first frame: what each step takes, and what then lies on the device.
+#pragma once
+
+#include "tools/bench/cages.h"
+#include "tools/bench/workbench.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace supple::bench {
+
+/// Milliseconds of wall time, medians over loads into a context that has the pipelines already.
+struct LoadTimes {
+    double createAsset = 0.0;  ///< weights and morph targets packed and staged; the rig
+    double createGroup = 0.0;  ///< connectivity, the scheme's tables built and staged, buffers, descriptor sets
+    double record = 0.0;       ///< the first frame, with its uploads
+    double submit = 0.0;       ///< until the device is done with it
+    double secondSubmit = 0.0; ///< the same of the next frame, which uploads a pose and no tables
+    [[nodiscard]] double untilRecorded() const { return createAsset + createGroup + record; }
+};
+
+struct Loading {
+    std::string cage, scheme;
+    uint32_t faces = 0, patches = 0;
+    LoadTimes times;
+    Workbench::StaticBytes bytes;
+};
+
+/// Rate 8, 16-byte vertices, with the attributes if the character has any.
+[[nodiscard]] Result<Loading> measureLoading(host::Device& device, Workbench& workbench, const BenchCage& cage,
+                                             SuppleScheme scheme, uint32_t loads);
+
+/// One pipeline, as a scheme's first group makes it.
+struct PipelineTime {
+    std::string name;
+    uint64_t spirvBytes = 0;
+    double cold = 0.0, warm = 0.0; ///< milliseconds, the shader module's included
+};
+
+struct Pipelines {
+    std::string cage, scheme;
+    std::vector<PipelineTime> pipelines;
+    double cold = 0.0, warm = 0.0;                     ///< milliseconds, all of them
+    double coldFirstFrame = 0.0, warmFirstFrame = 0.0; ///< submit to end: drivers that compile at first use do it here
+    double coldSecondFrame = 0.0, warmSecondFrame = 0.0; ///< the same of the next frame
+    uint32_t createdWhileRecording = 0;
+};
+
+/// Everything a group of the cage needs, in a context of its own with an empty VkPipelineCache, then in another with
+/// that cache filled.
+[[nodiscard]] Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, const BenchCage& cage,
+                                                 SuppleScheme scheme);
+
+} // namespace supple::bench

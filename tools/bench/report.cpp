@@ -1,0 +1,233 @@
+#include "tools/bench/report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace supple::bench {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Three significant digits, and no exponent: times and ratios of all sizes in one column.
+std::string number(const Json& value) {
+    if (!value.is_number()) {
+        return "";
+    }
+    const double x = value.get<double>();
+    char text[32];
+    std::snprintf(text, sizeof text, x >= 100 ? "%.0f" : x >= 10 ? "%.1f" : x >= 0.1 || x == 0 ? "%.2f" : "%.4f", x);
+    return text;
+}
+
+class Table {
+public:
+    explicit Table(std::vector<std::string> head) { add(std::move(head)); }
+    void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+    [[nodiscard]] bool empty() const { return rows_.size() < 2; }
+
+    /// Columns padded to one width; numbers, which is all but the first `words` columns, to the right.
+    [[nodiscard]] std::string text(size_t words = 1) const {
+        std::vector<size_t> widths(rows_.front().size(), 3);
+        for (const std::vector<std::string>& row : rows_) {
+            for (size_t c = 0; c < row.size(); ++c) {
+                widths[c] = std::max(widths[c], row[c].size());
+            }
+        }
+        std::string out;
+        for (size_t r = 0; r < rows_.size(); ++r) {
+            out += "|";
+            for (size_t c = 0; c < widths.size(); ++c) {
+                const std::string cell = c < rows_[r].size() ? rows_[r][c] : "";
+                const std::string padding(widths[c] - cell.size(), ' ');
+                out += " " + (c < words ? cell + padding : padding + cell) + " |";
+            }
+            out += "\n";
+            if (r == 0) {
+                out += "|";
+                for (size_t c = 0; c < widths.size(); ++c) {
+                    out += std::string(widths[c] + (c < words ? 2 : 1), '-') + (c < words ? "|" : ":|");
+                }
+                out += "\n";
+            }
+        }
+        return out + "\n";
+    }
+
+private:
+    std::vector<std::vector<std::string>> rows_;
+};
+
+std::vector<const Json*> rowsOf(const Json& result, const std::string& cage) {
+    std::vector<const Json*> rows;
+    for (const Json& row : result["rows"]) {
+        if (row["cage"] == cage) {
+            rows.push_back(&row);
+        }
+    }
+    return rows;
+}
+
+/// A column a rate; a line for every name that `list` of any row holds.
+std::string byRate(const std::vector<const Json*>& rows, const char* list, const char* value, const std::string& head) {
+    std::vector<std::string> names, first{head};
+    for (const Json* row : rows) {
+        first.push_back("rate " + row->at("rate").dump());
+        for (const Json& entry : row->at(list)) {
+            if (std::find(names.begin(), names.end(), entry["name"]) == names.end()) {
+                names.push_back(entry["name"]);
+            }
+        }
+    }
+    Table table(first);
+    for (const std::string& name : names) {
+        std::vector<std::string> line{name};
+        bool any = false;
+        for (const Json* row : rows) {
+            std::string cell;
+            for (const Json& entry : row->at(list)) {
+                if (entry["name"] == name) {
+                    cell = number(entry[value]);
+                }
+            }
+            any = any || !cell.empty();
+            line.push_back(cell);
+        }
+        if (any) {
+            table.add(line);
+        }
+    }
+    return table.empty() ? "" : table.text();
+}
+
+std::string cageTables(const Json& result, const std::string& cage) {
+    const std::vector<const Json*> rows = rowsOf(result, cage);
+    std::string out = "## " + cage + ", " + rows.front()->at("faces").dump() + " faces\n\n";
+    out += byRate(rows, "contestants", "cpuNanosecondsPerPoint", "CPU ns a point");
+    out += byRate(rows, "contestants", "wallNanosecondsPerPoint", "wall ns a point");
+    out += byRate(rows, "contestants", "gpuNanosecondsPerPoint", "device timestamps, ns a point");
+    out += byRate(rows, "ratios", "median", "median of the rounds' ratios");
+    for (const Json& refused : rows.front()->at("refused")) {
+        out += refused["scheme"].get<std::string>() + " refuses it: " + refused["reason"].get<std::string>() + "\n\n";
+    }
+    return out;
+}
+
+std::string loadingTable(const Json& result) {
+    Table table({"loading, ms", "asset", "group", "record", "first submit", "second", "us a face", "bytes a face",
+                 "skin", "tables"});
+    for (const Json& one : result["loading"]) {
+        table.add({one["cage"].get<std::string>() + ", " + one["scheme"].get<std::string>(),
+                   number(one["createAssetMs"]), number(one["createGroupMs"]), number(one["recordMs"]),
+                   number(one["firstSubmitMs"]), number(one["secondSubmitMs"]), number(one["untilRecordedUsPerFace"]),
+                   number(one["staticBytesPerFace"]), number(one["deformBytesPerFace"]),
+                   number(one["tableBytesPerFace"])});
+    }
+    return table.empty() ? "" : table.text();
+}
+
+std::string pipelineTables(const Json& result) {
+    Table sums({"pipelines, ms", "count", "created cold", "warm", "first frame cold", "warm", "second frame"});
+    Table each({"scheme", "pipeline", "SPIR-V bytes", "cold ms", "warm ms"});
+    for (const Json& one : result["pipelines"]) {
+        sums.add({one["scheme"].get<std::string>() + " on " + one["cage"].get<std::string>(), number(one["count"]),
+                  number(one["coldMs"]), number(one["warmMs"]), number(one["coldFirstFrameMs"]),
+                  number(one["warmFirstFrameMs"]), number(one["warmSecondFrameMs"])});
+        for (const Json& pipeline : one["pipelines"]) {
+            each.add({one["scheme"], pipeline["name"], pipeline["spirvBytes"].dump(), number(pipeline["coldMs"]),
+                      number(pipeline["warmMs"])});
+        }
+    }
+    return sums.empty() ? "" : sums.text() + each.text(2);
+}
+
+/// A line a target and limit: in how many places it is met, and where the value is worst.
+std::string targetTable(const Json& result) {
+    struct Line {
+        std::string what, limit, note;
+        uint32_t places = 0, met = 0;
+        const Json* worst = nullptr;
+    };
+    std::vector<Line> lines;
+    for (const Json& target : result["targets"]) {
+        const std::string what = target["what"], limit = number(target["limit"]);
+        auto line = std::find_if(lines.begin(), lines.end(),
+                                 [&](const Line& known) { return known.what == what && known.limit == limit; });
+        if (line == lines.end()) {
+            line = lines.insert(line, {what, limit, target.value("note", ""), 0, 0, nullptr});
+        }
+        if (target["value"].is_null()) {
+            continue;
+        }
+        ++line->places;
+        line->met += target["met"] ? 1 : 0;
+        if (line->worst == nullptr || target["value"] > (*line->worst)["value"]) {
+            line->worst = &target;
+        }
+    }
+    Table table({"target", "worst at", "worst", "at most", "met in"});
+    for (const Line& line : lines) {
+        if (line.worst == nullptr) {
+            table.add({line.what, "", "", line.limit, line.note});
+        } else {
+            table.add({line.what, (*line.worst)["where"], number((*line.worst)["value"]), line.limit,
+                       std::to_string(line.met) + " of " + std::to_string(line.places)});
+        }
+    }
+    return table.empty() ? "" : table.text(2);
+}
+
+} // namespace
+
+std::string whyNoResult(const Json& json) {
+    for (const char* key : {"machine", "rounds", "rows", "peers"}) {
+        if (!json.is_object() || !json.contains(key)) {
+            return std::string("has no \"") + key + "\"";
+        }
+    }
+    for (const Json& row : json["rows"]) {
+        if (!row.is_object() || !row.contains("cage") || !row.contains("rate") || !row.contains("ratios")) {
+            return "has a row without cage, rate or ratios";
+        }
+        for (const Json& ratio : row["ratios"]) {
+            const auto isText = [&](const char* key) { return ratio.contains(key) && ratio[key].is_string(); };
+            if (!ratio.is_object() || !isText("name") || !isText("of") || !isText("over") ||
+                !ratio.contains("median") || !ratio["median"].is_number()) {
+                return "has a ratio without name, of, over or median";
+            }
+        }
+    }
+    return "";
+}
+
+std::string toTables(const Json& result) {
+    const Json& machine = result["machine"];
+    const auto text = [](const Json& value) { return value.get<std::string>(); };
+    std::string out = "device  " + text(machine["device"]) + ", " + text(machine["driver"]) + " " +
+                      text(machine["driverInfo"]) + ", " + text(machine["mapping"]) + " mapping\n" + "CPU     " +
+                      text(machine["cpu"]) + ", " + machine["threads"].dump() + " threads\n" + "rounds  " +
+                      result["rounds"].dump() + ", medians; timestamps off but for their own table\n";
+    for (const auto& [name, what] : result["peers"].items()) {
+        out += "peer    " + name + ": " + text(what) + "\n";
+    }
+    for (const Json& one : result["agreement"]) {
+        char difference[64];
+        std::snprintf(difference, sizeof difference, "%.2g (at most %.0e)", one["difference"].get<double>(),
+                      one["bound"].get<double>());
+        out += "agree   " + text(one["what"]) + ": " + difference + "\n";
+    }
+    out += "\n";
+    std::vector<std::string> cages;
+    for (const Json& row : result["rows"]) {
+        if (std::find(cages.begin(), cages.end(), row["cage"]) == cages.end()) {
+            cages.push_back(row["cage"]);
+            out += cageTables(result, cages.back());
+        }
+    }
+    out += "## Loading, pipelines, targets\n\n" + loadingTable(result) + pipelineTables(result) + targetTable(result);
+    return out;
+}
+
+} // namespace supple::bench

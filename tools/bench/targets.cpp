@@ -1,0 +1,86 @@
+#include "tools/bench/targets.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace supple::bench {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+struct RatioTarget {
+    const char* name;
+    const char* cage;  ///< empty: any
+    const char* value; ///< of the rounds: "median" or "largest"
+    double limits[4];  ///< at rates 4, 8, 16, 32; 0: none
+};
+
+constexpr RatioTarget kRatios[] = {
+    {"prep evaluate / AVX2 bi-3", "sphere", "median", {4.7, 4.7, 4.7, 4.7}},
+    {"prep evaluate / AVX2 bi-3", "sphere", "largest", {7.5, 7.5, 7.5, 7.5}},
+    {"prep evaluate / OpenSubdiv CPU, limit stencils", "", "median", {0.10, 0.10, 0.10, 0.10}},
+    {"prep evaluate / OpenSubdiv GLSL, limit stencils", "", "median", {0.04, 0.04, 0.04, 0.04}},
+    {"prep frame / prep evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
+    {"pm frame / pm evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
+    {"catmull-clark frame / catmull-clark evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
+    {"loop frame / loop evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
+    {"blend frame / blend evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
+};
+constexpr uint32_t kRates[] = {4, 8, 16, 32};
+constexpr double kSharedSamplesLimit = 4.0;
+constexpr double kLoadMicrosecondsAFace = 5.0, kStaticBytesAFace = 150.0;
+constexpr double kColdMilliseconds = 500.0, kWarmMilliseconds = 30.0;
+
+} // namespace
+
+Json judge(const Json& result) {
+    Json targets = Json::array();
+    const auto add = [&](const std::string& what, const std::string& where, double value, double limit) {
+        targets.push_back(
+            {{"what", what}, {"where", where}, {"value", value}, {"limit", limit}, {"met", value <= limit}});
+    };
+    if (result.value("cpuDevice", false)) {
+        for (const RatioTarget& target : kRatios) {
+            for (const Json& row : result["rows"]) {
+                for (size_t r = 0; r < std::size(kRates); ++r) {
+                    if (row["rate"] != kRates[r] || target.limits[r] == 0.0 ||
+                        (*target.cage != '\0' && row["cage"] != target.cage)) {
+                        continue;
+                    }
+                    for (const Json& ratio : row["ratios"]) {
+                        if (ratio["name"] == target.name) {
+                            add(ratio["name"].get<std::string>() +
+                                    (std::string(target.value) == "largest" ? ", worst round" : ""),
+                                row["cage"].get<std::string>() + ", rate " + std::to_string(kRates[r]),
+                                ratio[target.value], target.limits[r]);
+                        }
+                    }
+                }
+            }
+        }
+        targets.push_back({{"what", "shared-samples evaluate / AVX2 bi-3"},
+                           {"where", "sphere"},
+                           {"value", nullptr},
+                           {"limit", kSharedSamplesLimit},
+                           {"met", nullptr},
+                           {"note", "not built yet"}});
+    }
+    for (const Json& loading : result["loading"]) {
+        const std::string scheme = loading["scheme"], where = loading["cage"].get<std::string>() + ", " + scheme;
+        add("load until the first frame is recorded, us a face", where, loading["untilRecordedUsPerFace"],
+            kLoadMicrosecondsAFace);
+        if (scheme == "prep" || scheme == "pm") {
+            add("static device data, bytes a face", where, loading["staticBytesPerFace"], kStaticBytesAFace);
+        }
+    }
+    for (const Json& pipelines : result["pipelines"]) {
+        const std::string scheme = pipelines["scheme"];
+        add("pipelines created cold, ms", scheme, pipelines["coldMs"], kColdMilliseconds);
+        add("pipelines created with a warm cache, ms", scheme, pipelines["warmMs"], kWarmMilliseconds);
+        add("pipelines created while recording", scheme, pipelines["createdWhileRecording"], 0.0);
+    }
+    return targets;
+}
+
+} // namespace supple::bench

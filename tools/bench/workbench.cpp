@@ -1,0 +1,131 @@
+#include "tools/bench/workbench.h"
+
+#include "runtime/context.h"
+
+namespace supple::bench {
+
+namespace {
+
+constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+
+} // namespace
+
+struct Workbench::Inside {
+    std::unique_ptr<runtime::Context> context;
+    uint64_t frame = 0;
+
+    [[nodiscard]] runtime::Group& group(SuppleGroup id) const { return *context->groups.find(id.id); }
+};
+
+Workbench::Workbench() : inside_(std::make_unique<Inside>()) {}
+Workbench::~Workbench() = default;
+
+Result<std::unique_ptr<Workbench>> Workbench::create(const SuppleContextDesc& desc) {
+    Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(desc);
+    if (!context) {
+        return context.error();
+    }
+    std::unique_ptr<Workbench> bench(new Workbench);
+    bench->inside_->context = std::move(*context);
+    return bench;
+}
+
+Result<SuppleAsset> Workbench::createAsset(cage::Character character) {
+    Result<uint64_t> asset = inside_->context->createAsset(std::move(character));
+    if (!asset) {
+        return asset.error();
+    }
+    return SuppleAsset{*asset};
+}
+
+Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc) {
+    desc.structSize = sizeof desc;
+    desc.capacity = 1;
+    Result<uint64_t> id = inside_->context->createGroup(desc);
+    if (!id) {
+        return id.error();
+    }
+    const SuppleGroup group{*id};
+    (void)inside_->group(group).slots().create();
+    return group;
+}
+
+void Workbench::destroy(SuppleAsset asset) {
+    inside_->context->assets.remove(asset.id);
+}
+
+void Workbench::destroy(SuppleGroup group) {
+    inside_->context->destroyGroup(group.id);
+}
+
+Status Workbench::recordFrame(SuppleGroup group, VkCommandBuffer commands) {
+    const uint64_t frame = ++inside_->frame;
+    Status status = inside_->context->beginFrame(frame, frame - 1);
+    if (!status) {
+        return status;
+    }
+    SuppleRecordDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.groups = &group;
+    desc.groupCount = 1;
+    desc.before = {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
+    desc.after = {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
+    return inside_->context->record(commands, desc);
+}
+
+void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const {
+    inside_->group(group).recordEvaluate(commands);
+}
+
+void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
+    const runtime::Group& group = inside_->group(id);
+    const auto barrier = [&] { host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite}); };
+    group.recordDeform(commands);
+    barrier();
+    for (const surface::Stage stage : {surface::Stage::vertex, surface::Stage::edge}) {
+        if (group.tables().has(stage)) {
+            group.recordStage(commands, stage);
+            barrier();
+        }
+    }
+    group.recordEvaluate(commands);
+}
+
+const SuppleGroupOutput& Workbench::output(SuppleGroup group) const {
+    return inside_->group(group).output();
+}
+
+uint32_t Workbench::regularPatches(SuppleGroup group) const {
+    uint32_t count = 0;
+    for (const surface::PatchRange& range : inside_->group(group).tables().ranges) {
+        if (range.patchClass == surface::PatchClass::regular && range.firstPatch == count) {
+            count += range.section.count;
+        }
+    }
+    return count;
+}
+
+std::vector<uint32_t> Workbench::patchFaces(SuppleGroup group) const {
+    std::vector<uint32_t> faces;
+    for (const surface::PatchInfo& patch : inside_->group(group).tables().patches) {
+        faces.push_back(patch.face);
+    }
+    return faces;
+}
+
+Workbench::StaticBytes Workbench::staticBytes(SuppleGroup id) const {
+    const runtime::Group& group = inside_->group(id);
+    StaticBytes bytes;
+    bytes.deform = group.asset().buffers.size(0);
+    for (const std::shared_ptr<runtime::SchemeTables>& scheme : group.asset().schemes) {
+        if (&scheme->tables == &group.tables()) {
+            bytes.tables = scheme->buffers.size(0);
+        }
+    }
+    bytes.group = group.output().deviceBytes;
+    return bytes;
+}
+
+} // namespace supple::bench
