@@ -713,6 +713,9 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (desc.view.id != 0 && desc.flags != 0) {
             return refuse(context, ErrorCode::argument, kHere, "a group of a view has the view's flags");
         }
+        if (desc.view.id != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
+            return refuse(context, ErrorCode::argument, kHere, "a cage has no levels of detail");
+        }
         supple::Result<uint64_t> id = context.createGroup(desc);
         if (!id) {
             return report(context, id.error());

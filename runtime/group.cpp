@@ -40,8 +40,11 @@ constexpr uint32_t kVertexPadding = 64;
 constexpr uint32_t kPosePadding = 16;
 constexpr uint32_t kScratchPadding = 16;
 
-surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate) {
+surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View* view) {
     surface::Recipe recipe;
+    recipe.lod = view != nullptr;
+    recipe.attributes = view != nullptr ? (view->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
+                                        : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
     if (desc.scheme != SUPPLE_SCHEME_AUTO) {
         recipe.scheme = static_cast<SchemeId>(desc.scheme);
     }
@@ -58,7 +61,6 @@ surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate) {
         recipe.prep.cornerRule = desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth
                                                                           : surface::prep::CornerRule::sharp;
     }
-    recipe.lod = desc.view.id != 0;
     return recipe;
 }
 
@@ -86,7 +88,8 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     if (desc.scheme == SUPPLE_SCHEME_CAGE) {
         group->scheme_ = std::make_shared<SchemeTables>(); // no patches: every surface pass is empty
     } else {
-        Result<std::shared_ptr<SchemeTables>> scheme = group->asset_->tablesFor(*shared.device, recipeOf(desc, rate));
+        Result<std::shared_ptr<SchemeTables>> scheme =
+            group->asset_->tablesFor(*shared.device, recipeOf(desc, rate, shared.view.get()));
         if (!scheme) {
             return scheme.error();
         }
@@ -128,7 +131,18 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     needs.lod = group->view_ != nullptr;
     needs.attributes = needs.lod ? (group->view_->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
                                  : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
+    if (needs.lod) {
+        const uint32_t flags = group->view_->desc().flags;
+        group->evaluation_.attributeOutputs = ((flags & SUPPLE_VIEW_UVS1) != 0 ? kOutputUvs1 : 0) |
+                                              ((flags & SUPPLE_VIEW_FACE_UVS) != 0 ? kOutputFaceUvs : 0);
+    }
     Status status = shared.surface->prepare(tables, needs);
+    if (status && group->deforms()) {
+        status = shared.deform->prepare(desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION
+                                            ? skinning::SkinningMode::dualQuaternion
+                                            : skinning::SkinningMode::linear,
+                                        group->asset_->firstInfluences != 0);
+    }
     if (status && group->plays()) {
         status = group->asset_->makeClips(*shared.device);
     }

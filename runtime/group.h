@@ -23,7 +23,7 @@ namespace supple::runtime {
 /// What the group borrows from its context.
 struct GroupShared {
     const gpu::Device* device = nullptr;
-    const skinning::DeformPass* deform = nullptr;
+    skinning::DeformPass* deform = nullptr;
     const skinning::PosePass* pose = nullptr; ///< for groups that play on the device
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;

@@ -160,21 +160,25 @@ Result<DeformPass> DeformPass::create(const gpu::Device& device) {
         return layout.error();
     }
     pass.layout_ = std::move(*layout);
+    return pass;
+}
+
+Status DeformPass::prepare(SkinningMode mode, bool morphs) {
     constexpr const char* kNames[2][2] = {
         {"supple deform", "supple deform, morphs"},
         {"supple deform, dual quaternions", "supple deform, dual quaternions, morphs"}};
-    for (uint32_t mode = 0; mode < 2; ++mode) {
-        for (uint32_t morphs = 0; morphs < 2; ++morphs) {
-            const gpu::Constant constants[] = {{kMorphsConstant, morphs}, {kDualQuaternionsConstant, mode}};
-            Result<gpu::PipelineHandle> pipeline =
-                gpu::createComputePipeline(device, pass.layout_, deform_deform_comp, constants, kNames[mode][morphs]);
-            if (!pipeline) {
-                return pipeline.error();
-            }
-            pass.pipelines_[mode][morphs] = std::move(*pipeline);
-        }
+    const auto m = static_cast<uint32_t>(mode), t = uint32_t{morphs};
+    if (pipelines_[m][t].get() != VK_NULL_HANDLE) {
+        return success();
     }
-    return pass;
+    const gpu::Constant constants[] = {{kMorphsConstant, t}, {kDualQuaternionsConstant, m}};
+    Result<gpu::PipelineHandle> pipeline =
+        gpu::createComputePipeline(*device_, layout_, deform_deform_comp, constants, kNames[m][t]);
+    if (!pipeline) {
+        return pipeline.error();
+    }
+    pipelines_[m][t] = std::move(*pipeline);
+    return success();
 }
 
 void DeformPass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,

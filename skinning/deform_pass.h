@@ -45,14 +45,18 @@ struct InstancePose {
 /// pass applies it to the blended vertex, for a blend followed by uneven scale is no blend of scaled joints.
 void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* target);
 
-/// The pipelines of the pass. Output: float4 (x, y, z, 1) a cage vertex, `cageStride` vertices an instance.
+/// The pipelines of the pass, each made when it is first needed. Output: float4 (x, y, z, 1) a cage vertex,
+/// `cageStride` vertices an instance.
 class DeformPass {
 public:
     [[nodiscard]] static Result<DeformPass> create(const gpu::Device& device);
 
+    /// Creates the pipeline of a mode, with or without morph targets, if it is not there.
+    [[nodiscard]] Status prepare(SkinningMode mode, bool morphs);
+
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// Records one dispatch over a window of instances; `set` binds the window's buffers. `push.firstInfluences` as the
-    /// table has it.
+    /// table has it. What it needs must have been prepared.
     void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
                 const shared::DeformPush& push) const;
 

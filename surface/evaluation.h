@@ -31,8 +31,9 @@ struct LodWindow {
 /// What a group evaluates, the same for all its windows.
 struct Evaluation {
     uint32_t rate = 8;
-    uint32_t cageStride = 0;             ///< cage vertices an instance in the deformed cage
-    uint32_t verticesPerInstance = 0;    ///< at least vertexCount(): the stride between instances
+    uint32_t cageStride = 0;          ///< cage vertices an instance in the deformed cage
+    uint32_t verticesPerInstance = 0; ///< at least vertexCount(): the stride between instances
+    uint32_t attributeOutputs = shared::kOutputUvs1 | shared::kOutputFaceUvs; ///< where the tables have them
     std::vector<uint32_t> firstVertices; ///< per patch range: where its vertices begin in an instance
 
     /// Lays out the ranges of `tables` one after the other; returns the vertices of an instance.

@@ -59,6 +59,8 @@ shared::SurfacePush pushFor(const Tables& tables, const Section& section, const 
     push.patchesPerGroup = 1;
     push.uvSets = tables.uvSets;
     push.faceUvs = tables.faceUvs ? 1 : 0;
+    push.outputs = ((tables.uvSets == 2 ? shared::kOutputUvs1 : 0) | (tables.faceUvs ? shared::kOutputFaceUvs : 0)) &
+                   evaluation.attributeOutputs;
     return push;
 }
 

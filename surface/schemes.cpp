@@ -53,6 +53,13 @@ Result<Tables> buildScheme(const Recipe& recipe, const cage::Cage& cage) {
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     Result<Tables> tables = buildScheme(recipe, cage);
+    if (tables && !recipe.attributes && !tables->ranges.empty()) {
+        // They come last (finishTables).
+        tables->words.resize(size_t{4} * tables->ranges.front().attributes);
+        for (PatchRange& range : tables->ranges) {
+            range.attributes = 0;
+        }
+    }
     if (tables && recipe.lod) {
         if (!hasLevels(recipe.scheme)) {
             return Error{ErrorCode::argument, std::string(schemeName(recipe.scheme)) + " has no levels of detail"};

@@ -16,8 +16,9 @@ struct Recipe {
     SchemeId scheme = SchemeId::pm;
     prep::Options prep;
     blend::Options blend;
-    uint32_t rate = 0; ///< segments along an edge of the cage; 0 for schemes whose tables serve all rates
-    bool lod = false;  ///< with what level of detail needs
+    uint32_t rate = 0;      ///< segments along an edge of the cage; 0 for schemes whose tables serve all rates
+    bool attributes = true; ///< with the corner attributes
+    bool lod = false;       ///< with what level of detail needs
 
     bool operator==(const Recipe&) const = default;
 };

@@ -69,8 +69,7 @@ float[5] lodCornerWeights(LodRecord r, uint index) {
 }
 
 void store(uint vertex, uint patchIndex, float w[5]) {
-    bool second = push.uvSets == 2u, face = push.faceUvs != 0u;
-    uint elements = second || face ? 2u : 1u;
+    uint elements = push.uvSets == 2u || push.faceUvs != 0u ? 2u : 1u;
     vec2 uv = vec2(0.0);
     vec4 more = vec4(0.0);
     vec4 color = vec4(0.0);
@@ -82,8 +81,8 @@ void store(uint vertex, uint patchIndex, float w[5]) {
         if (elements == 2u) more += w[k] * uintBitsToFloat(tableElement(element + 1u));
     }
     attributes[vertex] = uvec4(floatBitsToUint(uv), packUnorm2x16(color.xy), packUnorm2x16(color.zw));
-    if (second) uvs1[vertex] = more.xy;
-    if (face) faceUvs[vertex] = more.zw;
+    if ((push.outputs & kOutputUvs1) != 0u) uvs1[vertex] = more.xy;
+    if ((push.outputs & kOutputFaceUvs) != 0u) faceUvs[vertex] = more.zw;
 }
 
 void storeOfRecord(uint index, uint firstSample, uint step) {

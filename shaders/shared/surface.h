@@ -61,6 +61,9 @@ SUPPLE_SHARED_CONST kVertex24 = 1u;       // position, normal
 SUPPLE_SHARED_CONST kVertexPosition = 2u; // position alone, 12 bytes: where a sample was before
 SUPPLE_SHARED_CONST kVertexFormats = 3u;
 
+SUPPLE_SHARED_CONST kOutputUvs1 = 1u;
+SUPPLE_SHARED_CONST kOutputFaceUvs = 2u;
+
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
 
 SUPPLE_SHARED_CONST kPatchStride = 32u;       // elements a patch of any class in the patch-coefficient buffer
@@ -86,6 +89,7 @@ struct SurfacePush {
     uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
     uint uvSets;          // 1 or 2
     uint faceUvs;         // 1 where corners have a place in their face's trim tile
+    uint outputs;         // attributes: kOutputUvs1, kOutputFaceUvs where they are written
     uint firstInstance;   // of the list
     uint firstSlot;       // level of detail: of the window, and
     uint dispatch;        // the view's dispatch (shared/lod.h)

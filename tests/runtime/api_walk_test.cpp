@@ -1,5 +1,6 @@
 // Every function of supple.h with every kind of wrong argument: the result, the one line that says why, and that
 // nothing else has happened: what the call was to fill is as it was, and the next frame has the bits it had.
+#include "runtime/sized.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
 
@@ -54,6 +55,13 @@ public:
         buffered =
             createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_CAGE_BUFFER});
         played = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
+        const SuppleViewDesc viewAsked = viewDesc();
+        for (SuppleView* made : {&view, &staleView}) {
+            EXPECT_EQ(suppleCreateView(handle(), &viewAsked, made), SUPPLE_OK);
+        }
+        EXPECT_EQ(suppleCreateView(foreign.handle(), &viewAsked, &foreignView), SUPPLE_OK);
+        EXPECT_EQ(suppleDestroyView(handle(), staleView), SUPPLE_OK);
+        seen = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_PM, .view = view});
         // And what is gone.
         EXPECT_EQ(createTube(handle(), staleAsset), SUPPLE_OK);
         SmallGroup gone = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE});
@@ -188,6 +196,18 @@ public:
         desc.morphMaskCount = kTargets;
         return desc;
     }
+    [[nodiscard]] static SuppleViewDesc viewDesc() {
+        SuppleViewDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.maxVertices = 4096;
+        return desc;
+    }
+    [[nodiscard]] static SuppleCameraDesc cameraDesc() {
+        SuppleCameraDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.pixelsPerUnit = 800.0f;
+        return desc;
+    }
     [[nodiscard]] SuppleRecordDesc recordDesc() {
         SuppleRecordDesc desc{};
         desc.structSize = sizeof(desc);
@@ -210,7 +230,8 @@ public:
         SuppleAsset asset{};
         SmallGroup main, subdivision;
     } mine, theirs;
-    SmallGroup spare, buffered, played;
+    SmallGroup spare, buffered, played, seen;
+    SuppleView view{}, staleView{}, foreignView{};
     SuppleAsset staleAsset{};
     SuppleGroup staleGroup{};
     SuppleInstance staleInstance{}, instanceOfStaleGroup{};
@@ -264,7 +285,7 @@ public:
             refuse(function, name + " null", SUPPLE_MESSAGE_NULL_POINTER,
                    [=](World& w) { return call(w, Pointer{nullptr}); });
         }
-        for (const size_t size : {size_t{0}, size_t{4}, sizeof(T) - 1}) {
+        for (const size_t size : {size_t{0}, size_t{4}, runtime::kFirstSize<T> - 1}) {
             refuse(function, name + "->structSize " + std::to_string(size), SUPPLE_MESSAGE_STRUCT_SIZE, [=](World& w) {
                 T desc = make(w);
                 desc.structSize = static_cast<uint32_t>(size);
@@ -281,7 +302,7 @@ public:
         const int null = logs ? int{SUPPLE_MESSAGE_NULL_POINTER} : kSilent;
         const int size = logs ? int{SUPPLE_MESSAGE_STRUCT_SIZE} : kSilent;
         refuse(function, "out null", null, [=](World& w) { return call(w, static_cast<T*>(nullptr)); });
-        for (const size_t small : {size_t{0}, size_t{4}, sizeof(T) - 1}) {
+        for (const size_t small : {size_t{0}, size_t{4}, runtime::kFirstSize<T> - 1}) {
             refuse(function, "out->structSize " + std::to_string(small), size,
                    [=](World& w) { return call(w, w.template watched<T>(static_cast<uint32_t>(small))); });
         }
@@ -626,6 +647,139 @@ void assetGetters(Rows& r) {
     mask("value infinite", 0, kInfinity, kJoints);
     mask("value below", 0, -0.01f, kJoints);
     mask("value above", 0, 1.01f, kJoints);
+}
+
+void views(Rows& r) {
+    constexpr const char *kCreate = "suppleCreateView", *kDestroy = "suppleDestroyView", *kCamera = "suppleSetCamera",
+                         *kStatistics = "suppleGetViewStatistics", *kPriority = "suppleSetPriority";
+    constexpr int kRange = SUPPLE_MESSAGE_OUT_OF_RANGE, kFinite = SUPPLE_MESSAGE_NOT_FINITE;
+    const auto create = [](World& w, const SuppleViewDesc* desc) {
+        SuppleView* const out = w.newHandle<SuppleView>();
+        const SuppleResult result = suppleCreateView(w.handle(), desc, out);
+        if (result == SUPPLE_OK) {
+            EXPECT_EQ(suppleDestroyView(w.handle(), *out), SUPPLE_OK);
+        } else {
+            EXPECT_EQ(out->id, 0u);
+        }
+        return result;
+    };
+    r.nullContext(kCreate, [](World& w, SuppleContext c) {
+        const SuppleViewDesc desc = World::viewDesc();
+        return suppleCreateView(c, &desc, w.newHandle<SuppleView>());
+    });
+    r.refuse(kCreate, "out null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        const SuppleViewDesc desc = World::viewDesc();
+        return suppleCreateView(w.handle(), &desc, nullptr);
+    });
+    r.description<SuppleViewDesc>(
+        kCreate, "desc", [](World&) { return World::viewDesc(); }, create);
+    const auto spoiled = [&](const char* what, SuppleResult result, int message, auto spoil) {
+        r.add(kCreate, what, result, message, [=](World& w) {
+            SuppleViewDesc desc = World::viewDesc();
+            spoil(desc);
+            return create(w, &desc);
+        });
+    };
+    using Desc = SuppleViewDesc;
+    constexpr SuppleResult kBad = SUPPLE_ERROR_ARGUMENT;
+    spoiled("flags", kBad, kRange, [](Desc& d) { d.flags = 32; });
+    spoiled("UVS1 alone", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_UVS1; });
+    spoiled("too few vertices", kBad, kRange, [](Desc& d) { d.maxVertices = 1023; });
+    spoiled("vertexFormat", kBad, kRange, [](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(2); });
+    spoiled("elasticity", kBad, kRange, [](Desc& d) { d.elasticities[1] = 1.5f; });
+    spoiled("elasticity NaN", kBad, kRange, [](Desc& d) { d.elasticities[3] = kNan; });
+    spoiled("more than a buffer holds", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
+            [](Desc& d) { d.maxVertices = 0xF0000000u; });
+    spoiled("all flags", SUPPLE_OK, kSilent, [](Desc& d) { d.flags = 31; });
+
+    const auto handles = [&](const char* function, auto call) {
+        r.nullContext(function, [=](World& w, SuppleContext c) { return call(w, c, w.view); });
+        const auto stale = [&](const char* what, auto get) {
+            r.refuse(function, what, SUPPLE_MESSAGE_STALE_HANDLE,
+                     [=](World& w) { return call(w, w.handle(), get(w)); });
+        };
+        stale("zero view", [](World&) { return SuppleView{0}; });
+        stale("stale view", [](World& w) { return w.staleView; });
+        stale("foreign view", [](World& w) { return w.foreignView; });
+        stale("group for view", [](World& w) { return SuppleView{w.mine.main.group.id}; });
+    };
+    handles(kDestroy, [](World&, SuppleContext c, SuppleView v) { return suppleDestroyView(c, v); });
+    handles(kCamera, [](World&, SuppleContext c, SuppleView v) {
+        const SuppleCameraDesc camera = World::cameraDesc();
+        return suppleSetCamera(c, v, &camera);
+    });
+    const auto set = [](World& w, const SuppleCameraDesc* camera) {
+        return suppleSetCamera(w.handle(), w.view, camera);
+    };
+    r.description<SuppleCameraDesc>(
+        kCamera, "camera", [](World&) { return World::cameraDesc(); }, set);
+    const auto wrong = [&](const char* what, int message, auto spoil) {
+        r.refuse(kCamera, what, message, [=](World& w) {
+            SuppleCameraDesc camera = World::cameraDesc();
+            spoil(camera);
+            return set(w, &camera);
+        });
+    };
+    using Camera = SuppleCameraDesc;
+    wrong("flags", kRange, [](Camera& c) { c.flags = 2; });
+    wrong("position NaN", kFinite, [](Camera& c) { c.position[1] = kNan; });
+    wrong("viewProjection infinite", kFinite, [](Camera& c) { c.viewProjection[5] = kInfinity; });
+    wrong("smallestRadius NaN", kFinite, [](Camera& c) { c.smallestRadius = kNan; });
+    wrong("pixelsPerUnit 0", kRange, [](Camera& c) { c.pixelsPerUnit = 0.0f; });
+    wrong("chordError negative", kRange, [](Camera& c) { c.chordError = -1.0f; });
+    wrong("farthest negative", kRange, [](Camera& c) { c.farthest = -1.0f; });
+
+    handles(kStatistics, [](World& w, SuppleContext c, SuppleView v) {
+        return suppleGetViewStatistics(c, v, w.watched<SuppleViewStatistics>(sizeof(SuppleViewStatistics)));
+    });
+    r.output<SuppleViewStatistics>(
+        kStatistics,
+        [](World& w, SuppleViewStatistics* out) { return suppleGetViewStatistics(w.handle(), w.view, out); },
+        SUPPLE_NOT_READY);
+
+    r.instances(
+        kPriority, [](World&, SuppleContext c, SuppleInstance i) { return suppleSetPriority(c, i, 1); }, false,
+        &World::seen);
+    r.accept(kPriority, "highest", [](World& w) { return suppleSetPriority(w.handle(), w.seen.instances[0], 3); });
+    r.refuse(kPriority, "beyond", kRange,
+             [](World& w) { return suppleSetPriority(w.handle(), w.seen.instances[0], SUPPLE_PRIORITY_COUNT); });
+    r.refuse(kPriority, "of a group without a view", SUPPLE_MESSAGE_CONFLICT,
+             [](World& w) { return suppleSetPriority(w.handle(), w.instance(), 1); });
+    // Groups of views.
+    const auto group = [&](const char* what, SuppleResult result, int message, auto spoil) {
+        r.add("suppleCreateGroup", what, result, message, [=](World& w) {
+            SuppleGroupDesc desc = w.groupDesc();
+            desc.scheme = SUPPLE_SCHEME_PM;
+            desc.view = w.view;
+            spoil(w, desc);
+            SuppleGroup* const out = w.newHandle<SuppleGroup>();
+            const SuppleResult given = suppleCreateGroup(w.handle(), &desc, out);
+            if (given == SUPPLE_OK) {
+                EXPECT_EQ(suppleDestroyGroup(w.handle(), *out), SUPPLE_OK);
+            }
+            return given;
+        });
+    };
+    group("of a view", SUPPLE_OK, kSilent, [](World&, SuppleGroupDesc&) {});
+    group("of a stale view", kBad, SUPPLE_MESSAGE_STALE_HANDLE,
+          [](World& w, SuppleGroupDesc& d) { d.view = w.staleView; });
+    group("of a foreign view", kBad, SUPPLE_MESSAGE_STALE_HANDLE,
+          [](World& w, SuppleGroupDesc& d) { d.view = w.foreignView; });
+    group("of a view, with flags", kBad, SUPPLE_MESSAGE_CONFLICT,
+          [](World&, SuppleGroupDesc& d) { d.flags = SUPPLE_GROUP_MOTION; });
+    group("of a view, without levels", kBad, SUPPLE_MESSAGE_CONFLICT,
+          [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CATMULL_CLARK; });
+    group("of a view, the cage alone", kBad, SUPPLE_MESSAGE_CONFLICT,
+          [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CAGE; });
+    r.refuse("suppleSetRate", "of a group of a view", SUPPLE_MESSAGE_CONFLICT,
+             [](World& w) { return suppleSetRate(w.handle(), w.seen.group, 1); });
+    r.refuse("suppleRecord", "a view without a camera", SUPPLE_MESSAGE_OUT_OF_ORDER, [](World& w) {
+        SuppleRecordDesc desc = w.recordDesc();
+        desc.groups = &w.seen.group;
+        desc.groupCount = 1;
+        w.recorded = false;
+        return suppleRecord(w.handle(), w.commands, &desc);
+    });
 }
 
 void groups(Rows& r) {
@@ -1254,6 +1408,7 @@ std::vector<Row> allRows() {
     contexts(r);
     createAsset(r);
     assetGetters(r);
+    views(r);
     groups(r);
     instances(r);
     poses(r);
