@@ -56,12 +56,12 @@ public:
             createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_CAGE_BUFFER});
         played = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
         const SuppleViewDesc viewAsked = viewDesc();
-        for (SuppleView* made : {&view, &staleView}) {
+        for (SuppleView* made : {&view, &blindView, &staleView}) {
             EXPECT_EQ(suppleCreateView(handle(), &viewAsked, made), SUPPLE_OK);
         }
         EXPECT_EQ(suppleCreateView(foreign.handle(), &viewAsked, &foreignView), SUPPLE_OK);
         EXPECT_EQ(suppleDestroyView(handle(), staleView), SUPPLE_OK);
-        seen = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_PM, .view = view});
+        seen = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_PM, .view = blindView});
         // And what is gone.
         EXPECT_EQ(createTube(handle(), staleAsset), SUPPLE_OK);
         SmallGroup gone = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE});
@@ -231,7 +231,7 @@ public:
         SmallGroup main, subdivision;
     } mine, theirs;
     SmallGroup spare, buffered, played, seen;
-    SuppleView view{}, staleView{}, foreignView{};
+    SuppleView view{}, blindView{}, staleView{}, foreignView{}; ///< the blind one gets no camera
     SuppleAsset staleAsset{};
     SuppleGroup staleGroup{};
     SuppleInstance staleInstance{}, instanceOfStaleGroup{};

@@ -426,7 +426,7 @@ typedef struct SuppleViewDesc {
     uint32_t structSize;
     uint32_t flags;       /**< SuppleViewFlags */
     uint32_t maxVertices; /**< surface vertices a frame, of all groups: what memory is kept for. 1024 or more */
-    SuppleVertexFormat vertexFormat;
+    SuppleVertexFormat vertexFormat; /**< of all groups */
     /** By priority, 0..1: what part of the scaling down an instance takes, as the exponent of the factor. 1: all of it,
      * 0: none. All zero: 1, 1/2, 1/4, 0. */
     float elasticities[SUPPLE_PRIORITY_COUNT];
@@ -469,7 +469,7 @@ typedef struct SuppleViewStatistics {
     uint32_t structSize;
     uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and what even
                          * so has no room is missing */
-    uint64_t frame;
+    uint64_t frame; /**< of suppleBeginFrame */
     float
         levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
     uint32_t vertexCount;                   /**< surface vertices written */
@@ -842,10 +842,10 @@ typedef enum SuppleGrid {
  * SuppleGroupOutput.lodPatches[bucket.firstPatch + (vertex - bucket.firstVertex) / samplesPerPatch] with
  * bucket = lodBuckets[index of the draw]. */
 typedef struct SuppleLodDraw {
-    uint32_t material; /**< index among the file's materials, or SUPPLE_NO_MATERIAL */
-    SuppleGrid grid;
-    uint32_t capacity; /**< segments along a side: levels above the capacity before and up to this one */
-    uint32_t samplesPerPatch;
+    uint32_t material;            /**< index among the file's materials, or SUPPLE_NO_MATERIAL */
+    SuppleGrid grid;              /**< how samples are numbered */
+    uint32_t capacity;            /**< segments along a side: levels above the capacity before and up to this one */
+    uint32_t samplesPerPatch;     /**< surface vertices of one patch */
     uint32_t verticesPerInstance; /**< of whole patches; those of the last that are none are points */
 } SuppleLodDraw;
 
@@ -894,7 +894,7 @@ typedef struct SuppleGroupOutput {
      * drawRanges is null, and the draws are these: draw i has the i-th command of `indirect`. A capacity that no patch
      * has draws no instances. */
     const SuppleLodDraw* lodDraws;
-    uint32_t lodDrawCount;
+    uint32_t lodDrawCount; /**< entries of lodDraws and of indirect */
     SuppleBufferView
         lodBuckets; /**< per draw four uint32: first entry of lodPatches, first surface vertex, patches, - */
     SuppleBufferView lodPatches; /**< per patch 64 bytes: uint32 patch (0xFFFFFFFF: none), slot in the low 28 bits,
