@@ -68,17 +68,32 @@ float[5] lodCornerWeights(LodRecord r, uint index) {
     return w;
 }
 
-void store(uint vertex, uint patchIndex, float w[5]) {
+// What a patch has at its corners.
+struct Corners {
+    vec2 uv[5];
+    vec4 color[5];
+    vec4 more[5]; // second UV, face UV
+};
+Corners loadCorners(uint patchIndex) {
+    Corners c;
     uint elements = push.uvSets == 2u || push.faceUvs != 0u ? 2u : 1u;
-    vec2 uv = vec2(0.0);
-    vec4 more = vec4(0.0);
-    vec4 color = vec4(0.0);
     for (uint k = 0u; k < kCorners; ++k) {
         uint element = push.table + elements * (kCorners * patchIndex + k);
         uvec4 corner = tableElement(element);
-        uv += w[k] * uintBitsToFloat(corner.xy);
-        color += w[k] * vec4(unpackUnorm2x16(corner.z), unpackUnorm2x16(corner.w));
-        if (elements == 2u) more += w[k] * uintBitsToFloat(tableElement(element + 1u));
+        c.uv[k] = uintBitsToFloat(corner.xy);
+        c.color[k] = vec4(unpackUnorm2x16(corner.z), unpackUnorm2x16(corner.w));
+        c.more[k] = elements == 2u ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
+    }
+    return c;
+}
+
+void store(uint vertex, Corners c, float w[5]) {
+    vec2 uv = vec2(0.0);
+    vec4 color = vec4(0.0), more = vec4(0.0);
+    for (uint k = 0u; k < kCorners; ++k) {
+        uv += w[k] * c.uv[k];
+        color += w[k] * c.color[k];
+        more += w[k] * c.more[k];
     }
     attributes[vertex] = uvec4(floatBitsToUint(uv), packUnorm2x16(color.xy), packUnorm2x16(color.zw));
     if ((push.outputs & kOutputUvs1) != 0u) uvs1[vertex] = more.xy;
@@ -88,9 +103,10 @@ void store(uint vertex, uint patchIndex, float w[5]) {
 void storeOfRecord(uint index, uint firstSample, uint step) {
     LodRecord r = lodRecord(index);
     if (r.patchIndex == kEmptyRecord) return;
+    Corners corners = loadCorners(r.patchIndex - push.firstPatch);
     uint samples = kRings ? kCorners * (r.capacity + 1u) * (r.capacity + 1u) / 4u : (r.capacity + 1u) * (r.capacity + 1u);
     for (uint k = firstSample; k < samples; k += step)
-        store(r.firstVertex + k, r.patchIndex - push.firstPatch, lodCornerWeights(r, k));
+        store(r.firstVertex + k, corners, lodCornerWeights(r, k));
 }
 
 void main() {
@@ -110,5 +126,5 @@ void main() {
     uint id = invocationIndex();
     if (id >= push.count) return;
     uint patchIndex = id / push.samples;
-    store(push.firstVertex + id, patchIndex, cornerWeights(id - patchIndex * push.samples));
+    store(push.firstVertex + id, loadCorners(patchIndex), cornerWeights(id - patchIndex * push.samples));
 }
