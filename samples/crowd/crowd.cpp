@@ -75,6 +75,7 @@ Crowd::Crowd(const sample::Device& device, const std::array<std::string, kKinds>
         desc.capacity = count / kKinds + 1;
         desc.scheme = kDescs[k].scheme;
         desc.view = view_.handle();
+        desc.poseSource = SUPPLE_POSES_PLAYBACK;
         sample::check(supple::Group::create(context_, desc, kind.group), "suppleCreateGroup");
         sample::check(kind.group.output(kind.output), "suppleGetGroupOutput");
     }
@@ -95,8 +96,19 @@ Crowd::Crowd(const sample::Device& device, const std::array<std::string, kKinds>
         walker.radius = uniform(0.25f, 0.55f);
         walker.angle = uniform(0.0f, 6.2831853f);
         walker.turn = uniform(0.0f, 1.0f) < 0.5f ? -1.0f : 1.0f;
-        walker.phase = static_cast<double>(uniform(0.0f, 1.0f));
-        sample::check(supple::Instance::create(kinds_[walker.kind].group, walker.instance), "suppleCreateInstance");
+        const Kind& kind = kinds_[walker.kind];
+        sample::check(supple::Instance::create(kind.group, walker.instance), "suppleCreateInstance");
+        // Once: from then on the clip runs on the device.
+        SupplePlaybackLayer layer{};
+        layer.clip = kind.clip;
+        layer.flags = SUPPLE_LAYER_LOOP;
+        layer.weight = 1.0f;
+        layer.speed = 1.0f;
+        layer.offset = static_cast<double>(uniform(0.0f, 1.0f)) * kind.duration;
+        auto playback = supple::sized<SupplePlaybackDesc>();
+        playback.layers = &layer;
+        playback.layerCount = kind.clip == SUPPLE_REST_POSE ? 0 : 1;
+        sample::check(walker.instance.setPlayback(playback), "suppleSetPlayback");
     }
 }
 
@@ -105,11 +117,10 @@ void Crowd::beginFrame(uint64_t frame, uint64_t completed) const {
 }
 
 void Crowd::update(double time, const Camera& camera) {
+    for (const Kind& kind : kinds_)
+        sample::check(kind.group.setTime(time), "suppleSetTime");
     for (Walker& walker : walkers_) {
         const Kind& kind = kinds_[walker.kind];
-        const double loops = time / kind.duration + walker.phase;
-        sample::check(walker.instance.setClipPose(kind.clip, (loops - std::floor(loops)) * kind.duration),
-                      "suppleSetClipPose");
         // As far as the feet carry it.
         const double travelled = time / kind.duration * static_cast<double>(kind.stride * kind.size);
         const float angle = walker.angle + walker.turn * static_cast<float>(travelled) / walker.radius;

@@ -30,7 +30,6 @@ struct Walker {
     float radius = 1.0f;
     float angle = 0.0f; ///< at time 0
     float turn = 1.0f;  ///< 1 or -1
-    double phase = 0.0; ///< of its clip
 };
 
 struct Camera {
