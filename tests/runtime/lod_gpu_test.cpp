@@ -1,11 +1,13 @@
 // Level of detail on every character: what two patches share is the same, bit for bit, however far apart their levels
 // and capacities are. Cameras stand in and round the character, so that levels run from 1 to 63 over one surface.
 #include "cage/gltf_reader.h"
+#include "runtime/context.h"
 #include "surface/lod/grid.h"
 #include "surface/schemes.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/spirv_precise.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -183,6 +185,125 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
         EXPECT_GT(edges, 0u);
         EXPECT_EQ(capacities.size(), surface::lod::kCapacities.size());
         EXPECT_GT(scaledFrames, 0u);
+    }
+}
+
+/// Levels of edges as chance would have them, from 1 to 63: 1, odd integers and almost 1 more often. Both sides of an
+/// edge see the same, for the two ends come in as a sum.
+constexpr const char* kRandomEdge = R"(
+    uvec3 ends = floatBitsToUint(x0) + floatBitsToUint(x1);
+    uint h = (ends.x * 0x9E3779B9u) ^ (ends.y * 0x85EBCA6Bu) ^ (ends.z * 0xC2B2AE35u);
+    h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
+    h = (h ^ (h >> 12u)) * 0x297A2D39u;
+    h ^= h >> 15u;
+    if (level > 0.0) {
+        level = exp2(float(h & 0xFFFFu) / 65536.0 * 5.97);
+        uint kind = (h >> 16u) & 7u;
+        if (kind == 0u) level = 1.0;
+        if (kind == 1u) level = 2.0 * floor(0.5 * level) + 1.0;
+        if (kind == 2u) level = 1.000001;
+    }
+    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);)";
+
+/// And capacities up to four octaves above what a patch needs.
+constexpr const char* kRandomCapacity = R"(
+    at = min(at + float((patchIndex * 2654435761u) >> 24u), 895.0);
+    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));)";
+
+TEST(LodRandom, LevelsAndCapacitiesLeaveNoCracks) {
+    ASSERT_NE(testDevice(), nullptr);
+    host::Device& device = *testDevice();
+    const ValidationGuard guard;
+    surface::Shaders shaders = surface::Shaders::embedded();
+    const std::vector<uint32_t> edge = compileEdited(
+        "lod/edge.comp", "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);", kRandomEdge);
+    const std::vector<uint32_t> patch = compileEdited(
+        "lod/patch.comp", "    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));",
+        kRandomCapacity);
+    ASSERT_FALSE(edge.empty() || patch.empty());
+    shaders.lod.edge = edge;
+    shaders.lod.patch = patch;
+    for (const SuppleMapping mapping : {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE}) {
+        SuppleContextDesc contextDesc = host::contextDesc(device);
+        contextDesc.mapping = mapping;
+        Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(contextDesc, shaders);
+        ASSERT_TRUE(context.ok());
+        SuppleViewDesc viewDesc{};
+        viewDesc.structSize = sizeof(viewDesc);
+        viewDesc.maxVertices = 5'000'000;
+        viewDesc.vertexFormat = SUPPLE_VERTEX_24;
+        const Result<uint64_t> view = (*context)->createView(viewDesc);
+        ASSERT_TRUE(view.ok());
+        SuppleCameraDesc camera{};
+        camera.pixelsPerUnit = 800.0f;
+        (*context)->views.find(*view)->setCamera(camera);
+        uint64_t frame = 0;
+        size_t samples = 0, triangles = 0, groups = 0;
+        std::set<uint32_t> capacities;
+        // Both mappings have the same bits (the test above): the repository's own characters do for the second.
+        const std::vector<std::string> paths =
+            mapping == SUPPLE_MAPPING_NARROW ? allCharacters() : filesBelow(SUPPLE_SAMPLE_ASSETS, {".glb"});
+        for (const std::string& path : paths) {
+            for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+                Result<cage::Character> character = cage::readGltfFile(path);
+                ASSERT_TRUE(character.ok());
+                const Result<uint64_t> asset = (*context)->createAsset(std::move(*character));
+                ASSERT_TRUE(asset.ok());
+                SuppleGroupDesc desc{};
+                desc.structSize = sizeof(desc);
+                desc.asset = {*asset};
+                desc.capacity = 1;
+                desc.scheme = scheme;
+                desc.view = {*view};
+                const Result<uint64_t> id = (*context)->createGroup(desc);
+                (void)(*context)->assets.remove(*asset);
+                if (!id.ok()) {
+                    continue; // the test above prints which cages a scheme refuses, and why
+                }
+                runtime::Group& group = *(*context)->groups.find(*id);
+                ASSERT_TRUE(group.slots().create().has_value());
+                const SuppleGroup handle{*id};
+                SuppleRecordDesc record{};
+                record.structSize = sizeof(record);
+                record.groups = &handle;
+                record.groupCount = 1;
+                record.after = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+                ++frame;
+                ASSERT_TRUE((*context)->beginFrame(frame, frame - 1).ok());
+                ASSERT_TRUE(device
+                                .submitAndWait([&](VkCommandBuffer commands) {
+                                    EXPECT_TRUE((*context)->record(commands, record).ok());
+                                })
+                                .ok());
+                std::vector<SupplePatchInfo> patches;
+                for (const surface::PatchInfo& own : group.tables().patches) {
+                    SupplePatchInfo& info = patches.emplace_back();
+                    info.patchClass = static_cast<SupplePatchClass>(own.patchClass);
+                    info.cornerCount = own.cornerCount;
+                    std::copy(own.corners.begin(), own.corners.end(), info.corners);
+                }
+                const LodSurface surface = readLodSurface(device, group.output());
+                const Sides sides = matchSides(surface);
+                const Borders borders = bordersOf(surface, patches);
+                SCOPED_TRACE(path + ", scheme " + std::to_string(scheme));
+                EXPECT_EQ(surface.patches.size(), patches.size());
+                EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
+                EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
+                EXPECT_EQ(sides.looseEnds, 0u);
+                EXPECT_LE(sides.unmatched, borders.open);
+                samples += borders.samples;
+                triangles += sides.triangles;
+                ++groups;
+                for (const LodSurface::Patch& drawn : surface.patches) {
+                    capacities.insert(drawn.capacity);
+                }
+                EXPECT_TRUE((*context)->destroyGroup(*id));
+            }
+        }
+        std::printf("%s: %zu characters and schemes, %zu border samples, %zu triangles, %zu capacities\n",
+                    mappingName(mapping).c_str(), groups, samples, triangles, capacities.size());
+        EXPECT_GE(groups, 2u);
+        EXPECT_EQ(capacities.size(), surface::lod::kCapacities.size());
     }
 }
 

@@ -29,14 +29,25 @@ PositionBits positionsOf(const std::vector<std::byte>& bytes, size_t stride) {
 } // namespace
 
 LodSurface readLodSurface(const Crowd& crowd) {
-    const SuppleGroupOutput output = crowd.output();
+    return readLodSurface(crowd.context().device(), crowd.output());
+}
+
+LodSurface readLodSurface(host::Device& device, const SuppleGroupOutput& output) {
+    const auto read = [&](const SuppleBufferView& view) {
+        if (view.buffer == VK_NULL_HANDLE) {
+            return std::vector<std::byte>();
+        }
+        Result<std::vector<std::byte>> bytes = device.readBuffer(view);
+        EXPECT_TRUE(bytes.ok());
+        return bytes.ok() ? std::move(*bytes) : std::vector<std::byte>(view.size);
+    };
     LodSurface surface;
-    surface.positions = positionsOf(crowd.read(output.surfaceVertices), output.surfaceVertices.stride);
-    surface.previous = positionsOf(crowd.read(output.previousPositions), output.previousPositions.stride);
-    const auto indices = as<uint16_t>(crowd.read(output.gridIndices));
-    const auto commands = as<VkDrawIndexedIndirectCommand>(crowd.read(output.indirect));
-    const auto buckets = as<std::array<uint32_t, 4>>(crowd.read(output.lodBuckets));
-    const auto records = as<std::array<uint32_t, 16>>(crowd.read(output.lodPatches));
+    surface.positions = positionsOf(read(output.surfaceVertices), output.surfaceVertices.stride);
+    surface.previous = positionsOf(read(output.previousPositions), output.previousPositions.stride);
+    const auto indices = as<uint16_t>(read(output.gridIndices));
+    const auto commands = as<VkDrawIndexedIndirectCommand>(read(output.indirect));
+    const auto buckets = as<std::array<uint32_t, 4>>(read(output.lodBuckets));
+    const auto records = as<std::array<uint32_t, 16>>(read(output.lodPatches));
     EXPECT_EQ(commands.size(), output.lodDrawCount);
     for (size_t d = 0; d < commands.size(); ++d) {
         const VkDrawIndexedIndirectCommand& command = commands[d];
@@ -64,15 +75,24 @@ LodSurface readLodSurface(const Crowd& crowd) {
 }
 
 Sides matchSides(const LodSurface& surface) {
-    std::map<std::array<uint32_t, 3>, uint32_t> ids;
-    std::vector<uint32_t> idOf(surface.positions.size());
+    // Vertices of the same bits are one.
+    std::vector<uint32_t> order;
     for (const auto& triangle : surface.triangles) {
-        for (const uint32_t v : triangle) {
-            idOf[v] = ids.try_emplace(surface.positions[v], static_cast<uint32_t>(ids.size())).first->second;
-        }
+        order.insert(order.end(), triangle.begin(), triangle.end());
     }
+    std::sort(order.begin(), order.end());
+    order.erase(std::unique(order.begin(), order.end()), order.end());
+    std::sort(order.begin(), order.end(),
+              [&](uint32_t a, uint32_t b) { return surface.positions[a] < surface.positions[b]; });
+    std::vector<uint32_t> idOf(surface.positions.size());
+    uint32_t ids = 0;
+    for (size_t i = 0; i < order.size(); ++i) {
+        ids += i > 0 && surface.positions[order[i]] != surface.positions[order[i - 1]] ? 1 : 0;
+        idOf[order[i]] = ids;
+    }
+    ++ids;
     Sides sides;
-    std::map<std::pair<uint32_t, uint32_t>, int64_t> counts; // of a side less that of its opposite
+    std::vector<std::pair<uint64_t, int>> directed; // a side as (less, greater), and its direction
     for (const auto& triangle : surface.triangles) {
         const uint32_t v[3] = {idOf[triangle[0]], idOf[triangle[1]], idOf[triangle[2]]};
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
@@ -80,11 +100,20 @@ Sides matchSides(const LodSurface& surface) {
         }
         ++sides.triangles;
         for (int i = 0; i < 3; ++i) {
-            const uint32_t a = v[i], b = v[(i + 1) % 3];
-            counts[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+            const uint32_t from = v[i], to = v[(i + 1) % 3];
+            directed.emplace_back(uint64_t{std::min(from, to)} << 32 | std::max(from, to), from < to ? 1 : -1);
         }
     }
-    std::vector<uint32_t> parent(ids.size());
+    std::sort(directed.begin(), directed.end());
+    std::vector<std::pair<std::pair<uint32_t, uint32_t>, int64_t>> counts; // of a side less that of its opposite
+    for (const auto& [side, direction] : directed) {
+        const std::pair<uint32_t, uint32_t> ends{static_cast<uint32_t>(side >> 32), static_cast<uint32_t>(side)};
+        if (counts.empty() || counts.back().first != ends) {
+            counts.push_back({ends, 0});
+        }
+        counts.back().second += direction;
+    }
+    std::vector<uint32_t> parent(ids);
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](uint32_t x) {
         while (parent[x] != x) {

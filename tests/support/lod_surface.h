@@ -20,6 +20,7 @@ struct LodSurface {
     };
     std::vector<Patch> patches; ///< without the empty records
 };
+[[nodiscard]] LodSurface readLodSurface(host::Device& device, const SuppleGroupOutput& output);
 [[nodiscard]] LodSurface readLodSurface(const Crowd& crowd);
 
 /// Directed sides of triangles of some area that no other triangle has the other way round, by position bits. 0 on a

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <map>
 #include <regex>
@@ -376,23 +377,17 @@ std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> s
     return Walk(spirv, roots).run(positionName, checked);
 }
 
-std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip) {
+namespace {
+
+/// GLSL below a copy of shaders/ that `edit` has changed.
+std::vector<uint32_t> compileCopy(const std::string& path,
+                                  const std::function<void(const std::filesystem::path& shaders)>& edit) {
     namespace fs = std::filesystem;
     const fs::path root = fs::temp_directory_path() / ("supple_precise_" + std::to_string(getpid()));
     fs::remove_all(root);
     fs::create_directories(root);
     fs::copy(fs::path(SUPPLE_SOURCE_DIR) / "shaders", root / "shaders", fs::copy_options::recursive);
-    uint32_t removals = 0;
-    if (!strip.empty()) {
-        for (const auto& entry : fs::recursive_directory_iterator(root / "shaders")) {
-            if (!entry.is_regular_file()) {
-                continue;
-            }
-            const std::string text = readText(entry.path());
-            std::ofstream(entry.path()) << stripped(text, strip, removals);
-        }
-        EXPECT_GT(removals, 0u) << strip << " has no precise to strip";
-    }
+    edit(root / "shaders");
     const fs::path output = root / "out.spv";
     const std::string command = std::string(SUPPLE_GLSLANG_COMMAND) + " --quiet -g -V --target-env vulkan1.3 -I" +
                                 root.string() + " -o " + output.string() + " " + (root / "shaders" / path).string();
@@ -403,6 +398,36 @@ std::vector<uint32_t> compileShader(const std::string& path, const std::string& 
     std::memcpy(words.data(), bytes.data(), words.size() * 4);
     fs::remove_all(root);
     return words;
+}
+
+} // namespace
+
+std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip) {
+    namespace fs = std::filesystem;
+    return compileCopy(path, [&](const fs::path& shaders) {
+        if (strip.empty()) {
+            return;
+        }
+        uint32_t removals = 0;
+        for (const auto& entry : fs::recursive_directory_iterator(shaders)) {
+            if (entry.is_regular_file()) {
+                const std::string text = readText(entry.path());
+                std::ofstream(entry.path()) << stripped(text, strip, removals);
+            }
+        }
+        EXPECT_GT(removals, 0u) << strip << " has no precise to strip";
+    });
+}
+
+std::vector<uint32_t> compileEdited(const std::string& path, const std::string& from, const std::string& to) {
+    return compileCopy(path, [&](const std::filesystem::path& shaders) {
+        std::string text = readText(shaders / path);
+        const size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << path << " has no " << from;
+        ASSERT_EQ(text.find(from, at + 1), std::string::npos);
+        text.replace(at, from.size(), to);
+        std::ofstream(shaders / path) << text;
+    });
 }
 
 } // namespace supple::test

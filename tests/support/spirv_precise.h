@@ -23,4 +23,8 @@ namespace supple::test {
 /// compile (the test fails).
 [[nodiscard]] std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip);
 
+/// The same with a piece of the file replaced, which must stand in it once.
+[[nodiscard]] std::vector<uint32_t> compileEdited(const std::string& path, const std::string& from,
+                                                  const std::string& to);
+
 } // namespace supple::test
