@@ -50,7 +50,7 @@ public:
     /// As Group::transfers, with the first of its groups.
     using Transfers = std::array<VkBufferMemoryBarrier2, 8>;
     [[nodiscard]] uint32_t transfers(Transfers& out) const;
-    /// SUPPLE_NOT_READY: no frame of it has completed.
+    /// False: no frame of it has completed.
     [[nodiscard]] bool statistics(SuppleViewStatistics& out) const;
 
     [[nodiscard]] uint64_t lastRecordedFrame() const { return recordedFrame_; }

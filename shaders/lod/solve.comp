@@ -192,6 +192,7 @@ void main() {
     }
     for (uint run = lane; run < push.runCount; run += gl_WorkGroupSize.x) {
         uint dispatch = lodWords[kLodRuns + run] >> 8u;
+        if (dispatch >= kMaxRuns) continue; // given back by a group that is gone
         if (run > 0u && lodWords[kLodRuns + run - 1u] >> 8u == dispatch) continue;
         uint end = run + 1u;
         while (end < push.runCount && lodWords[kLodRuns + end] >> 8u == dispatch) ++end;

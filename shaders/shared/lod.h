@@ -3,7 +3,7 @@
 // A view has one buffer, of words; what lies where is a constant, so that no pass is told:
 //   patterns      the words of all capacities (surface/lod/pattern.h)
 //   grids         by form and capacity: (first index, index count) of a draw instance
-//   runs          one word a run: form | dispatch << 8. A run is the patches of one class and material of a window of
+//   runs          one word a run: form | dispatch << 8, dispatch from kMaxRuns on where no group has the run. A run is the patches of one class and material of a window of
 //                 instances of a group; a dispatch evaluates the runs of one class, which follow each other
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take

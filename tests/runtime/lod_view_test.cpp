@@ -539,5 +539,52 @@ TEST_P(LodViews, AttributesFollowTheSamples) {
     EXPECT_LE(largest, 1e-5);
 }
 
+TEST_P(LodViews, GroupsComeAndGoAndShareTheView) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 200000);
+    view.look({0.0f, 0.0f, 8.0f});
+    SuppleGroupDesc desc{};
+    desc.asset = context.createAsset(perturbed(cage::makeCubeSphere(2), 0.05f, 3));
+    desc.capacity = 1;
+    desc.view = view.handle();
+    std::vector<std::unique_ptr<Crowd>> crowds;
+    const auto add = [&](SuppleScheme scheme) {
+        desc.scheme = scheme;
+        crowds.push_back(std::make_unique<Crowd>(context, desc));
+        (void)crowds.back()->spawn();
+    };
+    const auto run = [&] {
+        std::vector<SuppleGroup> groups;
+        for (const auto& crowd : crowds) {
+            groups.push_back(crowd->group());
+        }
+        context.run(groups);
+        std::set<uint32_t> firsts; // no two groups write the same vertices
+        size_t patches = 0;
+        for (const auto& crowd : crowds) {
+            const LodSurface surface = readLodSurface(*crowd);
+            EXPECT_EQ(surface.patches.size(), crowd->output().patchCount);
+            EXPECT_EQ(matchSides(surface).unmatched, 0u);
+            for (const LodSurface::Patch& patch : surface.patches) {
+                firsts.insert(patch.firstVertex);
+            }
+            patches += surface.patches.size();
+        }
+        EXPECT_EQ(firsts.size(), patches);
+    };
+    add(SUPPLE_SCHEME_PREP);
+    add(SUPPLE_SCHEME_PM);
+    add(SUPPLE_SCHEME_PREP);
+    run();
+    crowds.erase(crowds.begin() + 1); // leaves a gap among the runs
+    run();
+    add(SUPPLE_SCHEME_PM);
+    add(SUPPLE_SCHEME_PM);
+    run();
+    crowds.erase(crowds.begin(), crowds.begin() + 2);
+    run();
+}
+
 } // namespace
 } // namespace supple::test
