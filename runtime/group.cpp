@@ -299,7 +299,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     }
     buffers_ = std::move(*buffers);
 
-    const Status culling = createCulling();
+    Status culling = createCulling();
     if (!culling) {
         return culling;
     }

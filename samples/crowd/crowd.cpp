@@ -89,10 +89,11 @@ Crowd::Crowd(const sample::Device& device, const std::array<std::string, kKinds>
     constexpr float kSpacing = 1.5f;
     reach_ = 0.5f * kSpacing * static_cast<float>(side);
     for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t column = i % side, row = i / side;
         Walker& walker = walkers_.emplace_back();
         walker.kind = i % kKinds;
-        walker.centre = {kSpacing * (static_cast<float>(i % side) + 0.5f) - reach_,
-                         kSpacing * (static_cast<float>(i / side) + 0.5f) - reach_};
+        walker.centre = {kSpacing * (static_cast<float>(column) + 0.5f) - reach_,
+                         kSpacing * (static_cast<float>(row) + 0.5f) - reach_};
         walker.radius = uniform(0.25f, 0.55f);
         walker.angle = uniform(0.0f, 6.2831853f);
         walker.turn = uniform(0.0f, 1.0f) < 0.5f ? -1.0f : 1.0f;

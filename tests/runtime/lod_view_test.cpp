@@ -340,11 +340,12 @@ TEST_P(LodViews, TheBudgetHolds) {
     Crowd crowd(context, desc);
     ASSERT_TRUE(crowd.valid());
     for (int i = 0; i < 64; ++i) {
+        const int column = i % 8, row = i / 8;
         const SuppleInstance instance = crowd.spawn();
         EXPECT_EQ(suppleSetPriority(context.handle(), instance, i < 3 ? 2 : 0), SUPPLE_OK);
         crowd.pose(instance, SUPPLE_BIND_POSE, 0.0,
-                   glm::translate(glm::mat4(1.0f), glm::vec3(3.0f * static_cast<float>(i % 8) - 10.5f, 0.0f,
-                                                             -3.0f * static_cast<float>(i / 8))));
+                   glm::translate(glm::mat4(1.0f), glm::vec3(3.0f * static_cast<float>(column) - 10.5f, 0.0f,
+                                                             -3.0f * static_cast<float>(row))));
     }
     const auto run = [&](uint32_t budget, float z) {
         view.camera.vertexBudget = budget;
