@@ -45,10 +45,6 @@ std::vector<Curve> borders(const uint32_t* record, Form form) {
 
 } // namespace
 
-bool hasLevels(PatchClass patchClass) {
-    return static_cast<uint32_t>(patchClass) <= shared::kP5Patch;
-}
-
 Form formOf(PatchClass patchClass) {
     switch (patchClass) {
     case PatchClass::p3:
