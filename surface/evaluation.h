@@ -20,6 +20,12 @@ struct Window {
     VkDeviceSize firstArgument = 0;
 };
 
+/// What a dispatch takes an instance: lanes or workgroups, and how many of them a workgroup takes.
+struct DispatchSize {
+    uint32_t elements = 0;
+    uint32_t perGroup = 1;
+};
+
 /// The same for a view's patches.
 struct LodWindow {
     VkDescriptorSet set = VK_NULL_HANDLE;
