@@ -35,6 +35,9 @@ public:
     /// one after the other, each as `lod` lists them; patch ranges r of a window evaluate as dispatch firstRun + r.
     [[nodiscard]] std::optional<uint32_t> takeRuns(const surface::LodTables& lod, uint32_t windows);
     void giveRuns(uint32_t first, uint32_t count);
+    /// The same for groups without runs, of which there may be kMaxRuns, too. False: the view is full.
+    [[nodiscard]] bool takeGroup();
+    void giveGroup() { --groupsWithoutRuns_; }
 
     [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || !cleared_; }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
@@ -90,6 +93,7 @@ private:
     std::vector<uint32_t> hostWords_; ///< up to kLodSolution
     std::vector<bool> takenRuns_;
     uint32_t endOfRuns_ = 0;
+    uint32_t groupsWithoutRuns_ = 0;
     uint32_t forms_ = 0; ///< bits of those that runs have
     bool cleared_ = false;
     bool indicesToRelease_ = false;

@@ -18,6 +18,7 @@ struct Window {
     /// levels.
     VkBuffer arguments = VK_NULL_HANDLE;
     VkDeviceSize firstArgument = 0;
+    bool today = false; ///< previous positions: the set binds today's coefficients in the place of the cage
 };
 
 /// What a dispatch takes an instance: lanes or workgroups, and how many of them a workgroup takes.
@@ -42,8 +43,8 @@ struct Evaluation {
     uint32_t attributeOutputs = shared::kOutputUvs1 | shared::kOutputFaceUvs; ///< where the tables have them
     std::vector<uint32_t> firstVertices; ///< per patch range: where its vertices begin in an instance
 
-    /// Lays out the ranges of `tables` one after the other; returns the vertices of an instance.
-    uint64_t layOut(const Tables& tables);
+    /// Lays out the ranges of `tables` one after the other from `first` on; returns where they end.
+    uint64_t layOut(const Tables& tables, uint64_t first = 0);
 };
 
 } // namespace supple::surface

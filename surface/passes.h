@@ -35,7 +35,8 @@ struct Needs {
     bool motion = false; ///< positions alone as well
     bool patches = false;
     bool attributes = false;
-    bool lod = false; ///< records of a view instead of all patches at a rate
+    bool view = false; ///< the passes that groups of a view share
+    bool lod = false;  ///< records of a view instead of all patches at a rate
 };
 
 /// The pipelines, each created when tables first need it. Recording needs no memory and creates nothing. Between the
@@ -63,6 +64,7 @@ public:
     void recordAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
                           const Evaluation& evaluation) const;
 
+    [[nodiscard]] const kernel::Passes& kernel() const { return kernel_; }
     /// Level of detail: what chooses and places the patches of a view.
     [[nodiscard]] const lod::Passes& lod() const { return lod_; }
     /// As recordEvaluate and recordAttributes, of the patches that a view has placed for this window.

@@ -147,6 +147,8 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
     push.scratchStride = fragments.scratchStride;
     push.verticesPerInstance = evaluation.verticesPerInstance;
     push.samples = sampleCount(fragments.loop ? Domain::triangle : Domain::quad, evaluation.rate);
+    push.firstVertex = evaluation.firstVertices.empty() ? 0 : evaluation.firstVertices.front();
+    push.today = window.today ? 1 : 0;
 
     const size_t stepwise = firstStepwise(fragments);
     uint32_t dispatched = 0;
