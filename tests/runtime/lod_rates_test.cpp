@@ -236,7 +236,10 @@ cage::Cage creased(cage::Cage cage) {
 
 std::vector<RateCase> rateCases() {
     const cage::Cage quads = withUvs(perturbed(cage::makeCubeSphere(2), 0.05f, 3));
-    const cage::Cage mixed = withUvs(perturbed(cage::makeSplitTorus(6, 5), 0.02f, 5));
+    const std::vector<KernelCage>& zoo = kernelZoo();
+    const auto named =
+        std::find_if(zoo.begin(), zoo.end(), [](const KernelCage& z) { return z.name == "mixed, valence 5"; });
+    const cage::Cage mixed = withUvs(named->cage);
     const cage::Cage triangles = withUvs(inTriangles(perturbed(cage::makeCubeSphere(2), 0.05f, 4)));
     std::vector<RateCase> cases{
         {"Catmull-Clark, quads", SUPPLE_SCHEME_CATMULL_CLARK, bodyOf(quads)},
@@ -281,7 +284,8 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
                                    -std::exp2(1.0f + 0.85f * static_cast<float>(i)));
                 twins.pose(i, c.clip, 0.2 * frame, glm::rotate(glm::translate(glm::mat4(1.0f), at), turn, {0, 1, 0}));
             }
-            view.look({0.0f, 0.4f, 4.0f - 0.9f * static_cast<float>(frame)});
+            view.camera.pixelsPerUnit = 250.0f * std::pow(1.8f, static_cast<float>(frame));
+            view.look({0.0f, 0.4f, 2.5f});
             twins.run();
             const Written written = readBack(crowd);
             std::vector<Written> alone;
