@@ -690,7 +690,8 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (!within(desc.scheme, SUPPLE_SCHEME_BLEND) && supple::runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
-        constexpr uint32_t kFlags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION;
+        constexpr uint32_t kFlags =
+            SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION | SUPPLE_GROUP_SHARED_SAMPLES;
         if ((desc.flags & ~kFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
@@ -712,6 +713,9 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         }
         if (desc.view.id != 0 && desc.flags != 0) {
             return refuse(context, ErrorCode::argument, kHere, "a group of a view has the view's flags");
+        }
+        if ((desc.flags & SUPPLE_GROUP_SHARED_SAMPLES) != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
+            return refuse(context, ErrorCode::argument, kHere, "a cage has no samples to share");
         }
         if (desc.view.id != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::argument, kHere, "a cage has no levels of detail");

@@ -13,9 +13,11 @@
 #include "skinning/deform_pass.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
+#include "surface/shared_samples.h"
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace supple::runtime {
@@ -120,10 +122,12 @@ private:
     };
     Status layOutWindows(const SuppleGroupDesc& desc);
     Status createBuffers(const SuppleGroupDesc& desc);
+    Status createStatics(std::span<const std::byte> indices);
     Status createPlayback();
     Status createSets();
     void layOutDraws();
     void fillOutput();
+    [[nodiscard]] size_t drawCount() const;
     [[nodiscard]] VkDeviceSize surfaceBytes() const;    ///< an instance
     [[nodiscard]] VkDeviceSize poseUploadBytes() const; ///< a frame in flight
     [[nodiscard]] VkDeviceSize listUploadBytes() const;
@@ -176,6 +180,7 @@ private:
         uint32_t firstIndex = 0, indexCount = 0;
     };
     std::vector<std::array<Grid, surface::kDomainCount>> grids_; ///< by rate - 1, or the one
+    surface::SharedMesh mesh_; ///< shared samples: until it lies in the staging memory and the draws are laid out
     SuppleGroupOutput output_{};
     std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
     std::vector<SuppleLodDraw> lodDraws_;

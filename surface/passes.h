@@ -24,7 +24,7 @@ struct Shaders {
     std::span<const uint32_t> isolate;
     std::span<const uint32_t> blendChart, blendEvaluate;
     kernel::Passes::Shaders kernel;
-    std::span<const uint32_t> patch, bicubic, attributes;
+    std::span<const uint32_t> patch, bicubic, edge, attributes;
     lod::Passes::Shaders lod;
     [[nodiscard]] static Shaders embedded();
 };
@@ -75,6 +75,7 @@ private:
     [[nodiscard]] Status make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv,
                               std::initializer_list<gpu::Constant> constants, const std::string& name);
     [[nodiscard]] Status makeConstruction(Kernel kernel);
+    [[nodiscard]] Status makeShared(const Tables& tables, const Needs& needs, std::span<const uint32_t> formats);
     void record(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
                 const shared::SurfacePush& push, uint64_t groups) const;
     [[nodiscard]] uint64_t groupsFor(uint64_t lanes) const;
@@ -95,6 +96,10 @@ private:
     std::array<std::array<std::array<gpu::PipelineHandle, 2>, shared::kVertexFormats>, kClasses> evaluate_;
     std::array<std::array<gpu::PipelineHandle, 2>, kClasses> lodEvaluate_[shared::kVertexFormats];
     std::array<gpu::PipelineHandle, kClasses> lodAttributes_;
+    // Shared samples: inside patches, as evaluate_ and attributes_, then those of edges.
+    std::array<std::array<std::array<gpu::PipelineHandle, 2>, shared::kVertexFormats>, kClasses> inside_;
+    std::array<std::array<std::array<gpu::PipelineHandle, 2>, shared::kVertexFormats>, shared::kEdgeKinds> edges_;
+    std::array<gpu::PipelineHandle, kDomainCount + 1> insideAttributes_; ///< the last one: along edges
     kernel::Passes kernel_;
     lod::Passes lod_;
 };

@@ -10,6 +10,7 @@
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/basis.glsl"
+#include "shaders/evaluate/domain.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 #include "shaders/evaluate/bicubic.glsl"
 #include "shaders/surface/cage.glsl"
@@ -139,15 +140,15 @@ void evaluateNarrow() {
     Patch c = loadPatch(record, base, false);
     uvec4 slots = normalSlots(record);
 
-    uint side = push.rate + 1u;
+    uint first = kInterior ? 1u : 0u, end = push.rate + 1u - first;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
-    for (uint j = 0u; j < side; ++j) {
+    for (uint j = first; j < end; ++j) {
         Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
-        for (uint i = 0u; i < side; ++i) {
+        for (uint i = first; i < end; ++i) {
             vec3 position, normal;
             finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
             if (kPolar && j == push.rate) position = c.g[12]; // the apex itself, from every patch round it
-            if (kCornerNormals) normal = cornerNormal(normal, i, j, push.rate, slots, base);
+            if (kCornerNormals && !kInterior) normal = cornerNormal(normal, i, j, push.rate, slots, base);
             storeSurfaceVertex(vertex, position, normal);
             ++vertex;
         }
@@ -238,10 +239,11 @@ void evaluateWide() {
                    instance * push.poolStride, false);
     }
     barrier();
-    uint side = push.rate + 1u, samples = push.samples;
+    uint samples = push.samples;
     for (uint k = gl_LocalInvocationID.x; k < here * samples; k += gl_WorkGroupSize.x) {
         uint place = k / samples, sampleIndex = k - place * samples;
-        uint j = sampleIndex / side, i = sampleIndex - j * side;
+        uvec3 at = gridSample(kQuadDomain, push.rate, sampleIndex);
+        uint i = at.x, j = at.y;
         uint id = first + place;
         uint entry = id / push.count, instance = instanceSlot(entry);
         uint patchIndex = id - entry * push.count;
@@ -250,7 +252,7 @@ void evaluateWide() {
         vec3 position, normal;
         finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
         if (kPolar && j == push.rate) position = c.g[12];
-        if (kCornerNormals)
+        if (kCornerNormals && !kInterior)
             normal = cornerNormal(normal, i, j, push.rate, normalSlots(push.table + patchIndex * recordElements()),
                                   instance * push.poolStride);
         storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples + sampleIndex,

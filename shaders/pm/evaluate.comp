@@ -126,35 +126,37 @@ void finishInRing(Sector s, LodRecord record, uint sector, uint r, uint k, bool 
 uint ringStart(uint r, uint capacity) { return kSides * r * (capacity + 1u - r); }
 uint sideStart(uint r, uint sector, uint capacity) { return ringStart(r, capacity) + sector * (capacity - 2u * r); }
 
-// Grid sample of (k, l) in a sector.
+// Number of the sample (k, l) in a sector.
 uint sampleOf(uint sector, uint k, uint l) {
-    uint rate = push.rate, d = l / kRowStep;
-    if (kClass == kP5Patch)
-        return l == rate ? 5u * (rate * (rate + 1u) / 2u) : sector * (rate * (rate + 1u) / 2u) + rowStart(rate, l) + k;
+    uint rate = push.rate, d = l / kRowStep, less = kInterior ? 1u : 0u;
+    if (kClass == kP5Patch) {
+        uint rows = rate - less, perSector = rows * (rows + 1u) / 2u;
+        return l == rate ? 5u * perSector : sector * perSector + rowStart(rows, l - less) + k;
+    }
     if (kClass == kP4Patch) {
         uvec2 at = sector == 0u ? uvec2(d + k, d) : sector == 1u ? uvec2(rate - d, d + k)
                  : sector == 2u ? uvec2(rate - d - k, rate - d) : uvec2(d, rate - d - k);
-        return at.y * (rate + 1u) + at.x;
+        return (at.y - less) * (rate + 1u - 2u * less) + at.x - less;
     }
     uint w[3] = uint[3](d, d, d); // weights of the corners
     w[sector] += rate - k - l;
     w[(sector + 1u) % 3u] += k;
-    return rowStart(rate + 1u, w[2]) + w[1];
+    return rowStart(rate + 1u - 3u * less, w[2] - less) + w[1] - less;
 }
 
 // The other way: sector and (k, l) of a grid sample. Points on a ray belong to the sector after it, the centre to sector 0.
 uvec3 sectorOf(uint index) {
     uint rate = push.rate;
-    if (kClass == kP5Patch) return pentagonSample(rate, index);
+    uvec3 at = gridSample(kClass == kP5Patch ? kPentagonDomain : kClass == kP4Patch ? kQuadDomain : kTriangleDomain, rate, index);
+    if (kClass == kP5Patch) return at;
     if (kClass == kP4Patch) {
-        uint j = index / (rate + 1u), i = index - j * (rate + 1u);
+        uint i = at.x, j = at.y;
         uint d = min(min(i, j), rate - max(i, j));
         if (j == d && (i < rate - d || 2u * d == rate)) return uvec3(i - d, 2u * d, 0u);
         if (i == rate - d && j < rate - d) return uvec3(j - d, 2u * d, 1u);
         if (j == rate - d && i > d) return uvec3(rate - d - i, 2u * d, 2u);
         return uvec3(rate - d - j, 2u * d, 3u);
     }
-    uvec2 at = triangleSample(rate + 1u, index);
     uint w[3] = uint[3](rate - at.x - at.y, at.x, at.y);
     uint d = min(w[0], min(w[1], w[2]));
     if (3u * d == rate) return uvec3(0u, rate, 0u);
@@ -173,7 +175,7 @@ void evaluateNarrow() {
     for (uint sector = 0u; sector < kSides; ++sector) {
         Sector s = loadSector(record, base, sector, false);
         bool step = (singular & (1u << sector)) != 0u;
-        for (uint l = 0u; l <= push.rate; l += kRowStep) {
+        for (uint l = kInterior ? kRowStep : 0u; l <= push.rate; l += kRowStep) {
             uint end = l < push.rate ? push.rate - l : sector == 0u ? 1u : 0u; // the centre is sector 0's
             for (uint k = 0u; k < end; ++k) {
                 vec3 position, normal;

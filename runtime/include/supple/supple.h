@@ -469,7 +469,7 @@ typedef struct SuppleViewStatistics {
     uint32_t structSize;
     uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and what even
                          * so has no room is missing */
-    uint64_t frame; /**< of suppleBeginFrame */
+    uint64_t frame;     /**< of suppleBeginFrame */
     float
         levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
     uint32_t vertexCount;                   /**< surface vertices written */
@@ -522,7 +522,11 @@ typedef enum SupplePoseSource {
 typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients (for inspection) */
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
-    SUPPLE_GROUP_MOTION = 4      /**< also write where every surface vertex was in the frame before */
+    SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
+    /** Samples that patches share are surface vertices once, and an instance is one indexed mesh. PREP and PM, without
+     * a view. Positions are those of other groups to the bit; along creases, boundaries and, with ATTRIBUTES, seams of
+     * these, each side has vertices of its own. See SuppleDrawRange. */
+    SUPPLE_GROUP_SHARED_SAMPLES = 8
 } SuppleGroupFlags;
 
 /** How a group's surface is made, and for how many instances there is room. */
@@ -555,7 +559,8 @@ SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGro
  * completed (suppleBeginFrame). */
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
 /** Changes the rate from the next suppleRecord on; outputs must be queried anew. At most the rate the group was created
- * with; CATMULL_CLARK, LOOP and BLEND have tables for that rate alone. */
+ * with; CATMULL_CLARK, LOOP and BLEND have tables for that rate alone, SUPPLE_GROUP_SHARED_SAMPLES has indices for it
+ * alone. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
 /** An instance in the bind pose, visible, with the identity transform. SUPPLE_ERROR_LIMIT: the group is full. The slot
@@ -806,16 +811,23 @@ typedef struct SuppleBufferView {
  * POLAR     the same samples; the row j = R is one point, corner 2
  * TRIANGLE  (R+1)(R+2)/2: rows j = 0..R from the edge 0-1 towards corner 2, each i = 0..R-j
  * PENTAGON  5 R(R+1)/2 + 1: for each edge s-(s+1) rows j = 0..R-1 from the edge towards the centre, each i = 0..R-j-1
- * (the row's last point is the next edge's first); then the centre */
+ * (the row's last point is the next edge's first); then the centre
+ * MESH      not one patch's: SUPPLE_GROUP_SHARED_SAMPLES */
 typedef enum SuppleDomain {
     SUPPLE_DOMAIN_QUAD = 0,
     SUPPLE_DOMAIN_POLAR = 1,
     SUPPLE_DOMAIN_TRIANGLE = 2,
-    SUPPLE_DOMAIN_PENTAGON = 3
+    SUPPLE_DOMAIN_PENTAGON = 3,
+    SUPPLE_DOMAIN_MESH = 4
 } SuppleDomain;
 
 /** A run of patches of one domain and material; ranges follow each other without gaps. Draw instance i is patch
- * firstPatch + i % patchCount of the instance in slot SuppleGroupOutput.instances[i / patchCount]. */
+ * firstPatch + i % patchCount of the instance in slot SuppleGroupOutput.instances[i / patchCount].
+ *
+ * SUPPLE_GROUP_SHARED_SAMPLES: all triangles of one material. Draw instance i is the instance in slot instances[i], and
+ * an index is a surface vertex within the instance. To shaders that pull vertices it looks like one big patch:
+ * patchCount is 1, firstVertex 0, samplesPerPatch the group's vertexCount; firstPatch is 0. Indices are uint32, in the
+ * order of the patches of that material (suppleGetPatches), each in the order of its domain's grid in other groups. */
 typedef struct SuppleDrawRange {
     uint32_t firstPatch;
     uint32_t patchCount;
@@ -863,7 +875,8 @@ typedef struct SuppleGroupOutput {
     uint32_t cageVertexCount;         /**< per instance */
     uint32_t cageVerticesPerInstance; /**< >= cageVertexCount: the stride of deformedCage between slots */
     /** Vertex of (slot, patch, sample) with the patch's range r: slot * verticesPerInstance + r.firstVertex +
-     * (patch - r.firstPatch) * r.samplesPerPatch + sample. */
+     * (patch - r.firstPatch) * r.samplesPerPatch + sample. SUPPLE_GROUP_SHARED_SAMPLES: slot * verticesPerInstance +
+     * index. */
     SuppleBufferView surfaceVertices;
     /** With SUPPLE_GROUP_ATTRIBUTES: per surface vertex of one instance, shared by all: float2 uv, linear RGBA in 4 x
      * unorm16. */
@@ -873,7 +886,7 @@ typedef struct SuppleGroupOutput {
     SuppleBufferView deformedCage;
     /** With SUPPLE_GROUP_PATCHES: float4 per coefficient, SUPPLE_PATCH_STRIDE per patch, see SupplePatchInfo. */
     SuppleBufferView patchCoefficients;
-    SuppleBufferView gridIndices; /**< uint16: see SuppleDrawRange */
+    SuppleBufferView gridIndices; /**< uint16, SUPPLE_GROUP_SHARED_SAMPLES: uint32; see SuppleDrawRange */
     SuppleBufferView indirect;    /**< VkDrawIndexedIndirectCommand per draw range, for the visible instances */
     const SuppleDrawRange* drawRanges;
     uint32_t drawRangeCount;
