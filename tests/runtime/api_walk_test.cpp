@@ -771,6 +771,8 @@ void views(Rows& r) {
           [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CATMULL_CLARK; });
     group("of a view, the cage alone", kBad, SUPPLE_MESSAGE_CONFLICT,
           [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CAGE; });
+    group("of a view, with shared samples", kBad, SUPPLE_MESSAGE_CONFLICT,
+          [](World&, SuppleGroupDesc& d) { d.flags = SUPPLE_GROUP_SHARED_SAMPLES; });
     r.refuse("suppleSetRate", "of a group of a view", SUPPLE_MESSAGE_CONFLICT,
              [](World& w) { return suppleSetRate(w.handle(), w.seen.group, 1); });
     r.refuse("suppleRecord", "a view without a camera", SUPPLE_MESSAGE_OUT_OF_ORDER, [](World& w) {
@@ -818,7 +820,7 @@ void groups(Rows& r) {
     using Desc = SuppleGroupDesc;
     range("capacity 0", [](Desc& d) { d.capacity = 0; });
     range("rate 65", [](Desc& d) { d.rate = SUPPLE_MAX_RATE + 1; });
-    range("flags", [](Desc& d) { d.flags = 8; });
+    range("flags", [](Desc& d) { d.flags = 16; });
     range("sharpThreshold negative", [](Desc& d) { d.sharpThreshold = -1.0f; });
     spoiled("sharpThreshold NaN", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NOT_FINITE,
             [](Desc& d) { d.sharpThreshold = kNan; });
@@ -845,6 +847,14 @@ void groups(Rows& r) {
         d.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
         d.flags = SUPPLE_GROUP_PATCHES;
     });
+    for (const SuppleScheme scheme :
+         {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CAGE}) {
+        spoiled("shared samples of scheme " + std::to_string(scheme), SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
+                [=](Desc& d) {
+                    d.scheme = scheme;
+                    d.flags = SUPPLE_GROUP_SHARED_SAMPLES;
+                });
+    }
     spoiled("too many vertices", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT, [](Desc& d) {
         d.scheme = SUPPLE_SCHEME_PM;
         d.rate = 64;
