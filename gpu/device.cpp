@@ -264,6 +264,13 @@ void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScop
     device.vk.CmdPipelineBarrier2(commandBuffer, &dependency);
 }
 
+VkBufferMemoryBarrier2 bufferBarrier(VkBuffer buffer) {
+    VkBufferMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
+    barrier.buffer = buffer;
+    barrier.size = VK_WHOLE_SIZE;
+    return barrier;
+}
+
 void computeBarrier(const Device& device, VkCommandBuffer commandBuffer) {
     constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
     constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;

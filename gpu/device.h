@@ -99,6 +99,8 @@ struct SyncScope {
     VkAccessFlags2 access = 0;
 };
 void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScope before, SyncScope after);
+/// A whole buffer, between two queue families that are to be filled in.
+[[nodiscard]] VkBufferMemoryBarrier2 bufferBarrier(VkBuffer buffer);
 /// What compute shaders wrote before, compute shaders after may read (texel buffers too) and write.
 void computeBarrier(const Device& device, VkCommandBuffer commandBuffer);
 

@@ -167,7 +167,7 @@ Result<BufferViewHandle> createTexelView(const Device& device, VkBuffer buffer, 
     info.buffer = buffer;
     info.format = format;
     info.offset = offset;
-    const VkDeviceSize texelBytes = format == VK_FORMAT_R32_UINT ? 4 : 16;
+    const VkDeviceSize texelBytes = format == VK_FORMAT_R32_UINT ? 4 : format == VK_FORMAT_R32G32_UINT ? 8 : 16;
     info.range = std::min<VkDeviceSize>(range, device.limits.maxTexelBufferElements * texelBytes);
     VkBufferView view = VK_NULL_HANDLE;
     const VkResult result = device.vk.CreateBufferView(device.handle, &info, device.allocator, &view);
@@ -176,6 +176,20 @@ Result<BufferViewHandle> createTexelView(const Device& device, VkBuffer buffer, 
     }
     device.setName(VK_OBJECT_TYPE_BUFFER_VIEW, reinterpret_cast<uint64_t>(view), name);
     return BufferViewHandle(device, view);
+}
+
+VkBufferView TexelViews::make(const Device& device, VkBuffer buffer, VkFormat format, VkDeviceSize offset,
+                              VkDeviceSize range, const char* name, Status& status) {
+    if (!status) {
+        return VK_NULL_HANDLE;
+    }
+    Result<BufferViewHandle> made = createTexelView(device, buffer, format, offset, range, name);
+    if (!made) {
+        status = made.error();
+        return VK_NULL_HANDLE;
+    }
+    views_.push_back(std::move(*made));
+    return views_.back().get();
 }
 
 } // namespace supple::gpu

@@ -80,4 +80,15 @@ private:
 [[nodiscard]] Result<BufferViewHandle> createTexelView(const Device& device, VkBuffer buffer, VkFormat format,
                                                        VkDeviceSize offset, VkDeviceSize range, const char* name);
 
+/// The texel views that some descriptor sets bind.
+class TexelViews {
+public:
+    /// Null where `status` is an error, be it of an earlier call or of this one.
+    [[nodiscard]] VkBufferView make(const Device& device, VkBuffer buffer, VkFormat format, VkDeviceSize offset,
+                                    VkDeviceSize range, const char* name, Status& status);
+
+private:
+    std::vector<BufferViewHandle> views_;
+};
+
 } // namespace supple::gpu

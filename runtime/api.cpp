@@ -662,11 +662,10 @@ SuppleResult suppleGetViewStatistics(SuppleContext handle, SuppleView view, Supp
         if (const auto fault = checkOut(context, kHere, out)) {
             return *fault;
         }
-        SuppleViewStatistics statistics{};
+        SuppleViewStatistics statistics = found.statistics();
         statistics.structSize = sizeof(statistics);
-        const bool ready = found.statistics(statistics);
         supple::runtime::writeSized(statistics, *out);
-        return ready ? SUPPLE_OK : SUPPLE_NOT_READY;
+        return statistics.frame > 0 ? SUPPLE_OK : SUPPLE_NOT_READY;
     });
 }
 

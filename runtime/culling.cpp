@@ -68,13 +68,7 @@ Status Culling::createSets(const Desc& desc) {
     pool_ = std::move(*pool);
     Status status = success();
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
-        Result<gpu::BufferViewHandle> made = gpu::createTexelView(device, buffer, format, offset, size, name);
-        if (!made) {
-            status = made.error();
-            return VkBufferView{};
-        }
-        views_.push_back(std::move(*made));
-        return views_.back().get();
+        return views_.make(device, buffer, format, offset, size, name, status);
     };
     const VkBufferView states =
         view(buffers_.buffer(kStates), VK_FORMAT_R32G32_UINT, 0, buffers_.size(kStates), "supple visibility");

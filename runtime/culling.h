@@ -68,7 +68,7 @@ private:
     std::vector<uint32_t> elements_;
     gpu::BufferSet buffers_;
     gpu::DescriptorPoolHandle pool_;
-    std::vector<gpu::BufferViewHandle> views_;
+    gpu::TexelViews views_;
     std::vector<VkDescriptorSet> sets_; ///< by window
 };
 

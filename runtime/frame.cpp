@@ -96,7 +96,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             Group& group = groupAt(g);
             timing.beginPass();
             const Group::PassCost cost = recordGroup(group);
-            if (cost.bytes > 0) {
+            if (cost.bytes > 0 || cost.onDevice) {
                 timing.endPass(kind, desc.groups[g], cost.points, cost.bytes);
             }
         }
@@ -196,7 +196,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
                     priorities |= groupAt(h).view() == groupAt(g).view() ? groupAt(h).priorities() : 0;
                 }
                 groupAt(g).view()->recordSolve(commandBuffer, surface_.lod(), groupAt(g).anySet(), priorities);
-                timing.endPass(Pass::solve, desc.groups[g], shared::kLodBins, sizeof(shared::LodSolution));
+                timing.endPass(Pass::solve, desc.groups[g], 0, 0);
             }
         }
         device.endLabel(commandBuffer);

@@ -62,7 +62,8 @@ public:
     // The passes of a frame, each recorded without barriers; runtime/frame.cpp puts them in order.
     struct PassCost {
         uint64_t points = 0;
-        uint64_t bytes = 0;
+        uint64_t bytes = 0;    ///< 0: nothing was recorded,
+        bool onDevice = false; ///< or the device alone knows both
     };
     /// Static tables and first-use clears. The caller sees to it that no other thread does the same: the asset's tables
     /// are shared.
@@ -137,6 +138,8 @@ private:
     /// The same with what surface passes are recorded with.
     template <class F>
     void forSurfaceWindows(F&& record) const;
+    /// Of a pass over the visible instances, or where the view culls over those of them that it sees.
+    [[nodiscard]] PassCost costOfSeen(uint64_t points, uint64_t bytes) const;
     [[nodiscard]] shared::LodPush levelPush(const Window& window) const;
     [[nodiscard]] VkDeviceSize levelArguments(const surface::Window& window) const;
     Status createCulling();
@@ -167,7 +170,7 @@ private:
     gpu::BufferSet staging_;    ///< poses; lists and draws: each one run a frame in flight
     gpu::StaticBuffers static_; ///< grid indices
     gpu::DescriptorPoolHandle deformPool_, surfacePool_;
-    std::vector<gpu::BufferViewHandle> views_;
+    gpu::TexelViews views_;
     uint32_t windowSize_ = 0;
     std::vector<Window> windows_;
     std::vector<InstanceSlots::Listed> listed_; ///< by window, of the frame being recorded

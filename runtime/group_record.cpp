@@ -10,7 +10,8 @@ using namespace supple::shared;
 
 bool Group::staticsPending() const {
     return asset_->buffers.uploadPending() || asset_->clips.uploadPending() || scheme_->buffers.uploadPending() ||
-           static_.uploadPending() || (!cleared_ && buffers_.size(kPool) > 0);
+           static_.uploadPending() || (!cleared_ && buffers_.size(kPool) > 0) ||
+           (view_ != nullptr && view_->staticsPending());
 }
 
 VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
@@ -81,7 +82,7 @@ Group::PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
             culls() ? reinterpret_cast<uint32_t*>(staging_.mapped(kCullStaging) + listRun_ * cullUploadBytes())
                     : nullptr;
         if (culls()) {
-            (void)slots_.listForCulling({culled, capacity_});
+            slots_.listForCulling({culled, capacity_});
         }
         visible_ = slots_.list({all, capacity_}, {all + capacity_, capacity_}, windowSize_, listed_);
         if (culls()) {
@@ -133,6 +134,13 @@ void Group::forSurfaceWindows(F&& record) const {
     });
 }
 
+Group::PassCost Group::costOfSeen(uint64_t points, uint64_t bytes) const {
+    if (culls()) {
+        return {0, 0, points > 0 && visible_ > 0};
+    }
+    return {points * visible_, bytes * visible_};
+}
+
 Group::PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
     if (!culls()) {
         return {};
@@ -164,7 +172,7 @@ Group::PassCost Group::recordLodAttributes(VkCommandBuffer commandBuffer) const 
         shared_.surface->recordLodAttributes(commandBuffer, scheme_->tables, lodWindow(window, window.surface[pool_]),
                                              evaluation_);
     });
-    return {0, visible_};
+    return {0, 0, visible_ > 0};
 }
 
 Group::PassCost Group::recordPose(VkCommandBuffer commandBuffer) const {
@@ -201,14 +209,14 @@ Group::PassCost Group::recordStage(VkCommandBuffer commandBuffer, surface::Stage
     forSurfaceWindows([&](const Window&, const surface::Window& window) {
         shared_.surface->recordStage(commandBuffer, stage, scheme_->tables, window, evaluation_);
     });
-    PassCost cost;
+    uint64_t points = 0, coefficients = 0;
     for (const surface::Construction& c : scheme_->tables.constructions) {
         if (c.stage == stage) {
-            cost.points += uint64_t{c.section.count} * visible_;
-            cost.bytes += uint64_t{c.coefficients} * visible_ * kVec4Bytes;
+            points += c.section.count;
+            coefficients += c.coefficients;
         }
     }
-    return cost;
+    return costOfSeen(points, coefficients * kVec4Bytes);
 }
 
 Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
@@ -255,8 +263,8 @@ Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
         shared_.surface->lod().recordEdges(commandBuffer, window, levelArguments(window), levelPush(own));
     });
-    const uint64_t points = uint64_t{scheme_->tables.lod.edges.count} * visible_;
-    return {points, points * sizeof(float)};
+    const uint64_t points = scheme_->tables.lod.edges.count;
+    return costOfSeen(points, points * sizeof(float));
 }
 
 Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
@@ -268,8 +276,8 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
         gpu::computeBarrier(*shared_.device, commandBuffer);
         shared_.surface->lod().recordPatches(commandBuffer, window, levelArguments(window), levelPush(own));
     });
-    const uint64_t points = uint64_t{output_.patchCount} * visible_;
-    return {points, points * kLodPatchLevelWords * sizeof(uint32_t)};
+    const uint64_t points = output_.patchCount;
+    return costOfSeen(points, points * kLodPatchLevelWords * sizeof(uint32_t));
 }
 
 Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
@@ -280,8 +288,8 @@ Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
         gpu::computeBarrier(*shared_.device, commandBuffer);
         shared_.surface->lod().recordPlaces(commandBuffer, window, levelArguments(window), levelPush(own));
     });
-    const uint64_t points = uint64_t{output_.patchCount} * visible_;
-    return {points, points * kLodRecordWords * sizeof(uint32_t)};
+    const uint64_t points = output_.patchCount;
+    return costOfSeen(points, points * kLodRecordWords * sizeof(uint32_t));
 }
 
 Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
@@ -291,7 +299,7 @@ Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
             shared_.surface->recordLodEvaluate(commandBuffer, scheme_->tables, lodWindow(window, window.surface[pool_]),
                                                evaluation_, static_cast<uint32_t>(output_.vertexFormat));
         });
-        return {0, visible_};
+        return {0, 0, visible_ > 0};
     }
     forWindows([&](const Window& window, uint32_t first, const InstanceSlots::Listed& listed) {
         shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {window.surface[pool_], first, listed.count},
@@ -319,7 +327,7 @@ Group::PassCost Group::recordMotion(VkCommandBuffer commandBuffer) const {
                                                lodWindow(window, window.motion[1 - pool_]), evaluation_,
                                                kVertexPosition);
         });
-        return {0, visible_};
+        return {0, 0, visible_ > 0};
     }
     bool first = true;
     const auto evaluate = [&](VkDescriptorSet set, uint32_t from, uint32_t count) {
@@ -347,10 +355,7 @@ uint32_t Group::transfers(Transfers& out) const {
     uint32_t count = 0;
     const auto add = [&](VkBuffer buffer, bool written) {
         if (buffer != VK_NULL_HANDLE && written) {
-            VkBufferMemoryBarrier2& barrier = out[count++];
-            barrier = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-            barrier.buffer = buffer;
-            barrier.size = VK_WHOLE_SIZE;
+            out[count++] = gpu::bufferBarrier(buffer);
         }
     };
     const bool attributes = attributesFrame_ == passesFrame_;

@@ -33,17 +33,7 @@ Status Group::createSets() {
 
     Status status = success();
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
-        VkBufferView created = VK_NULL_HANDLE;
-        if (status) {
-            Result<gpu::BufferViewHandle> result = gpu::createTexelView(device, buffer, format, offset, size, name);
-            if (result) {
-                created = result->get();
-                views_.push_back(std::move(*result));
-            } else {
-                status = result.error();
-            }
-        }
-        return created;
+        return views_.make(device, buffer, format, offset, size, name, status);
     };
     const auto allocate = [&](const gpu::ComputeLayout& layout, const gpu::DescriptorPoolHandle& pool,
                               const char* name) {

@@ -53,7 +53,7 @@ void InstanceSlots::forgetAll() {
     }
 }
 
-uint32_t InstanceSlots::listForCulling(std::span<uint32_t> all) const {
+void InstanceSlots::listForCulling(std::span<uint32_t> all) const {
     uint32_t count = 0;
     for (uint32_t s = 0; s < end_; ++s) {
         if (slots_[s].live && slots_[s].visible) {
@@ -61,7 +61,6 @@ uint32_t InstanceSlots::listForCulling(std::span<uint32_t> all) const {
                            (slots_[s].evaluated ? 0 : shared::kInstanceIsNew);
         }
     }
-    return count;
 }
 
 uint32_t InstanceSlots::list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,

@@ -57,9 +57,8 @@ public:
     /// Both hold capacity() entries. Returns the visible.
     uint32_t list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,
                   std::span<Listed> windows);
-    /// `all` with flags, as culling takes it (shaders/shared/bounds.h); to be called before list(). Returns the
-    /// entries.
-    uint32_t listForCulling(std::span<uint32_t> all) const;
+    /// `all` with flags, as culling takes it (shaders/shared/bounds.h); to be called before list().
+    void listForCulling(std::span<uint32_t> all) const;
 
 private:
     struct Slot {

@@ -111,17 +111,7 @@ Status Playback::createSets(const Desc& desc) {
     pool_ = std::move(*pool);
     Status status = success();
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
-        VkBufferView created = VK_NULL_HANDLE;
-        if (status) {
-            Result<gpu::BufferViewHandle> result = gpu::createTexelView(device, buffer, format, offset, size, name);
-            if (result) {
-                created = result->get();
-                views_.push_back(std::move(*result));
-            } else {
-                status = result.error();
-            }
-        }
-        return created;
+        return views_.make(device, buffer, format, offset, size, name, status);
     };
     const VkBuffer table = asset_->clips.buffer(0), masks = buffers_.buffer(kMasks);
     const VkDeviceSize tableBytes = asset_->clips.size(0), maskBytes = buffers_.size(kMasks);

@@ -92,7 +92,7 @@ private:
     uint64_t uploadFrame_ = 0, masksFrame_ = 0; ///< that last recorded an upload
 
     gpu::BufferSet buffers_, staging_;
-    std::vector<gpu::BufferViewHandle> views_;
+    gpu::TexelViews views_;
     gpu::DescriptorPoolHandle pool_;
     std::vector<VkDescriptorSet> sets_; ///< by window
 };

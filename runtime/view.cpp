@@ -1,6 +1,7 @@
 #include "runtime/view.h"
 
 #include "surface/bounds_pass.h"
+#include "surface/lod/grid.h"
 #include "surface/lod/tables.h"
 
 #include <algorithm>
@@ -70,13 +71,16 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     }
     view->buffers_ = std::move(*buffers);
 
+    view->hostWords_.resize(kLodSolution);
     // The indices of all grids, one after the other.
     std::vector<uint16_t> indices;
     for (uint32_t form = 0; form < kLodForms; ++form) {
         for (uint32_t c = 0; c < kCapacityCount; ++c) {
             const std::vector<uint16_t> own =
                 surface::lod::gridIndices(static_cast<Form>(form), surface::lod::kCapacities[c]);
-            view->grids_[form][c] = {static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(own.size())};
+            uint32_t* const entry = &view->hostWords_[kLodGrids + 2 * (form * kCapacityCount + c)];
+            entry[0] = static_cast<uint32_t>(indices.size());
+            entry[1] = static_cast<uint32_t>(own.size());
             indices.insert(indices.end(), own.begin(), own.end());
         }
     }
@@ -88,16 +92,8 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     }
     view->static_ = std::move(*statics);
 
-    view->hostWords_.resize(kLodSolution);
     const std::vector<uint32_t> patterns = surface::lod::patternWords();
     std::copy(patterns.begin(), patterns.end(), view->hostWords_.begin() + kLodPatterns);
-    for (uint32_t form = 0; form < kLodForms; ++form) {
-        for (uint32_t c = 0; c < kCapacityCount; ++c) {
-            uint32_t* const entry = &view->hostWords_[kLodGrids + 2 * (form * kCapacityCount + c)];
-            entry[0] = view->grids_[form][c].firstIndex;
-            entry[1] = view->grids_[form][c].indexCount;
-        }
-    }
     std::fill_n(view->hostWords_.begin() + kLodRuns, kMaxRuns, kFreeRun);
     view->takenRuns_.resize(kMaxRuns);
     const gpu::BufferRequest staging{"supple view staging", view->uploadBytes() * framesInFlight,
@@ -274,10 +270,7 @@ uint32_t View::transfers(Transfers& out) const {
     uint32_t count = 0;
     const auto add = [&](VkBuffer buffer) {
         if (buffer != VK_NULL_HANDLE) {
-            VkBufferMemoryBarrier2& barrier = out[count++];
-            barrier = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-            barrier.buffer = buffer;
-            barrier.size = VK_WHOLE_SIZE;
+            out[count++] = gpu::bufferBarrier(buffer);
         }
     };
     for (size_t i = 0; i < kBufferCount; ++i) {
@@ -289,13 +282,6 @@ uint32_t View::transfers(Transfers& out) const {
         add(static_.buffer(0));
     }
     return count;
-}
-
-bool View::statistics(SuppleViewStatistics& out) const {
-    const uint32_t structSize = out.structSize;
-    out = newest_;
-    out.structSize = structSize;
-    return newest_.frame > 0;
 }
 
 } // namespace supple::runtime

@@ -6,7 +6,6 @@
 #include "shaders/shared/bounds.h"
 #include "shaders/shared/lod.h"
 #include "supple/supple.h"
-#include "surface/lod/grid.h"
 #include "surface/lod/passes.h"
 #include "surface/scheme.h"
 
@@ -50,8 +49,8 @@ public:
     /// As Group::transfers, with the first of its groups.
     using Transfers = std::array<VkBufferMemoryBarrier2, 8>;
     [[nodiscard]] uint32_t transfers(Transfers& out) const;
-    /// False: no frame of it has completed.
-    [[nodiscard]] bool statistics(SuppleViewStatistics& out) const;
+    /// Of the newest completed frame; frame 0: none has.
+    [[nodiscard]] const SuppleViewStatistics& statistics() const { return newest_; }
 
     [[nodiscard]] uint64_t lastRecordedFrame() const { return recordedFrame_; }
 
@@ -70,13 +69,6 @@ public:
     [[nodiscard]] VkBuffer indices() const { return static_.buffer(0); }
     [[nodiscard]] VkDeviceSize indexBytes() const { return static_.size(0); }
     [[nodiscard]] VkDeviceSize uploadBytes() const;
-    [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes() + static_.deviceBytes(); }
-    struct Grid {
-        uint32_t firstIndex = 0, indexCount = 0;
-    };
-    [[nodiscard]] const Grid& grid(surface::lod::Form form, uint32_t capacityIndex) const {
-        return grids_[static_cast<size_t>(form)][capacityIndex];
-    }
 
 private:
     const gpu::Device* device_ = nullptr;
@@ -89,7 +81,6 @@ private:
     gpu::BufferSet staging_;  ///< the host's part of the words, and the view to cull by, a run a frame in flight
     gpu::BufferSet readback_; ///< solutions, one a frame in flight
     gpu::StaticBuffers static_;
-    std::array<std::array<Grid, shared::kCapacityCount>, shared::kLodForms> grids_;
     std::vector<uint32_t> hostWords_; ///< up to kLodSolution
     std::vector<bool> takenRuns_;
     uint32_t endOfRuns_ = 0;

@@ -16,7 +16,7 @@ namespace supple::surface {
 /// Samples of a domain that lie on none of its edges.
 [[nodiscard]] uint32_t interiorCount(Domain domain, uint32_t rate);
 
-/// Appends the edges to `tables` (Tables::shared); for classes whose borders are cubics (lod::hasLevels). `attributes`:
+/// Appends the edges to `tables` (Tables::shared); for the classes of borders.h. `attributes`:
 /// the tables have corner attributes.
 void appendSharedSamples(Tables& tables, bool attributes);
 

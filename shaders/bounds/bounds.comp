@@ -11,7 +11,6 @@ layout(set = 0, binding = kCullViewBinding, std430) readonly buffer View { CullV
 layout(push_constant) uniform Push { BoundsPush push; };
 
 const float kFloatMax = 3.402823466e38;
-const uint kMaxLanes = 128u; // gpu/mapping.cpp
 shared vec3 lows[kMaxLanes], highs[kMaxLanes];
 shared bool sounds[kMaxLanes];
 

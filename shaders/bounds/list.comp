@@ -10,7 +10,6 @@ layout(set = 0, binding = kListArgumentBinding, std430) writeonly buffer Argumen
 layout(set = 0, binding = kListTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
 layout(push_constant) uniform Push { ListPush push; };
 
-const uint kMaxLanes = 128u; // gpu/mapping.cpp
 shared uvec2 countsOf[kMaxLanes]; // with a past, new
 
 uvec2 state(uint slot) {

@@ -1,6 +1,7 @@
 // Surface attributes: UV sets and color, interpolated between the corners of each patch. No pose changes them: they are
-// evaluated once a group, one invocation a patch sample; with level of detail in every frame, where samples lie then. Output per sample (u, v, linear color as RG and BA in 16-bit unorm: 8 bits would
-// band in the dark), and the second UV set and the face UVs where there are any.
+// evaluated once a group, one invocation a patch sample; with level of detail in every frame, where samples lie then. Output
+// per sample (u, v, linear color as RG and BA in 16-bit unorm: 8 bits would band in the dark), and the second UV set and the
+// face UVs where there are any.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
@@ -37,23 +38,16 @@ float[5] cornerWeights(uint index) {
 
 // The same where a record says that samples lie (surface/lod/grid.h).
 float[5] lodCornerWeights(LodRecord r, uint index) {
-    uint last = r.capacity;
     if (!kRings) {
-        uint j = index / (last + 1u), i = index - j * (last + 1u);
-        LodPattern alongU = lodPattern(j == 0u ? r.pairs[2] : j == last ? r.pairs[4] : r.pairs[0], r.capacityIndex);
-        LodPattern alongV = lodPattern(i == last ? r.pairs[3] : i == 0u ? r.pairs[5] : r.pairs[1], r.capacityIndex);
-        vec2 u = i == 0u ? vec2(0.0, 1.0) : i == last ? vec2(1.0, 0.0) : lodPair(alongU, i, last);
-        vec2 v = j == 0u ? vec2(0.0, 1.0) : j == last ? vec2(1.0, 0.0) : lodPair(alongV, j, last);
+        uint j = index / (r.capacity + 1u), i = index - j * (r.capacity + 1u);
+        vec2 u = lodU(r, i, j), v = lodV(r, i, j);
         if (kDomain == kPolarDomain) return polar(u, v);
         return bilinear(u, v);
     }
-    uint ring = 0u;
-    while (kCorners * (ring + 1u) * (last - ring) <= index) ++ring;
-    uint at = index - kCorners * ring * (last + 1u - ring), side = last - 2u * ring;
-    uint sector = at / side, k = ring + at - sector * side;
-    float t = lodPair(lodPattern(r.pairs[0], r.capacityIndex), ring, last).x;
-    vec2 along = lodPair(lodPattern(ring == 0u ? r.pairs[1u + sector] : r.pairs[0], r.capacityIndex), k, last);
-    vec3 l = vec3(along.y - t, along.x - t, 2.0 * t);
+    vec2 along;
+    RingSample at = ringSample(kCorners, r.capacity, index);
+    uint sector = at.side;
+    vec3 l = ringWeights(r, at, along);
     if (kDomain == kQuadDomain) {
         const vec2 kSquare[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
         vec2 p = l.x * kSquare[sector & 3u] + l.y * kSquare[(sector + 1u) & 3u] + l.z * vec2(0.5);

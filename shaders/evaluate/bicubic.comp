@@ -155,20 +155,6 @@ void evaluateNarrow() {
     }
 }
 
-// Parameters of a sample on a border are the edge's, else the patch's own. At a corner they are 0 and 1 themselves.
-vec2 lodU(LodRecord r, uint i, uint j) {
-    if (i == 0u) return vec2(0.0, 1.0);
-    if (i == r.capacity) return vec2(1.0, 0.0);
-    vec2 level = j == 0u ? r.pairs[2] : j == r.capacity ? r.pairs[4] : r.pairs[0];
-    return lodPair(lodPattern(level, r.capacityIndex), i, r.capacity);
-}
-vec2 lodV(LodRecord r, uint i, uint j) {
-    if (j == 0u) return vec2(0.0, 1.0);
-    if (j == r.capacity) return vec2(1.0, 0.0);
-    vec2 level = i == r.capacity ? r.pairs[3] : i == 0u ? r.pairs[5] : r.pairs[1];
-    return lodPair(lodPattern(level, r.capacityIndex), j, r.capacity);
-}
-
 // A lane a patch. Rows first, the inner ones without their ends: those lie on the borders u = 0 and u = 1, which have
 // levels of their own, and follow one by one.
 void evaluateNarrowLod() {

@@ -20,7 +20,7 @@ uint lodWord(uint i) {
 }
 
 uint capacityOf(uint index) {
-    const uint kCapacities[kCapacityCount] = uint[kCapacityCount](1u, 3u, 5u, 7u, 11u, 15u, 23u, 31u, 47u, 63u);
+    const uint kCapacities[kCapacityCount] = uint[kCapacityCount](SUPPLE_LOD_CAPACITIES);
     return kCapacities[index];
 }
 uint formSides(uint form) { return form == kLodTriangleForm ? 3u : form == kLodPentagonForm ? 5u : 4u; }

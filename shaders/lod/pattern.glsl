@@ -7,7 +7,7 @@ struct LodPattern {
 };
 
 LodPattern lodPattern(vec2 level, uint capacityIndex) {
-    const uint kFirstWords[kCapacityCount] = uint[kCapacityCount](0u, 1u, 3u, 6u, 10u, 16u, 24u, 36u, 52u, 76u);
+    const uint kFirstWords[kCapacityCount] = uint[kCapacityCount](SUPPLE_LOD_FIRST_WORDS);
     uint words = kLodPatterns + kFirstWords[capacityIndex], last = (capacityOf(capacityIndex) - 1u) / 2u;
     uint n = min(uint(level.x), last);
     uint full = lodWord(words + n);

@@ -32,6 +32,46 @@ LodRecord lodRecord(uint index) {
     return r;
 }
 
+// Parameters of a sample on a border are the edge's, else the patch's own. At a corner they are 0 and 1 themselves.
+vec2 lodU(LodRecord r, uint i, uint j) {
+    if (i == 0u) return vec2(0.0, 1.0);
+    if (i == r.capacity) return vec2(1.0, 0.0);
+    vec2 level = j == 0u ? r.pairs[2] : j == r.capacity ? r.pairs[4] : r.pairs[0];
+    return lodPair(lodPattern(level, r.capacityIndex), i, r.capacity);
+}
+vec2 lodV(LodRecord r, uint i, uint j) {
+    if (j == 0u) return vec2(0.0, 1.0);
+    if (j == r.capacity) return vec2(1.0, 0.0);
+    vec2 level = i == r.capacity ? r.pairs[3] : i == 0u ? r.pairs[5] : r.pairs[1];
+    return lodPair(lodPattern(level, r.capacityIndex), j, r.capacity);
+}
+
+// A sample of a ring grid (surface/lod/grid.h): its ring, the side of it, and the place along the side, counted from the
+// patch's corner.
+struct RingSample {
+    uint ring, side, k;
+};
+// Samples before a ring of a patch of m sides, and before a side of the ring.
+uint ringStart(uint m, uint ring, uint capacity) { return m * ring * (capacity + 1u - ring); }
+uint ringSideStart(uint m, uint ring, uint side, uint capacity) {
+    return ringStart(m, ring, capacity) + side * (capacity - 2u * ring);
+}
+RingSample ringSample(uint m, uint capacity, uint index) {
+    uint ring = 0u;
+    while (ringStart(m, ring + 1u, capacity) <= index) ++ring;
+    uint at = index - ringStart(m, ring, capacity), each = capacity - 2u * ring, side = at / each;
+    return RingSample(ring, side, ring + at - side * each);
+}
+// Weights of corner `side`, of the next corner and of the centre; `along`: the pair along the ring's side, on the border
+// the edge's own.
+vec3 ringWeights(LodRecord r, RingSample s, out vec2 along) {
+    vec2 level = s.ring == 0u ? r.pairs[1u + s.side] : r.pairs[0];
+    along = lodPair(lodPattern(level, r.capacityIndex), s.k, r.capacity);
+    float t = lodPair(lodPattern(r.pairs[0], r.capacityIndex), s.ring, r.capacity).x;
+    precise vec3 w = vec3(along.y - t, along.x - t, 2.0 * t);
+    return w;
+}
+
 // The record of a lane, in the narrow mapping. Idle lanes repeat the last.
 uint lodRecordOfLane() {
     uint at = kLodDispatches + 8u * push.dispatch;

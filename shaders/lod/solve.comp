@@ -11,10 +11,8 @@
 
 layout(push_constant) uniform Push { LodSolvePush push; };
 
-const uint kMaxLanes = 128u; // gpu/mapping.cpp
 shared uint sumHigh[kMaxLanes], sumLow[kMaxLanes];
 shared uint counts[kMaxRuns * kCapacityCount];
-
 
 // The smallest capacity that patches of a bin, and of the one below it, fit into when levels are scaled by
 // 2^(-scaled / kBinsPerOctave). A sixteenth of a bin guards the rounding of log2 and exp2.

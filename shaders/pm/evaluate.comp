@@ -112,19 +112,12 @@ void finishAtRate(Sector s, uint k, uint l, bool singular, out vec3 position, ou
     finish(s, w, l == 0u, second, singular && k == 0u && l == 0u, position, normal);
 }
 
-// The sample k of ring r of a sector, at levels of detail.
-void finishInRing(Sector s, LodRecord record, uint sector, uint r, uint k, bool singular, out vec3 position,
-                  out vec3 normal) {
-    vec2 level = r == 0u ? record.pairs[1u + sector] : record.pairs[0];
-    vec2 along = lodPair(lodPattern(level, record.capacityIndex), k, record.capacity);
-    float t = lodPair(lodPattern(record.pairs[0], record.capacityIndex), r, record.capacity).x;
-    precise vec3 w = vec3(along.y - t, along.x - t, 2.0 * t);
-    finish(s, w, r == 0u, along, singular && r == 0u && k == 0u, position, normal);
+// A sample of a sector at levels of detail.
+void finishInRing(Sector s, LodRecord r, RingSample at, bool singular, out vec3 position, out vec3 normal) {
+    vec2 along;
+    vec3 w = ringWeights(r, at, along);
+    finish(s, w, at.ring == 0u, along, singular && at.ring == 0u && at.k == 0u, position, normal);
 }
-
-// Samples before ring r, and before a side of it (surface/lod/grid.h).
-uint ringStart(uint r, uint capacity) { return kSides * r * (capacity + 1u - r); }
-uint sideStart(uint r, uint sector, uint capacity) { return ringStart(r, capacity) + sector * (capacity - 2u * r); }
 
 // Number of the sample (k, l) in a sector.
 uint sampleOf(uint sector, uint k, uint l) {
@@ -190,7 +183,7 @@ void evaluateNarrowLod() {
     LodRecord r = lodRecord(lodRecordOfLane());
     uint last = r.capacity, rings = (last + 1u) / 2u;
     if (r.patchIndex == kEmptyRecord) {
-        uint samples = ringStart(rings, last);
+        uint samples = ringStart(kSides, rings, last);
         for (uint k = 0u; k < samples; ++k) storeSurfaceVertex(r.firstVertex + k, vec3(0.0), vec3(0.0));
         return;
     }
@@ -200,10 +193,10 @@ void evaluateNarrowLod() {
         Sector s = loadSector(record, base, sector, r.isNew);
         bool step = (singular & (1u << sector)) != 0u;
         for (uint ring = 0u; ring < rings; ++ring) {
-            uint vertex = r.firstVertex + sideStart(ring, sector, last);
+            uint vertex = r.firstVertex + ringSideStart(kSides, ring, sector, last);
             for (uint k = ring; k < last - ring; ++k) {
                 vec3 position, normal;
-                finishInRing(s, r, sector, ring, k, step, position, normal);
+                finishInRing(s, r, RingSample(ring, sector, k), step, position, normal);
                 storeSurfaceVertex(vertex, position, normal);
                 ++vertex;
             }
@@ -271,13 +264,9 @@ void evaluateWideLod() {
         LodRecord r = lodRecord(share.firstRecord + place);
         vec3 position = vec3(0.0), normal = vec3(0.0);
         if (r.patchIndex != kEmptyRecord) {
-            uint ring = 0u;
-            while (ringStart(ring + 1u, r.capacity) <= sampleIndex) ++ring;
-            uint side = r.capacity - 2u * ring, at = sampleIndex - ringStart(ring, r.capacity);
-            uint sector = at / side, k = ring + at - sector * side;
+            RingSample at = ringSample(kSides, r.capacity, sampleIndex);
             uint singular = tableElement(push.table + kSides * (r.patchIndex - push.firstPatch) + 1u).w;
-            finishInRing(sharedSector(place * kSides + sector), r, sector, ring, k, (singular & (1u << sector)) != 0u,
-                         position, normal);
+            finishInRing(sharedSector(place * kSides + at.side), r, at, (singular & (1u << at.side)) != 0u, position, normal);
         }
         storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
     }

@@ -32,6 +32,9 @@ SUPPLE_SHARED_CONST kLodBinding = 17u;
 SUPPLE_SHARED_CONST kLodTexelBinding = 18u;
 
 SUPPLE_SHARED_CONST kCapacityCount = 10u;
+// Capacities, and where the words of their patterns begin, (capacity + 1) / 2 each.
+#define SUPPLE_LOD_CAPACITIES 1u, 3u, 5u, 7u, 11u, 15u, 23u, 31u, 47u, 63u
+#define SUPPLE_LOD_FIRST_WORDS 0u, 1u, 3u, 6u, 10u, 16u, 24u, 36u, 52u, 76u
 SUPPLE_SHARED_CONST kPriorityCount = 4u;
 SUPPLE_SHARED_CONST kMaxRuns = 256u; // of a view, and dispatches
 

@@ -3,6 +3,8 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const bool kWide = false;        // many lanes a patch, storage-buffer loads
 layout(constant_id = 2) const bool kExactDivision = false; // the device rounds k / rate correctly
 
+const uint kMaxLanes = 128u; // of gl_WorkGroupSize.x: gpu/mapping.cpp
+
 // Linear invocation and workgroup indices of a dispatch that was split at the device's limit of groups in x.
 uint workgroupIndex() { return gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x; }
 uint invocationIndex() { return workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }

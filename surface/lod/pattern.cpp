@@ -12,6 +12,17 @@ constexpr uint32_t pairsOf(uint32_t capacity) {
     return (capacity - 1) / 2;
 }
 
+constexpr bool firstWordsFollow() {
+    uint32_t next = 0;
+    bool follow = true;
+    for (size_t c = 0; c < kFirstPatternWords.size(); ++c) {
+        follow = follow && kFirstPatternWords[c] == next;
+        next += pairsOf(kCapacities[c]) + 1;
+    }
+    return follow && next == shared::kPatternWordCount;
+}
+static_assert(firstWordsFollow());
+
 constexpr uint32_t kMostPairs = pairsOf(kCapacities.back());
 
 /// Rank in the order of birth of segment j from the corner, where all 32 had one: the bits of j reversed, so that each
@@ -86,14 +97,6 @@ std::vector<uint32_t> patternWords() {
         }
     }
     return words;
-}
-
-uint32_t firstPatternWord(uint32_t capacityIndex) {
-    uint32_t first = 0;
-    for (uint32_t c = 0; c < capacityIndex; ++c) {
-        first += pairsOf(kCapacities[c]) + 1;
-    }
-    return first;
 }
 
 } // namespace supple::surface::lod

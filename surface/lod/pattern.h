@@ -17,7 +17,7 @@ namespace supple::surface::lod {
 inline constexpr float kMaxLevel = 63.0f;
 
 /// Capacities that grids come in, rising.
-inline constexpr std::array<uint32_t, shared::kCapacityCount> kCapacities{1, 3, 5, 7, 11, 15, 23, 31, 47, 63};
+inline constexpr std::array<uint32_t, shared::kCapacityCount> kCapacities{SUPPLE_LOD_CAPACITIES};
 
 /// Index of the smallest capacity that is not below `level` (1..63).
 [[nodiscard]] uint32_t capacityIndexFor(float level);
@@ -40,7 +40,7 @@ struct Parameter {
 /// Words of all capacities, one run after the other: for h = (capacity - 1) / 2 the words n = 0..h, whose bit j is set
 /// where the j-th segment from the corner is among the n born first.
 [[nodiscard]] std::vector<uint32_t> patternWords();
-/// Where the words of a capacity begin.
-[[nodiscard]] uint32_t firstPatternWord(uint32_t capacityIndex);
+/// Where the words of each capacity begin.
+inline constexpr std::array<uint32_t, shared::kCapacityCount> kFirstPatternWords{SUPPLE_LOD_FIRST_WORDS};
 
 } // namespace supple::surface::lod

@@ -9,10 +9,6 @@
 
 namespace supple::surface::lod {
 
-bool hasLevels(PatchClass patchClass) {
-    return static_cast<uint32_t>(patchClass) <= shared::kP5Patch;
-}
-
 Form formOf(PatchClass patchClass) {
     switch (patchClass) {
     case PatchClass::p3:

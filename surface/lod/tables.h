@@ -7,7 +7,6 @@
 namespace supple::surface::lod {
 
 /// The form of a class of patches; only those whose borders are cubics have one.
-[[nodiscard]] bool hasLevels(PatchClass patchClass);
 [[nodiscard]] Form formOf(PatchClass patchClass);
 
 /// Appends edges and patches to `tables` (Tables::lod), as shaders/shared/lod.h has them. Edges are found by the

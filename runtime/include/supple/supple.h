@@ -778,8 +778,8 @@ typedef struct SuppleRecordDesc {
 } SuppleRecordDesc;
 
 /** Records the passes of the groups, outside a render pass, for the visible instances as they are set now. Between
- * suppleBeginFrame calls each group once. What is recorded must be submitted, once, in the order of recording on one
- * queue (suppleCancelFrame otherwise). Fails whole: nothing is recorded then. */
+ * suppleBeginFrame calls each group once, all groups of a view in one call. What is recorded must be submitted, once,
+ * in the order of recording on one queue (suppleCancelFrame otherwise). Fails whole: nothing is recorded then. */
 SUPPLE_API SuppleResult suppleRecord(SuppleContext context, VkCommandBuffer commandBuffer,
                                      const SuppleRecordDesc* desc);
 
@@ -954,14 +954,14 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
     const char* pass;  /**< static: upload, attributes, pose, deform, vertex, edge (P_m: its facets), patch, evaluate,
-                        * motion; groups of a  view also level, solve (once a view), place */
+                        * motion; groups of a view also bounds, level (twice), solve (once a view), place */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */
     double gpuEnd;
     double cpuRecord; /**< nanoseconds the host spent recording the pass */
-    uint64_t points;  /**< elements the pass wrote */
-    uint64_t bytes;   /**< bytes the pass wrote */
+    uint64_t points;  /**< elements the pass wrote, and bytes; both 0 where the device alone knows, as in groups of a */
+    uint64_t bytes;   /**< view: SuppleViewStatistics has what the whole view wrote */
 } SuppleTiming;
 
 /** The passes of the newest completed frame recorded with SUPPLE_RECORD_TIMINGS. Never blocks: SUPPLE_NOT_READY when
