@@ -142,17 +142,19 @@ void evaluateNarrow() {
 
     uint first = kInterior ? 1u : 0u, end = push.rate + 1u - first;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
-    for (uint j = first; j < end; ++j) {
+    uint j = first;
+    do {
         Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
-        for (uint i = first; i < end; ++i) {
+        uint i = first;
+        do {
             vec3 position, normal;
             finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
             if (kPolar && j == push.rate) position = c.g[12]; // the apex itself, from every patch round it
             if (kCornerNormals && !kInterior) normal = cornerNormal(normal, i, j, push.rate, slots, base);
             storeSurfaceVertex(vertex, position, normal);
             ++vertex;
-        }
-    }
+        } while (++i < end);
+    } while (++j < end);
 }
 
 // A lane a patch. Rows first, the inner ones without their ends: those lie on the borders u = 0 and u = 1, which have

@@ -59,7 +59,10 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     std::unique_ptr<FigureGroup> group(new FigureGroup(figure));
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
-    desc.flags = SUPPLE_GROUP_ATTRIBUTES | (options.sharedSamples ? SUPPLE_GROUP_SHARED_SAMPLES : 0u);
+    desc.flags = SUPPLE_GROUP_ATTRIBUTES;
+    if (options.sharedSamples) {
+        desc.flags |= SUPPLE_GROUP_SHARED_SAMPLES;
+    }
     desc.asset = figure.asset();
     desc.capacity = options.instances;
     desc.scheme = options.scheme;
