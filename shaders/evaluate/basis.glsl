@@ -28,6 +28,9 @@ vec4 bernsteinDerivative3(vec2 pair) {
     return vec4(-3.0 * ss, 3.0 * ss - 6.0 * ts, 6.0 * ts - 3.0 * tt, 3.0 * tt);
 }
 
+// The derivative of a cubic is a quadratic of the differences of its coefficients.
+vec3 derivativeWeights3(vec2 pair) { return vec3(3.0 * (pair.y * pair.y), 6.0 * (pair.x * pair.y), 3.0 * (pair.x * pair.x)); }
+
 struct Basis5 {
     vec4 outer; // B0, B1, B4, B5
     vec2 inner; // B2, B3
@@ -62,4 +65,5 @@ vec3 sum2(vec2 w, vec3 a, vec3 b) {
 
 // The same sums for derivatives. They feed normals only, so the compiler may arrange them as it likes.
 vec3 blend4(vec4 w, vec3 a, vec3 b, vec3 c, vec3 d) { return (w.x * a + w.w * d) + (w.y * b + w.z * c); }
+vec3 blend3(vec3 w, vec3 a, vec3 b, vec3 c) { return w.x * a + w.y * b + w.z * c; }
 vec3 blend2(vec2 w, vec3 a, vec3 b) { return w.x * a + w.y * b; }
