@@ -24,8 +24,7 @@ struct Edge {
     vec3 along[3];
     vec3 across[4];
     vec3 h[4];        // perturbation: h20 h30 on the border, h21 h31 beside it
-    bool stored;      // the normal of the beginning, where kCornerNormals or kMixed say that there may be one:
-    vec3 firstNormal;
+    vec3 firstNormal; // of the beginning, where a perturbation vanishes
 };
 
 vec3 placed(vec3 corner, vec3 offset) {
@@ -42,8 +41,7 @@ Edge loadEdge(uint record, uvec4 own, uint base) {
     vec3 chord = v1 - v0;
     e.along = vec3[3](t0, chord + t1 - t0, -t1);
     e.across = vec3[4](q0, q1 - t0, q2 - t1, q3);
-    e.stored = false;
-    e.firstNormal = vec3(0.0);
+    vec3 firstNormal = cross(t0, q0); // outwards
     if (kMixed) {
         vec3 a[4] = e.across;
         // Towards the apex of a polar patch the derivative across has the factor that is the distance to it: without it,
@@ -59,20 +57,18 @@ Edge loadEdge(uint record, uvec4 own, uint base) {
             e.across = vec3[4](0.75 * ray * (t0 + q0), q1 - 0.75 * t0, q2 + 0.5 * (chord - (t0 + t1)),
                                0.75 * (ray * (t1 + q3) - t1));
         }
+        firstNormal = cross(e.along[0], e.across[0]);
         if ((own.z & kSingularEdge) != 0u) {
             // The tangents are parallel at the beginning: the limit of the normals on the way to the middle.
             float ray = sides == 3u ? 1.0 / 3.0 : sides == 4u ? 0.5 : 0.7236067977499790;
             vec3 last121 = poolVector(base + own.w), first = 0.75 * t0, second = e.across[0];
             vec3 firstStep = -2.0 * first + (0.5 * (chord + t1) - 0.25 * t0) + (q1 - second);
             vec3 secondStep = -2.0 * second + (q1 - first) + ray * (q1 + last121 - 2.0 * second);
-            e.stored = true;
-            e.firstNormal = unitNormal(cross(firstStep, second) + cross(first, secondStep));
+            firstNormal = cross(firstStep, second) + cross(first, secondStep);
         }
     }
-    if (kCornerNormals && (own.z & kStoredNormalEdge) != 0u) {
-        e.stored = true;
-        e.firstNormal = unitNormal(poolVector(base + own.w));
-    }
+    if (kCornerNormals && (own.z & kStoredNormalEdge) != 0u) firstNormal = poolVector(base + own.w);
+    e.firstNormal = unitNormal(firstNormal);
     if (kPerturbed) {
         uint swap = (own.z & kSwappedEdge) != 0u ? 1u : 0u, h = base + own.w;
         for (uint s = 0u; s < 4u; ++s) e.h[s] = poolVector(h + (s ^ swap));
@@ -95,16 +91,6 @@ void finish(Edge e, uint k, out vec3 position, out vec3 normal) {
     }
     position = p;
     normal = unitNormal(cross(along, across)); // outwards
-    if ((kMixed || kCornerNormals) && e.stored && k == 0u) normal = e.firstNormal;
-}
-
-// The samples that the record `own` stores: first and end.
-uvec2 storedSamples(uvec4 own) {
-    return uvec2(own.x != kNoEdgeSample ? 0u : 1u, own.y != kNoEdgeSample ? push.rate : 1u);
-}
-
-uint vertexOf(uvec4 own, uint k) {
-    return k == 0u ? push.firstCorner + own.x : push.firstVertex + own.y * (push.rate - 1u) + k - 1u;
 }
 
 void evaluateNarrow() {
@@ -114,12 +100,15 @@ void evaluateNarrow() {
     uvec4 own = tableElement(record + 2u);
     Edge e = loadEdge(record, own, instance * push.poolStride);
     uint first = instance * push.verticesPerInstance;
-    uvec2 samples = storedSamples(own);
-    for (uint k = samples.x; k < samples.y; ++k) {
-        vec3 position, normal;
+    if (own.x != kNoEdgeSample) storeSurfaceVertex(first + push.firstCorner + own.x, e.border[0], e.firstNormal);
+    if (own.y == kNoEdgeSample || push.rate == 1u) return;
+    vec3 position, normal;
+    uint vertex = first + push.firstVertex + own.y * (push.rate - 1u), k = 1u;
+    do {
         finish(e, k, position, normal);
-        storeSurfaceVertex(first + vertexOf(own, k), position, normal);
-    }
+        storeSurfaceVertex(vertex, position, normal);
+        ++vertex;
+    } while (++k < push.rate);
 }
 
 void evaluateWide() {
@@ -129,11 +118,16 @@ void evaluateWide() {
     uint edge = lane / push.rate, k = lane - edge * push.rate;
     uint record = push.table + edge * kSharedEdgeElements;
     uvec4 own = tableElement(record + 2u);
-    uvec2 samples = storedSamples(own);
-    if (k < samples.x || k >= samples.y) return;
+    if ((k == 0u ? own.x : own.y) == kNoEdgeSample) return;
+    Edge e = loadEdge(record, own, instance * push.poolStride);
+    uint first = instance * push.verticesPerInstance;
+    if (k == 0u) {
+        storeSurfaceVertex(first + push.firstCorner + own.x, e.border[0], e.firstNormal);
+        return;
+    }
     vec3 position, normal;
-    finish(loadEdge(record, own, instance * push.poolStride), k, position, normal);
-    storeSurfaceVertex(instance * push.verticesPerInstance + vertexOf(own, k), position, normal);
+    finish(e, k, position, normal);
+    storeSurfaceVertex(first + push.firstVertex + own.y * (push.rate - 1u) + k - 1u, position, normal);
 }
 
 void main() {
