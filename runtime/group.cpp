@@ -138,6 +138,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     surface::Needs needs;
     needs.vertexFormat = static_cast<uint32_t>(format);
     needs.motion = group->hasMotion(desc);
+    needs.rate = group->evaluation_.rate;
     needs.patches = (desc.flags & SUPPLE_GROUP_PATCHES) != 0;
     needs.lod = group->view_ != nullptr;
     needs.attributes = needs.lod ? (group->view_->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0

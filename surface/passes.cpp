@@ -42,6 +42,7 @@ constexpr uint32_t kCornerNormalsConstant = kKindConstant + 2;
 constexpr uint32_t kLodConstant = kKindConstant + 3;
 constexpr uint32_t kRingsConstant = kKindConstant + 4;
 constexpr uint32_t kInteriorConstant = kKindConstant + 5;
+constexpr uint32_t kRateConstant = kKindConstant + 6;
 
 shared::SurfacePush pushFor(const Tables& tables, const Section& section, const Window& window,
                             const Evaluation& evaluation) {
@@ -66,6 +67,10 @@ shared::SurfacePush pushFor(const Tables& tables, const Section& section, const 
     push.outputs = ((tables.uvSets == 2 ? shared::kOutputUvs1 : 0) | (tables.faceUvs ? shared::kOutputFaceUvs : 0)) &
                    evaluation.attributeOutputs;
     return push;
+}
+
+std::string atRate(uint32_t rate) {
+    return rate == 0 ? "" : ", rate " + std::to_string(rate);
 }
 
 /// Patches a workgroup takes in the wide mapping: the count that leaves the fewest lanes idle.
@@ -244,17 +249,23 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
                           {{kKindConstant, patchClass}, {kCornerNormalsConstant, normals}}, "supple patch, " + name);
         }
         for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty() && !shares; ++f) {
-            gpu::PipelineHandle& target = evaluate_[patchClass][formats[f]][normals];
+            ByRate& byRate = evaluate_[patchClass][formats[f]][normals];
             if (range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp) {
-                status = make(target, shaders_.blendEvaluate,
+                status = make(byRate[0], shaders_.blendEvaluate,
                               {{kKindConstant, patchClass}, {kVertexFormatConstant, formats[f]}},
                               "supple evaluate, " + name);
             } else {
-                status = make(target, bicubic ? shaders_.bicubic : shaders_.pmEvaluate,
-                              {{kKindConstant, patchClass},
-                               {kVertexFormatConstant, formats[f]},
-                               {kCornerNormalsConstant, normals}},
-                              "supple evaluate, " + name);
+                // The rate it begins with, where that is worth a pipeline, and any that is set later.
+                for (const uint32_t rate : {0u, unrolled(needs.rate)}) {
+                    if (status && (rate == 0 || (patchClass == kRegularPatch && formats[f] != kVertexPosition))) {
+                        status = make(byRate[rate], bicubic ? shaders_.bicubic : shaders_.pmEvaluate,
+                                      {{kKindConstant, patchClass},
+                                       {kVertexFormatConstant, formats[f]},
+                                       {kCornerNormalsConstant, normals},
+                                       {kRateConstant, rate}},
+                                      "supple evaluate, " + name + atRate(rate));
+                    }
+                }
             }
         }
     }
@@ -270,22 +281,29 @@ Status Passes::makeShared(const Tables& tables, const Needs& needs, std::span<co
     for (const uint32_t format : formats) {
         for (size_t r = 0; status && r < tables.ranges.size(); ++r) {
             const auto patchClass = static_cast<uint32_t>(tables.ranges[r].patchClass);
-            status = make(inside_[patchClass][format][normals],
-                          patchClass <= shared::kPolarPatch ? shaders_.bicubic : shaders_.pmEvaluate,
-                          {{kKindConstant, patchClass},
-                           {kVertexFormatConstant, format},
-                           {kCornerNormalsConstant, normals},
-                           {kInteriorConstant, VK_TRUE}},
-                          std::string("supple evaluate inside, ") + className(tables.ranges[r].patchClass));
+            const uint32_t rate = patchClass == shared::kRegularPatch ? unrolled(needs.rate) : 0;
+            status =
+                make(inside_[patchClass][format][normals][rate],
+                     patchClass <= shared::kPolarPatch ? shaders_.bicubic : shaders_.pmEvaluate,
+                     {{kKindConstant, patchClass},
+                      {kVertexFormatConstant, format},
+                      {kCornerNormalsConstant, normals},
+                      {kInteriorConstant, VK_TRUE},
+                      {kRateConstant, rate}},
+                     std::string("supple evaluate inside, ") + className(tables.ranges[r].patchClass) + atRate(rate));
         }
         for (size_t e = 0; status && e < tables.shared.edges.size(); ++e) {
             const uint32_t kind = tables.shared.edges[e].kind;
             constexpr const char* kNames[] = {"supple evaluate edges", "supple evaluate edges, perturbed",
                                               "supple evaluate edges, P_m"};
             static_assert(std::size(kNames) == shared::kEdgeKinds);
-            status = make(edges_[kind][format][normals], shaders_.edge,
-                          {{kKindConstant, kind}, {kVertexFormatConstant, format}, {kCornerNormalsConstant, normals}},
-                          kNames[kind]);
+            const uint32_t rate = unrolled(needs.rate);
+            status = make(edges_[kind][format][normals][rate], shaders_.edge,
+                          {{kKindConstant, kind},
+                           {kVertexFormatConstant, format},
+                           {kCornerNormalsConstant, normals},
+                           {kRateConstant, rate}},
+                          kNames[kind] + atRate(rate));
         }
     }
     if (!needs.attributes) {
@@ -362,6 +380,11 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
         return;
     }
     const bool wide = device_->mapping.wide, shares = tables.sharesSamples();
+    const size_t normals = tables.cornerNormals ? 1 : 0;
+    const auto at = [&](const ByRate& pipelines, uint32_t rate) {
+        const VkPipeline own = pipelines[unrolled(rate)].get();
+        return own != VK_NULL_HANDLE ? own : pipelines[0].get();
+    };
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
         const Domain domain = domainOf(range.patchClass);
@@ -376,13 +399,13 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
         const uint64_t patches = uint64_t{push.count} * push.instanceCount;
         const uint64_t groups = wide ? (patches + push.patchesPerGroup - 1) / push.patchesPerGroup : groupsFor(patches);
         const auto& pipelines = (shares ? inside_ : evaluate_)[static_cast<size_t>(range.patchClass)][vertexFormat];
-        record(commandBuffer, pipelines[tables.cornerNormals ? 1 : 0].get(), window.set, push, groups);
+        record(commandBuffer, at(pipelines[normals], push.rate), window.set, push, groups);
     }
     for (const SharedTables::Edges& edges : tables.shared.edges) {
         shared::SurfacePush push = pushFor(tables, edges.section, window, evaluation);
         push.firstVertex = evaluation.firstEdgeVertex;
         const uint64_t lanes = uint64_t{push.count} * push.instanceCount * (wide ? push.rate : 1);
-        record(commandBuffer, edges_[edges.kind][vertexFormat][tables.cornerNormals ? 1 : 0].get(), window.set, push,
+        record(commandBuffer, at(edges_[edges.kind][vertexFormat][normals], push.rate), window.set, push,
                groupsFor(lanes));
     }
 }

@@ -5,6 +5,10 @@
 
 layout(set = 0, binding = kPairBinding, std430) readonly buffer Pairs { vec2 pairs[]; };
 
+// A rate that is known when the pipeline is made, so that loops over samples can be unrolled and weights are constants.
+layout(constant_id = 9) const uint kRate = 0u;
+uint fixedRate() { return kRate != 0u ? kRate : push.rate; }
+
 // (t, s) = (k / rate, (rate - k) / rate), never 1 - t of a rounded t.
 vec2 parameterPair(uint k, uint rate, uint firstPair) {
     if (kExactDivision) {

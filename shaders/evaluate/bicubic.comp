@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
@@ -144,17 +145,18 @@ void evaluateNarrow() {
     Patch c = loadPatch(record, base, false);
     uvec4 slots = normalSlots(record);
 
-    uint first = kInterior ? 1u : 0u, end = push.rate + 1u - first;
+    uint rate = fixedRate(), first = kInterior ? 1u : 0u, end = rate + 1u - first;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
+    // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do.
     uint j = first;
     do {
-        Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
+        Row row = collapse(c, parameterPair(j, rate, push.pairs));
         uint i = first;
-        do {
+        [[unroll]] do {
             vec3 position, normal;
-            finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
-            if (kPolar && j == push.rate) position = c.g[12]; // the apex itself, from every patch round it
-            if (kCornerNormals && !kInterior) normal = cornerNormal(normal, i, j, push.rate, slots, base);
+            finish(row, parameterPair(i, rate, push.pairs), position, normal);
+            if (kPolar && j == rate) position = c.g[12]; // the apex itself, from every patch round it
+            if (kCornerNormals && !kInterior) normal = cornerNormal(normal, i, j, rate, slots, base);
             storeSurfaceVertex(vertex, position, normal);
             ++vertex;
         } while (++i < end);

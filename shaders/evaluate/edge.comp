@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
@@ -76,8 +77,8 @@ Edge loadEdge(uint record, uvec4 own, uint base) {
     return e;
 }
 
-void finish(Edge e, uint k, out vec3 position, out vec3 normal) {
-    vec2 t = parameterPair(k, push.rate, push.pairs);
+void finish(Edge e, uint k, uint rate, out vec3 position, out vec3 normal) {
+    vec2 t = parameterPair(k, rate, push.pairs);
     vec4 b = bernstein3(t);
     precise vec3 p = sum4(b, e.border[0], e.border[1], e.border[2], e.border[3]);
     vec3 along = t.y * t.y * e.along[0] + 2.0 * t.x * t.y * e.along[1] + t.x * t.x * e.along[2];
@@ -101,14 +102,15 @@ void evaluateNarrow() {
     Edge e = loadEdge(record, own, instance * push.poolStride);
     uint first = instance * push.verticesPerInstance;
     if (own.x != kNoEdgeSample) storeSurfaceVertex(first + push.firstCorner + own.x, e.border[0], e.firstNormal);
-    if (own.y == kNoEdgeSample || push.rate == 1u) return;
+    uint rate = fixedRate();
+    if (own.y == kNoEdgeSample || rate == 1u) return;
     vec3 position, normal;
-    uint vertex = first + push.firstVertex + own.y * (push.rate - 1u), k = 1u;
-    do {
-        finish(e, k, position, normal);
+    uint vertex = first + push.firstVertex + own.y * (rate - 1u), k = 1u;
+    [[unroll]] do {
+        finish(e, k, rate, position, normal);
         storeSurfaceVertex(vertex, position, normal);
         ++vertex;
-    } while (++k < push.rate);
+    } while (++k < rate);
 }
 
 void evaluateWide() {
@@ -126,7 +128,7 @@ void evaluateWide() {
         return;
     }
     vec3 position, normal;
-    finish(e, k, position, normal);
+    finish(e, k, push.rate, position, normal);
     storeSurfaceVertex(first + push.firstVertex + own.y * (push.rate - 1u) + k - 1u, position, normal);
 }
 
