@@ -165,17 +165,30 @@ void evaluateNarrow() {
     uint samples = push.samples;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
     uint singular = tableElement(record + 1u).w;
-    for (uint sector = 0u; sector < kSides; ++sector) {
-        Sector s = loadSector(record, base, sector, false);
+    // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do. All lanes go
+    // round equally often. The centre is sector 0's, which therefore comes last.
+    Sector s;
+    vec3 position, normal;
+    uint sector = kSides;
+    do {
+        --sector;
+        s = loadSector(record, base, sector, false);
         bool step = (singular & (1u << sector)) != 0u;
-        for (uint l = kInterior ? kRowStep : 0u; l <= push.rate; l += kRowStep) {
-            uint end = l < push.rate ? push.rate - l : sector == 0u ? 1u : 0u; // the centre is sector 0's
-            for (uint k = 0u; k < end; ++k) {
-                vec3 position, normal;
-                finishAtRate(s, k, l, step, position, normal);
-                storeSurfaceVertex(vertex + sampleOf(sector, k, l), position, normal);
-            }
+        uint l = kInterior ? kRowStep : 0u;
+        if (l < push.rate) {
+            do {
+                uint k = 0u;
+                do {
+                    finishAtRate(s, k, l, step, position, normal);
+                    storeSurfaceVertex(vertex + sampleOf(sector, k, l), position, normal);
+                } while (++k < push.rate - l);
+                l += kRowStep;
+            } while (l < push.rate);
         }
+    } while (sector > 0u);
+    if (push.rate % kRowStep == 0u) {
+        finishAtRate(s, 0u, push.rate, false, position, normal);
+        storeSurfaceVertex(vertex + sampleOf(0u, 0u, push.rate), position, normal);
     }
 }
 
