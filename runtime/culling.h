@@ -7,6 +7,7 @@
 #include "runtime/instance_slots.h"
 #include "surface/bounds_pass.h"
 #include "surface/evaluation.h"
+#include "surface/lod/instance.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,10 +25,13 @@ public:
         uint32_t capacity = 0;
         uint32_t windowSize = 0, windows = 0;
         uint32_t cageVertices = 0, cageStride = 0;
-        float margin = 0.0f;                ///< surface::boundsMargin
+        float margin = 0.0f; ///< surface::boundsMargin
+        surface::lod::InstanceMeasure measure;
+        uint32_t leastVertices = 0;         ///< of an instance at its coarsest
         VkBuffer cages = VK_NULL_HANDLE;    ///< read
         VkBuffer hostList = VK_NULL_HANDLE; ///< capacity entries, as shaders/shared/bounds.h has them
         VkBuffer view = VK_NULL_HANDLE;     ///< shared::CullView
+        VkBuffer sizes = VK_NULL_HANDLE;    ///< of all groups of the view
         std::span<const uint32_t> elements; ///< lanes an instance, of the dispatches that follow
     };
     Culling() = default;
@@ -42,18 +46,26 @@ public:
     /// Once, before anything else.
     void recordClear(VkCommandBuffer commandBuffer) const;
     void recordBounds(VkCommandBuffer commandBuffer, std::span<const InstanceSlots::Listed> windows) const;
-    void recordList(VkCommandBuffer commandBuffer) const;
+    /// What `listed` instances of the host's list need at least; only where that may be more than there is.
+    void recordSizes(VkCommandBuffer commandBuffer, uint32_t listed) const;
+    /// `room`: vertices, or shared::kRoomForAll.
+    void recordList(VkCommandBuffer commandBuffer, uint32_t room) const;
+    [[nodiscard]] uint32_t leastVertices() const { return leastVertices_; }
+    /// From an entry of the list to the level of its instance.
+    [[nodiscard]] uint32_t levelOffset() const { return capacity_; }
 
     /// What passes after the list work on, in the place of a window of the host's list: `set` stays the caller's.
     [[nodiscard]] surface::Window window(uint32_t window, VkDescriptorSet set) const;
     [[nodiscard]] VkBuffer list() const { return buffers_.buffer(kList); }
+    /// Four words, of all windows: seen, of those with a past, listed, left out.
+    [[nodiscard]] VkDeviceSize countOffset() const { return VkDeviceSize{firstArgument()} * sizeof(uint32_t); }
     [[nodiscard]] VkDeviceSize listBytes() const { return buffers_.size(kList); }
     [[nodiscard]] VkBuffer bounds() const { return buffers_.buffer(kBounds); }
     [[nodiscard]] VkDeviceSize boundsBytes() const { return buffers_.size(kBounds); }
     [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes(); }
 
 private:
-    /// kList: all that are seen, those of every window, then the arguments.
+    /// kList: all that are seen, those of every window, their levels, then the arguments.
     enum BufferIndex : size_t { kBounds, kStates, kList, kTable, kBufferCount };
     [[nodiscard]] Status createSets(const Desc& desc);
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(elements_.size()); }
@@ -64,6 +76,7 @@ private:
     const gpu::Device* device_ = nullptr;
     const surface::BoundsPass* pass_ = nullptr;
     uint32_t capacity_ = 0, windowSize_ = 0, windows_ = 0;
+    uint32_t leastVertices_ = 0;
     shared::BoundsPush push_{};
     std::vector<uint32_t> elements_;
     gpu::BufferSet buffers_;

@@ -30,7 +30,7 @@ struct GroupShared {
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
-    const surface::BoundsPass* bounds = nullptr; ///< for groups of views that cull
+    const surface::BoundsPass* bounds = nullptr; ///< for groups of views
     std::shared_ptr<View> view;                  ///< of the description
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
@@ -82,10 +82,17 @@ public:
     PassCost recordPatch(VkCommandBuffer commandBuffer) const;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const;
 
-    /// Views that cull: bounds of the deformed cages, and after a barrier the list of those that are seen.
+    /// Groups of a view: bounds of the deformed cages, and after a barrier the list of those that are seen. In between,
+    /// where `leastVertices` of all groups are more than the view's room, their sizes.
     [[nodiscard]] bool culls() const { return culling_.active(); }
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
-    void recordSeen(VkCommandBuffer commandBuffer) const { culling_.recordList(commandBuffer); }
+    /// Of the instances listed.
+    [[nodiscard]] uint64_t leastVertices() const { return uint64_t{culling_.leastVertices()} * visible_; }
+    void recordSizes(VkCommandBuffer commandBuffer) const { culling_.recordSizes(commandBuffer, visible_); }
+    void recordReadback(VkCommandBuffer commandBuffer) const {
+        view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset());
+    }
+    PassCost recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const;
 
     // Groups of a view: the levels of edges, then of patches, then, when the view has solved its budget, places.
     PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const;
@@ -160,6 +167,7 @@ private:
     std::shared_ptr<View> view_;
     uint32_t firstRun_ = 0; ///< in the view; all windows one after the other
     bool hasRuns_ = false;
+    bool oneLevel_ = false; ///< an instance, instead of one an edge
     Culling culling_;
 
     InstancePoses poses_;

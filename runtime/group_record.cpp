@@ -149,6 +149,14 @@ Group::PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
     return {visible_, visible_ * VkDeviceSize{32}};
 }
 
+Group::PassCost Group::recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const {
+    if (!culls()) {
+        return {};
+    }
+    culling_.recordList(commandBuffer, room);
+    return {0, 0, true};
+}
+
 Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
     if (!attributesPending_) {
         return {};
@@ -234,7 +242,9 @@ Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
 LodPush Group::levelPush(const Window& window) const {
     const surface::Tables& tables = scheme_->tables;
     const auto runs = static_cast<uint32_t>(tables.lod.runs.size());
-    LodPush push = view_->levelPush();
+    LodPush push{};
+    push.camera = view_->lodCamera();
+    push.levels = oneLevel_ ? culling_.levelOffset() : 0;
     push.count = tables.lod.patches.count;
     push.firstSlot = window.index * windowSize_;
     push.edges = tables.lod.edges.table;
@@ -257,7 +267,7 @@ surface::LodWindow Group::lodWindow(const Window& window, VkDescriptorSet set) c
 }
 
 Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
-    if (view_ == nullptr) {
+    if (view_ == nullptr || oneLevel_) {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {

@@ -25,6 +25,10 @@ public:
     [[nodiscard]] const SuppleViewDesc& desc() const { return desc_; }
     void setCamera(const SuppleCameraDesc& camera); ///< as checked by the caller
     [[nodiscard]] shared::CullView cullView() const;
+    /// In the coordinates surfaces come out in.
+    [[nodiscard]] shared::LodCamera lodCamera() const;
+    /// Vertices of the budget that patches can have; the rest is for what fills up draw instances.
+    [[nodiscard]] uint32_t room() const;
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
 
     /// A group's windows take runs when it is created and give them back when it goes. The runs of `windows` windows,
@@ -32,17 +36,16 @@ public:
     [[nodiscard]] std::optional<uint32_t> takeRuns(const surface::LodTables& lod, uint32_t windows);
     void giveRuns(uint32_t first, uint32_t count);
 
-    /// The scales, in the coordinates surfaces come out in; what belongs to the window is the caller's to fill in.
-    [[nodiscard]] shared::LodPush levelPush() const;
-
     [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || !cleared_; }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
     /// `priorities`: bits of those that instances have.
     void recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
                      uint32_t priorities) const;
-    /// Copies what the solver found out to where the host reads it frames later.
+    /// Copies what the solver found out to where the host reads it frames later; then, for each of its groups, how many
+    /// instances were seen (Culling::countOffset).
     void recordReadback(VkCommandBuffer commandBuffer);
+    void recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset);
     void beginFrame(uint64_t completedFrame);
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
@@ -57,6 +60,7 @@ public:
     enum BufferIndex : size_t {
         kWords,
         kCull,
+        kSizes,
         kSurface,
         kPreviousPositions,
         kAttributes,
@@ -71,6 +75,8 @@ public:
     [[nodiscard]] VkDeviceSize uploadBytes() const;
 
 private:
+    [[nodiscard]] uint32_t budget() const;
+
     const gpu::Device* device_ = nullptr;
     uint32_t framesInFlight_ = 2;
     SuppleViewDesc desc_{};
@@ -89,7 +95,11 @@ private:
     bool indicesToRelease_ = false;
     uint64_t indicesReleaseFrame_ = 0;
     uint64_t clearedFrame_ = 0, recordedFrame_ = 0;
-    std::vector<uint64_t> solvedFrames_; ///< by place in readback_
+    struct Solved {
+        uint64_t frame = 0;
+        uint32_t groups = 0;
+    };
+    std::vector<Solved> solved_; ///< by place in readback_
     SuppleViewStatistics newest_{};
 };
 

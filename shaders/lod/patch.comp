@@ -68,10 +68,16 @@ void main() {
     uint run = push.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
     uint sides = formSides(form);
     float level = 0.0;
-    for (uint k = 0u; k < sides; ++k)
-        level = max(level, uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x))));
-    vec2 own = form == kLodQuadForm ? bicubicLevels(more.z, base, more.w == kPolarPatch) : vec2(sectorLevel(more.z, sides, base));
-    level = max(level, max(own.x, own.y));
+    vec2 own;
+    if (push.levels != 0u) {
+        level = levelOfEntry(entry);
+        own = vec2(level);
+    } else {
+        for (uint k = 0u; k < sides; ++k)
+            level = max(level, uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x))));
+        own = form == kLodQuadForm ? bicubicLevels(more.z, base, more.w == kPolarPatch) : vec2(sectorLevel(more.z, sides, base));
+        level = max(level, max(own.x, own.y));
+    }
 
     float at = (clamp(log2(max(level, 1e-3)), -float(kOctavesBelow), 7.99) + float(kOctavesBelow)) * float(kBinsPerOctave);
     uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));

@@ -23,6 +23,7 @@
 #ifndef SUPPLE_SHARED_LOD_H
 #define SUPPLE_SHARED_LOD_H
 
+#include "shaders/shared/camera.h"
 #include "shaders/shared/portable.h"
 
 SUPPLE_SHARED_BEGIN
@@ -111,12 +112,8 @@ struct LodPush {
     uint scratchStride; // elements an instance
     uint firstRun;      // of the window, in the view
     uint runCount;      // of the window
-    uint orthographic;
-    float camera[3];
-    float focal;       // pixels a unit at distance 1; orthographic: pixels a unit
-    float nearest;     // nothing counts as nearer
-    float errorScale;  // 3/4 / chord error in pixels; 0: lengths alone count
-    float lengthScale; // 1 / length of an edge in pixels
+    uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
+    LodCamera camera;
 };
 struct LodSolvePush {
     uint runCount;          // in use, of the view

@@ -467,14 +467,17 @@ SUPPLE_API SuppleResult suppleSetCamera(SuppleContext context, SuppleView view, 
 /** What a view drew. */
 typedef struct SuppleViewStatistics {
     uint32_t structSize;
-    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and what even
-                         * so has no room is missing */
+    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and where even
+                         * so there is no room whole instances are missing, the smallest first */
     uint64_t frame;     /**< of suppleBeginFrame */
     float
         levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
     uint32_t vertexCount;                   /**< surface vertices written */
     uint32_t wantedVertexCount;             /**< without a budget, up to a few per cent more */
     uint32_t patchCount;                    /**< drawn */
+    uint32_t instanceCount;                 /**< visible ones of its groups */
+    uint32_t drawnInstanceCount;            /**< of these: seen, and not missing */
+    uint32_t droppedInstanceCount;          /**< seen, and missing for want of room */
 } SuppleViewStatistics;
 
 /** Of the newest completed frame; never blocks. SUPPLE_NOT_READY: there is none. */
@@ -526,7 +529,9 @@ typedef enum SuppleGroupFlags {
     /** Samples that patches share are surface vertices once, and an instance is one indexed mesh. PREP and PM, without
      * a view. Positions are those of other groups to the bit; along creases, boundaries and, with ATTRIBUTES, seams of
      * these, each side has vertices of its own. See SuppleDrawRange. */
-    SUPPLE_GROUP_SHARED_SAMPLES = 8
+    SUPPLE_GROUP_SHARED_SAMPLES = 8,
+    SUPPLE_GROUP_ONE_LEVEL = 32 /**< groups of a view: a level an instance, from its bounds and the longest edge and
+                                 * sharpest bend of the cage's bind pose, instead of one an edge */
 } SuppleGroupFlags;
 
 /** How a group's surface is made, and for how many instances there is room. */
@@ -954,7 +959,7 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
     const char* pass;  /**< static: upload, attributes, pose, deform, vertex, edge (P_m: its facets), patch, evaluate,
-                        * motion; groups of a view also bounds, level (twice), solve (once a view), place */
+                        * motion; groups of a view also bounds, list, level (twice), solve (once a view), place */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */
