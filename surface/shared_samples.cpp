@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 
 namespace supple::surface {
 
@@ -87,64 +86,54 @@ private:
         tables_.shared.cornerCount = static_cast<uint32_t>(corners.size());
     }
 
-    /// Each corner's sample is stored by a record that begins there; so an edge is taken from the side that has a
-    /// corner still to be stored at its beginning. What finds no edge free gets a record of its own, for that sample
-    /// alone.
+    /// Each corner's sample is stored by an edge that begins there: that of the first patch that comes to the corner.
+    /// The edge is still free then, for both patches at it have the corner. It is taken from that patch's side.
     void chooseSides() {
-        const auto& patches = tables_.shared.patches;
+        auto& patches = tables_.shared.patches;
         std::vector<bool> stored(tables_.shared.cornerCount, false);
-        std::vector<Side> anySide(tables_.shared.cornerCount);
         for (uint32_t p = 0; p < patches.size(); ++p) {
             for (uint32_t i = 0; i < tables_.patches[p].cornerCount; ++i) {
                 const uint32_t corner = patches[p].corners[i];
-                Edge& edge = edges_[patches[p].edges[i]];
-                anySide[corner] = {p, i};
-                if (!stored[corner] && edge.corner == kNoEdgeSample) {
+                if (!stored[corner]) {
                     stored[corner] = true;
+                    Edge& edge = edges_[patches[p].edges[i]];
                     edge.corner = corner;
                     edge.taken = patches[p].reversed[i] ? 1 : 0;
                 }
             }
         }
-        for (uint32_t e = 0; e < edges_.size(); ++e) {
-            const Edge& edge = edges_[e];
-            const uint32_t taken = edge.corner != kNoEdgeSample ? edge.taken : edge.has[0] ? 0 : 1;
-            drafts_.push_back({edge.sides[taken], edge.corner, e});
+        for (Edge& edge : edges_) {
+            if (edge.corner == kNoEdgeSample) {
+                edge.taken = edge.has[0] ? 0 : 1;
+            }
             for (uint32_t s = 0; s < 2; ++s) { // from here on an edge runs as its record does
                 if (edge.has[s]) {
                     const auto [patch, side] = edge.sides[s];
-                    tables_.shared.patches[patch].reversed[side] = s != taken;
+                    patches[patch].reversed[side] = s != edge.taken;
                 }
-            }
-        }
-        for (uint32_t corner = 0; corner < stored.size(); ++corner) {
-            if (!stored[corner]) {
-                drafts_.push_back({anySide[corner], corner, kNoEdgeSample});
             }
         }
     }
 
     void write() {
         struct Made {
-            Draft draft;
+            uint32_t edge = 0;
+            uint32_t corner = kNoEdgeSample;
+            Side side;
             EdgeSource source;
             uint32_t kind = kPlainEdges;
         };
         std::vector<Made> made;
         bool mixed = false;
-        for (const Draft& draft : drafts_) {
-            made.push_back({draft, sourceOf(draft.side), kPlainEdges});
+        for (uint32_t e = 0; e < edges_.size(); ++e) {
+            const Side& side = edges_[e].sides[edges_[e].taken];
+            made.push_back({e, edges_[e].corner, side, sourceOf(side), kPlainEdges});
             mixed = mixed || made.back().source.mixed;
         }
         for (Made& one : made) {
             one.kind = mixed ? kMixedEdges : one.source.perturbed ? kPerturbedEdges : kPlainEdges;
         }
-        // Those that store as many samples stand together, so that neighbouring lanes loop equally long.
-        const auto rank = [](const Made& one) {
-            return std::tuple(one.kind, one.draft.edge == kNoEdgeSample, one.draft.corner == kNoEdgeSample,
-                              one.draft.edge);
-        };
-        std::stable_sort(made.begin(), made.end(), [&](const Made& a, const Made& b) { return rank(a) < rank(b); });
+        std::stable_sort(made.begin(), made.end(), [](const Made& a, const Made& b) { return a.kind < b.kind; });
 
         TableWriter writer(tables_.words);
         SharedTables& shared = tables_.shared;
@@ -155,14 +144,14 @@ private:
             ++shared.edges.back().section.count;
             const EdgeSource& s = one.source;
             writer.put({s.border[0], s.border[1], s.border[2], s.border[3], s.across[0], s.across[1], s.across[2],
-                        s.across[3], one.draft.corner, one.draft.edge, s.flags, s.extra});
+                        s.across[3], one.corner, one.edge, s.flags, s.extra});
         }
         if (!attributes_) {
             return;
         }
         shared.attributes = {writer.element(), static_cast<uint32_t>(made.size())};
         for (const Made& one : made) {
-            const auto [patch, side] = one.draft.side;
+            const auto [patch, side] = one.side;
             const PatchRange& range = rangeOf(patch);
             const uint32_t next = (side + 1) % cornerCount(domainOf(range.patchClass));
             writer.put({attributeElement(range, patch, side), attributeElement(range, patch, next), 0u, 0u});
@@ -244,15 +233,9 @@ private:
         uint32_t corner = kNoEdgeSample; ///< whose sample it stores
         uint32_t taken = 0;
     };
-    struct Draft {
-        Side side;
-        uint32_t corner = kNoEdgeSample;
-        uint32_t edge = kNoEdgeSample;
-    };
     Tables& tables_;
     bool attributes_;
     std::vector<Edge> edges_;
-    std::vector<Draft> drafts_;
 };
 
 /// Where a sample of a domain lies: on an edge at k, at a corner (k = 0), or inside.

@@ -105,7 +105,7 @@ void storeOfRecord(uint index, uint firstSample, uint step) {
 void storeOnEdge(uint id) {
     uint edge = id / push.rate, k = id - edge * push.rate;
     uvec4 own = tableElement(push.ring + kSharedEdgeElements * edge + 2u);
-    if ((k == 0u ? own.x : own.y) == kNoEdgeSample) return;
+    if (k == 0u && own.x == kNoEdgeSample) return;
     uvec4 ends = tableElement(push.table + edge);
     Corners c;
     loadCorner(c, 0u, ends.x);

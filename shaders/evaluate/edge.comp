@@ -103,7 +103,7 @@ void evaluateNarrow() {
     uint first = instance * push.verticesPerInstance;
     if (own.x != kNoEdgeSample) storeSurfaceVertex(first + push.firstCorner + own.x, e.border[0], e.firstNormal);
     uint rate = fixedRate();
-    if (own.y == kNoEdgeSample || rate == 1u) return;
+    if (rate == 1u) return;
     vec3 position, normal;
     uint vertex = first + push.firstVertex + own.y * (rate - 1u), k = 1u;
     [[unroll]] do {
@@ -120,7 +120,7 @@ void evaluateWide() {
     uint edge = lane / push.rate, k = lane - edge * push.rate;
     uint record = push.table + edge * kSharedEdgeElements;
     uvec4 own = tableElement(record + 2u);
-    if ((k == 0u ? own.x : own.y) == kNoEdgeSample) return;
+    if (k == 0u && own.x == kNoEdgeSample) return;
     Edge e = loadEdge(record, own, instance * push.poolStride);
     uint first = instance * push.verticesPerInstance;
     if (k == 0u) {

@@ -15,8 +15,8 @@
 //                    face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
 //   shared edges     shared samples: three elements an edge, as one of its patches has it on its left: pool indices of the
 //                    border cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative
-//                    across is made of; (corner sample at its beginning, edge sample run, flags, extra), the first two
-//                    kNoEdgeSample where others store them. Extra: perturbed edges: h20, the others of the four follow, or by
+//                    across is made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the
+//                    edge; flags; extra). Extra: perturbed edges: h20, the others of the four follow, or by
 //                    kSwappedEdge stand as h30 h20 h31 h21; kStoredNormalEdge: the normal of the beginning; kSingularEdge:
 //                    b121 of the sector before
 //   edge attributes  one element a record: (attribute element of the beginning, of the end, -, -)
