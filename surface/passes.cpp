@@ -21,6 +21,7 @@
 #include "shaders/prep_vertex_comp.h"
 #include "shaders/shared/kernel.h"
 #include "shaders/shared/pm.h"
+#include "surface/lod/tables.h"
 
 #include <iterator>
 #include <string>
@@ -193,16 +194,19 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
     }
     const uint32_t normals = tables.cornerNormals ? 1 : 0;
     if (status && needs.lod) {
-        status = lod_.prepare(layout_);
+        status = lod_.prepare(layout_, tables.lod);
     }
     for (const PatchRange& range : tables.ranges) {
         const auto patchClass = static_cast<uint32_t>(range.patchClass);
         const std::string name = className(range.patchClass);
         const bool bicubic = patchClass <= kPolarPatch;
+        const bool blends = range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp;
+        const std::span<const uint32_t> evaluate = blends    ? shaders_.blendEvaluate
+                                                   : bicubic ? shaders_.bicubic
+                                                             : shaders_.pmEvaluate;
         if (needs.lod) {
             for (size_t f = 0; status && f < formats.size(); ++f) {
-                status = make(lodEvaluate_[formats[f]][patchClass][normals],
-                              bicubic ? shaders_.bicubic : shaders_.pmEvaluate,
+                status = make(lodEvaluate_[formats[f]][patchClass][normals], evaluate,
                               {{kKindConstant, patchClass},
                                {kVertexFormatConstant, formats[f]},
                                {kCornerNormalsConstant, normals},
@@ -213,7 +217,7 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
                 status = make(lodAttributes_[patchClass], shaders_.attributes,
                               {{kKindConstant, static_cast<uint32_t>(domainOf(range.patchClass))},
                                {kLodConstant, VK_TRUE},
-                               {kRingsConstant, bicubic ? VK_FALSE : VK_TRUE}},
+                               {kRingsConstant, lod::formOf(range.patchClass) == lod::Form::quad ? VK_FALSE : VK_TRUE}},
                               "supple attributes at levels, " + name);
             }
             continue;
@@ -227,18 +231,10 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
                           {{kKindConstant, patchClass}, {kCornerNormalsConstant, normals}}, "supple patch, " + name);
         }
         for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty(); ++f) {
-            gpu::PipelineHandle& target = evaluate_[patchClass][formats[f]][normals];
-            if (range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp) {
-                status = make(target, shaders_.blendEvaluate,
-                              {{kKindConstant, patchClass}, {kVertexFormatConstant, formats[f]}},
-                              "supple evaluate, " + name);
-            } else {
-                status = make(target, bicubic ? shaders_.bicubic : shaders_.pmEvaluate,
-                              {{kKindConstant, patchClass},
-                               {kVertexFormatConstant, formats[f]},
-                               {kCornerNormalsConstant, normals}},
-                              "supple evaluate, " + name);
-            }
+            status = make(
+                evaluate_[patchClass][formats[f]][normals], evaluate,
+                {{kKindConstant, patchClass}, {kVertexFormatConstant, formats[f]}, {kCornerNormalsConstant, normals}},
+                "supple evaluate, " + name);
         }
     }
     for (size_t f = 0; status && f < formats.size() && !needs.lod; ++f) {

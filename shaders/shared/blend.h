@@ -28,6 +28,10 @@ SUPPLE_SHARED_CONST kStillCorner = 0x40000000u;  // the surface has no derivativ
 SUPPLE_SHARED_CONST kStillEdge = 0x20000000u;    // nor across the edge to the next corner
 SUPPLE_SHARED_CONST kPoolIndexMask = 0x1FFFFFFFu;
 
+// With level of detail a normal is taken 1 / kStillSteps of the patch inside where it lies still: half the shortest
+// segment that there is, whatever the level, so that a place has one normal.
+SUPPLE_SHARED_CONST kStillSteps = 126u;
+
 SUPPLE_SHARED_END
 
 #endif

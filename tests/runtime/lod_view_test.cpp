@@ -1,6 +1,7 @@
 // Views: groups drawn at levels of detail, as the device wrote them.
 #include "cage/procedural.h"
 #include "surface/lod/grid.h"
+#include "tests/support/blend_surface.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
@@ -13,6 +14,8 @@
 
 namespace supple::test {
 namespace {
+
+constexpr SuppleScheme kSchemes[] = {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_BLEND};
 
 class LodViewsOnce : public CrowdContexts {};
 class LodViews : public CrowdContexts, public testing::WithParamInterface<SuppleMapping> {};
@@ -65,7 +68,7 @@ TEST_P(LodViews, ClosedCagesHaveNoCracks) {
     } cages[] = {{"cube sphere", perturbed(cage::makeCubeSphere(4), 0.05f, 3)},
                  {"split torus", perturbed(cage::makeSplitTorus(8, 7), 0.02f, 11)}};
     for (const auto& [name, cage] : cages) {
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        for (const SuppleScheme scheme : kSchemes) {
             TestView view(context, 400000);
             SuppleGroupDesc desc{};
             desc.asset = context.createAsset(cage);
@@ -146,6 +149,12 @@ public:
             for (uint32_t f = 0; f < cage.faceCount(); ++f) {
                 prep_.push_back(surface::prep::gatherPatch<double>(cage, *topology, coefficients, f));
             }
+        } else if (scheme == SUPPLE_SCHEME_BLEND) {
+            blendMesh_ = blendMesh(cage);
+            blendFaces_ = facesOfPatches(blendMesh_);
+            EXPECT_EQ(blendFaces_.size(), count);
+            blendSurface_.emplace(blendMesh_, positions);
+            blend_.emplace(blendMesh_, blendSurface_->coefficients, 1u);
         } else {
             pm_.emplace(pmMesh(cage), positions);
         }
@@ -153,6 +162,9 @@ public:
     [[nodiscard]] glm::dvec3 at(uint32_t patch, const At& at) const {
         const uint32_t face = patches_[patch].face;
         const glm::dvec2 u{at.uv.x, 1.0 - at.uv.x}, v{at.uv.y, 1.0 - at.uv.y};
+        if (blend_) {
+            return blend_->at(blendFaces_[patch], u, v).position;
+        }
         if (!pm_) {
             return surface::prep::evaluate<double>(prep_[face], u, v).position;
         }
@@ -168,6 +180,10 @@ private:
     std::vector<SupplePatchInfo> patches_;
     std::vector<surface::prep::Patch<double>> prep_;
     std::optional<PmSurface<double>> pm_;
+    surface::blend::Mesh blendMesh_;
+    std::vector<uint32_t> blendFaces_; ///< by patch
+    std::optional<BlendSurface<double>> blendSurface_;
+    std::optional<surface::blend::Evaluator<double>> blend_;
 };
 
 glm::dvec3 asPosition(const std::array<uint32_t, 3>& bits) {
@@ -180,7 +196,7 @@ TEST_P(LodViews, SamplesLieOnTheSurfaceAndSoDoTheirPasts) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     const cage::Cage cage = perturbed(cage::makeSplitTorus(6, 5), 0.02f, 5);
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+    for (const SuppleScheme scheme : kSchemes) {
         TestView view(context, 200000, SUPPLE_VIEW_MOTION);
         SuppleGroupDesc desc{};
         desc.asset = context.createAsset(cage);
@@ -257,7 +273,7 @@ TEST_F(LodViewsOnce, ADollyMovesNothingButByItsMotion) {
     CrowdContext& context = CrowdContexts::context(SUPPLE_MAPPING_NARROW);
     const ValidationGuard guard;
     const cage::Cage cage = perturbed(cage::makeCubeSphere(2), 0.05f, 3);
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+    for (const SuppleScheme scheme : kSchemes) {
         TestView view(context, 200000);
         SuppleGroupDesc desc{};
         desc.asset = context.createAsset(cage);
@@ -384,7 +400,7 @@ TEST_P(LodViews, TheBudgetHolds) {
 TEST_P(LodViews, WhatTheCameraDoesNotSeeHasNoSurface) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+    for (const SuppleScheme scheme : kSchemes) {
         TestView view(context, 200000, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL);
         SuppleGroupDesc desc{};
         desc.asset = context.createAsset(perturbed(cage::makeCubeSphere(2), 0.05f, 3));
