@@ -38,11 +38,12 @@ ChartPoint chartPoint(vec2 z, float power, bool creased, vec4 directions) {
     vec2 toward = back ? directions.zw : directions.xy;
     precise float square = high * high + low * low;
     precise float octaves = 0.5 * log2Of(square);
-    precise float angle = power * angleOf(low / max(high, 1e-9));
+    precise float tangent = low / max(high, 1e-9);
+    precise float angle = power * angleOf(tangent);
     float radius = exp2Of(power * octaves);
     vec2 unit = product(vec2(cosineOf(angle), back ? -sineOf(angle) : sineOf(angle)), toward);
     precise vec2 zeta = radius * unit;
-    vec2 slope = power / max(square, 1e-18) * product(zeta, vec2(z.x, -z.y));
+    precise vec2 slope = power / max(square, 1e-18) * product(zeta, vec2(z.x, -z.y));
     if (power == 1.0) { // all but extraordinary vertices: z itself, turned
         zeta = product(vec2(high, back ? -low : low), toward);
         slope = directions.xy;
@@ -51,11 +52,12 @@ ChartPoint chartPoint(vec2 z, float power, bool creased, vec4 directions) {
     ChartPoint at = ChartPoint(zeta, slope, zeta.x, slope.x, -slope.y);
     if (creased && power != 1.0) {
         float distance = low == 0.0 ? high : exp2Of(octaves);
-        vec2 arm = z / max(distance, 1e-9);
-        precise float t = distance * unit.x;
-        at.t = t;
-        at.tx = arm.x * unit.x + power * (arm.y * unit.y);
-        at.ty = arm.y * unit.x - power * (arm.x * unit.y);
+        precise vec2 arm = z / max(distance, 1e-9);
+        precise vec3 t = vec3(distance * unit.x, arm.x * unit.x + power * (arm.y * unit.y),
+                              arm.y * unit.x - power * (arm.x * unit.y));
+        at.t = t.x;
+        at.tx = t.y;
+        at.ty = t.z;
     }
     return at;
 }

@@ -103,14 +103,16 @@ bool moveInside(Corner corners[4], inout vec2 u, inout vec2 v) {
     }
     for (uint k = 0u; k < 4u; ++k) {
         bool right = k == 1u || k == 2u, top = k >= 2u;
-        float along = right ? u.y : u.x, across = top ? v.y : v.x, distance = max(along, across);
+        precise float along = right ? u.y : u.x, across = top ? v.y : v.x;
+        float distance = max(along, across);
         bool still = (corners[k].flags & kStillCorner) != 0u;
         bool single = isCreased(corners[k]) && uintBitsToFloat(corners[k].where.x) > 1.0 && distance > 0.0;
         if (!(distance < kStep && (still || single))) continue;
         along = distance > 0.0 ? along * (kStep / distance) : kStep;
         across = distance > 0.0 ? across * (kStep / distance) : kStep;
-        u = right ? vec2(1.0 - along, along) : vec2(along, 1.0 - along);
-        v = top ? vec2(1.0 - across, across) : vec2(across, 1.0 - across);
+        precise vec2 rest = 1.0 - vec2(along, across);
+        u = right ? vec2(rest.x, along) : vec2(along, rest.x);
+        v = top ? vec2(rest.y, across) : vec2(across, rest.y);
         moved = true;
     }
     return moved;

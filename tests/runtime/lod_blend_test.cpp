@@ -5,6 +5,7 @@
 #include "tests/support/kernel_zoo.h"
 #include "tests/support/lod_random.h"
 #include "tests/support/prep_surface.h"
+#include "tools/host/cage_arrays.h"
 
 #include <cstdio>
 
@@ -48,12 +49,13 @@ TEST_P(LodBlend, RandomLevelsAreTheReferences) {
     for (const KernelCage& entry : kernelZoo()) {
         SCOPED_TRACE(entry.name);
         const surface::blend::Mesh mesh = blendMesh(entry.cage, {mode, 1.0f});
-        cage::Character character;
-        character.cage = entry.cage;
+        const host::CageArrays arrays(entry.cage);
+        Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, entry.name);
+        ASSERT_TRUE(character.ok());
         SuppleGroupDesc desc{};
         desc.scheme = SUPPLE_SCHEME_BLEND;
         desc.creaseMode = mode == CreaseMode::curve ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT;
-        std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(character), desc);
+        std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(*character), desc);
         ASSERT_TRUE(drawn.has_value());
         nameCorners(mesh, drawn->patches);
         const std::vector<uint32_t> faces = facesOfPatches(mesh);
