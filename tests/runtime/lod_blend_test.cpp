@@ -46,7 +46,11 @@ TEST_P(LodBlend, RandomLevelsAreTheReferences) {
     Borders all;
     double worst = 0.0;
     uint64_t steep = 0, notUnit = 0, triangles = 0;
-    for (const KernelCage& entry : kernelZoo()) {
+    // Each case takes other cages; all of them take minutes.
+    constexpr size_t kStep = 20;
+    const size_t first = (mapping == SUPPLE_MAPPING_WIDE ? 10 : 0) + (mode == CreaseMode::curve ? 5 : 0);
+    for (size_t z = first; z < kernelZoo().size(); z += kStep) {
+        const KernelCage& entry = kernelZoo()[z];
         SCOPED_TRACE(entry.name);
         const surface::blend::Mesh mesh = blendMesh(entry.cage, {mode, 1.0f});
         const host::CageArrays arrays(entry.cage);
