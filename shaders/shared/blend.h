@@ -1,5 +1,5 @@
 // The tables of the blending surface (what all schemes share: shared/surface.h; the formulas: docs/blend.md). They are
-// made for one rate.
+// made for one rate, or for none where patches are drawn at levels of detail: then there are neither coordinates nor samples.
 //
 // Coefficient pool: where the cage takes a step of subdivision first, its vertices; then kChartCoefficients a chart: c_ab at
 // 3 a + b, the first a position and the others vectors.
@@ -14,7 +14,8 @@
 //   chart samples    one element a pair of coordinates, x fastest: (zeta, d zeta / dz) of sector 0; where x = 0 and y > 0 zeta is
 //                    told from the next direction, so that both faces at a spoke multiply the same numbers; one run a k
 //   crease samples   two elements likewise: the parameter of the crease, its slopes by x and by y; one run a k
-//   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples)
+//   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples), or, at
+//                    levels, (.., .., 4 / k, 0)
 #ifndef SUPPLE_SHARED_BLEND_H
 #define SUPPLE_SHARED_BLEND_H
 

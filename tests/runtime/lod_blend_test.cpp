@@ -8,6 +8,7 @@
 #include "tools/host/cage_arrays.h"
 
 #include <cstdio>
+#include <set>
 
 namespace supple::test {
 namespace {
@@ -105,6 +106,41 @@ TEST_P(LodBlend, RandomLevelsAreTheReferences) {
     EXPECT_LE(worst, 1e-6);
     EXPECT_EQ(notUnit, 0u);
     EXPECT_LE(static_cast<double>(steep), 1e-3 * static_cast<double>(bits.samples));
+}
+
+// What the levels of edges are made of is the same on both sides, across creases too, where each side has its own
+// chart.
+TEST_P(LodBlend, BothSidesOfAnEdgeAskForTheSame) {
+    const ValidationGuard guard;
+    const auto [mapping, mode] = GetParam();
+    RandomLevels random(mapping, RandomLevels::Edges::own);
+    ASSERT_TRUE(random.valid());
+    Borders all;
+    std::set<float> levels;
+    for (const KernelCage& entry : kernelZoo()) {
+        SCOPED_TRACE(entry.name);
+        const host::CageArrays arrays(entry.cage);
+        Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, entry.name);
+        ASSERT_TRUE(character.ok());
+        SuppleGroupDesc desc{};
+        desc.scheme = SUPPLE_SCHEME_BLEND;
+        desc.creaseMode = mode == CreaseMode::curve ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT;
+        std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(*character), desc);
+        ASSERT_TRUE(drawn.has_value());
+        nameCorners(blendMesh(entry.cage, {mode, 1.0f}), drawn->patches);
+        const Borders borders = bordersOf(drawn->surface, drawn->patches);
+        EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
+        EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
+        EXPECT_LE(matchSides(drawn->surface).unmatched, borders.open);
+        all.samples += borders.samples;
+        all.edges += borders.edges;
+        for (const LodSurface::Patch& patch : drawn->surface.patches) {
+            levels.insert({patch.levels[4], patch.levels[6], patch.levels[8], patch.levels[10]});
+        }
+    }
+    std::printf("%zu edges with %zu samples of a side, %zu levels\n", all.edges, all.samples, levels.size());
+    EXPECT_GT(all.edges, 10000u);
+    EXPECT_GT(levels.size(), 1000u);
 }
 
 } // namespace

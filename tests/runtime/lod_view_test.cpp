@@ -479,80 +479,85 @@ TEST_P(LodViews, AttributesFollowTheSamples) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     const SuppleAsset asset = context.asset(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
-    TestView view(context, 400000, SUPPLE_VIEW_ATTRIBUTES);
-    SuppleGroupDesc desc{};
-    desc.asset = asset;
-    desc.capacity = 1;
-    desc.view = view.handle();
-    Crowd crowd(context, desc);
-    ASSERT_TRUE(crowd.valid());
-    (void)crowd.spawn();
-    view.look({0.4f, 1.2f, 1.6f});
-    context.run(crowd.group());
-    const LodSurface surface = readLodSurface(crowd);
-    const std::vector<std::byte> bytes = crowd.read(crowd.output().attributes);
-    const auto uvOf = [](const std::vector<std::byte>& from, size_t vertex) {
-        glm::vec2 uv;
-        std::memcpy(&uv, &from[16 * vertex], sizeof(uv));
-        return glm::dvec2(uv);
-    };
-    // Rate 1 has the corners alone.
-    SuppleGroupDesc cornersDesc{};
-    cornersDesc.flags = SUPPLE_GROUP_ATTRIBUTES;
-    cornersDesc.asset = asset;
-    cornersDesc.capacity = 1;
-    cornersDesc.rate = 1;
-    Crowd corners(context, cornersDesc);
-    ASSERT_TRUE(corners.valid());
-    (void)corners.spawn();
-    context.run(corners.group());
-    const SuppleGroupOutput output = corners.output();
-    const std::vector<std::byte> cornerBytes = corners.read(output.attributes);
-    size_t compared = 0;
-    double largest = 0.0;
-    std::set<SuppleDomain> domains;
-    for (const LodSurface::Patch& patch : surface.patches) {
-        const SuppleDrawRange* range = output.drawRanges;
-        while (patch.patch >= range->firstPatch + range->patchCount) {
-            ++range;
-        }
-        const size_t first = range->firstVertex + size_t{patch.patch - range->firstPatch} * range->samplesPerPatch;
-        std::vector<glm::dvec2> at; // in the order of the domain's corners
-        constexpr uint32_t kQuad[] = {0, 1, 3, 2};
-        const uint32_t sides = range->domain == SUPPLE_DOMAIN_PENTAGON ? 5
-                               : range->domain == SUPPLE_DOMAIN_QUAD   ? 4
-                                                                       : 3;
-        for (uint32_t c = 0; c < sides; ++c) {
-            at.push_back(uvOf(cornerBytes, first + (range->domain == SUPPLE_DOMAIN_QUAD ? kQuad[c] : c)));
-        }
-        domains.insert(range->domain);
-        const uint32_t count = surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
-        for (uint32_t s = 0; s < count; ++s, ++compared) {
-            const At sample = sampleAt(patch, s);
-            double u = sample.uv.x, v = sample.uv.y;
-            glm::dvec2 wanted(0.0);
-            if (range->domain == SUPPLE_DOMAIN_POLAR) {
-                wanted = (1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * at[2];
-            } else if (range->domain == SUPPLE_DOMAIN_QUAD) {
-                if (patch.grid != SUPPLE_GRID_QUAD) { // from the place in the square round the centre
-                    constexpr double kX[] = {0, 1, 1, 0}, kY[] = {0, 0, 1, 1};
-                    const uint32_t next = (sample.side + 1) % 4;
-                    u = sample.weights.x * kX[sample.side] + sample.weights.y * kX[next] + sample.weights.z * 0.5;
-                    v = sample.weights.x * kY[sample.side] + sample.weights.y * kY[next] + sample.weights.z * 0.5;
-                }
-                wanted = (1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * ((1.0 - u) * at[3] + u * at[2]);
-            } else {
-                for (uint32_t c = 0; c < sides; ++c) {
-                    wanted += sample.weights.z / sides * at[c];
-                }
-                wanted += sample.weights.x * at[sample.side] + sample.weights.y * at[(sample.side + 1) % sides];
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_BLEND}) {
+        TestView view(context, 400000, SUPPLE_VIEW_ATTRIBUTES);
+        SuppleGroupDesc desc{};
+        desc.asset = asset;
+        desc.capacity = 1;
+        desc.scheme = scheme;
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        (void)crowd.spawn();
+        view.look({0.4f, 1.2f, 1.6f});
+        context.run(crowd.group());
+        const LodSurface surface = readLodSurface(crowd);
+        const std::vector<std::byte> bytes = crowd.read(crowd.output().attributes);
+        const auto uvOf = [](const std::vector<std::byte>& from, size_t vertex) {
+            glm::vec2 uv;
+            std::memcpy(&uv, &from[16 * vertex], sizeof(uv));
+            return glm::dvec2(uv);
+        };
+        // Rate 1 has the corners alone.
+        SuppleGroupDesc cornersDesc{};
+        cornersDesc.flags = SUPPLE_GROUP_ATTRIBUTES;
+        cornersDesc.asset = asset;
+        cornersDesc.capacity = 1;
+        cornersDesc.scheme = scheme;
+        cornersDesc.rate = 1;
+        Crowd corners(context, cornersDesc);
+        ASSERT_TRUE(corners.valid());
+        (void)corners.spawn();
+        context.run(corners.group());
+        const SuppleGroupOutput output = corners.output();
+        const std::vector<std::byte> cornerBytes = corners.read(output.attributes);
+        size_t compared = 0;
+        double largest = 0.0;
+        std::set<SuppleDomain> domains;
+        for (const LodSurface::Patch& patch : surface.patches) {
+            const SuppleDrawRange* range = output.drawRanges;
+            while (patch.patch >= range->firstPatch + range->patchCount) {
+                ++range;
             }
-            largest = std::max(largest, glm::length(uvOf(bytes, patch.firstVertex + s) - wanted));
+            const size_t first = range->firstVertex + size_t{patch.patch - range->firstPatch} * range->samplesPerPatch;
+            std::vector<glm::dvec2> at; // in the order of the domain's corners
+            constexpr uint32_t kQuad[] = {0, 1, 3, 2};
+            const uint32_t sides = range->domain == SUPPLE_DOMAIN_PENTAGON ? 5
+                                   : range->domain == SUPPLE_DOMAIN_QUAD   ? 4
+                                                                           : 3;
+            for (uint32_t c = 0; c < sides; ++c) {
+                at.push_back(uvOf(cornerBytes, first + (range->domain == SUPPLE_DOMAIN_QUAD ? kQuad[c] : c)));
+            }
+            domains.insert(range->domain);
+            const uint32_t count = surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
+            for (uint32_t s = 0; s < count; ++s, ++compared) {
+                const At sample = sampleAt(patch, s);
+                double u = sample.uv.x, v = sample.uv.y;
+                glm::dvec2 wanted(0.0);
+                if (range->domain == SUPPLE_DOMAIN_POLAR) {
+                    wanted = (1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * at[2];
+                } else if (range->domain == SUPPLE_DOMAIN_QUAD) {
+                    if (patch.grid != SUPPLE_GRID_QUAD) { // from the place in the square round the centre
+                        constexpr double kX[] = {0, 1, 1, 0}, kY[] = {0, 0, 1, 1};
+                        const uint32_t next = (sample.side + 1) % 4;
+                        u = sample.weights.x * kX[sample.side] + sample.weights.y * kX[next] + sample.weights.z * 0.5;
+                        v = sample.weights.x * kY[sample.side] + sample.weights.y * kY[next] + sample.weights.z * 0.5;
+                    }
+                    wanted = (1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * ((1.0 - u) * at[3] + u * at[2]);
+                } else {
+                    for (uint32_t c = 0; c < sides; ++c) {
+                        wanted += sample.weights.z / sides * at[c];
+                    }
+                    wanted += sample.weights.x * at[sample.side] + sample.weights.y * at[(sample.side + 1) % sides];
+                }
+                largest = std::max(largest, glm::length(uvOf(bytes, patch.firstVertex + s) - wanted));
+            }
         }
+        std::printf("scheme %d: %zu samples of %zu domains, UVs within %.1e\n", scheme, compared, domains.size(),
+                    largest);
+        EXPECT_GE(domains.size(), scheme == SUPPLE_SCHEME_PM ? 3u : 1u);
+        EXPECT_LE(largest, 1e-5);
     }
-    std::printf("%zu samples of %zu domains, UVs within %.1e\n", compared, domains.size(), largest);
-    EXPECT_GE(domains.size(), 3u);
-    EXPECT_LE(largest, 1e-5);
 }
 
 TEST_P(LodViews, GroupsComeAndGoAndShareTheView) {
@@ -595,7 +600,7 @@ TEST_P(LodViews, GroupsComeAndGoAndShareTheView) {
     run();
     crowds.erase(crowds.begin() + 1); // leaves a gap among the runs
     run();
-    add(SUPPLE_SCHEME_PM);
+    add(SUPPLE_SCHEME_BLEND);
     add(SUPPLE_SCHEME_PM);
     run();
     crowds.erase(crowds.begin(), crowds.begin() + 2);

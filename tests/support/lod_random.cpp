@@ -30,7 +30,7 @@ constexpr const char* kRandomCapacity = R"(
 
 } // namespace
 
-RandomLevels::RandomLevels(SuppleMapping mapping)
+RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges)
     : edge_(compileEdited("lod/edge.comp", "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
                           kRandomEdge)),
       patch_(compileEdited("lod/patch.comp",
@@ -41,7 +41,9 @@ RandomLevels::RandomLevels(SuppleMapping mapping)
         return;
     }
     surface::Shaders shaders = surface::Shaders::embedded();
-    shaders.lod.edge = edge_;
+    if (edges == Edges::random) {
+        shaders.lod.edge = edge_;
+    }
     shaders.lod.patch = patch_;
     SuppleContextDesc contextDesc = host::contextDesc(*testDevice());
     contextDesc.mapping = mapping;

@@ -11,10 +11,12 @@
 
 namespace supple::test {
 
-/// A context and a view with the level passes replaced. Failures are recorded in the test; check valid().
+/// A context and a view whose passes are replaced: those of capacities, and of edges' levels unless they are to keep
+/// their own. Failures are recorded in the test; check valid().
 class RandomLevels {
 public:
-    explicit RandomLevels(SuppleMapping mapping);
+    enum class Edges { random, own };
+    explicit RandomLevels(SuppleMapping mapping, Edges edges = Edges::random);
 
     [[nodiscard]] bool valid() const { return context_ != nullptr; }
 
