@@ -54,7 +54,7 @@ surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View*
     if (surface::subdivides(recipe.scheme)) {
         recipe.rate = std::bit_ceil(rate);
     } else if (recipe.scheme == SchemeId::blend) {
-        recipe.rate = rate;
+        recipe.rate = recipe.lod ? 0 : rate;
         recipe.blend.creases = desc.creaseMode == SUPPLE_CREASES_CURVE ? surface::blend::CreaseMode::curve
                                                                        : surface::blend::CreaseMode::cut;
         recipe.blend.sharpThreshold = desc.sharpThreshold > 0.0f ? desc.sharpThreshold : 1.0f;

@@ -271,7 +271,8 @@ Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
-        shared_.surface->lod().recordEdges(commandBuffer, window, levelArguments(window), levelPush(own));
+        shared_.surface->lod().recordEdges(commandBuffer, scheme_->tables.lod, window, levelArguments(window),
+                                           levelPush(own));
     });
     const uint64_t points = scheme_->tables.lod.edges.count;
     return costOfSeen(points, points * sizeof(float));
@@ -284,7 +285,8 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
         // All count into one buffer, with atomics; to synchronization validation it is one resource that they read too.
         gpu::computeBarrier(*shared_.device, commandBuffer);
-        shared_.surface->lod().recordPatches(commandBuffer, window, levelArguments(window), levelPush(own));
+        shared_.surface->lod().recordPatches(commandBuffer, scheme_->tables.lod, window, levelArguments(window),
+                                             levelPush(own));
     });
     const uint64_t points = output_.patchCount;
     return costOfSeen(points, points * kLodPatchLevelWords * sizeof(uint32_t));

@@ -22,6 +22,7 @@
 #include "shaders/prep_vertex_comp.h"
 #include "shaders/shared/kernel.h"
 #include "shaders/shared/pm.h"
+#include "surface/lod/tables.h"
 #include "surface/shared_samples.h"
 
 #include <iterator>
@@ -211,7 +212,7 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
     }
     const uint32_t normals = tables.cornerNormals ? 1 : 0;
     if (status && needs.lod) {
-        status = lod_.prepare(layout_);
+        status = lod_.prepare(layout_, tables.lod);
     }
     const bool shares = tables.sharesSamples();
     if (status && shares) {
@@ -221,10 +222,13 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         const auto patchClass = static_cast<uint32_t>(range.patchClass);
         const std::string name = className(range.patchClass);
         const bool bicubic = patchClass <= kPolarPatch;
+        const bool blends = range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp;
+        const std::span<const uint32_t> evaluate = blends    ? shaders_.blendEvaluate
+                                                   : bicubic ? shaders_.bicubic
+                                                             : shaders_.pmEvaluate;
         if (needs.lod) {
             for (size_t f = 0; status && f < formats.size(); ++f) {
-                status = make(lodEvaluate_[formats[f]][patchClass][normals],
-                              bicubic ? shaders_.bicubic : shaders_.pmEvaluate,
+                status = make(lodEvaluate_[formats[f]][patchClass][normals], evaluate,
                               {{kKindConstant, patchClass},
                                {kVertexFormatConstant, formats[f]},
                                {kCornerNormalsConstant, normals},
@@ -235,7 +239,7 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
                 status = make(lodAttributes_[patchClass], shaders_.attributes,
                               {{kKindConstant, static_cast<uint32_t>(domainOf(range.patchClass))},
                                {kLodConstant, VK_TRUE},
-                               {kRingsConstant, bicubic ? VK_FALSE : VK_TRUE}},
+                               {kRingsConstant, lod::formOf(range.patchClass) == lod::Form::quad ? VK_FALSE : VK_TRUE}},
                               "supple attributes at levels, " + name);
             }
             continue;
@@ -250,21 +254,15 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         }
         for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty() && !shares; ++f) {
             ByRate& byRate = evaluate_[patchClass][formats[f]][normals];
-            if (range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp) {
-                status = make(byRate[0], shaders_.blendEvaluate,
-                              {{kKindConstant, patchClass}, {kVertexFormatConstant, formats[f]}},
-                              "supple evaluate, " + name);
-            } else {
-                // The rate it begins with, where that is worth a pipeline, and any that is set later.
-                for (const uint32_t rate : {0u, unrolled(needs.rate)}) {
-                    if (status && (rate == 0 || (patchClass == kRegularPatch && formats[f] != kVertexPosition))) {
-                        status = make(byRate[rate], bicubic ? shaders_.bicubic : shaders_.pmEvaluate,
-                                      {{kKindConstant, patchClass},
-                                       {kVertexFormatConstant, formats[f]},
-                                       {kCornerNormalsConstant, normals},
-                                       {kRateConstant, rate}},
-                                      "supple evaluate, " + name + atRate(rate));
-                    }
+            // The rate it begins with, where that is worth a pipeline, and any that is set later.
+            for (const uint32_t rate : {0u, unrolled(needs.rate)}) {
+                if (status && (rate == 0 || (patchClass == kRegularPatch && formats[f] != kVertexPosition))) {
+                    status = make(byRate[rate], evaluate,
+                                  {{kKindConstant, patchClass},
+                                   {kVertexFormatConstant, formats[f]},
+                                   {kCornerNormalsConstant, normals},
+                                   {kRateConstant, rate}},
+                                  "supple evaluate, " + name + atRate(rate));
                 }
             }
         }

@@ -137,8 +137,9 @@ struct Fragments {
 
 /// What level of detail adds (surface/lod/tables.h); empty where it is not asked for.
 struct LodTables {
-    Section edges;   ///< one element each
-    Section patches; ///< two elements each, all classes, in device order
+    bool charts = false; ///< borders are of charts (blending surface) instead of cubics
+    Section edges;       ///< one element each, of charts two
+    Section patches;     ///< two elements each, all classes, in device order
     struct Run {
         PatchClass patchClass = PatchClass::regular;
         uint32_t material = cage::kNone;

@@ -38,6 +38,9 @@ Result<Tables> buildScheme(const Recipe& recipe, const cage::Cage& cage) {
         if (!mesh) {
             return mesh.error();
         }
+        if (recipe.lod) {
+            return blend::buildTables(*mesh, 0);
+        }
         const uint32_t rate = std::max(recipe.rate, 1u);
         return blend::buildTables(*mesh, mesh->refined ? (rate + 1) / 2 : rate);
     }

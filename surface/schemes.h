@@ -32,14 +32,14 @@ struct Recipe {
     return scheme == SchemeId::catmullClark || scheme == SchemeId::loop;
 }
 
-/// Whether its tables are made for one rate.
+/// Whether its tables are made for one rate, but for those with levels.
 [[nodiscard]] constexpr bool hasRate(SchemeId scheme) {
     return subdivides(scheme) || scheme == SchemeId::blend;
 }
 
 /// Whether its patches can be drawn at real-valued levels, and whether they can share their samples.
 [[nodiscard]] constexpr bool hasLevels(SchemeId scheme) {
-    return scheme == SchemeId::prep || scheme == SchemeId::pm;
+    return !subdivides(scheme);
 }
 
 /// Builds the scheme's tables, or says why it cannot take the cage: "face 12 has 5 sides: p-rep takes quads only".

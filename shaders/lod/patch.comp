@@ -11,6 +11,10 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/levels.glsl"
 
+layout(constant_id = 3) const bool kCharts = false; // patches of the blending surface
+const bool kSharp = true;
+#include "shaders/blend/blend.glsl"
+
 // What the inside of a bicubic patch asks for along u and along v: its net's largest second differences.
 vec2 bicubicLevels(uint record, uint base, bool polar) {
     vec3 g[16];
@@ -58,6 +62,34 @@ float sectorLevel(uint record, uint sides, uint base) {
     return levelOf(2.0 * reach, lengthOf(mean - centre) * (4.0 / 3.0), pixelsPerUnit(centre, reach));
 }
 
+// And of a blend of charts: along the middle, by quarters.
+vec2 chartLevels(uint record, uint base) {
+    Corner corners[4];
+    for (uint k = 0u; k < 4u; ++k) {
+        uint poolIndex;
+        corners[k] = cornerOf(record + k, poolIndex);
+        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = poolVector(base + poolIndex + c);
+    }
+    vec2 bend = vec2(0.0), curveLength = vec2(0.0);
+    vec3 centre = vec3(0.0);
+    for (uint axis = 0u; axis < 2u; ++axis) {
+        vec3 first = vec3(0.0), second = vec3(0.0); // the last point but one, the last
+        for (uint i = 0u; i < 5u; ++i) {
+            vec2 along = vec2(0.25 * float(i), 1.0 - 0.25 * float(i));
+            vec3 point, du, dv;
+            blendAt(corners, axis == 0u ? along : vec2(0.5), axis == 0u ? vec2(0.5) : along, point, du, dv);
+            if (i > 0u) curveLength[axis] += lengthOf(point - second);
+            if (i > 1u) bend[axis] = max(bend[axis], lengthOf((first + point) - 2.0 * second));
+            if (i == 2u) centre = point;
+            first = second;
+            second = point;
+        }
+    }
+    bend *= 16.0 / 6.0;
+    float pixels = pixelsPerUnit(centre, 0.25 * (curveLength.x + curveLength.y));
+    return vec2(levelOf(curveLength.x, bend.x, pixels), levelOf(curveLength.y, bend.y, pixels));
+}
+
 void main() {
     uint id = invocationIndex();
     if (id >= push.count * instanceCount()) return;
@@ -75,7 +107,9 @@ void main() {
     } else {
         for (uint k = 0u; k < sides; ++k)
             level = max(level, uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x))));
-        own = form == kLodQuadForm ? bicubicLevels(more.z, base, more.w == kPolarPatch) : vec2(sectorLevel(more.z, sides, base));
+        if (kCharts) own = chartLevels(more.z, base);
+        else if (form == kLodQuadForm) own = bicubicLevels(more.z, base, more.w == kPolarPatch);
+        else own = vec2(sectorLevel(more.z, sides, base));
         level = max(level, max(own.x, own.y));
     }
 

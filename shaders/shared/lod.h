@@ -95,7 +95,8 @@ struct LodDispatch {
 };
 
 // Table elements.
-//   edges     pool indices (end, its tangent, the other end's tangent, other end)
+//   edges     pool indices (end, its tangent, the other end's tangent, other end); blending surface: an element an end,
+//             (pool index of c_00 | kCreasedChart, direction of the edge in the chart, 4 / k)
 //   patches   two elements: edges 0..3; (edge 4, run within the window's, first element of its patch record, class)
 SUPPLE_SHARED_CONST kLodPatchLevelWords = 3u; // bin, levels the inside asks for along u and along v
 

@@ -552,8 +552,8 @@ typedef struct SuppleGroupDesc {
     SuppleCreaseMode creaseMode; /**< BLEND */
     float sharpThreshold;        /**< BLEND: edges of this sharpness and more are sharp; 0 = 1 */
     SupplePoseSource poseSource; /**< PALETTE_BUFFER goes with linear skinning only */
-    /** Optional: the group is drawn at this view's levels of detail. PREP and PM. rate, vertexFormat and flags are then
-     * the view's; see SuppleGroupOutput.lodDraws. */
+    /** Optional: the group is drawn at this view's levels of detail. PREP, PM and BLEND. rate, vertexFormat and flags
+     * are then the view's; see SuppleGroupOutput.lodDraws. */
     SuppleView view;
 } SuppleGroupDesc;
 
