@@ -5,8 +5,10 @@
 #include "base/result.h"
 #include "gpu/memory.h"
 #include "runtime/instance_slots.h"
+#include "supple/supple.h"
 #include "surface/bounds_pass.h"
 #include "surface/evaluation.h"
+#include "surface/occlusion_pass.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +23,8 @@ public:
     struct Desc {
         const gpu::Device* device = nullptr;
         const surface::BoundsPass* pass = nullptr;
+        const surface::OcclusionPass* occlusion = nullptr; ///< or null: nothing hides
+        uint32_t framesInFlight = 2;
         uint32_t capacity = 0;
         uint32_t windowSize = 0, windows = 0;
         uint32_t cageVertices = 0, cageStride = 0;
@@ -43,11 +47,17 @@ public:
     void recordClear(VkCommandBuffer commandBuffer) const;
     void recordBounds(VkCommandBuffer commandBuffer, std::span<const InstanceSlots::Listed> windows) const;
     void recordList(VkCommandBuffer commandBuffer) const;
+    /// Between the two. `place`: of the frame among those in flight, whose descriptor set no frame uses any more;
+    /// `generation` tells whether it has this pyramid.
+    void recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
+                         uint64_t generation, uint32_t instanceCount);
 
     /// What passes after the list work on, in the place of a window of the host's list: `set` stays the caller's.
     [[nodiscard]] surface::Window window(uint32_t window, VkDescriptorSet set) const;
     [[nodiscard]] VkBuffer list() const { return buffers_.buffer(kList); }
     [[nodiscard]] VkDeviceSize listBytes() const { return buffers_.size(kList); }
+    /// Of the four words in the list's buffer that tell how many are seen (shaders/shared/bounds.h).
+    [[nodiscard]] VkDeviceSize seenOffset() const { return VkDeviceSize{firstArgument()} * sizeof(uint32_t); }
     [[nodiscard]] VkBuffer bounds() const { return buffers_.buffer(kBounds); }
     [[nodiscard]] VkDeviceSize boundsBytes() const { return buffers_.size(kBounds); }
     [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes(); }
@@ -56,6 +66,7 @@ private:
     /// kList: all that are seen, those of every window, then the arguments.
     enum BufferIndex : size_t { kBounds, kStates, kList, kTable, kBufferCount };
     [[nodiscard]] Status createSets(const Desc& desc);
+    [[nodiscard]] Status createOcclusionSets(const Desc& desc, VkBufferView hostList);
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(elements_.size()); }
     /// Words of kList.
     [[nodiscard]] uint32_t firstArgument() const;
@@ -70,6 +81,13 @@ private:
     gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;
     std::vector<VkDescriptorSet> sets_; ///< by window
+    const surface::OcclusionPass* occlusion_ = nullptr;
+    gpu::DescriptorPoolHandle occlusionPool_;
+    struct OcclusionSet {
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        uint64_t generation = 0; ///< of the pyramid that it was written with
+    };
+    std::vector<OcclusionSet> occlusionSets_; ///< by frame in flight
 };
 
 } // namespace supple::runtime

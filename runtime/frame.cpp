@@ -164,6 +164,10 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             const Group::PassCost cost = group.recordBounds(commandBuffer);
             if (group.culls()) {
                 computeBarrier();
+                if (group.occludes()) {
+                    group.recordOcclusion(commandBuffer);
+                    computeBarrier();
+                }
                 group.recordSeen(commandBuffer);
             }
             return cost;
@@ -207,6 +211,9 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         for (uint32_t g = 0; g < desc.groupCount; ++g) {
             if (firstOfView(g)) {
                 groupAt(g).view()->recordReadback(commandBuffer);
+            }
+            if (groupAt(g).view() != nullptr) {
+                groupAt(g).recordReadback(commandBuffer);
             }
         }
         if (any([](Group& group) { return group.writesLodAttributes(); })) {

@@ -28,8 +28,9 @@ struct GroupShared {
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
-    const surface::BoundsPass* bounds = nullptr; ///< for groups of views that cull
-    std::shared_ptr<View> view;                  ///< of the description
+    const surface::BoundsPass* bounds = nullptr;       ///< for groups of views that cull
+    const surface::OcclusionPass* occlusion = nullptr; ///< for groups of views with occlusion
+    std::shared_ptr<View> view;                        ///< of the description
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
     bool handsOver = false;       ///< to another queue family: every output is written anew in every frame
@@ -84,6 +85,11 @@ public:
     [[nodiscard]] bool culls() const { return culling_.active(); }
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
     void recordSeen(VkCommandBuffer commandBuffer) const { culling_.recordList(commandBuffer); }
+    /// Between the two, with a barrier on either side, what the view's depth pyramid hides.
+    [[nodiscard]] bool occludes() const { return culls() && visible_ > 0 && view_->depthPyramid().has_value(); }
+    void recordOcclusion(VkCommandBuffer commandBuffer);
+    /// For the view's statistics.
+    void recordReadback(VkCommandBuffer commandBuffer) const;
 
     // Groups of a view: the levels of edges, then of patches, then, when the view has solved its budget, places.
     PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const;

@@ -149,6 +149,16 @@ Group::PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
     return {visible_, visible_ * VkDeviceSize{32}};
 }
 
+void Group::recordOcclusion(VkCommandBuffer commandBuffer) {
+    culling_.recordOcclusion(commandBuffer, passesFrame_ % shared_.framesInFlight, *view_->depthPyramid(),
+                             view_->pyramidGeneration(), visible_);
+}
+
+void Group::recordReadback(VkCommandBuffer commandBuffer) const {
+    view_->recordReadback(commandBuffer, visible_, output_.patchCount, culls() ? culling_.list() : VK_NULL_HANDLE,
+                          culls() ? culling_.seenOffset() : 0);
+}
+
 Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
     if (!attributesPending_) {
         return {};

@@ -24,6 +24,7 @@ constexpr uint32_t kMinSamples = 3;        ///< of a patch: a triangle at capaci
 constexpr uint32_t kPaddingOfRun = 3 * 64; ///< surface vertices that whole draw instances may cost a run
 constexpr uint32_t kFreeRun = 0xFFFFFF00u; ///< a run of no dispatch
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
+constexpr VkDeviceSize kSeenBytes = VkDeviceSize{kListHeaderWords} * 4;
 
 } // namespace
 
@@ -98,7 +99,7 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     view->takenRuns_.resize(kMaxRuns);
     const gpu::BufferRequest staging{"supple view staging", view->uploadBytes() * framesInFlight,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
-    const gpu::BufferRequest readback{"supple view statistics", sizeof(LodSolution) * VkDeviceSize{framesInFlight},
+    const gpu::BufferRequest readback{"supple view statistics", view->readbackAt(framesInFlight, 0),
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     for (const auto& [target, wanted] : {std::pair(&view->staging_, staging), std::pair(&view->readback_, readback)}) {
         Result<gpu::BufferSet> set = gpu::BufferSet::create(device, {&wanted, 1}, gpu::MemoryKind::upload);
@@ -108,6 +109,10 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
         *target = std::move(*set);
     }
     view->solvedFrames_.resize(framesInFlight);
+    view->shown_.resize(framesInFlight);
+    for (std::vector<Shown>& shown : view->shown_) {
+        shown.reserve(kMaxRuns);
+    }
     return view;
 }
 
@@ -116,7 +121,13 @@ void View::setCamera(const SuppleCameraDesc& camera) {
     hasCamera_ = true;
 }
 
-std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, uint32_t windows) {
+void View::setDepthPyramid(const std::optional<SuppleDepthPyramidDesc>& pyramid) {
+    pyramid_ = pyramid;
+    ++pyramidGeneration_;
+}
+
+std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
+                                       uint32_t windows) {
     const auto each = static_cast<uint32_t>(lod.runs.size());
     const uint64_t wanted = uint64_t{each} * windows;
     uint32_t first = 0, length = 0;
@@ -135,6 +146,9 @@ std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, uint32_t w
             const uint32_t run = first + w * each + r;
             takenRuns_[run] = true;
             hostWords_[kLodRuns + run] = form | (first + w * each + range) << 8;
+            const uint32_t bit = 1u << run % 32;
+            uint32_t& bits = hostWords_[kLodDoubleSided + run / 32];
+            bits = doubleSided[r] ? bits | bit : bits & ~bit;
             forms_ |= 1u << form;
         }
     }
@@ -154,8 +168,10 @@ void View::giveRuns(uint32_t first, uint32_t count) {
 
 LodPush View::levelPush() const {
     LodPush push{};
-    push.orthographic = (camera_.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0 ? 1 : 0;
-    std::copy_n(camera_.position, 3, push.camera);
+    const bool orthographic = (camera_.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0;
+    push.flags =
+        (orthographic ? kLodOrthographic : 0) | ((desc_.flags & SUPPLE_VIEW_BACK_FACES) != 0 ? kLodBackFaces : 0);
+    std::copy_n(orthographic ? camera_.direction : camera_.position, 3, push.camera);
     push.focal = camera_.pixelsPerUnit;
     push.nearest = camera_.nearest > 0.0f ? camera_.nearest : 0.01f;
     if (camera_.edgeLength > 0.0f) {
@@ -236,21 +252,54 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
 void View::recordReadback(VkCommandBuffer commandBuffer) {
     const uint64_t place = recordedFrame_ % framesInFlight_;
     solvedFrames_[place] = recordedFrame_;
-    const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, place * sizeof(LodSolution), sizeof(LodSolution)};
+    shown_[place].clear();
+    const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, readbackAt(place, 0), sizeof(LodSolution)};
     device_->vk.CmdCopyBuffer(commandBuffer, buffers_.buffer(kWords), readback_.buffer(0), 1, &region);
+}
+
+void View::recordReadback(VkCommandBuffer commandBuffer, uint32_t visible, uint32_t patches, VkBuffer seen,
+                          VkDeviceSize offset) {
+    const uint64_t place = recordedFrame_ % framesInFlight_;
+    shown_[place].push_back({visible, patches, seen != VK_NULL_HANDLE});
+    if (seen != VK_NULL_HANDLE) {
+        const auto group = static_cast<uint32_t>(shown_[place].size());
+        const VkBufferCopy region{offset, readbackAt(place, group), kSeenBytes};
+        device_->vk.CmdCopyBuffer(commandBuffer, seen, readback_.buffer(0), 1, &region);
+    }
+}
+
+VkDeviceSize View::readbackAt(uint64_t place, uint32_t group) const {
+    // The solution first; every group takes at least one run.
+    constexpr VkDeviceSize kFirst = (sizeof(LodSolution) + kSeenBytes - 1) / kSeenBytes * kSeenBytes;
+    const VkDeviceSize own = group > 0 ? kFirst + (group - 1) * kSeenBytes : 0;
+    return place * (kFirst + kMaxRuns * kSeenBytes) + own;
 }
 
 void View::beginFrame(uint64_t completedFrame) {
     for (size_t i = 0; i < solvedFrames_.size(); ++i) {
         if (solvedFrames_[i] > newest_.frame && solvedFrames_[i] <= completedFrame) {
             LodSolution solution;
-            std::memcpy(&solution, readback_.mapped(0) + i * sizeof(LodSolution), sizeof(solution));
+            std::memcpy(&solution, readback_.mapped(0) + readbackAt(i, 0), sizeof(solution));
             newest_.frame = solvedFrames_[i];
             std::copy_n(solution.scale, kPriorityCount, newest_.levelScales);
             newest_.vertexCount = solution.vertices;
             newest_.patchCount = solution.patches;
             newest_.wantedVertexCount = solution.wanted;
             newest_.shortfall = solution.shortfall;
+            newest_.instanceCount = newest_.seenCount = newest_.occludedCount = 0;
+            uint32_t patches = 0;
+            for (uint32_t g = 0; g < shown_[i].size(); ++g) {
+                const Shown& shown = shown_[i][g];
+                uint32_t words[kListHeaderWords] = {shown.visible};
+                if (shown.culled) {
+                    std::memcpy(words, readback_.mapped(0) + readbackAt(i, g + 1), sizeof(words));
+                }
+                newest_.instanceCount += shown.visible;
+                newest_.seenCount += words[0];
+                newest_.occludedCount += words[3];
+                patches += words[0] * shown.patches;
+            }
+            newest_.backFaceCount = patches - solution.counted;
         }
     }
 }

@@ -24,12 +24,19 @@ public:
 
     [[nodiscard]] const SuppleViewDesc& desc() const { return desc_; }
     void setCamera(const SuppleCameraDesc& camera); ///< as checked by the caller
+    /// As checked by the caller; nothing: nothing hides.
+    void setDepthPyramid(const std::optional<SuppleDepthPyramidDesc>& pyramid);
+    [[nodiscard]] const std::optional<SuppleDepthPyramidDesc>& depthPyramid() const { return pyramid_; }
+    /// Changes whenever the pyramid is set: image views may come again under the same handle.
+    [[nodiscard]] uint64_t pyramidGeneration() const { return pyramidGeneration_; }
     [[nodiscard]] shared::CullView cullView() const;
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
 
     /// A group's windows take runs when it is created and give them back when it goes. The runs of `windows` windows,
     /// one after the other, each as `lod` lists them; patch ranges r of a window evaluate as dispatch firstRun + r.
-    [[nodiscard]] std::optional<uint32_t> takeRuns(const surface::LodTables& lod, uint32_t windows);
+    /// `doubleSided`: by run of a window.
+    [[nodiscard]] std::optional<uint32_t> takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
+                                                   uint32_t windows);
     void giveRuns(uint32_t first, uint32_t count);
 
     /// The scales, in the coordinates surfaces come out in; what belongs to the window is the caller's to fill in.
@@ -41,8 +48,11 @@ public:
     /// `priorities`: bits of those that instances have.
     void recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
                      uint32_t priorities) const;
-    /// Copies what the solver found out to where the host reads it frames later.
+    /// Copies what the solver found out to where the host reads it frames later, and for every group of the frame what
+    /// it had to show: `seen`: four words as the list pass has them, or null where nothing is culled.
     void recordReadback(VkCommandBuffer commandBuffer);
+    void recordReadback(VkCommandBuffer commandBuffer, uint32_t visible, uint32_t patches, VkBuffer seen,
+                        VkDeviceSize offset);
     void beginFrame(uint64_t completedFrame);
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
@@ -76,6 +86,8 @@ private:
     SuppleViewDesc desc_{};
     SuppleCameraDesc camera_{};
     bool hasCamera_ = false;
+    std::optional<SuppleDepthPyramidDesc> pyramid_;
+    uint64_t pyramidGeneration_ = 0;
 
     gpu::BufferSet buffers_;
     gpu::BufferSet staging_;  ///< the host's part of the words, and the view to cull by, a run a frame in flight
@@ -89,7 +101,14 @@ private:
     bool indicesToRelease_ = false;
     uint64_t indicesReleaseFrame_ = 0;
     uint64_t clearedFrame_ = 0, recordedFrame_ = 0;
-    std::vector<uint64_t> solvedFrames_; ///< by place in readback_
+    /// What a frame's groups had to show, where the host knows it.
+    struct Shown {
+        uint32_t visible = 0, patches = 0; ///< instances; patches of each
+        bool culled = false;               ///< what is seen of them stands in the readback
+    };
+    [[nodiscard]] VkDeviceSize readbackAt(uint64_t place, uint32_t group) const;
+    std::vector<uint64_t> solvedFrames_;    ///< by place in readback_
+    std::vector<std::vector<Shown>> shown_; ///< the same; room for as many groups as there are runs
     SuppleViewStatistics newest_{};
 };
 

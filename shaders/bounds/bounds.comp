@@ -62,7 +62,7 @@ void store(uint slot, Box box) {
     precise vec3 high = empty ? box.high : box.high + grown;
     bounds[2u * slot] = vec4(low, 0.0);
     bounds[2u * slot + 1u] = vec4(high, box.sound ? 0.0 : 1.0);
-    states[slot].x = !box.sound || isSeen(low, high) ? 1u : 0u;
+    states[slot].x = !box.sound || isSeen(low, high) ? kSeen : kNotSeen;
 }
 
 void main() {

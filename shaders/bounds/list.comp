@@ -10,7 +10,7 @@ layout(set = 0, binding = kListArgumentBinding, std430) writeonly buffer Argumen
 layout(set = 0, binding = kListTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
 layout(push_constant) uniform Push { ListPush push; };
 
-shared uvec2 countsOf[kMaxLanes]; // with a past, new
+shared uvec3 countsOf[kMaxLanes]; // with a past, new, occluded
 
 uvec2 state(uint slot) {
     if (kWide) return states[slot];
@@ -20,21 +20,21 @@ uvec2 state(uint slot) {
 // The entry with kInstanceIsNew as it is now.
 uint withPast(uint entry, uvec2 state) { return state.y != 0u ? entry : entry | kInstanceIsNew; }
 
-// (1, 0): seen and with a past; (0, 1): seen and new; (0, 0)
-uvec2 kind(uint entry, uvec2 state) {
-    if (state.x == 0u) return uvec2(0u);
-    return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec2(0u, 1u) : uvec2(1u, 0u);
+// One of: seen and with a past, seen and new, occluded; or none.
+uvec3 kind(uint entry, uvec2 state) {
+    if (state.x != kSeen) return uvec3(0u, 0u, state.x == kOccluded ? 1u : 0u);
+    return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec3(0u, 1u, 0u) : uvec3(1u, 0u, 0u);
 }
 
-void storeHeader(uint at, uvec2 counts, uint listed) {
+void storeHeader(uint at, uvec3 counts, uint listed) {
     argumentWords[at] = counts.x + counts.y;
     argumentWords[at + 1u] = counts.x;
     argumentWords[at + 2u] = listed;
-    argumentWords[at + 3u] = 0u;
+    argumentWords[at + 3u] = counts.z;
 }
 
 // Lanes share the arguments of a window, or of the group.
-void storeArguments(uvec2 counts, bool ofGroup, uint offset) {
+void storeArguments(uvec3 counts, bool ofGroup, uint offset) {
     for (uint i = gl_LocalInvocationID.x; i < push.argumentCount; i += gl_WorkGroupSize.x) {
         uvec4 argument = tableElements[push.windowCount + i];
         if ((argument.z == kCountAll) != ofGroup) continue;
@@ -54,20 +54,20 @@ void storeArguments(uvec2 counts, bool ofGroup, uint offset) {
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    uvec2 total = uvec2(0u);
+    uvec3 total = uvec3(0u);
     uint listed = 0u;
     for (uint w = 0u; w < push.windowCount; ++w) {
         uvec4 window = tableElements[w];
         uint each = (window.y + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
         uint begin = window.x + min(lane * each, window.y), end = window.x + min((lane + 1u) * each, window.y);
-        uvec2 own = uvec2(0u);
+        uvec3 own = uvec3(0u);
         for (uint i = begin; i < end; ++i) {
             uint entry = hostEntry(i);
             own += kind(entry, state(entry & kInstanceSlotMask));
         }
         countsOf[lane] = own;
         barrier();
-        uvec2 before = uvec2(0u), counts = uvec2(0u);
+        uvec3 before = uvec3(0u), counts = uvec3(0u);
         for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
             if (l == lane) before = counts;
             counts += countsOf[l];
@@ -78,15 +78,15 @@ void main() {
         uvec2 places = window.w + uvec2(before.x, counts.x + before.y);
         for (uint i = begin; i < end; ++i) {
             uint entry = hostEntry(i), slot = entry & kInstanceSlotMask;
-            uvec2 now = state(slot), one = kind(entry, now);
-            if (now.x != 0u) {
+            uvec2 now = state(slot), one = kind(entry, now).xy;
+            if (now.x == kSeen) {
                 list[all] = slot;
                 ++all;
                 list[one.x != 0u ? places.x : places.y] =
                     (slot - window.z) | (withPast(entry, now) & ~kInstanceSlotMask);
                 places += one;
             }
-            states[slot].y = now.x;
+            states[slot].y = now.x == kSeen ? 1u : 0u;
         }
         if (lane == 0u) storeHeader(kListHeaderWords * (w + 1u), counts, window.y);
         storeArguments(counts, false, push.argumentStride * w);

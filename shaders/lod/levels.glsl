@@ -16,7 +16,7 @@ float lengthOf(vec3 v) {
 
 // Pixels a unit of length at a point, for a thing of this radius round it. Turning the camera changes nothing.
 float pixelsPerUnit(vec3 point, float radius) {
-    if (push.orthographic != 0u) return push.focal;
+    if ((push.flags & kLodOrthographic) != 0u) return push.focal;
     vec3 away = point - vec3(push.camera[0], push.camera[1], push.camera[2]);
     return push.focal / max(lengthOf(away) - radius, push.nearest);
 }

@@ -8,7 +8,7 @@
 //
 // Host list: an entry an instance, slots of the group rising: slot | priority << kInstancePriorityShift | kInstanceIsNew
 // where the frame before did not list it.
-// State: two words a slot: whether it is seen; and whether it was when it was listed last, which counts as a past only where
+// State: two words a slot: whether it is seen (kNotSeen ..); and whether it was when it was listed last, which counts as a past only where
 // the host list does not say kInstanceIsNew.
 // List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has them,
 // those with a past first, either kind rising.
@@ -17,7 +17,8 @@
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
 //   argument   (elements an instance, elements a workgroup or 0 for a draw, ListCount, word in the argument buffer); those of
 //              window w stand argumentStride * w words further. A dispatch is (x, y, 1), a draw its instance count alone
-// Arguments: four words in all: seen, of those with a past, listed, 0; the same four of every window; then as the table says.
+// Arguments: four words in all: seen, of those with a past, listed, occluded; the same four of every window; then as the
+// table says.
 #ifndef SUPPLE_SHARED_BOUNDS_H
 #define SUPPLE_SHARED_BOUNDS_H
 
@@ -38,6 +39,10 @@ SUPPLE_SHARED_CONST kListBinding = 7u;
 SUPPLE_SHARED_CONST kListArgumentBinding = 8u;
 SUPPLE_SHARED_CONST kListTableBinding = 9u;
 SUPPLE_SHARED_CONST kCullViewBinding = 10u;
+
+SUPPLE_SHARED_CONST kNotSeen = 0u;
+SUPPLE_SHARED_CONST kSeen = 1u;
+SUPPLE_SHARED_CONST kOccluded = 2u; // would be seen but for the pyramid
 
 // What a view sees; all zero: everything.
 struct CullView {

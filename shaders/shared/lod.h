@@ -5,6 +5,7 @@
 //   grids         by form and capacity: (first index, index count) of a draw instance
 //   runs          one word a run: form | dispatch << 8, dispatch from kMaxRuns on where no group has the run. A run is the patches of one class and material of a window of
 //                 instances of a group; a dispatch evaluates the runs of one class, which follow each other
+//   doubleSided   a bit a run: its patches show their backs too
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
@@ -57,7 +58,8 @@ SUPPLE_SHARED_CONST kPatternWordCount = 108u;
 SUPPLE_SHARED_CONST kLodPatterns = 0u;
 SUPPLE_SHARED_CONST kLodGrids = kLodPatterns + kPatternWordCount;
 SUPPLE_SHARED_CONST kLodRuns = kLodGrids + 2u * kLodForms * kCapacityCount;
-SUPPLE_SHARED_CONST kLodSolution = kLodRuns + kMaxRuns; // what stands before it comes from the host
+SUPPLE_SHARED_CONST kLodDoubleSided = kLodRuns + kMaxRuns;
+SUPPLE_SHARED_CONST kLodSolution = kLodDoubleSided + kMaxRuns / 32u; // what stands before it comes from the host
 SUPPLE_SHARED_CONST kLodCapacities = kLodSolution + 16u;
 SUPPLE_SHARED_CONST kLodSplit = kLodCapacities + kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;
@@ -77,6 +79,7 @@ struct LodSolution {
     uint shortfall; // 1 where scaling by elasticity is not enough: all levels are 1, and what has no room is left out
     float scale[4]; // of levels, by priority
     uint wanted;    // vertices that x = 0 would have written
+    uint counted;   // patches, those too that have no room
 };
 struct LodBucket {
     uint firstRecord;
@@ -98,6 +101,9 @@ struct LodDispatch {
 //   patches   two elements: edges 0..3; (edge 4, run within the window's, first element of its patch record, class)
 SUPPLE_SHARED_CONST kLodPatchLevelWords = 3u; // bin, levels the inside asks for along u and along v
 
+SUPPLE_SHARED_CONST kLodOrthographic = 1u;
+SUPPLE_SHARED_CONST kLodBackFaces = 2u; // patches that show their backs are not drawn
+
 // What the passes before evaluation are told.
 struct LodPush {
     uint count; // edges or patches an instance
@@ -111,8 +117,8 @@ struct LodPush {
     uint scratchStride; // elements an instance
     uint firstRun;      // of the window, in the view
     uint runCount;      // of the window
-    uint orthographic;
-    float camera[3];
+    uint flags;         // kLodOrthographic, kLodBackFaces
+    float camera[3];    // orthographic: the direction it looks in
     float focal;       // pixels a unit at distance 1; orthographic: pixels a unit
     float nearest;     // nothing counts as nearer
     float errorScale;  // 3/4 / chord error in pixels; 0: lengths alone count
