@@ -716,13 +716,15 @@ TEST_P(Bounds, WhatAPyramidHidesIsHiddenAndNothingElse) {
                 const double wall =
                     known ? static_cast<double>(pyramid.farthest(glm::floor(least), glm::floor(most))) : 0.0;
                 const bool behind = known && (reversed ? nearest < wall : nearest > wall);
-                const bool gone = written.states[2 * slot] == 0;
+                const bool gone = written.states[2 * slot] != kSeen;
+                EXPECT_TRUE(!gone || written.states[2 * slot] == kOccluded);
                 EXPECT_TRUE(!gone || behind) << "slot " << slot << " is seen";
                 couldBe += behind ? 1 : 0;
                 hidden += gone ? 1 : 0;
                 seen += gone ? 0 : 1;
             }
             EXPECT_EQ(written.arguments[0], seen);
+            EXPECT_EQ(written.arguments[3], hidden);
             EXPECT_GT(couldBe, 200u);
             EXPECT_GT(hidden * 10, couldBe * 7) << "of " << couldBe;
             EXPECT_LT(couldBe, scene.slots * 3 / 4);
