@@ -113,6 +113,12 @@ Perturbation perturbationOf(uint record, uint base) {
     return p;
 }
 
+// Difference k = 0..2 along line `line` of the net, and the step from one line to the next: with `turned` lines are columns.
+vec3 alongLine(vec3 g[16], uint line, uint k, bool turned) {
+    uint at = turned ? line + 4u * k : 4u * line + k;
+    return g[at + (turned ? 4u : 1u)] - g[at];
+}
+
 bool bicubicShowsBack(vec3 g[16], bool polar, Perturbation p) {
     vec3 from = orthographic() ? vec3(0.0) : camera();
     mat3 frame = frameAt(0.25 * ((g[0] + g[15]) + (g[3] + g[12])));
@@ -121,15 +127,39 @@ bool bicubicShowsBack(vec3 g[16], bool polar, Perturbation p) {
         g[k] = frame * (g[k] - from);
         if (!orthographic()) hold(pyramid, g[k], p.reach);
     }
-    Facing f = facingOf(frame, pyramid, (g[3] - g[0]) + (g[15] - g[12]), (g[12] - g[0]) + (g[15] - g[3]));
-    for (uint k = 0u; k < 4u; ++k) {
-        for (uint i = 0u; i < 3u; ++i) {
-            // Derivatives are three times the differences. A polar patch's row at the apex is a point.
-            if (!(polar && k == 3u)) addAlong(f, g[4u * k + i + 1u] - g[4u * k + i], p.alongU / 3.0);
-            addAcross(f, g[4u * i + k + 4u] - g[4u * i + k], p.alongV / 3.0);
+    if (!(pyramid.nearest > 0.0)) return false;
+    Rays rays = raysOf(pyramid);
+    // Derivatives are three times the differences. A polar patch's row at the apex is a point.
+    float radiusU = p.alongU / 3.0, radiusV = p.alongV / 3.0;
+    uint rows = polar ? 3u : 4u;
+    Facing f = facingOf(rays, (g[3] - g[0]) + (g[15] - g[12]), (g[12] - g[0]) + (g[15] - g[3]));
+    for (uint line = 0u; line < 4u; ++line) {
+        for (uint k = 0u; k < 3u; ++k) {
+            if (line < rows) addAlong(f, alongLine(g, line, k, false), radiusU);
+            addAcross(f, alongLine(g, line, k, true), radiusV);
         }
     }
-    return showsBack(f);
+    if (!showsBack(f)) return false;
+    bool strips = true;
+    for (uint side = 0u; side < 4u; ++side) {
+        // Sides 0 and 2 are the rows 0 and 3, 1 and 3 the columns 3 and 0.
+        bool turned = (side & 1u) != 0u, far = side == 1u || side == 2u;
+        if (polar && side == 2u) continue;
+        uint first = far ? 1u : 0u;
+        for (uint beside = 0u; beside < 2u; ++beside) {
+            uint row = far ? 3u - beside : beside;
+            // So that what goes across rises.
+            vec3 chord = turned ? g[row] - g[row + 12u] : g[4u * row + 3u] - g[4u * row];
+            Strip s = stripOf(rays, chord);
+            for (uint k = 0u; k < 3u; ++k) addAlong(s, alongLine(g, row, k, turned), turned ? radiusV : radiusU);
+            for (uint line = 0u; line < 4u; ++line) {
+                if (turned && line >= rows) continue;
+                for (uint k = first; k < first + 2u; ++k) addAcross(s, alongLine(g, line, k, !turned), turned ? radiusU : radiusV);
+            }
+            strips = strips && holds(s);
+        }
+    }
+    return strips;
 }
 
 bool sectorShowsBack(Sector s) {
@@ -143,13 +173,20 @@ bool sectorShowsBack(Sector s) {
         if (!orthographic()) hold(pyramid, frame * (centre + s.c[k]), 0.0);
         s.c[k] = frame * s.c[k];
     }
-    Facing f = facingOf(frame, pyramid, s.c[4] - s.c[0], 2.0 * s.c[14] - s.c[0] - s.c[4]);
+    if (!(pyramid.nearest > 0.0)) return false;
+    Rays rays = raysOf(pyramid);
+    Facing f = facingOf(rays, s.c[4] - s.c[0], 2.0 * s.c[14] - s.c[0] - s.c[4]);
+    Strip strip = stripOf(rays, s.c[4] - s.c[0]);
     for (uint k = 0u; k < 10u; ++k) {
-        vec3 along = s.c[kSecond[k]] - s.c[kFirst[k]];
+        vec3 along = s.c[kSecond[k]] - s.c[kFirst[k]], across = 2.0 * (s.c[kInner[k]] - s.c[kFirst[k]]) - along;
         addAlong(f, along, 0.0);
-        addAcross(f, s.c[kInner[k]] - s.c[kFirst[k]] - 0.5 * along, 0.0);
+        addAcross(f, across, 0.0);
+        if (k < 7u) {
+            addAlong(strip, along, 0.0);
+            addAcross(strip, across, 0.0);
+        }
     }
-    return showsBack(f);
+    return showsBack(f) && holds(strip);
 }
 
 bool showsItsBack(uint patchClass, uint record, uint base, uint sides, vec3 g[16]) {
