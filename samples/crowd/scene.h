@@ -4,6 +4,8 @@
 #include "common/depth_pyramid.h"
 #include "crowd.h"
 
+#include <memory>
+
 namespace crowd {
 
 /// shaders/scene.glsl

@@ -1,18 +1,17 @@
 // Whether a patch surely shows its back (docs/lod.md, section "Back faces").
 //
-// Its normal Du x Dv is a sum, with weights that are not negative, of the products of a difference a along u and a
+// Its normal Du x Dv is a sum, with weights that are not negative, of the products a x b of a difference a along u and a
 // difference b along v of its net; what it is seen along, w, lies in every pyramid from the camera that holds the net.
-// So it shows its back wherever det(w, a, b) > 0 for all a, all b, and the four corner rays w of a pyramid. Seen along one
-// ray these are plane vectors: with m along and n across, a = x m + y n has the slope y / x, b = z m + t n the slope z / t,
-// and a x b > 0 where x, t > 0 and the slopes' product is below 1.
+// So it shows its back wherever w . (a x b) > 0 for all a, all b, all w. Seen along w they are plane vectors: with m along
+// and n across, a = x m + y n has the slope y / x, b = z m + t n the slope z / t, and a x b > 0 where x, t > 0 and the slopes'
+// product is below 1.
 //
 // Triangles are not the surface. Those whose sides run along u and v are sums of such products too; those between a border
 // and the inside, which have other levels, are askew: there the border, and what runs beside it, must bend less off its
-// chord than the patch rises from it (Strip).
+// chord than the patch rises from it.
 
 const float kMostSlopes = 0.9;
 const float kMostBend = 0.9;
-const float kNever = 1e30;
 
 // Rows: to the right, up, away from the camera. `towards`: from the camera to the patch, of any length.
 mat3 frameTowards(vec3 towards) {
@@ -22,10 +21,10 @@ mat3 frameTowards(vec3 towards) {
     return transpose(mat3(right, cross(away, right), away));
 }
 
-// What the rays must hold between them.
+// The pyramid: w = (x, y, 1), x and y between low and high.
 struct Pyramid {
     vec2 low, high;
-    float nearest;
+    float nearest; // of what it holds
 };
 void hold(inout Pyramid p, vec3 point, float radius) { // in the frame, from the camera
     p.nearest = min(p.nearest, point.z - radius);
@@ -34,54 +33,62 @@ void hold(inout Pyramid p, vec3 point, float radius) { // in the frame, from the
     p.high = max(p.high, at + slack);
 }
 
-// The corner rays (x, y, 1).
-struct Rays {
-    vec4 x, y;
-};
-Rays raysOf(Pyramid p) {
-    return Rays(vec4(p.low.x, p.high.x, p.low.x, p.high.x), vec4(p.low.y, p.low.y, p.high.y, p.high.y));
-}
-// A vector as it is seen along them.
-struct Flat {
-    vec4 x, y;
-};
-Flat flatten(Rays r, vec3 v) { return Flat(v.x - v.z * r.x, v.y - v.z * r.y); }
-vec4 times(Flat a, Flat b) { return a.x * b.y - a.y * b.x; }
-vec4 size(Flat a) { return abs(a.x) + abs(a.y); }
-// How far off a product with `a` can be where a vector is known to a radius.
-vec4 slack(Rays r, Flat a, float radius) { return radius * (1.0 + abs(r.x) + abs(r.y)) * size(a); }
-
 struct Facing {
-    Rays rays;
-    Flat m, n;
-    vec4 along, across; // the largest slopes
+    vec2 middle, spread; // of the pyramid
+    vec3 m, n;
+    float leastArea, mostArea; // w . (m x n)
+    // For differences along, x and |y|; across, t and |z|: times that.
+    float leastX, mostY, leastT, mostZ;
+    float slopeAlong, slopeAcross;
 };
-Facing facingOf(Rays rays, vec3 m, vec3 n) { return Facing(rays, flatten(rays, m), flatten(rays, n), vec4(0.0), vec4(0.0)); }
 
-vec4 slopes(vec4 aside, vec4 ahead) { return mix(vec4(kNever), aside / ahead, greaterThan(ahead, vec4(0.0))); }
-void addAlong(inout Facing f, vec3 a, float radius) { // give or take
-    Flat seen = flatten(f.rays, a);
-    vec4 ahead = times(seen, f.n) - slack(f.rays, f.n, radius), aside = abs(times(f.m, seen)) + slack(f.rays, f.m, radius);
-    f.along = max(f.along, slopes(aside, ahead));
+// Half of what w . c ranges over, with the middle (least = x - y, most = x + y).
+vec2 seen(Facing f, vec3 c) { return vec2(dot(c.xy, f.middle) + c.z, dot(abs(c.xy), f.spread)); }
+// w . (m x n) for m and n at hand: the least, and the most by amount.
+float least(Facing f, vec3 a, vec3 b) {
+    vec2 s = seen(f, cross(a, b));
+    return s.x - s.y;
 }
-void addAcross(inout Facing f, vec3 b, float radius) {
-    Flat seen = flatten(f.rays, b);
-    vec4 ahead = times(f.m, seen) - slack(f.rays, f.m, radius), aside = abs(times(seen, f.n)) + slack(f.rays, f.n, radius);
-    f.across = max(f.across, slopes(aside, ahead));
+float most(Facing f, vec3 a, vec3 b) {
+    vec2 s = seen(f, cross(a, b));
+    return abs(s.x) + s.y;
 }
-bool showsBack(Facing f) { return all(lessThan(f.along * f.across, vec4(kMostSlopes))); }
+float seenSize(Facing f, vec3 v) { return lengthOf(v) * (1.0 + dot(abs(f.middle) + f.spread, vec2(1.0))); }
 
-// Along a border: how far differences along it point off its chord, and how far those across it rise at least.
-struct Strip {
-    Rays rays;
-    Flat chord;
-    vec4 bend, rise;
-};
-Strip stripOf(Rays rays, vec3 chord) { return Strip(rays, flatten(rays, chord), vec4(0.0), vec4(kNever)); }
-void addAlong(inout Strip s, vec3 a, float radius) {
-    s.bend = max(s.bend, abs(times(s.chord, flatten(s.rays, a))) + slack(s.rays, s.chord, radius));
+Facing facingOf(Pyramid p, vec3 m, vec3 n) {
+    Facing f;
+    f.middle = 0.5 * (p.low + p.high);
+    f.spread = 0.5 * (p.high - p.low);
+    f.m = m;
+    f.n = n;
+    f.leastX = f.leastT = 1e30;
+    f.mostY = f.mostZ = f.slopeAlong = f.slopeAcross = 0.0;
+    f.leastArea = least(f, m, n);
+    f.mostArea = most(f, m, n);
+    return f;
 }
-void addAcross(inout Strip s, vec3 b, float radius) {
-    s.rise = min(s.rise, times(s.chord, flatten(s.rays, b)) - slack(s.rays, s.chord, radius));
+
+// A difference, in the frame. `slack`: of the products with m and n.
+void addAlong(inout Facing f, vec3 a, vec2 slack) {
+    float x = least(f, a, f.n) - slack.y, y = most(f, f.m, a) + slack.x;
+    f.leastX = min(f.leastX, x);
+    f.mostY = max(f.mostY, y);
+    f.slopeAlong = max(f.slopeAlong, y / x);
 }
-bool holds(Strip s) { return all(lessThan(s.bend, kMostBend * s.rise)); }
+void addAcross(inout Facing f, vec3 b, vec2 slack) {
+    float t = least(f, f.m, b) - slack.x, z = most(f, b, f.n) + slack.y;
+    f.leastT = min(f.leastT, t);
+    f.mostZ = max(f.mostZ, z);
+    f.slopeAcross = max(f.slopeAcross, z / t);
+}
+bool showsBack(Facing f) {
+    return min(f.leastX, f.leastT) > 0.0 && f.slopeAlong * f.slopeAcross < kMostSlopes;
+}
+
+// How much the patch rises at least from a border along it or across, whose ends lie `chord` apart.
+float riseAlong(Facing f, vec3 chord) {
+    return least(f, chord, f.n) / f.mostArea * f.leastT - most(f, f.m, chord) / f.leastArea * f.mostZ;
+}
+float riseAcross(Facing f, vec3 chord) {
+    return least(f, f.m, chord) / f.mostArea * f.leastX - most(f, chord, f.n) / f.leastArea * f.mostY;
+}

@@ -113,53 +113,46 @@ Perturbation perturbationOf(uint record, uint base) {
     return p;
 }
 
-// Difference k = 0..2 along line `line` of the net, and the step from one line to the next: with `turned` lines are columns.
-vec3 alongLine(vec3 g[16], uint line, uint k, bool turned) {
-    uint at = turned ? line + 4u * k : 4u * line + k;
-    return g[at + (turned ? 4u : 1u)] - g[at];
-}
-
 bool bicubicShowsBack(vec3 g[16], bool polar, Perturbation p) {
     vec3 from = orthographic() ? vec3(0.0) : camera();
     mat3 frame = frameAt(0.25 * ((g[0] + g[15]) + (g[3] + g[12])));
+    vec3 m = frame * ((g[3] - g[0]) + (g[15] - g[12])), n = frame * ((g[12] - g[0]) + (g[15] - g[3]));
+    if (!(cross(m, n).z > 0.0)) return false; // the one that most are decided by
     Pyramid pyramid = emptyPyramid();
     for (uint k = 0u; k < 16u; ++k) {
         g[k] = frame * (g[k] - from);
         if (!orthographic()) hold(pyramid, g[k], p.reach);
     }
-    if (!(pyramid.nearest > 0.0)) return false;
-    Rays rays = raysOf(pyramid);
-    // Derivatives are three times the differences. A polar patch's row at the apex is a point.
-    float radiusU = p.alongU / 3.0, radiusV = p.alongV / 3.0;
-    uint rows = polar ? 3u : 4u;
-    Facing f = facingOf(rays, (g[3] - g[0]) + (g[15] - g[12]), (g[12] - g[0]) + (g[15] - g[3]));
-    for (uint line = 0u; line < 4u; ++line) {
-        for (uint k = 0u; k < 3u; ++k) {
-            if (line < rows) addAlong(f, alongLine(g, line, k, false), radiusU);
-            addAcross(f, alongLine(g, line, k, true), radiusV);
-        }
+    Facing f = facingOf(pyramid, m, n);
+    if (!(pyramid.nearest > 0.0 && f.leastArea > 0.0)) return false;
+    // Derivatives are three times the differences.
+    float sizeM = seenSize(f, m), sizeN = seenSize(f, n);
+    vec2 slackU = vec2(sizeM, sizeN) * (p.alongU / 3.0), slackV = vec2(sizeM, sizeN) * (p.alongV / 3.0);
+    for (uint j = 0u; j < 4u; ++j) {
+        if (polar && j == 3u) continue; // a point
+        for (uint i = 0u; i < 3u; ++i) addAlong(f, g[4u * j + i + 1u] - g[4u * j + i], slackU);
+    }
+    for (uint j = 0u; j < 3u; ++j) {
+        for (uint i = 0u; i < 4u; ++i) addAcross(f, g[4u * j + i + 4u] - g[4u * j + i], slackV);
     }
     if (!showsBack(f)) return false;
-    bool strips = true;
+    bool straight = true;
     for (uint side = 0u; side < 4u; ++side) {
-        // Sides 0 and 2 are the rows 0 and 3, 1 and 3 the columns 3 and 0.
-        bool turned = (side & 1u) != 0u, far = side == 1u || side == 2u;
-        if (polar && side == 2u) continue;
-        uint first = far ? 1u : 0u;
-        for (uint beside = 0u; beside < 2u; ++beside) {
-            uint row = far ? 3u - beside : beside;
-            // So that what goes across rises.
-            vec3 chord = turned ? g[row] - g[row + 12u] : g[4u * row + 3u] - g[4u * row];
-            Strip s = stripOf(rays, chord);
-            for (uint k = 0u; k < 3u; ++k) addAlong(s, alongLine(g, row, k, turned), turned ? radiusV : radiusU);
-            for (uint line = 0u; line < 4u; ++line) {
-                if (turned && line >= rows) continue;
-                for (uint k = first; k < first + 2u; ++k) addAcross(s, alongLine(g, line, k, !turned), turned ? radiusU : radiusV);
-            }
-            strips = strips && holds(s);
+        if (polar && side == 3u) continue;
+        bool across = side < 2u;
+        uint step = across ? 4u : 1u, border = side == 0u ? 0u : side == 1u ? 3u : side == 2u ? 0u : 12u;
+        uint beside = side == 0u ? 1u : side == 1u ? 2u : side == 2u ? 4u : 8u;
+        vec3 chord = g[border + 3u * step] - g[border];
+        float bend = 0.0;
+        for (uint k = 0u; k < 3u; ++k) {
+            uint at = k * step;
+            bend = max(bend, most(f, chord, g[border + at + step] - g[border + at]));
+            bend = max(bend, most(f, chord, g[beside + at + step] - g[beside + at]));
         }
+        bend += (across ? p.alongV : p.alongU) / 3.0 * seenSize(f, chord);
+        straight = straight && bend < kMostBend * (across ? riseAcross(f, chord) : riseAlong(f, chord));
     }
-    return strips;
+    return straight;
 }
 
 bool sectorShowsBack(Sector s) {
@@ -167,32 +160,43 @@ bool sectorShowsBack(Sector s) {
     const uint kSecond[10] = uint[10](1u, 2u, 3u, 4u, 6u, 7u, 8u, 10u, 11u, 13u);
     const uint kInner[10] = uint[10](5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u);
     mat3 frame = frameAt(s.centre + (s.c[0] + s.c[4]) / 3.0);
-    vec3 centre = orthographic() ? vec3(0.0) : s.centre - camera();
+    vec3 centre = orthographic() ? vec3(0.0) : frame * (s.centre - camera());
     Pyramid pyramid = emptyPyramid();
     for (uint k = 0u; k < 15u; ++k) {
-        if (!orthographic()) hold(pyramid, frame * (centre + s.c[k]), 0.0);
         s.c[k] = frame * s.c[k];
+        if (!orthographic()) hold(pyramid, centre + s.c[k], 0.0);
     }
-    if (!(pyramid.nearest > 0.0)) return false;
-    Rays rays = raysOf(pyramid);
-    Facing f = facingOf(rays, s.c[4] - s.c[0], 2.0 * s.c[14] - s.c[0] - s.c[4]);
-    Strip strip = stripOf(rays, s.c[4] - s.c[0]);
+    // Across: towards the centre, which rings reach half way along the sides.
+    vec3 chord = s.c[4] - s.c[0];
+    Facing f = facingOf(pyramid, chord, 2.0 * s.c[14] - s.c[0] - s.c[4]);
+    if (!(pyramid.nearest > 0.0 && f.leastArea > 0.0)) return false;
+    float bend = 0.0;
     for (uint k = 0u; k < 10u; ++k) {
-        vec3 along = s.c[kSecond[k]] - s.c[kFirst[k]], across = 2.0 * (s.c[kInner[k]] - s.c[kFirst[k]]) - along;
-        addAlong(f, along, 0.0);
-        addAcross(f, across, 0.0);
-        if (k < 7u) {
-            addAlong(strip, along, 0.0);
-            addAcross(strip, across, 0.0);
-        }
+        vec3 along = s.c[kSecond[k]] - s.c[kFirst[k]];
+        addAlong(f, along, vec2(0.0));
+        addAcross(f, 2.0 * (s.c[kInner[k]] - s.c[kFirst[k]]) - along, vec2(0.0));
+        if (k < 7u) bend = max(bend, most(f, chord, along));
     }
-    return showsBack(f) && holds(strip);
+    return showsBack(f) && bend < kMostBend * f.leastT;
+}
+
+// Of a patch of sectors: by its corners alone, whether there is anything to it.
+bool mayShowBack(uint record, uint sides, uint base) {
+    vec3 centre = poolVector(base + tableElement(record).w), w = orthographic() ? camera() : centre - camera();
+    vec3 first = poolVector(base + tableElement(record).x) - centre, from = first;
+    bool may = true;
+    for (uint i = 1u; i <= sides; ++i) {
+        vec3 to = i == sides ? first : poolVector(base + tableElement(record + i).x) - centre;
+        may = may && dot(w, cross(from, to)) > 0.0;
+        from = to;
+    }
+    return may;
 }
 
 bool showsItsBack(uint patchClass, uint record, uint base, uint sides, vec3 g[16]) {
     if (patchClass == kP3Patch || patchClass == kP4Patch || patchClass == kP5Patch) {
         vec2 ray = vec2(SUPPLE_PM_RAY_MIDDLE(sides), SUPPLE_PM_RAY_SIDE(sides));
-        bool back = true;
+        bool back = mayShowBack(record, sides, base);
         for (uint i = 0u; back && i < sides; ++i) back = sectorShowsBack(loadSector(sides, ray, record, base, i, false));
         return back;
     }

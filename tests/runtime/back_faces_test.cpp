@@ -29,6 +29,8 @@ struct Seen {
     double largest = 0.0;         ///< area of one that faces the camera, square pixels
     double area = 0.0;            ///< of all that do
 };
+/// Square pixels: a triangle between samples that all but coincide may turn over by the rounding of its corners.
+constexpr double kRounding = 1e-3;
 using SeenPatches = std::map<std::pair<uint32_t, uint32_t>, Seen>;
 
 SeenPatches seenPatches(const LodSurface& surface, const SuppleCameraDesc& camera) {
@@ -79,7 +81,7 @@ TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
             size_t patches = 0, back = 0, out = 0;
         };
         std::map<SupplePatchClass, Count> counts;
-        size_t cameras = 0, lost = 0, lostTriangles = 0, triangles = 0;
+        size_t cameras = 0, lostTriangles = 0, triangles = 0;
         double largest = 0.0;
         for (const std::string& path : allCharacters()) {
             const Result<cage::Character> character = cage::readGltfFile(path);
@@ -108,6 +110,7 @@ TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
                 high = glm::max(high, p);
             }
             const float size = glm::length(high - low);
+            Count ofAll;
             for (uint32_t frame = 0; frame < 6; ++frame) {
                 const glm::mat4 place =
                     frame == 3 ? glm::scale(glm::mat4(1.0f), glm::vec3(-1.0f, 1.0f, 1.0f)) : glm::mat4(1.0f);
@@ -137,32 +140,36 @@ TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
                     Count& own = counts[patches[which.second].patchClass];
                     ++own.patches;
                     own.back += seen.front == 0 ? 1 : 0;
+                    ++ofAll.patches;
+                    ofAll.back += seen.front == 0 ? 1 : 0;
                     triangles += seen.front + seen.back;
                     if (const auto found = left.find(which); found != left.end()) {
                         EXPECT_EQ(found->second.levels, seen.levels);
                         continue;
                     }
                     ++own.out;
+                    ++ofAll.out;
                     if (seen.front > 0) {
-                        ++lost;
                         lostTriangles += seen.front;
                         largest = std::max(largest, seen.largest);
-                        std::printf("%s, frame %u, patch %u of class %d: %u triangles, %.3g square pixels, the largest "
-                                    "%.3g\n",
-                                    name.c_str(), frame, which.second, patches[which.second].patchClass, seen.front,
-                                    seen.area, seen.largest);
                     }
+                    EXPECT_LT(seen.largest, kRounding)
+                        << name << ", frame " << frame << ", patch " << which.second << ": " << seen.area;
                 }
             }
+            std::printf("scheme %d, %s: %zu patches, %zu show their backs, %zu left out\n", scheme, name.c_str(),
+                        ofAll.patches, ofAll.back, ofAll.out);
         }
         for (const auto& [patchClass, count] : counts) {
             std::printf("scheme %d, class %d: %zu patches, %zu show their backs, %zu left out\n", scheme, patchClass,
                         count.patches, count.back, count.out);
         }
-        std::printf("scheme %d: %zu cameras; of %zu triangles %zu of %zu patches left out face the camera, at most "
-                    "%.3g square pixels each\n",
-                    scheme, cameras, triangles, lostTriangles, lost, largest);
-        EXPECT_EQ(lost, 0u);
+        std::printf(
+            "scheme %d: %zu cameras, %zu triangles; of patches left out %zu face the camera, at most %.2g square "
+            "pixels each\n",
+            scheme, cameras, triangles, lostTriangles, largest);
+        // What is worth it: most regular patches that show their backs are found.
+        EXPECT_GT(counts[SUPPLE_PATCH_REGULAR].out * 10, counts[SUPPLE_PATCH_REGULAR].back * 5);
     }
 }
 
