@@ -262,14 +262,14 @@ TEST_P(Occlusion, OutOfThePictureIsNotBehindIt) {
                            glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, -20.0f));
     std::memcpy(view.camera.viewProjection, &both, sizeof(both));
     view.look({0.0f, 0.0f, 20.0f});
-    const DepthPicture picture{64, 36, false, std::vector<float>(size_t{64} * 36, 0.0f)};
-    const auto wall = DepthPyramid::create(context.device(), picture, 64, 36);
+    const DepthPicture picture{512, 288, false, std::vector<float>(size_t{512} * 288, 0.0f)};
+    const auto wall = DepthPyramid::create(context.device(), picture, 512, 288);
     ASSERT_NE(wall, nullptr);
     SuppleDepthPyramidDesc pyramid = wall->desc(columnsOf(both));
     EXPECT_EQ(suppleSetDepthPyramid(context.handle(), view.handle(), &pyramid), SUPPLE_OK);
     context.run(crowd.group());
     EXPECT_EQ(slotsOf(shown(crowd)), (std::set<uint32_t>{1, 2, 3}));
-    // One level alone: too coarse for what is larger than two of its texels.
+    // One level alone: too fine for what is larger than eight of its texels.
     pyramid.levels = 1;
     EXPECT_EQ(suppleSetDepthPyramid(context.handle(), view.handle(), &pyramid), SUPPLE_OK);
     context.run(crowd.group());

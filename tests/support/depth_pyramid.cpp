@@ -16,9 +16,10 @@ constexpr host::ImageUse kWritten{VK_IMAGE_LAYOUT_GENERAL,
                                   {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}};
 constexpr host::ImageUse kRead{VK_IMAGE_LAYOUT_GENERAL,
                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}};
-constexpr host::ImageUse kCopied{VK_IMAGE_LAYOUT_GENERAL,
+constexpr host::ImageUse kSampled{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kRead.scope};
+constexpr host::ImageUse kCopied{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                  {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT}};
-constexpr host::ImageUse kUploaded{VK_IMAGE_LAYOUT_GENERAL,
+constexpr host::ImageUse kUploaded{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                                    {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT}};
 
 VkImageSubresourceRange level(uint32_t index) {
@@ -96,7 +97,7 @@ void DepthPyramid::make(const DepthPicture& picture) {
         ASSERT_TRUE(set.ok());
         sets.push_back(*set);
         const VkDescriptorImageInfo infos[] = {
-            {VK_NULL_HANDLE, l == 0 ? source->view() : views_[l - 1], VK_IMAGE_LAYOUT_GENERAL},
+            {VK_NULL_HANDLE, l == 0 ? source->view() : views_[l - 1], l == 0 ? kSampled.layout : kRead.layout},
             {VK_NULL_HANDLE, views_[l], VK_IMAGE_LAYOUT_GENERAL}};
         for (uint32_t b = 0; b < 2; ++b) {
             VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
@@ -115,7 +116,7 @@ void DepthPyramid::make(const DepthPicture& picture) {
         copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         copy.imageExtent = {picture.width, picture.height, 1};
         vkCmdCopyBufferToImage(commands, staging->handle(), source->handle(), kUploaded.layout, 1, &copy);
-        host::imageBarrier(commands, *source, kUploaded, kRead);
+        host::imageBarrier(commands, *source, kUploaded, kSampled);
         host::imageBarrier(commands, image_, {VK_IMAGE_LAYOUT_UNDEFINED, {}}, kWritten);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->get());
         for (uint32_t l = 0; l < levels(); ++l) {
@@ -143,6 +144,7 @@ std::vector<float> DepthPyramid::read(uint32_t index) {
         copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, index, 0, 1};
         copy.imageExtent = {size.width, size.height, 1};
         vkCmdCopyImageToBuffer(commands, image_.handle(), kCopied.layout, staging->handle(), 1, &copy);
+        host::imageBarrier(commands, image_.handle(), level(index), kCopied, kRead);
         host::memoryBarrier(commands, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                             {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
     });
