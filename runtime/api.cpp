@@ -745,7 +745,8 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (!within(desc.scheme, SUPPLE_SCHEME_BLEND) && supple::runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
-        constexpr uint32_t kFlags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION;
+        constexpr uint32_t kFlags =
+            SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ONE_LEVEL;
         if ((desc.flags & ~kFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
@@ -765,8 +766,11 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
             return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");
         }
-        if (desc.view.id != 0 && desc.flags != 0) {
+        if (desc.view.id != 0 && (desc.flags & ~uint32_t{SUPPLE_GROUP_ONE_LEVEL}) != 0) {
             return refuse(context, ErrorCode::argument, kHere, "a group of a view has the view's flags");
+        }
+        if (desc.view.id == 0 && (desc.flags & SUPPLE_GROUP_ONE_LEVEL) != 0) {
+            return refuse(context, ErrorCode::argument, kHere, "SUPPLE_GROUP_ONE_LEVEL without a view");
         }
         if (desc.view.id != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::argument, kHere, "a cage has no levels of detail");

@@ -212,7 +212,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
 }
 
 Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
-    if ((desc.flags & SUPPLE_VIEW_CULL) != 0 && bounds_ == nullptr) {
+    if (bounds_ == nullptr) {
         Result<surface::BoundsPass> bounds = surface::BoundsPass::create(*device_);
         if (!bounds) {
             return bounds.error();

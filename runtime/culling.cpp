@@ -15,7 +15,7 @@ constexpr uint32_t kOffsetWords = 64; ///< descriptor offsets need at most 256-b
 } // namespace
 
 uint32_t Culling::firstArgument() const {
-    return (2 * capacity_ + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+    return (3 * capacity_ + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
 }
 
 VkDeviceSize Culling::tableBytes() const {
@@ -34,6 +34,9 @@ Result<Culling> Culling::create(const Desc& desc) {
     culling.push_.vertexCount = desc.cageVertices;
     culling.push_.cageStride = desc.cageStride;
     culling.push_.margin = desc.margin;
+    culling.push_.longest = desc.measure.longest;
+    culling.push_.bend = desc.measure.bend;
+    culling.leastVertices_ = desc.leastVertices;
 
     constexpr VkBufferUsageFlags kStorage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
@@ -99,6 +102,7 @@ Status Culling::createSets(const Desc& desc) {
             {kListArgumentBinding, {buffers_.buffer(kList), arguments, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
             {kListTableBinding, whole(buffers_.buffer(kTable)), VK_NULL_HANDLE},
             {kCullViewBinding, whole(desc.view), VK_NULL_HANDLE},
+            {kSizeBinding, whole(desc.sizes), VK_NULL_HANDLE},
         };
         if (status) {
             gpu::writeSet(device, *set, resources);
@@ -179,8 +183,14 @@ void Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, con
     occlusion_->record(commandBuffer, own.set, push);
 }
 
-void Culling::recordList(VkCommandBuffer commandBuffer) const {
+void Culling::recordSizes(VkCommandBuffer commandBuffer, uint32_t listed) const {
+    pass_->recordSizes(commandBuffer, sets_.front(), {0, listed, leastVertices_});
+}
+
+void Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
     ListPush push{};
+    push.room = room;
+    push.levels = levelOffset();
     push.windowCount = windows_;
     push.argumentCount = static_cast<uint32_t>(elements_.size());
     push.argumentStride = argumentStride();

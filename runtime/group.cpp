@@ -80,6 +80,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->view_ = shared.view;
     group->capacity_ = desc.capacity;
     group->poseSource_ = desc.poseSource;
+    group->oneLevel_ = shared.view && (desc.flags & SUPPLE_GROUP_ONE_LEVEL) != 0;
     const SuppleVertexFormat format = shared.view ? shared.view->desc().vertexFormat : desc.vertexFormat;
     group->output_.vertexFormat = format;
     group->output_.surfaceVertices.stride = format == SUPPLE_VERTEX_24 ? 24 : 16;
@@ -348,7 +349,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
 }
 
 Status Group::createCulling() {
-    if (view_ == nullptr || view_->buffer(View::kCull) == VK_NULL_HANDLE) {
+    if (view_ == nullptr) {
         return success();
     }
     const surface::Tables& tables = scheme_->tables;
@@ -373,6 +374,11 @@ Status Group::createCulling() {
     desc.cages = buffers_.buffer(kDeformedCage);
     desc.hostList = buffers_.buffer(kInstances);
     desc.view = view_->buffer(View::kCull);
+    desc.sizes = view_->buffer(View::kSizes);
+    desc.measure = surface::lod::measureInstance(cage);
+    for (const surface::LodTables::Run& run : tables.lod.runs) {
+        desc.leastVertices += run.patchCount * surface::lod::sampleCount(surface::lod::formOf(run.patchClass), 1);
+    }
     desc.elements = elements;
     Result<Culling> culling = Culling::create(desc);
     if (!culling) {

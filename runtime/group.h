@@ -28,7 +28,7 @@ struct GroupShared {
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
-    const surface::BoundsPass* bounds = nullptr;       ///< for groups of views that cull
+    const surface::BoundsPass* bounds = nullptr;       ///< for groups of views
     const surface::OcclusionPass* occlusion = nullptr; ///< for groups of views with occlusion
     std::shared_ptr<View> view;                        ///< of the description
     uint32_t framesInFlight = 2;
@@ -81,15 +81,20 @@ public:
     PassCost recordPatch(VkCommandBuffer commandBuffer) const;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const;
 
-    /// Views that cull: bounds of the deformed cages, and after a barrier the list of those that are seen.
+    /// Groups of a view: bounds of the deformed cages, and after a barrier the list of those that are seen. In between,
+    /// where `leastVertices` of all groups are more than the view's room, their sizes.
     [[nodiscard]] bool culls() const { return culling_.active(); }
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
-    void recordSeen(VkCommandBuffer commandBuffer) const { culling_.recordList(commandBuffer); }
-    /// Between the two, with a barrier on either side, what the view's depth pyramid hides.
+    /// Behind the bounds, what the view's depth pyramid hides.
     [[nodiscard]] bool occludes() const { return culls() && visible_ > 0 && view_->depthPyramid().has_value(); }
-    void recordOcclusion(VkCommandBuffer commandBuffer);
-    /// For the view's statistics.
-    void recordReadback(VkCommandBuffer commandBuffer) const;
+    PassCost recordOcclusion(VkCommandBuffer commandBuffer);
+    /// Of the instances listed.
+    [[nodiscard]] uint64_t leastVertices() const { return uint64_t{culling_.leastVertices()} * visible_; }
+    void recordSizes(VkCommandBuffer commandBuffer) const { culling_.recordSizes(commandBuffer, visible_); }
+    void recordReadback(VkCommandBuffer commandBuffer) const {
+        view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset(), output_.patchCount);
+    }
+    PassCost recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const;
 
     // Groups of a view: the levels of edges, then of patches, then, when the view has solved its budget, places.
     PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const;
@@ -162,6 +167,7 @@ private:
     std::shared_ptr<View> view_;
     uint32_t firstRun_ = 0; ///< in the view; all windows one after the other
     bool hasRuns_ = false;
+    bool oneLevel_ = false; ///< an instance, instead of one an edge
     Culling culling_;
 
     InstancePoses poses_;

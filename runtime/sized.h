@@ -18,10 +18,6 @@ template <>
 inline constexpr size_t kFirstSize<SuppleGroupDesc> = offsetof(SuppleGroupDesc, view);
 template <>
 inline constexpr size_t kFirstSize<SuppleGroupOutput> = offsetof(SuppleGroupOutput, lodDraws);
-template <>
-inline constexpr size_t kFirstSize<SuppleCameraDesc> = offsetof(SuppleCameraDesc, direction);
-template <>
-inline constexpr size_t kFirstSize<SuppleViewStatistics> = offsetof(SuppleViewStatistics, instanceCount);
 
 /// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with
 /// something in fields that this library does not know.

@@ -30,6 +30,12 @@ public:
     /// Changes whenever the pyramid is set: image views may come again under the same handle.
     [[nodiscard]] uint64_t pyramidGeneration() const { return pyramidGeneration_; }
     [[nodiscard]] shared::CullView cullView() const;
+    /// In the coordinates surfaces come out in.
+    [[nodiscard]] shared::LodCamera lodCamera() const;
+    /// Where the camera looks: of one that is orthographic.
+    [[nodiscard]] std::span<const float, 3> direction() const { return camera_.direction; }
+    /// Vertices of the budget that patches can have; the rest is for what fills up draw instances.
+    [[nodiscard]] uint32_t room() const;
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
 
     /// A group's windows take runs when it is created and give them back when it goes. The runs of `windows` windows,
@@ -39,20 +45,16 @@ public:
                                                    uint32_t windows);
     void giveRuns(uint32_t first, uint32_t count);
 
-    /// The scales, in the coordinates surfaces come out in; what belongs to the window is the caller's to fill in.
-    [[nodiscard]] shared::LodPush levelPush() const;
-
     [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || !cleared_; }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
     /// `priorities`: bits of those that instances have.
     void recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
                      uint32_t priorities) const;
-    /// Copies what the solver found out to where the host reads it frames later, and for every group of the frame what
-    /// it had to show: `seen`: four words as the list pass has them, or null where nothing is culled.
+    /// Copies what the solver found out to where the host reads it frames later; then, for each of its groups, how many
+    /// instances were seen (Culling::countOffset), which have `patches` patches each.
     void recordReadback(VkCommandBuffer commandBuffer);
-    void recordReadback(VkCommandBuffer commandBuffer, uint32_t visible, uint32_t patches, VkBuffer seen,
-                        VkDeviceSize offset);
+    void recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, uint32_t patches);
     void beginFrame(uint64_t completedFrame);
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
@@ -67,6 +69,7 @@ public:
     enum BufferIndex : size_t {
         kWords,
         kCull,
+        kSizes,
         kSurface,
         kPreviousPositions,
         kAttributes,
@@ -81,6 +84,8 @@ public:
     [[nodiscard]] VkDeviceSize uploadBytes() const;
 
 private:
+    [[nodiscard]] uint32_t budget() const;
+
     const gpu::Device* device_ = nullptr;
     uint32_t framesInFlight_ = 2;
     SuppleViewDesc desc_{};
@@ -101,14 +106,12 @@ private:
     bool indicesToRelease_ = false;
     uint64_t indicesReleaseFrame_ = 0;
     uint64_t clearedFrame_ = 0, recordedFrame_ = 0;
-    /// What a frame's groups had to show, where the host knows it.
-    struct Shown {
-        uint32_t visible = 0, patches = 0; ///< instances; patches of each
-        bool culled = false;               ///< what is seen of them stands in the readback
+    struct Solved {
+        uint64_t frame = 0;
+        uint32_t groups = 0;
+        std::array<uint32_t, shared::kMaxRuns> patches{}; ///< by group, of an instance; every group takes a run or more
     };
-    [[nodiscard]] VkDeviceSize readbackAt(uint64_t place, uint32_t group) const;
-    std::vector<uint64_t> solvedFrames_;    ///< by place in readback_
-    std::vector<std::vector<Shown>> shown_; ///< the same; room for as many groups as there are runs
+    std::vector<Solved> solved_; ///< by place in readback_
     SuppleViewStatistics newest_{};
 };
 

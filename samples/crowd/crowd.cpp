@@ -174,7 +174,8 @@ std::vector<std::string> Crowd::report() const {
     lines.emplace_back(text);
     SuppleViewStatistics drawn{};
     if (view_.statistics(drawn) == SUPPLE_OK) {
-        std::snprintf(text, sizeof text, "%u seen, %u hidden behind others", drawn.seenCount, drawn.occludedCount);
+        std::snprintf(text, sizeof text, "%u seen, %u hidden behind others", drawn.drawnInstanceCount,
+                      drawn.occludedInstanceCount);
         lines.emplace_back(text);
         if (backFaces_) {
             std::snprintf(text, sizeof text, "%u patches left out for their backs", drawn.backFaceCount);

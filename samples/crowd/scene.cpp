@@ -1,5 +1,6 @@
 #include "scene.h"
 
+#include "common/rendering.h"
 #include "shaders/character_frag.h"
 #include "shaders/character_vert.h"
 #include "shaders/ground_frag.h"
@@ -43,24 +44,6 @@ struct TextCorner { // of stb_easy_font
     float x, y, z;
     uint32_t color;
 };
-
-void setViewport(VkCommandBuffer commands, VkExtent2D extent) {
-    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              0.0f, 1.0f};
-    const VkRect2D scissor{{0, 0}, extent};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &scissor);
-    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
-}
-
-VkRenderingAttachmentInfo attachment(const sample::Image& image, VkImageLayout layout, VkClearValue clear) {
-    return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-            .imageView = image.view(),
-            .imageLayout = layout,
-            .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-            .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-            .clearValue = clear};
-}
 
 } // namespace
 
@@ -218,13 +201,9 @@ void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint
         "sun",
         {reads(buffers, kDrawn), writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
         [this, slot](VkCommandBuffer commands) {
-            const VkRenderingAttachmentInfo depth = attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
-            const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                       .renderArea = {{0, 0}, sunMap_.desc().extent},
-                                       .layerCount = 1,
-                                       .pDepthAttachment = &depth};
-            vkCmdBeginRendering(commands, &info);
-            setViewport(commands, sunMap_.desc().extent);
+            const VkRenderingAttachmentInfo depth =
+                sample::attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+            sample::beginRendering(commands, sunMap_.desc().extent, {}, depth);
             drawCharacters(commands, slot, true, false);
             vkCmdEndRendering(commands);
         });
@@ -237,16 +216,10 @@ void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint
             const VkExtent2D extent = picture_.desc().extent;
             const VkClearValue haze{.color = {{0.85f, 0.87f, 0.89f, 1.0f}}};
             const VkRenderingAttachmentInfo color =
-                attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, haze);
-            const VkRenderingAttachmentInfo depth = attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
-            const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                       .renderArea = {{0, 0}, extent},
-                                       .layerCount = 1,
-                                       .colorAttachmentCount = 1,
-                                       .pColorAttachments = &color,
-                                       .pDepthAttachment = &depth};
-            vkCmdBeginRendering(commands, &info);
-            setViewport(commands, extent);
+                sample::attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, haze);
+            const VkRenderingAttachmentInfo depth =
+                sample::attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+            sample::beginRendering(commands, extent, {&color, 1}, depth);
             drawCharacters(commands, slot, false, paint);
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, groundPipeline_);
             vkCmdDraw(commands, 4, 1, 0, 0);

@@ -69,9 +69,12 @@ float sectorLevel(uint record, uint sides, uint base) {
     return levelOf(2.0 * reach, lengthOf(mean - centre) * (4.0 / 3.0), pixelsPerUnit(centre, reach));
 }
 
-vec3 camera() { return vec3(push.camera[0], push.camera[1], push.camera[2]); }
-// Orthographic: the camera stands for the direction it looks in, all rays are one.
-bool orthographic() { return (push.flags & kLodOrthographic) != 0u; }
+// Orthographic: the direction it looks in, which all rays have.
+bool orthographic() { return push.camera.orthographic != 0u; }
+vec3 camera() {
+    return orthographic() ? vec3(push.direction[0], push.direction[1], push.direction[2])
+                          : vec3(push.camera.position[0], push.camera.position[1], push.camera.position[2]);
+}
 
 mat3 frameAt(vec3 middle) { return frameTowards(orthographic() ? camera() : middle - camera()); }
 Pyramid emptyPyramid() {
@@ -214,19 +217,25 @@ void main() {
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
     uint run = push.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
     uint sides = formSides(form);
-    float level = 0.0;
-    for (uint k = 0u; k < sides; ++k)
-        level = max(level, uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x))));
     uint target = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
     vec3 g[16];
-    if (form == kLodQuadForm) g = bicubicNet(more.z, base, more.w == kPolarPatch);
+    if (form == kLodQuadForm && (push.levels == 0u || push.backFaces != 0u)) g = bicubicNet(more.z, base, more.w == kPolarPatch);
     bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
-    if ((push.flags & kLodBackFaces) != 0u && !doubleSided && showsItsBack(more.w, more.z, base, sides, g)) {
+    if (push.backFaces != 0u && !doubleSided && showsItsBack(more.w, more.z, base, sides, g)) {
         scratchWords[target] = kNoBin;
         return;
     }
-    vec2 own = form == kLodQuadForm ? bicubicLevels(g) : vec2(sectorLevel(more.z, sides, base));
-    level = max(level, max(own.x, own.y));
+    float level = 0.0;
+    vec2 own;
+    if (push.levels != 0u) {
+        level = levelOfEntry(entry);
+        own = vec2(level);
+    } else {
+        for (uint k = 0u; k < sides; ++k)
+            level = max(level, uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x))));
+        own = form == kLodQuadForm ? bicubicLevels(g) : vec2(sectorLevel(more.z, sides, base));
+        level = max(level, max(own.x, own.y));
+    }
 
     float at = (clamp(log2(max(level, 1e-3)), -float(kOctavesBelow), 7.99) + float(kOctavesBelow)) * float(kBinsPerOctave);
     uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));

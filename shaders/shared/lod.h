@@ -24,6 +24,7 @@
 #ifndef SUPPLE_SHARED_LOD_H
 #define SUPPLE_SHARED_LOD_H
 
+#include "shaders/shared/camera.h"
 #include "shaders/shared/portable.h"
 
 SUPPLE_SHARED_BEGIN
@@ -101,9 +102,6 @@ struct LodDispatch {
 //   patches   two elements: edges 0..3; (edge 4, run within the window's, first element of its patch record, class)
 SUPPLE_SHARED_CONST kLodPatchLevelWords = 3u; // bin, levels the inside asks for along u and along v
 
-SUPPLE_SHARED_CONST kLodOrthographic = 1u;
-SUPPLE_SHARED_CONST kLodBackFaces = 2u; // patches that show their backs are not drawn
-
 // What the passes before evaluation are told.
 struct LodPush {
     uint count; // edges or patches an instance
@@ -117,12 +115,10 @@ struct LodPush {
     uint scratchStride; // elements an instance
     uint firstRun;      // of the window, in the view
     uint runCount;      // of the window
-    uint flags;         // kLodOrthographic, kLodBackFaces
-    float camera[3];    // orthographic: the direction it looks in
-    float focal;       // pixels a unit at distance 1; orthographic: pixels a unit
-    float nearest;     // nothing counts as nearer
-    float errorScale;  // 3/4 / chord error in pixels; 0: lengths alone count
-    float lengthScale; // 1 / length of an edge in pixels
+    uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
+    LodCamera camera;
+    uint backFaces;     // 1: patches that show their backs are left out
+    float direction[3]; // with it: where an orthographic camera looks
 };
 struct LodSolvePush {
     uint runCount;          // in use, of the view

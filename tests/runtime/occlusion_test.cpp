@@ -186,8 +186,8 @@ TEST_P(Occlusion, AWallHidesWhatLiesBehindIt) {
         const auto expectStatistics = [&](uint32_t seen, uint32_t occluded) {
             const SuppleViewStatistics now = view.statistics();
             EXPECT_EQ(now.instanceCount, 13u);
-            EXPECT_EQ(now.seenCount, seen);
-            EXPECT_EQ(now.occludedCount, occluded);
+            EXPECT_EQ(now.drawnInstanceCount, seen);
+            EXPECT_EQ(now.occludedInstanceCount, occluded);
             EXPECT_EQ(now.backFaceCount, 0u);
         };
         const double step = 0.015625;
@@ -237,9 +237,9 @@ TEST_P(Occlusion, AWallHidesWhatLiesBehindIt) {
         frame();
         const SuppleViewStatistics last = view.statistics();
         EXPECT_EQ(last.instanceCount, 12u);
-        EXPECT_EQ(last.seenCount, shown(crowd).size() + shown(other).size());
-        EXPECT_EQ(last.occludedCount, 12 - last.seenCount);
-        EXPECT_LE(last.seenCount, 7u);
+        EXPECT_EQ(last.drawnInstanceCount, shown(crowd).size() + shown(other).size());
+        EXPECT_EQ(last.occludedInstanceCount, 12 - last.drawnInstanceCount);
+        EXPECT_LE(last.drawnInstanceCount, 7u);
     }
 }
 

@@ -1,11 +1,14 @@
-// A view through the C interface.
+// A view and its camera, for tests.
 #pragma once
 
 #include "tests/support/crowd.h"
 
+#include <cstring>
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
 namespace supple::test {
 
-/// A view, and its camera.
 class TestView {
 public:
     TestView(CrowdContext& context, uint32_t maxVertices, uint32_t flags = 0) : context_(context) {

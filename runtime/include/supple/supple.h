@@ -504,19 +504,19 @@ SUPPLE_API SuppleResult suppleSetDepthPyramid(SuppleContext context, SuppleView 
 /** What a view drew. */
 typedef struct SuppleViewStatistics {
     uint32_t structSize;
-    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and what even
-                         * so has no room is missing */
+    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and where even
+                         * so there is no room whole instances are missing, the smallest first */
     uint64_t frame;     /**< of suppleBeginFrame */
     float
         levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
     uint32_t vertexCount;                   /**< surface vertices written */
     uint32_t wantedVertexCount;             /**< without a budget, up to a few per cent more */
     uint32_t patchCount;                    /**< drawn */
-    uint32_t reserved;                      /**< 0 */
-    uint32_t instanceCount;                 /**< visible ones of the groups recorded */
-    uint32_t seenCount;                     /**< of those, what CULL and OCCLUSION left: surfaces were made of these */
-    uint32_t occludedCount;                 /**< of those, what OCCLUSION took away */
-    uint32_t backFaceCount;                 /**< patches that BACK_FACES left out */
+    uint32_t instanceCount;                 /**< visible ones of its groups */
+    uint32_t drawnInstanceCount;            /**< of these: seen, and not missing */
+    uint32_t droppedInstanceCount;          /**< seen, and missing for want of room */
+    uint32_t occludedInstanceCount;         /**< not seen for OCCLUSION alone */
+    uint32_t backFaceCount;                 /**< patches of drawn instances that BACK_FACES left out */
 } SuppleViewStatistics;
 
 /** Of the newest completed frame; never blocks. SUPPLE_NOT_READY: there is none. */
@@ -564,7 +564,9 @@ typedef enum SupplePoseSource {
 typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients (for inspection) */
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
-    SUPPLE_GROUP_MOTION = 4      /**< also write where every surface vertex was in the frame before */
+    SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
+    SUPPLE_GROUP_ONE_LEVEL = 32  /**< groups of a view: a level an instance, from its bounds and the longest edge and
+                                  * sharpest bend of the cage's bind pose, instead of one an edge */
 } SuppleGroupFlags;
 
 /** How a group's surface is made, and for how many instances there is room. */
@@ -983,7 +985,8 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
     const char* pass;  /**< static: upload, attributes, pose, deform, vertex, edge (P_m: its facets), patch, evaluate,
-                        * motion; groups of a view also bounds, level (twice), solve (once a view), place */
+                        * motion; groups of a view also bounds (twice with OCCLUSION), list, level (twice), solve (once a
+                        * view), place */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */
