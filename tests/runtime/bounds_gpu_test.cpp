@@ -25,7 +25,7 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kMargin = 0.125f;
 constexpr float kLongest = 0.05f, kBend = 0.01f;
-constexpr uint32_t kArgumentStride = 16, kWindowArguments = 64; ///< words
+constexpr uint32_t kArgumentStride = 16, kWindowArguments = 128; ///< words
 constexpr uint32_t kUnwritten = 0xABABABABu;
 
 /// Fills a buffer of the host's with values and reads others back.

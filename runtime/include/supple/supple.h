@@ -496,8 +496,8 @@ typedef struct SuppleDepthPyramidDesc {
  * before what comes into view appears a frame late; with this frame's occluders it does not. The image is the host's.
  * suppleRecord samples it in compute shaders, and only those: its writes must be in `before` (or before
  * suppleGetRecordScopes' first), its next writes wait for compute shaders. It must be owned by queueFamily then, also
- * with SUPPLE_CONTEXT_ASYNC_COMPUTE: share it concurrently, or transfer it. The view must live until the frames that
- * were recorded with it are completed; a change here does not touch those. */
+ * with SUPPLE_CONTEXT_ASYNC_COMPUTE: share it concurrently, or transfer it. The image and its view must live until the
+ * frames that were recorded with them are completed, which a change here does not touch: set another, or null, first. */
 SUPPLE_API SuppleResult suppleSetDepthPyramid(SuppleContext context, SuppleView view,
                                               const SuppleDepthPyramidDesc* pyramid);
 
