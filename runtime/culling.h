@@ -5,9 +5,11 @@
 #include "base/result.h"
 #include "gpu/memory.h"
 #include "runtime/instance_slots.h"
+#include "supple/supple.h"
 #include "surface/bounds_pass.h"
 #include "surface/evaluation.h"
 #include "surface/lod/instance.h"
+#include "surface/occlusion_pass.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +24,8 @@ public:
     struct Desc {
         const gpu::Device* device = nullptr;
         const surface::BoundsPass* pass = nullptr;
+        const surface::OcclusionPass* occlusion = nullptr; ///< or null: nothing hides
+        uint32_t framesInFlight = 2;
         uint32_t capacity = 0;
         uint32_t windowSize = 0, windows = 0;
         uint32_t cageVertices = 0, cageStride = 0;
@@ -46,6 +50,10 @@ public:
     /// Once, before anything else.
     void recordClear(VkCommandBuffer commandBuffer) const;
     void recordBounds(VkCommandBuffer commandBuffer, std::span<const InstanceSlots::Listed> windows) const;
+    /// Behind the bounds, before sizes and list. `place`: of the frame among those in flight, whose descriptor set no
+    /// frame uses any more; `generation` tells whether it has this pyramid.
+    void recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
+                         uint64_t generation, uint32_t instanceCount);
     /// What `listed` instances of the host's list need at least; only where that may be more than there is.
     void recordSizes(VkCommandBuffer commandBuffer, uint32_t listed) const;
     /// `room`: vertices, or shared::kRoomForAll.
@@ -57,7 +65,7 @@ public:
     /// What passes after the list work on, in the place of a window of the host's list: `set` stays the caller's.
     [[nodiscard]] surface::Window window(uint32_t window, VkDescriptorSet set) const;
     [[nodiscard]] VkBuffer list() const { return buffers_.buffer(kList); }
-    /// Four words, of all windows: seen, of those with a past, listed, left out.
+    /// What the list pass has found out, of all windows: kListHeaderWords words (shaders/shared/bounds.h).
     [[nodiscard]] VkDeviceSize countOffset() const { return VkDeviceSize{firstArgument()} * sizeof(uint32_t); }
     [[nodiscard]] VkDeviceSize listBytes() const { return buffers_.size(kList); }
     [[nodiscard]] VkBuffer bounds() const { return buffers_.buffer(kBounds); }
@@ -68,6 +76,7 @@ private:
     /// kList: all that are seen, those of every window, their levels, then the arguments.
     enum BufferIndex : size_t { kBounds, kStates, kList, kTable, kBufferCount };
     [[nodiscard]] Status createSets(const Desc& desc);
+    [[nodiscard]] Status createOcclusionSets(const Desc& desc, VkBufferView hostList);
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(elements_.size()); }
     /// Words of kList.
     [[nodiscard]] uint32_t firstArgument() const;
@@ -83,6 +92,13 @@ private:
     gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;
     std::vector<VkDescriptorSet> sets_; ///< by window
+    const surface::OcclusionPass* occlusion_ = nullptr;
+    gpu::DescriptorPoolHandle occlusionPool_;
+    struct OcclusionSet {
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        uint64_t generation = 0; ///< of the pyramid that it was written with
+    };
+    std::vector<OcclusionSet> occlusionSets_; ///< by frame in flight
 };
 
 } // namespace supple::runtime

@@ -165,7 +165,12 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     if (status) {
         if (group->view_ != nullptr) {
             const auto windows = static_cast<uint32_t>(group->windows_.size());
-            const std::optional<uint32_t> first = group->view_->takeRuns(tables.lod, windows);
+            std::vector<bool> doubleSided;
+            for (const surface::LodTables::Run& run : tables.lod.runs) {
+                const std::vector<cage::Material>& materials = group->asset_->character.materials;
+                doubleSided.push_back(run.material < materials.size() && materials[run.material].doubleSided);
+            }
+            const std::optional<uint32_t> first = group->view_->takeRuns(tables.lod, doubleSided, windows);
             if (!first) {
                 return Error{ErrorCode::limit, name + ": the view is full: its groups have more than " +
                                                    std::to_string(kMaxRuns) + " runs of patches"};
@@ -383,6 +388,8 @@ Status Group::createCulling() {
     Culling::Desc desc;
     desc.device = shared_.device;
     desc.pass = shared_.bounds;
+    desc.occlusion = (view_->desc().flags & SUPPLE_VIEW_OCCLUSION) != 0 ? shared_.occlusion : nullptr;
+    desc.framesInFlight = shared_.framesInFlight;
     desc.capacity = capacity_;
     desc.windowSize = windowSize_;
     desc.windows = static_cast<uint32_t>(windows_.size());

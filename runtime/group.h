@@ -30,8 +30,9 @@ struct GroupShared {
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
-    const surface::BoundsPass* bounds = nullptr; ///< for groups of views
-    std::shared_ptr<View> view;                  ///< of the description
+    const surface::BoundsPass* bounds = nullptr;       ///< for groups of views
+    const surface::OcclusionPass* occlusion = nullptr; ///< for groups of views with occlusion
+    std::shared_ptr<View> view;                        ///< of the description
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
     bool handsOver = false;       ///< to another queue family: every output is written anew in every frame
@@ -86,11 +87,14 @@ public:
     /// where `leastVertices` of all groups are more than the view's room, their sizes.
     [[nodiscard]] bool culls() const { return culling_.active(); }
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
+    /// Behind the bounds, what the view's depth pyramid hides.
+    [[nodiscard]] bool occludes() const { return culls() && visible_ > 0 && view_->depthPyramid().has_value(); }
+    PassCost recordOcclusion(VkCommandBuffer commandBuffer);
     /// Of the instances listed.
     [[nodiscard]] uint64_t leastVertices() const { return uint64_t{culling_.leastVertices()} * visible_; }
     void recordSizes(VkCommandBuffer commandBuffer) const { culling_.recordSizes(commandBuffer, visible_); }
     void recordReadback(VkCommandBuffer commandBuffer) const {
-        view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset());
+        view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset(), output_.patchCount);
     }
     PassCost recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const;
 

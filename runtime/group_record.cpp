@@ -149,6 +149,15 @@ Group::PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
     return {visible_, visible_ * VkDeviceSize{32}};
 }
 
+Group::PassCost Group::recordOcclusion(VkCommandBuffer commandBuffer) {
+    if (!occludes()) {
+        return {};
+    }
+    culling_.recordOcclusion(commandBuffer, passesFrame_ % shared_.framesInFlight, *view_->depthPyramid(),
+                             view_->pyramidGeneration(), visible_);
+    return {0, 0, true};
+}
+
 Group::PassCost Group::recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const {
     if (!culls()) {
         return {};
@@ -254,6 +263,8 @@ LodPush Group::levelPush(const Window& window) const {
     push.scratchStride = scratchElements();
     push.firstRun = firstRun_ + window.index * runs;
     push.runCount = runs;
+    push.backFaces = (view_->desc().flags & SUPPLE_VIEW_BACK_FACES) != 0 ? 1 : 0;
+    std::copy_n(view_->direction().begin(), 3, push.direction);
     return push;
 }
 

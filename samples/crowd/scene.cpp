@@ -7,6 +7,7 @@
 #include "shaders/ground_vert.h"
 #include "shaders/text_frag.h"
 #include "shaders/text_vert.h"
+#include "shaders/wall_vert.h"
 
 #include <stb/stb_easy_font.h>
 
@@ -46,7 +47,8 @@ struct TextCorner { // of stb_easy_font
 
 } // namespace
 
-Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd) : crowd_(crowd) {
+Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid)
+    : crowd_(crowd), wall_(wall) {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     sunMap_ = sample::Image(device, {.extent = {kSunMapSize, kSunMapSize},
@@ -57,6 +59,10 @@ Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd) : crowd_(
     graph.setImage(sunMapUse_, sunMap_.handle());
     pictureUse_ = graph.addImage();
     depthUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
+    if (pyramid) {
+        pyramid_ = std::make_unique<sample::DepthPyramid>(device);
+        pyramidUse_ = graph.addImage();
+    }
 
     const VkDescriptorSetLayout sceneLayout =
         sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
@@ -105,6 +111,9 @@ Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd) : crowd_(
     scene.vertexShader = ground_vert;
     scene.fragmentShader = ground_frag;
     groundPipeline_ = sample::createGraphicsPipeline(device, scene);
+    scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    scene.vertexShader = wall_vert;
+    wallPipeline_ = sample::createGraphicsPipeline(device, scene);
     sample::GraphicsDesc text{
         .layout = textLayout_, .colors = {kColorFormat}, .depth = kDepthFormat, .depthWrite = false};
     text.vertexShader = text_vert;
@@ -118,8 +127,12 @@ void Scene::resize(sample::Device& device, Graph& graph, VkExtent2D extent) {
                                       .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
     depth_ = sample::Image(device, {.extent = extent,
                                     .format = kDepthFormat,
-                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+    if (pyramid_) {
+        pyramid_->resize(depth_);
+        graph.setImage(pyramidUse_, pyramid_->image());
+    }
     graph.setImage(pictureUse_, picture_.handle());
     graph.setImage(depthUse_, depth_.handle());
 }
@@ -210,6 +223,12 @@ void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint
             drawCharacters(commands, slot, false, paint);
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, groundPipeline_);
             vkCmdDraw(commands, 4, 1, 0, 0);
+            if (wall_) {
+                const glm::vec4 wall{0.7f * crowd_.reach(), kWallHeight, 0.2f, kWallAngle};
+                vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof wall, &wall);
+                vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wallPipeline_);
+                vkCmdDraw(commands, 36, 1, 0, 0);
+            }
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textPipeline_);
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textLayout_, 0, 1, &textSets_[slot], 0,
                                     nullptr);
@@ -218,6 +237,11 @@ void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint
             vkCmdDraw(commands, 6 * textQuads_, 1, 0, 0);
             vkCmdEndRendering(commands);
         });
+    if (pyramid_)
+        graph.add("pyramid",
+                  {reads(depthUse_, kSampledInCompute, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+                   writes(pyramidUse_, kStorageInCompute, VK_IMAGE_LAYOUT_GENERAL, true)},
+                  [this](VkCommandBuffer commands) { pyramid_->record(commands); });
 }
 
 } // namespace crowd

@@ -19,24 +19,8 @@
 
 // Samples of a sector lie in rows parallel to its edge, kRowStep / rate of the way to the centre apart.
 const uint kRowStep = kClass == kP5Patch ? 1u : kClass == kP4Patch ? 2u : 3u;
+const vec2 kRay = vec2(kRayMiddle, kRaySide);
 const uint kSectorPoints = 20u; // centre, border[4], c[15]
-
-// One sector. c is relative to the centre and stands in the order 400 310 220 130 040 | 301 211 121 031 | 202 112 022 |
-// 103 013 | 004; indices count corner i, corner i + 1, centre.
-struct Sector {
-    vec3 centre;
-    vec3 border[4];
-    vec3 c[15];
-};
-
-// A ray of (3): the points 301, 202, 103 of the sector after it (031, 022, 013 of the sector before), from b310, b211, b112
-// after it and b130, b121, b112 before it.
-vec3[3] rayPoints(vec3 v, vec3 p310, vec3 p130, vec3 p211, vec3 p121, vec3 after112, vec3 before112) {
-    precise vec3 x1 = kRayMiddle * v + kRaySide * (p310 + p130);
-    precise vec3 x2 = kRayMiddle * x1 + kRaySide * (p211 + p121);
-    precise vec3 x3 = kRayMiddle * x2 + kRaySide * (after112 + before112);
-    return vec3[3](x1, x2, x3);
-}
 
 // Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
 // place of the cage.
@@ -45,29 +29,7 @@ vec3 coefficient(uint i, bool today) {
     return poolVector(i);
 }
 
-Sector loadSector(uint record, uint base, uint i, bool today) {
-    const uint m = kSides;
-    uint n = i + 1u == m ? 0u : i + 1u, l = i == 0u ? m - 1u : i - 1u;
-    uint inner = base + tableElement(record).w;
-    uvec4 own = base + tableElement(record + i), next = base + tableElement(record + n), last = base + tableElement(record + l);
-    Sector s;
-    s.centre = coefficient(inner, today);
-    vec3 v0 = coefficient(own.x, today), t0 = coefficient(own.y, today), t1 = coefficient(own.z, today), v1 = coefficient(next.x, today);
-    precise vec3 border1 = v0 + t0, border2 = v1 + t1;
-    s.border = vec3[4](v0, border1, border2, v1);
-    precise vec3 a = v0 - s.centre, d = v1 - s.centre;
-    uint at = inner + 1u + 3u * i, atNext = inner + 1u + 3u * n, atLast = inner + 1u + 3u * l;
-    precise vec3 p211 = a + coefficient(at, today), p121 = d + coefficient(at + 1u, today), p112 = coefficient(at + 2u, today);
-    precise vec3 last121 = a + coefficient(atLast + 1u, today), last112 = coefficient(atLast + 2u, today);
-    precise vec3 next211 = d + coefficient(atNext, today), next112 = coefficient(atNext + 2u, today);
-    precise vec3 p310 = a + 0.75 * t0, p130 = d + 0.75 * t1;
-    precise vec3 last130 = a + 0.75 * coefficient(last.z, today), next310 = d + 0.75 * coefficient(next.y, today);
-    precise vec3 p220 = ((a + t0) + (d + t1)) * 0.5;
-    vec3 left[3] = rayPoints(a, p310, last130, p211, last121, p112, last112);
-    vec3 right[3] = rayPoints(d, next310, p130, next211, p121, next112, p112);
-    s.c = vec3[15](a, p310, p220, p130, d, left[0], p211, p121, right[0], left[1], p112, right[1], left[2], right[2], vec3(0.0));
-    return s;
-}
+#include "shaders/pm/sector.glsl"
 
 // One step of de Casteljau's algorithm short of the point: the cubic blends towards corner i, corner i + 1 and the centre.
 // The position is their blend, the derivatives are 4 times their differences.
@@ -172,7 +134,7 @@ void evaluateNarrow() {
     uint sector = kSides;
     do {
         --sector;
-        s = loadSector(record, base, sector, false);
+        s = loadSector(kSides, kRay, record, base, sector, false);
         bool step = (singular & (1u << sector)) != 0u;
         uint l = kInterior ? kRowStep : 0u;
         if (l < push.rate) {
@@ -203,7 +165,7 @@ void evaluateNarrowLod() {
     uint record = push.table + kSides * (r.patchIndex - push.firstPatch), base = r.slot * push.poolStride;
     uint singular = tableElement(record + 1u).w;
     for (uint sector = 0u; sector < kSides; ++sector) {
-        Sector s = loadSector(record, base, sector, r.isNew);
+        Sector s = loadSector(kSides, kRay, record, base, sector, r.isNew);
         bool step = (singular & (1u << sector)) != 0u;
         for (uint ring = 0u; ring < rings; ++ring) {
             uint vertex = r.firstVertex + ringSideStart(kSides, ring, sector, last);
@@ -242,7 +204,7 @@ void evaluateWide() {
         uint slot = n / kSides, id = first + slot;
         uint entry = id / push.count, instance = instanceSlot(entry);
         uint record = push.table + kSides * (id - entry * push.count);
-        storeShared(n, loadSector(record, instance * push.poolStride, n - slot * kSides, false));
+        storeShared(n, loadSector(kSides, kRay, record, instance * push.poolStride, n - slot * kSides, false));
     }
     barrier();
     uint samples = push.samples;
@@ -268,8 +230,8 @@ void evaluateWideLod() {
         uint place = n / kSides;
         LodRecord r = lodRecord(share.firstRecord + place);
         if (r.patchIndex != kEmptyRecord)
-            storeShared(n, loadSector(push.table + kSides * (r.patchIndex - push.firstPatch), r.slot * push.poolStride,
-                                      n - place * kSides, r.isNew));
+            storeShared(n, loadSector(kSides, kRay, push.table + kSides * (r.patchIndex - push.firstPatch),
+                                      r.slot * push.poolStride, n - place * kSides, r.isNew));
     }
     barrier();
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * share.samples; n += gl_WorkGroupSize.x) {

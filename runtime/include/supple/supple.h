@@ -418,7 +418,11 @@ typedef enum SuppleViewFlags {
     SUPPLE_VIEW_ATTRIBUTES = 2, /**< surface attributes, every frame anew */
     SUPPLE_VIEW_UVS1 = 4,       /**< with ATTRIBUTES: second UV sets */
     SUPPLE_VIEW_FACE_UVS = 8,   /**< with ATTRIBUTES: where vertices lie in their faces' trim tiles */
-    SUPPLE_VIEW_CULL = 16 /**< instances that the camera does not see are deformed, but no surface is made of them */
+    SUPPLE_VIEW_CULL = 16, /**< instances that the camera does not see are deformed, but no surface is made of them */
+    SUPPLE_VIEW_OCCLUSION = 32, /**< with CULL: nor of those behind a depth pyramid, see suppleSetDepthPyramid */
+    SUPPLE_VIEW_BACK_FACES = 64 /**< patches that surely show the camera their backs are left out, but for those of
+                                 * double-sided materials: for hosts that draw what winds counter-clockwise alone, and
+                                 * that from this camera alone */
 } SuppleViewFlags;
 
 /** How much a view may write. */
@@ -434,7 +438,7 @@ typedef struct SuppleViewDesc {
 
 /** A view without groups. */
 SUPPLE_API SuppleResult suppleCreateView(SuppleContext context, const SuppleViewDesc* desc, SuppleView* out);
-/** The handle is dead at once; its groups keep what they need. */
+/** The handle is dead at once; its groups keep what they need, and nothing hides their instances any more. */
 SUPPLE_API SuppleResult suppleDestroyView(SuppleContext context, SuppleView view);
 
 /** Options of a camera. */
@@ -458,11 +462,44 @@ typedef struct SuppleCameraDesc {
     float viewProjection[16];
     float farthest;       /**< CULL: what is farther from position is not seen; 0: no limit */
     float smallestRadius; /**< CULL: pixels: what is smaller is not seen */
+    float direction[3];   /**< BACK_FACES with ORTHOGRAPHIC: where the camera looks, of any length; else not used */
 } SuppleCameraDesc;
 
 /** Moves a view's camera; stands until set again. A view needs one before its groups are recorded. Shadow passes and
  * mirrors draw what the main camera chose: other levels would shadow themselves. */
 SUPPLE_API SuppleResult suppleSetCamera(SuppleContext context, SuppleView view, const SuppleCameraDesc* camera);
+
+/** Options of a depth pyramid. */
+typedef enum SuppleDepthPyramidFlags {
+    SUPPLE_DEPTH_REVERSED = 1 /**< near is 1, far is 0 */
+} SuppleDepthPyramidFlags;
+
+/** A depth picture and smaller ones of it: level 0 has width x height texels, the next ones half as many, rounded down,
+ * at least 1. Texel (x, y) of a level that is w x h holds the farthest depth (the largest, or REVERSED the smallest) of
+ * all that the rectangle from (x/w, y/h) to ((x+1)/w, (y+1)/h) of the picture touches; level 0 may be smaller than the
+ * picture. shaders/supple_depth_pyramid.comp makes one. */
+typedef struct SuppleDepthPyramidDesc {
+    uint32_t structSize;
+    uint32_t flags;       /**< SuppleDepthPyramidFlags */
+    VkImageView view;     /**< 2D, R32_SFLOAT, all levels from 0 on; of an image with usage SAMPLED */
+    VkImageLayout layout; /**< that it has while suppleRecord's commands run: GENERAL, SHADER_READ_ONLY_OPTIMAL or
+                           * READ_ONLY_OPTIMAL */
+    uint32_t width;       /**< of level 0 */
+    uint32_t height;
+    uint32_t levels;          /**< of the view: 1 to as many as there can be; more find more hidden */
+    float viewProjection[16]; /**< of the picture, as in SuppleCameraDesc; x and y -1..1 from texel 0 to the last */
+} SuppleDepthPyramidDesc;
+
+/** SUPPLE_VIEW_OCCLUSION: what an instance must come out of to be seen, from the next suppleRecord on until set again;
+ * null, as at first: nothing hides. An instance is hidden where the box round its surface lies behind the pyramid
+ * everywhere; boxes that reach out of the picture or behind the eye are never hidden. With the depth of the frame
+ * before what comes into view appears a frame late; with this frame's occluders it does not. The image is the host's.
+ * suppleRecord samples it in compute shaders, and only those: its writes must be in `before` (or before
+ * suppleGetRecordScopes' first), its next writes wait for compute shaders. It must be owned by queueFamily then, also
+ * with SUPPLE_CONTEXT_ASYNC_COMPUTE: share it concurrently, or transfer it. The image and its view must live until the
+ * frames that were recorded with them are completed, which a change here does not touch: set another, or null, first. */
+SUPPLE_API SuppleResult suppleSetDepthPyramid(SuppleContext context, SuppleView view,
+                                              const SuppleDepthPyramidDesc* pyramid);
 
 /** What a view drew. */
 typedef struct SuppleViewStatistics {
@@ -478,6 +515,8 @@ typedef struct SuppleViewStatistics {
     uint32_t instanceCount;                 /**< visible ones of its groups */
     uint32_t drawnInstanceCount;            /**< of these: seen, and not missing */
     uint32_t droppedInstanceCount;          /**< seen, and missing for want of room */
+    uint32_t occludedInstanceCount;         /**< not seen for OCCLUSION alone */
+    uint32_t backFaceCount;                 /**< patches of drawn instances that BACK_FACES left out */
 } SuppleViewStatistics;
 
 /** Of the newest completed frame; never blocks. SUPPLE_NOT_READY: there is none. */
@@ -959,7 +998,8 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
     const char* pass;  /**< static: upload, attributes, pose, deform, vertex, edge (P_m: its facets), patch, evaluate,
-                        * motion; groups of a view also bounds, list, level (twice), solve (once a view), place */
+                        * motion; groups of a view also bounds (twice with OCCLUSION), list, level (twice), solve (once a
+                        * view), place */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */
