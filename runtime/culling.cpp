@@ -31,6 +31,7 @@ Result<Culling> Culling::create(const Desc& desc) {
     Culling culling;
     culling.device_ = desc.device;
     culling.pass_ = desc.pass;
+    culling.occlusion_ = desc.occlusion;
     culling.capacity_ = desc.capacity;
     culling.windowSize_ = desc.windowSize;
     culling.windows_ = desc.windows;
@@ -125,7 +126,32 @@ Status Culling::createSets(const Desc& desc) {
             sets_.push_back(*set);
         }
     }
-    return status;
+    return status && occlusion_ != nullptr ? createOcclusionSets(desc, hostList) : status;
+}
+
+Status Culling::createOcclusionSets(const Desc& desc, VkBufferView hostList) {
+    Result<gpu::DescriptorPoolHandle> pool =
+        gpu::createDescriptorPool(*device_, occlusion_->layout(), desc.framesInFlight, "supple occlusion");
+    if (!pool) {
+        return pool.error();
+    }
+    occlusionPool_ = std::move(*pool);
+    for (uint32_t f = 0; f < desc.framesInFlight; ++f) {
+        const Result<VkDescriptorSet> set =
+            gpu::allocateSet(*device_, occlusion_->layout(), occlusionPool_.get(), "supple occlusion");
+        if (!set) {
+            return set.error();
+        }
+        const gpu::BoundResource resources[] = {
+            {kBoundsBinding, {buffers_.buffer(kBounds), 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
+            {kBoundsStateBinding, {buffers_.buffer(kStates), 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
+            {kHostListBinding, {desc.hostList, 0, VkDeviceSize{capacity_} * kWordBytes}, VK_NULL_HANDLE},
+            {kHostListTexelBinding, {}, hostList},
+        };
+        gpu::writeSet(*device_, *set, resources);
+        occlusionSets_.push_back({*set, 0});
+    }
+    return success();
 }
 
 void Culling::writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target) const {
@@ -158,6 +184,23 @@ void Culling::recordBounds(VkCommandBuffer commandBuffer, std::span<const Instan
         pass_->recordBounds(commandBuffer, sets_[w], push);
         push.firstEntry += windows[w].count;
     }
+}
+
+void Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
+                              uint64_t generation, uint32_t instanceCount) {
+    OcclusionSet& own = occlusionSets_[place];
+    if (own.generation != generation) {
+        occlusion_->writePyramid(own.set, pyramid.view, pyramid.layout);
+        own.generation = generation;
+    }
+    OcclusionPush push{};
+    std::copy_n(pyramid.viewProjection, 16, push.columns);
+    push.instanceCount = instanceCount;
+    push.width = pyramid.width;
+    push.height = pyramid.height;
+    push.levels = pyramid.levels;
+    push.reversed = (pyramid.flags & SUPPLE_DEPTH_REVERSED) != 0 ? 1 : 0;
+    occlusion_->record(commandBuffer, own.set, push);
 }
 
 void Culling::recordSizes(VkCommandBuffer commandBuffer, uint32_t listed) const {

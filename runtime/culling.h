@@ -9,6 +9,7 @@
 #include "surface/bounds_pass.h"
 #include "surface/evaluation.h"
 #include "surface/lod/instance.h"
+#include "surface/occlusion_pass.h"
 
 #include <array>
 #include <cstddef>
@@ -29,6 +30,8 @@ public:
     struct Desc {
         const gpu::Device* device = nullptr;
         const surface::BoundsPass* pass = nullptr;
+        const surface::OcclusionPass* occlusion = nullptr; ///< or null: nothing hides
+        uint32_t framesInFlight = 2;
         uint32_t capacity = 0;
         uint32_t windowSize = 0, windows = 0;
         uint32_t cageVertices = 0, cageStride = 0;
@@ -55,6 +58,10 @@ public:
     /// Once, before anything else.
     void recordClear(VkCommandBuffer commandBuffer) const;
     void recordBounds(VkCommandBuffer commandBuffer, std::span<const InstanceSlots::Listed> windows) const;
+    /// Behind the bounds, before sizes and list. `place`: of the frame among those in flight, whose descriptor set no
+    /// frame uses any more; `generation` tells whether it has this pyramid.
+    void recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
+                         uint64_t generation, uint32_t instanceCount);
     /// What `listed` instances of the host's list need at least; only where that may be more than there is.
     void recordSizes(VkCommandBuffer commandBuffer, uint32_t listed) const;
     /// `room`: vertices, or shared::kRoomForAll.
@@ -71,7 +78,7 @@ public:
     [[nodiscard]] VkDeviceSize rateListOffset(uint32_t rate) const;
     [[nodiscard]] VkDeviceSize drawOffset() const;
     [[nodiscard]] VkBuffer list() const { return buffers_.buffer(kList); }
-    /// Four words, of all windows: seen, of those with a past, listed, left out.
+    /// What the list pass has found out, of all windows: kListHeaderWords words (shaders/shared/bounds.h).
     [[nodiscard]] VkDeviceSize countOffset() const { return VkDeviceSize{firstArgument()} * sizeof(uint32_t); }
     [[nodiscard]] VkDeviceSize listBytes() const { return buffers_.size(kList); }
     [[nodiscard]] VkBuffer bounds() const { return buffers_.buffer(kBounds); }
@@ -83,6 +90,7 @@ private:
     /// arguments, the counts of rates and their draws.
     enum BufferIndex : size_t { kBounds, kStates, kList, kTable, kBufferCount };
     [[nodiscard]] Status createSets(const Desc& desc);
+    [[nodiscard]] Status createOcclusionSets(const Desc& desc, VkBufferView hostList);
     struct Argument {
         uint32_t elements = 0, perGroup = 0, count = 0; ///< as of shared/bounds.h
     };
@@ -110,6 +118,13 @@ private:
     gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;
     std::vector<VkDescriptorSet> sets_; ///< by window
+    const surface::OcclusionPass* occlusion_ = nullptr;
+    gpu::DescriptorPoolHandle occlusionPool_;
+    struct OcclusionSet {
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        uint64_t generation = 0; ///< of the pyramid that it was written with
+    };
+    std::vector<OcclusionSet> occlusionSets_; ///< by frame in flight
 };
 
 } // namespace supple::runtime

@@ -162,6 +162,10 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     if (views) {
         pass(Pass::bounds, [&](Group& group) { return group.recordBounds(commandBuffer); });
         computeBarrier();
+        if (any([](Group& group) { return group.occludes(); })) {
+            pass(Pass::bounds, [&](Group& group) { return group.recordOcclusion(commandBuffer); });
+            computeBarrier();
+        }
         // Where even the coarsest surfaces of all might not have room, those that go are found first.
         const auto roomOf = [&](const View* view) {
             uint64_t least = 0;

@@ -3,6 +3,7 @@
 #include "runtime/group_buffers.h"
 #include "surface/grid.h"
 #include "surface/lod/tables.h"
+#include "surface/shared_samples.h"
 
 #include <algorithm>
 #include <bit>
@@ -30,6 +31,7 @@ static_assert(SUPPLE_SCHEME_PREP == static_cast<int>(SchemeId::prep) &&
               SUPPLE_SCHEME_CATMULL_CLARK == static_cast<int>(SchemeId::catmullClark) &&
               SUPPLE_SCHEME_LOOP == static_cast<int>(SchemeId::loop) &&
               SUPPLE_SCHEME_BLEND == static_cast<int>(SchemeId::blend));
+static_assert(SUPPLE_DOMAIN_MESH == surface::kDomainCount);
 static_assert(SUPPLE_VERTEX_16 == kVertex16 && SUPPLE_VERTEX_24 == kVertex24);
 
 // Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits): instances of the pool, the deformed
@@ -42,6 +44,7 @@ constexpr uint32_t kScratchPadding = 16;
 
 surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View* view) {
     surface::Recipe recipe;
+    recipe.shared = (desc.flags & SUPPLE_GROUP_SHARED_SAMPLES) != 0;
     recipe.attributes = view != nullptr ? (view->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
                                         : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
     if (desc.scheme != SUPPLE_SCHEME_AUTO) {
@@ -51,7 +54,7 @@ surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View*
     if (surface::subdivides(recipe.scheme)) {
         recipe.rate = std::bit_ceil(rate);
     } else if (recipe.scheme == SchemeId::blend) {
-        recipe.rate = rate;
+        recipe.rate = recipe.lod ? 0 : rate;
         recipe.blend.creases = desc.creaseMode == SUPPLE_CREASES_CURVE ? surface::blend::CreaseMode::curve
                                                                        : surface::blend::CreaseMode::cut;
         recipe.blend.sharpThreshold = desc.sharpThreshold > 0.0f ? desc.sharpThreshold : 1.0f;
@@ -108,10 +111,10 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         return Error{ErrorCode::argument, name + ": " + schemeName + " has no patch coefficients"};
     }
 
-    group->anyRate_ = tables.rate == 0;
+    group->anyRate_ = tables.rate == 0 && !tables.sharesSamples();
     group->askedRate_ = rate;
-    group->maxRate_ = group->anyRate_ ? rate : tables.rate;
-    if (!group->anyRate_) {
+    group->maxRate_ = tables.rate == 0 ? rate : tables.rate;
+    if (tables.rate != 0) {
         const uint32_t taken = tables.rate << tables.isolationSteps;
         if (taken != rate) {
             const char* rule =
@@ -128,12 +131,21 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
                                            std::to_string(rate) + " need more than 2^32 surface vertices"};
     }
     group->vertexCount_ = static_cast<uint32_t>(vertices);
+    if (tables.sharesSamples()) {
+        if (vertices > shared.device->limits.maxDrawIndexedIndexValue) {
+            return Error{ErrorCode::limit, name + ": " + std::to_string(vertices) + " vertices of a mesh; an index of" +
+                                               " this device is at most " +
+                                               std::to_string(shared.device->limits.maxDrawIndexedIndexValue)};
+        }
+        group->mesh_ = surface::sharedMesh(tables, group->evaluation_);
+    }
     group->evaluation_.verticesPerInstance = roundUp(group->vertexCount_, kVertexPadding);
     group->evaluation_.cageStride = roundUp(group->asset_->character.cage.vertexCount(), kCagePadding);
 
     surface::Needs needs;
     needs.vertexFormat = static_cast<uint32_t>(format);
     needs.motion = group->wants(desc, SUPPLE_GROUP_MOTION, SUPPLE_VIEW_MOTION);
+    needs.rate = group->evaluation_.rate;
     needs.patches = (desc.flags & SUPPLE_GROUP_PATCHES) != 0;
     needs.view = group->view_ != nullptr;
     needs.lod = group->hasLevels();
@@ -166,7 +178,12 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     if (status) {
         if (group->hasLevels()) {
             const auto windows = static_cast<uint32_t>(group->windows_.size());
-            const std::optional<uint32_t> first = group->view_->takeRuns(tables.lod, windows);
+            std::vector<bool> doubleSided;
+            for (const surface::LodTables::Run& run : tables.lod.runs) {
+                const std::vector<cage::Material>& materials = group->asset_->character.materials;
+                doubleSided.push_back(run.material < materials.size() && materials[run.material].doubleSided);
+            }
+            const std::optional<uint32_t> first = group->view_->takeRuns(tables.lod, doubleSided, windows);
             if (!first) {
                 return Error{ErrorCode::limit, name + ": the view is full: its groups have more than " +
                                                    std::to_string(kMaxRuns) + " runs of patches"};
@@ -186,6 +203,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         group->layOutDraws();
         status = group->createBuffers(desc, indices);
     }
+    group->mesh_ = {};
     if (status && group->plays()) {
         status = group->createPlayback();
     }
@@ -318,7 +336,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc, std::span<const uint16_
                           kStorage | kTexels};
     requests[kInstances] = {"supple instances", 2 * n * sizeof(uint32_t), kOutput | kCopied};
     requests[kIndirect] = {"supple indirect arguments",
-                           view_ != nullptr ? 0 : tables.drawRanges.size() * sizeof(VkDrawIndexedIndirectCommand),
+                           view_ != nullptr ? 0 : drawRanges_.size() * sizeof(VkDrawIndexedIndirectCommand),
                            kOutput | kCopied | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
     attributesPending_ = attributeBytes > 0;
     if (attributeBytes > device.limits.maxStorageBufferRange) {
@@ -350,14 +368,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc, std::span<const uint16_
     if (hasLevels()) {
         return success(); // the view has them
     }
-    const gpu::StaticRequest request{"supple grid indices", kOutput | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                                     std::as_bytes(indices)};
-    Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(device, {&request, 1});
-    if (!statics) {
-        return statics.error();
-    }
-    static_ = std::move(*statics);
-    return success();
+    return createStatics(tables.sharesSamples() ? std::as_bytes(std::span(mesh_.indices)) : std::as_bytes(indices));
 }
 
 std::vector<uint16_t> Group::layOutGrids() {
@@ -366,7 +377,8 @@ std::vector<uint16_t> Group::layOutGrids() {
     for (const Rate& rate : rates_) {
         rates.push_back(rate.evaluation.rate);
     }
-    for (uint32_t rate = anyRate_ ? 1 : maxRate_; rates_.empty() && !hasLevels() && rate <= maxRate_; ++rate) {
+    const bool none = hasLevels() || hasRates() || scheme_->tables.sharesSamples();
+    for (uint32_t rate = anyRate_ ? 1 : maxRate_; !none && rate <= maxRate_; ++rate) {
         rates.push_back(rate);
     }
     std::vector<uint16_t> indices;
@@ -382,6 +394,19 @@ std::vector<uint16_t> Group::layOutGrids() {
         }
     }
     return indices;
+}
+
+Status Group::createStatics(std::span<const std::byte> indices) {
+    const gpu::StaticRequest request{"supple grid indices",
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                     indices};
+    Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(*shared_.device, {&request, 1});
+    if (!statics) {
+        return statics.error();
+    }
+    static_ = std::move(*statics);
+    return success();
 }
 
 Status Group::createCulling() {
@@ -402,6 +427,8 @@ Status Group::createCulling() {
     Culling::Desc desc;
     desc.device = shared_.device;
     desc.pass = shared_.bounds;
+    desc.occlusion = (view_->desc().flags & SUPPLE_VIEW_OCCLUSION) != 0 ? shared_.occlusion : nullptr;
+    desc.framesInFlight = shared_.framesInFlight;
     desc.capacity = capacity_;
     desc.windowSize = windowSize_;
     desc.windows = static_cast<uint32_t>(windows_.size());
@@ -447,6 +474,10 @@ Status Group::setRate(uint32_t rate) {
         if (rate == askedRate_) {
             return success();
         }
+        if (scheme_->tables.sharesSamples()) {
+            return Error{ErrorCode::argument, name + ": the indices of shared samples are made for rate " +
+                                                  std::to_string(askedRate_) + " alone"};
+        }
         return Error{ErrorCode::argument, name + ": the tables of " + surface::schemeName(scheme_->recipe.scheme) +
                                               " are made for rate " + std::to_string(askedRate_) + " alone"};
     }
@@ -482,6 +513,18 @@ void Group::layOutDraws() {
         return;
     }
     drawsChanged_ = true;
+    output_.rate = evaluation_.rate;
+    output_.vertexCount = vertexCount_;
+    if (scheme_->tables.sharesSamples()) {
+        for (const surface::SharedMesh::Range& from : mesh_.ranges) {
+            drawRanges_.push_back(
+                {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertexCount_, 0, from.firstIndex, from.indexCount});
+        }
+        rateOutputs_.push_back({evaluation_.rate, 0, static_cast<uint32_t>(drawRanges_.size()), {}});
+        output_.drawRanges = drawRanges_.data();
+        output_.drawRangeCount = static_cast<uint32_t>(drawRanges_.size());
+        return;
+    }
     drawRanges_.clear();
     rateOutputs_.clear();
     uint32_t firstVertex = 0;
@@ -510,8 +553,6 @@ void Group::layOutDraws() {
     if (rates_.empty()) {
         add(evaluation_.rate, grids_[anyRate_ ? evaluation_.rate - 1 : 0]);
     }
-    output_.rate = evaluation_.rate;
-    output_.vertexCount = vertexCount_;
     output_.drawRanges = drawRanges_.data();
     output_.drawRangeCount = static_cast<uint32_t>(drawRanges_.size());
 }
@@ -546,7 +587,8 @@ void Group::fillOutput() {
     }
     fillRates();
     if (!hasLevels()) {
-        o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
+        o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices),
+                         scheme_->tables.sharesSamples() ? 4u : 2u};
         return;
     }
     const auto ofView = [&](View::BufferIndex index, VkDeviceSize stride) {

@@ -13,9 +13,11 @@
 #include "skinning/deform_pass.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
+#include "surface/shared_samples.h"
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace supple::runtime {
@@ -28,8 +30,9 @@ struct GroupShared {
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
-    const surface::BoundsPass* bounds = nullptr; ///< for groups of views
-    std::shared_ptr<View> view;                  ///< of the description
+    const surface::BoundsPass* bounds = nullptr;       ///< for groups of views
+    const surface::OcclusionPass* occlusion = nullptr; ///< for groups of views with occlusion
+    std::shared_ptr<View> view;                        ///< of the description
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
     bool handsOver = false;       ///< to another queue family: every output is written anew in every frame
@@ -88,11 +91,15 @@ public:
     /// where `leastVertices` of all groups are more than the view's room, their sizes.
     [[nodiscard]] bool culls() const { return culling_.active(); }
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
+    /// Behind the bounds, what the view's depth pyramid hides.
+    [[nodiscard]] bool occludes() const { return culls() && visible_ > 0 && view_->depthPyramid().has_value(); }
+    PassCost recordOcclusion(VkCommandBuffer commandBuffer);
     /// Of the instances listed.
     [[nodiscard]] uint64_t leastVertices() const { return uint64_t{culling_.leastVertices()} * visible_; }
     void recordSizes(VkCommandBuffer commandBuffer) const { culling_.recordSizes(commandBuffer, visible_); }
     void recordReadback(VkCommandBuffer commandBuffer) const {
-        view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset());
+        view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset(),
+                              hasLevels() ? output_.patchCount : 0);
     }
     PassCost recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const;
 
@@ -140,6 +147,7 @@ private:
     };
     Status layOutWindows(const SuppleGroupDesc& desc);
     Status createBuffers(const SuppleGroupDesc& desc, std::span<const uint16_t> indices);
+    Status createStatics(std::span<const std::byte> indices);
     Status createPlayback();
     Status createSets();
     void layOutDraws();
@@ -210,6 +218,7 @@ private:
         uint32_t firstIndex = 0, indexCount = 0;
     };
     std::vector<std::array<Grid, surface::kDomainCount>> grids_; ///< by rate - 1, or of rates_, or the one
+    surface::SharedMesh mesh_; ///< shared samples: until it lies in the staging memory and the draws are laid out
     SuppleGroupOutput output_{};
     std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
     std::vector<SuppleRate> rateOutputs_;

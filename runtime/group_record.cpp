@@ -150,6 +150,15 @@ Group::PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
     return {visible_, visible_ * VkDeviceSize{32}};
 }
 
+Group::PassCost Group::recordOcclusion(VkCommandBuffer commandBuffer) {
+    if (!occludes()) {
+        return {};
+    }
+    culling_.recordOcclusion(commandBuffer, passesFrame_ % shared_.framesInFlight, *view_->depthPyramid(),
+                             view_->pyramidGeneration(), visible_);
+    return {0, 0, true};
+}
+
 Group::PassCost Group::recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const {
     if (!culls()) {
         return {};
@@ -262,6 +271,8 @@ LodPush Group::levelPush(const Window& window) const {
     push.scratchStride = scratchElements();
     push.firstRun = firstRun_ + window.index * runs;
     push.runCount = runs;
+    push.backFaces = (view_->desc().flags & SUPPLE_VIEW_BACK_FACES) != 0 ? 1 : 0;
+    std::copy_n(view_->direction().begin(), 3, push.direction);
     return push;
 }
 
@@ -279,7 +290,8 @@ Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
-        shared_.surface->lod().recordEdges(commandBuffer, window, levelArguments(window), levelPush(own));
+        shared_.surface->lod().recordEdges(commandBuffer, scheme_->tables.lod, window, levelArguments(window),
+                                           levelPush(own));
     });
     const uint64_t points = scheme_->tables.lod.edges.count;
     return costOfSeen(points, points * sizeof(float));
@@ -292,7 +304,8 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
         // All count into one buffer, with atomics; to synchronization validation it is one resource that they read too.
         gpu::computeBarrier(*shared_.device, commandBuffer);
-        shared_.surface->lod().recordPatches(commandBuffer, window, levelArguments(window), levelPush(own));
+        shared_.surface->lod().recordPatches(commandBuffer, scheme_->tables.lod, window, levelArguments(window),
+                                             levelPush(own));
     });
     const uint64_t points = output_.patchCount;
     return costOfSeen(points, points * kLodPatchLevelWords * sizeof(uint32_t));

@@ -119,7 +119,13 @@ void View::setCamera(const SuppleCameraDesc& camera) {
     hasCamera_ = true;
 }
 
-std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, uint32_t windows) {
+void View::setDepthPyramid(const std::optional<SuppleDepthPyramidDesc>& pyramid) {
+    pyramid_ = pyramid;
+    ++pyramidGeneration_;
+}
+
+std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
+                                       uint32_t windows) {
     const auto each = static_cast<uint32_t>(lod.runs.size());
     const uint64_t wanted = uint64_t{each} * windows;
     uint32_t first = 0, length = 0;
@@ -138,6 +144,9 @@ std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, uint32_t w
             const uint32_t run = first + w * each + r;
             takenRuns_[run] = true;
             hostWords_[kLodRuns + run] = form | (first + w * each + range) << 8;
+            const uint32_t bit = 1u << run % 32;
+            uint32_t& bits = hostWords_[kLodDoubleSided + run / 32];
+            bits = doubleSided[r] ? bits | bit : bits & ~bit;
             forms_ |= 1u << form;
         }
     }
@@ -256,15 +265,17 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
 
 void View::recordReadback(VkCommandBuffer commandBuffer) {
     const uint64_t place = recordedFrame_ % framesInFlight_;
-    solved_[place] = {recordedFrame_, 0};
+    solved_[place].frame = recordedFrame_;
+    solved_[place].groups = 0;
     const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, place * kReadbackBytes, sizeof(LodSolution)};
     device_->vk.CmdCopyBuffer(commandBuffer, buffers_.buffer(kWords), readback_.buffer(0), 1, &region);
 }
 
-void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset) {
+void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, uint32_t patches) {
     const uint64_t place = recordedFrame_ % framesInFlight_;
-    const VkBufferCopy region{
-        offset, place * kReadbackBytes + sizeof(LodSolution) + kCountBytes * solved_[place].groups++, kCountBytes};
+    const uint32_t group = solved_[place].groups++;
+    solved_[place].patches[group] = patches;
+    const VkBufferCopy region{offset, place * kReadbackBytes + sizeof(LodSolution) + kCountBytes * group, kCountBytes};
     device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
 }
 
@@ -280,13 +291,17 @@ void View::beginFrame(uint64_t completedFrame) {
             newest_.vertexCount = solution.vertices;
             newest_.patchCount = solution.patches;
             newest_.wantedVertexCount = solution.wanted;
+            uint32_t patches = 0;
             for (uint32_t g = 0; g < solved_[i].groups; ++g) {
                 std::array<uint32_t, kListHeaderWords> counts{};
                 std::memcpy(counts.data(), from + sizeof(solution) + g * kCountBytes, sizeof(counts));
                 newest_.drawnInstanceCount += counts[0];
                 newest_.instanceCount += counts[2];
                 newest_.droppedInstanceCount += counts[3];
+                newest_.occludedInstanceCount += counts[4];
+                patches += counts[0] * solved_[i].patches[g];
             }
+            newest_.backFaceCount = patches - solution.counted;
             newest_.shortfall = solution.shortfall != 0 || newest_.droppedInstanceCount > 0 ? 1 : 0;
         }
     }
@@ -301,7 +316,7 @@ void View::cancelFrame(uint64_t frame) {
         indicesToRelease_ = true;
     }
     for (Solved& solved : solved_) {
-        solved = solved.frame == frame ? Solved{} : solved;
+        solved.frame = solved.frame == frame ? 0 : solved.frame;
     }
 }
 

@@ -6,6 +6,7 @@
 #include "surface/lod/tables.h"
 #include "surface/pm/scheme.h"
 #include "surface/prep/scheme.h"
+#include "surface/shared_samples.h"
 
 #include <algorithm>
 #include <bit>
@@ -37,6 +38,9 @@ Result<Tables> buildScheme(const Recipe& recipe, const cage::Cage& cage) {
         if (!mesh) {
             return mesh.error();
         }
+        if (recipe.lod) {
+            return blend::buildTables(*mesh, 0);
+        }
         const uint32_t rate = std::max(recipe.rate, 1u);
         return blend::buildTables(*mesh, mesh->refined ? (rate + 1) / 2 : rate);
     }
@@ -65,6 +69,12 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
             return Error{ErrorCode::argument, std::string(schemeName(recipe.scheme)) + " has no levels of detail"};
         }
         lod::appendTables(*tables);
+    }
+    if (tables && recipe.shared) {
+        if (!hasLevels(recipe.scheme)) {
+            return Error{ErrorCode::argument, std::string(schemeName(recipe.scheme)) + " has no shared samples"};
+        }
+        appendSharedSamples(*tables, recipe.attributes);
     }
     return tables;
 }

@@ -19,6 +19,7 @@ struct Recipe {
     uint32_t rate = 0;      ///< segments along an edge of the cage; 0 for schemes whose tables serve all rates
     bool attributes = true; ///< with the corner attributes
     bool lod = false;       ///< with what level of detail needs
+    bool shared = false;    ///< samples that patches share are stored once
 
     bool operator==(const Recipe&) const = default;
 };
@@ -31,14 +32,14 @@ struct Recipe {
     return scheme == SchemeId::catmullClark || scheme == SchemeId::loop;
 }
 
-/// Whether its tables are made for one rate.
+/// Whether its tables are made for one rate, but for those with levels.
 [[nodiscard]] constexpr bool hasRate(SchemeId scheme) {
     return subdivides(scheme) || scheme == SchemeId::blend;
 }
 
-/// Whether its patches can be drawn at real-valued levels.
+/// Whether its patches can be drawn at real-valued levels, and whether they can share their samples.
 [[nodiscard]] constexpr bool hasLevels(SchemeId scheme) {
-    return scheme == SchemeId::prep || scheme == SchemeId::pm;
+    return !subdivides(scheme);
 }
 
 /// Builds the scheme's tables, or says why it cannot take the cage: "face 12 has 5 sides: p-rep takes quads only".

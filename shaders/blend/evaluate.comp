@@ -9,75 +9,43 @@
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
-#include "shaders/shared/blend.h"
+#include "shaders/surface/cage.glsl"
+#include "shaders/lod/record.glsl"
 
 layout(constant_id = 3) const uint kClass = kBlendPatch;
 const bool kSharp = kClass == kBlendSharpPatch; // some chart is creased, or the surface lies still somewhere
-
-struct Corner {
-    uint flags, samples, creaseSamples;
-    vec4 directions; // of its spoke, of the next
-    vec3 c[9];
-};
+#include "shaders/blend/blend.glsl"
 
 uint coordinateCount() { return push.rate + 3u; }
 uint mirrored(uint i) { return i <= push.rate ? push.rate - i : 2u * push.rate + 3u - i; }
 
-vec2 product(vec2 a, vec2 b) {
-    precise vec2 p = vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
-    return p;
-}
-
-// The local geometry's offset from c_00 and its derivatives by the corner's coordinates, at coordinates x and y.
-void localGeometry(Corner corner, uint x, uint y, out vec3 offset, out vec3 dx, out vec3 dy) {
+// Of a fixed rate's tables, at coordinates x and y.
+ChartPoint tablePoint(Corner corner, uint x, uint y) {
     uint at = y * coordinateCount() + x;
-    vec4 entry = uintBitsToFloat(tableElement(corner.samples + at));
+    vec4 entry = uintBitsToFloat(tableElement(corner.where.x + at));
     vec2 direction = corner.directions.xy;
     vec2 toward = x == 0u && y > 0u ? corner.directions.zw : direction;
     vec2 zeta = product(entry.xy, toward), slope = product(entry.zw, direction);
-    float u = zeta.x, v = zeta.y;
-    // T, which takes U's place where V has no part: U itself, or the parameter of the crease.
-    float t = u, tx = slope.x, ty = -slope.y;
-    if (kSharp && (corner.flags & kCreasedChart) != 0u) {
-        vec4 crease = uintBitsToFloat(tableElement(corner.creaseSamples + 2u * at));
-        t = product(crease.xy, toward).x;
-        tx = product(crease.zw, direction).x;
-        ty = product(uintBitsToFloat(tableElement(corner.creaseSamples + 2u * at + 1u).xy), direction).x;
+    ChartPoint point = ChartPoint(zeta, slope, zeta.x, slope.x, -slope.y);
+    if (isCreased(corner)) {
+        vec4 crease = uintBitsToFloat(tableElement(corner.where.y + 2u * at));
+        point.t = product(crease.xy, toward).x;
+        point.tx = product(crease.zw, direction).x;
+        point.ty = product(uintBitsToFloat(tableElement(corner.where.y + 2u * at + 1u).xy), direction).x;
     }
-    precise vec3 c0 = corner.c[1] + u * (corner.c[4] + u * corner.c[7]); // of V, and of V^2
-    precise vec3 c1 = corner.c[2] + u * (corner.c[5] + u * corner.c[8]);
-    precise vec3 value = t * (corner.c[3] + t * corner.c[6]) + v * (c0 + v * c1);
-    vec3 dt = corner.c[3] + 2.0 * (t * corner.c[6]);
-    vec3 du = v * ((corner.c[4] + 2.0 * (u * corner.c[7])) + v * (corner.c[5] + 2.0 * (u * corner.c[8])));
-    vec3 dv = c0 + 2.0 * (v * c1);
-    offset = value;
-    dx = tx * dt + (slope.x * du + slope.y * dv);
-    dy = ty * dt + (slope.x * dv - slope.y * du);
+    return point;
 }
 
-void blend(Corner corners[4], uint coordinates, uint i, uint j, out vec3 position, out vec3 du, out vec3 dv) {
+void blendOfTables(Corner corners[4], uint i, uint j, out vec3 position, out vec3 du, out vec3 dv) {
     uint iBack = mirrored(i), jBack = mirrored(j);
     uvec2 at[4] = uvec2[4](uvec2(i, j), uvec2(j, iBack), uvec2(iBack, jBack), uvec2(jBack, i));
-    precise vec3 points[4];
-    vec3 dx[4], dy[4];
+    CornerView views[4];
     for (uint k = 0u; k < 4u; ++k) {
-        vec3 offset, localX, localY;
-        localGeometry(corners[k], at[k].x, at[k].y, offset, localX, localY);
-        vec3 x = uintBitsToFloat(tableElement(coordinates + at[k].x).xyz);
-        vec3 y = uintBitsToFloat(tableElement(coordinates + at[k].y).xyz);
-        precise float weight = x.y * y.y;
-        precise vec3 p = weight * (corners[k].c[0] + offset);
-        points[k] = p;
-        // The slopes of the four weights add up to nothing, so that derivatives need not see coordinates.
-        precise vec3 relative = (corners[k].c[0] - corners[0].c[0]) + offset;
-        dx[k] = (x.z * y.y) * relative + weight * localX;
-        dy[k] = (x.y * y.z) * relative + weight * localY;
+        vec2 x = uintBitsToFloat(tableElement(push.ring + at[k].x).yz);
+        vec2 y = uintBitsToFloat(tableElement(push.ring + at[k].y).yz);
+        views[k] = CornerView(tablePoint(corners[k], at[k].x, at[k].y), x, y);
     }
-    // Opposite corners together: on an edge one of the two is zero, and the sum reads the same from both faces.
-    precise vec3 sum = ((points[0] + points[2]) + (points[1] + points[3])) + 0.0;
-    position = sum;
-    du = (dx[0] - dx[2]) + (dy[3] - dy[1]);
-    dv = (dy[0] - dy[2]) + (dx[1] - dx[3]);
+    blend(corners, views, position, du, dv);
 }
 
 const float kTinyNormal = 1e-12; // against the face's diagonals, squared
@@ -93,13 +61,8 @@ bool liesStill(Corner corners[4], uint i, uint j) {
     return still;
 }
 
-// Of unit length, from the derivatives at a sample; at a corner from its chart, where the blend's derivatives have a limit.
-vec3 normalAt(Corner corners[4], uint i, uint j, vec3 du, vec3 dv, bool still) {
-    bool onEdge[4] = bool[4](j == 0u, i == push.rate, j == push.rate, i == 0u);
-    vec3 n = cross(du, dv);
-    for (uint k = 0u; k < 4u; ++k) {
-        if (!still && onEdge[k] && onEdge[(k + 3u) & 3u]) n = cross(corners[k].c[3], corners[k].c[1]);
-    }
+// Of unit length. Where even the face has a longer one, that.
+vec3 normalOf(Corner corners[4], vec3 n) {
     vec3 diagonal = corners[2].c[0] - corners[0].c[0], other = corners[3].c[0] - corners[1].c[0];
     if (!(dot(n, n) > kTinyNormal * (dot(diagonal, diagonal) * dot(other, other)))) n = cross(diagonal, other);
     return unitNormal(n);
@@ -110,28 +73,94 @@ uint inside(uint i) { return i == 0u ? push.rate + 1u : i == push.rate ? push.ra
 
 void evaluateSample(Corner corners[4], uint i, uint j, bool still, out vec3 position, out vec3 normal) {
     vec3 du, dv;
-    blend(corners, push.ring, i, j, position, du, dv);
+    blendOfTables(corners, i, j, position, du, dv);
     if (kSharp && still) {
         vec3 unused;
-        blend(corners, push.ring, inside(i), inside(j), unused, du, dv);
+        blendOfTables(corners, inside(i), inside(j), unused, du, dv);
     }
-    normal = normalAt(corners, i, j, du, dv, still);
+    vec3 n = cross(du, dv);
+    // At a corner from its chart, where the blend's derivatives have a limit.
+    bool onEdge[4] = bool[4](j == 0u, i == push.rate, j == push.rate, i == 0u);
+    for (uint k = 0u; k < 4u; ++k) {
+        if (!still && onEdge[k] && onEdge[(k + 3u) & 3u]) n = cross(corners[k].c[3], corners[k].c[1]);
+    }
+    normal = normalOf(corners, n);
+}
+
+// At levels: where the normal of a sample is taken, a step inside where the surface lies still. Beside single faces cut off
+// by a crease as well, where both derivatives run along it.
+bool moveInside(Corner corners[4], inout vec2 u, inout vec2 v) {
+    const float kStep = 1.0 / float(kStillSteps);
+    bool moved = false;
+    for (uint k = 0u; k < 4u; ++k) {
+        float from = k == 0u ? v.x : k == 1u ? u.y : k == 2u ? v.y : u.x;
+        if (!(from < kStep && (corners[k].flags & kStillEdge) != 0u)) continue;
+        if (k == 0u) v = vec2(kStep, 1.0 - kStep);
+        if (k == 1u) u = vec2(1.0 - kStep, kStep);
+        if (k == 2u) v = vec2(1.0 - kStep, kStep);
+        if (k == 3u) u = vec2(kStep, 1.0 - kStep);
+        moved = true;
+    }
+    for (uint k = 0u; k < 4u; ++k) {
+        bool right = k == 1u || k == 2u, top = k >= 2u;
+        precise float along = right ? u.y : u.x, across = top ? v.y : v.x;
+        float distance = max(along, across);
+        bool still = (corners[k].flags & kStillCorner) != 0u;
+        bool single = isCreased(corners[k]) && uintBitsToFloat(corners[k].where.x) > 1.0 && distance > 0.0;
+        if (!(distance < kStep && (still || single))) continue;
+        along = distance > 0.0 ? along * (kStep / distance) : kStep;
+        across = distance > 0.0 ? across * (kStep / distance) : kStep;
+        precise vec2 rest = 1.0 - vec2(along, across);
+        u = right ? vec2(rest.x, along) : vec2(along, rest.x);
+        v = top ? vec2(rest.y, across) : vec2(across, rest.y);
+        moved = true;
+    }
+    return moved;
+}
+
+void evaluateLevels(Corner corners[4], vec2 u, vec2 v, out vec3 position, out vec3 normal) {
+    vec3 du, dv;
+    blendAt(corners, u, v, position, du, dv);
+    if (kVertexFormat == kVertexPosition) return;
+    bool moved = false;
+    if (kSharp) {
+        vec2 insideU = u, insideV = v;
+        moved = moveInside(corners, insideU, insideV);
+        if (moved) {
+            vec3 unused;
+            blendAt(corners, insideU, insideV, unused, du, dv);
+        }
+    }
+    vec3 n = cross(du, dv);
+    for (uint k = 0u; k < 4u; ++k) {
+        bool right = k == 1u || k == 2u, top = k >= 2u;
+        if (!moved && (right ? u.y : u.x) == 0.0 && (top ? v.y : v.x) == 0.0) n = cross(corners[k].c[3], corners[k].c[1]);
+    }
+    normal = normalOf(corners, n);
+}
+
+// Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
+// place of the cage.
+vec3 coefficient(uint i, bool today) {
+    if (kLod && kVertexFormat == kVertexPosition && today) return cageVertex(i);
+    return poolVector(i);
+}
+
+Corner[4] loadCorners(uint record, uint base, bool today) {
+    Corner corners[4];
+    for (uint k = 0u; k < 4u; ++k) {
+        uint poolIndex;
+        corners[k] = cornerOf(record + k, poolIndex);
+        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = coefficient(base + poolIndex + c, today);
+    }
+    return corners;
 }
 
 void evaluateNarrow() {
     uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint patchIndex = id - entry * push.count;
-    uint base = instance * push.poolStride;
-    Corner corners[4];
-    for (uint k = 0u; k < 4u; ++k) {
-        uvec4 record = tableElement(push.table + 4u * patchIndex + k);
-        corners[k].flags = record.x & ~kPoolIndexMask;
-        corners[k].directions = uintBitsToFloat(tableElement(record.y));
-        corners[k].samples = record.z;
-        corners[k].creaseSamples = record.w;
-        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = poolVector(base + (record.x & kPoolIndexMask) + c);
-    }
+    Corner corners[4] = loadCorners(push.table + 4u * patchIndex, instance * push.poolStride, false);
     uint side = push.rate + 1u;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
     for (uint j = 0u; j < side; ++j) {
@@ -153,36 +182,64 @@ void evaluateNarrow() {
     }
 }
 
+void evaluateNarrowLod() {
+    LodRecord r = lodRecord(lodRecordOfLane());
+    uint last = r.capacity, side = last + 1u;
+    if (r.patchIndex == kEmptyRecord) {
+        for (uint k = 0u; k < side * side; ++k) storeSurfaceVertex(r.firstVertex + k, vec3(0.0), vec3(0.0));
+        return;
+    }
+    Corner corners[4] =
+        loadCorners(push.table + 4u * (r.patchIndex - push.firstPatch), r.slot * push.poolStride, r.isNew);
+    LodPattern patterns[6];
+    for (uint k = 0u; k < 6u; ++k) patterns[k] = lodPattern(r.pairs[k], r.capacityIndex);
+    for (uint j = 0u; j < side; ++j) {
+        for (uint i = 0u; i < side; ++i) {
+            vec2 u = vec2(i == 0u ? 0.0 : 1.0, i == 0u ? 1.0 : 0.0), v = vec2(j == 0u ? 0.0 : 1.0, j == 0u ? 1.0 : 0.0);
+            if (i > 0u && i < last) u = lodPair(j == 0u ? patterns[2] : j == last ? patterns[4] : patterns[0], i, last);
+            if (j > 0u && j < last) v = lodPair(i == last ? patterns[3] : i == 0u ? patterns[5] : patterns[1], j, last);
+            vec3 position, normal;
+            evaluateLevels(corners, u, v, position, normal);
+            storeSurfaceVertex(r.firstVertex + j * side + i, position, normal);
+        }
+    }
+}
+
 shared vec4 sharedCoefficients[kMaxPatchesPerGroup * 36u];
+
+void loadShared(uint place, uint c, uint record, uint base, bool today) {
+    uint poolIndex = tableElement(record + c / 9u).x & kPoolIndexMask;
+    sharedCoefficients[place * 36u + c] = vec4(coefficient(base + poolIndex + c % 9u, today), 0.0);
+}
+
+Corner[4] sharedCorners(uint place, uint record) {
+    Corner corners[4];
+    for (uint k = 0u; k < 4u; ++k) {
+        uint poolIndex;
+        corners[k] = cornerOf(record + k, poolIndex);
+        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = sharedCoefficients[place * 36u + 9u * k + c].xyz;
+    }
+    return corners;
+}
 
 void evaluateWide() {
     uint total = push.count * instanceCount();
     uint first = workgroupIndex() * push.patchesPerGroup;
     uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
     for (uint n = gl_LocalInvocationID.x; n < here * 36u; n += gl_WorkGroupSize.x) {
-        uint slot = n / 36u, c = n - slot * 36u;
-        uint id = first + slot;
+        uint place = n / 36u, id = first + place;
         uint entry = id / push.count, instance = instanceSlot(entry);
-        uint word = tableElement(push.table + 4u * (id - entry * push.count) + c / 9u).x;
-        sharedCoefficients[n] = vec4(poolVector(instance * push.poolStride + (word & kPoolIndexMask) + c % 9u), 0.0);
+        loadShared(place, n - place * 36u, push.table + 4u * (id - entry * push.count), instance * push.poolStride, false);
     }
     barrier();
     uint side = push.rate + 1u;
     for (uint n = gl_LocalInvocationID.x; n < here * push.samples; n += gl_WorkGroupSize.x) {
-        uint slot = n / push.samples, sampleIndex = n - slot * push.samples;
+        uint place = n / push.samples, sampleIndex = n - place * push.samples;
         uint j = sampleIndex / side, i = sampleIndex - j * side;
-        uint id = first + slot;
+        uint id = first + place;
         uint entry = id / push.count, instance = instanceSlot(entry);
         uint patchIndex = id - entry * push.count;
-        Corner corners[4];
-        for (uint k = 0u; k < 4u; ++k) {
-            uvec4 record = tableElement(push.table + 4u * patchIndex + k);
-            corners[k].flags = record.x & ~kPoolIndexMask;
-            corners[k].directions = uintBitsToFloat(tableElement(record.y));
-            corners[k].samples = record.z;
-            corners[k].creaseSamples = record.w;
-            for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = sharedCoefficients[slot * 36u + 9u * k + c].xyz;
-        }
+        Corner corners[4] = sharedCorners(place, push.table + 4u * patchIndex);
         vec3 position, normal;
         evaluateSample(corners, i, j, kSharp && liesStill(corners, i, j), position, normal);
         storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples + sampleIndex,
@@ -190,7 +247,35 @@ void evaluateWide() {
     }
 }
 
+void evaluateWideLod() {
+    LodShare share = lodShareOfGroup(kLodQuadForm);
+    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 36u; n += gl_WorkGroupSize.x) {
+        uint place = n / 36u;
+        LodRecord r = lodRecord(share.firstRecord + place);
+        if (r.patchIndex != kEmptyRecord)
+            loadShared(place, n - place * 36u, push.table + 4u * (r.patchIndex - push.firstPatch),
+                       r.slot * push.poolStride, r.isNew);
+    }
+    barrier();
+    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * share.samples; n += gl_WorkGroupSize.x) {
+        uint place = n / share.samples, sampleIndex = n - place * share.samples;
+        LodRecord r = lodRecord(share.firstRecord + place);
+        uint side = r.capacity + 1u, j = sampleIndex / side, i = sampleIndex - j * side;
+        vec3 position = vec3(0.0), normal = vec3(0.0);
+        if (r.patchIndex != kEmptyRecord) {
+            Corner corners[4] = sharedCorners(place, push.table + 4u * (r.patchIndex - push.firstPatch));
+            evaluateLevels(corners, lodU(r, i, j), lodV(r, i, j), position, normal);
+        }
+        storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
+    }
+}
+
 void main() {
-    if (kWide) evaluateWide();
-    else evaluateNarrow();
+    if (kWide) {
+        if (kLod) evaluateWideLod();
+        else evaluateWide();
+    } else {
+        if (kLod) evaluateNarrowLod();
+        else evaluateNarrow();
+    }
 }

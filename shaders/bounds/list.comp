@@ -12,7 +12,7 @@ layout(set = 0, binding = kBoundsBinding, std430) readonly buffer Bounds { vec4 
 layout(set = 0, binding = kSizeBinding, std430) readonly buffer Sizes { uint sizes[]; };
 layout(push_constant) uniform Push { ListPush push; };
 
-shared uvec3 countsOf[kMaxLanes]; // with a past, new, left out
+shared uvec4 countsOf[kMaxLanes]; // with a past, new, left out, occluded
 shared uint sumsOf[kMaxLanes];
 shared uint sharedThreshold;
 shared uint rateCountsOf[kMaxRates * kMaxLanes];
@@ -50,18 +50,22 @@ uvec2 state(uint slot) {
 // The entry with kInstanceIsNew as it is now.
 uint withPast(uint entry, uvec2 state) { return state.y != 0u ? entry : entry | kInstanceIsNew; }
 
-// One of: seen and with a past, seen and new, left out; none where it is not seen.
-uvec3 kind(uint entry, uvec2 state, uint leftOut) {
-    if (state.x == 0u) return uvec3(0u);
-    if (state.x <= leftOut) return uvec3(0u, 0u, 1u);
-    return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec3(0u, 1u, 0u) : uvec3(1u, 0u, 0u);
+// One of: seen and with a past, seen and new, left out, occluded; none where it is not seen anyway.
+uvec4 kind(uint entry, uvec2 state, uint leftOut) {
+    if (state.x == 0u) return uvec4(0u);
+    if (state.x == kOccluded) return uvec4(0u, 0u, 0u, 1u);
+    if (state.x <= leftOut) return uvec4(0u, 0u, 1u, 0u);
+    return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec4(0u, 1u, 0u, 0u) : uvec4(1u, 0u, 0u, 0u);
 }
 
-void storeHeader(uint at, uvec3 counts, uint listed) {
+bool isDrawn(uvec2 state, uint leftOut) { return state.x > leftOut && state.x != kOccluded; }
+
+void storeHeader(uint at, uvec4 counts, uint listed) {
     argumentWords[at] = counts.x + counts.y;
     argumentWords[at + 1u] = counts.x;
     argumentWords[at + 2u] = listed;
     argumentWords[at + 3u] = counts.z;
+    argumentWords[at + 4u] = counts.w;
 }
 
 void storeDispatch(uint at, uint elements, uint perGroup) {
@@ -73,7 +77,7 @@ void storeDispatch(uint at, uint elements, uint perGroup) {
 }
 
 // Lanes share the arguments of a window, or of the group.
-void storeArguments(uvec3 counts, bool ofGroup, uint offset) {
+void storeArguments(uvec4 counts, bool ofGroup, uint offset) {
     for (uint i = gl_LocalInvocationID.x; i < push.argumentCount; i += gl_WorkGroupSize.x) {
         uvec4 argument = tableElements[push.windowCount + i];
         if ((argument.z == kCountAll) != ofGroup || argument.z >= kCountRate) continue;
@@ -109,7 +113,7 @@ void listRates(uint leftOut) {
         for (uint r = 0u; r < push.rateCount; ++r) rateCountsOf[r * lanes + lane] = 0u;
         for (uint i = run.x; i < run.y; ++i) {
             uint slot = hostEntry(i) & kInstanceSlotMask;
-            if (state(slot).x > leftOut) rateCountsOf[rateOf(slot) * lanes + lane] += 1u;
+            if (isDrawn(state(slot), leftOut)) rateCountsOf[rateOf(slot) * lanes + lane] += 1u;
         }
         barrier();
         for (uint r = 0u; r < push.rateCount; ++r) {
@@ -132,7 +136,7 @@ void listRates(uint leftOut) {
         for (uint i = run.x; i < run.y; ++i) {
             uint entry = hostEntry(i), slot = entry & kInstanceSlotMask;
             uvec2 now = state(slot);
-            if (now.x <= leftOut) continue;
+            if (!isDrawn(now, leftOut)) continue;
             uint rate = rateOf(slot);
             list[places[rate].x] = slot;
             list[places[rate].y] = (slot - window.z) | (withPast(entry, now) & ~kInstanceSlotMask);
@@ -152,20 +156,20 @@ void listRates(uint leftOut) {
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    uvec3 total = uvec3(0u);
+    uvec4 total = uvec4(0u);
     uint listed = 0u, leftOut = push.room != kRoomForAll ? threshold() : 0u;
     if (push.rateCount > 0u) listRates(leftOut);
     for (uint w = 0u; w < push.windowCount; ++w) {
         uvec4 window = tableElements[w];
         uvec2 run = runOf(window);
-        uvec3 own = uvec3(0u);
+        uvec4 own = uvec4(0u);
         for (uint i = run.x; i < run.y; ++i) {
             uint entry = hostEntry(i);
             own += kind(entry, state(entry & kInstanceSlotMask), leftOut);
         }
         countsOf[lane] = own;
         barrier();
-        uvec3 before = uvec3(0u), counts = uvec3(0u);
+        uvec4 before = uvec4(0u), counts = uvec4(0u);
         for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
             if (l == lane) before = counts;
             counts += countsOf[l];
@@ -177,7 +181,7 @@ void main() {
         for (uint i = run.x; i < run.y; ++i) {
             uint entry = hostEntry(i), slot = entry & kInstanceSlotMask;
             uvec2 now = state(slot);
-            uvec3 one = kind(entry, now, leftOut);
+            uvec4 one = kind(entry, now, leftOut);
             bool drawn = one.x + one.y > 0u;
             if (drawn) {
                 list[all] = slot;

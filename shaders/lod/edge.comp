@@ -1,6 +1,6 @@
-// Levels of edges: what both patches at an edge draw it with, from its boundary cubic alone (docs/lod.md, section 4). One
-// invocation an edge and instance, once for both sides; every expression reads the same from either end, so that an edge
-// that two patches know by different coefficients of equal value has one level all the same.
+// Levels of edges: what both patches at an edge draw it with, from its curve alone (docs/lod.md, section 4). One invocation
+// an edge and instance, once for both sides; every expression reads the same from either end, so that an edge that two
+// patches know by different coefficients of equal value has one level all the same.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POOL_READ_ONLY
@@ -10,17 +10,65 @@
 #include "shaders/surface/pool.glsl"
 #include "shaders/lod/levels.glsl"
 
-void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry), edge = id - entry * push.count;
-    uvec4 curve = instance * push.poolStride + tableElement(push.edges + edge);
-    vec3 x0 = poolVector(curve.x), o0 = poolVector(curve.y), o1 = poolVector(curve.z), x1 = poolVector(curve.w);
-    precise vec3 t0 = x0 + o0, t1 = x1 + o1, middle = (x0 + x1) * 0.5;
+layout(constant_id = 3) const bool kCharts = false; // the border is the blend of two charts, else a cubic
+const bool kSharp = true;
+#include "shaders/blend/blend.glsl"
+
+// An edge: its ends, its length, and the larger second difference of its cubic.
+struct EdgeCurve {
+    vec3 x0, x1;
+    float curveLength, bend;
+};
+
+EdgeCurve cubicCurve(uvec4 indices) {
+    vec3 x0 = poolVector(indices.x), o0 = poolVector(indices.y), o1 = poolVector(indices.z), x1 = poolVector(indices.w);
+    precise vec3 t0 = x0 + o0, t1 = x1 + o1;
     precise vec3 bend0 = (x0 + t1) - 2.0 * t0, bend1 = (x1 + t0) - 2.0 * t1;
     precise vec3 chord = x1 - x0, inner = t1 - t0;
     precise float curveLength = 0.5 * (((lengthOf(o0) + lengthOf(o1)) + lengthOf(inner)) + lengthOf(chord));
-    precise float radius = 0.5 * curveLength;
     // A polar patch's side at the apex, whose coefficients are all the apex, is a point.
-    float level = curve.x == curve.y ? 0.0 : levelOf(curveLength, max(lengthOf(bend0), lengthOf(bend1)), pixelsPerUnit(middle, radius));
+    if (indices.x == indices.y) curveLength = 0.0;
+    return EdgeCurve(x0, x1, curveLength, max(lengthOf(bend0), lengthOf(bend1)));
+}
+
+// What an end gives to the point at a distance t from it.
+vec3 endShare(uvec4 end, vec3 c[9], float t) {
+    vec3 offset, dx, dy;
+    ChartPoint at = chartPoint(vec2(t, 0.0), uintBitsToFloat(end.w), (end.x & kCreasedChart) != 0u,
+                               vec4(uintBitsToFloat(end.yz), 0.0, 0.0));
+    localGeometry(c, at, offset, dx, dy);
+    precise vec3 p = hermite(t).x * (c[0] + offset);
+    return p;
+}
+
+// By quarters: second differences at a step h are those of a cubic times 6 h^2.
+EdgeCurve chartCurve(uint base, uvec4 end0, uvec4 end1) {
+    vec3 c0[9], c1[9];
+    for (uint c = 0u; c < 9u; ++c) {
+        c0[c] = poolVector(base + (end0.x & kPoolIndexMask) + c);
+        c1[c] = poolVector(base + (end1.x & kPoolIndexMask) + c);
+    }
+    precise vec3 p1 = endShare(end0, c0, 0.25) + endShare(end1, c1, 0.75);
+    precise vec3 p2 = endShare(end0, c0, 0.5) + endShare(end1, c1, 0.5);
+    precise vec3 p3 = endShare(end0, c0, 0.75) + endShare(end1, c1, 0.25);
+    vec3 x0 = c0[0], x1 = c1[0];
+    precise vec3 s0 = p1 - x0, s1 = p2 - p1, s2 = p3 - p2, s3 = x1 - p3;
+    precise float curveLength = (lengthOf(s0) + lengthOf(s3)) + (lengthOf(s1) + lengthOf(s2));
+    precise vec3 b1 = (x0 + p2) - 2.0 * p1, b2 = (p1 + p3) - 2.0 * p2, b3 = (p2 + x1) - 2.0 * p3;
+    precise float bend = max(max(lengthOf(b1), lengthOf(b3)), lengthOf(b2)) * (16.0 / 6.0);
+    return EdgeCurve(x0, x1, curveLength, bend);
+}
+
+void main() {
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
+    uint entry = id / push.count, instance = instanceSlot(entry), edge = id - entry * push.count;
+    uint base = instance * push.poolStride;
+    EdgeCurve curve;
+    if (kCharts) curve = chartCurve(base, tableElement(push.edges + 2u * edge), tableElement(push.edges + 2u * edge + 1u));
+    else curve = cubicCurve(base + tableElement(push.edges + edge));
+    vec3 x0 = curve.x0, x1 = curve.x1;
+    precise vec3 middle = (x0 + x1) * 0.5;
+    precise float radius = 0.5 * curve.curveLength;
+    float level = levelOf(curve.curveLength, curve.bend, pixelsPerUnit(middle, radius));
     scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);
 }

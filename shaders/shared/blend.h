@@ -1,5 +1,5 @@
 // The tables of the blending surface (what all schemes share: shared/surface.h; the formulas: docs/blend.md). They are
-// made for one rate.
+// made for one rate, or for none where patches are drawn at levels of detail: then there are neither coordinates nor samples.
 //
 // Coefficient pool: where the cage takes a step of subdivision first, its vertices; then kChartCoefficients a chart: c_ab at
 // 3 a + b, the first a position and the others vectors.
@@ -14,7 +14,8 @@
 //   chart samples    one element a pair of coordinates, x fastest: (zeta, d zeta / dz) of sector 0; where x = 0 and y > 0 zeta is
 //                    told from the next direction, so that both faces at a spoke multiply the same numbers; one run a k
 //   crease samples   two elements likewise: the parameter of the crease, its slopes by x and by y; one run a k
-//   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples)
+//   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples), or, at
+//                    levels, (.., .., 4 / k, 0)
 #ifndef SUPPLE_SHARED_BLEND_H
 #define SUPPLE_SHARED_BLEND_H
 
@@ -27,6 +28,10 @@ SUPPLE_SHARED_CONST kCreasedChart = 0x80000000u; // its T is the parameter of th
 SUPPLE_SHARED_CONST kStillCorner = 0x40000000u;  // the surface has no derivative at the corner
 SUPPLE_SHARED_CONST kStillEdge = 0x20000000u;    // nor across the edge to the next corner
 SUPPLE_SHARED_CONST kPoolIndexMask = 0x1FFFFFFFu;
+
+// With level of detail a normal is taken 1 / kStillSteps of the patch inside where it lies still: half the shortest
+// segment that there is, whatever the level, so that a place has one normal.
+SUPPLE_SHARED_CONST kStillSteps = 126u;
 
 SUPPLE_SHARED_END
 

@@ -9,7 +9,7 @@
 //
 // Host list: an entry an instance, slots of the group rising: slot | priority << kInstancePriorityShift | kInstanceIsNew
 // where the frame before did not list it.
-// State: two words a slot: 0 where it is not seen, else 1 + its rank, the smaller the sooner it is left out where there is no
+// State: two words a slot: 0 or kOccluded where it is not seen, else 1 + its rank, the smaller the sooner it is left out where there is no
 // room: rank of its priority * kSizeBins + bin of its size; and whether it was when it was listed last, which counts as a past only where
 // the host list does not say kInstanceIsNew.
 // List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has them,
@@ -22,7 +22,8 @@
 //   argument   (elements an instance, elements a workgroup or 0 for a draw, ListCount, word in the argument buffer); those of
 //              window w stand argumentStride * w words further. A dispatch is (x, y, 1), a draw its instance count alone
 //   draw       (indices, first index, patches an instance, rate): a whole VkDrawIndexedIndirectCommand for all windows
-// Arguments: four words in all: seen, of those with a past, listed, left out for want of room; the same four of every window; then as the table says.
+// Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded; the same
+// of every window; then as the table says.
 // Then, from rateCounts on, how many instances a rate and window has, [rate][window]; from firstDraw on the draws.
 #ifndef SUPPLE_SHARED_BOUNDS_H
 #define SUPPLE_SHARED_BOUNDS_H
@@ -46,6 +47,8 @@ SUPPLE_SHARED_CONST kListArgumentBinding = 8u;
 SUPPLE_SHARED_CONST kListTableBinding = 9u;
 SUPPLE_SHARED_CONST kCullViewBinding = 10u;
 SUPPLE_SHARED_CONST kSizeBinding = 12u;
+
+SUPPLE_SHARED_CONST kOccluded = 0xFFFFFFFFu; // as a state: not seen, but for the pyramid it would be
 
 // What a view sees; without planes and limits everything.
 struct CullView {
@@ -123,7 +126,7 @@ struct OcclusionPush {
     uint reversed; // near is 1 and far 0
 };
 
-SUPPLE_SHARED_CONST kListHeaderWords = 4u; // of all, and of every window
+SUPPLE_SHARED_CONST kListHeaderWords = 8u; // of all, and of every window
 
 SUPPLE_SHARED_END
 

@@ -2,6 +2,8 @@
 // sums are those of docs/blend.md.
 #include "surface/blend/reference.h"
 
+#include "shaders/shared/blend.h"
+
 #include <cmath>
 #include <map>
 
@@ -18,9 +20,10 @@ std::vector<glm::vec<2, T>> rounded(const std::vector<glm::dvec2>& values) {
     return {values.begin(), values.end()};
 }
 
+/// eta and its slope.
 template <class T>
-glm::vec<2, T> product(const glm::vec<2, T>& a, const glm::vec<2, T>& b) {
-    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+glm::vec<2, T> hermite(T t) {
+    return {(T(2) * t - T(3)) * t * t + T(1), T(6) * t * (t - T(1))};
 }
 
 /// Shorter than this against the face's two diagonals, squared, a normal is noise.
@@ -58,8 +61,7 @@ Evaluator<T>::Evaluator(const Mesh& mesh, std::span<const ChartCoefficients<T>> 
         const Coordinate c = coordinateAt(rate, i);
         const T t = T(c.numerator) / T(c.denominator);
         parameters_.push_back(t);
-        weights_.push_back((T(2) * t - T(3)) * t * t + T(1));
-        weightSlopes_.push_back(T(6) * t * (t - T(1)));
+        weights_.push_back(hermite(t));
     }
     std::map<uint32_t, uint32_t> byTurns;
     for (const ChartClass& chartClass : mesh.classes) {
@@ -84,30 +86,37 @@ Evaluator<T>::Evaluator(const Mesh& mesh, std::span<const ChartCoefficients<T>> 
 }
 
 template <class T>
-typename Evaluator<T>::Local Evaluator<T>::local(uint32_t corner, uint32_t x, uint32_t y) const {
+ChartPoint<T> Evaluator<T>::tablePoint(uint32_t corner, uint32_t x, uint32_t y) const {
     const Corner& at = mesh_.corners[corner];
-    const ChartClass& chartClass = mesh_.classOf(at.chart);
-    const ChartCoefficients<T>& c = coefficients_[at.chart];
     const Table& table = tables_[tableOfClass_[mesh_.charts[at.chart].chartClass]];
     const uint32_t index = y * coordinateCount(rate_) + x;
     const Pair direction = table.directions[at.sector];
     // On a spoke both faces have the same radius and the same direction.
     const bool first = y == 0, second = x == 0;
     const Pair along = first ? direction : table.directions[at.sector + 1];
-    const Pair zeta = first    ? table.radii[x] * along
-                      : second ? table.radii[y] * along
-                               : product(table.points[index], direction);
-    const Pair slope = product(table.slopes[index], direction);
-    const T u = zeta.x, v = zeta.y;
+    ChartPoint<T> point;
+    point.zeta = first    ? table.radii[x] * along
+                 : second ? table.radii[y] * along
+                          : product(table.points[index], direction);
+    point.slope = product(table.slopes[index], direction);
     // T, which takes U's place where V has no part: U itself, or the parameter of the crease.
-    T t = u, tx = slope.x, ty = -slope.y;
-    if (chartClass.creased()) {
-        t = first    ? parameters_[x] * along.x
-            : second ? parameters_[y] * along.x
-                     : product(table.creasePoints[index], direction).x;
-        tx = product(table.creaseSlopesX[index], direction).x;
-        ty = product(table.creaseSlopesY[index], direction).x;
+    point.t = point.zeta.x;
+    point.tx = point.slope.x;
+    point.ty = -point.slope.y;
+    if (mesh_.classOf(at.chart).creased()) {
+        point.t = first    ? parameters_[x] * along.x
+                  : second ? parameters_[y] * along.x
+                           : product(table.creasePoints[index], direction).x;
+        point.tx = product(table.creaseSlopesX[index], direction).x;
+        point.ty = product(table.creaseSlopesY[index], direction).x;
     }
+    return point;
+}
+
+template <class T>
+typename Evaluator<T>::Local Evaluator<T>::local(uint32_t corner, const ChartPoint<T>& at) const {
+    const ChartCoefficients<T>& c = coefficients_[mesh_.corners[corner].chart];
+    const T u = at.zeta.x, v = at.zeta.y, t = at.t;
     const Vec c0 = c[1] + u * (c[4] + u * c[7]); // of V, and of V^2
     const Vec c1 = c[2] + u * (c[5] + u * c[8]);
     const Vec dt = c[3] + T(2) * (t * c[6]);
@@ -115,28 +124,56 @@ typename Evaluator<T>::Local Evaluator<T>::local(uint32_t corner, uint32_t x, ui
     const Vec dv = c0 + T(2) * (v * c1);
     Local result;
     result.offset = t * (c[3] + t * c[6]) + v * (c0 + v * c1);
-    result.dx = tx * dt + (slope.x * du + slope.y * dv);
-    result.dy = ty * dt + (slope.x * dv - slope.y * du);
+    result.dx = at.tx * dt + (at.slope.x * du + at.slope.y * dv);
+    result.dy = at.ty * dt + (at.slope.x * dv - at.slope.y * du);
     return result;
 }
 
 template <class T>
-typename Evaluator<T>::Blend Evaluator<T>::blend(uint32_t face, uint32_t i, uint32_t j) const {
-    const uint32_t corner = 4 * face;
+typename Evaluator<T>::Views Evaluator<T>::views(uint32_t face, uint32_t i, uint32_t j) const {
     const uint32_t iBack = mirrored(rate_, i), jBack = mirrored(rate_, j);
     const std::array<std::array<uint32_t, 2>, 4> coordinates{{{i, j}, {j, iBack}, {iBack, jBack}, {jBack, i}}};
-    const Vec origin = coefficients_[mesh_.corners[corner].chart][0];
-    std::array<Vec, 4> points, dx, dy;
+    Views views;
     for (uint32_t k = 0; k < 4; ++k) {
         const auto [x, y] = coordinates[k];
-        const Local at = local(corner + k, x, y);
-        const Vec base = coefficients_[mesh_.corners[corner + k].chart][0];
-        const T weight = weights_[x] * weights_[y];
-        points[k] = weight * (base + at.offset);
+        views[k] = {tablePoint(4 * face + k, x, y), weights_[x], weights_[y]};
+    }
+    return views;
+}
+
+template <class T>
+typename Evaluator<T>::Views Evaluator<T>::views(uint32_t face, const Pair& u, const Pair& v) const {
+    const std::array<Pair, 4> coordinates{{{u.x, v.x}, {v.x, u.y}, {u.y, v.y}, {v.y, u.x}}};
+    Views views;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Corner& at = mesh_.corners[4 * face + k];
+        const ChartClass& chartClass = mesh_.classOf(at.chart);
+        const std::vector<Pair>& directions = tables_[tableOfClass_[mesh_.charts[at.chart].chartClass]].directions;
+        views[k] = {chartPoint<T>(coordinates[k], T(4) / T(chartClass.turns()), chartClass.creased(),
+                                  directions[at.sector], directions[at.sector + 1]),
+                    hermite(coordinates[k].x), hermite(coordinates[k].y)};
+    }
+    return views;
+}
+
+template <class T>
+glm::vec<3, T> Evaluator<T>::vertex(uint32_t corner) const {
+    return coefficients_[mesh_.corners[corner].chart][0];
+}
+
+template <class T>
+typename Evaluator<T>::Blend Evaluator<T>::blend(uint32_t face, const Views& views) const {
+    const uint32_t corner = 4 * face;
+    std::array<Vec, 4> points, dx, dy;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const auto& [point, x, y] = views[k];
+        const Local at = local(corner + k, point);
+        const T weight = x.x * y.x;
+        points[k] = weight * (vertex(corner + k) + at.offset);
         // The slopes of the four weights add up to nothing, so that derivatives need not see coordinates.
-        const Vec relative = (base - origin) + at.offset;
-        dx[k] = (weightSlopes_[x] * weights_[y]) * relative + weight * at.dx;
-        dy[k] = (weights_[x] * weightSlopes_[y]) * relative + weight * at.dy;
+        const Vec relative = (vertex(corner + k) - vertex(corner)) + at.offset;
+        dx[k] = (x.y * y.x) * relative + weight * at.dx;
+        dy[k] = (x.x * y.y) * relative + weight * at.dy;
     }
     Blend result;
     // Opposite corners together: on an edge one of the two is zero, and the sum reads the same from both faces.
@@ -147,12 +184,25 @@ typename Evaluator<T>::Blend Evaluator<T>::blend(uint32_t face, uint32_t i, uint
 }
 
 template <class T>
+bool Evaluator<T>::isTiny(uint32_t face, const Vec& normal) const {
+    const Vec diagonal = vertex(4 * face + 2) - vertex(4 * face), other = vertex(4 * face + 3) - vertex(4 * face + 1);
+    const T scale = dotProduct(diagonal, diagonal) * dotProduct(other, other);
+    return !(dotProduct(normal, normal) > T(kTinyNormal) * scale);
+}
+
+/// Of unit length; the face's where there is none.
+template <class T>
+glm::vec<3, T> Evaluator<T>::unitNormal(uint32_t face, Vec n) const {
+    if (isTiny(face, n)) {
+        n = glm::cross(vertex(4 * face + 2) - vertex(4 * face), vertex(4 * face + 3) - vertex(4 * face + 1));
+    }
+    const T length = std::sqrt(dotProduct(n, n));
+    return length > T(0) ? n / length : Vec(T(0));
+}
+
+template <class T>
 glm::vec<3, T> Evaluator<T>::normal(uint32_t face, uint32_t i, uint32_t j, const Blend& at) const {
     const uint32_t corner = 4 * face;
-    const auto vertex = [&](uint32_t k) { return coefficients_[mesh_.corners[corner + k].chart][0]; };
-    const Vec diagonal = vertex(2) - vertex(0), otherDiagonal = vertex(3) - vertex(1);
-    const T scale = dotProduct(diagonal, diagonal) * dotProduct(otherDiagonal, otherDiagonal);
-    const auto isTiny = [&](const Vec& n) { return !(dotProduct(n, n) > T(kTinyNormal) * scale); };
     // The edge from corner k to the next one that the sample lies on.
     const std::array<bool, 4> onEdge{j == 0, i == rate_, j == rate_, i == 0};
     bool still = false; // by connectivity, so that it does not hang on rounding
@@ -166,24 +216,67 @@ glm::vec<3, T> Evaluator<T>::normal(uint32_t face, uint32_t i, uint32_t j, const
             n = glm::cross(coefficients_[chart][3], coefficients_[chart][1]);
         }
     }
-    if (still || isTiny(n)) {
+    if (still || isTiny(face, n)) {
         const auto inside = [&](uint32_t k) {
             return k == 0 ? firstHalfStep(rate_) : k == rate_ ? lastHalfStep(rate_) : k;
         };
-        const Blend near = blend(face, inside(i), inside(j));
+        const Blend near = blend(face, views(face, inside(i), inside(j)));
         n = glm::cross(near.du, near.dv);
     }
-    if (isTiny(n)) {
-        n = glm::cross(diagonal, otherDiagonal);
-    }
-    const T length = std::sqrt(dotProduct(n, n));
-    return length > T(0) ? n / length : Vec(T(0));
+    return unitNormal(face, n);
 }
 
 template <class T>
 Sample<T> Evaluator<T>::at(uint32_t face, uint32_t i, uint32_t j) const {
-    const Blend sample = blend(face, i, j);
+    const Blend sample = blend(face, views(face, i, j));
     return {sample.position, sample.du, sample.dv, normal(face, i, j, sample)};
+}
+
+template <class T>
+Sample<T> Evaluator<T>::at(uint32_t face, const Pair& u, const Pair& v) const {
+    const Blend sample = blend(face, views(face, u, v));
+    // Distances from the sides u = 0 and v = 0, and from the opposite ones; where the normal is taken.
+    const T step = T(1) / T(shared::kStillSteps);
+    Pair x = u, y = v;
+    const auto keep = [&](T& from, T& rest, T distance) {
+        from = distance;
+        rest = T(1) - distance;
+    };
+    bool moved = false;
+    for (uint32_t k = 0; k < 4; ++k) {
+        T& from = k == 0 ? y.x : k == 1 ? x.y : k == 2 ? y.y : x.x;
+        T& rest = k == 0 ? y.y : k == 1 ? x.x : k == 2 ? y.x : x.y;
+        if (from < step && flatAcross(mesh_, 4 * face + k)) {
+            keep(from, rest, step);
+            moved = true;
+        }
+    }
+    const Vec* chartOfCorner = nullptr;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const bool right = k == 1 || k == 2, top = k >= 2;
+        T &along = right ? x.y : x.x, &alongRest = right ? x.x : x.y;
+        T &across = top ? y.y : y.x, &acrossRest = top ? y.x : y.y;
+        const uint32_t chart = mesh_.corners[4 * face + k].chart;
+        const ChartClass& chartClass = mesh_.classOf(chart);
+        const T distance = std::max(along, across);
+        const bool still = chartClass.kind == ChartKind::point || chartClass.kind == ChartKind::curve;
+        if (distance == T(0) && !still) {
+            chartOfCorner = coefficients_[chart].data();
+        } else if (distance < step && (still || (chartClass.creased() && chartClass.turns() == 2))) {
+            const T scale = distance > T(0) ? step / distance : T(0);
+            keep(along, alongRest, distance > T(0) ? along * scale : step);
+            keep(across, acrossRest, distance > T(0) ? across * scale : step);
+            moved = true;
+        }
+    }
+    Vec n = glm::cross(sample.du, sample.dv);
+    if (chartOfCorner != nullptr) {
+        n = glm::cross(chartOfCorner[3], chartOfCorner[1]);
+    } else if (moved) {
+        const Blend near = blend(face, views(face, x, y));
+        n = glm::cross(near.du, near.dv);
+    }
+    return {sample.position, sample.du, sample.dv, unitNormal(face, n)};
 }
 
 template std::vector<ChartCoefficients<float>> construct<float>(const Mesh&, std::span<const glm::vec3>);

@@ -2,6 +2,7 @@
 // comparisons, not part of the runtime. In float it gives the device's bits.
 #pragma once
 
+#include "surface/blend/chart_point.h"
 #include "surface/blend/mesh.h"
 #include "surface/blend/weights.h"
 
@@ -29,7 +30,7 @@ struct Sample {
     Vec normal; ///< outwards, of unit length; zero where even the face has none
 };
 
-/// Samples of the faces at one rate. Keeps references to the mesh and the coefficients.
+/// Samples of the faces at one rate, and at any parameters. Keeps references to the mesh and the coefficients.
 template <class T>
 class Evaluator {
 public:
@@ -40,8 +41,11 @@ public:
     /// At u = i / rate, v = j / rate, in grid order of the quad domain.
     [[nodiscard]] Sample<T> at(uint32_t face, uint32_t i, uint32_t j) const;
 
-private:
     using Pair = glm::vec<2, T>;
+    /// At (u, 1 - u) and (v, 1 - v), as level of detail has them: whatever the rate.
+    [[nodiscard]] Sample<T> at(uint32_t face, const Pair& u, const Pair& v) const;
+
+private:
     struct Table {
         std::vector<Pair> directions;
         std::vector<T> radii;
@@ -55,17 +59,30 @@ private:
     struct Blend {
         Vec position, du, dv;
     };
+    /// A sample as a corner sees it: its place in the chart, and eta and its slope at x and y.
+    struct View {
+        ChartPoint<T> point;
+        Pair x, y;
+    };
+    using Views = std::array<View, 4>;
 
-    [[nodiscard]] Local local(uint32_t corner, uint32_t x, uint32_t y) const;
-    [[nodiscard]] Blend blend(uint32_t face, uint32_t i, uint32_t j) const;
+    [[nodiscard]] Views views(uint32_t face, uint32_t i, uint32_t j) const;
+    [[nodiscard]] Views views(uint32_t face, const Pair& u, const Pair& v) const;
+    [[nodiscard]] ChartPoint<T> tablePoint(uint32_t corner, uint32_t x, uint32_t y) const;
+    [[nodiscard]] Local local(uint32_t corner, const ChartPoint<T>& at) const;
+    [[nodiscard]] Blend blend(uint32_t face, const Views& views) const;
+    [[nodiscard]] Vec vertex(uint32_t corner) const;
+    [[nodiscard]] bool isTiny(uint32_t face, const Vec& normal) const;
     [[nodiscard]] Vec normal(uint32_t face, uint32_t i, uint32_t j, const Blend& at) const;
+    [[nodiscard]] Vec unitNormal(uint32_t face, Vec n) const;
 
     const Mesh& mesh_;
     std::span<const ChartCoefficients<T>> coefficients_;
     uint32_t rate_;
-    std::vector<T> parameters_, weights_, weightSlopes_; ///< per coordinate: t, eta(t), eta'(t)
-    std::vector<Table> tables_;                          ///< one a k
-    std::vector<uint32_t> tableOfClass_;                 ///< per chart class, into tables_
+    std::vector<T> parameters_;          ///< per coordinate: t
+    std::vector<Pair> weights_;          ///< eta(t), eta'(t)
+    std::vector<Table> tables_;          ///< one a k
+    std::vector<uint32_t> tableOfClass_; ///< per chart class, into tables_
 };
 
 } // namespace supple::surface::blend

@@ -34,7 +34,9 @@ public:
             writeStencils(mesh_.stencils, writer_, tables_);
         }
         writeCharts();
-        writeCoordinates();
+        if (rate_ > 0) {
+            writeCoordinates();
+        }
         for (const ChartClass& chartClass : mesh_.classes) {
             writeTurns(chartClass);
         }
@@ -124,13 +126,19 @@ private:
         const uint32_t turns = chartClass.turns(), side = coordinateCount(rate_);
         const auto [known, isNew] = turns_.try_emplace(turns);
         TurnTables& tables = known->second;
+        if (isNew) {
+            const std::vector<glm::dvec2> directions = chartDirections(turns);
+            tables.directions = writer_.element();
+            for (uint32_t h = 0; h < turns; ++h) {
+                put(directions[h], directions[h + 1]);
+            }
+        }
+        if (rate_ == 0) {
+            return;
+        }
         const auto onSecondSpoke = [&](uint32_t index) { return index % side == 0 && index > 0; };
         if (isNew) {
             const ChartTable table = makeChartTable(turns, rate_);
-            tables.directions = writer_.element();
-            for (uint32_t h = 0; h < turns; ++h) {
-                put(table.directions[h], table.directions[h + 1]);
-            }
             tables.samples = writer_.element();
             for (uint32_t i = 0; i < side * side; ++i) {
                 put(onSecondSpoke(i) ? glm::dvec2(table.radii[i / side], 0.0) : table.points[i], table.slopes[i]);
@@ -163,7 +171,8 @@ private:
                 writer_.put({poolIndex(corner.chart) | (chartClass.creased() ? shared::kCreasedChart : 0u) |
                                  (stillCorner(c) ? shared::kStillCorner : 0u) |
                                  (flatAcross(mesh_, c) ? shared::kStillEdge : 0u),
-                             tables.directions + corner.sector, tables.samples, tables.creaseSamples});
+                             tables.directions + corner.sector,
+                             rate_ > 0 ? tables.samples : floatBits(4.0 / chartClass.turns()), tables.creaseSamples});
             }
         }
     }

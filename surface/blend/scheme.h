@@ -6,7 +6,8 @@
 
 namespace supple::surface::blend {
 
-/// The tables of shaders/shared/{surface,blend}.h for patches of `rate` segments an edge. O(corners + classes rate^2).
+/// The tables of shaders/shared/{surface,blend}.h for patches of `rate` segments an edge, or, where it is 0, for
+/// samples at any parameters. O(corners + classes rate^2).
 [[nodiscard]] Tables buildTables(const Mesh& mesh, uint32_t rate);
 
 } // namespace supple::surface::blend

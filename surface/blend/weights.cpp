@@ -182,14 +182,20 @@ Coordinate coordinateAt(uint32_t rate, uint32_t coordinate) {
     return {coordinate == firstHalfStep(rate) ? 1 : 2 * rate - 1, 2 * rate};
 }
 
+std::vector<glm::dvec2> chartDirections(uint32_t turns) {
+    std::vector<glm::dvec2> directions;
+    for (uint32_t h = 0; h <= turns; ++h) {
+        const auto [cosine, sine] = turn(h, turns);
+        directions.emplace_back(cosine, sine);
+    }
+    return directions;
+}
+
 ChartTable makeChartTable(uint32_t turns, uint32_t rate) {
     ChartTable table;
     table.turns = turns;
     table.rate = rate;
-    for (uint32_t h = 0; h <= turns; ++h) {
-        const auto [cosine, sine] = turn(h, turns);
-        table.directions.emplace_back(cosine, sine);
-    }
+    table.directions = chartDirections(turns);
     const double power = 4.0 / turns;
     const uint32_t side = coordinateCount(rate);
     table.points.resize(size_t{side} * side);

@@ -46,12 +46,15 @@ struct Coordinate {
 };
 [[nodiscard]] Coordinate coordinateAt(uint32_t rate, uint32_t coordinate);
 
+/// e^(2 pi i h / k), h = 0..k, exact at quarter turns; the last is the first.
+[[nodiscard]] std::vector<glm::dvec2> chartDirections(uint32_t turns);
+
 /// Where the samples of a sector lie in a chart, for all charts of the same k. Sector h is sector 0 turned by
 /// directions[h], as complex numbers. Samples (i, j) at j * coordinateCount + i, z = x + iy of coordinates i and j.
 struct ChartTable {
     uint32_t turns = 4; ///< k
     uint32_t rate = 1;
-    std::vector<glm::dvec2> directions; ///< h = 0..k: e^(2 pi i h / k), exact at quarter turns; the last is the first
+    std::vector<glm::dvec2> directions; ///< chartDirections()
     std::vector<double> radii;          ///< per coordinate t: t^(4/k)
     std::vector<glm::dvec2> points;     ///< zeta = z^(4/k)
     std::vector<glm::dvec2> slopes;     ///< d zeta / dz; 0 at z = 0, where there may be none

@@ -8,23 +8,26 @@ static_assert(shared::kLodRecords % 4 == 0, "records are read as elements");
 
 Passes::Passes(const gpu::Device& device, const Shaders& shaders) : device_(&device), shaders_(shaders) {}
 
-Status Passes::prepare(const gpu::ComputeLayout& layout) {
+Status Passes::prepare(const gpu::ComputeLayout& layout, const LodTables& tables) {
     layout_ = layout.pipelineLayout.get();
     const struct {
+        Kernel kernel;
         std::span<const uint32_t> spirv;
         const char* name;
-    } sources[kKernels] = {{shaders_.edge, "supple levels of edges"},
-                           {shaders_.patch, "supple levels of patches"},
-                           {shaders_.solve, "supple level budget"},
-                           {shaders_.place, "supple level places"}};
-    for (size_t k = 0; k < kKernels; ++k) {
-        if (pipelines_[k].get() == VK_NULL_HANDLE) {
+    } sources[] = {{tables.charts ? kChartEdge : kEdge, shaders_.edge, "supple levels of edges"},
+                   {tables.charts ? kChartPatch : kPatch, shaders_.patch, "supple levels of patches"},
+                   {kSolve, shaders_.solve, "supple level budget"},
+                   {kPlace, shaders_.place, "supple level places"}};
+    const gpu::Constant charts{gpu::kFirstPassConstant, tables.charts ? VK_TRUE : VK_FALSE};
+    for (const auto& [kernel, spirv, name] : sources) {
+        if (pipelines_[kernel].get() == VK_NULL_HANDLE) {
+            const bool ofBorders = kernel != kSolve && kernel != kPlace;
             Result<gpu::PipelineHandle> pipeline =
-                gpu::createComputePipeline(*device_, layout, sources[k].spirv, {}, sources[k].name);
+                gpu::createComputePipeline(*device_, layout, spirv, std::span(&charts, ofBorders ? 1 : 0), name);
             if (!pipeline) {
                 return pipeline.error();
             }
-            pipelines_[k] = std::move(*pipeline);
+            pipelines_[kernel] = std::move(*pipeline);
         }
     }
     return success();
@@ -53,15 +56,16 @@ void Passes::dispatch(VkCommandBuffer commandBuffer, Kernel kernel, const Window
     }
 }
 
-void Passes::recordEdges(VkCommandBuffer commandBuffer, const Window& window, VkDeviceSize arguments,
-                         shared::LodPush push) const {
+void Passes::recordEdges(VkCommandBuffer commandBuffer, const LodTables& tables, const Window& window,
+                         VkDeviceSize arguments, shared::LodPush push) const {
     push.count = push.edgeCount;
-    dispatch(commandBuffer, kEdge, window, arguments, push);
+    dispatch(commandBuffer, tables.charts ? kChartEdge : kEdge, window, arguments, push);
 }
 
-void Passes::recordPatches(VkCommandBuffer commandBuffer, const Window& window, VkDeviceSize arguments,
-                           const shared::LodPush& push) const {
-    dispatch(commandBuffer, kPatch, window, arguments + sizeof(VkDispatchIndirectCommand), push);
+void Passes::recordPatches(VkCommandBuffer commandBuffer, const LodTables& tables, const Window& window,
+                           VkDeviceSize arguments, const shared::LodPush& push) const {
+    dispatch(commandBuffer, tables.charts ? kChartPatch : kPatch, window, arguments + sizeof(VkDispatchIndirectCommand),
+             push);
 }
 
 void Passes::recordSolve(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::LodSolvePush& push) const {

@@ -1,5 +1,7 @@
 #include "surface/lod/tables.h"
 
+#include "shaders/shared/blend.h"
+#include "surface/borders.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
@@ -10,37 +12,43 @@ namespace supple::surface::lod {
 
 namespace {
 
-/// End, its tangent, the other end's tangent, other end: pool indices.
-using Curve = std::array<uint32_t, 4>;
+/// A border as its edge is written, and as the patch on the other side writes it. A cubic: see surface/borders.h.
+/// Between charts, for either end: chart, direction in it, 4 / k.
+struct Border {
+    std::vector<uint32_t> words, reversed;
+};
 
-uint32_t recordElements(const Tables& tables, PatchClass patchClass) {
-    switch (patchClass) {
-    case PatchClass::regular:
-    case PatchClass::polar:
-        return tables.cornerNormals ? 5 : 4;
-    case PatchClass::perturbed:
-        return tables.cornerNormals ? 9 : 8;
-    default:
-        return sides(formOf(patchClass));
-    }
+bool hasCharts(PatchClass patchClass) {
+    return patchClass == PatchClass::blend || patchClass == PatchClass::blendSharp;
 }
 
-/// Border curves by side of the grid.
-std::vector<Curve> borders(const uint32_t* record, Form form) {
-    if (form == Form::quad) {
-        const auto g = [&](uint32_t i, uint32_t j) { return record[4 * j + i]; };
-        return {{g(0, 0), g(1, 0), g(2, 0), g(3, 0)},
-                {g(3, 0), g(3, 1), g(3, 2), g(3, 3)},
-                {g(3, 3), g(2, 3), g(1, 3), g(0, 3)},
-                {g(0, 3), g(0, 2), g(0, 1), g(0, 0)}};
+Border chartBorder(const std::vector<uint32_t>& words, const uint32_t* corner, const uint32_t* next) {
+    std::vector<uint32_t> ends[2];
+    for (uint32_t e = 0; e < 2; ++e) {
+        const uint32_t* record = e == 0 ? corner : next;
+        const uint32_t* direction = &words[size_t{4} * record[1] + 2 * e]; // of the first spoke, and of the second one
+        ends[e] = {record[0] & (shared::kPoolIndexMask | shared::kCreasedChart), direction[0], direction[1], record[2]};
     }
-    std::vector<Curve> curves;
-    for (uint32_t i = 0; i < sides(form); ++i) {
-        const uint32_t* corner = record + size_t{4} * i;
-        const uint32_t* next = record + size_t{4} * ((i + 1) % sides(form));
-        curves.push_back({corner[0], corner[1], corner[2], next[0]});
+    Border border{ends[0], ends[1]};
+    border.words.insert(border.words.end(), ends[1].begin(), ends[1].end());
+    border.reversed.insert(border.reversed.end(), ends[0].begin(), ends[0].end());
+    return border;
+}
+
+/// By side of the grid.
+std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass patchClass) {
+    const uint32_t* record = &tables.words[size_t{4} * element];
+    std::vector<Border> all;
+    if (hasCharts(patchClass)) {
+        for (uint32_t i = 0; i < 4; ++i) {
+            all.push_back(chartBorder(tables.words, record + size_t{4} * i, record + size_t{4} * ((i + 1) % 4)));
+        }
+        return all;
     }
-    return curves;
+    for (const BorderCurve& c : borderCurves(record, patchClass)) {
+        all.push_back({{c[0], c[1], c[2], c[3]}, {c[3], c[2], c[1], c[0]}});
+    }
+    return all;
 }
 
 } // namespace
@@ -59,12 +67,11 @@ Form formOf(PatchClass patchClass) {
 }
 
 void appendTables(Tables& tables) {
-    std::map<Curve, uint32_t> edges;
-    std::vector<Curve> order;
-    std::vector<uint32_t> patches;
+    std::map<std::vector<uint32_t>, uint32_t> edges;
+    std::vector<uint32_t> edgeWords, patches;
     for (const PatchRange& range : tables.ranges) {
-        const Form form = formOf(range.patchClass);
         const uint32_t elements = recordElements(tables, range.patchClass);
+        tables.lod.charts = hasCharts(range.patchClass);
         for (uint32_t p = 0; p < range.section.count; ++p) {
             const uint32_t patch = range.firstPatch + p, element = range.section.table + p * elements;
             const uint32_t material = tables.patches[patch].material;
@@ -74,13 +81,12 @@ void appendTables(Tables& tables) {
             }
             ++tables.lod.runs.back().patchCount;
             std::array<uint32_t, kMaxSides> own{};
-            const std::vector<Curve> curves = borders(&tables.words[size_t{4} * element], form);
-            for (size_t e = 0; e < curves.size(); ++e) {
-                const Curve& curve = curves[e];
-                const Curve key = std::min(curve, Curve{curve[3], curve[2], curve[1], curve[0]});
-                const auto [found, fresh] = edges.try_emplace(key, static_cast<uint32_t>(order.size()));
+            const std::vector<Border> sideBorders = borders(tables, element, range.patchClass);
+            for (size_t e = 0; e < sideBorders.size(); ++e) {
+                const std::vector<uint32_t>& key = std::min(sideBorders[e].words, sideBorders[e].reversed);
+                const auto [found, fresh] = edges.try_emplace(key, static_cast<uint32_t>(edges.size()));
                 if (fresh) {
-                    order.push_back(key);
+                    edgeWords.insert(edgeWords.end(), key.begin(), key.end());
                 }
                 own[e] = found->second;
             }
@@ -90,10 +96,8 @@ void appendTables(Tables& tables) {
         }
     }
     TableWriter writer(tables.words);
-    tables.lod.edges = {writer.element(), static_cast<uint32_t>(order.size())};
-    for (const Curve& curve : order) {
-        writer.put({curve[0], curve[1], curve[2], curve[3]});
-    }
+    tables.lod.edges = {writer.element(), static_cast<uint32_t>(edges.size())};
+    tables.words.insert(tables.words.end(), edgeWords.begin(), edgeWords.end());
     tables.lod.patches = {writer.element(), static_cast<uint32_t>(tables.patches.size())};
     tables.words.insert(tables.words.end(), patches.begin(), patches.end());
 }

@@ -15,16 +15,7 @@ using surface::blend::CreaseMode;
 using surface::blend::Mesh;
 
 PatchFaces blendPatches(const Mesh& mesh, const GpuSurface& gpu) {
-    return patchFaces(mesh, gpu, [&](uint32_t f) {
-        for (uint32_t c = 4 * f; c < 4 * f + 4; ++c) {
-            const auto& chartClass = mesh.classOf(mesh.corners[c].chart);
-            if (chartClass.creased() || chartClass.kind == surface::blend::ChartKind::point ||
-                surface::blend::flatAcross(mesh, c)) {
-                return SUPPLE_PATCH_BLEND_SHARP;
-            }
-        }
-        return SUPPLE_PATCH_BLEND;
-    });
+    return patchFaces(mesh, gpu, [&](uint32_t f) { return isSharpPatch(mesh, f); });
 }
 
 class BlendOnGpu : public testing::TestWithParam<GpuCase> {

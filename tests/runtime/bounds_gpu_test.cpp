@@ -25,7 +25,7 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kMargin = 0.125f;
 constexpr float kLongest = 0.05f, kBend = 0.01f;
-constexpr uint32_t kArgumentStride = 16, kWindowArguments = 64; ///< words
+constexpr uint32_t kArgumentStride = 16, kWindowArguments = 128; ///< words
 constexpr uint32_t kUnwritten = 0xABABABABu;
 
 /// Fills a buffer of the host's with values and reads others back.
@@ -562,8 +562,7 @@ TEST_P(Bounds, LevelsComeFromTheBoxAndGoWithTheList) {
             const uint32_t slot = window.firstSlot + (written.list[i] & kInstanceSlotMask);
             const glm::dvec3 low = written.bounds[2 * slot], high = written.bounds[2 * slot + 1];
             const double diagonal = glm::length(high - low) / (1.0 + 2.0 * kMargin);
-            const double pixels =
-                700.0 / std::max(glm::length(0.5 * (low + high)) - 0.5 * diagonal, 0.01);
+            const double pixels = 700.0 / std::max(glm::length(0.5 * (low + high)) - 0.5 * diagonal, 0.01);
             const double level =
                 std::min({kLongest * diagonal * pixels / 3.0, std::sqrt(3.0 * kBend * diagonal * pixels), 256.0});
             ASSERT_NEAR(written.bounds[2 * slot].w, level, 1e-3 * level) << "slot " << slot;
@@ -807,13 +806,15 @@ TEST_P(Bounds, WhatAPyramidHidesIsHiddenAndNothingElse) {
                 const double wall =
                     known ? static_cast<double>(pyramid.farthest(glm::floor(least), glm::floor(most))) : 0.0;
                 const bool behind = known && (reversed ? nearest < wall : nearest > wall);
-                const bool gone = written.states[2 * slot] == 0;
+                const bool gone = written.states[2 * slot] == kOccluded;
+                EXPECT_NE(written.states[2 * slot], 0u);
                 EXPECT_TRUE(!gone || behind) << "slot " << slot << " is seen";
                 couldBe += behind ? 1 : 0;
                 hidden += gone ? 1 : 0;
                 seen += gone ? 0 : 1;
             }
             EXPECT_EQ(written.arguments[0], seen);
+            EXPECT_EQ(written.arguments[4], hidden);
             EXPECT_GT(couldBe, 200u);
             EXPECT_GT(hidden * 10, couldBe * 7) << "of " << couldBe;
             EXPECT_LT(couldBe, scene.slots * 3 / 4);

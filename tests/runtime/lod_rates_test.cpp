@@ -1,5 +1,6 @@
 // Subdivision in views: which rate instances take, what is evaluated, listed and drawn of each, against groups of that
 // rate alone.
+#include "cage/gltf_reader.h"
 #include "cage/procedural.h"
 #include "surface/lod/instance.h"
 #include "tests/support/gpu_comparison.h"
@@ -250,6 +251,11 @@ std::vector<RateCase> rateCases() {
         {"Loop, triangles, creased", SUPPLE_SCHEME_LOOP, bodyOf(creased(triangles))},
         {"Loop, mixed", SUPPLE_SCHEME_LOOP, bodyOf(mixed)},
     };
+    const Result<cage::Character> pip = cage::readGltfFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb");
+    EXPECT_TRUE(pip.ok());
+    if (pip.ok()) {
+        cases.push_back({"Catmull-Clark, animated", SUPPLE_SCHEME_CATMULL_CLARK, *pip, 0, 2, 4});
+    }
     return cases;
 }
 
@@ -259,7 +265,9 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
     for (const RateCase& c : rateCases()) {
         SCOPED_TRACE(c.name);
         TestView view(context, 1024, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1);
-        SuppleGroupDesc desc = groupOf(context.createAsset(c.character.cage), 10, c.scheme, c.rate);
+        const SuppleAsset asset =
+            c.clip == SUPPLE_BIND_POSE ? context.createAsset(c.character.cage) : context.createAsset(c.character);
+        SuppleGroupDesc desc = groupOf(asset, 10, c.scheme, c.rate);
         desc.view = view.handle();
         Crowd crowd(context, desc);
         ASSERT_TRUE(crowd.valid());
@@ -309,9 +317,12 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
                 }
                 EXPECT_EQ(Written::part(written.attributes, 16, written.firstVertex(0, r), written.vertexCount(r)),
                           Written::part(alone[r].attributes, 16, 0, alone[r].vertexCount(0)));
-                ASSERT_FALSE(alone[r].uvs1.empty());
-                EXPECT_EQ(Written::part(written.uvs1, 8, written.firstVertex(0, r), written.vertexCount(r)),
-                          Written::part(alone[r].uvs1, 8, 0, alone[r].vertexCount(0)));
+                ASSERT_EQ(alone[r].uvs1.empty(), c.character.cage.cornerUvs1.empty());
+                ASSERT_EQ(written.uvs1.empty(), alone[r].uvs1.empty());
+                for (size_t v = 0; v < (written.uvs1.empty() ? 0 : written.vertexCount(r)); v += 1) {
+                    ASSERT_EQ(Written::part(written.uvs1, 8, written.firstVertex(0, r) + v, 1),
+                              Written::part(alone[r].uvs1, 8, v, 1));
+                }
                 ASSERT_TRUE(std::is_sorted(written.rates[r].slots.begin(), written.rates[r].slots.end()));
             }
             std::vector<uint32_t> everyone(twins.size());
@@ -347,6 +358,297 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
         for (const size_t used : usedBy) {
             EXPECT_GT(used, 0u);
         }
+    }
+}
+
+/// A column of instances that goes away from the camera, each twice as far as the one before.
+void spawnColumn(Crowd& crowd, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) {
+        crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0,
+                   glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, -std::exp2(static_cast<float>(i)))));
+    }
+}
+
+cage::Cage bumpySphere() {
+    return perturbed(cage::makeCubeSphere(2), 0.05f, 3);
+}
+
+std::vector<std::vector<uint32_t>> slotsByRate(const Written& written) {
+    std::vector<std::vector<uint32_t>> slots;
+    for (const RateOutput& rate : written.rates) {
+        slots.push_back(rate.slots);
+    }
+    return slots;
+}
+
+TEST_P(LodRates, OnlyWhatIsSeenIsEvaluatedAndDrawn) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        TestView view(context, 1024, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL);
+        SuppleGroupDesc desc = groupOf(context.createAsset(bumpySphere()), 12, scheme, 8);
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        std::vector<SuppleInstance> instances;
+        for (int i = 0; i < 10; ++i) {
+            instances.push_back(crowd.spawn());
+        }
+        std::map<uint32_t, double> moved; // along x, by slot
+        // Sees about 12 units of a row with an instance every 6, from `left` on.
+        const auto drawn = [&](float left, float drift) {
+            for (size_t i = 0; i < instances.size(); ++i) {
+                const glm::vec3 at(6.0f * static_cast<float>(i) + drift, 0.0f, 0.0f);
+                crowd.pose(instances[i], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
+            }
+            const glm::mat4 both = glm::orthoRH_ZO(-6.0f, 6.0f, -4.0f, 4.0f, 0.1f, 100.0f) *
+                                   glm::lookAt(glm::vec3(left + 6.0f, 0.0f, 30.0f), glm::vec3(left + 6.0f, 0.0f, 0.0f),
+                                               glm::vec3(0.0f, 1.0f, 0.0f));
+            std::memcpy(view.camera.viewProjection, &both, sizeof(both));
+            view.look({left + 6.0f, 0.0f, 30.0f});
+            context.run(crowd.group());
+            const Written written = readBack(crowd);
+            std::set<uint32_t> seen;
+            for (const uint32_t slot : allSlots(crowd, written)) {
+                const size_t rate = written.rateOf(slot).value_or(0);
+                const auto x = [](const std::vector<std::byte>& bytes) {
+                    float first = 0.0f;
+                    std::memcpy(&first, bytes.data(), sizeof(first));
+                    return static_cast<double>(first);
+                };
+                moved[slot] = x(written.positionsOf(slot, rate)) - x(written.previousOf(slot, rate));
+                seen.insert(slot);
+            }
+            size_t listed = 0;
+            for (const RateOutput& rate : written.rates) {
+                listed += rate.slots.size();
+                for (const uint32_t slot : rate.slots) {
+                    EXPECT_TRUE(seen.contains(slot));
+                }
+            }
+            EXPECT_EQ(listed, seen.size());
+            return seen;
+        };
+        EXPECT_EQ(drawn(-3.0f, 0.0f), (std::set<uint32_t>{0, 1}));
+        EXPECT_EQ(drawn(3.0f, 0.25f), (std::set<uint32_t>{1, 2}));
+        EXPECT_NEAR(moved[1], 0.25, 1e-5);
+        EXPECT_NEAR(moved[2], 0.0, 1e-5) << "was not seen before: has no past";
+        EXPECT_EQ(drawn(200.0f, 0.5f), std::set<uint32_t>{});
+        EXPECT_EQ(drawn(3.0f, 0.75f), (std::set<uint32_t>{1, 2}));
+        EXPECT_NEAR(moved[1], 0.0, 1e-5) << "was not seen in the frame before";
+        crowd.setVisible(instances[1], false);
+        EXPECT_EQ(drawn(3.0f, 1.0f), (std::set<uint32_t>{2}));
+        EXPECT_NEAR(moved[2], 0.25, 1e-5);
+        crowd.setVisible(instances[1], true);
+        EXPECT_EQ(drawn(3.0f, 1.25f), (std::set<uint32_t>{1, 2}));
+        EXPECT_NEAR(moved[1], 0.0, 1e-5) << "was hidden";
+        EXPECT_NEAR(moved[2], 0.25, 1e-5);
+        view.camera.farthest = 10.0f;
+        EXPECT_EQ(drawn(3.0f, 1.25f), std::set<uint32_t>{});
+        view.camera.farthest = 0.0f;
+        view.camera.smallestRadius = 1e6f;
+        EXPECT_EQ(drawn(3.0f, 1.25f), std::set<uint32_t>{});
+    }
+}
+
+TEST_P(LodRates, TheViewsBudgetIsNotTheirs) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    const SuppleAsset asset = context.createAsset(bumpySphere());
+    TestView view(context, 60000);
+    SuppleGroupDesc desc = groupOf(asset, 8, SUPPLE_SCHEME_CATMULL_CLARK, 32);
+    desc.view = view.handle();
+    Crowd rates(context, desc);
+    desc.scheme = SUPPLE_SCHEME_PREP;
+    Crowd levels(context, desc);
+    ASSERT_TRUE(rates.valid() && levels.valid());
+    EXPECT_EQ(levels.output().rateCount, 0u);
+    EXPECT_EQ(levels.output().rates, nullptr);
+    spawnColumn(rates, 8);
+    spawnColumn(levels, 8);
+    const auto run = [&](std::span<const SuppleGroup> groups) {
+        view.look({0.0f, 0.0f, 3.0f});
+        context.run(groups);
+        const std::vector<std::vector<uint32_t>> slots = slotsByRate(readBack(rates));
+        context.run(groups); // statistics come with the frame after
+        return slots;
+    };
+    const SuppleGroup alone[] = {rates.group()}, both[] = {rates.group(), levels.group()};
+    const std::vector<std::vector<uint32_t>> wanted = run(alone);
+    EXPECT_EQ(view.statistics().vertexCount, 0u);
+    EXPECT_EQ(view.statistics().patchCount, 0u);
+    EXPECT_EQ(view.statistics().instanceCount, 8u);
+    EXPECT_EQ(view.statistics().drawnInstanceCount, 8u);
+    EXPECT_EQ(view.statistics().levelScales[0], 1.0f);
+    EXPECT_EQ(view.statistics().shortfall, 0u);
+    std::set<size_t> used;
+    for (size_t r = 0; r < wanted.size(); ++r) {
+        if (!wanted[r].empty()) {
+            used.insert(r);
+        }
+    }
+    EXPECT_GE(used.size(), 3u);
+
+    EXPECT_EQ(run(both), wanted);
+    const SuppleViewStatistics free = view.statistics();
+    EXPECT_EQ(free.levelScales[0], 1.0f);
+    EXPECT_EQ(free.instanceCount, 16u);
+    EXPECT_EQ(free.drawnInstanceCount, 16u);
+    EXPECT_EQ(free.backFaceCount, 0u);
+    EXPECT_GT(free.vertexCount, 0u);
+
+    view.camera.vertexBudget = 1024; // not even the coarsest of all
+    EXPECT_EQ(run(both), wanted);
+    EXPECT_EQ(view.statistics().shortfall, 1u);
+    EXPECT_GE(view.statistics().droppedInstanceCount, 1u);
+    EXPECT_EQ(view.statistics().drawnInstanceCount + view.statistics().droppedInstanceCount, 16u);
+    EXPECT_EQ(view.statistics().backFaceCount, 0u);
+}
+
+TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 1024);
+    struct Case {
+        cage::Cage cage;
+        SuppleScheme scheme;
+        uint32_t asked, rateCount, rate;
+    };
+    for (const Case& c : {Case{bumpySphere(), SUPPLE_SCHEME_CATMULL_CLARK, 1, 1, 1},
+                          Case{bumpySphere(), SUPPLE_SCHEME_CATMULL_CLARK, 2, 1, 1},
+                          Case{bumpySphere(), SUPPLE_SCHEME_CATMULL_CLARK, 5, 3, 4},
+                          Case{dodecahedron(), SUPPLE_SCHEME_CATMULL_CLARK, 2, 1, 1},
+                          Case{dodecahedron(), SUPPLE_SCHEME_CATMULL_CLARK, 64, 5, 16},
+                          Case{dodecahedron(), SUPPLE_SCHEME_LOOP, 64, 6, 32}}) {
+        SuppleGroupDesc desc = groupOf(context.createAsset(c.cage), 2, c.scheme, c.asked);
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        (void)crowd.spawn();
+        view.look({0.0f, 0.0f, 2.0f});
+        context.run(crowd.group());
+        const Written written = readBack(crowd);
+        EXPECT_EQ(written.output.rate, c.rate);
+        ASSERT_EQ(written.output.rateCount, c.rateCount);
+        for (uint32_t r = 0; r < c.rateCount; ++r) {
+            EXPECT_EQ(written.rates[r].rate.rate, c.rate >> (c.rateCount - 1 - r));
+        }
+        EXPECT_TRUE(written.rateOf(0).has_value());
+        EXPECT_EQ(suppleSetRate(context.handle(), crowd.group(), c.asked), SUPPLE_OK);
+        EXPECT_EQ(suppleSetRate(context.handle(), crowd.group(), 2 * c.asked), SUPPLE_ERROR_ARGUMENT);
+        EXPECT_NE(context.takeError(), 0);
+    }
+    // A group without a view has one, and it is all of it; also at another rate.
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
+        Crowd crowd(context, groupOf(context.createAsset(bumpySphere()), 2, scheme, 8));
+        ASSERT_TRUE(crowd.valid());
+        for (const uint32_t rate : {8u, 4u}) {
+            if (scheme == SUPPLE_SCHEME_PM) {
+                crowd.setRate(rate);
+            }
+            const SuppleGroupOutput output = crowd.output();
+            ASSERT_EQ(output.rateCount, 1u);
+            EXPECT_EQ(output.rates[0].rate, output.rate);
+            EXPECT_EQ(output.rates[0].firstDrawRange, 0u);
+            EXPECT_EQ(output.rates[0].drawRangeCount, output.drawRangeCount);
+            EXPECT_EQ(output.rates[0].instances.buffer, output.instances.buffer);
+            EXPECT_EQ(output.rates[0].instances.offset, output.instances.offset);
+            EXPECT_EQ(output.rates[0].instances.size, output.instances.size);
+        }
+    }
+}
+
+/// What a view draws of a crowd on a device whose limits `limit` has set, and how many commands it took.
+struct Drawn {
+    std::map<uint32_t, std::pair<size_t, std::vector<std::byte>>> instances; ///< rate and its vertices, by slot
+    std::map<uint32_t, std::vector<std::byte>> previous;
+    WrappedVulkan counts;
+};
+Drawn drawThrough(SuppleMapping mapping, uint32_t count, uint32_t capacity, SuppleScheme scheme,
+                  const std::function<void(WrappedVulkan&)>& limit) {
+    Drawn drawn;
+    WrappedVulkan& wrapped = wrappedVulkan();
+    limit(wrapped);
+    const WrappedVulkan limits = wrapped;
+    const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+    EXPECT_NE(device, nullptr);
+    if (device != nullptr) {
+        CrowdContext context(*device, mapping);
+        TestView view(context, 1024, SUPPLE_VIEW_MOTION);
+        SuppleGroupDesc desc = groupOf(context.createAsset(cube()), capacity, scheme, 8);
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        EXPECT_TRUE(crowd.valid());
+        // The visible ones all over the slots, near and far.
+        const uint32_t step = capacity / count;
+        std::vector<SuppleInstance> instances;
+        for (uint32_t slot = 0; slot < capacity; ++slot) {
+            instances.push_back(crowd.spawn());
+            crowd.setVisible(instances.back(), slot % step == 0 && slot / step < count);
+        }
+        for (int frame = 0; frame < 3; ++frame) { // until nothing is new
+            for (uint32_t slot = 0; slot < capacity; slot += step) {
+                const glm::vec3 at(0.1f * static_cast<float>(frame), 0.0f,
+                                   -0.5f * static_cast<float>(slot / step % 96));
+                crowd.pose(instances[slot], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
+            }
+            view.look({0.0f, 1.0f, 4.0f});
+            wrapped = limits;
+            context.run(crowd.group());
+        }
+        drawn.counts = wrapped;
+        const Written written = readBack(crowd);
+        for (size_t r = 0; r < written.rates.size(); ++r) {
+            for (const uint32_t slot : written.rates[r].slots) {
+                const bool once = drawn.instances.try_emplace(slot, r, written.verticesOf(slot, r)).second;
+                EXPECT_TRUE(once) << slot;
+                drawn.previous[slot] = written.previousOf(slot, r);
+            }
+        }
+        EXPECT_EQ(drawn.instances.size(), count);
+        EXPECT_EQ(device->validationMessageCount(), 0u);
+    }
+    (void)wrappedVulkan();
+    return drawn;
+}
+
+TEST_P(LodRates, CommandsDoNotCountInstances) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        const auto unlimited = [](WrappedVulkan&) {};
+        const Drawn one = drawThrough(GetParam(), 1, 1000, scheme, unlimited);
+        for (const uint32_t instances : {10u, 100u, 1000u}) {
+            const Drawn many = drawThrough(GetParam(), instances, 1000, scheme, unlimited);
+            EXPECT_EQ(many.counts.dispatches, one.counts.dispatches);
+            EXPECT_EQ(many.counts.indirectDispatches, one.counts.indirectDispatches);
+            EXPECT_EQ(many.counts.barriers, one.counts.barriers);
+            EXPECT_EQ(many.counts.copies, one.counts.copies);
+        }
+        std::printf("scheme %d: %llu dispatches, %llu indirect ones, %llu barriers\n", scheme,
+                    static_cast<unsigned long long>(one.counts.dispatches),
+                    static_cast<unsigned long long>(one.counts.indirectDispatches),
+                    static_cast<unsigned long long>(one.counts.barriers));
+        EXPECT_GT(one.counts.indirectDispatches, 3u);
+    }
+}
+
+TEST_P(LodRates, SplitDispatchesAndWindowsDrawTheSame) {
+    const uint32_t instances = 600, capacity = 1200;
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        const Drawn whole = drawThrough(GetParam(), instances, capacity, scheme, [](WrappedVulkan&) {});
+        std::set<size_t> rates;
+        for (const auto& [slot, drawn] : whole.instances) {
+            rates.insert(drawn.first);
+        }
+        EXPECT_GE(rates.size(), 2u);
+        const Drawn split = drawThrough(GetParam(), instances, capacity, scheme,
+                                        [](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = 3; });
+        EXPECT_TRUE(split.instances == whole.instances);
+        EXPECT_TRUE(split.previous == whole.previous);
+        const Drawn windows = drawThrough(GetParam(), instances, capacity, scheme,
+                                          [](WrappedVulkan& w) { w.maxStorageBufferRange = 4u << 20; });
+        EXPECT_GT(windows.counts.indirectDispatches, whole.counts.indirectDispatches) << "there is one window";
+        EXPECT_TRUE(windows.instances == whole.instances);
+        EXPECT_TRUE(windows.previous == whole.previous);
     }
 }
 

@@ -1,6 +1,7 @@
 // Views: groups drawn at levels of detail, as the device wrote them.
 #include "cage/procedural.h"
 #include "surface/lod/grid.h"
+#include "tests/support/blend_surface.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
@@ -14,6 +15,8 @@
 
 namespace supple::test {
 namespace {
+
+constexpr SuppleScheme kSchemes[] = {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_BLEND};
 
 class LodViewsOnce : public CrowdContexts {};
 class LodViews : public CrowdContexts, public testing::WithParamInterface<SuppleMapping> {};
@@ -29,7 +32,7 @@ TEST_P(LodViews, ClosedCagesHaveNoCracks) {
     } cages[] = {{"cube sphere", perturbed(cage::makeCubeSphere(4), 0.05f, 3)},
                  {"split torus", perturbed(cage::makeSplitTorus(8, 7), 0.02f, 11)}};
     for (const auto& [name, cage] : cages) {
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        for (const SuppleScheme scheme : kSchemes) {
             TestView view(context, 400000);
             SuppleGroupDesc desc{};
             desc.asset = context.createAsset(cage);
@@ -110,6 +113,12 @@ public:
             for (uint32_t f = 0; f < cage.faceCount(); ++f) {
                 prep_.push_back(surface::prep::gatherPatch<double>(cage, *topology, coefficients, f));
             }
+        } else if (scheme == SUPPLE_SCHEME_BLEND) {
+            blendMesh_ = blendMesh(cage);
+            blendFaces_ = facesOfPatches(blendMesh_);
+            EXPECT_EQ(blendFaces_.size(), count);
+            blendSurface_.emplace(blendMesh_, positions);
+            blend_.emplace(blendMesh_, blendSurface_->coefficients, 1u);
         } else {
             pm_.emplace(pmMesh(cage), positions);
         }
@@ -117,6 +126,9 @@ public:
     [[nodiscard]] glm::dvec3 at(uint32_t patch, const At& at) const {
         const uint32_t face = patches_[patch].face;
         const glm::dvec2 u{at.uv.x, 1.0 - at.uv.x}, v{at.uv.y, 1.0 - at.uv.y};
+        if (blend_) {
+            return blend_->at(blendFaces_[patch], u, v).position;
+        }
         if (!pm_) {
             return surface::prep::evaluate<double>(prep_[face], u, v).position;
         }
@@ -132,6 +144,10 @@ private:
     std::vector<SupplePatchInfo> patches_;
     std::vector<surface::prep::Patch<double>> prep_;
     std::optional<PmSurface<double>> pm_;
+    surface::blend::Mesh blendMesh_;
+    std::vector<uint32_t> blendFaces_; ///< by patch
+    std::optional<BlendSurface<double>> blendSurface_;
+    std::optional<surface::blend::Evaluator<double>> blend_;
 };
 
 glm::dvec3 asPosition(const std::array<uint32_t, 3>& bits) {
@@ -144,7 +160,7 @@ TEST_P(LodViews, SamplesLieOnTheSurfaceAndSoDoTheirPasts) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     const cage::Cage cage = perturbed(cage::makeSplitTorus(6, 5), 0.02f, 5);
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+    for (const SuppleScheme scheme : kSchemes) {
         TestView view(context, 200000, SUPPLE_VIEW_MOTION);
         SuppleGroupDesc desc{};
         desc.asset = context.createAsset(cage);
@@ -221,7 +237,7 @@ TEST_F(LodViewsOnce, ADollyMovesNothingButByItsMotion) {
     CrowdContext& context = CrowdContexts::context(SUPPLE_MAPPING_NARROW);
     const ValidationGuard guard;
     const cage::Cage cage = perturbed(cage::makeCubeSphere(2), 0.05f, 3);
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+    for (const SuppleScheme scheme : kSchemes) {
         TestView view(context, 200000);
         SuppleGroupDesc desc{};
         desc.asset = context.createAsset(cage);
@@ -342,7 +358,7 @@ TEST_P(LodViews, TheBudgetHolds) {
 TEST_P(LodViews, WhatTheCameraDoesNotSeeHasNoSurface) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+    for (const SuppleScheme scheme : kSchemes) {
         TestView view(context, 200000, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL);
         SuppleGroupDesc desc{};
         desc.asset = context.createAsset(perturbed(cage::makeCubeSphere(2), 0.05f, 3));
@@ -421,80 +437,85 @@ TEST_P(LodViews, AttributesFollowTheSamples) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     const SuppleAsset asset = context.asset(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
-    TestView view(context, 400000, SUPPLE_VIEW_ATTRIBUTES);
-    SuppleGroupDesc desc{};
-    desc.asset = asset;
-    desc.capacity = 1;
-    desc.view = view.handle();
-    Crowd crowd(context, desc);
-    ASSERT_TRUE(crowd.valid());
-    (void)crowd.spawn();
-    view.look({0.4f, 1.2f, 1.6f});
-    context.run(crowd.group());
-    const LodSurface surface = readLodSurface(crowd);
-    const std::vector<std::byte> bytes = crowd.read(crowd.output().attributes);
-    const auto uvOf = [](const std::vector<std::byte>& from, size_t vertex) {
-        glm::vec2 uv;
-        std::memcpy(&uv, &from[16 * vertex], sizeof(uv));
-        return glm::dvec2(uv);
-    };
-    // Rate 1 has the corners alone.
-    SuppleGroupDesc cornersDesc{};
-    cornersDesc.flags = SUPPLE_GROUP_ATTRIBUTES;
-    cornersDesc.asset = asset;
-    cornersDesc.capacity = 1;
-    cornersDesc.rate = 1;
-    Crowd corners(context, cornersDesc);
-    ASSERT_TRUE(corners.valid());
-    (void)corners.spawn();
-    context.run(corners.group());
-    const SuppleGroupOutput output = corners.output();
-    const std::vector<std::byte> cornerBytes = corners.read(output.attributes);
-    size_t compared = 0;
-    double largest = 0.0;
-    std::set<SuppleDomain> domains;
-    for (const LodSurface::Patch& patch : surface.patches) {
-        const SuppleDrawRange* range = output.drawRanges;
-        while (patch.patch >= range->firstPatch + range->patchCount) {
-            ++range;
-        }
-        const size_t first = range->firstVertex + size_t{patch.patch - range->firstPatch} * range->samplesPerPatch;
-        std::vector<glm::dvec2> at; // in the order of the domain's corners
-        constexpr uint32_t kQuad[] = {0, 1, 3, 2};
-        const uint32_t sides = range->domain == SUPPLE_DOMAIN_PENTAGON ? 5
-                               : range->domain == SUPPLE_DOMAIN_QUAD   ? 4
-                                                                       : 3;
-        for (uint32_t c = 0; c < sides; ++c) {
-            at.push_back(uvOf(cornerBytes, first + (range->domain == SUPPLE_DOMAIN_QUAD ? kQuad[c] : c)));
-        }
-        domains.insert(range->domain);
-        const uint32_t count = surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
-        for (uint32_t s = 0; s < count; ++s, ++compared) {
-            const At sample = sampleAt(patch, s);
-            double u = sample.uv.x, v = sample.uv.y;
-            glm::dvec2 wanted(0.0);
-            if (range->domain == SUPPLE_DOMAIN_POLAR) {
-                wanted = (1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * at[2];
-            } else if (range->domain == SUPPLE_DOMAIN_QUAD) {
-                if (patch.grid != SUPPLE_GRID_QUAD) { // from the place in the square round the centre
-                    constexpr double kX[] = {0, 1, 1, 0}, kY[] = {0, 0, 1, 1};
-                    const uint32_t next = (sample.side + 1) % 4;
-                    u = sample.weights.x * kX[sample.side] + sample.weights.y * kX[next] + sample.weights.z * 0.5;
-                    v = sample.weights.x * kY[sample.side] + sample.weights.y * kY[next] + sample.weights.z * 0.5;
-                }
-                wanted = (1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * ((1.0 - u) * at[3] + u * at[2]);
-            } else {
-                for (uint32_t c = 0; c < sides; ++c) {
-                    wanted += sample.weights.z / sides * at[c];
-                }
-                wanted += sample.weights.x * at[sample.side] + sample.weights.y * at[(sample.side + 1) % sides];
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_BLEND}) {
+        TestView view(context, 400000, SUPPLE_VIEW_ATTRIBUTES);
+        SuppleGroupDesc desc{};
+        desc.asset = asset;
+        desc.capacity = 1;
+        desc.scheme = scheme;
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        (void)crowd.spawn();
+        view.look({0.4f, 1.2f, 1.6f});
+        context.run(crowd.group());
+        const LodSurface surface = readLodSurface(crowd);
+        const std::vector<std::byte> bytes = crowd.read(crowd.output().attributes);
+        const auto uvOf = [](const std::vector<std::byte>& from, size_t vertex) {
+            glm::vec2 uv;
+            std::memcpy(&uv, &from[16 * vertex], sizeof(uv));
+            return glm::dvec2(uv);
+        };
+        // Rate 1 has the corners alone.
+        SuppleGroupDesc cornersDesc{};
+        cornersDesc.flags = SUPPLE_GROUP_ATTRIBUTES;
+        cornersDesc.asset = asset;
+        cornersDesc.capacity = 1;
+        cornersDesc.scheme = scheme;
+        cornersDesc.rate = 1;
+        Crowd corners(context, cornersDesc);
+        ASSERT_TRUE(corners.valid());
+        (void)corners.spawn();
+        context.run(corners.group());
+        const SuppleGroupOutput output = corners.output();
+        const std::vector<std::byte> cornerBytes = corners.read(output.attributes);
+        size_t compared = 0;
+        double largest = 0.0;
+        std::set<SuppleDomain> domains;
+        for (const LodSurface::Patch& patch : surface.patches) {
+            const SuppleDrawRange* range = output.drawRanges;
+            while (patch.patch >= range->firstPatch + range->patchCount) {
+                ++range;
             }
-            largest = std::max(largest, glm::length(uvOf(bytes, patch.firstVertex + s) - wanted));
+            const size_t first = range->firstVertex + size_t{patch.patch - range->firstPatch} * range->samplesPerPatch;
+            std::vector<glm::dvec2> at; // in the order of the domain's corners
+            constexpr uint32_t kQuad[] = {0, 1, 3, 2};
+            const uint32_t sides = range->domain == SUPPLE_DOMAIN_PENTAGON ? 5
+                                   : range->domain == SUPPLE_DOMAIN_QUAD   ? 4
+                                                                           : 3;
+            for (uint32_t c = 0; c < sides; ++c) {
+                at.push_back(uvOf(cornerBytes, first + (range->domain == SUPPLE_DOMAIN_QUAD ? kQuad[c] : c)));
+            }
+            domains.insert(range->domain);
+            const uint32_t count = surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
+            for (uint32_t s = 0; s < count; ++s, ++compared) {
+                const At sample = sampleAt(patch, s);
+                double u = sample.uv.x, v = sample.uv.y;
+                glm::dvec2 wanted(0.0);
+                if (range->domain == SUPPLE_DOMAIN_POLAR) {
+                    wanted = (1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * at[2];
+                } else if (range->domain == SUPPLE_DOMAIN_QUAD) {
+                    if (patch.grid != SUPPLE_GRID_QUAD) { // from the place in the square round the centre
+                        constexpr double kX[] = {0, 1, 1, 0}, kY[] = {0, 0, 1, 1};
+                        const uint32_t next = (sample.side + 1) % 4;
+                        u = sample.weights.x * kX[sample.side] + sample.weights.y * kX[next] + sample.weights.z * 0.5;
+                        v = sample.weights.x * kY[sample.side] + sample.weights.y * kY[next] + sample.weights.z * 0.5;
+                    }
+                    wanted = (1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * ((1.0 - u) * at[3] + u * at[2]);
+                } else {
+                    for (uint32_t c = 0; c < sides; ++c) {
+                        wanted += sample.weights.z / sides * at[c];
+                    }
+                    wanted += sample.weights.x * at[sample.side] + sample.weights.y * at[(sample.side + 1) % sides];
+                }
+                largest = std::max(largest, glm::length(uvOf(bytes, patch.firstVertex + s) - wanted));
+            }
         }
+        std::printf("scheme %d: %zu samples of %zu domains, UVs within %.1e\n", scheme, compared, domains.size(),
+                    largest);
+        EXPECT_GE(domains.size(), scheme == SUPPLE_SCHEME_PM ? 3u : 1u);
+        EXPECT_LE(largest, 1e-5);
     }
-    std::printf("%zu samples of %zu domains, UVs within %.1e\n", compared, domains.size(), largest);
-    EXPECT_GE(domains.size(), 3u);
-    EXPECT_LE(largest, 1e-5);
 }
 
 TEST_P(LodViews, GroupsComeAndGoAndShareTheView) {
@@ -537,7 +558,7 @@ TEST_P(LodViews, GroupsComeAndGoAndShareTheView) {
     run();
     crowds.erase(crowds.begin() + 1); // leaves a gap among the runs
     run();
-    add(SUPPLE_SCHEME_PM);
+    add(SUPPLE_SCHEME_BLEND);
     add(SUPPLE_SCHEME_PM);
     run();
     crowds.erase(crowds.begin(), crowds.begin() + 2);

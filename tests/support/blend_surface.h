@@ -3,9 +3,11 @@
 
 #include "surface/blend/reference.h"
 #include "surface/grid.h"
+#include "surface/scheme.h"
 #include "surface/stencil_reference.h"
 #include "tests/support/meshes.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -46,6 +48,44 @@ struct BlendSurface {
     const surface::blend::Mesh& mesh;
     std::vector<surface::blend::ChartCoefficients<T>> coefficients;
 };
+
+/// Whether a face is drawn as PatchClass::blendSharp.
+inline bool isSharpPatch(const surface::blend::Mesh& mesh, uint32_t face) {
+    for (uint32_t c = 4 * face; c < 4 * face + 4; ++c) {
+        const surface::blend::ChartClass& chartClass = mesh.classOf(mesh.corners[c].chart);
+        if (chartClass.creased() || chartClass.kind == surface::blend::ChartKind::point ||
+            surface::blend::flatAcross(mesh, c)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The faces that are drawn, in the order of their patches: by class, then material, then face.
+inline std::vector<uint32_t> facesOfPatches(const surface::blend::Mesh& mesh) {
+    std::vector<uint32_t> faces;
+    for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
+        if (mesh.holes[f] == 0) {
+            faces.push_back(f);
+        }
+    }
+    const auto key = [&](uint32_t f) {
+        return std::pair(isSharpPatch(mesh, f),
+                         mesh.cage.faceMaterials.empty() ? cage::kNone : mesh.cage.faceMaterials[f]);
+    };
+    std::stable_sort(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+    return faces;
+}
+
+/// Tells the corners of patches by the mesh's own cage, which may be a refined one.
+inline void nameCorners(const surface::blend::Mesh& mesh, std::vector<surface::PatchInfo>& patches) {
+    const std::vector<uint32_t> faces = facesOfPatches(mesh);
+    ASSERT_EQ(faces.size(), patches.size());
+    for (size_t p = 0; p < patches.size(); ++p) {
+        EXPECT_EQ(patches[p].face, mesh.sourceFaces[faces[p]]);
+        std::copy_n(&mesh.cage.faceVertices[4 * faces[p]], 4, patches[p].corners.begin());
+    }
+}
 
 /// Sample k of `rate` on a half-edge, counted from its corner.
 inline std::pair<uint32_t, uint32_t> onEdge(uint32_t corner, uint32_t k, uint32_t rate) {

@@ -1,5 +1,7 @@
 #include "tests/support/lod_surface.h"
 
+#include "surface/lod/grid.h"
+
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -26,6 +28,20 @@ PositionBits positionsOf(const std::vector<std::byte>& bytes, size_t stride) {
     return bits;
 }
 
+/// Samples along a patch's side, without repeats.
+std::vector<std::array<uint32_t, 3>> side(const LodSurface& surface, const LodSurface::Patch& patch, uint32_t index) {
+    std::vector<std::array<uint32_t, 3>> samples;
+    for (uint32_t k = 0; k <= patch.capacity; ++k) {
+        const uint32_t at =
+            surface::lod::edgeSample(static_cast<surface::lod::Form>(patch.grid), patch.capacity, index, k);
+        const std::array<uint32_t, 3>& bits = surface.positions[patch.firstVertex + at];
+        if (samples.empty() || samples.back() != bits) {
+            samples.push_back(bits);
+        }
+    }
+    return samples;
+}
+
 } // namespace
 
 LodSurface readLodSurface(const Crowd& crowd) {
@@ -42,7 +58,14 @@ LodSurface readLodSurface(host::Device& device, const SuppleGroupOutput& output)
         return bytes.ok() ? std::move(*bytes) : std::vector<std::byte>(view.size);
     };
     LodSurface surface;
-    surface.positions = positionsOf(read(output.surfaceVertices), output.surfaceVertices.stride);
+    const std::vector<std::byte> vertices = read(output.surfaceVertices);
+    surface.positions = positionsOf(vertices, output.surfaceVertices.stride);
+    if (output.surfaceVertices.stride == 24) {
+        surface.normals.resize(surface.positions.size());
+        for (size_t v = 0; v < surface.normals.size(); ++v) {
+            std::memcpy(&surface.normals[v], vertices.data() + 24 * v + 12, sizeof(glm::vec3));
+        }
+    }
     surface.previous = positionsOf(read(output.previousPositions), output.previousPositions.stride);
     const auto indices = as<uint16_t>(read(output.gridIndices));
     const auto commands = as<VkDrawIndexedIndirectCommand>(read(output.indirect));
@@ -135,6 +158,64 @@ Sides matchSides(const LodSurface& surface) {
         sides.loops += root(vertex) == vertex ? 1 : 0;
     }
     return sides;
+}
+
+std::vector<surface::PatchInfo> patchesOf(const Crowd& crowd) {
+    std::vector<SupplePatchInfo> infos(crowd.output().patchCount);
+    auto count = static_cast<uint32_t>(infos.size());
+    EXPECT_EQ(suppleGetPatches(crowd.context().handle(), crowd.group(), infos.data(), &count), SUPPLE_OK);
+    EXPECT_EQ(count, infos.size());
+    std::vector<surface::PatchInfo> patches;
+    for (const SupplePatchInfo& info : infos) {
+        surface::PatchInfo& patch = patches.emplace_back();
+        patch.face = info.face;
+        patch.patchClass = static_cast<surface::PatchClass>(info.patchClass);
+        patch.cornerCount = info.cornerCount;
+        std::copy_n(info.corners, info.cornerCount, patch.corners.begin());
+    }
+    return patches;
+}
+
+Borders bordersOf(const LodSurface& surface, const std::vector<surface::PatchInfo>& patches) {
+    using Samples = std::vector<std::array<uint32_t, 3>>;
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<Samples>>
+        sides; // by cage vertices, and unknown ones not at all
+    Borders result;
+    for (const LodSurface::Patch& patch : surface.patches) {
+        const surface::PatchInfo& info = patches[patch.patch];
+        for (uint32_t e = 0; e < info.cornerCount; ++e) {
+            // A polar patch's third corner is the side at which its quad ends in a point.
+            const uint32_t gridSide = info.patchClass == surface::PatchClass::polar && e == 2 ? 3 : e;
+            const uint32_t from = info.corners[e], to = info.corners[(e + 1) % info.cornerCount];
+            if (from != cage::kNone && to != cage::kNone) {
+                sides[{from, to}].push_back(side(surface, patch, gridSide));
+            }
+        }
+    }
+    for (const auto& [ends, own] : sides) {
+        const auto other = sides.find({ends.second, ends.first});
+        if (other == sides.end()) {
+            for (const Samples& samples : own) {
+                result.open += samples.size() - 1;
+            }
+            continue;
+        }
+        if (ends.first > ends.second || own.size() != 1 || other->second.size() != 1) {
+            continue;
+        }
+        Samples back = other->second.front();
+        std::reverse(back.begin(), back.end());
+        ++result.edges;
+        result.samples += own.front().size();
+        if (back.size() != own.front().size()) {
+            ++result.lengths;
+            continue;
+        }
+        for (size_t k = 0; k < back.size(); ++k) {
+            result.different += back[k] != own.front()[k] ? 1 : 0;
+        }
+    }
+    return result;
 }
 
 } // namespace supple::test

@@ -1,6 +1,7 @@
 // What a view drew of a group: its triangles as the draws' index buffers and indirect commands make them.
 #pragma once
 
+#include "surface/scheme.h"
 #include "tests/support/crowd.h"
 
 #include <array>
@@ -11,6 +12,7 @@ namespace supple::test {
 
 struct LodSurface {
     PositionBits positions, previous;               ///< by surface vertex of the view
+    std::vector<glm::vec3> normals;                 ///< where vertices have 24 bytes
     std::vector<std::array<uint32_t, 3>> triangles; ///< surface vertices, those of zero area too
     /// A record of the view's patches, and where its samples lie.
     struct Patch {
@@ -32,5 +34,19 @@ struct Sides {
     size_t looseEnds = 0; ///< vertices where as many do not begin as end
 };
 [[nodiscard]] Sides matchSides(const LodSurface& surface);
+
+/// As suppleGetPatches tells them.
+[[nodiscard]] std::vector<surface::PatchInfo> patchesOf(const Crowd& crowd);
+
+/// The sides of a view's patches of one instance, by the edges of a cage.
+struct Borders {
+    size_t edges = 0;     ///< between two patches
+    size_t samples = 0;   ///< of those, on one side
+    size_t different = 0; ///< that the other side has in other bits
+    size_t lengths = 0;   ///< edges whose sides have not as many samples
+    size_t open = 0;      ///< segments of sides that have no other side
+};
+/// `patches` in device order; corners may be any cage's, and unknown ones are left out.
+[[nodiscard]] Borders bordersOf(const LodSurface& surface, const std::vector<surface::PatchInfo>& patches);
 
 } // namespace supple::test

@@ -211,8 +211,12 @@ private:
         case 87:  // ImageSampleImplicitLod .. ImageFetch, Image
         case 95:  //
         case 100: //
+        case 110: // ConvertFToS, of whole numbers
         case 124: // Bitcast
         case 127: // FNegate
+        case 128: // IAdd, ISub, ShiftLeftLogical: integers are exact
+        case 130: //
+        case 196: //
         case 199: // BitwiseAnd: flags that share a struct with points
         case 245: // Phi
             return true;

@@ -1,0 +1,101 @@
+#include "tests/support/lod_random.h"
+
+#include "tests/support/spirv_precise.h"
+
+namespace supple::test {
+
+namespace {
+
+/// Levels of edges from 1 to 63: 1, odd integers and almost 1 more often. Both sides of an edge see the same, for the
+/// two ends come in as a sum.
+constexpr const char* kRandomEdge = R"(
+    uvec3 ends = floatBitsToUint(x0) + floatBitsToUint(x1);
+    uint h = (ends.x * 0x9E3779B9u) ^ (ends.y * 0x85EBCA6Bu) ^ (ends.z * 0xC2B2AE35u);
+    h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
+    h = (h ^ (h >> 12u)) * 0x297A2D39u;
+    h ^= h >> 15u;
+    if (level > 0.0) {
+        level = exp2(float(h & 0xFFFFu) / 65536.0 * 5.97);
+        uint kind = (h >> 16u) & 7u;
+        if (kind == 0u) level = 1.0;
+        if (kind == 1u) level = 2.0 * floor(0.5 * level) + 1.0;
+        if (kind == 2u) level = 1.000001;
+    }
+    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);)";
+
+/// And capacities up to four octaves above what a patch needs.
+constexpr const char* kRandomCapacity = R"(
+    at = min(at + float((patchIndex * 2654435761u) >> 24u), 895.0);
+    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));)";
+
+} // namespace
+
+RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges)
+    : edge_(compileEdited("lod/edge.comp", "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
+                          kRandomEdge)),
+      patch_(compileEdited("lod/patch.comp",
+                           "    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));",
+                           kRandomCapacity)) {
+    if (testDevice() == nullptr || edge_.empty() || patch_.empty()) {
+        ADD_FAILURE() << "no device, or no shaders";
+        return;
+    }
+    surface::Shaders shaders = surface::Shaders::embedded();
+    if (edges == Edges::random) {
+        shaders.lod.edge = edge_;
+    }
+    shaders.lod.patch = patch_;
+    SuppleContextDesc contextDesc = host::contextDesc(*testDevice());
+    contextDesc.mapping = mapping;
+    Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(contextDesc, shaders);
+    SuppleViewDesc viewDesc{};
+    viewDesc.structSize = sizeof(viewDesc);
+    viewDesc.maxVertices = 5'000'000;
+    viewDesc.vertexFormat = SUPPLE_VERTEX_24;
+    const Result<uint64_t> view = context.ok() ? (*context)->createView(viewDesc) : Result<uint64_t>(context.error());
+    if (!view.ok()) {
+        ADD_FAILURE() << view.error().message;
+        return;
+    }
+    view_ = *view;
+    context_ = std::move(*context);
+    SuppleCameraDesc camera{};
+    camera.pixelsPerUnit = 800.0f;
+    context_->views.find(view_)->setCamera(camera);
+}
+
+std::optional<RandomLevels::Drawn> RandomLevels::draw(cage::Character character, SuppleGroupDesc desc) {
+    const Result<uint64_t> asset = context_->createAsset(std::move(character));
+    if (!asset.ok()) {
+        ADD_FAILURE() << asset.error().message;
+        return std::nullopt;
+    }
+    desc.structSize = sizeof(desc);
+    desc.asset = {*asset};
+    desc.capacity = 1;
+    desc.view = {view_};
+    const Result<uint64_t> id = context_->createGroup(desc);
+    (void)context_->assets.remove(*asset);
+    if (!id.ok()) {
+        return std::nullopt;
+    }
+    runtime::Group& group = *context_->groups.find(*id);
+    EXPECT_TRUE(group.slots().create().has_value());
+    const SuppleGroup handle{*id};
+    SuppleRecordDesc record{};
+    record.structSize = sizeof(record);
+    record.groups = &handle;
+    record.groupCount = 1;
+    record.after = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+    ++frame_;
+    EXPECT_TRUE(context_->beginFrame(frame_, frame_ - 1).ok());
+    EXPECT_TRUE(
+        testDevice()
+            ->submitAndWait([&](VkCommandBuffer commands) { EXPECT_TRUE(context_->record(commands, record).ok()); })
+            .ok());
+    Drawn drawn{readLodSurface(*testDevice(), group.output()), group.tables().patches};
+    EXPECT_TRUE(context_->destroyGroup(*id));
+    return drawn;
+}
+
+} // namespace supple::test

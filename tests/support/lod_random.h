@@ -1,0 +1,36 @@
+// Views whose levels and capacities are as chance would have them.
+#pragma once
+
+#include "runtime/context.h"
+#include "tests/support/lod_surface.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace supple::test {
+
+/// A context and a view whose passes are replaced: those of capacities, and of edges' levels unless they are to keep
+/// their own. Failures are recorded in the test; check valid().
+class RandomLevels {
+public:
+    enum class Edges { random, own };
+    explicit RandomLevels(SuppleMapping mapping, Edges edges = Edges::random);
+
+    [[nodiscard]] bool valid() const { return context_ != nullptr; }
+
+    struct Drawn {
+        LodSurface surface;
+        std::vector<surface::PatchInfo> patches; ///< in device order
+    };
+    /// One instance in its bind pose; nothing where the scheme refuses the cage. `desc`: scheme and what belongs to it.
+    [[nodiscard]] std::optional<Drawn> draw(cage::Character character, SuppleGroupDesc desc);
+
+private:
+    std::vector<uint32_t> edge_, patch_;
+    std::unique_ptr<runtime::Context> context_;
+    uint64_t view_ = 0, frame_ = 0;
+};
+
+} // namespace supple::test
