@@ -9,6 +9,7 @@
 #include "runtime/sized.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -597,14 +598,18 @@ SuppleResult suppleCreateView(SuppleContext handle, const SuppleViewDesc* given,
         if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
             return *fault;
         }
-        constexpr uint32_t kFlags =
-            SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_FACE_UVS | SUPPLE_VIEW_CULL;
+        constexpr uint32_t kFlags = SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1 |
+                                    SUPPLE_VIEW_FACE_UVS | SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION |
+                                    SUPPLE_VIEW_BACK_FACES;
         if ((desc.flags & ~kFlags) != 0 || !within(desc.vertexFormat, SUPPLE_VERTEX_24)) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags, or no such vertexFormat");
         }
         if ((desc.flags & (SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_FACE_UVS)) != 0 &&
             (desc.flags & SUPPLE_VIEW_ATTRIBUTES) == 0) {
             return refuse(context, ErrorCode::argument, kHere, "UVS1 and FACE_UVS go with ATTRIBUTES");
+        }
+        if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0 && (desc.flags & SUPPLE_VIEW_CULL) == 0) {
+            return refuse(context, ErrorCode::argument, kHere, "OCCLUSION goes with CULL");
         }
         if (desc.maxVertices < 1024) {
             return refuse(context, ErrorCode::range, kHere, "maxVertices is below 1024");
@@ -643,7 +648,7 @@ SuppleResult suppleSetCamera(SuppleContext handle, SuppleView view, const Supple
         const float values[] = {camera.position[0], camera.position[1],   camera.position[2],  camera.pixelsPerUnit,
                                 camera.nearest,     camera.chordError,    camera.smallestEdge, camera.edgeLength,
                                 camera.farthest,    camera.smallestRadius};
-        if (!finite(values, std::size(values)) || !finite(camera.viewProjection, 16)) {
+        if (!finite(values, std::size(values)) || !finite(camera.viewProjection, 16) || !finite(camera.direction, 3)) {
             return refuse(context, ErrorCode::notFinite, kHere, "the camera is not finite");
         }
         if (camera.pixelsPerUnit <= 0.0f ||
@@ -651,7 +656,58 @@ SuppleResult suppleSetCamera(SuppleContext handle, SuppleView view, const Supple
             return refuse(context, ErrorCode::range, kHere,
                           "pixelsPerUnit must be positive; all other lengths not negative");
         }
+        const bool needsDirection =
+            (camera.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0 && (found.desc().flags & SUPPLE_VIEW_BACK_FACES) != 0;
+        if (needsDirection &&
+            std::all_of(std::begin(camera.direction), std::end(camera.direction), [](float x) { return x == 0.0f; })) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "the view has BACK_FACES and the camera is orthographic: direction is zero");
+        }
         found.setCamera(camera);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetDepthPyramid(SuppleContext handle, SuppleView view, const SuppleDepthPyramidDesc* given) {
+    constexpr const char* kHere = "suppleSetDepthPyramid";
+    return withView(handle, view, kHere, [&](Context& context, View& found) {
+        if ((found.desc().flags & SUPPLE_VIEW_OCCLUSION) == 0) {
+            return refuse(context, ErrorCode::argument, kHere, "the view was created without SUPPLE_VIEW_OCCLUSION");
+        }
+        if (given == nullptr) {
+            found.setDepthPyramid(std::nullopt);
+            return SUPPLE_OK;
+        }
+        SuppleDepthPyramidDesc pyramid{};
+        if (const auto fault = takeIn(context, kHere, "pyramid", given, pyramid)) {
+            return *fault;
+        }
+        if ((pyramid.flags & ~uint32_t{SUPPLE_DEPTH_REVERSED}) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        }
+        if (pyramid.view == VK_NULL_HANDLE) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "view is null");
+        }
+        if (pyramid.layout != VK_IMAGE_LAYOUT_GENERAL && pyramid.layout != VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL &&
+            pyramid.layout != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "layout is not GENERAL, SHADER_READ_ONLY_OPTIMAL or READ_ONLY_OPTIMAL");
+        }
+        const uint32_t side = std::max(pyramid.width, pyramid.height), limit = context.maxImageSide();
+        if (pyramid.width == 0 || pyramid.height == 0 || side > limit) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "width and height must be 1.." + std::to_string(limit) + ", as the device's images");
+        }
+        const auto most = static_cast<uint32_t>(std::bit_width(side));
+        if (pyramid.levels == 0 || pyramid.levels > most) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "levels must be 1.." + std::to_string(most) + " for " + std::to_string(pyramid.width) +
+                              " x " + std::to_string(pyramid.height));
+        }
+        if (!finite(pyramid.viewProjection, 16)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "viewProjection is not finite");
+        }
+        found.setDepthPyramid(pyramid);
         return SUPPLE_OK;
     });
 }
@@ -689,7 +745,8 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (!within(desc.scheme, SUPPLE_SCHEME_BLEND) && supple::runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
-        constexpr uint32_t kFlags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION;
+        constexpr uint32_t kFlags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION |
+                                    SUPPLE_GROUP_SHARED_SAMPLES | SUPPLE_GROUP_ONE_LEVEL;
         if ((desc.flags & ~kFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
@@ -709,8 +766,14 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
             return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");
         }
-        if (desc.view.id != 0 && desc.flags != 0) {
+        if (desc.view.id != 0 && (desc.flags & ~uint32_t{SUPPLE_GROUP_ONE_LEVEL}) != 0) {
             return refuse(context, ErrorCode::argument, kHere, "a group of a view has the view's flags");
+        }
+        if ((desc.flags & SUPPLE_GROUP_SHARED_SAMPLES) != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
+            return refuse(context, ErrorCode::argument, kHere, "a cage has no samples to share");
+        }
+        if (desc.view.id == 0 && (desc.flags & SUPPLE_GROUP_ONE_LEVEL) != 0) {
+            return refuse(context, ErrorCode::argument, kHere, "SUPPLE_GROUP_ONE_LEVEL without a view");
         }
         if (desc.view.id != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::argument, kHere, "a cage has no levels of detail");

@@ -193,6 +193,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     shared.pairs = pairs_.buffer(0);
     shared.pairBytes = pairs_.size(0);
     shared.bounds = bounds_.get();
+    shared.occlusion = occlusion_.get();
     shared.view = std::move(view);
     shared.framesInFlight = framesInFlight_;
     shared.firstGeneration = nextGeneration_ | 1u;
@@ -211,12 +212,19 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
 }
 
 Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
-    if ((desc.flags & SUPPLE_VIEW_CULL) != 0 && bounds_ == nullptr) {
+    if (bounds_ == nullptr) {
         Result<surface::BoundsPass> bounds = surface::BoundsPass::create(*device_);
         if (!bounds) {
             return bounds.error();
         }
         bounds_ = std::make_unique<surface::BoundsPass>(std::move(*bounds));
+    }
+    if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0 && occlusion_ == nullptr) {
+        Result<surface::OcclusionPass> occlusion = surface::OcclusionPass::create(*device_);
+        if (!occlusion) {
+            return occlusion.error();
+        }
+        occlusion_ = std::make_unique<surface::OcclusionPass>(std::move(*occlusion));
     }
     Result<std::shared_ptr<View>> view = View::create(*device_, framesInFlight_, desc);
     if (!view) {
@@ -230,6 +238,7 @@ bool Context::destroyView(uint64_t id) {
     if (view == nullptr) {
         return false;
     }
+    view->setDepthPyramid(std::nullopt); // nobody can take the host's image away any more
     retiredViews_.push_back(std::move(view));
     return true;
 }

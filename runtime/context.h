@@ -12,6 +12,7 @@
 #include "skinning/pose_pass.h"
 #include "supple/supple.h"
 #include "surface/bounds_pass.h"
+#include "surface/occlusion_pass.h"
 #include "surface/passes.h"
 
 #include <atomic>
@@ -50,6 +51,9 @@ public:
     [[nodiscard]] Result<uint32_t> acquireBarriers(std::span<const SuppleGroup> groups, SuppleSyncScope use,
                                                    std::span<VkBufferMemoryBarrier2> out) const;
 
+    /// Of 2D images of the device.
+    [[nodiscard]] uint32_t maxImageSide() const { return device_->limits.maxImageDimension2D; }
+
     [[nodiscard]] Result<uint64_t> createAsset(cage::Character character);
     [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
     bool destroyGroup(uint64_t id);
@@ -78,8 +82,9 @@ private:
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     skinning::DeformPass deform_;
-    std::unique_ptr<surface::BoundsPass> bounds_; ///< made by the first view that culls
-    std::unique_ptr<skinning::PosePass> pose_;    ///< made for the first group that plays on the device
+    std::unique_ptr<surface::BoundsPass> bounds_;       ///< made by the first view that culls
+    std::unique_ptr<surface::OcclusionPass> occlusion_; ///< and with occlusion
+    std::unique_ptr<skinning::PosePass> pose_;          ///< made for the first group that plays on the device
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;
     std::mutex uploads_; ///< static tables are shared by groups that may be recorded at the same time

@@ -15,7 +15,7 @@ constexpr uint32_t kOffsetWords = 64; ///< descriptor offsets need at most 256-b
 } // namespace
 
 uint32_t Culling::firstArgument() const {
-    return (2 * capacity_ + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+    return (3 * capacity_ + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
 }
 
 VkDeviceSize Culling::tableBytes() const {
@@ -26,6 +26,7 @@ Result<Culling> Culling::create(const Desc& desc) {
     Culling culling;
     culling.device_ = desc.device;
     culling.pass_ = desc.pass;
+    culling.occlusion_ = desc.occlusion;
     culling.capacity_ = desc.capacity;
     culling.windowSize_ = desc.windowSize;
     culling.windows_ = desc.windows;
@@ -33,6 +34,9 @@ Result<Culling> Culling::create(const Desc& desc) {
     culling.push_.vertexCount = desc.cageVertices;
     culling.push_.cageStride = desc.cageStride;
     culling.push_.margin = desc.margin;
+    culling.push_.longest = desc.measure.longest;
+    culling.push_.bend = desc.measure.bend;
+    culling.leastVertices_ = desc.leastVertices;
 
     constexpr VkBufferUsageFlags kStorage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
@@ -98,13 +102,39 @@ Status Culling::createSets(const Desc& desc) {
             {kListArgumentBinding, {buffers_.buffer(kList), arguments, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
             {kListTableBinding, whole(buffers_.buffer(kTable)), VK_NULL_HANDLE},
             {kCullViewBinding, whole(desc.view), VK_NULL_HANDLE},
+            {kSizeBinding, whole(desc.sizes), VK_NULL_HANDLE},
         };
         if (status) {
             gpu::writeSet(device, *set, resources);
             sets_.push_back(*set);
         }
     }
-    return status;
+    return status && occlusion_ != nullptr ? createOcclusionSets(desc, hostList) : status;
+}
+
+Status Culling::createOcclusionSets(const Desc& desc, VkBufferView hostList) {
+    Result<gpu::DescriptorPoolHandle> pool =
+        gpu::createDescriptorPool(*device_, occlusion_->layout(), desc.framesInFlight, "supple occlusion");
+    if (!pool) {
+        return pool.error();
+    }
+    occlusionPool_ = std::move(*pool);
+    for (uint32_t f = 0; f < desc.framesInFlight; ++f) {
+        const Result<VkDescriptorSet> set =
+            gpu::allocateSet(*device_, occlusion_->layout(), occlusionPool_.get(), "supple occlusion");
+        if (!set) {
+            return set.error();
+        }
+        const gpu::BoundResource resources[] = {
+            {kBoundsBinding, {buffers_.buffer(kBounds), 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
+            {kBoundsStateBinding, {buffers_.buffer(kStates), 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
+            {kHostListBinding, {desc.hostList, 0, VkDeviceSize{capacity_} * kWordBytes}, VK_NULL_HANDLE},
+            {kHostListTexelBinding, {}, hostList},
+        };
+        gpu::writeSet(*device_, *set, resources);
+        occlusionSets_.push_back({*set, 0});
+    }
+    return success();
 }
 
 void Culling::writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target) const {
@@ -136,8 +166,31 @@ void Culling::recordBounds(VkCommandBuffer commandBuffer, std::span<const Instan
     }
 }
 
-void Culling::recordList(VkCommandBuffer commandBuffer) const {
+void Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
+                              uint64_t generation, uint32_t instanceCount) {
+    OcclusionSet& own = occlusionSets_[place];
+    if (own.generation != generation) {
+        occlusion_->writePyramid(own.set, pyramid.view, pyramid.layout);
+        own.generation = generation;
+    }
+    OcclusionPush push{};
+    std::copy_n(pyramid.viewProjection, 16, push.columns);
+    push.instanceCount = instanceCount;
+    push.width = pyramid.width;
+    push.height = pyramid.height;
+    push.levels = pyramid.levels;
+    push.reversed = (pyramid.flags & SUPPLE_DEPTH_REVERSED) != 0 ? 1 : 0;
+    occlusion_->record(commandBuffer, own.set, push);
+}
+
+void Culling::recordSizes(VkCommandBuffer commandBuffer, uint32_t listed) const {
+    pass_->recordSizes(commandBuffer, sets_.front(), {0, listed, leastVertices_});
+}
+
+void Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
     ListPush push{};
+    push.room = room;
+    push.levels = levelOffset();
     push.windowCount = windows_;
     push.argumentCount = static_cast<uint32_t>(elements_.size());
     push.argumentStride = argumentStride();

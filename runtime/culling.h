@@ -5,8 +5,11 @@
 #include "base/result.h"
 #include "gpu/memory.h"
 #include "runtime/instance_slots.h"
+#include "supple/supple.h"
 #include "surface/bounds_pass.h"
 #include "surface/evaluation.h"
+#include "surface/lod/instance.h"
+#include "surface/occlusion_pass.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,13 +24,18 @@ public:
     struct Desc {
         const gpu::Device* device = nullptr;
         const surface::BoundsPass* pass = nullptr;
+        const surface::OcclusionPass* occlusion = nullptr; ///< or null: nothing hides
+        uint32_t framesInFlight = 2;
         uint32_t capacity = 0;
         uint32_t windowSize = 0, windows = 0;
         uint32_t cageVertices = 0, cageStride = 0;
-        float margin = 0.0f;                ///< surface::boundsMargin
+        float margin = 0.0f; ///< surface::boundsMargin
+        surface::lod::InstanceMeasure measure;
+        uint32_t leastVertices = 0;         ///< of an instance at its coarsest
         VkBuffer cages = VK_NULL_HANDLE;    ///< read
         VkBuffer hostList = VK_NULL_HANDLE; ///< capacity entries, as shaders/shared/bounds.h has them
         VkBuffer view = VK_NULL_HANDLE;     ///< shared::CullView
+        VkBuffer sizes = VK_NULL_HANDLE;    ///< of all groups of the view
         std::span<const uint32_t> elements; ///< lanes an instance, of the dispatches that follow
     };
     Culling() = default;
@@ -42,20 +50,33 @@ public:
     /// Once, before anything else.
     void recordClear(VkCommandBuffer commandBuffer) const;
     void recordBounds(VkCommandBuffer commandBuffer, std::span<const InstanceSlots::Listed> windows) const;
-    void recordList(VkCommandBuffer commandBuffer) const;
+    /// Behind the bounds, before sizes and list. `place`: of the frame among those in flight, whose descriptor set no
+    /// frame uses any more; `generation` tells whether it has this pyramid.
+    void recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
+                         uint64_t generation, uint32_t instanceCount);
+    /// What `listed` instances of the host's list need at least; only where that may be more than there is.
+    void recordSizes(VkCommandBuffer commandBuffer, uint32_t listed) const;
+    /// `room`: vertices, or shared::kRoomForAll.
+    void recordList(VkCommandBuffer commandBuffer, uint32_t room) const;
+    [[nodiscard]] uint32_t leastVertices() const { return leastVertices_; }
+    /// From an entry of the list to the level of its instance.
+    [[nodiscard]] uint32_t levelOffset() const { return capacity_; }
 
     /// What passes after the list work on, in the place of a window of the host's list: `set` stays the caller's.
     [[nodiscard]] surface::Window window(uint32_t window, VkDescriptorSet set) const;
     [[nodiscard]] VkBuffer list() const { return buffers_.buffer(kList); }
+    /// What the list pass has found out, of all windows: kListHeaderWords words (shaders/shared/bounds.h).
+    [[nodiscard]] VkDeviceSize countOffset() const { return VkDeviceSize{firstArgument()} * sizeof(uint32_t); }
     [[nodiscard]] VkDeviceSize listBytes() const { return buffers_.size(kList); }
     [[nodiscard]] VkBuffer bounds() const { return buffers_.buffer(kBounds); }
     [[nodiscard]] VkDeviceSize boundsBytes() const { return buffers_.size(kBounds); }
     [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes(); }
 
 private:
-    /// kList: all that are seen, those of every window, then the arguments.
+    /// kList: all that are seen, those of every window, their levels, then the arguments.
     enum BufferIndex : size_t { kBounds, kStates, kList, kTable, kBufferCount };
     [[nodiscard]] Status createSets(const Desc& desc);
+    [[nodiscard]] Status createOcclusionSets(const Desc& desc, VkBufferView hostList);
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(elements_.size()); }
     /// Words of kList.
     [[nodiscard]] uint32_t firstArgument() const;
@@ -64,12 +85,20 @@ private:
     const gpu::Device* device_ = nullptr;
     const surface::BoundsPass* pass_ = nullptr;
     uint32_t capacity_ = 0, windowSize_ = 0, windows_ = 0;
+    uint32_t leastVertices_ = 0;
     shared::BoundsPush push_{};
     std::vector<uint32_t> elements_;
     gpu::BufferSet buffers_;
     gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;
     std::vector<VkDescriptorSet> sets_; ///< by window
+    const surface::OcclusionPass* occlusion_ = nullptr;
+    gpu::DescriptorPoolHandle occlusionPool_;
+    struct OcclusionSet {
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        uint64_t generation = 0; ///< of the pyramid that it was written with
+    };
+    std::vector<OcclusionSet> occlusionSets_; ///< by frame in flight
 };
 
 } // namespace supple::runtime

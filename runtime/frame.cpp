@@ -1,4 +1,4 @@
-// One frame, as the data flows: upload, pose, deform, bounds, vertex, edge, patch, level, solve, place, evaluate,
+// One frame, as the data flows: upload, pose, deform, bounds, list, vertex, edge, patch, level, solve, place, evaluate,
 // motion.
 #include "runtime/context.h"
 
@@ -159,14 +159,29 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();
-    if (any([](Group& group) { return group.culls(); })) {
-        pass(Pass::bounds, [&](Group& group) {
-            const Group::PassCost cost = group.recordBounds(commandBuffer);
-            if (group.culls()) {
-                computeBarrier();
-                group.recordSeen(commandBuffer);
+    if (views) {
+        pass(Pass::bounds, [&](Group& group) { return group.recordBounds(commandBuffer); });
+        computeBarrier();
+        if (any([](Group& group) { return group.occludes(); })) {
+            pass(Pass::bounds, [&](Group& group) { return group.recordOcclusion(commandBuffer); });
+            computeBarrier();
+        }
+        // Where even the coarsest surfaces of all might not have room, those that go are found first.
+        const auto roomOf = [&](const View* view) {
+            uint64_t least = 0;
+            for (uint32_t g = 0; g < desc.groupCount; ++g) {
+                least += groupAt(g).view() == view ? groupAt(g).leastVertices() : 0;
             }
-            return cost;
+            return least <= view->room() ? shared::kRoomForAll : view->room();
+        };
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            if (groupAt(g).view() != nullptr && roomOf(groupAt(g).view()) != shared::kRoomForAll) {
+                groupAt(g).recordSizes(commandBuffer);
+                computeBarrier();
+            }
+        }
+        pass(Pass::list, [&](Group& group) {
+            return group.view() != nullptr ? group.recordSeen(commandBuffer, roomOf(group.view())) : Group::PassCost{};
         });
         gpu::memoryBarrier(
             device, commandBuffer, {kCompute, kWrite},
@@ -207,6 +222,11 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         for (uint32_t g = 0; g < desc.groupCount; ++g) {
             if (firstOfView(g)) {
                 groupAt(g).view()->recordReadback(commandBuffer);
+            }
+        }
+        for (uint32_t g = 0; g < desc.groupCount; ++g) {
+            if (groupAt(g).view() != nullptr) {
+                groupAt(g).recordReadback(commandBuffer);
             }
         }
         if (any([](Group& group) { return group.writesLodAttributes(); })) {

@@ -3,6 +3,7 @@
 #include "runtime/group_buffers.h"
 #include "surface/grid.h"
 #include "surface/lod/tables.h"
+#include "surface/shared_samples.h"
 
 #include <algorithm>
 #include <bit>
@@ -30,6 +31,7 @@ static_assert(SUPPLE_SCHEME_PREP == static_cast<int>(SchemeId::prep) &&
               SUPPLE_SCHEME_CATMULL_CLARK == static_cast<int>(SchemeId::catmullClark) &&
               SUPPLE_SCHEME_LOOP == static_cast<int>(SchemeId::loop) &&
               SUPPLE_SCHEME_BLEND == static_cast<int>(SchemeId::blend));
+static_assert(SUPPLE_DOMAIN_MESH == surface::kDomainCount);
 static_assert(SUPPLE_VERTEX_16 == kVertex16 && SUPPLE_VERTEX_24 == kVertex24);
 
 // Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits): instances of the pool, the deformed
@@ -43,6 +45,7 @@ constexpr uint32_t kScratchPadding = 16;
 surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View* view) {
     surface::Recipe recipe;
     recipe.lod = view != nullptr;
+    recipe.shared = (desc.flags & SUPPLE_GROUP_SHARED_SAMPLES) != 0;
     recipe.attributes = view != nullptr ? (view->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
                                         : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
     if (desc.scheme != SUPPLE_SCHEME_AUTO) {
@@ -80,6 +83,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->view_ = shared.view;
     group->capacity_ = desc.capacity;
     group->poseSource_ = desc.poseSource;
+    group->oneLevel_ = shared.view && (desc.flags & SUPPLE_GROUP_ONE_LEVEL) != 0;
     const SuppleVertexFormat format = shared.view ? shared.view->desc().vertexFormat : desc.vertexFormat;
     group->output_.vertexFormat = format;
     group->output_.surfaceVertices.stride = format == SUPPLE_VERTEX_24 ? 24 : 16;
@@ -101,10 +105,10 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         return Error{ErrorCode::argument, name + ": " + schemeName + " has no patch coefficients"};
     }
 
-    group->anyRate_ = tables.rate == 0;
+    group->anyRate_ = tables.rate == 0 && !tables.sharesSamples();
     group->askedRate_ = rate;
-    group->maxRate_ = group->anyRate_ ? rate : tables.rate;
-    if (!group->anyRate_) {
+    group->maxRate_ = tables.rate == 0 ? rate : tables.rate;
+    if (tables.rate != 0) {
         const uint32_t taken = tables.rate << tables.isolationSteps;
         if (taken != rate) {
             const char* rule =
@@ -121,12 +125,21 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
                                            std::to_string(rate) + " need more than 2^32 surface vertices"};
     }
     group->vertexCount_ = static_cast<uint32_t>(vertices);
+    if (tables.sharesSamples()) {
+        if (vertices > shared.device->limits.maxDrawIndexedIndexValue) {
+            return Error{ErrorCode::limit, name + ": " + std::to_string(vertices) + " vertices of a mesh; an index of" +
+                                               " this device is at most " +
+                                               std::to_string(shared.device->limits.maxDrawIndexedIndexValue)};
+        }
+        group->mesh_ = surface::sharedMesh(tables, group->evaluation_);
+    }
     group->evaluation_.verticesPerInstance = roundUp(group->vertexCount_, kVertexPadding);
     group->evaluation_.cageStride = roundUp(group->asset_->character.cage.vertexCount(), kCagePadding);
 
     surface::Needs needs;
     needs.vertexFormat = static_cast<uint32_t>(format);
     needs.motion = group->hasMotion(desc);
+    needs.rate = group->evaluation_.rate;
     needs.patches = (desc.flags & SUPPLE_GROUP_PATCHES) != 0;
     needs.lod = group->view_ != nullptr;
     needs.attributes = needs.lod ? (group->view_->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
@@ -152,7 +165,12 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     if (status) {
         if (group->view_ != nullptr) {
             const auto windows = static_cast<uint32_t>(group->windows_.size());
-            const std::optional<uint32_t> first = group->view_->takeRuns(tables.lod, windows);
+            std::vector<bool> doubleSided;
+            for (const surface::LodTables::Run& run : tables.lod.runs) {
+                const std::vector<cage::Material>& materials = group->asset_->character.materials;
+                doubleSided.push_back(run.material < materials.size() && materials[run.material].doubleSided);
+            }
+            const std::optional<uint32_t> first = group->view_->takeRuns(tables.lod, doubleSided, windows);
             if (!first) {
                 return Error{ErrorCode::limit, name + ": the view is full: its groups have more than " +
                                                    std::to_string(kMaxRuns) + " runs of patches"};
@@ -237,6 +255,10 @@ uint32_t Group::scratchElements() const {
     return roundUp((lod.edges.count + kLodPatchLevelWords * lod.patches.count + 3) / 4, kScratchPadding);
 }
 
+size_t Group::drawCount() const {
+    return scheme_->tables.sharesSamples() ? mesh_.ranges.size() : scheme_->tables.drawRanges.size();
+}
+
 VkDeviceSize Group::surfaceBytes() const {
     return VkDeviceSize{evaluation_.verticesPerInstance} * output_.surfaceVertices.stride;
 }
@@ -287,7 +309,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
                           kStorage | kTexels};
     requests[kInstances] = {"supple instances", 2 * n * sizeof(uint32_t), kOutput | kCopied};
     requests[kIndirect] = {"supple indirect arguments",
-                           view_ != nullptr ? 0 : tables.drawRanges.size() * sizeof(VkDrawIndexedIndirectCommand),
+                           view_ != nullptr ? 0 : drawCount() * sizeof(VkDrawIndexedIndirectCommand),
                            kOutput | kCopied | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
     attributesPending_ = attributeBytes > 0;
     if (attributeBytes > device.limits.maxStorageBufferRange) {
@@ -320,6 +342,9 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     if (view_ != nullptr) {
         return success(); // the view has them
     }
+    if (tables.sharesSamples()) {
+        return createStatics(std::as_bytes(std::span(mesh_.indices)));
+    }
     std::vector<uint16_t> indices;
     for (uint32_t rate = anyRate_ ? 1 : maxRate_; rate <= maxRate_; ++rate) {
         std::array<Grid, surface::kDomainCount>& grids = grids_.emplace_back();
@@ -332,9 +357,15 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
             }
         }
     }
-    const gpu::StaticRequest request{"supple grid indices", kOutput | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                                     std::as_bytes(std::span(indices))};
-    Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(device, {&request, 1});
+    return createStatics(std::as_bytes(std::span(indices)));
+}
+
+Status Group::createStatics(std::span<const std::byte> indices) {
+    const gpu::StaticRequest request{"supple grid indices",
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                     indices};
+    Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(*shared_.device, {&request, 1});
     if (!statics) {
         return statics.error();
     }
@@ -343,7 +374,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
 }
 
 Status Group::createCulling() {
-    if (view_ == nullptr || view_->buffer(View::kCull) == VK_NULL_HANDLE) {
+    if (view_ == nullptr) {
         return success();
     }
     const surface::Tables& tables = scheme_->tables;
@@ -357,6 +388,8 @@ Status Group::createCulling() {
     Culling::Desc desc;
     desc.device = shared_.device;
     desc.pass = shared_.bounds;
+    desc.occlusion = (view_->desc().flags & SUPPLE_VIEW_OCCLUSION) != 0 ? shared_.occlusion : nullptr;
+    desc.framesInFlight = shared_.framesInFlight;
     desc.capacity = capacity_;
     desc.windowSize = windowSize_;
     desc.windows = static_cast<uint32_t>(windows_.size());
@@ -366,6 +399,11 @@ Status Group::createCulling() {
     desc.cages = buffers_.buffer(kDeformedCage);
     desc.hostList = buffers_.buffer(kInstances);
     desc.view = view_->buffer(View::kCull);
+    desc.sizes = view_->buffer(View::kSizes);
+    desc.measure = surface::lod::measureInstance(cage);
+    for (const surface::LodTables::Run& run : tables.lod.runs) {
+        desc.leastVertices += run.patchCount * surface::lod::sampleCount(surface::lod::formOf(run.patchClass), 1);
+    }
     desc.elements = elements;
     Result<Culling> culling = Culling::create(desc);
     if (!culling) {
@@ -394,6 +432,10 @@ Status Group::setRate(uint32_t rate) {
     if (!anyRate_) {
         if (rate == askedRate_) {
             return success();
+        }
+        if (scheme_->tables.sharesSamples()) {
+            return Error{ErrorCode::argument, name + ": the indices of shared samples are made for rate " +
+                                                  std::to_string(askedRate_) + " alone"};
         }
         return Error{ErrorCode::argument, name + ": the tables of " + surface::schemeName(scheme_->recipe.scheme) +
                                               " are made for rate " + std::to_string(askedRate_) + " alone"};
@@ -430,6 +472,18 @@ void Group::layOutDraws() {
     }
     drawsChanged_ = true;
     const uint32_t rate = evaluation_.rate;
+    output_.rate = rate;
+    output_.vertexCount = vertexCount_;
+    if (scheme_->tables.sharesSamples()) {
+        for (const surface::SharedMesh::Range& from : mesh_.ranges) {
+            drawRanges_.push_back(
+                {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertexCount_, 0, from.firstIndex, from.indexCount});
+        }
+        output_.drawRanges = drawRanges_.data();
+        output_.drawRangeCount = static_cast<uint32_t>(drawRanges_.size());
+        mesh_ = {};
+        return;
+    }
     const std::array<Grid, surface::kDomainCount>& grids = grids_[anyRate_ ? rate - 1 : 0];
     drawRanges_.clear();
     uint32_t firstVertex = 0;
@@ -447,8 +501,6 @@ void Group::layOutDraws() {
         firstVertex += range.patchCount * range.samplesPerPatch;
         drawRanges_.push_back(range);
     }
-    output_.rate = rate;
-    output_.vertexCount = vertexCount_;
     output_.drawRanges = drawRanges_.data();
     output_.drawRangeCount = static_cast<uint32_t>(drawRanges_.size());
 }
@@ -482,7 +534,8 @@ void Group::fillOutput() {
         o.bounds = {culling_.bounds(), 0, culling_.boundsBytes(), 32};
     }
     if (view_ == nullptr) {
-        o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices), 2};
+        o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices),
+                         scheme_->tables.sharesSamples() ? 4u : 2u};
         return;
     }
     const auto ofView = [&](View::BufferIndex index, VkDeviceSize stride) {

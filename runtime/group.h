@@ -13,9 +13,11 @@
 #include "skinning/deform_pass.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
+#include "surface/shared_samples.h"
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace supple::runtime {
@@ -28,8 +30,9 @@ struct GroupShared {
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
-    const surface::BoundsPass* bounds = nullptr; ///< for groups of views that cull
-    std::shared_ptr<View> view;                  ///< of the description
+    const surface::BoundsPass* bounds = nullptr;       ///< for groups of views
+    const surface::OcclusionPass* occlusion = nullptr; ///< for groups of views with occlusion
+    std::shared_ptr<View> view;                        ///< of the description
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
     bool handsOver = false;       ///< to another queue family: every output is written anew in every frame
@@ -80,10 +83,20 @@ public:
     PassCost recordPatch(VkCommandBuffer commandBuffer) const;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const;
 
-    /// Views that cull: bounds of the deformed cages, and after a barrier the list of those that are seen.
+    /// Groups of a view: bounds of the deformed cages, and after a barrier the list of those that are seen. In between,
+    /// where `leastVertices` of all groups are more than the view's room, their sizes.
     [[nodiscard]] bool culls() const { return culling_.active(); }
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
-    void recordSeen(VkCommandBuffer commandBuffer) const { culling_.recordList(commandBuffer); }
+    /// Behind the bounds, what the view's depth pyramid hides.
+    [[nodiscard]] bool occludes() const { return culls() && visible_ > 0 && view_->depthPyramid().has_value(); }
+    PassCost recordOcclusion(VkCommandBuffer commandBuffer);
+    /// Of the instances listed.
+    [[nodiscard]] uint64_t leastVertices() const { return uint64_t{culling_.leastVertices()} * visible_; }
+    void recordSizes(VkCommandBuffer commandBuffer) const { culling_.recordSizes(commandBuffer, visible_); }
+    void recordReadback(VkCommandBuffer commandBuffer) const {
+        view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset(), output_.patchCount);
+    }
+    PassCost recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const;
 
     // Groups of a view: the levels of edges, then of patches, then, when the view has solved its budget, places.
     PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const;
@@ -121,10 +134,12 @@ private:
     };
     Status layOutWindows(const SuppleGroupDesc& desc);
     Status createBuffers(const SuppleGroupDesc& desc);
+    Status createStatics(std::span<const std::byte> indices);
     Status createPlayback();
     Status createSets();
     void layOutDraws();
     void fillOutput();
+    [[nodiscard]] size_t drawCount() const;
     [[nodiscard]] VkDeviceSize surfaceBytes() const;    ///< an instance
     [[nodiscard]] VkDeviceSize poseUploadBytes() const; ///< a frame in flight
     [[nodiscard]] VkDeviceSize listUploadBytes() const;
@@ -156,6 +171,7 @@ private:
     std::shared_ptr<View> view_;
     uint32_t firstRun_ = 0; ///< in the view; all windows one after the other
     bool hasRuns_ = false;
+    bool oneLevel_ = false; ///< an instance, instead of one an edge
     Culling culling_;
 
     InstancePoses poses_;
@@ -179,6 +195,7 @@ private:
         uint32_t firstIndex = 0, indexCount = 0;
     };
     std::vector<std::array<Grid, surface::kDomainCount>> grids_; ///< by rate - 1, or the one
+    surface::SharedMesh mesh_; ///< shared samples: until it lies in the staging memory and the draws are laid out
     SuppleGroupOutput output_{};
     std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
     std::vector<SuppleLodDraw> lodDraws_;

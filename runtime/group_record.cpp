@@ -149,6 +149,23 @@ Group::PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
     return {visible_, visible_ * VkDeviceSize{32}};
 }
 
+Group::PassCost Group::recordOcclusion(VkCommandBuffer commandBuffer) {
+    if (!occludes()) {
+        return {};
+    }
+    culling_.recordOcclusion(commandBuffer, passesFrame_ % shared_.framesInFlight, *view_->depthPyramid(),
+                             view_->pyramidGeneration(), visible_);
+    return {0, 0, true};
+}
+
+Group::PassCost Group::recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const {
+    if (!culls()) {
+        return {};
+    }
+    culling_.recordList(commandBuffer, room);
+    return {0, 0, true};
+}
+
 Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
     if (!attributesPending_) {
         return {};
@@ -234,7 +251,9 @@ Group::PassCost Group::recordPatch(VkCommandBuffer commandBuffer) const {
 LodPush Group::levelPush(const Window& window) const {
     const surface::Tables& tables = scheme_->tables;
     const auto runs = static_cast<uint32_t>(tables.lod.runs.size());
-    LodPush push = view_->levelPush();
+    LodPush push{};
+    push.camera = view_->lodCamera();
+    push.levels = oneLevel_ ? culling_.levelOffset() : 0;
     push.count = tables.lod.patches.count;
     push.firstSlot = window.index * windowSize_;
     push.edges = tables.lod.edges.table;
@@ -244,6 +263,8 @@ LodPush Group::levelPush(const Window& window) const {
     push.scratchStride = scratchElements();
     push.firstRun = firstRun_ + window.index * runs;
     push.runCount = runs;
+    push.backFaces = (view_->desc().flags & SUPPLE_VIEW_BACK_FACES) != 0 ? 1 : 0;
+    std::copy_n(view_->direction().begin(), 3, push.direction);
     return push;
 }
 
@@ -257,7 +278,7 @@ surface::LodWindow Group::lodWindow(const Window& window, VkDescriptorSet set) c
 }
 
 Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
-    if (view_ == nullptr) {
+    if (view_ == nullptr || oneLevel_) {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {

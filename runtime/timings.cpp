@@ -7,8 +7,9 @@
 namespace supple::runtime {
 
 const char* passName(Pass pass) {
-    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "pose",  "deform", "bounds",   "vertex", "edge",
-                                                "patch",  "level",      "solve", "place",  "evaluate", "motion"};
+    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "pose",     "deform", "bounds",
+                                                "list",   "vertex",     "edge",     "patch",  "level",
+                                                "solve",  "place",      "evaluate", "motion"};
     return kNames[static_cast<size_t>(pass)];
 }
 

@@ -24,6 +24,7 @@ enum class Pass : uint32_t {
     pose,
     deform,
     bounds,
+    list,
     vertex,
     edge,
     patch,

@@ -23,6 +23,8 @@ static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t));
 constexpr uint32_t kMinSamples = 3;        ///< of a patch: a triangle at capacity 1
 constexpr uint32_t kPaddingOfRun = 3 * 64; ///< surface vertices that whole draw instances may cost a run
 constexpr uint32_t kFreeRun = 0xFFFFFF00u; ///< a run of no dispatch
+constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4; ///< of a group
+constexpr VkDeviceSize kReadbackBytes = sizeof(LodSolution) + kMaxRuns * kCountBytes;
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
 
 } // namespace
@@ -48,8 +50,9 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     std::array<gpu::BufferRequest, kBufferCount> requests;
     requests[kWords] = {"supple view", kLodRecords * VkDeviceSize{4} + vertices / kMinSamples * kRecordBytes,
                         kOutput | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
-    requests[kCull] = {"supple view, frustum", (desc.flags & SUPPLE_VIEW_CULL) != 0 ? sizeof(CullView) : 0,
-                       kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    requests[kCull] = {"supple view, frustum", sizeof(CullView), kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    requests[kSizes] = {"supple view, sizes", kSizeRanks * VkDeviceSize{4},
+                        kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     requests[kSurface] = {"supple view, surface vertices", vertices * (desc.vertexFormat == SUPPLE_VERTEX_24 ? 24 : 16),
                           kVertices};
     requests[kPreviousPositions] = {"supple view, previous positions", when(SUPPLE_VIEW_MOTION, 12), kVertices};
@@ -98,7 +101,7 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     view->takenRuns_.resize(kMaxRuns);
     const gpu::BufferRequest staging{"supple view staging", view->uploadBytes() * framesInFlight,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
-    const gpu::BufferRequest readback{"supple view statistics", sizeof(LodSolution) * VkDeviceSize{framesInFlight},
+    const gpu::BufferRequest readback{"supple view statistics", kReadbackBytes * framesInFlight,
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     for (const auto& [target, wanted] : {std::pair(&view->staging_, staging), std::pair(&view->readback_, readback)}) {
         Result<gpu::BufferSet> set = gpu::BufferSet::create(device, {&wanted, 1}, gpu::MemoryKind::upload);
@@ -107,7 +110,7 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
         }
         *target = std::move(*set);
     }
-    view->solvedFrames_.resize(framesInFlight);
+    view->solved_.resize(framesInFlight);
     return view;
 }
 
@@ -116,7 +119,13 @@ void View::setCamera(const SuppleCameraDesc& camera) {
     hasCamera_ = true;
 }
 
-std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, uint32_t windows) {
+void View::setDepthPyramid(const std::optional<SuppleDepthPyramidDesc>& pyramid) {
+    pyramid_ = pyramid;
+    ++pyramidGeneration_;
+}
+
+std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
+                                       uint32_t windows) {
     const auto each = static_cast<uint32_t>(lod.runs.size());
     const uint64_t wanted = uint64_t{each} * windows;
     uint32_t first = 0, length = 0;
@@ -135,6 +144,9 @@ std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, uint32_t w
             const uint32_t run = first + w * each + r;
             takenRuns_[run] = true;
             hostWords_[kLodRuns + run] = form | (first + w * each + range) << 8;
+            const uint32_t bit = 1u << run % 32;
+            uint32_t& bits = hostWords_[kLodDoubleSided + run / 32];
+            bits = doubleSided[r] ? bits | bit : bits & ~bit;
             forms_ |= 1u << form;
         }
     }
@@ -152,19 +164,28 @@ void View::giveRuns(uint32_t first, uint32_t count) {
     }
 }
 
-LodPush View::levelPush() const {
-    LodPush push{};
-    push.orthographic = (camera_.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0 ? 1 : 0;
-    std::copy_n(camera_.position, 3, push.camera);
-    push.focal = camera_.pixelsPerUnit;
-    push.nearest = camera_.nearest > 0.0f ? camera_.nearest : 0.01f;
+LodCamera View::lodCamera() const {
+    LodCamera camera{};
+    camera.orthographic = (camera_.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0 ? 1 : 0;
+    std::copy_n(camera_.position, 3, camera.position);
+    camera.focal = camera_.pixelsPerUnit;
+    camera.nearest = camera_.nearest > 0.0f ? camera_.nearest : 0.01f;
     if (camera_.edgeLength > 0.0f) {
-        push.lengthScale = 1.0f / camera_.edgeLength;
+        camera.lengthScale = 1.0f / camera_.edgeLength;
     } else {
-        push.errorScale = 0.75f / (camera_.chordError > 0.0f ? camera_.chordError : 0.25f);
-        push.lengthScale = 1.0f / (camera_.smallestEdge > 0.0f ? camera_.smallestEdge : 3.0f);
+        camera.errorScale = 0.75f / (camera_.chordError > 0.0f ? camera_.chordError : 0.25f);
+        camera.lengthScale = 1.0f / (camera_.smallestEdge > 0.0f ? camera_.smallestEdge : 3.0f);
     }
-    return push;
+    return camera;
+}
+
+uint32_t View::budget() const {
+    return camera_.vertexBudget > 0 ? std::min(camera_.vertexBudget, desc_.maxVertices) : desc_.maxVertices;
+}
+
+uint32_t View::room() const {
+    const uint32_t padding = endOfRuns_ * kPaddingOfRun;
+    return budget() > padding ? budget() - padding : 0;
 }
 
 VkDeviceSize View::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
@@ -190,12 +211,11 @@ VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     std::memcpy(staging_.mapped(0) + run, hostWords_.data(), bytes);
     const VkBufferCopy region{run, 0, bytes};
     device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kWords), 1, &region);
-    if (buffers_.size(kCull) > 0) {
-        const CullView cull = cullView();
-        std::memcpy(staging_.mapped(0) + run + bytes, &cull, sizeof(cull));
-        const VkBufferCopy own{run + bytes, 0, sizeof(cull)};
-        device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kCull), 1, &own);
-    }
+    const CullView cull = cullView();
+    std::memcpy(staging_.mapped(0) + run + bytes, &cull, sizeof(cull));
+    const VkBufferCopy own{run + bytes, 0, sizeof(cull)};
+    device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kCull), 1, &own);
+    device_->vk.CmdFillBuffer(commandBuffer, buffers_.buffer(kSizes), 0, VK_WHOLE_SIZE, 0);
     return uploadBytes();
 }
 
@@ -205,15 +225,22 @@ VkDeviceSize View::uploadBytes() const {
 
 CullView View::cullView() const {
     CullView view{};
-    std::array<float, 16> columns{};
-    std::copy_n(camera_.viewProjection, 16, columns.begin());
-    const std::array<float, 24> planes = surface::frustumPlanes(columns);
-    std::copy(planes.begin(), planes.end(), view.planes);
-    std::copy_n(camera_.position, 3, view.camera);
-    view.farthest = camera_.farthest;
-    view.focal = camera_.pixelsPerUnit;
-    view.smallest = camera_.smallestRadius;
-    view.orthographic = (camera_.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0 ? 1 : 0;
+    if ((desc_.flags & SUPPLE_VIEW_CULL) != 0) {
+        std::array<float, 16> columns{};
+        std::copy_n(camera_.viewProjection, 16, columns.begin());
+        const std::array<float, 24> planes = surface::frustumPlanes(columns);
+        std::copy(planes.begin(), planes.end(), view.planes);
+        view.farthest = camera_.farthest;
+        view.smallest = camera_.smallestRadius;
+    }
+    view.camera = lodCamera();
+    // Who takes more of the scaling down goes sooner.
+    for (uint32_t p = 0; p < kPriorityCount; ++p) {
+        const auto rank =
+            static_cast<uint32_t>(std::count_if(std::begin(desc_.elasticities), std::end(desc_.elasticities),
+                                                [&](float elasticity) { return elasticity > desc_.elasticities[p]; }));
+        view.ranks |= rank << (8 * p);
+    }
     return view;
 }
 
@@ -221,11 +248,8 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
                        uint32_t priorities) const {
     LodSolvePush push{};
     push.runCount = endOfRuns_;
-    const uint32_t padding = endOfRuns_ * kPaddingOfRun;
-    const uint32_t budget =
-        camera_.vertexBudget > 0 ? std::min(camera_.vertexBudget, desc_.maxVertices) : desc_.maxVertices;
-    push.limit = budget > padding ? budget - padding : 0;
-    push.room = budget;
+    push.limit = room();
+    push.room = budget();
     push.priorities = priorities;
     push.forms = forms_;
     push.maxGroups = std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
@@ -235,22 +259,44 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
 
 void View::recordReadback(VkCommandBuffer commandBuffer) {
     const uint64_t place = recordedFrame_ % framesInFlight_;
-    solvedFrames_[place] = recordedFrame_;
-    const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, place * sizeof(LodSolution), sizeof(LodSolution)};
+    solved_[place].frame = recordedFrame_;
+    solved_[place].groups = 0;
+    const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, place * kReadbackBytes, sizeof(LodSolution)};
     device_->vk.CmdCopyBuffer(commandBuffer, buffers_.buffer(kWords), readback_.buffer(0), 1, &region);
 }
 
+void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, uint32_t patches) {
+    const uint64_t place = recordedFrame_ % framesInFlight_;
+    const uint32_t group = solved_[place].groups++;
+    solved_[place].patches[group] = patches;
+    const VkBufferCopy region{offset, place * kReadbackBytes + sizeof(LodSolution) + kCountBytes * group, kCountBytes};
+    device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
+}
+
 void View::beginFrame(uint64_t completedFrame) {
-    for (size_t i = 0; i < solvedFrames_.size(); ++i) {
-        if (solvedFrames_[i] > newest_.frame && solvedFrames_[i] <= completedFrame) {
+    for (size_t i = 0; i < solved_.size(); ++i) {
+        if (solved_[i].frame > newest_.frame && solved_[i].frame <= completedFrame) {
+            const std::byte* from = readback_.mapped(0) + i * kReadbackBytes;
             LodSolution solution;
-            std::memcpy(&solution, readback_.mapped(0) + i * sizeof(LodSolution), sizeof(solution));
-            newest_.frame = solvedFrames_[i];
+            std::memcpy(&solution, from, sizeof(solution));
+            newest_ = {};
+            newest_.frame = solved_[i].frame;
             std::copy_n(solution.scale, kPriorityCount, newest_.levelScales);
             newest_.vertexCount = solution.vertices;
             newest_.patchCount = solution.patches;
             newest_.wantedVertexCount = solution.wanted;
-            newest_.shortfall = solution.shortfall;
+            uint32_t patches = 0;
+            for (uint32_t g = 0; g < solved_[i].groups; ++g) {
+                std::array<uint32_t, kListHeaderWords> counts{};
+                std::memcpy(counts.data(), from + sizeof(solution) + g * kCountBytes, sizeof(counts));
+                newest_.drawnInstanceCount += counts[0];
+                newest_.instanceCount += counts[2];
+                newest_.droppedInstanceCount += counts[3];
+                newest_.occludedInstanceCount += counts[4];
+                patches += counts[0] * solved_[i].patches[g];
+            }
+            newest_.backFaceCount = patches - solution.counted;
+            newest_.shortfall = solution.shortfall != 0 || newest_.droppedInstanceCount > 0 ? 1 : 0;
         }
     }
 }
@@ -263,7 +309,9 @@ void View::cancelFrame(uint64_t frame) {
     if (indicesReleaseFrame_ == frame) {
         indicesToRelease_ = true;
     }
-    std::replace(solvedFrames_.begin(), solvedFrames_.end(), frame, uint64_t{0});
+    for (Solved& solved : solved_) {
+        solved.frame = solved.frame == frame ? 0 : solved.frame;
+    }
 }
 
 uint32_t View::transfers(Transfers& out) const {
@@ -274,7 +322,7 @@ uint32_t View::transfers(Transfers& out) const {
         }
     };
     for (size_t i = 0; i < kBufferCount; ++i) {
-        if (i != kCull) { // the passes' alone
+        if (i != kCull && i != kSizes) { // the passes' alone
             add(buffers_.buffer(i));
         }
     }

@@ -24,16 +24,26 @@ public:
 
     [[nodiscard]] const SuppleViewDesc& desc() const { return desc_; }
     void setCamera(const SuppleCameraDesc& camera); ///< as checked by the caller
+    /// As checked by the caller; nothing: nothing hides.
+    void setDepthPyramid(const std::optional<SuppleDepthPyramidDesc>& pyramid);
+    [[nodiscard]] const std::optional<SuppleDepthPyramidDesc>& depthPyramid() const { return pyramid_; }
+    /// Changes whenever the pyramid is set: image views may come again under the same handle.
+    [[nodiscard]] uint64_t pyramidGeneration() const { return pyramidGeneration_; }
     [[nodiscard]] shared::CullView cullView() const;
+    /// In the coordinates surfaces come out in.
+    [[nodiscard]] shared::LodCamera lodCamera() const;
+    /// Where the camera looks: of one that is orthographic.
+    [[nodiscard]] std::span<const float, 3> direction() const { return camera_.direction; }
+    /// Vertices of the budget that patches can have; the rest is for what fills up draw instances.
+    [[nodiscard]] uint32_t room() const;
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
 
     /// A group's windows take runs when it is created and give them back when it goes. The runs of `windows` windows,
     /// one after the other, each as `lod` lists them; patch ranges r of a window evaluate as dispatch firstRun + r.
-    [[nodiscard]] std::optional<uint32_t> takeRuns(const surface::LodTables& lod, uint32_t windows);
+    /// `doubleSided`: by run of a window.
+    [[nodiscard]] std::optional<uint32_t> takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
+                                                   uint32_t windows);
     void giveRuns(uint32_t first, uint32_t count);
-
-    /// The scales, in the coordinates surfaces come out in; what belongs to the window is the caller's to fill in.
-    [[nodiscard]] shared::LodPush levelPush() const;
 
     [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || !cleared_; }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
@@ -41,8 +51,10 @@ public:
     /// `priorities`: bits of those that instances have.
     void recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
                      uint32_t priorities) const;
-    /// Copies what the solver found out to where the host reads it frames later.
+    /// Copies what the solver found out to where the host reads it frames later; then, for each of its groups, how many
+    /// instances were seen (Culling::countOffset), which have `patches` patches each.
     void recordReadback(VkCommandBuffer commandBuffer);
+    void recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, uint32_t patches);
     void beginFrame(uint64_t completedFrame);
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
@@ -57,6 +69,7 @@ public:
     enum BufferIndex : size_t {
         kWords,
         kCull,
+        kSizes,
         kSurface,
         kPreviousPositions,
         kAttributes,
@@ -71,11 +84,15 @@ public:
     [[nodiscard]] VkDeviceSize uploadBytes() const;
 
 private:
+    [[nodiscard]] uint32_t budget() const;
+
     const gpu::Device* device_ = nullptr;
     uint32_t framesInFlight_ = 2;
     SuppleViewDesc desc_{};
     SuppleCameraDesc camera_{};
     bool hasCamera_ = false;
+    std::optional<SuppleDepthPyramidDesc> pyramid_;
+    uint64_t pyramidGeneration_ = 0;
 
     gpu::BufferSet buffers_;
     gpu::BufferSet staging_;  ///< the host's part of the words, and the view to cull by, a run a frame in flight
@@ -89,7 +106,12 @@ private:
     bool indicesToRelease_ = false;
     uint64_t indicesReleaseFrame_ = 0;
     uint64_t clearedFrame_ = 0, recordedFrame_ = 0;
-    std::vector<uint64_t> solvedFrames_; ///< by place in readback_
+    struct Solved {
+        uint64_t frame = 0;
+        uint32_t groups = 0;
+        std::array<uint32_t, shared::kMaxRuns> patches{}; ///< by group, of an instance; every group takes a run or more
+    };
+    std::vector<Solved> solved_; ///< by place in readback_
     SuppleViewStatistics newest_{};
 };
 

@@ -3,6 +3,7 @@
 #include "cage/topology.h"
 #include "shaders/bounds_bounds_comp.h"
 #include "shaders/bounds_list_comp.h"
+#include "shaders/bounds_size_comp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@ namespace supple::surface {
 
 using namespace shared;
 
-static_assert(sizeof(CullView) == 128);
 static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16);
 static_assert(std::max(sizeof(BoundsPush), sizeof(ListPush)) <= gpu::kPushConstantBytes);
 
@@ -75,7 +75,7 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device) {
         {kBoundsCageBinding, kStorage},  {kBoundsCageTexelBinding, kTexels}, {kBoundsBinding, kStorage},
         {kBoundsStateBinding, kStorage}, {kHostListBinding, kStorage},       {kBoundsStateTexelBinding, kTexels},
         {kListBinding, kStorage},        {kHostListTexelBinding, kTexels},   {kListArgumentBinding, kStorage},
-        {kListTableBinding, kStorage},   {kCullViewBinding, kStorage},
+        {kListTableBinding, kStorage},   {kCullViewBinding, kStorage},       {kSizeBinding, kStorage},
     };
     BoundsPass pass;
     pass.device_ = &device;
@@ -85,18 +85,20 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device) {
         return layout.error();
     }
     pass.layout_ = std::move(*layout);
-    Result<gpu::PipelineHandle> bounds =
-        gpu::createComputePipeline(device, pass.layout_, bounds_bounds_comp, {}, "supple bounds");
-    if (!bounds) {
-        return bounds.error();
+    const struct {
+        gpu::PipelineHandle* target;
+        std::span<const uint32_t> spirv;
+        const char* name;
+    } pipelines[] = {{&pass.bounds_, bounds_bounds_comp, "supple bounds"},
+                     {&pass.sizes_, bounds_size_comp, "supple sizes of instances"},
+                     {&pass.list_, bounds_list_comp, "supple list of instances"}};
+    for (const auto& [target, spirv, name] : pipelines) {
+        Result<gpu::PipelineHandle> made = gpu::createComputePipeline(device, pass.layout_, spirv, {}, name);
+        if (!made) {
+            return made.error();
+        }
+        *target = std::move(*made);
     }
-    pass.bounds_ = std::move(*bounds);
-    Result<gpu::PipelineHandle> list =
-        gpu::createComputePipeline(device, pass.layout_, bounds_list_comp, {}, "supple list of instances");
-    if (!list) {
-        return list.error();
-    }
-    pass.list_ = std::move(*list);
     return pass;
 }
 
@@ -116,6 +118,15 @@ void BoundsPass::recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set
     const uint32_t local = device_->mapping.localSize;
     gpu::dispatchLinear(*device_, commandBuffer,
                         device_->mapping.wide ? push.instanceCount : (push.instanceCount + local - 1) / local);
+}
+
+void BoundsPass::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set, const SizePush& push) const {
+    if (push.instanceCount == 0) {
+        return;
+    }
+    bind(commandBuffer, sizes_, set, &push, sizeof(push));
+    const uint32_t local = device_->mapping.localSize;
+    gpu::dispatchLinear(*device_, commandBuffer, (push.instanceCount + local - 1) / local);
 }
 
 void BoundsPass::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {

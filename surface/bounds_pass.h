@@ -4,7 +4,9 @@
 // A group needs: bounds (two vec4 a slot) and states (two words a slot), written by the passes alone, the states
 // cleared to zero once; the host's list, the table and the view, uploaded; the list and the arguments, written by the
 // list pass. Record the bounds of every window, a barrier (compute to compute), the list, and a barrier to what reads
-// its list and arguments (compute, vertex shaders, indirect commands).
+// its list and arguments (compute, vertex shaders, indirect commands). Where instances may have to be left out, the
+// sizes of all groups of the view come before the first list, with a barrier on either side; their buffer, kSizeRanks
+// words cleared in every frame, is the view's.
 #pragma once
 
 #include "cage/character.h"
@@ -56,6 +58,8 @@ public:
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// `set` binds the window's cages. Nothing where push.instanceCount is 0.
     void recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::BoundsPush& push) const;
+    /// Any window's set. Nothing where push.instanceCount is 0.
+    void recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::SizePush& push) const;
     /// For empty groups too: the arguments are then those of no instances. Any window's set; push.maxGroups is filled
     /// in.
     void recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::ListPush push) const;
@@ -66,7 +70,7 @@ private:
 
     const gpu::Device* device_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::PipelineHandle bounds_, list_;
+    gpu::PipelineHandle bounds_, sizes_, list_;
 };
 
 } // namespace supple::surface

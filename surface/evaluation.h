@@ -35,6 +35,8 @@ struct Evaluation {
     uint32_t verticesPerInstance = 0; ///< at least vertexCount(): the stride between instances
     uint32_t attributeOutputs = shared::kOutputUvs1 | shared::kOutputFaceUvs; ///< where the tables have them
     std::vector<uint32_t> firstVertices; ///< per patch range: where its vertices begin in an instance
+    uint32_t firstEdgeVertex = 0;        ///< shared samples: those of edges, then those at corners
+    uint32_t firstCornerVertex = 0;
 
     /// Lays out the ranges of `tables` one after the other; returns the vertices of an instance.
     uint64_t layOut(const Tables& tables);

@@ -4,6 +4,7 @@
 #include "shaders/blend_evaluate_comp.h"
 #include "shaders/evaluate_attributes_comp.h"
 #include "shaders/evaluate_bicubic_comp.h"
+#include "shaders/evaluate_edge_comp.h"
 #include "shaders/evaluate_patch_comp.h"
 #include "shaders/kernel_fragment_comp.h"
 #include "shaders/kernel_isolate_comp.h"
@@ -22,6 +23,7 @@
 #include "shaders/shared/kernel.h"
 #include "shaders/shared/pm.h"
 #include "surface/lod/tables.h"
+#include "surface/shared_samples.h"
 
 #include <iterator>
 #include <string>
@@ -40,12 +42,15 @@ constexpr uint32_t kVertexFormatConstant = kKindConstant + 1;
 constexpr uint32_t kCornerNormalsConstant = kKindConstant + 2;
 constexpr uint32_t kLodConstant = kKindConstant + 3;
 constexpr uint32_t kRingsConstant = kKindConstant + 4;
+constexpr uint32_t kInteriorConstant = kKindConstant + 5;
+constexpr uint32_t kRateConstant = kKindConstant + 6;
 
 shared::SurfacePush pushFor(const Tables& tables, const Section& section, const Window& window,
                             const Evaluation& evaluation) {
     shared::SurfacePush push{};
     push.count = section.count;
     push.firstInstance = window.firstInstance;
+    push.firstCorner = evaluation.firstCornerVertex;
     push.instanceCount = window.instanceCount;
     push.table = section.table;
     push.ring = tables.ring;
@@ -63,6 +68,10 @@ shared::SurfacePush pushFor(const Tables& tables, const Section& section, const 
     push.outputs = ((tables.uvSets == 2 ? shared::kOutputUvs1 : 0) | (tables.faceUvs ? shared::kOutputFaceUvs : 0)) &
                    evaluation.attributeOutputs;
     return push;
+}
+
+std::string atRate(uint32_t rate) {
+    return rate == 0 ? "" : ", rate " + std::to_string(rate);
 }
 
 /// Patches a workgroup takes in the wide mapping: the count that leaves the fewest lanes idle.
@@ -99,6 +108,7 @@ Shaders Shaders::embedded() {
     shaders.kernel = {kernel_fragment_comp, kernel_refine_comp, kernel_limit_comp};
     shaders.patch = evaluate_patch_comp;
     shaders.bicubic = evaluate_bicubic_comp;
+    shaders.edge = evaluate_edge_comp;
     shaders.attributes = evaluate_attributes_comp;
     shaders.lod = {lod_edge_comp, lod_patch_comp, lod_solve_comp, lod_place_comp};
     return shaders;
@@ -107,9 +117,17 @@ Shaders Shaders::embedded() {
 uint64_t Evaluation::layOut(const Tables& tables) {
     uint64_t vertices = 0;
     firstVertices.clear();
+    const bool shares = tables.sharesSamples();
     for (const PatchRange& range : tables.ranges) {
+        const Domain domain = domainOf(range.patchClass);
         firstVertices.push_back(static_cast<uint32_t>(vertices));
-        vertices += uint64_t{sampleCount(domainOf(range.patchClass), rate)} * range.section.count;
+        vertices += uint64_t{shares ? interiorCount(domain, rate) : sampleCount(domain, rate)} * range.section.count;
+    }
+    if (shares) {
+        firstEdgeVertex = static_cast<uint32_t>(vertices);
+        vertices += uint64_t{rate - 1} * tables.shared.edgeCount;
+        firstCornerVertex = static_cast<uint32_t>(vertices);
+        vertices += tables.shared.cornerCount;
     }
     return vertices;
 }
@@ -196,6 +214,10 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
     if (status && needs.lod) {
         status = lod_.prepare(layout_, tables.lod);
     }
+    const bool shares = tables.sharesSamples();
+    if (status && shares) {
+        status = makeShared(tables, needs, formats);
+    }
     for (const PatchRange& range : tables.ranges) {
         const auto patchClass = static_cast<uint32_t>(range.patchClass);
         const std::string name = className(range.patchClass);
@@ -222,7 +244,7 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
             }
             continue;
         }
-        if (status && needs.attributes) {
+        if (status && needs.attributes && !shares) {
             const auto domain = static_cast<uint32_t>(domainOf(range.patchClass));
             status = make(attributes_[domain], shaders_.attributes, {{kKindConstant, domain}}, "supple attributes");
         }
@@ -230,15 +252,69 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
             status = make(patch_[patchClass][normals], bicubic ? shaders_.patch : shaders_.pmPatch,
                           {{kKindConstant, patchClass}, {kCornerNormalsConstant, normals}}, "supple patch, " + name);
         }
-        for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty(); ++f) {
-            status = make(
-                evaluate_[patchClass][formats[f]][normals], evaluate,
-                {{kKindConstant, patchClass}, {kVertexFormatConstant, formats[f]}, {kCornerNormalsConstant, normals}},
-                "supple evaluate, " + name);
+        for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty() && !shares; ++f) {
+            ByRate& byRate = evaluate_[patchClass][formats[f]][normals];
+            // The rate it begins with, where that is worth a pipeline, and any that is set later.
+            for (const uint32_t rate : {0u, unrolled(needs.rate)}) {
+                if (status && (rate == 0 || (patchClass == kRegularPatch && formats[f] != kVertexPosition))) {
+                    status = make(byRate[rate], evaluate,
+                                  {{kKindConstant, patchClass},
+                                   {kVertexFormatConstant, formats[f]},
+                                   {kCornerNormalsConstant, normals},
+                                   {kRateConstant, rate}},
+                                  "supple evaluate, " + name + atRate(rate));
+                }
+            }
         }
     }
     for (size_t f = 0; status && f < formats.size() && !needs.lod; ++f) {
         status = kernel_.prepare(layout_, tables.fragments, formats[f]);
+    }
+    return status;
+}
+
+Status Passes::makeShared(const Tables& tables, const Needs& needs, std::span<const uint32_t> formats) {
+    const uint32_t normals = tables.cornerNormals ? 1 : 0;
+    Status status = success();
+    for (const uint32_t format : formats) {
+        for (size_t r = 0; status && r < tables.ranges.size(); ++r) {
+            const auto patchClass = static_cast<uint32_t>(tables.ranges[r].patchClass);
+            const uint32_t rate = patchClass == shared::kRegularPatch ? unrolled(needs.rate) : 0;
+            status =
+                make(inside_[patchClass][format][normals][rate],
+                     patchClass <= shared::kPolarPatch ? shaders_.bicubic : shaders_.pmEvaluate,
+                     {{kKindConstant, patchClass},
+                      {kVertexFormatConstant, format},
+                      {kCornerNormalsConstant, normals},
+                      {kInteriorConstant, VK_TRUE},
+                      {kRateConstant, rate}},
+                     std::string("supple evaluate inside, ") + className(tables.ranges[r].patchClass) + atRate(rate));
+        }
+        for (size_t e = 0; status && e < tables.shared.edges.size(); ++e) {
+            const uint32_t kind = tables.shared.edges[e].kind;
+            constexpr const char* kNames[] = {"supple evaluate edges", "supple evaluate edges, perturbed",
+                                              "supple evaluate edges, P_m"};
+            static_assert(std::size(kNames) == shared::kEdgeKinds);
+            const uint32_t rate = unrolled(needs.rate);
+            status = make(edges_[kind][format][normals][rate], shaders_.edge,
+                          {{kKindConstant, kind},
+                           {kVertexFormatConstant, format},
+                           {kCornerNormalsConstant, normals},
+                           {kRateConstant, rate}},
+                          kNames[kind] + atRate(rate));
+        }
+    }
+    if (!needs.attributes) {
+        return status;
+    }
+    for (size_t r = 0; status && r < tables.ranges.size(); ++r) {
+        const auto domain = static_cast<uint32_t>(domainOf(tables.ranges[r].patchClass));
+        status = make(insideAttributes_[domain], shaders_.attributes,
+                      {{kKindConstant, domain}, {kInteriorConstant, VK_TRUE}}, "supple attributes inside");
+    }
+    if (status) {
+        status = make(insideAttributes_[shared::kEdgeDomain], shaders_.attributes,
+                      {{kKindConstant, shared::kEdgeDomain}}, "supple attributes of edges");
     }
     return status;
 }
@@ -301,32 +377,57 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
         kernel_.record(commandBuffer, tables, window, evaluation, vertexFormat);
         return;
     }
-    const bool wide = device_->mapping.wide;
+    const bool wide = device_->mapping.wide, shares = tables.sharesSamples();
+    const size_t normals = tables.cornerNormals ? 1 : 0;
+    const auto at = [&](const ByRate& pipelines, uint32_t rate) {
+        const VkPipeline own = pipelines[unrolled(rate)].get();
+        return own != VK_NULL_HANDLE ? own : pipelines[0].get();
+    };
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
+        const Domain domain = domainOf(range.patchClass);
         shared::SurfacePush push = pushFor(tables, range.section, window, evaluation);
-        push.samples = sampleCount(domainOf(range.patchClass), evaluation.rate);
+        push.samples = shares ? interiorCount(domain, evaluation.rate) : sampleCount(domain, evaluation.rate);
+        if (push.samples == 0) {
+            continue;
+        }
         push.firstPatch = range.firstPatch;
         push.firstVertex = evaluation.firstVertices[r];
         push.patchesPerGroup = wide ? patchesPerGroup(push.samples, device_->mapping.localSize) : 1;
         const uint64_t patches = uint64_t{push.count} * push.instanceCount;
         const uint64_t groups = wide ? (patches + push.patchesPerGroup - 1) / push.patchesPerGroup : groupsFor(patches);
-        const auto& pipelines = evaluate_[static_cast<size_t>(range.patchClass)][vertexFormat];
-        record(commandBuffer, pipelines[tables.cornerNormals ? 1 : 0].get(), window.set, push, groups);
+        const auto& pipelines = (shares ? inside_ : evaluate_)[static_cast<size_t>(range.patchClass)][vertexFormat];
+        record(commandBuffer, at(pipelines[normals], push.rate), window.set, push, groups);
+    }
+    for (const SharedTables::Edges& edges : tables.shared.edges) {
+        shared::SurfacePush push = pushFor(tables, edges.section, window, evaluation);
+        push.firstVertex = evaluation.firstEdgeVertex;
+        const uint64_t lanes = uint64_t{push.count} * push.instanceCount * (wide ? push.rate : 1);
+        record(commandBuffer, at(edges_[edges.kind][vertexFormat][normals], push.rate), window.set, push,
+               groupsFor(lanes));
     }
 }
 
 void Passes::recordAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
                               const Evaluation& evaluation) const {
+    const bool shares = tables.sharesSamples();
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
         const Domain domain = domainOf(range.patchClass);
-        const uint32_t samples = sampleCount(domain, evaluation.rate);
+        const uint32_t samples = shares ? interiorCount(domain, evaluation.rate) : sampleCount(domain, evaluation.rate);
         const Section section{range.attributes, range.section.count * samples};
         shared::SurfacePush push = pushFor(tables, section, window, evaluation);
         push.samples = samples;
         push.firstVertex = evaluation.firstVertices[r];
-        record(commandBuffer, attributes_[static_cast<size_t>(domain)].get(), window.set, push, groupsFor(push.count));
+        const auto& pipelines = shares ? insideAttributes_.data() : attributes_.data();
+        record(commandBuffer, pipelines[static_cast<size_t>(domain)].get(), window.set, push, groupsFor(push.count));
+    }
+    if (shares) {
+        const Section section{tables.shared.attributes.table, tables.shared.attributes.count * evaluation.rate};
+        shared::SurfacePush push = pushFor(tables, section, window, evaluation);
+        push.ring = tables.shared.edges.front().section.table;
+        push.firstVertex = evaluation.firstEdgeVertex;
+        record(commandBuffer, insideAttributes_[shared::kEdgeDomain].get(), window.set, push, groupsFor(push.count));
     }
 }
 

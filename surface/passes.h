@@ -24,7 +24,7 @@ struct Shaders {
     std::span<const uint32_t> isolate;
     std::span<const uint32_t> blendChart, blendEvaluate;
     kernel::Passes::Shaders kernel;
-    std::span<const uint32_t> patch, bicubic, attributes;
+    std::span<const uint32_t> patch, bicubic, edge, attributes;
     lod::Passes::Shaders lod;
     [[nodiscard]] static Shaders embedded();
 };
@@ -35,7 +35,8 @@ struct Needs {
     bool motion = false; ///< positions alone as well
     bool patches = false;
     bool attributes = false;
-    bool lod = false; ///< records of a view instead of all patches at a rate
+    bool lod = false;  ///< records of a view instead of all patches at a rate
+    uint32_t rate = 0; ///< that it begins with
 };
 
 /// The pipelines, each created when tables first need it. Recording needs no memory and creates nothing. Between the
@@ -75,6 +76,7 @@ private:
     [[nodiscard]] Status make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv,
                               std::initializer_list<gpu::Constant> constants, const std::string& name);
     [[nodiscard]] Status makeConstruction(Kernel kernel);
+    [[nodiscard]] Status makeShared(const Tables& tables, const Needs& needs, std::span<const uint32_t> formats);
     void record(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
                 const shared::SurfacePush& push, uint64_t groups) const;
     [[nodiscard]] uint64_t groupsFor(uint64_t lanes) const;
@@ -85,16 +87,29 @@ private:
                    const shared::SurfacePush& push) const;
 
     static constexpr size_t kClasses = kPatchClassCount;
+    static constexpr uint32_t kUnrolledRates = 8;
+    /// Where a kernel of this rate is kept: 0 where it is not unrolled. Only lanes that loop over a patch's samples
+    /// gain by it, and what is compiled grows with the rate.
+    [[nodiscard]] uint32_t unrolled(uint32_t rate) const {
+        return !device_->mapping.wide && rate <= kUnrolledRates ? rate : 0;
+    }
     const gpu::Device* device_ = nullptr;
     Shaders shaders_;
     gpu::ComputeLayout layout_;
     std::array<gpu::PipelineHandle, static_cast<size_t>(Kernel::count)> construction_;
     std::array<gpu::PipelineHandle, kDomainCount> attributes_; ///< by domain
+    /// One a rate that kernels are unrolled for, and the first for any rate.
+    using ByRate = std::array<gpu::PipelineHandle, kUnrolledRates + 1>;
+    using ByFormat = std::array<std::array<ByRate, 2>, shared::kVertexFormats>; ///< and corner normals
     // By class and by corner normals, which only p-rep's classes have; evaluate_ also by vertex format.
     std::array<std::array<gpu::PipelineHandle, 2>, kClasses> patch_;
-    std::array<std::array<std::array<gpu::PipelineHandle, 2>, shared::kVertexFormats>, kClasses> evaluate_;
+    std::array<ByFormat, kClasses> evaluate_;
     std::array<std::array<gpu::PipelineHandle, 2>, kClasses> lodEvaluate_[shared::kVertexFormats];
     std::array<gpu::PipelineHandle, kClasses> lodAttributes_;
+    // Shared samples: inside patches, as evaluate_ and attributes_, then those of edges.
+    std::array<ByFormat, kClasses> inside_;
+    std::array<ByFormat, shared::kEdgeKinds> edges_;
+    std::array<gpu::PipelineHandle, kDomainCount + 1> insideAttributes_; ///< the last one: along edges
     kernel::Passes kernel_;
     lod::Passes lod_;
 };

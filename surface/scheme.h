@@ -148,6 +148,26 @@ struct LodTables {
     std::vector<Run> runs; ///< of one class and material, in device order
 };
 
+/// What shared samples add (surface/shared_samples.h); empty where they are not asked for.
+struct SharedTables {
+    /// Records of edges (shaders/shared/surface.h), by the kernel that evaluates them.
+    struct Edges {
+        uint32_t kind = shared::kPlainEdges;
+        Section section;
+    };
+    std::vector<Edges> edges;
+    Section attributes; ///< an element a record, where the tables have corner attributes
+    uint32_t edgeCount = 0;
+    uint32_t cornerCount = 0;
+    /// Where a patch's borders are: for side i its edge, and whether that runs against the patch; for corner i its
+    /// number among the corners.
+    struct Patch {
+        std::array<uint32_t, kMaxSides> edges{}, corners{};
+        std::array<bool, kMaxSides> reversed{};
+    };
+    std::vector<Patch> patches;
+};
+
 /// What depends on connectivity alone: the tables of shaders/shared/{surface,prep,pm,kernel}.h, and where everything
 /// lies in them. Patches are ordered by class, then by material, then by face.
 struct Tables {
@@ -167,9 +187,12 @@ struct Tables {
     std::vector<PatchInfo> patches;
     std::vector<DrawRange> drawRanges;
     LodTables lod;
+    SharedTables shared;
     std::vector<std::string> notes; ///< what was changed about the cage, one line each
 
     [[nodiscard]] bool has(Stage stage) const;
+    /// Whether samples that patches share are stored once.
+    [[nodiscard]] bool sharesSamples() const { return !shared.edges.empty(); }
 };
 
 } // namespace supple::surface

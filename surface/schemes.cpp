@@ -6,6 +6,7 @@
 #include "surface/lod/tables.h"
 #include "surface/pm/scheme.h"
 #include "surface/prep/scheme.h"
+#include "surface/shared_samples.h"
 
 #include <algorithm>
 #include <bit>
@@ -68,6 +69,12 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
             return Error{ErrorCode::argument, std::string(schemeName(recipe.scheme)) + " has no levels of detail"};
         }
         lod::appendTables(*tables);
+    }
+    if (tables && recipe.shared) {
+        if (!hasLevels(recipe.scheme)) {
+            return Error{ErrorCode::argument, std::string(schemeName(recipe.scheme)) + " has no shared samples"};
+        }
+        appendSharedSamples(*tables, recipe.attributes);
     }
     return tables;
 }

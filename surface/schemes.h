@@ -19,6 +19,7 @@ struct Recipe {
     uint32_t rate = 0;      ///< segments along an edge of the cage; 0 for schemes whose tables serve all rates
     bool attributes = true; ///< with the corner attributes
     bool lod = false;       ///< with what level of detail needs
+    bool shared = false;    ///< samples that patches share are stored once
 
     bool operator==(const Recipe&) const = default;
 };
@@ -36,7 +37,7 @@ struct Recipe {
     return subdivides(scheme) || scheme == SchemeId::blend;
 }
 
-/// Whether its patches can be drawn at real-valued levels.
+/// Whether its patches can be drawn at real-valued levels, and whether they can share their samples.
 [[nodiscard]] constexpr bool hasLevels(SchemeId scheme) {
     return !subdivides(scheme);
 }

@@ -1,5 +1,6 @@
 #include "scene.h"
 
+#include "common/rendering.h"
 #include "shaders/cloth_frag.h"
 #include "shaders/cloth_vert.h"
 #include "shaders/ground_frag.h"
@@ -67,15 +68,6 @@ constexpr SuppleSyncScope kDepthWrites{
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 constexpr SuppleSyncScope kSampled{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 constexpr SuppleSyncScope kCopied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
-
-void setViewport(VkCommandBuffer commands, VkExtent2D extent) {
-    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              0.0f, 1.0f};
-    const VkRect2D scissor{{0, 0}, extent};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &scissor);
-    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
-}
 
 SceneUniforms lookAtIt(VkExtent2D extent) {
     const glm::vec2 size{static_cast<float>(extent.width), static_cast<float>(extent.height)};
@@ -192,18 +184,9 @@ void Scene::record(VkCommandBuffer commands) const {
 
     imageBarrier(commands, sunMap_, kSampled, kDepthWrites, VK_IMAGE_LAYOUT_UNDEFINED,
                  VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-    VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                    .imageView = sunMap_.view(),
-                                    .imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                                    .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                    .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                    .clearValue = {.depthStencil = {1.0f, 0}}};
-    VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                              .renderArea = {{0, 0}, sunMap_.desc().extent},
-                              .layerCount = 1,
-                              .pDepthAttachment = &depth};
-    vkCmdBeginRendering(commands, &rendering);
-    setViewport(commands, sunMap_.desc().extent);
+    VkRenderingAttachmentInfo depth =
+        sample::attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, {.depthStencil = {1.0f, 0}});
+    sample::beginRendering(commands, sunMap_.desc().extent, {}, depth);
     drawSheets(commands, sheetShadows_, true);
     drawPoles(commands, poleShadows_, true);
     vkCmdEndRendering(commands);
@@ -226,11 +209,7 @@ void Scene::record(VkCommandBuffer commands) const {
                                           .storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE};
     depth.imageView = depth_.view();
     depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    rendering.renderArea.extent = picture_.desc().extent;
-    rendering.colorAttachmentCount = 1;
-    rendering.pColorAttachments = &color;
-    vkCmdBeginRendering(commands, &rendering);
-    setViewport(commands, picture_.desc().extent);
+    sample::beginRendering(commands, picture_.desc().extent, {&color, 1}, depth);
     drawSheets(commands, sheetPipeline_, false);
     vkCmdSetCullMode(commands, VK_CULL_MODE_FRONT_BIT);
     drawPoles(commands, polePipeline_, false);

@@ -226,7 +226,7 @@ Image::Image(const Device& device, const ImageDesc& desc) : device_(device.handl
                                  .imageType = VK_IMAGE_TYPE_2D,
                                  .format = desc.format,
                                  .extent = {desc.extent.width, desc.extent.height, 1},
-                                 .mipLevels = 1,
+                                 .mipLevels = desc.mipLevels,
                                  .arrayLayers = 1,
                                  .samples = desc.samples,
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
@@ -241,7 +241,7 @@ Image::Image(const Device& device, const ImageDesc& desc) : device_(device.handl
                                          .image = image_,
                                          .viewType = VK_IMAGE_VIEW_TYPE_2D,
                                          .format = desc.format,
-                                         .subresourceRange = {desc.aspect, 0, 1, 0, 1}};
+                                         .subresourceRange = {desc.aspect, 0, desc.mipLevels, 0, 1}};
     check(vkCreateImageView(device_, &viewInfo, nullptr, &view_), "vkCreateImageView");
 }
 

@@ -79,7 +79,7 @@ void Graph::barriers(VkCommandBuffer commands, const Pass& pass) {
                                   .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                   .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                   .image = state.image,
-                                  .subresourceRange = {state.aspect, 0, 1, 0, 1}});
+                                  .subresourceRange = {state.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, 1}});
             } else {
                 memory.srcStageMask |= from;
                 memory.srcAccessMask |= state.write.access;

@@ -168,10 +168,11 @@ DescriptorPool::DescriptorPool(Device& device, uint32_t maxSets) : device_(devic
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, maxSets},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * maxSets},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * maxSets},
+                                          {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, maxSets},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, maxSets}};
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = maxSets,
-                                          .poolSizeCount = 4,
+                                          .poolSizeCount = 5,
                                           .pPoolSizes = sizes};
     check(vkCreateDescriptorPool(device_, &info, nullptr, &pool_), "vkCreateDescriptorPool");
     device.atEnd([handle = device_, pool = pool_] { vkDestroyDescriptorPool(handle, pool, nullptr); });

@@ -50,19 +50,21 @@ void findClip(Kind& kind, const char* wanted) {
 
 } // namespace
 
-Crowd::Crowd(const sample::Device& device, const std::array<std::string, kKinds>& files, uint32_t count,
-             uint32_t budget)
-    : context_(sample::createContext(device)), budget_(budget) {
+Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
+    : context_(sample::createContext(device)), budget_(options.budget), backFaces_(options.backFaces) {
+    const uint32_t count = options.count;
     auto viewDesc = supple::sized<SuppleViewDesc>();
     viewDesc.flags = SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;
-    viewDesc.maxVertices = budget;
+    viewDesc.flags |= options.occlusion ? SUPPLE_VIEW_OCCLUSION : 0;
+    viewDesc.flags |= options.backFaces ? SUPPLE_VIEW_BACK_FACES : 0;
+    viewDesc.maxVertices = budget_;
     sample::check(supple::View::create(context_, viewDesc, view_), "suppleCreateView");
 
     for (size_t k = 0; k < kKinds; ++k) {
         Kind& kind = kinds_[k];
-        const std::vector<char> bytes = readFile(files[k]);
+        const std::vector<char> bytes = readFile(options.files[k]);
         auto assetDesc = supple::sized<SuppleAssetDesc>();
-        assetDesc.name = files[k].c_str();
+        assetDesc.name = options.files[k].c_str();
         assetDesc.bytes = bytes.data();
         assetDesc.byteCount = bytes.size();
         sample::check(supple::Asset::create(context_, assetDesc, kind.asset), "suppleCreateAsset");
@@ -94,6 +96,10 @@ Crowd::Crowd(const sample::Device& device, const std::array<std::string, kKinds>
         walker.kind = i % kKinds;
         walker.centre = {kSpacing * (static_cast<float>(column) + 0.5f) - reach_,
                          kSpacing * (static_cast<float>(row) + 0.5f) - reach_};
+        if (options.wall) { // makes room on either side
+            const glm::vec2 across{std::sin(kWallAngle), std::cos(kWallAngle)};
+            walker.centre += (glm::dot(walker.centre, across) < 0.0f ? -1.5f : 1.5f) * across;
+        }
         walker.radius = uniform(0.25f, 0.55f);
         walker.angle = uniform(0.0f, 6.2831853f);
         walker.turn = uniform(0.0f, 1.0f) < 0.5f ? -1.0f : 1.0f;
@@ -141,11 +147,18 @@ void Crowd::update(double time, const Camera& camera) {
     sample::check(view_.setCamera(desc), "suppleSetCamera");
 }
 
-void Crowd::addToGraph(engine::Graph& graph, engine::Resource buffers) const {
+void Crowd::setPyramid(const SuppleDepthPyramidDesc* pyramid) const {
+    sample::check(view_.setDepthPyramid(pyramid), "suppleSetDepthPyramid");
+}
+
+void Crowd::addToGraph(engine::Graph& graph, engine::Resource buffers, const engine::Resource* pyramid) const {
     engine::Scope first{};
     engine::Scope last{};
     sample::check(suppleGetRecordScopes(&first, &last), "suppleGetRecordScopes");
-    graph.add("supple", {engine::writesWithin(buffers, first, last)}, [this](VkCommandBuffer commands) {
+    std::vector<engine::Use> uses = {engine::writesWithin(buffers, first, last)};
+    if (pyramid != nullptr)
+        uses.push_back(engine::reads(*pyramid, engine::kSampledInCompute, VK_IMAGE_LAYOUT_GENERAL));
+    graph.add("supple", std::move(uses), [this](VkCommandBuffer commands) {
         std::array<SuppleGroup, kKinds> groups{};
         for (size_t k = 0; k < kKinds; ++k)
             groups[k] = kinds_[k].group.handle();
@@ -161,6 +174,13 @@ std::vector<std::string> Crowd::report() const {
     lines.emplace_back(text);
     SuppleViewStatistics drawn{};
     if (view_.statistics(drawn) == SUPPLE_OK) {
+        std::snprintf(text, sizeof text, "%u seen, %u hidden behind others", drawn.drawnInstanceCount,
+                      drawn.occludedInstanceCount);
+        lines.emplace_back(text);
+        if (backFaces_) {
+            std::snprintf(text, sizeof text, "%u patches left out for their backs", drawn.backFaceCount);
+            lines.emplace_back(text);
+        }
         std::snprintf(text, sizeof text, "%u patches, %.2f M vertices of %.2f M%s", drawn.patchCount,
                       1e-6 * drawn.vertexCount, 1e-6 * budget_, drawn.shortfall != 0 ? ", TOO FEW" : "");
         lines.emplace_back(text);

@@ -39,15 +39,29 @@ struct Camera {
     float pixelsPerUnit = 1.0f;
 };
 
+struct CrowdOptions {
+    std::array<std::string, kKinds> files; ///< .glb
+    uint32_t count = 1000;
+    uint32_t budget = 8'000'000; ///< surface vertices a frame
+    bool wall = false;           ///< nobody walks where it stands
+    bool occlusion = false;
+    bool backFaces = false; ///< leave out what faces away
+};
+
+/// Across the middle of the square, 0 at z, turned about +Y.
+inline constexpr float kWallAngle = 0.35f, kWallHeight = 4.0f;
+
 class Crowd {
 public:
-    Crowd(const sample::Device& device, const std::array<std::string, kKinds>& files, uint32_t count, uint32_t budget);
+    Crowd(const sample::Device& device, const CrowdOptions& options);
 
     void beginFrame(uint64_t frame, uint64_t completed) const;
     /// Puts everybody where they are at a time of the walk.
     void update(double time, const Camera& camera);
-    /// The graph's node.
-    void addToGraph(engine::Graph& graph, engine::Resource buffers) const;
+    /// From now on what lies behind it is left out; null: nothing is.
+    void setPyramid(const SuppleDepthPyramidDesc* pyramid) const;
+    /// The graph's node. `pyramid`: read where there is one.
+    void addToGraph(engine::Graph& graph, engine::Resource buffers, const engine::Resource* pyramid) const;
 
     [[nodiscard]] const std::array<Kind, kKinds>& kinds() const { return kinds_; }
     [[nodiscard]] size_t size() const { return walkers_.size(); }
@@ -63,6 +77,7 @@ private:
     std::vector<Walker> walkers_;
     float reach_ = 1.0f;
     uint32_t budget_ = 0;
+    bool backFaces_ = false;
     mutable std::vector<SuppleTiming> timings_;
 };
 

@@ -16,10 +16,8 @@ namespace {
 using namespace engine;
 
 struct Options : sample::PictureOptions {
-    std::array<std::string, crowd::kKinds> characters{
-        SUPPLE_SAMPLE_ASSETS "/pip.glb", SUPPLE_SAMPLE_ASSETS "/pip_quads.glb", SUPPLE_SAMPLE_ASSETS "/pip_quads.glb"};
-    uint32_t count = 1000;
-    uint32_t budget = 8'000'000;
+    crowd::CrowdOptions crowd{.files = {SUPPLE_SAMPLE_ASSETS "/pip.glb", SUPPLE_SAMPLE_ASSETS "/pip_quads.glb",
+                                        SUPPLE_SAMPLE_ASSETS "/pip_quads.glb"}};
     bool offscreen = false;
     bool levels = false;
 };
@@ -33,11 +31,14 @@ Options readOptions(int argc, char** argv) {
     app.get_option("--screenshot")->description("save the last frame as PNG; needs --frames");
     app.add_flag("--offscreen", options.offscreen, "no window; needs --frames");
     app.add_flag("--levels", options.levels, "paint how fine patches are");
-    app.add_option("--count", options.count, "characters")->check(CLI::Range(3u, 100000u))->capture_default_str();
-    app.add_option("--budget", options.budget, "surface vertices a frame")
+    app.add_flag("--wall", options.crowd.wall, "a wall across the crowd");
+    app.add_flag("--occlusion", options.crowd.occlusion, "leave out who was hidden in the frame before");
+    app.add_flag("--back-faces", options.crowd.backFaces, "leave out patches that face away");
+    app.add_option("--count", options.crowd.count, "characters")->check(CLI::Range(3u, 100000u))->capture_default_str();
+    app.add_option("--budget", options.crowd.budget, "surface vertices a frame")
         ->check(CLI::Range(1024u, 200000000u))
         ->capture_default_str();
-    app.add_option("characters", options.characters, "three .glb")->capture_default_str();
+    app.add_option("characters", options.crowd.files, "three .glb")->capture_default_str();
     app.callback([&] {
         if (options.frames == 0 && (options.offscreen || !options.screenshot.empty()))
             throw CLI::RequiredError("--frames");
@@ -75,8 +76,8 @@ void run(const Options& options) {
     sample::Device device(deviceOptions);
     Graph graph(device);
     const Resource buffers = graph.addBuffers();
-    crowd::Crowd crowd(device, options.characters, options.count, options.budget);
-    crowd::Scene scene(device, graph, crowd);
+    crowd::Crowd crowd(device, options.crowd);
+    crowd::Scene scene(device, graph, crowd, options.crowd.wall, options.crowd.occlusion);
     std::unique_ptr<Swapchain> swapchain;
     if (window)
         swapchain = std::make_unique<Swapchain>(device, *window, graph);
@@ -89,6 +90,8 @@ void run(const Options& options) {
     Clock::time_point last = Clock::now();
     double time = 0.0, frameMilliseconds = 0.0, hostMilliseconds = 0.0;
     std::vector<std::string> report;
+    glm::mat4 depthViewProjection{1.0f}; ///< of the depth that the pyramid holds
+    bool hasDepth = false;
 
     while (options.frames == 0 || frames.frame() < options.frames) {
         if (window && !window->pollEvents())
@@ -103,6 +106,7 @@ void run(const Options& options) {
             extent = swapchain ? swapchain->extent() : options.size;
             scene.resize(device, graph, extent);
             stale = false;
+            hasDepth = false;
         }
         frames.waitForRoom();
         if (swapchain && !swapchain->acquire(frames.nextSlot())) {
@@ -128,7 +132,15 @@ void run(const Options& options) {
         const crowd::Camera camera = cameraAt(time, crowd.reach(), extent);
         crowd.update(time, camera);
         scene.update(slot, camera, report);
-        crowd.addToGraph(graph, buffers);
+        const engine::Resource pyramidUse = scene.pyramidUse();
+        if (scene.pyramid() != nullptr) {
+            const SuppleDepthPyramidDesc pyramid =
+                scene.pyramid()->desc(std::span<const float, 16>(&depthViewProjection[0][0], 16));
+            crowd.setPyramid(hasDepth ? &pyramid : nullptr);
+            depthViewProjection = camera.viewProjection;
+        }
+        crowd.addToGraph(graph, buffers, hasDepth ? &pyramidUse : nullptr);
+        hasDepth = scene.pyramid() != nullptr;
         scene.addToGraph(graph, slot, buffers, options.levels);
         if (!options.screenshot.empty() && frames.frame() == options.frames) {
             readback = sample::Buffer(device, VkDeviceSize{4} * extent.width * extent.height,

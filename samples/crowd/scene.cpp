@@ -1,11 +1,13 @@
 #include "scene.h"
 
+#include "common/rendering.h"
 #include "shaders/character_frag.h"
 #include "shaders/character_vert.h"
 #include "shaders/ground_frag.h"
 #include "shaders/ground_vert.h"
 #include "shaders/text_frag.h"
 #include "shaders/text_vert.h"
+#include "shaders/wall_vert.h"
 
 #include <stb/stb_easy_font.h>
 
@@ -43,27 +45,10 @@ struct TextCorner { // of stb_easy_font
     uint32_t color;
 };
 
-void setViewport(VkCommandBuffer commands, VkExtent2D extent) {
-    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              0.0f, 1.0f};
-    const VkRect2D scissor{{0, 0}, extent};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &scissor);
-    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
-}
-
-VkRenderingAttachmentInfo attachment(const sample::Image& image, VkImageLayout layout, VkClearValue clear) {
-    return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-            .imageView = image.view(),
-            .imageLayout = layout,
-            .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-            .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-            .clearValue = clear};
-}
-
 } // namespace
 
-Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd) : crowd_(crowd) {
+Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid)
+    : crowd_(crowd), wall_(wall) {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     sunMap_ = sample::Image(device, {.extent = {kSunMapSize, kSunMapSize},
@@ -74,6 +59,10 @@ Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd) : crowd_(
     graph.setImage(sunMapUse_, sunMap_.handle());
     pictureUse_ = graph.addImage();
     depthUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
+    if (pyramid) {
+        pyramid_ = std::make_unique<sample::DepthPyramid>(device);
+        pyramidUse_ = graph.addImage();
+    }
 
     const VkDescriptorSetLayout sceneLayout =
         sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
@@ -122,6 +111,9 @@ Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd) : crowd_(
     scene.vertexShader = ground_vert;
     scene.fragmentShader = ground_frag;
     groundPipeline_ = sample::createGraphicsPipeline(device, scene);
+    scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    scene.vertexShader = wall_vert;
+    wallPipeline_ = sample::createGraphicsPipeline(device, scene);
     sample::GraphicsDesc text{
         .layout = textLayout_, .colors = {kColorFormat}, .depth = kDepthFormat, .depthWrite = false};
     text.vertexShader = text_vert;
@@ -135,8 +127,12 @@ void Scene::resize(sample::Device& device, Graph& graph, VkExtent2D extent) {
                                       .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
     depth_ = sample::Image(device, {.extent = extent,
                                     .format = kDepthFormat,
-                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+    if (pyramid_) {
+        pyramid_->resize(depth_);
+        graph.setImage(pyramidUse_, pyramid_->image());
+    }
     graph.setImage(pictureUse_, picture_.handle());
     graph.setImage(depthUse_, depth_.handle());
 }
@@ -205,13 +201,9 @@ void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint
         "sun",
         {reads(buffers, kDrawn), writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
         [this, slot](VkCommandBuffer commands) {
-            const VkRenderingAttachmentInfo depth = attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
-            const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                       .renderArea = {{0, 0}, sunMap_.desc().extent},
-                                       .layerCount = 1,
-                                       .pDepthAttachment = &depth};
-            vkCmdBeginRendering(commands, &info);
-            setViewport(commands, sunMap_.desc().extent);
+            const VkRenderingAttachmentInfo depth =
+                sample::attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+            sample::beginRendering(commands, sunMap_.desc().extent, {}, depth);
             drawCharacters(commands, slot, true, false);
             vkCmdEndRendering(commands);
         });
@@ -224,19 +216,19 @@ void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint
             const VkExtent2D extent = picture_.desc().extent;
             const VkClearValue haze{.color = {{0.85f, 0.87f, 0.89f, 1.0f}}};
             const VkRenderingAttachmentInfo color =
-                attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, haze);
-            const VkRenderingAttachmentInfo depth = attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
-            const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                       .renderArea = {{0, 0}, extent},
-                                       .layerCount = 1,
-                                       .colorAttachmentCount = 1,
-                                       .pColorAttachments = &color,
-                                       .pDepthAttachment = &depth};
-            vkCmdBeginRendering(commands, &info);
-            setViewport(commands, extent);
+                sample::attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, haze);
+            const VkRenderingAttachmentInfo depth =
+                sample::attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+            sample::beginRendering(commands, extent, {&color, 1}, depth);
             drawCharacters(commands, slot, false, paint);
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, groundPipeline_);
             vkCmdDraw(commands, 4, 1, 0, 0);
+            if (wall_) {
+                const glm::vec4 wall{0.7f * crowd_.reach(), kWallHeight, 0.2f, kWallAngle};
+                vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof wall, &wall);
+                vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wallPipeline_);
+                vkCmdDraw(commands, 36, 1, 0, 0);
+            }
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textPipeline_);
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textLayout_, 0, 1, &textSets_[slot], 0,
                                     nullptr);
@@ -245,6 +237,11 @@ void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint
             vkCmdDraw(commands, 6 * textQuads_, 1, 0, 0);
             vkCmdEndRendering(commands);
         });
+    if (pyramid_)
+        graph.add("pyramid",
+                  {reads(depthUse_, kSampledInCompute, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+                   writes(pyramidUse_, kStorageInCompute, VK_IMAGE_LAYOUT_GENERAL, true)},
+                  [this](VkCommandBuffer commands) { pyramid_->record(commands); });
 }
 
 } // namespace crowd

@@ -1,5 +1,6 @@
 #include "passes.h"
 
+#include "common/rendering.h"
 #include "shaders/backdrop_frag.h"
 #include "shaders/backdrop_vert.h"
 #include "shaders/character_frag.h"
@@ -28,36 +29,6 @@ struct RangePush {
     uint32_t samplesPerPatch;
     uint32_t verticesPerInstance;
 };
-
-void setViewport(VkCommandBuffer commands, VkExtent2D extent) {
-    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              0.0f, 1.0f};
-    const VkRect2D scissor{{0, 0}, extent};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &scissor);
-}
-
-VkRenderingAttachmentInfo attachment(const sample::Image& image, VkImageLayout layout, VkAttachmentLoadOp load,
-                                     VkClearValue clear = {}) {
-    return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-            .imageView = image.view(),
-            .imageLayout = layout,
-            .loadOp = load,
-            .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-            .clearValue = clear};
-}
-
-void beginRendering(VkCommandBuffer commands, VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colors,
-                    const VkRenderingAttachmentInfo& depth) {
-    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                               .renderArea = {{0, 0}, extent},
-                               .layerCount = 1,
-                               .colorAttachmentCount = static_cast<uint32_t>(colors.size()),
-                               .pColorAttachments = colors.data(),
-                               .pDepthAttachment = &depth};
-    vkCmdBeginRendering(commands, &info);
-    setViewport(commands, extent);
-}
 
 constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
 
@@ -200,8 +171,8 @@ void Passes::drawCharacters(VkCommandBuffer commands, VkPipeline pipeline, uint3
 }
 
 void Passes::drawShadows(VkCommandBuffer commands, uint32_t slot) const {
-    beginRendering(commands, sunMap_.desc().extent, {},
-                   attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_CLEAR, kFar));
+    sample::beginRendering(commands, sunMap_.desc().extent, {},
+                           sample::attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar));
     drawCharacters(commands, shadowPipeline_, slot, false);
     vkCmdEndRendering(commands);
 }
@@ -209,11 +180,12 @@ void Passes::drawShadows(VkCommandBuffer commands, uint32_t slot) const {
 void Passes::drawScene(VkCommandBuffer commands, uint32_t slot) const {
     // The backdrop fills what nothing else does, so that colors need no clearing.
     const VkRenderingAttachmentInfo colors[] = {
-        attachment(images_.color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_DONT_CARE),
-        attachment(images_.motion, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
-    beginRendering(
-        commands, images_.color.desc().extent, colors,
-        attachment(images_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_CLEAR, kFar));
+        sample::attachment(images_.color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, {},
+                           VK_ATTACHMENT_LOAD_OP_DONT_CARE),
+        sample::attachment(images_.motion, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, {},
+                           VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
+    sample::beginRendering(commands, images_.color.desc().extent, colors,
+                           sample::attachment(images_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar));
     drawCharacters(commands, characterPipeline_, slot, true);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, floorPipeline_);

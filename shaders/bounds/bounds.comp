@@ -10,6 +10,9 @@ layout(set = 0, binding = kBoundsBinding, std430) writeonly buffer Bounds { vec4
 layout(set = 0, binding = kCullViewBinding, std430) readonly buffer View { CullView view; };
 layout(push_constant) uniform Push { BoundsPush push; };
 
+#define LOD_CAMERA view.camera
+#include "shaders/lod/measure.glsl"
+
 const float kFloatMax = 3.402823466e38;
 shared vec3 lows[kMaxLanes], highs[kMaxLanes];
 shared bool sounds[kMaxLanes];
@@ -40,39 +43,50 @@ Box boxOf(uint base, uint first, uint step) {
     return box;
 }
 
-// Comparisons say "outside", so that what is not a number is seen.
-bool isSeen(vec3 low, vec3 high) {
+// 1 + the rank of an instance in a box, 0 where it is not seen. Comparisons say "outside", so that what is not a number is
+// seen.
+uint rankOf(vec3 low, vec3 high, uint priority) {
     vec3 middle = 0.5 * low + 0.5 * high, extent = 0.5 * high - 0.5 * low;
     bool seen = true;
     for (uint k = 0u; k < 6u; ++k) {
         vec3 normal = vec3(view.planes[4u * k], view.planes[4u * k + 1u], view.planes[4u * k + 2u]);
         seen = seen && !(dot(normal, middle) + view.planes[4u * k + 3u] + dot(abs(normal), extent) < 0.0);
     }
-    vec3 camera = vec3(view.camera[0], view.camera[1], view.camera[2]);
+    vec3 camera = vec3(view.camera.position[0], view.camera.position[1], view.camera.position[2]);
     vec3 beyond = max(max(low - camera, camera - high), vec3(0.0));
     if (view.farthest > 0.0) seen = seen && !(length(beyond) > view.farthest);
-    float away = view.orthographic != 0u ? 1.0 : length(middle - camera);
-    return seen && !(length(extent) * view.focal < view.smallest * away);
+    float away = view.camera.orthographic != 0u ? 1.0 : length(middle - camera), radius = length(extent) * view.camera.focal;
+    if (!seen || radius < view.smallest * away) return 0u;
+    float octave = log2(max(radius / max(away, 1e-30), 1e-30)) + float(kSizeOctavesBelow);
+    const float kLast = float(kSizeBins - 1u);
+    float bin = clamp(octave * float(kSizeBinsPerOctave), 0.0, kLast);
+    uint rank = (view.ranks >> (8u * priority)) & 255u;
+    return 1u + rank * kSizeBins + uint(bin >= 0.0 ? bin : kLast);
 }
 
-void store(uint slot, Box box) {
+void store(uint entry, Box box) {
+    uint slot = entry & kInstanceSlotMask, priority = (entry >> kInstancePriorityShift) & 3u;
     precise vec3 grown = push.margin * (box.high - box.low);
     bool empty = box.low.x > box.high.x;
     precise vec3 low = empty ? box.low : box.low - grown;
     precise vec3 high = empty ? box.high : box.high + grown;
-    bounds[2u * slot] = vec4(low, 0.0);
+    float diagonal = empty ? 0.0 : lengthOf(box.high - box.low);
+    float level = levelOf(push.longest * diagonal, push.bend * diagonal,
+                          pixelsPerUnit(0.5 * box.low + 0.5 * box.high, 0.5 * diagonal));
+    bounds[2u * slot] = vec4(low, level);
     bounds[2u * slot + 1u] = vec4(high, box.sound ? 0.0 : 1.0);
-    states[slot].x = !box.sound || isSeen(low, high) ? 1u : 0u;
+    uint last = ((view.ranks >> (8u * priority)) & 255u) * kSizeBins + kSizeBins; // not to be judged: the last to go
+    states[slot].x = box.sound ? rankOf(low, high, priority) : last;
 }
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
     uint index = kWide ? workgroupIndex() : invocationIndex();
     if (kWide && index >= push.instanceCount) return; // the whole workgroup
-    uint slot = hostEntry(push.firstEntry + min(index, push.instanceCount - 1u)) & kInstanceSlotMask;
-    uint base = (slot - push.firstSlot) * push.cageStride;
+    uint entry = hostEntry(push.firstEntry + min(index, push.instanceCount - 1u));
+    uint base = ((entry & kInstanceSlotMask) - push.firstSlot) * push.cageStride;
     if (!kWide) {
-        store(slot, boxOf(base, 0u, 1u));
+        store(entry, boxOf(base, 0u, 1u));
         return;
     }
     Box box = boxOf(base, lane, gl_WorkGroupSize.x);
@@ -88,5 +102,5 @@ void main() {
         }
         barrier();
     }
-    if (lane == 0u) store(slot, Box(lows[0], highs[0], sounds[0]));
+    if (lane == 0u) store(entry, Box(lows[0], highs[0], sounds[0]));
 }

@@ -8,9 +8,38 @@ layout(set = 0, binding = kBoundsStateTexelBinding) uniform usamplerBuffer state
 layout(set = 0, binding = kListBinding, std430) writeonly buffer List { uint list[]; };
 layout(set = 0, binding = kListArgumentBinding, std430) writeonly buffer Arguments { uint argumentWords[]; };
 layout(set = 0, binding = kListTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
+layout(set = 0, binding = kBoundsBinding, std430) readonly buffer Bounds { vec4 bounds[]; };
+layout(set = 0, binding = kSizeBinding, std430) readonly buffer Sizes { uint sizes[]; };
 layout(push_constant) uniform Push { ListPush push; };
 
-shared uvec2 countsOf[kMaxLanes]; // with a past, new
+shared uvec4 countsOf[kMaxLanes]; // with a past, new, left out, occluded
+shared uint sumsOf[kMaxLanes];
+shared uint sharedThreshold;
+
+uint saturatingSum(uint a, uint b) { return a + min(b, ~a); }
+
+// What is seen with a state up to this one has no room: whole bins of sizes go, the smallest first, so that all that is left
+// fits at its coarsest. Every group of the view finds the same.
+uint threshold() {
+    uint lane = gl_LocalInvocationID.x, each = (kSizeRanks + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
+    uint begin = min(lane * each, kSizeRanks), end = min(begin + each, kSizeRanks), own = 0u; // the largest first
+    for (uint i = begin; i < end; ++i) own = saturatingSum(own, sizes[kSizeRanks - 1u - i]);
+    sumsOf[lane] = own;
+    if (lane == 0u) sharedThreshold = 0u;
+    barrier();
+    uint before = 0u;
+    for (uint l = 0u; l < lane; ++l) before = saturatingSum(before, sumsOf[l]);
+    if (before <= push.room && saturatingSum(before, own) > push.room) {
+        uint i = begin;
+        for (uint sum = before; i < end; ++i) {
+            sum = saturatingSum(sum, sizes[kSizeRanks - 1u - i]);
+            if (sum > push.room) break;
+        }
+        sharedThreshold = kSizeRanks - i;
+    }
+    barrier();
+    return sharedThreshold;
+}
 
 uvec2 state(uint slot) {
     if (kWide) return states[slot];
@@ -20,21 +49,24 @@ uvec2 state(uint slot) {
 // The entry with kInstanceIsNew as it is now.
 uint withPast(uint entry, uvec2 state) { return state.y != 0u ? entry : entry | kInstanceIsNew; }
 
-// (1, 0): seen and with a past; (0, 1): seen and new; (0, 0)
-uvec2 kind(uint entry, uvec2 state) {
-    if (state.x == 0u) return uvec2(0u);
-    return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec2(0u, 1u) : uvec2(1u, 0u);
+// One of: seen and with a past, seen and new, left out, occluded; none where it is not seen anyway.
+uvec4 kind(uint entry, uvec2 state, uint leftOut) {
+    if (state.x == 0u) return uvec4(0u);
+    if (state.x == kOccluded) return uvec4(0u, 0u, 0u, 1u);
+    if (state.x <= leftOut) return uvec4(0u, 0u, 1u, 0u);
+    return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec4(0u, 1u, 0u, 0u) : uvec4(1u, 0u, 0u, 0u);
 }
 
-void storeHeader(uint at, uvec2 counts, uint listed) {
+void storeHeader(uint at, uvec4 counts, uint listed) {
     argumentWords[at] = counts.x + counts.y;
     argumentWords[at + 1u] = counts.x;
     argumentWords[at + 2u] = listed;
-    argumentWords[at + 3u] = 0u;
+    argumentWords[at + 3u] = counts.z;
+    argumentWords[at + 4u] = counts.w;
 }
 
 // Lanes share the arguments of a window, or of the group.
-void storeArguments(uvec2 counts, bool ofGroup, uint offset) {
+void storeArguments(uvec4 counts, bool ofGroup, uint offset) {
     for (uint i = gl_LocalInvocationID.x; i < push.argumentCount; i += gl_WorkGroupSize.x) {
         uvec4 argument = tableElements[push.windowCount + i];
         if ((argument.z == kCountAll) != ofGroup) continue;
@@ -54,20 +86,20 @@ void storeArguments(uvec2 counts, bool ofGroup, uint offset) {
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    uvec2 total = uvec2(0u);
-    uint listed = 0u;
+    uvec4 total = uvec4(0u);
+    uint listed = 0u, leftOut = push.room != kRoomForAll ? threshold() : 0u;
     for (uint w = 0u; w < push.windowCount; ++w) {
         uvec4 window = tableElements[w];
         uint each = (window.y + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
         uint begin = window.x + min(lane * each, window.y), end = window.x + min((lane + 1u) * each, window.y);
-        uvec2 own = uvec2(0u);
+        uvec4 own = uvec4(0u);
         for (uint i = begin; i < end; ++i) {
             uint entry = hostEntry(i);
-            own += kind(entry, state(entry & kInstanceSlotMask));
+            own += kind(entry, state(entry & kInstanceSlotMask), leftOut);
         }
         countsOf[lane] = own;
         barrier();
-        uvec2 before = uvec2(0u), counts = uvec2(0u);
+        uvec4 before = uvec4(0u), counts = uvec4(0u);
         for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
             if (l == lane) before = counts;
             counts += countsOf[l];
@@ -78,15 +110,18 @@ void main() {
         uvec2 places = window.w + uvec2(before.x, counts.x + before.y);
         for (uint i = begin; i < end; ++i) {
             uint entry = hostEntry(i), slot = entry & kInstanceSlotMask;
-            uvec2 now = state(slot), one = kind(entry, now);
-            if (now.x != 0u) {
+            uvec2 now = state(slot);
+            uvec4 one = kind(entry, now, leftOut);
+            bool drawn = one.x + one.y > 0u;
+            if (drawn) {
                 list[all] = slot;
                 ++all;
-                list[one.x != 0u ? places.x : places.y] =
-                    (slot - window.z) | (withPast(entry, now) & ~kInstanceSlotMask);
-                places += one;
+                uint place = one.x != 0u ? places.x : places.y;
+                list[place] = (slot - window.z) | (withPast(entry, now) & ~kInstanceSlotMask);
+                list[place + push.levels] = floatBitsToUint(bounds[2u * slot].w);
+                places += one.xy;
             }
-            states[slot].y = now.x;
+            states[slot].y = drawn ? 1u : 0u;
         }
         if (lane == 0u) storeHeader(kListHeaderWords * (w + 1u), counts, window.y);
         storeArguments(counts, false, push.argumentStride * w);

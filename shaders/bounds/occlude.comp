@@ -40,16 +40,18 @@ bool isHidden(vec3 low, vec3 high) {
     if (!(all(greaterThanEqual(from, vec2(0.0))) && all(lessThan(to, size)))) return false;
 
     vec2 extent = to - from;
-    uint level = 0u; // at which no side is longer than a texel: two by two then cover it
-    while (level + 1u < push.levels && max(extent.x, extent.y) > float(1u << level)) ++level;
+    uint level = 0u; // at which no side is longer than seven texels: eight by eight then cover it
+    while (level + 1u < push.levels && max(extent.x, extent.y) > 7.0 * float(1u << level)) ++level;
     ivec2 texels = max(ivec2(push.width, push.height) >> level, ivec2(1));
     ivec2 first = ivec2(floor(from / size * vec2(texels))), last = ivec2(floor(to / size * vec2(texels)));
-    if (any(greaterThan(last - first, ivec2(1)))) return false;
+    if (any(greaterThan(last - first, ivec2(7)))) return false;
     first = clamp(first, ivec2(0), texels - 1);
     last = clamp(last, ivec2(0), texels - 1);
-    int l = int(level);
-    float farthest = max(max(turn * texelFetch(pyramid, first, l).x, turn * texelFetch(pyramid, ivec2(last.x, first.y), l).x),
-                         max(turn * texelFetch(pyramid, ivec2(first.x, last.y), l).x, turn * texelFetch(pyramid, last, l).x));
+    float farthest = -1e30;
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x)
+            farthest = max(farthest, turn * texelFetch(pyramid, ivec2(x, y), int(level)).x);
+    }
     return nearest - (kDepthSlack + kRelativeDepthSlack * abs(nearest)) > farthest;
 }
 
@@ -57,5 +59,5 @@ void main() {
     uint index = min(invocationIndex(), push.instanceCount - 1u);
     uint slot = hostEntry(push.firstEntry + index) & kInstanceSlotMask;
     vec4 low = bounds[2u * slot], high = bounds[2u * slot + 1u];
-    if (high.w == 0.0 && isHidden(low.xyz, high.xyz)) states[slot].x = 0u;
+    if (states[slot].x != 0u && high.w == 0.0 && isHidden(low.xyz, high.xyz)) states[slot].x = kOccluded;
 }

@@ -93,7 +93,7 @@ void main() {
         color = zebra(n, v);
     } else {
         Material material = Material(base.rgb, 0.42);
-        if (push.view == kViewWire) {
+        if (push.view == kViewWire || (push.view == kViewPatches && push.domain == kDrawMesh)) {
             material = Material(kClay, 0.55);
         } else if (push.view == kViewPatches) {
             float vary = patchHash(inPatch) - 0.5;
@@ -111,11 +111,12 @@ void main() {
         color = toneMap(studioShade(material, light, n, v));
     }
 
-    if (push.view == kViewWire)
+    bool lines = push.domain != kDrawMesh;
+    if (push.view == kViewWire && lines)
         color = mix(color, vec3(0.012, 0.016, 0.025), 0.72 * gridLines(inGrid, segments, 0.9 * frame.pixelScale));
-    if (push.view == kViewWire)
+    if (push.view == kViewWire && lines)
         color = mix(color, vec3(0.78, 0.22, 0.035), borderLine(insideBorder(), segments, float(push.rate), 1.1 * frame.pixelScale));
-    else if (push.view == kViewPatches)
+    else if (push.view == kViewPatches && lines)
         color = mix(color, vec3(0.01, 0.012, 0.018), 0.85 * borderLine(insideBorder(), segments, float(push.rate), 0.9 * frame.pixelScale));
     outColor = vec4(color, alpha);
 }

@@ -24,6 +24,7 @@ layout(constant_id = 0) const bool kLightPerVertex = false;
 // Pentagons: the third counts from the border to the centre, the others from the two rays of the sector, the nearer first,
 // so that all three are continuous over the rays.
 vec3 gridPosition(uint index) {
+    if (push.domain == kDrawMesh) return vec3(0.0); // a vertex is of many patches: no lines are drawn
     uint side = push.rate + 1u;
     if (push.domain <= kDrawPolar) return vec3(index % side, index / side, 0.5);
     uint perSector = push.rate * side / 2u;

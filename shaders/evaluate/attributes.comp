@@ -16,7 +16,7 @@ layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes
 layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1[]; };
 layout(set = 0, binding = kFaceUvBinding, std430) writeonly buffer FaceUvs { vec2 faceUvs[]; };
 
-const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ? 4u : 3u;
+const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ? 4u : kDomain == kEdgeDomain ? 2u : 3u;
 
 // Linear on triangles, bilinear on quads; pentagons are linear between an edge and the centre, the mean of the corners;
 // on polar patches the corner at the apex takes over linearly.
@@ -24,9 +24,7 @@ float[5] bilinear(vec2 u, vec2 v) { return float[5](u.y * v.y, u.x * v.y, u.x * 
 float[5] polar(vec2 u, vec2 v) { return float[5](u.y * v.y, u.x * v.y, v.x, 0.0, 0.0); }
 
 float[5] cornerWeights(uint index) {
-    uvec3 at = uvec3(index % (push.rate + 1u), index / (push.rate + 1u), 0u);
-    if (kDomain == kTriangleDomain) at.xy = triangleSample(push.rate + 1u, index);
-    if (kDomain == kPentagonDomain) at = pentagonSample(push.rate, index);
+    uvec3 at = gridSample(kDomain, push.rate, index);
     vec2 u = parameterPair(at.x, push.rate, push.pairs), v = parameterPair(at.y, push.rate, push.pairs);
     if (kDomain == kQuadDomain) return bilinear(u, v);
     if (kDomain == kPolarDomain) return polar(u, v);
@@ -68,16 +66,16 @@ struct Corners {
     vec4 color[5];
     vec4 more[5]; // second UV, face UV
 };
+uint cornerElements() { return push.uvSets == 2u || push.faceUvs != 0u ? 2u : 1u; }
+void loadCorner(inout Corners c, uint k, uint element) {
+    uvec4 corner = tableElement(element);
+    c.uv[k] = uintBitsToFloat(corner.xy);
+    c.color[k] = vec4(unpackUnorm2x16(corner.z), unpackUnorm2x16(corner.w));
+    c.more[k] = cornerElements() == 2u ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
+}
 Corners loadCorners(uint patchIndex) {
     Corners c;
-    uint elements = push.uvSets == 2u || push.faceUvs != 0u ? 2u : 1u;
-    for (uint k = 0u; k < kCorners; ++k) {
-        uint element = push.table + elements * (kCorners * patchIndex + k);
-        uvec4 corner = tableElement(element);
-        c.uv[k] = uintBitsToFloat(corner.xy);
-        c.color[k] = vec4(unpackUnorm2x16(corner.z), unpackUnorm2x16(corner.w));
-        c.more[k] = elements == 2u ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
-    }
+    for (uint k = 0u; k < kCorners; ++k) loadCorner(c, k, push.table + cornerElements() * (kCorners * patchIndex + k));
     return c;
 }
 
@@ -103,6 +101,20 @@ void storeOfRecord(uint index, uint firstSample, uint step) {
         store(r.firstVertex + k, corners, lodCornerWeights(r, k));
 }
 
+// A sample along an edge, or at the corner where it begins: see evaluate/edge.comp.
+void storeOnEdge(uint id) {
+    uint edge = id / push.rate, k = id - edge * push.rate;
+    uvec4 own = tableElement(push.ring + kSharedEdgeElements * edge + 2u);
+    if (k == 0u && own.x == kNoEdgeSample) return;
+    uvec4 ends = tableElement(push.table + edge);
+    Corners c;
+    loadCorner(c, 0u, ends.x);
+    loadCorner(c, 1u, ends.y);
+    vec2 t = parameterPair(k, push.rate, push.pairs);
+    store(k == 0u ? push.firstCorner + own.x : push.firstVertex + own.y * (push.rate - 1u) + k - 1u, c,
+          float[5](t.y, t.x, 0.0, 0.0, 0.0));
+}
+
 void main() {
     if (kLod) {
         const uint kForm = !kRings ? kLodQuadForm
@@ -119,6 +131,10 @@ void main() {
     }
     uint id = invocationIndex();
     if (id >= push.count) return;
+    if (kDomain == kEdgeDomain) {
+        storeOnEdge(id);
+        return;
+    }
     uint patchIndex = id / push.samples;
     store(push.firstVertex + id, loadCorners(patchIndex), cornerWeights(id - patchIndex * push.samples));
 }

@@ -5,6 +5,10 @@
 
 layout(set = 0, binding = kPairBinding, std430) readonly buffer Pairs { vec2 pairs[]; };
 
+// A rate that is known when the pipeline is made, so that loops over samples can be unrolled and weights are constants.
+layout(constant_id = 9) const uint kRate = 0u;
+uint fixedRate() { return kRate != 0u ? kRate : push.rate; }
+
 // (t, s) = (k / rate, (rate - k) / rate), never 1 - t of a rounded t.
 vec2 parameterPair(uint k, uint rate, uint firstPair) {
     if (kExactDivision) {
@@ -27,6 +31,9 @@ vec4 bernsteinDerivative3(vec2 pair) {
     float tt = t * t, ss = s * s, ts = t * s;
     return vec4(-3.0 * ss, 3.0 * ss - 6.0 * ts, 6.0 * ts - 3.0 * tt, 3.0 * tt);
 }
+
+// The derivative of a cubic is a quadratic of the differences of its coefficients.
+vec3 derivativeWeights3(vec2 pair) { return vec3(3.0 * (pair.y * pair.y), 6.0 * (pair.x * pair.y), 3.0 * (pair.x * pair.x)); }
 
 struct Basis5 {
     vec4 outer; // B0, B1, B4, B5
@@ -62,4 +69,5 @@ vec3 sum2(vec2 w, vec3 a, vec3 b) {
 
 // The same sums for derivatives. They feed normals only, so the compiler may arrange them as it likes.
 vec3 blend4(vec4 w, vec3 a, vec3 b, vec3 c, vec3 d) { return (w.x * a + w.w * d) + (w.y * b + w.z * c); }
+vec3 blend3(vec3 w, vec3 a, vec3 b, vec3 c) { return w.x * a + w.y * b + w.z * c; }
 vec3 blend2(vec2 w, vec3 a, vec3 b) { return w.x * a + w.y * b; }

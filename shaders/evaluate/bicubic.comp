@@ -6,10 +6,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/basis.glsl"
+#include "shaders/evaluate/domain.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 #include "shaders/evaluate/bicubic.glsl"
 #include "shaders/surface/cage.glsl"
@@ -37,22 +39,26 @@ vec3 relativeTo(vec3 first, vec3 corner, vec3 offset) {
 // A row of the patch at one v: the cubic row points and their v-derivatives, and the same for the perturbation.
 // The perturbation rows are h_i., i = 0, 1, 4, 5 (outer) and 2, 3 (inner).
 struct Row {
-    vec3 g[4], relative[4], gv[4];
+    vec3 g[4], gu[3], gv[4];
     vec3 outer[4], outerV[4];
     vec3 inner[2], innerV[2];
 };
 
 Row collapse(Patch c, vec2 v) {
     Row row;
-    vec4 b = bernstein3(v), d = bernsteinDerivative3(v);
+    vec4 b = bernstein3(v);
+    vec3 d = derivativeWeights3(v);
     // Du of a polar patch has the factor 1 - v, which vanishes at the apex: it is left out.
     vec4 along = kPolar ? vec4(v.y * v.y, 3.0 * (v.x * v.y), 3.0 * (v.x * v.x), 0.0) : b;
+    vec3 relative[4];
     for (uint i = 0u; i < 4u; ++i) {
         precise vec3 g = sum4(b, c.g[i], c.g[4u + i], c.g[8u + i], c.g[12u + i]);
         row.g[i] = g;
-        row.relative[i] = blend4(along, c.relative[i], c.relative[4u + i], c.relative[8u + i], c.relative[12u + i]);
-        row.gv[i] = blend4(d, c.relative[i], c.relative[4u + i], c.relative[8u + i], c.relative[12u + i]);
+        relative[i] = blend4(along, c.relative[i], c.relative[4u + i], c.relative[8u + i], c.relative[12u + i]);
+        row.gv[i] = blend3(d, c.relative[4u + i] - c.relative[i], c.relative[8u + i] - c.relative[4u + i],
+                           c.relative[12u + i] - c.relative[8u + i]);
     }
+    for (uint i = 0u; i < 3u; ++i) row.gu[i] = relative[i + 1u] - relative[i];
     if (kPerturbed) {
         Basis5 b5 = bernstein5(v), d5 = bernsteinDerivative5(v);
         for (uint i = 0u; i < 2u; ++i) {
@@ -69,9 +75,9 @@ Row collapse(Patch c, vec2 v) {
 
 // The sample of a row at u. The perturbation is added to the bicubic total last.
 void finish(Row row, vec2 u, out vec3 position, out vec3 normal) {
-    vec4 b = bernstein3(u), d = bernsteinDerivative3(u);
+    vec4 b = bernstein3(u);
     precise vec3 p = sum4(b, row.g[0], row.g[1], row.g[2], row.g[3]);
-    vec3 du = blend4(d, row.relative[0], row.relative[1], row.relative[2], row.relative[3]);
+    vec3 du = blend3(derivativeWeights3(u), row.gu[0], row.gu[1], row.gu[2]);
     vec3 dv = blend4(b, row.gv[0], row.gv[1], row.gv[2], row.gv[3]);
     if (kPerturbed) {
         Basis5 b5 = bernstein5(u), d5 = bernsteinDerivative5(u);
@@ -139,19 +145,22 @@ void evaluateNarrow() {
     Patch c = loadPatch(record, base, false);
     uvec4 slots = normalSlots(record);
 
-    uint side = push.rate + 1u;
+    uint rate = fixedRate(), first = kInterior ? 1u : 0u, end = rate + 1u - first;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
-    for (uint j = 0u; j < side; ++j) {
-        Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
-        for (uint i = 0u; i < side; ++i) {
+    // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do.
+    uint j = first;
+    do {
+        Row row = collapse(c, parameterPair(j, rate, push.pairs));
+        uint i = first;
+        [[unroll]] do {
             vec3 position, normal;
-            finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
-            if (kPolar && j == push.rate) position = c.g[12]; // the apex itself, from every patch round it
-            if (kCornerNormals) normal = cornerNormal(normal, i, j, push.rate, slots, base);
+            finish(row, parameterPair(i, rate, push.pairs), position, normal);
+            if (kPolar && j == rate) position = c.g[12]; // the apex itself, from every patch round it
+            if (kCornerNormals && !kInterior) normal = cornerNormal(normal, i, j, rate, slots, base);
             storeSurfaceVertex(vertex, position, normal);
             ++vertex;
-        }
-    }
+        } while (++i < end);
+    } while (++j < end);
 }
 
 // A lane a patch. Rows first, the inner ones without their ends: those lie on the borders u = 0 and u = 1, which have
@@ -224,10 +233,11 @@ void evaluateWide() {
                    instance * push.poolStride, false);
     }
     barrier();
-    uint side = push.rate + 1u, samples = push.samples;
+    uint samples = push.samples;
     for (uint k = gl_LocalInvocationID.x; k < here * samples; k += gl_WorkGroupSize.x) {
         uint place = k / samples, sampleIndex = k - place * samples;
-        uint j = sampleIndex / side, i = sampleIndex - j * side;
+        uvec3 at = gridSample(kQuadDomain, push.rate, sampleIndex);
+        uint i = at.x, j = at.y;
         uint id = first + place;
         uint entry = id / push.count, instance = instanceSlot(entry);
         uint patchIndex = id - entry * push.count;
@@ -236,7 +246,7 @@ void evaluateWide() {
         vec3 position, normal;
         finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
         if (kPolar && j == push.rate) position = c.g[12];
-        if (kCornerNormals)
+        if (kCornerNormals && !kInterior)
             normal = cornerNormal(normal, i, j, push.rate, normalSlots(push.table + patchIndex * recordElements()),
                                   instance * push.poolStride);
         storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples + sampleIndex,

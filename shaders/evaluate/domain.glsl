@@ -1,4 +1,6 @@
-// Samples of triangles and pentagons by number (surface/grid.h). Quads and polar domains count row by row.
+// Samples of triangles and pentagons by number (surface/grid.h). Quads and polar domains count row by row. Where samples are
+// shared, a patch has only those on none of its edges, and counts these.
+layout(constant_id = 8) const bool kInterior = false;
 
 /// Samples before row j of a triangle whose rows have n, n - 1, ... samples.
 uint rowStart(uint n, uint j) { return j * n - (j * (j + 1u) - 2u * j) / 2u; }
@@ -19,4 +21,18 @@ uvec3 pentagonSample(uint rate, uint index) {
     if (index == 5u * perSector) return uvec3(0u, rate, 0u);
     uint sector = index / perSector;
     return uvec3(triangleSample(rate, index - sector * perSector), sector);
+}
+
+/// (i, j, sector) of a patch's sample, which is on no edge where kInterior.
+uvec3 gridSample(uint domain, uint rate, uint index) {
+    if (domain == kTriangleDomain) {
+        if (kInterior) return uvec3(triangleSample(rate - 2u, index) + 1u, 0u);
+        return uvec3(triangleSample(rate + 1u, index), 0u);
+    }
+    if (domain == kPentagonDomain) {
+        if (kInterior) return pentagonSample(rate - 1u, index) + uvec3(0u, 1u, 0u);
+        return pentagonSample(rate, index);
+    }
+    uint first = kInterior ? 1u : 0u, side = rate + 1u - 2u * first, j = index / side;
+    return uvec3(index - j * side + first, j + first, 0u);
 }

@@ -1,4 +1,7 @@
-// Levels before the budget, in an instance's scratch (shared/lod.h), and the measure they come from (docs/lod.md, section 4).
+// Levels before the budget, in an instance's scratch (shared/lod.h).
+#define LOD_CAMERA push.camera
+#include "shaders/lod/measure.glsl"
+
 layout(set = 0, binding = kScratchBinding, std430) buffer Scratch { uint scratchWords[]; };
 layout(set = 0, binding = kScratchTexelBinding) uniform samplerBuffer scratchTexels;
 
@@ -9,21 +12,5 @@ uint levelWord(uint i) {
     return floatBitsToUint(texelFetch(scratchTexels, int(i >> 2u))[i & 3u]);
 }
 
-float lengthOf(vec3 v) {
-    precise float s = v.x * v.x + v.y * v.y + v.z * v.z;
-    return sqrt(s);
-}
-
-// Pixels a unit of length at a point, for a thing of this radius round it. Turning the camera changes nothing.
-float pixelsPerUnit(vec3 point, float radius) {
-    if (push.orthographic != 0u) return push.focal;
-    vec3 away = point - vec3(push.camera[0], push.camera[1], push.camera[2]);
-    return push.focal / max(lengthOf(away) - radius, push.nearest);
-}
-
-// The level of something of this length and of these second differences, the larger one; finite and not negative.
-float levelOf(float curveLength, float bend, float pixels) {
-    float level = curveLength * pixels * push.lengthScale;
-    if (push.errorScale > 0.0) level = min(level, sqrt(push.errorScale * bend * pixels));
-    return level < 256.0 ? max(level, 0.0) : 256.0; // NaN as the largest: better too fine than gone
-}
+// The one level of an instance, where it has one.
+float levelOfEntry(uint entry) { return uintBitsToFloat(instanceWord(push.firstInstance + entry + push.levels)); }

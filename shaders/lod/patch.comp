@@ -1,22 +1,28 @@
 // Levels of patches: the largest of a patch's edges and of what its inside asks for, counted into the histograms that the
-// budget is solved with (docs/lod.md, sections 4 and 6). One invocation a patch and instance.
+// budget is solved with (docs/lod.md, sections 4 and 6); and whether they surely show their backs, which leaves them out of
+// everything. One invocation a patch and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POOL_READ_ONLY
 #define LOD_WRITE
 #define PUSH_CONSTANTS LodPush
 #include "shaders/shared/lod.h"
+#include "shaders/shared/pm.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/levels.glsl"
+#include "shaders/lod/facing.glsl"
 
 layout(constant_id = 3) const bool kCharts = false; // patches of the blending surface
 const bool kSharp = true;
 #include "shaders/blend/blend.glsl"
 
-// What the inside of a bicubic patch asks for along u and along v: its net's largest second differences.
-vec2 bicubicLevels(uint record, uint base, bool polar) {
+vec3 coefficient(uint i, bool today) { return poolVector(i); }
+#include "shaders/pm/sector.glsl"
+
+// The net of a bicubic patch, row by row.
+vec3[16] bicubicNet(uint record, uint base, bool polar) {
     vec3 g[16];
     for (uint row = 0u; row < 4u; ++row) {
         uvec4 indices = base + tableElement(record + row);
@@ -34,6 +40,11 @@ vec2 bicubicLevels(uint record, uint base, bool polar) {
         g[13] += g[12];
         g[14] += g[15];
     }
+    return g;
+}
+
+// What the inside of a bicubic patch asks for along u and along v: its net's largest second differences.
+vec2 bicubicLevels(vec3 g[16]) {
     vec2 bend = vec2(0.0), curveLength = vec2(0.0);
     for (uint k = 0u; k < 4u; ++k) {
         vec3 a = g[4u * k], b = g[4u * k + 1u], c = g[4u * k + 2u], d = g[4u * k + 3u];
@@ -90,6 +101,145 @@ vec2 chartLevels(uint record, uint base) {
     return vec2(levelOf(curveLength.x, bend.x, pixels), levelOf(curveLength.y, bend.y, pixels));
 }
 
+// Orthographic: the direction it looks in, which all rays have.
+bool orthographic() { return push.camera.orthographic != 0u; }
+vec3 camera() {
+    return orthographic() ? vec3(push.direction[0], push.direction[1], push.direction[2])
+                          : vec3(push.camera.position[0], push.camera.position[1], push.camera.position[2]);
+}
+
+mat3 frameAt(vec3 middle) { return frameTowards(orthographic() ? camera() : middle - camera()); }
+Pyramid emptyPyramid() {
+    return orthographic() ? Pyramid(vec2(0.0), vec2(0.0), 1.0) : Pyramid(vec2(1e30), vec2(-1e30), 1e30);
+}
+
+// Degree 5 of p-rep's perturbed patches as what it can differ by at most: h in evaluation order (shared/prep.h).
+struct Perturbation {
+    float reach, alongU, alongV; // of a point, of the derivatives
+};
+Perturbation perturbationOf(uint record, uint base) {
+    vec3 h[16];
+    for (uint k = 0u; k < 4u; ++k) {
+        uvec4 indices = base + tableElement(record + 4u + k);
+        h[4u * k] = poolVector(indices.x);
+        h[4u * k + 1u] = poolVector(indices.y);
+        h[4u * k + 2u] = poolVector(indices.z);
+        h[4u * k + 3u] = poolVector(indices.w);
+    }
+    // In either half: (2, j) and (3, j) for j = 0, 1, 4, 5, which the first parameter takes in from 0 and out to 0 again,
+    // while the second one's differences are between j = 0 and 1, 1 and 2, 3 and 4, 4 and 5.
+    Perturbation p = Perturbation(0.0, 0.0, 0.0);
+    for (uint k = 0u; k < 16u; ++k) p.reach = max(p.reach, lengthOf(h[k]));
+    float inner[2] = float[2](0.0, 0.0), outer[2] = float[2](0.0, 0.0);
+    for (uint part = 0u; part < 2u; ++part) {
+        for (uint k = 0u; k < 4u; ++k) {
+            // First half: h_2j for four j, then h_3j; second half: (h_i2, h_i3) for four i.
+            vec3 two = part == 0u ? h[k] : h[8u + 2u * k], three = part == 0u ? h[4u + k] : h[9u + 2u * k];
+            inner[part] = max(inner[part], max(max(lengthOf(two), lengthOf(three)), lengthOf(three - two)));
+        }
+        for (uint side = 0u; side < 2u; ++side) {
+            vec3 a = part == 0u ? h[4u * side] : h[8u + side], b = part == 0u ? h[4u * side + 1u] : h[10u + side];
+            vec3 c = part == 0u ? h[4u * side + 2u] : h[12u + side], d = part == 0u ? h[4u * side + 3u] : h[14u + side];
+            outer[part] = max(outer[part], max(max(lengthOf(b - a), lengthOf(d - c)), max(lengthOf(b), lengthOf(c))));
+        }
+    }
+    p.alongU = 5.0 * max(inner[0], outer[1]);
+    p.alongV = 5.0 * max(inner[1], outer[0]);
+    return p;
+}
+
+bool bicubicShowsBack(vec3 g[16], bool polar, Perturbation p) {
+    vec3 from = orthographic() ? vec3(0.0) : camera();
+    mat3 frame = frameAt(0.25 * ((g[0] + g[15]) + (g[3] + g[12])));
+    vec3 m = frame * ((g[3] - g[0]) + (g[15] - g[12])), n = frame * ((g[12] - g[0]) + (g[15] - g[3]));
+    if (!(cross(m, n).z > 0.0)) return false; // the one that most are decided by
+    Pyramid pyramid = emptyPyramid();
+    for (uint k = 0u; k < 16u; ++k) {
+        g[k] = frame * (g[k] - from);
+        if (!orthographic()) hold(pyramid, g[k], p.reach);
+    }
+    Facing f = facingOf(pyramid, m, n);
+    if (!(pyramid.nearest > 0.0 && f.leastArea > 0.0)) return false;
+    // Derivatives are three times the differences.
+    float sizeM = seenSize(f, m), sizeN = seenSize(f, n);
+    vec2 slackU = vec2(sizeM, sizeN) * (p.alongU / 3.0), slackV = vec2(sizeM, sizeN) * (p.alongV / 3.0);
+    for (uint j = 0u; j < 4u; ++j) {
+        if (polar && j == 3u) continue; // a point
+        for (uint i = 0u; i < 3u; ++i) addAlong(f, g[4u * j + i + 1u] - g[4u * j + i], slackU);
+    }
+    for (uint j = 0u; j < 3u; ++j) {
+        for (uint i = 0u; i < 4u; ++i) addAcross(f, g[4u * j + i + 4u] - g[4u * j + i], slackV);
+    }
+    if (!showsBack(f)) return false;
+    bool straight = true;
+    for (uint side = 0u; side < 4u; ++side) {
+        if (polar && side == 3u) continue;
+        bool across = side < 2u;
+        uint step = across ? 4u : 1u, border = side == 0u ? 0u : side == 1u ? 3u : side == 2u ? 0u : 12u;
+        uint beside = side == 0u ? 1u : side == 1u ? 2u : side == 2u ? 4u : 8u;
+        vec3 chord = g[border + 3u * step] - g[border];
+        float bend = 0.0;
+        for (uint k = 0u; k < 3u; ++k) {
+            uint at = k * step;
+            bend = max(bend, most(f, chord, g[border + at + step] - g[border + at]));
+            bend = max(bend, most(f, chord, g[beside + at + step] - g[beside + at]));
+        }
+        bend += (across ? p.alongV : p.alongU) / 3.0 * seenSize(f, chord);
+        straight = straight && bend < kMostBend * (across ? riseAcross(f, chord) : riseAlong(f, chord));
+    }
+    return straight;
+}
+
+bool sectorShowsBack(Sector s) {
+    const uint kFirst[10] = uint[10](0u, 1u, 2u, 3u, 5u, 6u, 7u, 9u, 10u, 12u);
+    const uint kSecond[10] = uint[10](1u, 2u, 3u, 4u, 6u, 7u, 8u, 10u, 11u, 13u);
+    const uint kInner[10] = uint[10](5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u);
+    mat3 frame = frameAt(s.centre + (s.c[0] + s.c[4]) / 3.0);
+    vec3 centre = orthographic() ? vec3(0.0) : frame * (s.centre - camera());
+    Pyramid pyramid = emptyPyramid();
+    for (uint k = 0u; k < 15u; ++k) {
+        s.c[k] = frame * s.c[k];
+        if (!orthographic()) hold(pyramid, centre + s.c[k], 0.0);
+    }
+    // Across: towards the centre, which rings reach half way along the sides.
+    vec3 chord = s.c[4] - s.c[0];
+    Facing f = facingOf(pyramid, chord, 2.0 * s.c[14] - s.c[0] - s.c[4]);
+    if (!(pyramid.nearest > 0.0 && f.leastArea > 0.0)) return false;
+    float bend = 0.0;
+    for (uint k = 0u; k < 10u; ++k) {
+        vec3 along = s.c[kSecond[k]] - s.c[kFirst[k]];
+        addAlong(f, along, vec2(0.0));
+        addAcross(f, 2.0 * (s.c[kInner[k]] - s.c[kFirst[k]]) - along, vec2(0.0));
+        if (k < 7u) bend = max(bend, most(f, chord, along));
+    }
+    return showsBack(f) && bend < kMostBend * f.leastT;
+}
+
+// Of a patch of sectors: by its corners alone, whether there is anything to it.
+bool mayShowBack(uint record, uint sides, uint base) {
+    vec3 centre = poolVector(base + tableElement(record).w), w = orthographic() ? camera() : centre - camera();
+    vec3 first = poolVector(base + tableElement(record).x) - centre, from = first;
+    bool may = true;
+    for (uint i = 1u; i <= sides; ++i) {
+        vec3 to = i == sides ? first : poolVector(base + tableElement(record + i).x) - centre;
+        may = may && dot(w, cross(from, to)) > 0.0;
+        from = to;
+    }
+    return may;
+}
+
+bool showsItsBack(uint patchClass, uint record, uint base, uint sides, vec3 g[16]) {
+    if (patchClass == kP3Patch || patchClass == kP4Patch || patchClass == kP5Patch) {
+        vec2 ray = vec2(SUPPLE_PM_RAY_MIDDLE(sides), SUPPLE_PM_RAY_SIDE(sides));
+        bool back = mayShowBack(record, sides, base);
+        for (uint i = 0u; back && i < sides; ++i) back = sectorShowsBack(loadSector(sides, ray, record, base, i, false));
+        return back;
+    }
+    Perturbation p = Perturbation(0.0, 0.0, 0.0);
+    if (patchClass == kPerturbedPatch) p = perturbationOf(record, base);
+    return bicubicShowsBack(g, patchClass == kPolarPatch, p);
+}
+
 void main() {
     uint id = invocationIndex();
     if (id >= push.count * instanceCount()) return;
@@ -99,18 +249,31 @@ void main() {
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
     uint run = push.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
     uint sides = formSides(form);
+    uint target = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
+    vec3 g[16];
+    if (!kCharts && form == kLodQuadForm && (push.levels == 0u || push.backFaces != 0u))
+        g = bicubicNet(more.z, base, more.w == kPolarPatch);
+    bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
+    // Nothing is known of where a blend of charts faces.
+    if (!kCharts && push.backFaces != 0u && !doubleSided && showsItsBack(more.w, more.z, base, sides, g)) {
+        scratchWords[target] = kNoBin;
+        return;
+    }
     float level = 0.0;
-    for (uint k = 0u; k < sides; ++k)
-        level = max(level, uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x))));
     vec2 own;
-    if (kCharts) own = chartLevels(more.z, base);
-    else if (form == kLodQuadForm) own = bicubicLevels(more.z, base, more.w == kPolarPatch);
-    else own = vec2(sectorLevel(more.z, sides, base));
-    level = max(level, max(own.x, own.y));
+    if (push.levels != 0u) {
+        level = levelOfEntry(entry);
+        own = vec2(level);
+    } else {
+        for (uint k = 0u; k < sides; ++k)
+            level = max(level, uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x))));
+        if (kCharts) own = chartLevels(more.z, base);
+        else own = form == kLodQuadForm ? bicubicLevels(g) : vec2(sectorLevel(more.z, sides, base));
+        level = max(level, max(own.x, own.y));
+    }
 
     float at = (clamp(log2(max(level, 1e-3)), -float(kOctavesBelow), 7.99) + float(kOctavesBelow)) * float(kBinsPerOctave);
     uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));
-    uint target = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
     scratchWords[target] = bin;
     scratchWords[target + 1u] = floatBitsToUint(own.x);
     scratchWords[target + 2u] = floatBitsToUint(own.y);

@@ -63,7 +63,8 @@ void main() {
     for (uint k = 0u; k < 5u; ++k) {
         level[k] = 1.0;
         if (k < sides) {
-            precise float scaled = scale * uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x)));
+            float before = push.levels != 0u ? own.x : uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x)));
+            precise float scaled = scale * before;
             level[k] = clamp(scaled, 1.0, 63.0);
             largest = max(largest, level[k]);
         }

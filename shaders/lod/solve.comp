@@ -132,7 +132,7 @@ void main() {
 
     // Where buckets begin. One lane: there are some hundred, and their counts lie in shared memory.
     if (lane == 0u) {
-        uint record = 0u, vertex = 0u, group = 0u, patches = 0u, last = kEmptyRecord;
+        uint record = 0u, vertex = 0u, group = 0u, patches = 0u, counted = 0u, last = kEmptyRecord;
         for (uint run = 0u; run < push.runCount; ++run) {
             uint info = lodWords[kLodRuns + run], form = info & 255u, dispatch = info >> 8u;
             if (dispatch != last) {
@@ -146,6 +146,7 @@ void main() {
                 lodWords[kLodBuckets + 4u * b + 2u] = 0u;
                 lodWords[kLodBuckets + 4u * b + 3u] = group;
                 uint whole = padded(counts[b], samples), each = patchesPerGroup(samples);
+                counted += counts[b];
                 if (shortfall && whole * samples > push.room - vertex) {
                     uint n = patchesPerDraw(samples);
                     whole = (push.room - vertex) / (n * samples) * n;
@@ -166,6 +167,7 @@ void main() {
                 shortfall ? 0u : floatBitsToUint(exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
         lodWords[kLodBuckets + 4u * buckets] = record;
         lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
+        lodWords[kLodSolution + 9u] = counted;
     }
     memoryBarrierBuffer();
     barrier();

@@ -19,24 +19,8 @@
 
 // Samples of a sector lie in rows parallel to its edge, kRowStep / rate of the way to the centre apart.
 const uint kRowStep = kClass == kP5Patch ? 1u : kClass == kP4Patch ? 2u : 3u;
+const vec2 kRay = vec2(kRayMiddle, kRaySide);
 const uint kSectorPoints = 20u; // centre, border[4], c[15]
-
-// One sector. c is relative to the centre and stands in the order 400 310 220 130 040 | 301 211 121 031 | 202 112 022 |
-// 103 013 | 004; indices count corner i, corner i + 1, centre.
-struct Sector {
-    vec3 centre;
-    vec3 border[4];
-    vec3 c[15];
-};
-
-// A ray of (3): the points 301, 202, 103 of the sector after it (031, 022, 013 of the sector before), from b310, b211, b112
-// after it and b130, b121, b112 before it.
-vec3[3] rayPoints(vec3 v, vec3 p310, vec3 p130, vec3 p211, vec3 p121, vec3 after112, vec3 before112) {
-    precise vec3 x1 = kRayMiddle * v + kRaySide * (p310 + p130);
-    precise vec3 x2 = kRayMiddle * x1 + kRaySide * (p211 + p121);
-    precise vec3 x3 = kRayMiddle * x2 + kRaySide * (after112 + before112);
-    return vec3[3](x1, x2, x3);
-}
 
 // Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
 // place of the cage.
@@ -45,29 +29,7 @@ vec3 coefficient(uint i, bool today) {
     return poolVector(i);
 }
 
-Sector loadSector(uint record, uint base, uint i, bool today) {
-    const uint m = kSides;
-    uint n = i + 1u == m ? 0u : i + 1u, l = i == 0u ? m - 1u : i - 1u;
-    uint inner = base + tableElement(record).w;
-    uvec4 own = base + tableElement(record + i), next = base + tableElement(record + n), last = base + tableElement(record + l);
-    Sector s;
-    s.centre = coefficient(inner, today);
-    vec3 v0 = coefficient(own.x, today), t0 = coefficient(own.y, today), t1 = coefficient(own.z, today), v1 = coefficient(next.x, today);
-    precise vec3 border1 = v0 + t0, border2 = v1 + t1;
-    s.border = vec3[4](v0, border1, border2, v1);
-    precise vec3 a = v0 - s.centre, d = v1 - s.centre;
-    uint at = inner + 1u + 3u * i, atNext = inner + 1u + 3u * n, atLast = inner + 1u + 3u * l;
-    precise vec3 p211 = a + coefficient(at, today), p121 = d + coefficient(at + 1u, today), p112 = coefficient(at + 2u, today);
-    precise vec3 last121 = a + coefficient(atLast + 1u, today), last112 = coefficient(atLast + 2u, today);
-    precise vec3 next211 = d + coefficient(atNext, today), next112 = coefficient(atNext + 2u, today);
-    precise vec3 p310 = a + 0.75 * t0, p130 = d + 0.75 * t1;
-    precise vec3 last130 = a + 0.75 * coefficient(last.z, today), next310 = d + 0.75 * coefficient(next.y, today);
-    precise vec3 p220 = ((a + t0) + (d + t1)) * 0.5;
-    vec3 left[3] = rayPoints(a, p310, last130, p211, last121, p112, last112);
-    vec3 right[3] = rayPoints(d, next310, p130, next211, p121, next112, p112);
-    s.c = vec3[15](a, p310, p220, p130, d, left[0], p211, p121, right[0], left[1], p112, right[1], left[2], right[2], vec3(0.0));
-    return s;
-}
+#include "shaders/pm/sector.glsl"
 
 // One step of de Casteljau's algorithm short of the point: the cubic blends towards corner i, corner i + 1 and the centre.
 // The position is their blend, the derivatives are 4 times their differences.
@@ -119,35 +81,37 @@ void finishInRing(Sector s, LodRecord r, RingSample at, bool singular, out vec3 
     finish(s, w, at.ring == 0u, along, singular && at.ring == 0u && at.k == 0u, position, normal);
 }
 
-// Grid sample of (k, l) in a sector.
+// Number of the sample (k, l) in a sector.
 uint sampleOf(uint sector, uint k, uint l) {
-    uint rate = push.rate, d = l / kRowStep;
-    if (kClass == kP5Patch)
-        return l == rate ? 5u * (rate * (rate + 1u) / 2u) : sector * (rate * (rate + 1u) / 2u) + rowStart(rate, l) + k;
+    uint rate = push.rate, d = l / kRowStep, less = kInterior ? 1u : 0u;
+    if (kClass == kP5Patch) {
+        uint rows = rate - less, perSector = rows * (rows + 1u) / 2u;
+        return l == rate ? 5u * perSector : sector * perSector + rowStart(rows, l - less) + k;
+    }
     if (kClass == kP4Patch) {
         uvec2 at = sector == 0u ? uvec2(d + k, d) : sector == 1u ? uvec2(rate - d, d + k)
                  : sector == 2u ? uvec2(rate - d - k, rate - d) : uvec2(d, rate - d - k);
-        return at.y * (rate + 1u) + at.x;
+        return (at.y - less) * (rate + 1u - 2u * less) + at.x - less;
     }
     uint w[3] = uint[3](d, d, d); // weights of the corners
     w[sector] += rate - k - l;
     w[(sector + 1u) % 3u] += k;
-    return rowStart(rate + 1u, w[2]) + w[1];
+    return rowStart(rate + 1u - 3u * less, w[2] - less) + w[1] - less;
 }
 
 // The other way: sector and (k, l) of a grid sample. Points on a ray belong to the sector after it, the centre to sector 0.
 uvec3 sectorOf(uint index) {
     uint rate = push.rate;
-    if (kClass == kP5Patch) return pentagonSample(rate, index);
+    uvec3 at = gridSample(kClass == kP5Patch ? kPentagonDomain : kClass == kP4Patch ? kQuadDomain : kTriangleDomain, rate, index);
+    if (kClass == kP5Patch) return at;
     if (kClass == kP4Patch) {
-        uint j = index / (rate + 1u), i = index - j * (rate + 1u);
+        uint i = at.x, j = at.y;
         uint d = min(min(i, j), rate - max(i, j));
         if (j == d && (i < rate - d || 2u * d == rate)) return uvec3(i - d, 2u * d, 0u);
         if (i == rate - d && j < rate - d) return uvec3(j - d, 2u * d, 1u);
         if (j == rate - d && i > d) return uvec3(rate - d - i, 2u * d, 2u);
         return uvec3(rate - d - j, 2u * d, 3u);
     }
-    uvec2 at = triangleSample(rate + 1u, index);
     uint w[3] = uint[3](rate - at.x - at.y, at.x, at.y);
     uint d = min(w[0], min(w[1], w[2]));
     if (3u * d == rate) return uvec3(0u, rate, 0u);
@@ -163,17 +127,30 @@ void evaluateNarrow() {
     uint samples = push.samples;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
     uint singular = tableElement(record + 1u).w;
-    for (uint sector = 0u; sector < kSides; ++sector) {
-        Sector s = loadSector(record, base, sector, false);
+    // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do. All lanes go
+    // round equally often. The centre is sector 0's, which therefore comes last.
+    Sector s;
+    vec3 position, normal;
+    uint sector = kSides;
+    do {
+        --sector;
+        s = loadSector(kSides, kRay, record, base, sector, false);
         bool step = (singular & (1u << sector)) != 0u;
-        for (uint l = 0u; l <= push.rate; l += kRowStep) {
-            uint end = l < push.rate ? push.rate - l : sector == 0u ? 1u : 0u; // the centre is sector 0's
-            for (uint k = 0u; k < end; ++k) {
-                vec3 position, normal;
-                finishAtRate(s, k, l, step, position, normal);
-                storeSurfaceVertex(vertex + sampleOf(sector, k, l), position, normal);
-            }
+        uint l = kInterior ? kRowStep : 0u;
+        if (l < push.rate) {
+            do {
+                uint k = 0u;
+                do {
+                    finishAtRate(s, k, l, step, position, normal);
+                    storeSurfaceVertex(vertex + sampleOf(sector, k, l), position, normal);
+                } while (++k < push.rate - l);
+                l += kRowStep;
+            } while (l < push.rate);
         }
+    } while (sector > 0u);
+    if (push.rate % kRowStep == 0u) {
+        finishAtRate(s, 0u, push.rate, false, position, normal);
+        storeSurfaceVertex(vertex + sampleOf(0u, 0u, push.rate), position, normal);
     }
 }
 
@@ -188,7 +165,7 @@ void evaluateNarrowLod() {
     uint record = push.table + kSides * (r.patchIndex - push.firstPatch), base = r.slot * push.poolStride;
     uint singular = tableElement(record + 1u).w;
     for (uint sector = 0u; sector < kSides; ++sector) {
-        Sector s = loadSector(record, base, sector, r.isNew);
+        Sector s = loadSector(kSides, kRay, record, base, sector, r.isNew);
         bool step = (singular & (1u << sector)) != 0u;
         for (uint ring = 0u; ring < rings; ++ring) {
             uint vertex = r.firstVertex + ringSideStart(kSides, ring, sector, last);
@@ -227,7 +204,7 @@ void evaluateWide() {
         uint slot = n / kSides, id = first + slot;
         uint entry = id / push.count, instance = instanceSlot(entry);
         uint record = push.table + kSides * (id - entry * push.count);
-        storeShared(n, loadSector(record, instance * push.poolStride, n - slot * kSides, false));
+        storeShared(n, loadSector(kSides, kRay, record, instance * push.poolStride, n - slot * kSides, false));
     }
     barrier();
     uint samples = push.samples;
@@ -253,8 +230,8 @@ void evaluateWideLod() {
         uint place = n / kSides;
         LodRecord r = lodRecord(share.firstRecord + place);
         if (r.patchIndex != kEmptyRecord)
-            storeShared(n, loadSector(push.table + kSides * (r.patchIndex - push.firstPatch), r.slot * push.poolStride,
-                                      n - place * kSides, r.isNew));
+            storeShared(n, loadSector(kSides, kRay, push.table + kSides * (r.patchIndex - push.firstPatch),
+                                      r.slot * push.poolStride, n - place * kSides, r.isNew));
     }
     barrier();
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * share.samples; n += gl_WorkGroupSize.x) {

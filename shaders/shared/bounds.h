@@ -3,24 +3,28 @@
 //
 //   bounds   one pass a window of instances: the box of every listed instance's deformed cage, made larger by what the
 //            surface may lie outside, and whether it is seen
+//   size     only where not all may have room even at their coarsest: how many vertices those that are seen need, by size
 //   list     one workgroup a group, after the bounds of all its windows: those that are seen, in order, and the arguments of
 //            the indirect dispatches and draws
 //
 // Host list: an entry an instance, slots of the group rising: slot | priority << kInstancePriorityShift | kInstanceIsNew
 // where the frame before did not list it.
-// State: two words a slot: whether it is seen; and whether it was when it was listed last, which counts as a past only where
+// State: two words a slot: 0 or kOccluded where it is not seen, else 1 + its rank, the smaller the sooner it is left out where there is no
+// room: rank of its priority * kSizeBins + bin of its size; and whether it was when it was listed last, which counts as a past only where
 // the host list does not say kInstanceIsNew.
 // List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has them,
-// those with a past first, either kind rising.
+// those with a past first, either kind rising; `levels` entries further on each of these has its instance's level.
 // Between the two, `occlude` may take more instances out of sight, by a depth pyramid.
 // Table (uvec4 elements): windows, then arguments.
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
 //   argument   (elements an instance, elements a workgroup or 0 for a draw, ListCount, word in the argument buffer); those of
 //              window w stand argumentStride * w words further. A dispatch is (x, y, 1), a draw its instance count alone
-// Arguments: four words in all: seen, of those with a past, listed, 0; the same four of every window; then as the table says.
+// Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded; the same
+// of every window; then as the table says.
 #ifndef SUPPLE_SHARED_BOUNDS_H
 #define SUPPLE_SHARED_BOUNDS_H
 
+#include "shaders/shared/camera.h"
 #include "shaders/shared/instances.h"
 #include "shaders/shared/portable.h"
 
@@ -38,19 +42,28 @@ SUPPLE_SHARED_CONST kListBinding = 7u;
 SUPPLE_SHARED_CONST kListArgumentBinding = 8u;
 SUPPLE_SHARED_CONST kListTableBinding = 9u;
 SUPPLE_SHARED_CONST kCullViewBinding = 10u;
+SUPPLE_SHARED_CONST kSizeBinding = 12u;
 
-// What a view sees; all zero: everything.
+SUPPLE_SHARED_CONST kOccluded = 0xFFFFFFFFu; // as a state: not seen, but for the pyramid it would be
+
+// What a view sees; without planes and limits everything.
 struct CullView {
     float planes[24]; // six of (normal, offset); a point is inside where dot(normal, point) + offset >= 0
-    float camera[3];
+    LodCamera camera;
     float farthest; // nothing beyond this distance is seen; 0: no limit
-    float focal;    // pixels a unit at distance 1; orthographic: pixels a unit
     float smallest; // radius in pixels below which nothing is seen; 0: no limit
-    uint orthographic;
+    uint ranks;     // of priorities, eight bits each: the larger go later
     uint reserved;
 };
 
-// Bounds of an instance, two vec4: the least corner and 0; the greatest corner and 1 where a vertex is not finite. Such
+// Sizes are radii in pixels: kSizeBinsPerOctave bins an octave from 2^-kSizeOctavesBelow on. The buffer has the vertices that
+// instances of a rank need at least.
+SUPPLE_SHARED_CONST kSizeBins = 1024u;
+SUPPLE_SHARED_CONST kSizeBinsPerOctave = 64u;
+SUPPLE_SHARED_CONST kSizeOctavesBelow = 4u;
+SUPPLE_SHARED_CONST kSizeRanks = 4u * kSizeBins;
+
+// Bounds of an instance, two vec4: the least corner and the level that the instance asks for as a whole; the greatest corner and 1 where a vertex is not finite. Such
 // vertices are left out of the box, which says little then: the instance counts as seen. No finite vertex: a box from
 // kFloatMax to -kFloatMax.
 struct BoundsPush {
@@ -60,6 +73,13 @@ struct BoundsPush {
     uint instanceCount;
     uint firstSlot; // of the window
     float margin;   // the box is made larger by this much of its size on every side
+    float longest;  // edge of the cage in its bind pose, as a part of the diagonal of the cage's box
+    float bend;     // and the largest second difference (surface/lod/instance.h)
+};
+struct SizePush {
+    uint firstEntry; // of the host list
+    uint instanceCount;
+    uint vertices; // that an instance needs at least
 };
 
 // Which instances an argument counts.
@@ -73,8 +93,11 @@ struct ListPush {
     uint argumentCount;
     uint all; // first entry in the list
     uint argumentStride;
+    uint levels;    // from entries to their levels
+    uint room;      // for vertices, of all groups of the view; kRoomForAll: there is no size pass
     uint maxGroups; // of a dispatch in x
 };
+SUPPLE_SHARED_CONST kRoomForAll = 0xFFFFFFFFu;
 
 // Occlusion has a layout of its own: bounds, states and the host's list as above, and the pyramid.
 SUPPLE_SHARED_CONST kPyramidBinding = 11u;
@@ -90,7 +113,7 @@ struct OcclusionPush {
     uint reversed; // near is 1 and far 0
 };
 
-SUPPLE_SHARED_CONST kListHeaderWords = 4u; // of all, and of every window
+SUPPLE_SHARED_CONST kListHeaderWords = 8u; // of all, and of every window
 
 SUPPLE_SHARED_END
 

@@ -45,6 +45,7 @@ SUPPLE_SHARED_CONST kDrawQuad = 0u;
 SUPPLE_SHARED_CONST kDrawPolar = 1u;
 SUPPLE_SHARED_CONST kDrawTriangle = 2u;
 SUPPLE_SHARED_CONST kDrawPentagon = 3u;
+SUPPLE_SHARED_CONST kDrawMesh = 4u;
 
 // DrawPush::flags
 SUPPLE_SHARED_CONST kDrawVertex24 = 1u;    // surface vertices of 24 bytes

@@ -5,6 +5,7 @@
 //   grids         by form and capacity: (first index, index count) of a draw instance
 //   runs          one word a run: form | dispatch << 8, dispatch from kMaxRuns on where no group has the run. A run is the patches of one class and material of a window of
 //                 instances of a group; a dispatch evaluates the runs of one class, which follow each other
+//   doubleSided   a bit a run: its patches show their backs too
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
@@ -23,6 +24,7 @@
 #ifndef SUPPLE_SHARED_LOD_H
 #define SUPPLE_SHARED_LOD_H
 
+#include "shaders/shared/camera.h"
 #include "shaders/shared/portable.h"
 
 SUPPLE_SHARED_BEGIN
@@ -57,7 +59,8 @@ SUPPLE_SHARED_CONST kPatternWordCount = 108u;
 SUPPLE_SHARED_CONST kLodPatterns = 0u;
 SUPPLE_SHARED_CONST kLodGrids = kLodPatterns + kPatternWordCount;
 SUPPLE_SHARED_CONST kLodRuns = kLodGrids + 2u * kLodForms * kCapacityCount;
-SUPPLE_SHARED_CONST kLodSolution = kLodRuns + kMaxRuns; // what stands before it comes from the host
+SUPPLE_SHARED_CONST kLodDoubleSided = kLodRuns + kMaxRuns;
+SUPPLE_SHARED_CONST kLodSolution = kLodDoubleSided + kMaxRuns / 32u; // what stands before it comes from the host
 SUPPLE_SHARED_CONST kLodCapacities = kLodSolution + 16u;
 SUPPLE_SHARED_CONST kLodSplit = kLodCapacities + kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;
@@ -77,6 +80,7 @@ struct LodSolution {
     uint shortfall; // 1 where scaling by elasticity is not enough: all levels are 1, and what has no room is left out
     float scale[4]; // of levels, by priority
     uint wanted;    // vertices that x = 0 would have written
+    uint counted;   // patches, those too that have no room
 };
 struct LodBucket {
     uint firstRecord;
@@ -112,12 +116,10 @@ struct LodPush {
     uint scratchStride; // elements an instance
     uint firstRun;      // of the window, in the view
     uint runCount;      // of the window
-    uint orthographic;
-    float camera[3];
-    float focal;       // pixels a unit at distance 1; orthographic: pixels a unit
-    float nearest;     // nothing counts as nearer
-    float errorScale;  // 3/4 / chord error in pixels; 0: lengths alone count
-    float lengthScale; // 1 / length of an edge in pixels
+    uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
+    LodCamera camera;
+    uint backFaces;     // 1: patches that show their backs are left out
+    float direction[3]; // with it: where an orthographic camera looks
 };
 struct LodSolvePush {
     uint runCount;          // in use, of the view

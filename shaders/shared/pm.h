@@ -37,4 +37,8 @@ SUPPLE_SHARED_CONST kPinnedSector = 0x20000000u; // moved so that v is the verte
 
 SUPPLE_SHARED_END
 
+// k0 and k1 of (3) for facets of m sides.
+#define SUPPLE_PM_RAY_SIDE(m) ((m) == 5u ? 0.7236067977499790 : (m) == 4u ? 0.5 : 1.0 / 3.0)
+#define SUPPLE_PM_RAY_MIDDLE(m) ((m) == 5u ? -0.4472135954999579 : (m) == 4u ? 0.0 : 1.0 / 3.0)
+
 #endif

@@ -13,6 +13,13 @@
 //                    index of its normal, or kNoNormal
 //   attributes       one element a patch corner: (u, v, color as RG and BA in 16-bit unorm); with a second UV set or
 //                    face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
+//   shared edges     shared samples: three elements an edge, as one of its patches has it on its left: pool indices of the
+//                    border cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative
+//                    across is made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the
+//                    edge; flags; extra). Extra: perturbed edges: h20, the others of the four follow, or by
+//                    kSwappedEdge stand as h30 h20 h31 h21; kStoredNormalEdge: the normal of the beginning; kSingularEdge:
+//                    b121 of the sector before
+//   edge attributes  one element a record: (attribute element of the beginning, of the end, -, -)
 #ifndef SUPPLE_SHARED_SURFACE_H
 #define SUPPLE_SHARED_SURFACE_H
 
@@ -54,6 +61,7 @@ SUPPLE_SHARED_CONST kQuadDomain = 0u;
 SUPPLE_SHARED_CONST kPolarDomain = 1u;
 SUPPLE_SHARED_CONST kTriangleDomain = 2u;
 SUPPLE_SHARED_CONST kPentagonDomain = 3u;
+SUPPLE_SHARED_CONST kEdgeDomain = 4u; // none of a patch: attributes of shared samples along edges
 
 // What evaluation writes a sample.
 SUPPLE_SHARED_CONST kVertex16 = 0u;       // position, octahedral normal in 2 x snorm16
@@ -66,6 +74,22 @@ SUPPLE_SHARED_CONST kOutputFaceUvs = 2u;
 
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
 
+// Shared samples: kinds of edges, each a kernel.
+SUPPLE_SHARED_CONST kPlainEdges = 0u;     // of bicubic patches
+SUPPLE_SHARED_CONST kPerturbedEdges = 1u; // of p-rep's perturbed patches, where the perturbation is
+SUPPLE_SHARED_CONST kMixedEdges = 2u;     // of all of P_m's patches
+SUPPLE_SHARED_CONST kEdgeKinds = 3u;
+
+SUPPLE_SHARED_CONST kSharedEdgeElements = 3u;
+SUPPLE_SHARED_CONST kNoEdgeSample = 0xFFFFFFFFu;
+// Flags; the low bits are the sides of a P_m patch, 0 for bicubic ones.
+SUPPLE_SHARED_CONST kEdgeSidesMask = 7u;
+SUPPLE_SHARED_CONST kApexLastEdge = 8u;   // of a polar patch, to its apex
+SUPPLE_SHARED_CONST kApexFirstEdge = 16u; // from it
+SUPPLE_SHARED_CONST kSwappedEdge = 32u;
+SUPPLE_SHARED_CONST kStoredNormalEdge = 64u;
+SUPPLE_SHARED_CONST kSingularEdge = 128u; // no normal at its beginning but as a limit
+
 SUPPLE_SHARED_CONST kPatchStride = 32u;       // elements a patch of any class in the patch-coefficient buffer
 SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u; // wide mapping: what the shared memory of the evaluation passes holds
 
@@ -74,7 +98,8 @@ struct SurfacePush {
     uint count;         // elements an instance: vertices, edges, facets, patches or patch samples
     uint instanceCount; // of this window
     uint table;         // first table element of the pass's records
-    uint ring;          // first table word of the ring; blending surface: first element of the coordinates
+    uint ring;          // first table word of the ring; blending surface: first element of the coordinates; attributes of
+                        // shared samples: first element of the edge records
     uint cageStride;    // cage vertices an instance in the deformed cage
     uint poolStride;
     uint tangents; // first tangent in the pool
@@ -93,6 +118,7 @@ struct SurfacePush {
     uint firstInstance;   // of the list
     uint firstSlot;       // level of detail: of the window, and
     uint dispatch;        // the view's dispatch (shared/lod.h)
+    uint firstCorner;     // shared samples: the first at a corner, in the instance's surface vertices
 };
 
 SUPPLE_SHARED_END

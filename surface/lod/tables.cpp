@@ -1,6 +1,7 @@
 #include "surface/lod/tables.h"
 
 #include "shaders/shared/blend.h"
+#include "surface/borders.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
@@ -11,30 +12,14 @@ namespace supple::surface::lod {
 
 namespace {
 
-/// A border as its edge is written, and as the patch on the other side writes it. A cubic: pool indices of the end, its
-/// tangent, the other end's tangent, the other end. Between charts, for either end: chart, direction in it, 4 / k.
+/// A border as its edge is written, and as the patch on the other side writes it. A cubic: see surface/borders.h.
+/// Between charts, for either end: chart, direction in it, 4 / k.
 struct Border {
     std::vector<uint32_t> words, reversed;
 };
 
 bool hasCharts(PatchClass patchClass) {
     return patchClass == PatchClass::blend || patchClass == PatchClass::blendSharp;
-}
-
-uint32_t recordElements(const Tables& tables, PatchClass patchClass) {
-    switch (patchClass) {
-    case PatchClass::regular:
-    case PatchClass::polar:
-        return tables.cornerNormals ? 5 : 4;
-    case PatchClass::perturbed:
-        return tables.cornerNormals ? 9 : 8;
-    default:
-        return sides(formOf(patchClass));
-    }
-}
-
-Border cubic(const std::array<uint32_t, 4>& c) {
-    return {{c[0], c[1], c[2], c[3]}, {c[3], c[2], c[1], c[0]}};
 }
 
 Border chartBorder(const std::vector<uint32_t>& words, const uint32_t* corner, const uint32_t* next) {
@@ -53,18 +38,15 @@ Border chartBorder(const std::vector<uint32_t>& words, const uint32_t* corner, c
 /// By side of the grid.
 std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass patchClass) {
     const uint32_t* record = &tables.words[size_t{4} * element];
-    const uint32_t sideCount = sides(formOf(patchClass));
-    if (formOf(patchClass) == Form::quad && !hasCharts(patchClass)) {
-        const auto g = [&](uint32_t i, uint32_t j) { return record[4 * j + i]; };
-        return {cubic({g(0, 0), g(1, 0), g(2, 0), g(3, 0)}), cubic({g(3, 0), g(3, 1), g(3, 2), g(3, 3)}),
-                cubic({g(3, 3), g(2, 3), g(1, 3), g(0, 3)}), cubic({g(0, 3), g(0, 2), g(0, 1), g(0, 0)})};
-    }
     std::vector<Border> all;
-    for (uint32_t i = 0; i < sideCount; ++i) {
-        const uint32_t* corner = record + size_t{4} * i;
-        const uint32_t* next = record + size_t{4} * ((i + 1) % sideCount);
-        all.push_back(hasCharts(patchClass) ? chartBorder(tables.words, corner, next)
-                                            : cubic({corner[0], corner[1], corner[2], next[0]}));
+    if (hasCharts(patchClass)) {
+        for (uint32_t i = 0; i < 4; ++i) {
+            all.push_back(chartBorder(tables.words, record + size_t{4} * i, record + size_t{4} * ((i + 1) % 4)));
+        }
+        return all;
+    }
+    for (const BorderCurve& c : borderCurves(record, patchClass)) {
+        all.push_back({{c[0], c[1], c[2], c[3]}, {c[3], c[2], c[1], c[0]}});
     }
     return all;
 }

@@ -59,6 +59,9 @@ public:
         for (SuppleView* made : {&view, &blindView, &staleView}) {
             EXPECT_EQ(suppleCreateView(handle(), &viewAsked, made), SUPPLE_OK);
         }
+        SuppleViewDesc cullingAsked = viewDesc();
+        cullingAsked.flags = SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION | SUPPLE_VIEW_BACK_FACES;
+        EXPECT_EQ(suppleCreateView(handle(), &cullingAsked, &cullingView), SUPPLE_OK);
         EXPECT_EQ(suppleCreateView(foreign.handle(), &viewAsked, &foreignView), SUPPLE_OK);
         EXPECT_EQ(suppleDestroyView(handle(), staleView), SUPPLE_OK);
         seen = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_PM, .view = blindView});
@@ -208,6 +211,18 @@ public:
         desc.pixelsPerUnit = 800.0f;
         return desc;
     }
+    /// Of a view that no frame records: the image view is only kept.
+    [[nodiscard]] static SuppleDepthPyramidDesc pyramidDesc() {
+        SuppleDepthPyramidDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.view = reinterpret_cast<VkImageView>(uintptr_t{8});
+        desc.layout = VK_IMAGE_LAYOUT_GENERAL;
+        desc.width = 640;
+        desc.height = 360;
+        desc.levels = 10;
+        desc.viewProjection[0] = 1.0f;
+        return desc;
+    }
     [[nodiscard]] SuppleRecordDesc recordDesc() {
         SuppleRecordDesc desc{};
         desc.structSize = sizeof(desc);
@@ -231,7 +246,7 @@ public:
         SmallGroup main, subdivision;
     } mine, theirs;
     SmallGroup spare, buffered, played, seen;
-    SuppleView view{}, blindView{}, staleView{}, foreignView{}; ///< the blind one gets no camera
+    SuppleView view{}, cullingView{}, blindView{}, staleView{}, foreignView{}; ///< the blind one gets no camera
     SuppleAsset staleAsset{};
     SuppleGroup staleGroup{};
     SuppleInstance staleInstance{}, instanceOfStaleGroup{};
@@ -651,7 +666,8 @@ void assetGetters(Rows& r) {
 
 void views(Rows& r) {
     constexpr const char *kCreate = "suppleCreateView", *kDestroy = "suppleDestroyView", *kCamera = "suppleSetCamera",
-                         *kStatistics = "suppleGetViewStatistics", *kPriority = "suppleSetPriority";
+                         *kPyramid = "suppleSetDepthPyramid", *kStatistics = "suppleGetViewStatistics",
+                         *kPriority = "suppleSetPriority";
     constexpr int kRange = SUPPLE_MESSAGE_OUT_OF_RANGE, kFinite = SUPPLE_MESSAGE_NOT_FINITE;
     const auto create = [](World& w, const SuppleViewDesc* desc) {
         SuppleView* const out = w.newHandle<SuppleView>();
@@ -682,7 +698,8 @@ void views(Rows& r) {
     };
     using Desc = SuppleViewDesc;
     constexpr SuppleResult kBad = SUPPLE_ERROR_ARGUMENT;
-    spoiled("flags", kBad, kRange, [](Desc& d) { d.flags = 32; });
+    spoiled("flags", kBad, kRange, [](Desc& d) { d.flags = 128; });
+    spoiled("OCCLUSION without CULL", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_OCCLUSION; });
     spoiled("UVS1 alone", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_UVS1; });
     spoiled("too few vertices", kBad, kRange, [](Desc& d) { d.maxVertices = 1023; });
     spoiled("vertexFormat", kBad, kRange, [](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(2); });
@@ -690,7 +707,7 @@ void views(Rows& r) {
     spoiled("elasticity NaN", kBad, kRange, [](Desc& d) { d.elasticities[3] = kNan; });
     spoiled("more than a buffer holds", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
             [](Desc& d) { d.maxVertices = 0xF0000000u; });
-    spoiled("all flags", SUPPLE_OK, kSilent, [](Desc& d) { d.flags = 31; });
+    spoiled("all flags", SUPPLE_OK, kSilent, [](Desc& d) { d.flags = 127; });
 
     const auto handles = [&](const char* function, auto call) {
         r.nullContext(function, [=](World& w, SuppleContext c) { return call(w, c, w.view); });
@@ -728,6 +745,52 @@ void views(Rows& r) {
     wrong("pixelsPerUnit 0", kRange, [](Camera& c) { c.pixelsPerUnit = 0.0f; });
     wrong("chordError negative", kRange, [](Camera& c) { c.chordError = -1.0f; });
     wrong("farthest negative", kRange, [](Camera& c) { c.farthest = -1.0f; });
+
+    wrong("direction NaN", kFinite, [](Camera& c) { c.direction[2] = kNan; });
+    const auto orthographic = [](World& w, SuppleView v, float z) {
+        SuppleCameraDesc camera = World::cameraDesc();
+        camera.flags = SUPPLE_CAMERA_ORTHOGRAPHIC;
+        camera.direction[2] = z;
+        return suppleSetCamera(w.handle(), v, &camera);
+    };
+    r.refuse(kCamera, "BACK_FACES, orthographic, no direction", kRange,
+             [=](World& w) { return orthographic(w, w.cullingView, 0.0f); });
+    r.accept(kCamera, "BACK_FACES, orthographic", [=](World& w) { return orthographic(w, w.cullingView, -1.0f); });
+    r.accept(kCamera, "orthographic, no direction", [=](World& w) { return orthographic(w, w.view, 0.0f); });
+
+    handles(kPyramid, [](World&, SuppleContext c, SuppleView v) {
+        const SuppleDepthPyramidDesc pyramid = World::pyramidDesc();
+        return suppleSetDepthPyramid(c, v, &pyramid);
+    });
+    const auto setPyramid = [](World& w, const SuppleDepthPyramidDesc* pyramid) {
+        return suppleSetDepthPyramid(w.handle(), w.cullingView, pyramid);
+    };
+    r.description<SuppleDepthPyramidDesc>(
+        kPyramid, "pyramid", [](World&) { return World::pyramidDesc(); }, setPyramid, false);
+    r.accept(kPyramid, "null", [=](World& w) { return setPyramid(w, nullptr); });
+    r.refuse(kPyramid, "a view without OCCLUSION", SUPPLE_MESSAGE_CONFLICT, [](World& w) {
+        const SuppleDepthPyramidDesc pyramid = World::pyramidDesc();
+        return suppleSetDepthPyramid(w.handle(), w.view, &pyramid);
+    });
+    using Pyramid = SuppleDepthPyramidDesc;
+    const auto pyramid = [&](const char* what, SuppleResult result, int message, auto spoil) {
+        r.add(kPyramid, what, result, message, [=](World& w) {
+            SuppleDepthPyramidDesc desc = World::pyramidDesc();
+            spoil(desc);
+            return setPyramid(w, &desc);
+        });
+    };
+    pyramid("flags", kBad, kRange, [](Pyramid& p) { p.flags = 2; });
+    pyramid("REVERSED", SUPPLE_OK, kSilent, [](Pyramid& p) { p.flags = SUPPLE_DEPTH_REVERSED; });
+    pyramid("view null", kBad, SUPPLE_MESSAGE_NULL_POINTER, [](Pyramid& p) { p.view = VK_NULL_HANDLE; });
+    pyramid("layout", kBad, kRange, [](Pyramid& p) { p.layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL; });
+    pyramid("READ_ONLY_OPTIMAL", SUPPLE_OK, kSilent, [](Pyramid& p) { p.layout = VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL; });
+    pyramid("width 0", kBad, kRange, [](Pyramid& p) { p.width = 0; });
+    pyramid("height beyond the device's images", kBad, kRange, [](Pyramid& p) { p.height = 0x80000000u; });
+    pyramid("no level", kBad, kRange, [](Pyramid& p) { p.levels = 0; });
+    pyramid("one level", SUPPLE_OK, kSilent, [](Pyramid& p) { p.levels = 1; });
+    pyramid("more levels than there can be", kBad, kRange, [](Pyramid& p) { p.levels = 11; });
+    pyramid("viewProjection NaN", kBad, kFinite, [](Pyramid& p) { p.viewProjection[9] = kNan; });
 
     handles(kStatistics, [](World& w, SuppleContext c, SuppleView v) {
         return suppleGetViewStatistics(c, v, w.watched<SuppleViewStatistics>(sizeof(SuppleViewStatistics)));
@@ -771,6 +834,8 @@ void views(Rows& r) {
           [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CATMULL_CLARK; });
     group("of a view, the cage alone", kBad, SUPPLE_MESSAGE_CONFLICT,
           [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CAGE; });
+    group("of a view, with shared samples", kBad, SUPPLE_MESSAGE_CONFLICT,
+          [](World&, SuppleGroupDesc& d) { d.flags = SUPPLE_GROUP_SHARED_SAMPLES; });
     r.refuse("suppleSetRate", "of a group of a view", SUPPLE_MESSAGE_CONFLICT,
              [](World& w) { return suppleSetRate(w.handle(), w.seen.group, 1); });
     r.refuse("suppleRecord", "a view without a camera", SUPPLE_MESSAGE_OUT_OF_ORDER, [](World& w) {
@@ -818,7 +883,7 @@ void groups(Rows& r) {
     using Desc = SuppleGroupDesc;
     range("capacity 0", [](Desc& d) { d.capacity = 0; });
     range("rate 65", [](Desc& d) { d.rate = SUPPLE_MAX_RATE + 1; });
-    range("flags", [](Desc& d) { d.flags = 8; });
+    range("flags", [](Desc& d) { d.flags = 16; });
     range("sharpThreshold negative", [](Desc& d) { d.sharpThreshold = -1.0f; });
     spoiled("sharpThreshold NaN", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NOT_FINITE,
             [](Desc& d) { d.sharpThreshold = kNan; });
@@ -845,6 +910,14 @@ void groups(Rows& r) {
         d.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
         d.flags = SUPPLE_GROUP_PATCHES;
     });
+    for (const SuppleScheme scheme :
+         {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CAGE}) {
+        spoiled("shared samples of scheme " + std::to_string(scheme), SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
+                [=](Desc& d) {
+                    d.scheme = scheme;
+                    d.flags = SUPPLE_GROUP_SHARED_SAMPLES;
+                });
+    }
     spoiled("too many vertices", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT, [](Desc& d) {
         d.scheme = SUPPLE_SCHEME_PM;
         d.rate = 64;

@@ -24,7 +24,8 @@ using test::testDevice;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kMargin = 0.125f;
-constexpr uint32_t kArgumentStride = 16, kWindowArguments = 64; ///< words
+constexpr float kLongest = 0.05f, kBend = 0.01f;
+constexpr uint32_t kArgumentStride = 16, kWindowArguments = 128; ///< words
 constexpr uint32_t kUnwritten = 0xABABABABu;
 
 /// Fills a buffer of the host's with values and reads others back.
@@ -81,10 +82,13 @@ struct Scene {
     CullView view{};
     std::vector<ListArgument> arguments;
     Pyramid pyramid; ///< without levels: nothing is occluded
+    uint32_t room = kRoomForAll, leastVertices = 0;
 
     Scene(uint32_t vertices, uint32_t count, uint32_t window)
         : vertexCount(vertices), cageStride(vertices + 3), windowSize(window), slots(count),
-          cages(size_t{count} * cageStride, glm::vec4(kNaN)) {} // padding is not to be read
+          cages(size_t{count} * cageStride, glm::vec4(kNaN)) { // padding is not to be read
+        view.camera.nearest = 0.01f;
+    }
     void addAll(uint32_t flags = kInstanceIsNew) {
         for (uint32_t slot = 0; slot < slots; ++slot) {
             host.push_back(slot | flags);
@@ -162,7 +166,7 @@ public:
         };
         const std::vector<ListWindow> windows = scene.windows();
         const std::vector<uint32_t> table = listTable(windows, scene.arguments);
-        const std::vector<uint32_t> blank(2 * size_t{scene.slots} + 4096, kUnwritten);
+        const std::vector<uint32_t> blank(3 * size_t{scene.slots} + 4096, kUnwritten);
         if (states_.size() != size_t{scene.slots} * 8) {
             const std::vector<uint32_t> zero(2 * size_t{scene.slots}, 0);
             states_ = upload(zero.data(), zero.size() * 4);
@@ -171,10 +175,12 @@ public:
         const std::vector<glm::vec4> noBounds(2 * size_t{scene.slots});
         const host::Buffer bounds = upload(noBounds.data(), noBounds.size() * sizeof(glm::vec4));
         const host::Buffer hostList = upload(scene.host.data(), scene.host.size() * 4);
-        const host::Buffer list = upload(blank.data(), 2 * size_t{scene.slots} * 4);
+        const host::Buffer list = upload(blank.data(), 3 * size_t{scene.slots} * 4);
         const host::Buffer arguments = upload(blank.data(), 4096 * 4);
         const host::Buffer tables = upload(table.data(), table.size() * 4);
         const host::Buffer view = upload(&scene.view, sizeof(scene.view));
+        const std::vector<uint32_t> noSizes(kSizeRanks);
+        const host::Buffer sizes = upload(noSizes.data(), noSizes.size() * 4);
 
         std::vector<gpu::BufferViewHandle> views;
         const auto texels = [&](const host::Buffer& buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize range) {
@@ -211,6 +217,7 @@ public:
                 {kListArgumentBinding, whole(arguments)},
                 {kListTableBinding, whole(tables)},
                 {kCullViewBinding, whole(view)},
+                {kSizeBinding, whole(sizes)},
             };
             gpu::writeSet(device_, *set, resources);
             sets.push_back(*set);
@@ -239,7 +246,8 @@ public:
                             for (uint32_t w = 0; w < count; ++w) {
                                 pass_.recordBounds(commands, sets[w],
                                                    {scene.vertexCount, scene.cageStride, windows[w].firstEntry,
-                                                    windows[w].entries, windows[w].firstSlot, kMargin});
+                                                    windows[w].entries, windows[w].firstSlot, kMargin, kLongest,
+                                                    kBend});
                             }
                             gpu::computeBarrier(device_, commands);
                             if (occlusionSet != VK_NULL_HANDLE) {
@@ -254,7 +262,18 @@ public:
                                 occlusion_.record(commands, occlusionSet, push);
                                 gpu::computeBarrier(device_, commands);
                             }
-                            ListPush push{count, static_cast<uint32_t>(scene.arguments.size()), 0, kArgumentStride, 0};
+                            if (scene.room != kRoomForAll) {
+                                pass_.recordSizes(commands, sets[0],
+                                                  {0, static_cast<uint32_t>(scene.host.size()), scene.leastVertices});
+                                gpu::computeBarrier(device_, commands);
+                            }
+                            const ListPush push{count,
+                                                static_cast<uint32_t>(scene.arguments.size()),
+                                                0,
+                                                kArgumentStride,
+                                                scene.slots,
+                                                scene.room,
+                                                0};
                             pass_.recordList(commands, sets[0], push);
                             gpu::memoryBarrier(device_, commands,
                                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT},
@@ -362,7 +381,7 @@ public:
     void compare(const Scene& scene, const Written& written) const {
         for (const uint32_t entry : scene.host) {
             const uint32_t slot = entry & kInstanceSlotMask;
-            ASSERT_EQ(written.bounds[2 * slot], bounds[2 * slot]) << "slot " << slot;
+            ASSERT_EQ(glm::vec3(written.bounds[2 * slot]), glm::vec3(bounds[2 * slot])) << "slot " << slot;
             ASSERT_EQ(written.bounds[2 * slot + 1], bounds[2 * slot + 1]) << "slot " << slot;
             ASSERT_EQ(written.states[2 * slot + 1], pastOf[slot]) << "slot " << slot;
         }
@@ -421,13 +440,13 @@ private:
                 ask(glm::dot(normal, middle) + p[3] + glm::dot(glm::abs(normal), extent));
             }
         }
-        const glm::dvec3 camera(view.camera[0], view.camera[1], view.camera[2]);
+        const glm::dvec3 camera(view.camera.position[0], view.camera.position[1], view.camera.position[2]);
         if (view.farthest > 0.0f) {
             ask(view.farthest - glm::length(glm::max(glm::max(l - camera, camera - h), glm::dvec3(0.0))));
         }
         if (view.smallest > 0.0f) {
-            const double away = view.orthographic != 0 ? 1.0 : glm::length(middle - camera);
-            ask(glm::length(extent) * view.focal / view.smallest - away);
+            const double away = view.camera.orthographic != 0 ? 1.0 : glm::length(middle - camera);
+            ask(glm::length(extent) * view.camera.focal / view.smallest - away);
         }
         return seen;
     }
@@ -509,14 +528,14 @@ TEST_P(Bounds, DistanceAndSizeDecideWhereTheyAreSet) {
     for (const uint32_t kind : {0u, 1u, 2u, 3u}) {
         Scene scene = randomScene(8, 200, 64, 70 + kind);
         Expected expected(scene);
-        scene.view.camera[0] = 5.0f;
-        scene.view.camera[2] = -7.0f;
+        scene.view.camera.position[0] = 5.0f;
+        scene.view.camera.position[2] = -7.0f;
         scene.view.farthest = kind == 1 ? 40.0f : 0.0f;
-        scene.view.focal = 300.0f;
+        scene.view.camera.focal = 300.0f;
         scene.view.smallest = kind >= 2 ? 30.0f : 0.0f;
-        scene.view.orthographic = kind == 3 ? 1 : 0;
+        scene.view.camera.orthographic = kind == 3 ? 1 : 0;
         if (kind == 3) {
-            scene.view.focal = 7.0f;
+            scene.view.camera.focal = 7.0f;
         }
         (void)check(scene, expected);
         if (kind == 0) {
@@ -526,6 +545,77 @@ TEST_P(Bounds, DistanceAndSizeDecideWhereTheyAreSet) {
             EXPECT_LT(expected.all.size(), scene.host.size());
         }
         rig = Rig::create(*testDevice(), GetParam());
+    }
+}
+
+TEST_P(Bounds, LevelsComeFromTheBoxAndGoWithTheList) {
+    Scene scene = randomScene(40, 200, 64, 80);
+    scene.view.camera.focal = 700.0f;
+    scene.view.camera.errorScale = 3.0f;
+    scene.view.camera.lengthScale = 1.0f / 3.0f;
+    setPlanes(scene, openView());
+    const Written written = rig->run(scene);
+    uint32_t entries = 0;
+    for (const ListWindow& window : scene.windows()) {
+        const uint32_t seen = written.arguments[kListHeaderWords * (1 + window.firstSlot / scene.windowSize)];
+        for (uint32_t i = window.target; i < window.target + seen; ++i) {
+            const uint32_t slot = window.firstSlot + (written.list[i] & kInstanceSlotMask);
+            const glm::dvec3 low = written.bounds[2 * slot], high = written.bounds[2 * slot + 1];
+            const double diagonal = glm::length(high - low) / (1.0 + 2.0 * kMargin);
+            const double pixels = 700.0 / std::max(glm::length(0.5 * (low + high)) - 0.5 * diagonal, 0.01);
+            const double level =
+                std::min({kLongest * diagonal * pixels / 3.0, std::sqrt(3.0 * kBend * diagonal * pixels), 256.0});
+            ASSERT_NEAR(written.bounds[2 * slot].w, level, 1e-3 * level) << "slot " << slot;
+            ASSERT_EQ(std::bit_cast<float>(written.list[scene.slots + i]), written.bounds[2 * slot].w);
+            ++entries;
+        }
+    }
+    EXPECT_GT(entries, 10u);
+}
+
+// Whole bins of sizes go, the smallest first, those of a priority before the next one's, and no more than must.
+TEST_P(Bounds, TheSmallestGoWhereThereIsNoRoom) {
+    constexpr uint32_t kVertices = 100;
+    for (const uint32_t room : {0u, 99u, 5000u, 20000u, 90000u}) {
+        Scene scene = randomScene(6, 1000, 300, 85);
+        scene.view.camera.focal = 700.0f;
+        scene.view.ranks = 2u | 0u << 8 | 1u << 16 | 2u << 24;
+        scene.room = room;
+        scene.leastVertices = kVertices;
+        setPlanes(scene, openView());
+        const Written written = rig->run(scene);
+        std::map<uint32_t, uint32_t> byRank; // of those that are seen
+        uint32_t seen = 0, drawn = 0, smallestDrawn = ~0u, largestDropped = 0;
+        for (const uint32_t entry : scene.host) {
+            const uint32_t slot = entry & kInstanceSlotMask, rank = written.states[2 * slot];
+            if (rank == 0) {
+                EXPECT_EQ(written.states[2 * slot + 1], 0u);
+                continue;
+            }
+            const uint32_t priority = (entry >> kInstancePriorityShift) & 3u;
+            const glm::dvec3 low = written.bounds[2 * slot], high = written.bounds[2 * slot + 1];
+            const double pixels = 0.5 * glm::length(high - low) * 700.0 / glm::length(0.5 * (low + high));
+            const double bin = std::clamp((std::log2(pixels) + 4.0) * 64.0, 0.0, 1023.0);
+            const uint32_t ofPriority = scene.view.ranks >> (8 * priority) & 255u;
+            EXPECT_NEAR(rank - 1.0 - ofPriority * kSizeBins, bin, 1.01) << "slot " << slot;
+            ++seen;
+            ++byRank[rank];
+            if (written.states[2 * slot + 1] != 0) {
+                ++drawn;
+                smallestDrawn = std::min(smallestDrawn, rank);
+            } else {
+                largestDropped = std::max(largestDropped, rank);
+            }
+        }
+        EXPECT_EQ(written.arguments[0], drawn);
+        EXPECT_EQ(written.arguments[2], scene.host.size());
+        EXPECT_EQ(written.arguments[3], seen - drawn);
+        EXPECT_LE(drawn * kVertices, room);
+        EXPECT_LT(largestDropped, smallestDrawn);
+        if (drawn < seen) {
+            EXPECT_GT((drawn + byRank[largestDropped]) * kVertices, room) << "the next bin would have had room";
+        }
+        std::printf("room for %u vertices: %u of %u seen are drawn\n", room, drawn, seen);
     }
 }
 
@@ -716,13 +806,15 @@ TEST_P(Bounds, WhatAPyramidHidesIsHiddenAndNothingElse) {
                 const double wall =
                     known ? static_cast<double>(pyramid.farthest(glm::floor(least), glm::floor(most))) : 0.0;
                 const bool behind = known && (reversed ? nearest < wall : nearest > wall);
-                const bool gone = written.states[2 * slot] == 0;
+                const bool gone = written.states[2 * slot] == kOccluded;
+                EXPECT_NE(written.states[2 * slot], 0u);
                 EXPECT_TRUE(!gone || behind) << "slot " << slot << " is seen";
                 couldBe += behind ? 1 : 0;
                 hidden += gone ? 1 : 0;
                 seen += gone ? 0 : 1;
             }
             EXPECT_EQ(written.arguments[0], seen);
+            EXPECT_EQ(written.arguments[4], hidden);
             EXPECT_GT(couldBe, 200u);
             EXPECT_GT(hidden * 10, couldBe * 7) << "of " << couldBe;
             EXPECT_LT(couldBe, scene.slots * 3 / 4);

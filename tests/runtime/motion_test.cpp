@@ -114,6 +114,7 @@ struct MotionCase {
     uint32_t rate = 3;
     SuppleMapping mapping = SUPPLE_MAPPING_NARROW;
     SuppleVertexFormat format = SUPPLE_VERTEX_16;
+    uint32_t flags = 0; ///< always
 
     [[nodiscard]] SuppleGroupDesc desc(CrowdContext& context, uint32_t capacity, uint32_t flags) const {
         SuppleGroupDesc desc{};
@@ -124,7 +125,7 @@ struct MotionCase {
         desc.scheme = scheme;
         desc.rate = rate;
         desc.vertexFormat = format;
-        desc.flags = flags;
+        desc.flags = flags | this->flags;
         return desc;
     }
     friend std::ostream& operator<<(std::ostream& out, const MotionCase& c) { return out << c.name; }
@@ -140,8 +141,11 @@ std::vector<MotionCase> motionCases() {
                                       {"Pm", SUPPLE_SCHEME_PM, 3},
                                       {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, kernelRate},
                                       {"Loop", SUPPLE_SCHEME_LOOP, kernelRate},
-                                      {"Blend", SUPPLE_SCHEME_BLEND, 4}};
+                                      {"Blend", SUPPLE_SCHEME_BLEND, 4},
+                                      {"PrepShared", SUPPLE_SCHEME_PREP, 3},
+                                      {"PmShared", SUPPLE_SCHEME_PM, 3}};
             for (MotionCase c : own) {
+                c.flags = c.name.find("Shared") != std::string::npos ? SUPPLE_GROUP_SHARED_SAMPLES : 0;
                 c.name = mappingName(mapping) + c.name + suffix;
                 c.mapping = mapping;
                 c.format = format;

@@ -68,6 +68,10 @@ public:
     [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t sample) const {
         return vertices_[size_t{instance} * output_.verticesPerInstance + vertexIndex(patch, sample)];
     }
+    /// With SUPPLE_GROUP_SHARED_SAMPLES: of the mesh; what has patches below is then not to be asked.
+    [[nodiscard]] const Vertex& sharedVertex(uint32_t instance, uint32_t vertex) const {
+        return vertices_[size_t{instance} * output_.verticesPerInstance + vertex];
+    }
     /// Of a patch's sample among the surface vertices of an instance.
     [[nodiscard]] uint32_t vertexIndex(uint32_t patch, uint32_t sample) const {
         const SuppleDrawRange& range = rangeOf(patch);

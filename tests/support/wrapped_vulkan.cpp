@@ -16,6 +16,8 @@ struct Table {
     PFN_vkCreateBuffer CreateBuffer;
     PFN_vkCmdCopyBuffer CmdCopyBuffer;
     PFN_vkCmdFillBuffer CmdFillBuffer;
+    PFN_vkCmdDispatch CmdDispatch;
+    PFN_vkCmdDispatchIndirect CmdDispatchIndirect;
     PFN_vkCmdPipelineBarrier2 CmdPipelineBarrier2;
     PFN_vkCmdUpdateBuffer CmdUpdateBuffer;
     PFN_vkCmdCopyBuffer2 CmdCopyBuffer2;
@@ -62,6 +64,14 @@ VKAPI_ATTR void VKAPI_CALL fillBuffer(VkCommandBuffer commands, VkBuffer buffer,
     ++state.fills;
     real.CmdFillBuffer(commands, buffer, offset, size, value);
 }
+VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32_t y, uint32_t z) {
+    ++state.dispatches;
+    real.CmdDispatch(commands, x, y, z);
+}
+VKAPI_ATTR void VKAPI_CALL dispatchIndirect(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset) {
+    ++state.indirectDispatches;
+    real.CmdDispatchIndirect(commands, buffer, offset);
+}
 VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer commands, const VkDependencyInfo* info) {
     state.bufferBarriers.insert(state.bufferBarriers.end(), info->pBufferMemoryBarriers,
                                 info->pBufferMemoryBarriers + info->bufferMemoryBarrierCount);
@@ -99,8 +109,12 @@ VKAPI_ATTR VkResult VKAPI_CALL queryResults(VkDevice device, VkQueryPool pool, u
 }
 VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
     real.GetPhysicalDeviceProperties2(device, out);
+    VkPhysicalDeviceLimits& limits = out->properties.limits;
     if (state.maxStorageBufferRange != 0) {
-        out->properties.limits.maxStorageBufferRange = state.maxStorageBufferRange;
+        limits.maxStorageBufferRange = state.maxStorageBufferRange;
+    }
+    if (state.maxComputeWorkGroupCountX != 0) {
+        limits.maxComputeWorkGroupCount[0] = state.maxComputeWorkGroupCountX;
     }
 }
 VKAPI_ATTR void VKAPI_CALL features(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* out) {
@@ -142,6 +156,12 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     }
     if (is("vkCmdFillBuffer")) {
         return wrap(real.CmdFillBuffer, function, &fillBuffer);
+    }
+    if (is("vkCmdDispatch")) {
+        return wrap(real.CmdDispatch, function, &dispatch);
+    }
+    if (is("vkCmdDispatchIndirect")) {
+        return wrap(real.CmdDispatchIndirect, function, &dispatchIndirect);
     }
     if (is("vkCmdPipelineBarrier2")) {
         return wrap(real.CmdPipelineBarrier2, function, &barrier);

@@ -13,6 +13,7 @@ struct WrappedVulkan {
     uint64_t maps = 0, flushes = 0, updates = 0, invalidates = 0;
     uint64_t copies = 0, copiedBytes = 0;
     uint64_t fills = 0, barriers = 0, allocations = 0;
+    uint64_t dispatches = 0, indirectDispatches = 0;
     std::vector<VkBufferMemoryBarrier2> bufferBarriers; ///< of all vkCmdPipelineBarrier2
     // provoked
     int64_t dropBarrier = -1;    ///< index of the vkCmdPipelineBarrier2 to leave out
@@ -23,7 +24,8 @@ struct WrappedVulkan {
     uint64_t ticksAPass = 0;            ///< when not 0: timestamps are this far apart, one from the next
     uint64_t buffers = 0;
     bool hideSynchronization2 = false;
-    uint32_t maxStorageBufferRange = 0; ///< when not 0: what the device says
+    uint32_t maxStorageBufferRange = 0;     ///< when not 0: what the device says
+    uint32_t maxComputeWorkGroupCountX = 0; ///< the same
 };
 
 /// The state, reset.

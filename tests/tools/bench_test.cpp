@@ -84,6 +84,11 @@ TEST_F(Bench, QuickRunIsWhole) {
             contestants.insert({scheme + " evaluate", scheme + " frame"});
             ratios.insert({scheme + " frame / " + scheme + " evaluate", scheme + " evaluate / plain C++ bi-3",
                            scheme + " frame / plain C++ bi-3"});
+            if (scheme == "prep" || scheme == "pm") {
+                contestants.insert({scheme + " shared evaluate", scheme + " shared frame"});
+                ratios.insert({scheme + " shared evaluate / " + scheme + " evaluate",
+                               scheme + " shared evaluate / plain C++ bi-3"});
+            }
         }
         if (expected.peers) {
             contestants.insert({"prep evaluate 24 B", "prep frame 24 B"});

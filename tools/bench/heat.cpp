@@ -21,6 +21,21 @@ constexpr const char* kAvx2 = "AVX2 bi-3";
 constexpr const char* kPlain = "plain C++ bi-3";
 constexpr const char* kWrite = "write 24 B";
 
+/// What there is of a scheme: its plain form first, which the others' points are counted by.
+struct Variant {
+    const char* word = ""; ///< after the scheme
+    const char* suffix = "";
+    SuppleVertexFormat format = SUPPLE_VERTEX_16;
+    uint32_t flags = 0;
+
+    [[nodiscard]] std::string name(const std::string& scheme, const char* pass) const {
+        return scheme + word + " " + pass + suffix;
+    }
+};
+constexpr Variant kPlainVariant{};
+constexpr Variant kVertex24Variant{"", " 24 B", SUPPLE_VERTEX_24, 0};
+constexpr Variant kSharedVariant{" shared", "", SUPPLE_VERTEX_16, SUPPLE_GROUP_SHARED_SAMPLES};
+
 class Heat {
 public:
     Heat(host::Device& device, Workbench& workbench, const HeatDesc& desc)
@@ -40,7 +55,7 @@ public:
     Result<Json> run();
 
 private:
-    Status addSubject(SuppleAsset asset, SuppleScheme scheme, SuppleVertexFormat format);
+    Status addSubject(SuppleAsset asset, SuppleScheme scheme, const Variant& variant);
     Status addReplay(const std::string& name, uint64_t points, const std::function<void(VkCommandBuffer)>& record);
     void addHost(const std::string& name, uint64_t points, std::function<void(uint32_t turn)> work);
     void addRatios(Json& row, std::span<const Series> series) const;
@@ -54,6 +69,7 @@ private:
     std::vector<float> plainOut_, avx2Out_, writeOut_;
     BicubicWeights weights_{};
     std::vector<std::string> schemes_; ///< that took the cage
+    uint64_t points_ = 0;              ///< of the newest scheme, every patch with all its samples
     std::vector<Contestant> contestants_;
     Json refused_ = Json::array();
 };
@@ -65,9 +81,12 @@ Status Heat::addSchemes() {
     }
     Status status = success();
     for (const SuppleScheme scheme : desc_.cage->schemes) {
-        status = addSubject(*asset, scheme, SUPPLE_VERTEX_16);
+        status = addSubject(*asset, scheme, kPlainVariant);
         if (status && scheme == SUPPLE_SCHEME_PREP && desc_.cage->bothFormats) {
-            status = addSubject(*asset, scheme, SUPPLE_VERTEX_24);
+            status = addSubject(*asset, scheme, kVertex24Variant);
+        }
+        if (status && (scheme == SUPPLE_SCHEME_PREP || scheme == SUPPLE_SCHEME_PM)) {
+            status = addSubject(*asset, scheme, kSharedVariant);
         }
         if (!status && (status.error().code == ErrorCode::asset || status.error().code == ErrorCode::limit)) {
             refused_.push_back({{"scheme", schemeName(scheme)}, {"reason", status.error().message}});
@@ -81,12 +100,13 @@ Status Heat::addSchemes() {
     return status;
 }
 
-Status Heat::addSubject(SuppleAsset asset, SuppleScheme scheme, SuppleVertexFormat format) {
+Status Heat::addSubject(SuppleAsset asset, SuppleScheme scheme, const Variant& variant) {
     SuppleGroupDesc groupDesc{};
     groupDesc.asset = asset;
     groupDesc.scheme = scheme;
     groupDesc.rate = desc_.rate;
-    groupDesc.vertexFormat = format;
+    groupDesc.vertexFormat = variant.format;
+    groupDesc.flags = variant.flags;
     Result<SuppleGroup> made = workbench_.createGroup(groupDesc);
     if (!made) {
         return made.error();
@@ -99,16 +119,15 @@ Status Heat::addSubject(SuppleAsset asset, SuppleScheme scheme, SuppleVertexForm
     if (!recorded || !submitted) {
         return recorded ? submitted : recorded;
     }
-    const uint64_t points = workbench_.output(group).vertexCount;
     const std::string name = schemeName(scheme);
-    const std::string suffix = format == SUPPLE_VERTEX_24 ? " 24 B" : "";
-    if (format == SUPPLE_VERTEX_16) {
+    if (&variant == &kPlainVariant) {
         schemes_.push_back(name);
+        points_ = workbench_.output(group).vertexCount;
     }
-    Status status = addReplay(name + " evaluate" + suffix, points,
+    Status status = addReplay(variant.name(name, "evaluate"), points_,
                               [&](VkCommandBuffer commands) { workbench_.recordEvaluate(group, commands); });
     if (status) {
-        status = addReplay(name + " frame" + suffix, points,
+        status = addReplay(variant.name(name, "frame"), points_,
                            [&](VkCommandBuffer commands) { workbench_.recordCompute(group, commands); });
     }
     return status;
@@ -211,16 +230,15 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
                                  {"largest", ratios.back()}});
     };
     for (const std::string& scheme : schemes_) {
-        for (const char* suffix : {"", " 24 B"}) {
-            std::string evaluate = scheme + " evaluate", frame = scheme + " frame";
-            evaluate += suffix;
-            frame += suffix;
+        for (const Variant* variant : {&kPlainVariant, &kVertex24Variant, &kSharedVariant}) {
+            const std::string evaluate = variant->name(scheme, "evaluate"), frame = variant->name(scheme, "frame");
             add(frame, evaluate, false);
             for (const std::string& ours : {evaluate, frame}) {
                 add(ours, kAvx2, true);
                 add(ours, kPlain, true);
             }
         }
+        add(kSharedVariant.name(scheme, "evaluate"), kPlainVariant.name(scheme, "evaluate"), false);
         if (scheme != schemes_.front()) {
             add(scheme + " evaluate", schemes_.front() + " evaluate", false);
         }

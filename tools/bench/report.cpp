@@ -146,7 +146,7 @@ std::string pipelineTables(const Json& result) {
 /// A line a target and limit: in how many places it is met, and where the value is worst.
 std::string targetTable(const Json& result) {
     struct Line {
-        std::string what, limit, note;
+        std::string what, limit;
         uint32_t places = 0, met = 0;
         const Json* worst = nullptr;
     };
@@ -156,10 +156,7 @@ std::string targetTable(const Json& result) {
         auto line = std::find_if(lines.begin(), lines.end(),
                                  [&](const Line& known) { return known.what == what && known.limit == limit; });
         if (line == lines.end()) {
-            line = lines.insert(line, {what, limit, target.value("note", ""), 0, 0, nullptr});
-        }
-        if (target["value"].is_null()) {
-            continue;
+            line = lines.insert(line, {what, limit, 0, 0, nullptr});
         }
         ++line->places;
         line->met += target["met"] ? 1 : 0;
@@ -169,12 +166,8 @@ std::string targetTable(const Json& result) {
     }
     Table table({"target", "worst at", "worst", "at most", "met in"});
     for (const Line& line : lines) {
-        if (line.worst == nullptr) {
-            table.add({line.what, "", "", line.limit, line.note});
-        } else {
-            table.add({line.what, (*line.worst)["where"], number((*line.worst)["value"]), line.limit,
-                       std::to_string(line.met) + " of " + std::to_string(line.places)});
-        }
+        table.add({line.what, (*line.worst)["where"], number((*line.worst)["value"]), line.limit,
+                   std::to_string(line.met) + " of " + std::to_string(line.places)});
     }
     return table.empty() ? "" : table.text(2);
 }

@@ -74,6 +74,7 @@ struct GroupOptions {
     SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR;
     SuppleCreaseMode creaseMode = SUPPLE_CREASES_CUT;
     float sharpThreshold = 1.0f;
+    bool sharedSamples = false; ///< SUPPLE_GROUP_SHARED_SAMPLES
 };
 
 /// A Supple group with what drawing it needs besides Supple's buffers. May be destroyed only when no pending frame uses

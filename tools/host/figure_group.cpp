@@ -60,6 +60,9 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
     desc.flags = SUPPLE_GROUP_ATTRIBUTES;
+    if (options.sharedSamples) {
+        desc.flags |= SUPPLE_GROUP_SHARED_SAMPLES;
+    }
     desc.asset = figure.asset();
     desc.capacity = options.instances;
     desc.scheme = options.scheme;

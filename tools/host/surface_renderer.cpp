@@ -31,6 +31,12 @@ void applyRange(const SuppleDrawRange& range, shared::DrawPush& push) {
     push.firstVertex = range.firstVertex;
 }
 
+void bindGridIndices(VkCommandBuffer commands, const SuppleGroupOutput& output) {
+    const SuppleBufferView& indices = output.gridIndices;
+    vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset,
+                         indices.stride == 4 ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_UINT16);
+}
+
 /// What the group and the picture say, not the material.
 constexpr uint32_t kLastingFlags = shared::kDrawVertex24 | shared::kDrawAttributes | shared::kDrawCoverage;
 
@@ -518,7 +524,7 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
             vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
             vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), patches, 0, 0, 0);
         } else {
-            vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
+            bindGridIndices(commands, output);
             vkCmdDrawIndexed(commands, range.indexCount, patches, range.firstIndex, 0, 0);
         }
     }
@@ -531,7 +537,7 @@ void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) 
     const bool vertexLit = device_.isCpu() && scene.group->edgeRate() >= kVertexLitRate;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                       vertexLit ? pipelines_->surfaceVertexLit : pipelines_->surface);
-    vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
+    bindGridIndices(commands, output);
     for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.drawRanges[i];
         applyMaterial(character, range.material, push);

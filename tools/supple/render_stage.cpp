@@ -79,7 +79,8 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
                                                     .rate = options.rate,
                                                     .skinning = skinningOf(options.skinning),
                                                     .creaseMode = creaseModeOf(options.creases),
-                                                    .sharpThreshold = options.sharpThreshold});
+                                                    .sharpThreshold = options.sharpThreshold,
+                                                    .sharedSamples = options.sharedSamples});
     if (!group)
         return group.error();
     stage->group_ = std::move(*group);

@@ -33,6 +33,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->creaseMode_ = creaseModeOf(options.creases);
     stage->sharpThreshold_ = options.sharpThreshold;
     stage->pairQuads_ = options.pairQuads;
+    stage->sharedSamples_ = options.sharedSamples;
     stage->settings.rate = static_cast<int>(stage->offeredRate(options.rate));
     stage->startYaw_ = radians(options.yaw);
     stage->startPitch_ = radians(options.pitch);
@@ -86,7 +87,8 @@ Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& 
                                               .rate = rate,
                                               .skinning = skinning_,
                                               .creaseMode = creaseMode_,
-                                              .sharpThreshold = sharpThreshold_});
+                                              .sharpThreshold = sharpThreshold_,
+                                              .sharedSamples = sharedSamples_});
 }
 
 Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {

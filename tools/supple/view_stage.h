@@ -82,6 +82,7 @@ private:
     SuppleCreaseMode creaseMode_ = SUPPLE_CREASES_CUT;
     float sharpThreshold_ = 1.0f;
     bool pairQuads_ = false;
+    bool sharedSamples_ = false;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
     std::unique_ptr<host::Figure> figure_;

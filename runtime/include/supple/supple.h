@@ -418,7 +418,11 @@ typedef enum SuppleViewFlags {
     SUPPLE_VIEW_ATTRIBUTES = 2, /**< surface attributes, every frame anew */
     SUPPLE_VIEW_UVS1 = 4,       /**< with ATTRIBUTES: second UV sets */
     SUPPLE_VIEW_FACE_UVS = 8,   /**< with ATTRIBUTES: where vertices lie in their faces' trim tiles */
-    SUPPLE_VIEW_CULL = 16 /**< instances that the camera does not see are deformed, but no surface is made of them */
+    SUPPLE_VIEW_CULL = 16, /**< instances that the camera does not see are deformed, but no surface is made of them */
+    SUPPLE_VIEW_OCCLUSION = 32, /**< with CULL: nor of those behind a depth pyramid, see suppleSetDepthPyramid */
+    SUPPLE_VIEW_BACK_FACES = 64 /**< patches that surely show the camera their backs are left out, but for those of
+                                 * double-sided materials: for hosts that draw what winds counter-clockwise alone, and
+                                 * that from this camera alone */
 } SuppleViewFlags;
 
 /** How much a view may write. */
@@ -434,7 +438,7 @@ typedef struct SuppleViewDesc {
 
 /** A view without groups. */
 SUPPLE_API SuppleResult suppleCreateView(SuppleContext context, const SuppleViewDesc* desc, SuppleView* out);
-/** The handle is dead at once; its groups keep what they need. */
+/** The handle is dead at once; its groups keep what they need, and nothing hides their instances any more. */
 SUPPLE_API SuppleResult suppleDestroyView(SuppleContext context, SuppleView view);
 
 /** Options of a camera. */
@@ -458,23 +462,61 @@ typedef struct SuppleCameraDesc {
     float viewProjection[16];
     float farthest;       /**< CULL: what is farther from position is not seen; 0: no limit */
     float smallestRadius; /**< CULL: pixels: what is smaller is not seen */
+    float direction[3];   /**< BACK_FACES with ORTHOGRAPHIC: where the camera looks, of any length; else not used */
 } SuppleCameraDesc;
 
 /** Moves a view's camera; stands until set again. A view needs one before its groups are recorded. Shadow passes and
  * mirrors draw what the main camera chose: other levels would shadow themselves. */
 SUPPLE_API SuppleResult suppleSetCamera(SuppleContext context, SuppleView view, const SuppleCameraDesc* camera);
 
+/** Options of a depth pyramid. */
+typedef enum SuppleDepthPyramidFlags {
+    SUPPLE_DEPTH_REVERSED = 1 /**< near is 1, far is 0 */
+} SuppleDepthPyramidFlags;
+
+/** A depth picture and smaller ones of it: level 0 has width x height texels, the next ones half as many, rounded down,
+ * at least 1. Texel (x, y) of a level that is w x h holds the farthest depth (the largest, or REVERSED the smallest) of
+ * all that the rectangle from (x/w, y/h) to ((x+1)/w, (y+1)/h) of the picture touches; level 0 may be smaller than the
+ * picture. shaders/supple_depth_pyramid.comp makes one. */
+typedef struct SuppleDepthPyramidDesc {
+    uint32_t structSize;
+    uint32_t flags;       /**< SuppleDepthPyramidFlags */
+    VkImageView view;     /**< 2D, R32_SFLOAT, all levels from 0 on; of an image with usage SAMPLED */
+    VkImageLayout layout; /**< that it has while suppleRecord's commands run: GENERAL, SHADER_READ_ONLY_OPTIMAL or
+                           * READ_ONLY_OPTIMAL */
+    uint32_t width;       /**< of level 0 */
+    uint32_t height;
+    uint32_t levels;          /**< of the view: 1 to as many as there can be; more find more hidden */
+    float viewProjection[16]; /**< of the picture, as in SuppleCameraDesc; x and y -1..1 from texel 0 to the last */
+} SuppleDepthPyramidDesc;
+
+/** SUPPLE_VIEW_OCCLUSION: what an instance must come out of to be seen, from the next suppleRecord on until set again;
+ * null, as at first: nothing hides. An instance is hidden where the box round its surface lies behind the pyramid
+ * everywhere; boxes that reach out of the picture or behind the eye are never hidden. With the depth of the frame
+ * before what comes into view appears a frame late; with this frame's occluders it does not. The image is the host's.
+ * suppleRecord samples it in compute shaders, and only those: its writes must be in `before` (or before
+ * suppleGetRecordScopes' first), its next writes wait for compute shaders. It must be owned by queueFamily then, also
+ * with SUPPLE_CONTEXT_ASYNC_COMPUTE: share it concurrently, or transfer it. The image and its view must live until the
+ * frames that were recorded with them are completed, which a change here does not touch: set another, or null, first. */
+SUPPLE_API SuppleResult suppleSetDepthPyramid(SuppleContext context, SuppleView view,
+                                              const SuppleDepthPyramidDesc* pyramid);
+
 /** What a view drew. */
 typedef struct SuppleViewStatistics {
     uint32_t structSize;
-    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and what even
-                         * so has no room is missing */
+    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and where even
+                         * so there is no room whole instances are missing, the smallest first */
     uint64_t frame;     /**< of suppleBeginFrame */
     float
         levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
     uint32_t vertexCount;                   /**< surface vertices written */
     uint32_t wantedVertexCount;             /**< without a budget, up to a few per cent more */
     uint32_t patchCount;                    /**< drawn */
+    uint32_t instanceCount;                 /**< visible ones of its groups */
+    uint32_t drawnInstanceCount;            /**< of these: seen, and not missing */
+    uint32_t droppedInstanceCount;          /**< seen, and missing for want of room */
+    uint32_t occludedInstanceCount;         /**< not seen for OCCLUSION alone */
+    uint32_t backFaceCount;                 /**< patches of drawn instances that BACK_FACES left out */
 } SuppleViewStatistics;
 
 /** Of the newest completed frame; never blocks. SUPPLE_NOT_READY: there is none. */
@@ -522,7 +564,13 @@ typedef enum SupplePoseSource {
 typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients (for inspection) */
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
-    SUPPLE_GROUP_MOTION = 4      /**< also write where every surface vertex was in the frame before */
+    SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
+    /** Samples that patches share are surface vertices once, and an instance is one indexed mesh. PREP and PM, without
+     * a view. Positions are those of other groups to the bit; along creases, boundaries and, with ATTRIBUTES, seams of
+     * these, each side has vertices of its own. See SuppleDrawRange. */
+    SUPPLE_GROUP_SHARED_SAMPLES = 8,
+    SUPPLE_GROUP_ONE_LEVEL = 32 /**< groups of a view: a level an instance, from its bounds and the longest edge and
+                                 * sharpest bend of the cage's bind pose, instead of one an edge */
 } SuppleGroupFlags;
 
 /** How a group's surface is made, and for how many instances there is room. */
@@ -555,7 +603,8 @@ SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGro
  * completed (suppleBeginFrame). */
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
 /** Changes the rate from the next suppleRecord on; outputs must be queried anew. At most the rate the group was created
- * with; CATMULL_CLARK, LOOP and BLEND have tables for that rate alone. */
+ * with; CATMULL_CLARK, LOOP and BLEND have tables for that rate alone, SUPPLE_GROUP_SHARED_SAMPLES has indices for it
+ * alone. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
 /** An instance in the bind pose, visible, with the identity transform. SUPPLE_ERROR_LIMIT: the group is full. The slot
@@ -806,16 +855,23 @@ typedef struct SuppleBufferView {
  * POLAR     the same samples; the row j = R is one point, corner 2
  * TRIANGLE  (R+1)(R+2)/2: rows j = 0..R from the edge 0-1 towards corner 2, each i = 0..R-j
  * PENTAGON  5 R(R+1)/2 + 1: for each edge s-(s+1) rows j = 0..R-1 from the edge towards the centre, each i = 0..R-j-1
- * (the row's last point is the next edge's first); then the centre */
+ * (the row's last point is the next edge's first); then the centre
+ * MESH      not one patch's: SUPPLE_GROUP_SHARED_SAMPLES */
 typedef enum SuppleDomain {
     SUPPLE_DOMAIN_QUAD = 0,
     SUPPLE_DOMAIN_POLAR = 1,
     SUPPLE_DOMAIN_TRIANGLE = 2,
-    SUPPLE_DOMAIN_PENTAGON = 3
+    SUPPLE_DOMAIN_PENTAGON = 3,
+    SUPPLE_DOMAIN_MESH = 4
 } SuppleDomain;
 
 /** A run of patches of one domain and material; ranges follow each other without gaps. Draw instance i is patch
- * firstPatch + i % patchCount of the instance in slot SuppleGroupOutput.instances[i / patchCount]. */
+ * firstPatch + i % patchCount of the instance in slot SuppleGroupOutput.instances[i / patchCount].
+ *
+ * SUPPLE_GROUP_SHARED_SAMPLES: all triangles of one material. Draw instance i is the instance in slot instances[i], and
+ * an index is a surface vertex within the instance. To shaders that pull vertices it looks like one big patch:
+ * patchCount is 1, firstVertex 0, samplesPerPatch the group's vertexCount; firstPatch is 0. Indices are uint32, in the
+ * order of the patches of that material (suppleGetPatches), each in the order of its domain's grid in other groups. */
 typedef struct SuppleDrawRange {
     uint32_t firstPatch;
     uint32_t patchCount;
@@ -863,7 +919,8 @@ typedef struct SuppleGroupOutput {
     uint32_t cageVertexCount;         /**< per instance */
     uint32_t cageVerticesPerInstance; /**< >= cageVertexCount: the stride of deformedCage between slots */
     /** Vertex of (slot, patch, sample) with the patch's range r: slot * verticesPerInstance + r.firstVertex +
-     * (patch - r.firstPatch) * r.samplesPerPatch + sample. */
+     * (patch - r.firstPatch) * r.samplesPerPatch + sample. SUPPLE_GROUP_SHARED_SAMPLES: slot * verticesPerInstance +
+     * index. */
     SuppleBufferView surfaceVertices;
     /** With SUPPLE_GROUP_ATTRIBUTES: per surface vertex of one instance, shared by all: float2 uv, linear RGBA in 4 x
      * unorm16. */
@@ -873,7 +930,7 @@ typedef struct SuppleGroupOutput {
     SuppleBufferView deformedCage;
     /** With SUPPLE_GROUP_PATCHES: float4 per coefficient, SUPPLE_PATCH_STRIDE per patch, see SupplePatchInfo. */
     SuppleBufferView patchCoefficients;
-    SuppleBufferView gridIndices; /**< uint16: see SuppleDrawRange */
+    SuppleBufferView gridIndices; /**< uint16, SUPPLE_GROUP_SHARED_SAMPLES: uint32; see SuppleDrawRange */
     SuppleBufferView indirect;    /**< VkDrawIndexedIndirectCommand per draw range, for the visible instances */
     const SuppleDrawRange* drawRanges;
     uint32_t drawRangeCount;
@@ -941,7 +998,8 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
     const char* pass;  /**< static: upload, attributes, pose, deform, vertex, edge (P_m: its facets), patch, evaluate,
-                        * motion; groups of a view also bounds, level (twice), solve (once a view), place */
+                        * motion; groups of a view also bounds (twice with OCCLUSION), list, level (twice), solve (once a
+                        * view), place */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */

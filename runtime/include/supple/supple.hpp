@@ -233,6 +233,10 @@ public:
     [[nodiscard]] SuppleResult setCamera(const SuppleCameraDesc& camera) const {
         return suppleSetCamera(context_, handle_, &camera);
     }
+    /// Null: nothing hides.
+    [[nodiscard]] SuppleResult setDepthPyramid(const SuppleDepthPyramidDesc* pyramid) const {
+        return suppleSetDepthPyramid(context_, handle_, pyramid);
+    }
     [[nodiscard]] SuppleResult statistics(SuppleViewStatistics& out) const {
         out = sized<SuppleViewStatistics>();
         return suppleGetViewStatistics(context_, handle_, &out);

@@ -17,11 +17,13 @@ layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec3 outColor;
 
-// Every slot another shade.
-vec3 shade(uint slot) {
+// Every kind has hues of its own, every slot a shade of them: turned round the grey axis, then a little lighter or darker.
+vec3 tinted(vec3 color, uint slot) {
+    const float kHues[3] = float[3](0.0, 2.9, -1.75);
     uint h = (slot * 3u + kind) * 2654435761u;
-    vec3 t = vec3(h & 255u, (h >> 8u) & 255u, (h >> 16u) & 255u) / 255.0;
-    return 0.62 + 0.5 * t;
+    float angle = kHues[kind % 3u] + 0.5 * (float(h & 255u) / 255.0 - 0.5);
+    vec3 turned = cos(angle) * color + sin(angle) * cross(vec3(0.57735), color) + (1.0 - cos(angle)) * dot(vec3(1.0 / 3.0), color);
+    return max(turned, vec3(0.0)) * (0.8 + 0.4 * float((h >> 8u) & 255u) / 255.0);
 }
 
 // From blue, coarse, to red, fine.
@@ -39,6 +41,6 @@ void main() {
         return;
     }
     outNormal = suppleNormal(at);
-    outColor = paint != 0u ? capacityColor() : suppleColor(at).rgb * shade(at.slot);
+    outColor = paint != 0u ? capacityColor() : tinted(suppleColor(at).rgb, at.slot);
     gl_Position = scene.viewProjection * vec4(outPosition, 1.0);
 }

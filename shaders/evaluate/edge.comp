@@ -1,0 +1,138 @@
+// Shared samples: those along edges, each once, and at corners, each with one of the edges that begin there. An edge comes
+// from one of its patches, which it has on its left: positions from the border cubic, by the operations of the patches'
+// own evaluation and thus the same bits; normals from the border and what lies one step inside. Narrow mapping: one lane an
+// edge. Wide mapping: one lane a sample.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
+#define POOL_READ_ONLY
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/evaluate/basis.glsl"
+#include "shaders/evaluate/surface_vertex.glsl"
+
+layout(constant_id = 3) const uint kEdges = kPlainEdges;
+layout(constant_id = 5) const bool kCornerNormals = false;
+
+const bool kPerturbed = kEdges == kPerturbedEdges;
+const bool kMixed = kEdges == kMixedEdges;
+
+// Derivatives along and across the border have lost a common factor, and come from offsets alone: beside sharp creases they
+// are small. `across` are the coefficients of a cubic that points inwards.
+struct Edge {
+    vec3 border[4];
+    vec3 along[3];
+    vec3 across[4];
+    vec3 h[4];        // perturbation: h20 h30 on the border, h21 h31 beside it
+    vec3 firstNormal; // of the beginning, where a perturbation vanishes
+};
+
+vec3 placed(vec3 corner, vec3 offset) {
+    precise vec3 p = corner + offset;
+    return p;
+}
+
+Edge loadEdge(uint record, uvec4 own, uint base) {
+    uvec4 border = base + tableElement(record), inside = base + tableElement(record + 1u);
+    vec3 v0 = poolVector(border.x), t0 = poolVector(border.y), t1 = poolVector(border.z), v1 = poolVector(border.w);
+    vec3 q0 = poolVector(inside.x), q1 = poolVector(inside.y), q2 = poolVector(inside.z), q3 = poolVector(inside.w);
+    Edge e;
+    e.border = vec3[4](v0, placed(v0, t0), placed(v1, t1), v1);
+    vec3 chord = v1 - v0;
+    e.along = vec3[3](t0, chord + t1 - t0, -t1);
+    e.across = vec3[4](q0, q1 - t0, q2 - t1, q3);
+    vec3 firstNormal = cross(t0, q0); // outwards
+    if (kMixed) {
+        vec3 a[4] = e.across;
+        // Towards the apex of a polar patch the derivative across has the factor that is the distance to it: without it,
+        // it is of degree 2, here raised to 3.
+        if ((own.z & kApexLastEdge) != 0u)
+            e.across = vec3[4](a[0], a[0] * (1.0 / 3.0) + a[1], a[1] + a[2], 3.0 * a[2]);
+        if ((own.z & kApexFirstEdge) != 0u)
+            e.across = vec3[4](3.0 * a[1], a[1] + a[2], a[3] * (1.0 / 3.0) + a[2], a[3]);
+        // A sector of a P_m patch: the rows 301 .. 031 and 400 .. 130 of its coefficients (pm/evaluate.comp).
+        uint sides = own.z & kEdgeSidesMask;
+        if (sides != 0u) {
+            float ray = sides == 3u ? 1.0 / 3.0 : sides == 4u ? 0.5 : 0.7236067977499790;
+            e.across = vec3[4](0.75 * ray * (t0 + q0), q1 - 0.75 * t0, q2 + 0.5 * (chord - (t0 + t1)),
+                               0.75 * (ray * (t1 + q3) - t1));
+        }
+        firstNormal = cross(e.along[0], e.across[0]);
+        if ((own.z & kSingularEdge) != 0u) {
+            // The tangents are parallel at the beginning: the limit of the normals on the way to the middle.
+            float ray = sides == 3u ? 1.0 / 3.0 : sides == 4u ? 0.5 : 0.7236067977499790;
+            vec3 last121 = poolVector(base + own.w), first = 0.75 * t0, second = e.across[0];
+            vec3 firstStep = -2.0 * first + (0.5 * (chord + t1) - 0.25 * t0) + (q1 - second);
+            vec3 secondStep = -2.0 * second + (q1 - first) + ray * (q1 + last121 - 2.0 * second);
+            firstNormal = cross(firstStep, second) + cross(first, secondStep);
+        }
+    }
+    if (kCornerNormals && (own.z & kStoredNormalEdge) != 0u) firstNormal = poolVector(base + own.w);
+    e.firstNormal = unitNormal(firstNormal);
+    if (kPerturbed) {
+        uint swap = (own.z & kSwappedEdge) != 0u ? 1u : 0u, h = base + own.w;
+        for (uint s = 0u; s < 4u; ++s) e.h[s] = poolVector(h + (s ^ swap));
+    }
+    return e;
+}
+
+void finish(Edge e, uint k, uint rate, out vec3 position, out vec3 normal) {
+    vec2 t = parameterPair(k, rate, push.pairs);
+    vec4 b = bernstein3(t);
+    precise vec3 p = sum4(b, e.border[0], e.border[1], e.border[2], e.border[3]);
+    vec3 along = t.y * t.y * e.along[0] + 2.0 * t.x * t.y * e.along[1] + t.x * t.x * e.along[2];
+    vec3 across = blend4(b, e.across[0], e.across[1], e.across[2], e.across[3]);
+    if (kPerturbed) {
+        Basis5 b5 = bernstein5(t), d5 = bernsteinDerivative5(t);
+        precise vec3 h = sum2(b5.inner, e.h[0], e.h[1]);
+        p = p + h;
+        along += (1.0 / 3.0) * blend2(d5.inner, e.h[0], e.h[1]);
+        across += (5.0 / 3.0) * blend2(b5.inner, e.h[2] - e.h[0], e.h[3] - e.h[1]);
+    }
+    position = p;
+    normal = unitNormal(cross(along, across)); // outwards
+}
+
+void evaluateNarrow() {
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uint record = push.table + (id - entry * push.count) * kSharedEdgeElements;
+    uvec4 own = tableElement(record + 2u);
+    Edge e = loadEdge(record, own, instance * push.poolStride);
+    uint first = instance * push.verticesPerInstance;
+    if (own.x != kNoEdgeSample) storeSurfaceVertex(first + push.firstCorner + own.x, e.border[0], e.firstNormal);
+    uint rate = fixedRate();
+    if (rate == 1u) return;
+    vec3 position, normal;
+    uint vertex = first + push.firstVertex + own.y * (rate - 1u), k = 1u;
+    [[unroll]] do {
+        finish(e, k, rate, position, normal);
+        storeSurfaceVertex(vertex, position, normal);
+        ++vertex;
+    } while (++k < rate);
+}
+
+void evaluateWide() {
+    uint id = invocationIndex(), lanes = push.count * push.rate;
+    if (id >= lanes * instanceCount()) return;
+    uint entry = id / lanes, instance = instanceSlot(entry), lane = id - entry * lanes;
+    uint edge = lane / push.rate, k = lane - edge * push.rate;
+    uint record = push.table + edge * kSharedEdgeElements;
+    uvec4 own = tableElement(record + 2u);
+    if (k == 0u && own.x == kNoEdgeSample) return;
+    Edge e = loadEdge(record, own, instance * push.poolStride);
+    uint first = instance * push.verticesPerInstance;
+    if (k == 0u) {
+        storeSurfaceVertex(first + push.firstCorner + own.x, e.border[0], e.firstNormal);
+        return;
+    }
+    vec3 position, normal;
+    finish(e, k, push.rate, position, normal);
+    storeSurfaceVertex(first + push.firstVertex + own.y * (push.rate - 1u) + k - 1u, position, normal);
+}
+
+void main() {
+    if (kWide) evaluateWide();
+    else evaluateNarrow();
+}

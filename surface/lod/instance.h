@@ -1,0 +1,17 @@
+// What one level for a whole instance is measured by.
+#pragma once
+
+#include "cage/character.h"
+
+namespace supple::surface::lod {
+
+/// Of a cage in its bind pose, as parts of the diagonal of its box: whatever a pose and a transform do to the box, they
+/// are taken to do to edges.
+struct InstanceMeasure {
+    float longest = 0.0f; ///< edge
+    float bend = 0.0f;    ///< the largest second difference of a boundary cubic: that of the cage's vertices along an
+                          ///< edge and on beyond its end, over 6, as of the uniform cubic B-spline
+};
+[[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage);
+
+} // namespace supple::surface::lod

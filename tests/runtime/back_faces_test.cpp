@@ -1,0 +1,269 @@
+// Patches that show their backs: what a view with SUPPLE_VIEW_BACK_FACES leaves out against one without.
+#include "cage/gltf_reader.h"
+#include "surface/lod/grid.h"
+#include "surface/schemes.h"
+#include "tests/support/gpu_comparison.h"
+#include "tests/support/lod_surface.h"
+#include "tests/support/shared_assets.h"
+#include "tests/support/test_view.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <map>
+#include <random>
+#include <set>
+
+namespace supple::test {
+namespace {
+
+class BackFaces : public CrowdContexts, public testing::WithParamInterface<SuppleMapping> {};
+INSTANTIATE_TEST_SUITE_P(Mappings, BackFaces, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
+                         [](const auto& param) { return mappingName(param.param); });
+
+/// By (slot, patch): levels, and how its triangles lie to the camera.
+struct Seen {
+    std::array<float, 12> levels{};
+    uint32_t front = 0, back = 0; ///< triangles of some area
+    double largest = 0.0;         ///< area of one that faces the camera, square pixels
+    double area = 0.0;            ///< of all that do
+};
+/// Square pixels: a triangle between samples that all but coincide may turn over by the rounding of its corners.
+constexpr double kRounding = 1e-3;
+using SeenPatches = std::map<std::pair<uint32_t, uint32_t>, Seen>;
+
+SeenPatches seenPatches(const LodSurface& surface, const SuppleCameraDesc& camera) {
+    const bool orthographic = (camera.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0;
+    const glm::dvec3 eye(camera.position[0], camera.position[1], camera.position[2]);
+    const glm::dvec3 direction =
+        orthographic ? glm::normalize(glm::dvec3(camera.direction[0], camera.direction[1], camera.direction[2]))
+                     : glm::dvec3(0.0);
+    const double pixels = static_cast<double>(camera.pixelsPerUnit);
+    SeenPatches seen;
+    std::map<uint32_t, Seen*> byFirstVertex;
+    for (const LodSurface::Patch& patch : surface.patches) {
+        Seen& own = seen[{patch.slot, patch.patch}];
+        own.levels = patch.levels;
+        byFirstVertex[patch.firstVertex] = &own;
+    }
+    const auto at = [&](uint32_t v) { return glm::dvec3(asPositions({surface.positions[v]})[0]); };
+    for (const std::array<uint32_t, 3>& triangle : surface.triangles) {
+        const glm::dvec3 a = at(triangle[0]), b = at(triangle[1]), c = at(triangle[2]);
+        const glm::dvec3 normal = glm::cross(b - a, c - a); // twice the area
+        if (normal == glm::dvec3(0.0)) {
+            continue;
+        }
+        Seen& own = *std::prev(byFirstVertex.upper_bound(triangle[0]))->second;
+        const glm::dvec3 from = a - eye;
+        const double away = glm::length(from);
+        const double towards = orthographic ? -glm::dot(normal, direction) * 0.5 * pixels * pixels
+                                            : -glm::dot(normal, from) / away * 0.5 * pixels * pixels / (away * away);
+        if (towards > 0.0) {
+            ++own.front;
+            own.largest = std::max(own.largest, towards);
+            own.area += towards;
+        } else {
+            ++own.back;
+        }
+    }
+    return seen;
+}
+
+/// Depths of a square picture as a rasterizer has them that leaves out what winds clockwise, and 0 where nothing is: of
+/// 1 / distance along the view, which is linear in a perspective picture.
+std::vector<float> picture(const LodSurface& surface, glm::dvec3 eye, glm::dvec3 middle, double pixels) {
+    constexpr int kSide = 256;
+    std::vector<float> depths(size_t{kSide} * kSide, 0.0f);
+    const glm::dmat4 view = glm::lookAt(eye, middle, glm::dvec3(0.13, 0.97, 0.21));
+    for (const std::array<uint32_t, 3>& triangle : surface.triangles) {
+        glm::dvec3 p[3];
+        bool before = true;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 q = view * glm::dvec4(glm::dvec3(asPositions({surface.positions[triangle[k]]})[0]), 1.0);
+            before = before && q.z < 0.0;
+            p[k] = {kSide / 2 - pixels * q.x / q.z, kSide / 2 - pixels * q.y / q.z, -1.0 / q.z};
+        }
+        const auto side = [](glm::dvec3 a, glm::dvec3 b, double x, double y) {
+            return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+        };
+        const double area = side(p[0], p[1], p[2].x, p[2].y);
+        if (!before || area <= 0.0) {
+            continue;
+        }
+        const auto range = [&](int axis) {
+            const auto [low, high] = std::minmax({p[0][axis], p[1][axis], p[2][axis]});
+            return std::pair(static_cast<int>(std::clamp(low, 0.0, double{kSide})),
+                             static_cast<int>(std::clamp(high + 1.0, 0.0, double{kSide})));
+        };
+        const auto [left, right] = range(0);
+        const auto [top, bottom] = range(1);
+        for (int y = top; y < bottom; ++y) {
+            for (int x = left; x < right; ++x) {
+                const double a = side(p[1], p[2], x + 0.5, y + 0.5), b = side(p[2], p[0], x + 0.5, y + 0.5),
+                             c = side(p[0], p[1], x + 0.5, y + 0.5);
+                if (a >= 0.0 && b >= 0.0 && c >= 0.0) {
+                    const double depth = (a * p[0].z + b * p[1].z + c * p[2].z) / area;
+                    float& own = depths[static_cast<size_t>(y) * kSide + static_cast<size_t>(x)];
+                    own = std::max(own, static_cast<float>(depth));
+                }
+            }
+        }
+    }
+    return depths;
+}
+
+TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        std::mt19937 random(9);
+        std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+        std::normal_distribution<float> normal;
+        struct Count {
+            size_t patches = 0, back = 0, out = 0;
+        };
+        std::map<SupplePatchClass, Count> counts;
+        size_t cameras = 0, lostTriangles = 0, triangles = 0, pixels = 0, differentPixels = 0;
+        double largest = 0.0;
+        for (const std::string& path : allCharacters()) {
+            const Result<cage::Character> character = cage::readGltfFile(path);
+            ASSERT_TRUE(character.ok());
+            if (!surface::buildTables({.scheme = static_cast<surface::SchemeId>(scheme)}, character->cage).ok()) {
+                continue;
+            }
+            const std::string name = std::filesystem::path(path).filename().string();
+            TestView all(context, 1'000'000), some(context, 1'000'000, SUPPLE_VIEW_BACK_FACES);
+            SuppleGroupDesc desc{};
+            desc.asset = context.asset(path);
+            desc.capacity = 1;
+            desc.scheme = scheme;
+            desc.view = all.handle();
+            Crowd allCrowd(context, desc);
+            desc.view = some.handle();
+            Crowd someCrowd(context, desc);
+            ASSERT_TRUE(allCrowd.valid() && someCrowd.valid());
+            const SuppleInstance instances[] = {allCrowd.spawn(), someCrowd.spawn()};
+            std::vector<SupplePatchInfo> patches(allCrowd.output().patchCount);
+            auto count = static_cast<uint32_t>(patches.size());
+            ASSERT_EQ(suppleGetPatches(context.handle(), allCrowd.group(), patches.data(), &count), SUPPLE_OK);
+            glm::vec3 low(1e30f), high(-1e30f);
+            for (const glm::vec3& p : character->cage.positions) {
+                low = glm::min(low, p);
+                high = glm::max(high, p);
+            }
+            const float size = glm::length(high - low);
+            Count ofAll;
+            for (uint32_t frame = 0; frame < 7; ++frame) {
+                const glm::mat4 place =
+                    frame == 3 ? glm::scale(glm::mat4(1.0f), glm::vec3(-1.0f, 1.0f, 1.0f)) : glm::mat4(1.0f);
+                const float time = unit(random);
+                for (const auto& [crowd, instance] :
+                     {std::pair(&allCrowd, instances[0]), std::pair(&someCrowd, instances[1])}) {
+                    crowd->pose(instance, crowd->clipCount() > 0 ? frame % crowd->clipCount() : SUPPLE_BIND_POSE, time,
+                                place);
+                }
+                const glm::vec3 direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+                const float away = std::array{0.35f, 0.6f, 1.2f, 2.0f, 8.0f, 1.0f, 1.5f}[frame] * size;
+                const glm::vec3 eye = 0.5f * (low + high) - away * direction;
+                for (TestView* view : {&all, &some}) {
+                    view->camera.flags = frame == 5 ? SUPPLE_CAMERA_ORTHOGRAPHIC : 0;
+                    view->camera.pixelsPerUnit = frame == 5 ? 700.0f / size : 869.0f;
+                    view->camera.nearest = 0.01f * size;
+                    view->camera.vertexBudget = frame == 6 ? 20 * count : 0; // scales levels down
+                    std::copy_n(&direction.x, 3, view->camera.direction);
+                    view->look(eye);
+                }
+                context.run(allCrowd.group());
+                const LodSurface wholeSurface = readLodSurface(allCrowd);
+                const SeenPatches whole = seenPatches(wholeSurface, all.camera);
+                context.run(someCrowd.group());
+                const LodSurface leftSurface = readLodSurface(someCrowd);
+                const SeenPatches left = seenPatches(leftSurface, all.camera);
+                EXPECT_EQ(whole.size(), patches.size());
+                if (frame < 5) { // with the same levels and one eye
+                    const std::vector<float> before = picture(wholeSurface, eye, 0.5f * (low + high), 200.0);
+                    const std::vector<float> after = picture(leftSurface, eye, 0.5f * (low + high), 200.0);
+                    for (size_t i = 0; i < before.size(); ++i) {
+                        pixels += before[i] > 0.0f ? 1 : 0;
+                        differentPixels += before[i] != after[i] ? 1 : 0;
+                    }
+                }
+                ++cameras;
+                for (const auto& [which, seen] : whole) {
+                    Count& own = counts[patches[which.second].patchClass];
+                    ++own.patches;
+                    own.back += seen.front == 0 ? 1 : 0;
+                    ++ofAll.patches;
+                    ofAll.back += seen.front == 0 ? 1 : 0;
+                    triangles += seen.front + seen.back;
+                    if (const auto found = left.find(which); found != left.end()) {
+                        EXPECT_TRUE(frame == 6 || found->second.levels == seen.levels);
+                        continue;
+                    }
+                    ++own.out;
+                    ++ofAll.out;
+                    if (seen.front > 0) {
+                        lostTriangles += seen.front;
+                        largest = std::max(largest, seen.largest);
+                    }
+                    EXPECT_LT(seen.largest, kRounding)
+                        << name << ", frame " << frame << ", patch " << which.second << ": " << seen.area;
+                }
+            }
+            std::printf("scheme %d, %s: %zu patches, %zu show their backs, %zu left out\n", scheme, name.c_str(),
+                        ofAll.patches, ofAll.back, ofAll.out);
+        }
+        for (const auto& [patchClass, count] : counts) {
+            std::printf("scheme %d, class %d: %zu patches, %zu show their backs, %zu left out\n", scheme, patchClass,
+                        count.patches, count.back, count.out);
+        }
+        std::printf(
+            "scheme %d: %zu cameras, %zu triangles; of patches left out %zu face the camera, at most %.2g square "
+            "pixels each\n",
+            scheme, cameras, triangles, lostTriangles, largest);
+        std::printf("scheme %d: %zu pixels, %zu differ\n", scheme, pixels, differentPixels);
+        EXPECT_GT(pixels, 100'000u);
+        EXPECT_EQ(differentPixels, 0u);
+        // What is worth it: most regular patches that show their backs are found.
+        EXPECT_GT(counts[SUPPLE_PATCH_REGULAR].out * 10, counts[SUPPLE_PATCH_REGULAR].back * 5);
+    }
+}
+
+TEST_P(BackFaces, AreCountedAndDoubleSidedOnesStay) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    Result<cage::Character> character = cage::readGltfFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
+    ASSERT_TRUE(character.ok());
+    ASSERT_FALSE(character->materials.empty());
+    for (const bool doubleSided : {false, true}) {
+        for (cage::Material& material : character->materials) {
+            material.doubleSided = doubleSided;
+        }
+        TestView view(context, 1'000'000, SUPPLE_VIEW_BACK_FACES | SUPPLE_VIEW_CULL);
+        SuppleGroupDesc desc{};
+        desc.asset = context.createAsset(*character);
+        desc.capacity = 3;
+        desc.scheme = SUPPLE_SCHEME_PM;
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        for (int i = 0; i < 3; ++i) {
+            crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0,
+                       glm::translate(glm::mat4(1.0f), glm::vec3(2.0f * static_cast<float>(i), 0.0f, 0.0f)));
+        }
+        view.look({2.0f, 1.0f, 7.0f});
+        context.run(crowd.group());
+        const size_t drawn = readLodSurface(crowd).patches.size();
+        context.run(crowd.group());
+        const SuppleViewStatistics statistics = view.statistics();
+        EXPECT_EQ(statistics.instanceCount, 3u);
+        EXPECT_EQ(statistics.drawnInstanceCount, 3u);
+        EXPECT_EQ(statistics.patchCount, drawn);
+        EXPECT_EQ(statistics.backFaceCount, 3 * crowd.output().patchCount - drawn);
+        EXPECT_EQ(statistics.backFaceCount == 0, doubleSided);
+    }
+}
+
+} // namespace
+} // namespace supple::test

@@ -1,0 +1,357 @@
+// Views of many instances: budgets that do not suffice, one level an instance, windows, split dispatches, and the
+// device's budget against the CPU's.
+#include "cage/procedural.h"
+#include "shaders/shared/lod.h"
+#include "surface/lod/budget.h"
+#include "surface/lod/grid.h"
+#include "tests/support/gpu_comparison.h"
+#include "tests/support/lod_surface.h"
+#include "tests/support/meshes.h"
+#include "tests/support/test_view.h"
+#include "tests/support/wrapped_vulkan.h"
+
+#include <bit>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace supple::test {
+namespace {
+
+using surface::lod::Form;
+
+class LodCrowds : public CrowdContexts, public testing::WithParamInterface<SuppleMapping> {};
+INSTANTIATE_TEST_SUITE_P(Mappings, LodCrowds, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
+                         [](const auto& param) { return mappingName(param.param); });
+
+cage::Cage bumpySphere(uint32_t faces) {
+    return perturbed(cage::makeCubeSphere(faces), 0.05f, 3);
+}
+
+SuppleGroupDesc groupOf(SuppleAsset asset, uint32_t capacity, const TestView& view,
+                        SuppleScheme scheme = SUPPLE_SCHEME_PREP) {
+    SuppleGroupDesc desc{};
+    desc.asset = asset;
+    desc.capacity = capacity;
+    desc.scheme = scheme;
+    desc.view = view.handle();
+    return desc;
+}
+
+/// In rows of eight, three units from each other, away from the camera.
+std::vector<SuppleInstance> spawnRows(Crowd& crowd, uint32_t count, uint32_t columns = 8) {
+    std::vector<SuppleInstance> instances;
+    for (uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 place(3.0f * static_cast<float>(i % columns) - 1.5f * static_cast<float>(columns - 1), 0.0f,
+                              -3.0f * static_cast<float>(i / columns));
+        instances.push_back(crowd.spawn());
+        crowd.pose(instances.back(), SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), place));
+    }
+    return instances;
+}
+
+TEST_P(LodCrowds, ATenthOfTheBudgetStaysValidAndStable) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 120000);
+    Crowd crowd(context, groupOf(context.createAsset(bumpySphere(3)), 64, view));
+    ASSERT_TRUE(crowd.valid());
+    const std::vector<SuppleInstance> instances = spawnRows(crowd, 64);
+    EXPECT_EQ(suppleSetPriority(context.handle(), instances.back(), 3), SUPPLE_OK); // the farthest is not to go
+    const uint32_t patches = crowd.output().patchCount;
+
+    view.look({0.0f, 3.0f, 25.0f});
+    context.run(crowd.group());
+    context.run(crowd.group());
+    const uint32_t needed = view.statistics().vertexCount;
+    EXPECT_EQ(view.statistics().shortfall, 0u);
+    view.camera.vertexBudget = needed / 10;
+
+    // 150 frames from one place, 225 that come closer, 225 that pass by.
+    std::map<uint32_t, uint32_t> turns; // by slot: how often it came or went
+    std::set<uint32_t> before;
+    uint32_t fewest = ~0u, most = 0;
+    float distance = 25.0f;
+    for (uint32_t frame = 0; frame < 600; ++frame) {
+        if (frame == 150) {
+            EXPECT_TRUE(turns.empty()) << "nothing moved";
+        }
+        distance *= frame < 150 || frame >= 375 ? 1.0f : 0.997f;
+        view.look({frame < 375 ? 0.0f : 0.05f * static_cast<float>(frame - 375), 3.0f, distance});
+        context.run(crowd.group());
+        const LodSurface surface = readLodSurface(crowd);
+        std::map<uint32_t, uint32_t> drawn; // patches by slot
+        for (const LodSurface::Patch& patch : surface.patches) {
+            ++drawn[patch.slot];
+        }
+        std::set<uint32_t> slots;
+        for (const auto& [slot, count] : drawn) {
+            ASSERT_EQ(count, patches) << "slot " << slot << " in frame " << frame;
+            slots.insert(slot);
+        }
+        ASSERT_TRUE(slots.contains(63)) << frame;
+        if (frame > 0) {
+            for (uint32_t slot = 0; slot < 64; ++slot) {
+                turns[slot] += slots.contains(slot) != before.contains(slot) ? 1 : 0;
+                if (turns[slot] == 0) {
+                    turns.erase(slot);
+                }
+            }
+            const SuppleViewStatistics last = view.statistics(); // of the frame before
+            ASSERT_LE(last.vertexCount, needed / 10) << frame;
+            ASSERT_EQ(last.shortfall, 1u) << frame;
+            ASSERT_EQ(last.instanceCount, 64u);
+            ASSERT_EQ(last.drawnInstanceCount, before.size());
+            ASSERT_EQ(last.droppedInstanceCount, 64u - before.size());
+        }
+        if (frame % 25 == 0) {
+            ASSERT_EQ(matchSides(surface).unmatched, 0u) << frame;
+        }
+        before = slots;
+        fewest = std::min(fewest, static_cast<uint32_t>(slots.size()));
+        most = std::max(most, static_cast<uint32_t>(slots.size()));
+    }
+    uint32_t worst = 0;
+    for (const auto& [slot, count] : turns) {
+        worst = std::max(worst, count);
+    }
+    std::printf("%u vertices needed, %u allowed: %u to %u of 64 instances drawn, %zu came or went, one %u times\n",
+                needed, needed / 10, fewest, most, turns.size(), worst);
+    EXPECT_LE(worst, 4u);
+}
+
+TEST_P(LodCrowds, OneLevelAnInstance) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        TestView view(context, 400000);
+        const cage::Cage cage = scheme == SUPPLE_SCHEME_PREP ? bumpySphere(4) : cage::makeSplitTorus(8, 7);
+        const SuppleAsset asset = context.createAsset(cage);
+        Crowd perEdge(context, groupOf(asset, 8, view, scheme));
+        SuppleGroupDesc desc = groupOf(asset, 8, view, scheme);
+        desc.flags = SUPPLE_GROUP_ONE_LEVEL;
+        Crowd whole(context, desc);
+        ASSERT_TRUE(perEdge.valid() && whole.valid());
+        (void)spawnRows(perEdge, 5, 1);
+        (void)spawnRows(whole, 5, 1);
+        double low = 10.0, high = 0.0;
+        for (const float distance : {60.0f, 20.0f, 8.0f, 4.0f}) {
+            view.look({0.3f * distance, 0.2f * distance, 0.93f * distance});
+            const SuppleGroup groups[] = {perEdge.group(), whole.group()};
+            context.run(groups);
+            const auto levelOf = [](const LodSurface::Patch& patch, size_t pair) {
+                return 2.0f * patch.levels[2 * pair] + 1.0f;
+            };
+            std::map<uint32_t, float> wanted, largest;
+            const LodSurface edges = readLodSurface(perEdge), one = readLodSurface(whole);
+            EXPECT_EQ(edges.patches.size(), one.patches.size());
+            for (const LodSurface::Patch& patch : edges.patches) {
+                for (size_t pair = 0; pair < 6; ++pair) {
+                    wanted[patch.slot] = std::max(wanted[patch.slot], levelOf(patch, pair));
+                }
+            }
+            for (const LodSurface::Patch& patch : one.patches) {
+                const uint32_t sides = surface::lod::sides(static_cast<Form>(patch.grid));
+                const size_t pairs = static_cast<Form>(patch.grid) == Form::quad ? 6 : 1 + sides;
+                const float level = largest.try_emplace(patch.slot, levelOf(patch, 0)).first->second;
+                for (size_t pair = 0; pair < pairs; ++pair) {
+                    ASSERT_EQ(levelOf(patch, pair), level) << "slot " << patch.slot;
+                }
+            }
+            EXPECT_EQ(matchSides(one).unmatched, 0u);
+            for (const auto& [slot, level] : largest) {
+                const auto ratio = static_cast<double>(level / wanted[slot]);
+                low = std::min(low, ratio);
+                high = std::max(high, ratio);
+                EXPECT_GE(level, 0.84f * wanted[slot]);
+                EXPECT_LE(level, 1.25f * wanted[slot]);
+            }
+        }
+        std::printf("scheme %d: one level %.2f to %.2f of what the finest edge or inside asks for\n", scheme, low,
+                    high);
+    }
+}
+
+/// Positions by slot and patch, each patch's in the order of its samples.
+using ByPatch = std::map<std::pair<uint32_t, uint32_t>, PositionBits>;
+ByPatch byPatch(const LodSurface& surface) {
+    ByPatch result;
+    for (const LodSurface::Patch& patch : surface.patches) {
+        const auto first = surface.positions.begin() + patch.firstVertex;
+        const uint32_t samples = surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
+        const bool fresh =
+            result.try_emplace({patch.slot, patch.patch}, first, first + samples).second; // once and no more
+        EXPECT_TRUE(fresh) << "slot " << patch.slot << ", patch " << patch.patch;
+    }
+    return result;
+}
+
+/// Patches that are not the same in both.
+size_t differing(const ByPatch& a, const ByPatch& b) {
+    size_t count = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
+    for (const auto& [patch, positions] : a) {
+        const auto found = b.find(patch);
+        count += found == b.end() || found->second != positions ? 1 : 0;
+    }
+    return count;
+}
+
+/// What a view draws of a crowd on a device whose limits `limit` has set, and how many commands it took.
+struct Drawn {
+    ByPatch patches;
+    WrappedVulkan counts;
+    float levelScale = 0.0f;
+};
+Drawn drawThrough(SuppleMapping mapping, uint32_t instances, uint32_t capacity,
+                  const std::function<void(WrappedVulkan&)>& limit) {
+    Drawn drawn;
+    WrappedVulkan& wrapped = wrappedVulkan();
+    limit(wrapped);
+    const WrappedVulkan limits = wrapped;
+    const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+    EXPECT_NE(device, nullptr);
+    if (device != nullptr) {
+        CrowdContext context(*device, mapping);
+        TestView view(context, 300000, SUPPLE_VIEW_MOTION);
+        Crowd crowd(context, groupOf(context.createAsset(bumpySphere(2)), capacity, view));
+        EXPECT_TRUE(crowd.valid());
+        // The visible ones all over the slots.
+        const uint32_t step = capacity / instances;
+        for (uint32_t slot = 0; slot < capacity; ++slot) {
+            const SuppleInstance instance = crowd.spawn();
+            const uint32_t i = slot / step;
+            crowd.setVisible(instance, slot % step == 0 && i < instances);
+            crowd.pose(
+                instance, SUPPLE_BIND_POSE, 0.0,
+                glm::translate(glm::mat4(1.0f), 3.0f * glm::vec3(i % 24 - 11.5f, 0.0f, -static_cast<float>(i / 24))));
+        }
+        for (int frame = 0; frame < 3; ++frame) { // until nothing is new
+            view.camera.smallestEdge = 8.0f;
+            view.look({0.0f, 5.0f, 16.0f});
+            wrapped = limits;
+            context.run(crowd.group());
+        }
+        drawn.counts = wrapped;
+        drawn.patches = byPatch(readLodSurface(crowd));
+        context.run(crowd.group());
+        drawn.levelScale = view.statistics().levelScales[0];
+        EXPECT_EQ(drawn.patches.size(), size_t{instances} * crowd.output().patchCount);
+        EXPECT_EQ(device->validationMessageCount(), 0u);
+    }
+    (void)wrappedVulkan();
+    return drawn;
+}
+
+TEST_P(LodCrowds, CommandsDoNotCountInstances) {
+    const auto unlimited = [](WrappedVulkan&) {};
+    const Drawn one = drawThrough(GetParam(), 1, 1000, unlimited);
+    for (const uint32_t instances : {10u, 100u, 1000u}) {
+        const Drawn many = drawThrough(GetParam(), instances, 1000, unlimited);
+        EXPECT_EQ(many.counts.dispatches, one.counts.dispatches);
+        EXPECT_EQ(many.counts.indirectDispatches, one.counts.indirectDispatches);
+        EXPECT_EQ(many.counts.barriers, one.counts.barriers);
+        EXPECT_EQ(many.counts.copies, one.counts.copies);
+    }
+    std::printf("%llu dispatches, %llu indirect ones, %llu barriers\n",
+                static_cast<unsigned long long>(one.counts.dispatches),
+                static_cast<unsigned long long>(one.counts.indirectDispatches),
+                static_cast<unsigned long long>(one.counts.barriers));
+    EXPECT_GT(one.counts.indirectDispatches, 3u);
+}
+
+TEST_P(LodCrowds, SplitDispatchesAndWindowsDrawTheSame) {
+    const uint32_t instances = 700, capacity = 5600;
+    const Drawn whole = drawThrough(GetParam(), instances, capacity, [](WrappedVulkan&) {});
+    const Drawn split =
+        drawThrough(GetParam(), instances, capacity, [](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = 3; });
+    EXPECT_EQ(differing(split.patches, whole.patches), 0u);
+    const Drawn windows = drawThrough(GetParam(), instances, capacity, [](WrappedVulkan& w) {
+        w.maxStorageBufferRange = 16u << 20; // of 5,600 instances the pool has more
+    });
+    for (const Drawn* drawn : {&whole, &split, &windows}) {
+        EXPECT_EQ(drawn->levelScale, 1.0f) << "room depends on how many windows there are";
+    }
+    EXPECT_GT(windows.counts.indirectDispatches, whole.counts.indirectDispatches) << "there is one window";
+    EXPECT_EQ(differing(windows.patches, whole.patches), 0u);
+}
+
+// The solver on the device against the one on the CPU, from the levels of a frame without a budget.
+TEST_P(LodCrowds, TheBudgetIsTheReferences) {
+    namespace budget = surface::lod::budget;
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 1100000);
+    const SuppleAsset sphere = context.createAsset(bumpySphere(3)),
+                      torus = context.createAsset(cage::makeSplitTorus(8, 7));
+    Crowd quads(context, groupOf(sphere, 40, view)), mixed(context, groupOf(torus, 40, view, SUPPLE_SCHEME_PM));
+    ASSERT_TRUE(quads.valid() && mixed.valid());
+    const SuppleGroup groups[] = {quads.group(), mixed.group()};
+    std::map<uint32_t, uint32_t> priorities[2];
+    for (Crowd* const crowd : {&quads, &mixed}) {
+        const std::vector<SuppleInstance> instances = spawnRows(*crowd, 40);
+        for (uint32_t i = 0; i < 40; ++i) {
+            priorities[crowd == &mixed ? 1 : 0][i] = i % 5 == 0 ? i % 4 : 0; // slots rise
+            EXPECT_EQ(suppleSetPriority(context.handle(), instances[i], i % 5 == 0 ? i % 4 : 0), SUPPLE_OK);
+        }
+    }
+    // Near enough that no level is below 1, where records do not tell them.
+    view.camera.chordError = 0.05f;
+    view.camera.smallestEdge = 1.0f;
+    const auto run = [&](uint32_t vertexBudget) {
+        view.camera.vertexBudget = vertexBudget;
+        view.look({0.0f, 4.0f, 14.0f});
+        context.run(groups);
+        context.run(groups);
+        return view.statistics();
+    };
+    const SuppleViewStatistics free = run(0);
+    ASSERT_EQ(free.levelScales[0], 1.0f) << free.wantedVertexCount;
+    std::vector<budget::Priority> wanted(SUPPLE_PRIORITY_COUNT);
+    const double elasticities[] = {1.0, 0.5, 0.25, 0.0};
+    for (size_t p = 0; p < wanted.size(); ++p) {
+        wanted[p].elasticity = elasticities[p];
+    }
+    float least = 64.0f, most = 0.0f;
+    uint32_t runs = 0;
+    for (const Crowd* crowd : {&quads, &mixed}) {
+        runs += crowd->output().lodDrawCount / shared::kCapacityCount;
+        for (const LodSurface::Patch& patch : readLodSurface(*crowd).patches) {
+            const Form form = static_cast<Form>(patch.grid);
+            const size_t pairs = form == Form::quad ? 6 : 1 + surface::lod::sides(form);
+            float level = 0.0f;
+            for (size_t pair = 0; pair < pairs; ++pair) {
+                level = std::max(level, 2.0f * patch.levels[2 * pair] + 1.0f);
+            }
+            wanted[priorities[crowd == &mixed ? 1 : 0][patch.slot]].forms[static_cast<size_t>(form)].add(
+                static_cast<double>(level));
+            least = std::min(least, level);
+            most = std::max(most, level);
+        }
+    }
+    ASSERT_GT(least, 1.01f);
+    ASSERT_LT(most, 62.9f);
+    const uint32_t padding = runs * 3 * 64; // runtime/view.cpp
+    double worst = 0.0;
+    for (const uint32_t percent : {95u, 80u, 60u, 45u, 30u}) {
+        const uint32_t limit = free.vertexCount / 100 * percent;
+        const budget::Solution expected = budget::solve(wanted, limit - padding);
+        ASSERT_TRUE(expected.fits) << percent;
+        const SuppleViewStatistics now = run(limit);
+        EXPECT_EQ(now.shortfall, 0u);
+        const double x = -std::log2(static_cast<double>(now.levelScales[0])) * shared::kBinsPerOctave;
+        EXPECT_NEAR(x, expected.x, 0.01 + 1e-4 * expected.x) << percent << " %";
+        worst = std::max(worst, std::abs(x - expected.x));
+        for (size_t p = 0; p < wanted.size(); ++p) {
+            EXPECT_NEAR(now.levelScales[p], std::exp2(-elasticities[p] * expected.x / shared::kBinsPerOctave), 1e-4);
+        }
+        const uint64_t vertices = budget::vertexCount(wanted, x);
+        EXPECT_GE(now.vertexCount + 200, vertices);
+        EXPECT_LE(now.vertexCount, vertices + padding);
+    }
+    std::printf("levels %.2f to %.2f, %u vertices: x within %.1e of the reference's\n", static_cast<double>(least),
+                static_cast<double>(most), free.vertexCount, worst);
+}
+
+} // namespace
+} // namespace supple::test

@@ -1,0 +1,48 @@
+// A view and its camera, for tests.
+#pragma once
+
+#include "tests/support/crowd.h"
+
+#include <cstring>
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+namespace supple::test {
+
+class TestView {
+public:
+    TestView(CrowdContext& context, uint32_t maxVertices, uint32_t flags = 0) : context_(context) {
+        SuppleViewDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.flags = flags;
+        desc.maxVertices = maxVertices;
+        desc.vertexFormat = SUPPLE_VERTEX_24;
+        EXPECT_EQ(suppleCreateView(context.handle(), &desc, &view_), SUPPLE_OK);
+        camera.structSize = sizeof(camera);
+        camera.pixelsPerUnit = 869.0f; // 720 lines, 45 degrees
+    }
+    ~TestView() { EXPECT_EQ(suppleDestroyView(context_.handle(), view_), SUPPLE_OK); }
+    TestView(const TestView&) = delete;
+    TestView& operator=(const TestView&) = delete;
+
+    SuppleCameraDesc camera{};
+    void look(glm::vec3 from) {
+        camera.position[0] = from.x;
+        camera.position[1] = from.y;
+        camera.position[2] = from.z;
+        EXPECT_EQ(suppleSetCamera(context_.handle(), view_, &camera), SUPPLE_OK);
+    }
+    [[nodiscard]] SuppleView handle() const { return view_; }
+    [[nodiscard]] SuppleViewStatistics statistics() const {
+        SuppleViewStatistics statistics{};
+        statistics.structSize = sizeof(statistics);
+        EXPECT_EQ(suppleGetViewStatistics(context_.handle(), view_, &statistics), SUPPLE_OK);
+        return statistics;
+    }
+
+private:
+    CrowdContext& context_;
+    SuppleView view_{};
+};
+
+} // namespace supple::test
