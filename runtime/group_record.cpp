@@ -2,6 +2,7 @@
 #include "runtime/group.h"
 #include "runtime/group_buffers.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace supple::runtime {
@@ -272,7 +273,9 @@ LodPush Group::levelPush(const Window& window) const {
     push.firstRun = firstRun_ + window.index * runs;
     push.runCount = runs;
     push.backFaces = (view_->desc().flags & SUPPLE_VIEW_BACK_FACES) != 0 ? 1 : 0;
-    std::copy_n(view_->direction().begin(), 3, push.direction);
+    if (push.backFaces != 0 && push.camera.orthographic != 0) {
+        std::copy_n(view_->direction().begin(), 3, push.camera.position);
+    }
     return push;
 }
 
