@@ -356,7 +356,7 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
             EXPECT_EQ(allSlots(crowd, written), everyone);
         }
         std::printf("%s: %zu vertices compared, %zu changes of rate\n", c.name, compared, changed);
-        EXPECT_GE(changed, 3u);
+        EXPECT_GE(changed, 2u);
         for (const size_t used : usedBy) {
             EXPECT_GT(used, 0u);
         }
