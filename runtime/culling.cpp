@@ -10,16 +10,21 @@ using namespace supple::shared;
 namespace {
 
 constexpr VkDeviceSize kBoundsBytes = 32, kStateBytes = 8, kWordBytes = 4, kElementBytes = 16;
+constexpr uint32_t kDrawWords = 5;    ///< VkDrawIndexedIndirectCommand
 constexpr uint32_t kOffsetWords = 64; ///< descriptor offsets need at most 256-byte alignment
 
 } // namespace
 
-uint32_t Culling::firstArgument() const {
+uint32_t Culling::firstRateList() const {
     return (3 * capacity_ + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
 }
 
+uint32_t Culling::rateStride() const {
+    return (2 * capacity_ + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+}
+
 VkDeviceSize Culling::tableBytes() const {
-    return (windows_ + elements_.size()) * kElementBytes;
+    return (windows_ + arguments_.size() + draws_.size()) * kElementBytes;
 }
 
 Result<Culling> Culling::create(const Desc& desc) {
@@ -30,7 +35,19 @@ Result<Culling> Culling::create(const Desc& desc) {
     culling.capacity_ = desc.capacity;
     culling.windowSize_ = desc.windowSize;
     culling.windows_ = desc.windows;
-    culling.elements_.assign(desc.elements.begin(), desc.elements.end());
+    for (const uint32_t elements : desc.elements) {
+        culling.arguments_.push_back({elements, desc.device->mapping.localSize, kCountWindow});
+    }
+    culling.firstRate_ = desc.firstRate;
+    for (uint32_t r = 0; r < desc.rates.size(); ++r) {
+        culling.firstDispatches_.push_back(static_cast<uint32_t>(culling.arguments_.size()));
+        for (const surface::DispatchSize& dispatch : desc.rates[r].dispatches) {
+            culling.arguments_.push_back({dispatch.elements, dispatch.perGroup, kCountRate + r});
+        }
+        for (const SuppleDrawRange& draw : desc.rates[r].draws) {
+            culling.draws_.push_back({draw.indexCount, draw.firstIndex, draw.patchCount, r});
+        }
+    }
     culling.push_.vertexCount = desc.cageVertices;
     culling.push_.cageStride = desc.cageStride;
     culling.push_.margin = desc.margin;
@@ -43,7 +60,7 @@ Result<Culling> Culling::create(const Desc& desc) {
     constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkDeviceSize n = desc.capacity;
     const VkDeviceSize words =
-        culling.firstArgument() + culling.headerWords() + VkDeviceSize{culling.argumentStride()} * desc.windows;
+        culling.firstArgument() + culling.firstDraw() + kDrawWords * VkDeviceSize{culling.draws_.size()};
     gpu::BufferRequest requests[kBufferCount];
     requests[kBounds] = {"supple bounds", n * kBoundsBytes, kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     requests[kStates] = {"supple visibility", n * kStateBytes, kStorage | kCopied};
@@ -147,8 +164,11 @@ void Culling::writeTable(std::span<const InstanceSlots::Listed> windows, std::by
         put({first, windows[w].count, w * windowSize_, capacity_ + w * windowSize_});
         first += windows[w].count;
     }
-    for (uint32_t i = 0; i < elements_.size(); ++i) {
-        put({elements_[i], device_->mapping.localSize, kCountWindow, headerWords() + 3 * i});
+    for (uint32_t i = 0; i < arguments_.size(); ++i) {
+        put({arguments_[i].elements, arguments_[i].perGroup, arguments_[i].count, headerWords() + 3 * i});
+    }
+    for (const std::array<uint32_t, 4>& draw : draws_) {
+        put({draw[0], draw[1], draw[2], draw[3]});
     }
 }
 
@@ -192,8 +212,15 @@ void Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
     push.room = room;
     push.levels = levelOffset();
     push.windowCount = windows_;
-    push.argumentCount = static_cast<uint32_t>(elements_.size());
+    push.argumentCount = static_cast<uint32_t>(arguments_.size());
     push.argumentStride = argumentStride();
+    push.rateCount = rateCount();
+    push.firstRate = firstRate_;
+    push.rateLists = firstRateList();
+    push.rateStride = rateStride();
+    push.rateCounts = firstRateCount();
+    push.firstDraw = firstDraw();
+    push.drawCount = static_cast<uint32_t>(draws_.size());
     pass_->recordList(commandBuffer, sets_.front(), push);
 }
 
@@ -201,6 +228,22 @@ surface::Window Culling::window(uint32_t window, VkDescriptorSet set) const {
     const uint32_t count = firstArgument() + kListHeaderWords * (1 + window);
     return {set, capacity_ + window * windowSize_, count | kCountOnDevice, buffers_.buffer(kList),
             VkDeviceSize{firstArgument() + headerWords() + argumentStride() * window} * kWordBytes};
+}
+
+surface::Window Culling::window(uint32_t window, VkDescriptorSet set, uint32_t rate) const {
+    const uint32_t count = firstArgument() + firstRateCount() + rate * windows_ + window;
+    return {set, firstRateList() + rate * rateStride() + capacity_ + window * windowSize_, count | kCountOnDevice,
+            buffers_.buffer(kList),
+            VkDeviceSize{firstArgument() + headerWords() + argumentStride() * window + 3 * firstDispatches_[rate]} *
+                kWordBytes};
+}
+
+VkDeviceSize Culling::rateListOffset(uint32_t rate) const {
+    return VkDeviceSize{firstRateList() + rate * rateStride()} * kWordBytes;
+}
+
+VkDeviceSize Culling::drawOffset() const {
+    return VkDeviceSize{firstArgument() + firstDraw()} * kWordBytes;
 }
 
 } // namespace supple::runtime

@@ -11,6 +11,7 @@
 #include "surface/lod/instance.h"
 #include "surface/occlusion_pass.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,6 +22,11 @@ namespace supple::runtime {
 /// Recording allocates nothing.
 class Culling {
 public:
+    /// What is dispatched and drawn for the instances of one rate.
+    struct Rate {
+        std::vector<surface::DispatchSize> dispatches; ///< of a window
+        std::vector<SuppleDrawRange> draws;            ///< of all windows
+    };
     struct Desc {
         const gpu::Device* device = nullptr;
         const surface::BoundsPass* pass = nullptr;
@@ -37,6 +43,8 @@ public:
         VkBuffer view = VK_NULL_HANDLE;     ///< shared::CullView
         VkBuffer sizes = VK_NULL_HANDLE;    ///< of all groups of the view
         std::span<const uint32_t> elements; ///< lanes an instance, of the dispatches that follow
+        uint32_t firstRate = 0;             ///< segments along an edge of the cage; the others twice as many each
+        std::span<const Rate> rates;        ///< none where levels are real numbers
     };
     Culling() = default;
     [[nodiscard]] static Result<Culling> create(const Desc& desc);
@@ -64,6 +72,11 @@ public:
 
     /// What passes after the list work on, in the place of a window of the host's list: `set` stays the caller's.
     [[nodiscard]] surface::Window window(uint32_t window, VkDescriptorSet set) const;
+    /// The same for the instances of a rate, and what Rate::dispatches take for them.
+    [[nodiscard]] surface::Window window(uint32_t window, VkDescriptorSet set, uint32_t rate) const;
+    /// In list(): the first of all slots at a rate, and the draws of all rates.
+    [[nodiscard]] VkDeviceSize rateListOffset(uint32_t rate) const;
+    [[nodiscard]] VkDeviceSize drawOffset() const;
     [[nodiscard]] VkBuffer list() const { return buffers_.buffer(kList); }
     /// What the list pass has found out, of all windows: kListHeaderWords words (shaders/shared/bounds.h).
     [[nodiscard]] VkDeviceSize countOffset() const { return VkDeviceSize{firstArgument()} * sizeof(uint32_t); }
@@ -73,13 +86,23 @@ public:
     [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes(); }
 
 private:
-    /// kList: all that are seen, those of every window, their levels, then the arguments.
+    /// kList: all that are seen, those of every window, their levels; the same without levels for every rate; then the
+    /// arguments, the counts of rates and their draws.
     enum BufferIndex : size_t { kBounds, kStates, kList, kTable, kBufferCount };
     [[nodiscard]] Status createSets(const Desc& desc);
     [[nodiscard]] Status createOcclusionSets(const Desc& desc, VkBufferView hostList);
-    [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(elements_.size()); }
+    struct Argument {
+        uint32_t elements = 0, perGroup = 0, count = 0; ///< as of shared/bounds.h
+    };
+    [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(arguments_.size()); }
+    [[nodiscard]] uint32_t rateCount() const { return static_cast<uint32_t>(firstDispatches_.size()); }
     /// Words of kList.
-    [[nodiscard]] uint32_t firstArgument() const;
+    [[nodiscard]] uint32_t firstArgument() const { return firstRateList() + rateCount() * rateStride(); }
+    [[nodiscard]] uint32_t firstRateList() const;
+    [[nodiscard]] uint32_t rateStride() const;
+    // Words from firstArgument() on.
+    [[nodiscard]] uint32_t firstRateCount() const { return headerWords() + argumentStride() * windows_; }
+    [[nodiscard]] uint32_t firstDraw() const { return firstRateCount() + rateCount() * windows_; }
     [[nodiscard]] uint32_t headerWords() const { return shared::kListHeaderWords * (1 + windows_); }
 
     const gpu::Device* device_ = nullptr;
@@ -87,7 +110,10 @@ private:
     uint32_t capacity_ = 0, windowSize_ = 0, windows_ = 0;
     uint32_t leastVertices_ = 0;
     shared::BoundsPush push_{};
-    std::vector<uint32_t> elements_;
+    std::vector<Argument> arguments_;
+    uint32_t firstRate_ = 0;
+    std::vector<uint32_t> firstDispatches_;      ///< by rate, in arguments_
+    std::vector<std::array<uint32_t, 4>> draws_; ///< as of shared/bounds.h
     gpu::BufferSet buffers_;
     gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;

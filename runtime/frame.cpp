@@ -150,7 +150,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     });
     gpu::memoryBarrier(device, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {kCompute, kRead | kWrite});
 
-    if (any([](Group& group) { return group.view() == nullptr && group.attributesPending(); })) {
+    if (any([](Group& group) { return group.attributesPending(); })) {
         pass(Pass::attributes, [&](Group& group) { return group.recordAttributes(commandBuffer); });
     }
     if (any([](Group& group) { return group.plays(); })) {

@@ -44,13 +44,13 @@ constexpr uint32_t kScratchPadding = 16;
 
 surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View* view) {
     surface::Recipe recipe;
-    recipe.lod = view != nullptr;
     recipe.shared = (desc.flags & SUPPLE_GROUP_SHARED_SAMPLES) != 0;
     recipe.attributes = view != nullptr ? (view->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
                                         : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
     if (desc.scheme != SUPPLE_SCHEME_AUTO) {
         recipe.scheme = static_cast<SchemeId>(desc.scheme);
     }
+    recipe.lod = view != nullptr && !surface::subdivides(recipe.scheme);
     if (surface::subdivides(recipe.scheme)) {
         recipe.rate = std::bit_ceil(rate);
     } else if (recipe.scheme == SchemeId::blend) {
@@ -92,12 +92,18 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     if (desc.scheme == SUPPLE_SCHEME_CAGE) {
         group->scheme_ = std::make_shared<SchemeTables>(); // no patches: every surface pass is empty
     } else {
-        Result<std::shared_ptr<SchemeTables>> scheme =
-            group->asset_->tablesFor(*shared.device, recipeOf(desc, rate, shared.view.get()));
+        const surface::Recipe recipe = recipeOf(desc, rate, shared.view.get());
+        Result<std::shared_ptr<SchemeTables>> scheme = group->asset_->tablesFor(*shared.device, recipe);
         if (!scheme) {
             return scheme.error();
         }
         group->scheme_ = *scheme;
+        if (shared.view != nullptr && surface::subdivides(recipe.scheme)) {
+            const Status rates = group->createRates(recipe);
+            if (!rates) {
+                return rates.error();
+            }
+        }
     }
     const surface::Tables& tables = group->scheme_->tables;
     const char* schemeName = surface::schemeName(group->scheme_->recipe.scheme);
@@ -118,7 +124,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         }
     }
     group->evaluation_.rate = group->maxRate_;
-    const uint64_t vertices = group->view_ != nullptr ? 0 : group->evaluation_.layOut(tables);
+    const uint64_t vertices = group->layOutVertices();
     // Vertex indices are 32 bits on the device.
     if ((vertices + kVertexPadding) * desc.capacity > 0xFFFFFFFFull) {
         return Error{ErrorCode::limit, name + ": " + std::to_string(desc.capacity) + " instances at rate " +
@@ -138,18 +144,25 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
 
     surface::Needs needs;
     needs.vertexFormat = static_cast<uint32_t>(format);
-    needs.motion = group->hasMotion(desc);
+    needs.motion = group->wants(desc, SUPPLE_GROUP_MOTION, SUPPLE_VIEW_MOTION);
     needs.rate = group->evaluation_.rate;
     needs.patches = (desc.flags & SUPPLE_GROUP_PATCHES) != 0;
-    needs.lod = group->view_ != nullptr;
-    needs.attributes = needs.lod ? (group->view_->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
-                                 : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
-    if (needs.lod) {
+    needs.view = group->view_ != nullptr;
+    needs.lod = group->hasLevels();
+    needs.attributes = group->wants(desc, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_ATTRIBUTES);
+    if (group->view_ != nullptr) {
         const uint32_t flags = group->view_->desc().flags;
         group->evaluation_.attributeOutputs = ((flags & SUPPLE_VIEW_UVS1) != 0 ? kOutputUvs1 : 0) |
                                               ((flags & SUPPLE_VIEW_FACE_UVS) != 0 ? kOutputFaceUvs : 0);
     }
-    Status status = shared.surface->prepare(tables, needs);
+    Status status = success();
+    for (Rate& rate : group->rates_) {
+        rate.evaluation.verticesPerInstance = group->evaluation_.verticesPerInstance;
+        rate.evaluation.cageStride = group->evaluation_.cageStride;
+        rate.evaluation.attributeOutputs = group->evaluation_.attributeOutputs;
+    }
+    group->forSchemes(
+        [&](const SchemeTables& scheme) { status = status ? shared.surface->prepare(scheme.tables, needs) : status; });
     if (status && group->deforms()) {
         status = shared.deform->prepare(desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION
                                             ? skinning::SkinningMode::dualQuaternion
@@ -163,7 +176,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         status = group->layOutWindows(desc);
     }
     if (status) {
-        if (group->view_ != nullptr) {
+        if (group->hasLevels()) {
             const auto windows = static_cast<uint32_t>(group->windows_.size());
             std::vector<bool> doubleSided;
             for (const surface::LodTables::Run& run : tables.lod.runs) {
@@ -177,11 +190,20 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
             }
             group->firstRun_ = *first;
             group->hasRuns_ = true;
+        } else if (group->hasRates()) {
+            group->hasRuns_ = group->view_->takeGroup();
+            if (!group->hasRuns_) {
+                return Error{ErrorCode::limit, name + ": the view is full: it has " + std::to_string(kMaxRuns) +
+                                                   " groups of subdivision"};
+            }
         }
         group->slots_ = InstanceSlots(desc.capacity, shared.firstGeneration);
         group->listed_.resize(group->windows_.size());
-        status = group->createBuffers(desc);
+        const std::vector<uint16_t> indices = group->layOutGrids();
+        group->layOutDraws();
+        status = group->createBuffers(desc, indices);
     }
+    group->mesh_ = {};
     if (status && group->plays()) {
         status = group->createPlayback();
     }
@@ -191,7 +213,6 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     if (!status) {
         return Error{status.error().code, name + ": " + status.error().message};
     }
-    group->layOutDraws();
     group->fillOutput();
     return group;
 }
@@ -221,7 +242,9 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
         poses_ = InstancePoses(*asset_, posed, mode, kPosePadding);
         fit = std::min<VkDeviceSize>(fit, texelLimit / poses_.instanceBytes());
     }
-    if (!device.mapping.wide && 2 * VkDeviceSize{capacity_} > device.limits.maxTexelBufferElements) {
+    // Two lists, or what the view sees of them: with levels, and once more a rate.
+    const VkDeviceSize lists = 2 + (view_ != nullptr ? 1 + 2 * rates_.size() : 0);
+    if (!device.mapping.wide && lists * capacity_ > device.limits.maxTexelBufferElements) {
         return Error{ErrorCode::limit,
                      std::to_string(capacity_) + " instances exceed the device's texel-buffer elements"};
     }
@@ -238,25 +261,26 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
 }
 
 Group::~Group() {
-    if (hasRuns_) {
+    if (hasRuns_ && hasRates()) {
+        view_->giveGroup();
+    } else if (hasRuns_) {
         view_->giveRuns(firstRun_, static_cast<uint32_t>(scheme_->tables.lod.runs.size() * windows_.size()));
     }
 }
 
-bool Group::hasMotion(const SuppleGroupDesc& desc) const {
-    return view_ != nullptr ? (view_->desc().flags & SUPPLE_VIEW_MOTION) != 0 : (desc.flags & SUPPLE_GROUP_MOTION) != 0;
+bool Group::wants(const SuppleGroupDesc& desc, uint32_t groupFlag, uint32_t viewFlag) const {
+    return view_ != nullptr ? (view_->desc().flags & viewFlag) != 0 : (desc.flags & groupFlag) != 0;
 }
 
 uint32_t Group::scratchElements() const {
-    if (view_ == nullptr) {
-        return shared_.surface->scratchStride(scheme_->tables);
+    if (!hasLevels()) {
+        uint32_t most = 0; // rates take turns
+        forSchemes(
+            [&](const SchemeTables& scheme) { most = std::max(most, shared_.surface->scratchStride(scheme.tables)); });
+        return most;
     }
     const surface::LodTables& lod = scheme_->tables.lod;
     return roundUp((lod.edges.count + kLodPatchLevelWords * lod.patches.count + 3) / 4, kScratchPadding);
-}
-
-size_t Group::drawCount() const {
-    return scheme_->tables.sharesSamples() ? mesh_.ranges.size() : scheme_->tables.drawRanges.size();
 }
 
 VkDeviceSize Group::surfaceBytes() const {
@@ -275,11 +299,11 @@ VkDeviceSize Group::listUploadBytes() const {
     return buffers_.size(kInstances) + buffers_.size(kIndirect);
 }
 
-Status Group::createBuffers(const SuppleGroupDesc& desc) {
+Status Group::createBuffers(const SuppleGroupDesc& desc, std::span<const uint16_t> indices) {
     const gpu::Device& device = *shared_.device;
     const surface::Tables& tables = scheme_->tables;
     const VkDeviceSize n = capacity_;
-    const bool motion = hasMotion(desc) && !tables.patches.empty();
+    const bool motion = wants(desc, SUPPLE_GROUP_MOTION, SUPPLE_VIEW_MOTION) && !tables.patches.empty();
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     constexpr VkBufferUsageFlags kTexels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
@@ -287,9 +311,12 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     constexpr VkBufferUsageFlags kVertices = kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
 
     std::vector<gpu::BufferRequest> requests(kBufferCount);
-    // What a group of a view has no vertices of its own for is the view's.
+    // What a group with levels has no vertices of its own for is the view's.
     const VkDeviceSize attributeBytes =
-        (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0 ? VkDeviceSize{vertexCount_} * 16 : 0;
+        wants(desc, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_ATTRIBUTES) ? VkDeviceSize{vertexCount_} * 16 : 0;
+    const auto attributesOf = [&](bool present, uint32_t output) {
+        return present && (evaluation_.attributeOutputs & output) != 0 ? attributeBytes / 2 : 0;
+    };
     const VkDeviceSize poolBytes = n * tables.poolStride * kVec4Bytes;
     requests[kPoses] = {"supple poses", deforms() ? n * poses_.instanceBytes() : 0, kOutput | kCopied};
     requests[kDeformedCage] = {"supple deformed cage", n * evaluation_.cageStride * kVec4Bytes, kVertices | kCopied};
@@ -303,13 +330,13 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
         "supple patch coefficients",
         (desc.flags & SUPPLE_GROUP_PATCHES) != 0 ? n * tables.patches.size() * kPatchStride * kVec4Bytes : 0, kOutput};
     requests[kAttributes] = {"supple surface attributes", attributeBytes, kVertices};
-    requests[kUvs1] = {"supple second UV set", tables.uvSets == 2 ? attributeBytes / 2 : 0, kVertices};
-    requests[kFaceUvs] = {"supple face UVs", tables.faceUvs ? attributeBytes / 2 : 0, kVertices};
-    requests[kScratch] = {view_ != nullptr ? "supple levels" : "supple fragments", n * scratchElements() * kVec4Bytes,
+    requests[kUvs1] = {"supple second UV set", attributesOf(tables.uvSets == 2, kOutputUvs1), kVertices};
+    requests[kFaceUvs] = {"supple face UVs", attributesOf(tables.faceUvs, kOutputFaceUvs), kVertices};
+    requests[kScratch] = {hasLevels() ? "supple levels" : "supple fragments", n * scratchElements() * kVec4Bytes,
                           kStorage | kTexels};
     requests[kInstances] = {"supple instances", 2 * n * sizeof(uint32_t), kOutput | kCopied};
     requests[kIndirect] = {"supple indirect arguments",
-                           view_ != nullptr ? 0 : drawCount() * sizeof(VkDrawIndexedIndirectCommand),
+                           view_ != nullptr ? 0 : drawRanges_.size() * sizeof(VkDrawIndexedIndirectCommand),
                            kOutput | kCopied | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
     attributesPending_ = attributeBytes > 0;
     if (attributeBytes > device.limits.maxStorageBufferRange) {
@@ -338,17 +365,26 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
     }
     staging_ = std::move(*stagingSet);
 
-    // The indices of every domain in use and every rate that may be set, one after the other.
-    if (view_ != nullptr) {
+    if (hasLevels()) {
         return success(); // the view has them
     }
-    if (tables.sharesSamples()) {
-        return createStatics(std::as_bytes(std::span(mesh_.indices)));
+    return createStatics(tables.sharesSamples() ? std::as_bytes(std::span(mesh_.indices)) : std::as_bytes(indices));
+}
+
+std::vector<uint16_t> Group::layOutGrids() {
+    // The indices of every domain in use and every rate that may be set or chosen, one after the other.
+    std::vector<uint32_t> rates;
+    for (const Rate& rate : rates_) {
+        rates.push_back(rate.evaluation.rate);
+    }
+    const bool none = hasLevels() || hasRates() || scheme_->tables.sharesSamples();
+    for (uint32_t rate = anyRate_ ? 1 : maxRate_; !none && rate <= maxRate_; ++rate) {
+        rates.push_back(rate);
     }
     std::vector<uint16_t> indices;
-    for (uint32_t rate = anyRate_ ? 1 : maxRate_; rate <= maxRate_; ++rate) {
+    for (const uint32_t rate : rates) {
         std::array<Grid, surface::kDomainCount>& grids = grids_.emplace_back();
-        for (const surface::DrawRange& range : tables.drawRanges) {
+        for (const surface::DrawRange& range : scheme_->tables.drawRanges) {
             Grid& grid = grids[static_cast<size_t>(range.domain)];
             if (grid.indexCount == 0) {
                 const std::vector<uint16_t> own = surface::gridIndices(range.domain, rate);
@@ -357,7 +393,7 @@ Status Group::createBuffers(const SuppleGroupDesc& desc) {
             }
         }
     }
-    return createStatics(std::as_bytes(std::span(indices)));
+    return indices;
 }
 
 Status Group::createStatics(std::span<const std::byte> indices) {
@@ -382,8 +418,11 @@ Status Group::createCulling() {
     for (const surface::Construction& c : tables.constructions) {
         elements.push_back(c.section.count);
     }
-    elements.push_back(tables.lod.edges.count);
-    elements.push_back(tables.lod.patches.count);
+    if (hasLevels()) {
+        elements.push_back(tables.lod.edges.count);
+        elements.push_back(tables.lod.patches.count);
+    }
+    const std::vector<Culling::Rate> rates = cullingRates();
     const cage::Cage& cage = asset_->character.cage;
     Culling::Desc desc;
     desc.device = shared_.device;
@@ -405,6 +444,8 @@ Status Group::createCulling() {
         desc.leastVertices += run.patchCount * surface::lod::sampleCount(surface::lod::formOf(run.patchClass), 1);
     }
     desc.elements = elements;
+    desc.firstRate = 1u << tables.isolationSteps;
+    desc.rates = rates;
     Result<Culling> culling = Culling::create(desc);
     if (!culling) {
         return culling.error();
@@ -426,7 +467,7 @@ Status Group::createPlayback() {
 
 Status Group::setRate(uint32_t rate) {
     const std::string& name = asset_->character.name;
-    if (view_ != nullptr) {
+    if (hasLevels()) {
         return Error{ErrorCode::argument, name + ": the group has its view's levels, not a rate"};
     }
     if (!anyRate_) {
@@ -451,11 +492,12 @@ Status Group::setRate(uint32_t rate) {
     vertexCount_ = static_cast<uint32_t>(evaluation_.layOut(scheme_->tables));
     attributesPending_ = buffers_.size(kAttributes) > 0;
     layOutDraws();
+    fillRates();
     return success();
 }
 
 void Group::layOutDraws() {
-    if (view_ != nullptr) {
+    if (hasLevels()) {
         for (size_t w = 0; w < windows_.size(); ++w) {
             for (const surface::LodTables::Run& run : scheme_->tables.lod.runs) {
                 for (const uint32_t capacity : surface::lod::kCapacities) {
@@ -471,35 +513,45 @@ void Group::layOutDraws() {
         return;
     }
     drawsChanged_ = true;
-    const uint32_t rate = evaluation_.rate;
-    output_.rate = rate;
+    output_.rate = evaluation_.rate;
     output_.vertexCount = vertexCount_;
     if (scheme_->tables.sharesSamples()) {
         for (const surface::SharedMesh::Range& from : mesh_.ranges) {
             drawRanges_.push_back(
                 {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertexCount_, 0, from.firstIndex, from.indexCount});
         }
+        rateOutputs_.push_back({evaluation_.rate, 0, static_cast<uint32_t>(drawRanges_.size()), {}});
         output_.drawRanges = drawRanges_.data();
         output_.drawRangeCount = static_cast<uint32_t>(drawRanges_.size());
-        mesh_ = {};
         return;
     }
-    const std::array<Grid, surface::kDomainCount>& grids = grids_[anyRate_ ? rate - 1 : 0];
     drawRanges_.clear();
+    rateOutputs_.clear();
     uint32_t firstVertex = 0;
-    for (const surface::DrawRange& from : scheme_->tables.drawRanges) {
-        const Grid& grid = grids[static_cast<size_t>(from.domain)];
-        SuppleDrawRange range{};
-        range.domain = static_cast<SuppleDomain>(from.domain);
-        range.firstPatch = from.firstPatch;
-        range.patchCount = from.patchCount;
-        range.material = from.material;
-        range.samplesPerPatch = surface::sampleCount(from.domain, rate);
-        range.firstVertex = firstVertex;
-        range.firstIndex = grid.firstIndex;
-        range.indexCount = grid.indexCount;
-        firstVertex += range.patchCount * range.samplesPerPatch;
-        drawRanges_.push_back(range);
+    const auto add = [&](uint32_t rate, const std::array<Grid, surface::kDomainCount>& grids) {
+        SuppleRate output{rate, static_cast<uint32_t>(drawRanges_.size()), 0, {}};
+        for (const surface::DrawRange& from : scheme_->tables.drawRanges) {
+            const Grid& grid = grids[static_cast<size_t>(from.domain)];
+            SuppleDrawRange range{};
+            range.domain = static_cast<SuppleDomain>(from.domain);
+            range.firstPatch = from.firstPatch;
+            range.patchCount = from.patchCount;
+            range.material = from.material;
+            range.samplesPerPatch = surface::sampleCount(from.domain, rate);
+            range.firstVertex = firstVertex;
+            range.firstIndex = grid.firstIndex;
+            range.indexCount = grid.indexCount;
+            firstVertex += range.patchCount * range.samplesPerPatch;
+            drawRanges_.push_back(range);
+            ++output.drawRangeCount;
+        }
+        rateOutputs_.push_back(output);
+    };
+    for (size_t r = 0; r < rates_.size(); ++r) {
+        add(rates_[r].evaluation.rate, grids_[r]);
+    }
+    if (rates_.empty()) {
+        add(evaluation_.rate, grids_[anyRate_ ? evaluation_.rate - 1 : 0]);
     }
     output_.drawRanges = drawRanges_.data();
     output_.drawRangeCount = static_cast<uint32_t>(drawRanges_.size());
@@ -533,7 +585,8 @@ void Group::fillOutput() {
         o.instances = {culling_.list(), 0, VkDeviceSize{capacity_} * sizeof(uint32_t), sizeof(uint32_t)};
         o.bounds = {culling_.bounds(), 0, culling_.boundsBytes(), 32};
     }
-    if (view_ == nullptr) {
+    fillRates();
+    if (!hasLevels()) {
         o.gridIndices = {static_.buffer(kGridIndices), 0, static_.size(kGridIndices),
                          scheme_->tables.sharesSamples() ? 4u : 2u};
         return;

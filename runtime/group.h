@@ -57,8 +57,12 @@ public:
     [[nodiscard]] const InstanceSlots& slots() const { return slots_; }
 
     [[nodiscard]] Status setRate(uint32_t rate);
-    /// Null for groups of one rate.
+    /// May be null.
     [[nodiscard]] View* view() const { return view_.get(); }
+    /// Groups of a view: its vertices are the view's, at real-valued levels; or they are the group's own, at one of
+    /// several rates an instance (group_rates.cpp).
+    [[nodiscard]] bool hasLevels() const { return view_ != nullptr && !hasRates(); }
+    [[nodiscard]] bool hasRates() const { return !rates_.empty(); }
 
     // The passes of a frame, each recorded without barriers; runtime/frame.cpp puts them in order.
     struct PassCost {
@@ -94,7 +98,8 @@ public:
     [[nodiscard]] uint64_t leastVertices() const { return uint64_t{culling_.leastVertices()} * visible_; }
     void recordSizes(VkCommandBuffer commandBuffer) const { culling_.recordSizes(commandBuffer, visible_); }
     void recordReadback(VkCommandBuffer commandBuffer) const {
-        view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset(), output_.patchCount);
+        view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset(),
+                              hasLevels() ? output_.patchCount : 0);
     }
     PassCost recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const;
 
@@ -125,21 +130,39 @@ public:
     void releaseStaging(uint64_t completedFrame);
 
 private:
-    /// Instances that a descriptor can reach: windowSize_ slots, the last window fewer.
-    struct Window {
-        VkDescriptorSet deform = VK_NULL_HANDLE;
+    struct SurfaceSets {
         std::array<VkDescriptorSet, 2> surface{}; ///< by pool
         std::array<VkDescriptorSet, 2> motion{};  ///< by pool, writing previous positions
+    };
+    /// Instances that a descriptor can reach: windowSize_ slots, the last window fewer.
+    struct Window : SurfaceSets {
+        VkDescriptorSet deform = VK_NULL_HANDLE;
         uint32_t index = 0;
     };
+    /// A rate that instances of a view's group may have. Its vertices lie in the instance's behind the coarser rates'.
+    struct Rate {
+        std::shared_ptr<SchemeTables> scheme;
+        surface::Evaluation evaluation;
+        std::vector<SurfaceSets> windows;
+    };
     Status layOutWindows(const SuppleGroupDesc& desc);
-    Status createBuffers(const SuppleGroupDesc& desc);
+    Status createBuffers(const SuppleGroupDesc& desc, std::span<const uint16_t> indices);
     Status createStatics(std::span<const std::byte> indices);
     Status createPlayback();
     Status createSets();
     void layOutDraws();
+    [[nodiscard]] std::vector<uint16_t> layOutGrids(); ///< their indices
+    Status createRates(const surface::Recipe& recipe);
+    [[nodiscard]] uint64_t layOutVertices(); ///< of an instance
+    void fillRates();
+    [[nodiscard]] std::vector<Culling::Rate> cullingRates() const;
+    void recordRates(VkCommandBuffer commandBuffer, bool previous) const;
+    /// All tables of the group, once.
+    template <class F>
+    void forSchemes(F&& visit) const;
+    /// Of a flag as groups have it, and as views do.
+    [[nodiscard]] bool wants(const SuppleGroupDesc& desc, uint32_t groupFlag, uint32_t viewFlag) const;
     void fillOutput();
-    [[nodiscard]] size_t drawCount() const;
     [[nodiscard]] VkDeviceSize surfaceBytes() const;    ///< an instance
     [[nodiscard]] VkDeviceSize poseUploadBytes() const; ///< a frame in flight
     [[nodiscard]] VkDeviceSize listUploadBytes() const;
@@ -155,7 +178,6 @@ private:
     [[nodiscard]] VkDeviceSize levelArguments(const surface::Window& window) const;
     Status createCulling();
     [[nodiscard]] surface::LodWindow lodWindow(const Window& window, VkDescriptorSet set) const;
-    [[nodiscard]] bool hasMotion(const SuppleGroupDesc& desc) const;
     [[nodiscard]] uint32_t scratchElements() const; ///< an instance
 
     GroupShared shared_;
@@ -168,9 +190,10 @@ private:
     uint32_t maxRate_ = 0;
     uint32_t vertexCount_ = 0; ///< surface vertices an instance, without padding
     surface::Evaluation evaluation_;
+    std::vector<Rate> rates_; ///< rising, the last one's tables being scheme_; empty for groups of one rate, of levels
     std::shared_ptr<View> view_;
     uint32_t firstRun_ = 0; ///< in the view; all windows one after the other
-    bool hasRuns_ = false;
+    bool hasRuns_ = false;  ///< or is counted by the view without any
     bool oneLevel_ = false; ///< an instance, instead of one an edge
     Culling culling_;
 
@@ -194,10 +217,11 @@ private:
     struct Grid {
         uint32_t firstIndex = 0, indexCount = 0;
     };
-    std::vector<std::array<Grid, surface::kDomainCount>> grids_; ///< by rate - 1, or the one
+    std::vector<std::array<Grid, surface::kDomainCount>> grids_; ///< by rate - 1, or of rates_, or the one
     surface::SharedMesh mesh_; ///< shared samples: until it lies in the staging memory and the draws are laid out
     SuppleGroupOutput output_{};
     std::vector<SuppleDrawRange> drawRanges_; ///< what output_ points to
+    std::vector<SuppleRate> rateOutputs_;
     std::vector<SuppleLodDraw> lodDraws_;
     std::string rateNote_;
     bool cleared_ = false;
@@ -207,5 +231,15 @@ private:
     uint64_t clearedFrame_ = 0, indicesReleaseFrame_ = 0, attributesFrame_ = 0;
     uint64_t passesFrame_ = 0, lastRecordedFrame_ = 0;
 };
+
+template <class F>
+void Group::forSchemes(F&& visit) const {
+    visit(*scheme_);
+    for (const Rate& rate : rates_) {
+        if (rate.scheme != scheme_) {
+            visit(*rate.scheme);
+        }
+    }
+}
 
 } // namespace supple::runtime

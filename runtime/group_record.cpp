@@ -2,6 +2,7 @@
 #include "runtime/group.h"
 #include "runtime/group_buffers.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace supple::runtime {
@@ -9,15 +10,16 @@ namespace supple::runtime {
 using namespace supple::shared;
 
 bool Group::staticsPending() const {
-    return asset_->buffers.uploadPending() || asset_->clips.uploadPending() || scheme_->buffers.uploadPending() ||
-           static_.uploadPending() || (!cleared_ && buffers_.size(kPool) > 0) ||
-           (view_ != nullptr && view_->staticsPending());
+    bool tables = false;
+    forSchemes([&](const SchemeTables& scheme) { tables = tables || scheme.buffers.uploadPending(); });
+    return asset_->buffers.uploadPending() || asset_->clips.uploadPending() || tables || static_.uploadPending() ||
+           (!cleared_ && buffers_.size(kPool) > 0) || (view_ != nullptr && view_->staticsPending());
 }
 
 VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
     VkDeviceSize bytes = asset_->buffers.recordUpload(commandBuffer, frame);
     bytes += asset_->clips.recordUpload(commandBuffer, frame);
-    bytes += scheme_->buffers.recordUpload(commandBuffer, frame);
+    forSchemes([&](SchemeTables& scheme) { bytes += scheme.buffers.recordUpload(commandBuffer, frame); });
     const VkDeviceSize own = static_.recordUpload(commandBuffer, frame);
     indicesToRelease_ = indicesToRelease_ || own > 0;
     if (!cleared_) {
@@ -89,7 +91,7 @@ Group::PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
             culling_.writeTable(listed_, reinterpret_cast<std::byte*>(culled + capacity_));
         }
         std::byte* target = staging_.mapped(kListStaging) + draws;
-        for (const SuppleDrawRange& range : drawRanges_) {
+        for (const SuppleDrawRange& range : view_ == nullptr ? std::span(drawRanges_) : std::span<SuppleDrawRange>()) {
             const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * visible_, range.firstIndex,
                                                        0, 0};
             std::memcpy(target, &command, sizeof(command));
@@ -162,7 +164,8 @@ Group::PassCost Group::recordSeen(VkCommandBuffer commandBuffer, uint32_t room) 
     if (!culls()) {
         return {};
     }
-    culling_.recordList(commandBuffer, room);
+    // Vertices of their own need nobody's room.
+    culling_.recordList(commandBuffer, hasLevels() ? room : kRoomForAll);
     return {0, 0, true};
 }
 
@@ -172,13 +175,19 @@ Group::PassCost Group::recordAttributes(VkCommandBuffer commandBuffer) {
     }
     attributesPending_ = false;
     attributesFrame_ = passesFrame_;
-    shared_.surface->recordAttributes(commandBuffer, scheme_->tables, {windows_.front().surface[pool_], 0, 1},
-                                      evaluation_);
+    for (const Rate& rate : rates_) {
+        shared_.surface->recordAttributes(commandBuffer, rate.scheme->tables,
+                                          {rate.windows.front().surface[pool_], 0, 1}, rate.evaluation);
+    }
+    if (!hasRates()) {
+        shared_.surface->recordAttributes(commandBuffer, scheme_->tables, {windows_.front().surface[pool_], 0, 1},
+                                          evaluation_);
+    }
     return {vertexCount_, buffers_.size(kAttributes) + buffers_.size(kUvs1) + buffers_.size(kFaceUvs)};
 }
 
 bool Group::writesLodAttributes() const {
-    return view_ != nullptr && view_->size(View::kAttributes) > 0;
+    return hasLevels() && view_->size(View::kAttributes) > 0;
 }
 
 Group::PassCost Group::recordLodAttributes(VkCommandBuffer commandBuffer) const {
@@ -264,7 +273,9 @@ LodPush Group::levelPush(const Window& window) const {
     push.firstRun = firstRun_ + window.index * runs;
     push.runCount = runs;
     push.backFaces = (view_->desc().flags & SUPPLE_VIEW_BACK_FACES) != 0 ? 1 : 0;
-    std::copy_n(view_->direction().begin(), 3, push.direction);
+    if (push.backFaces != 0 && push.camera.orthographic != 0) {
+        std::copy_n(view_->direction().begin(), 3, push.camera.position);
+    }
     return push;
 }
 
@@ -278,7 +289,7 @@ surface::LodWindow Group::lodWindow(const Window& window, VkDescriptorSet set) c
 }
 
 Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
-    if (view_ == nullptr || oneLevel_) {
+    if (!hasLevels() || oneLevel_) {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
@@ -290,7 +301,7 @@ Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
 }
 
 Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
-    if (view_ == nullptr) {
+    if (!hasLevels()) {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
@@ -304,7 +315,7 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
 }
 
 Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
-    if (view_ == nullptr) {
+    if (!hasLevels()) {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
@@ -316,6 +327,10 @@ Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
 }
 
 Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
+    if (hasRates()) {
+        recordRates(commandBuffer, false);
+        return {0, 0, visible_ > 0};
+    }
     if (view_ != nullptr) {
         // How many vertices is known on the device alone: SuppleViewStatistics.
         forWindows([&](const Window& window, uint32_t, const InstanceSlots::Listed&) {
@@ -333,7 +348,7 @@ Group::PassCost Group::recordEvaluate(VkCommandBuffer commandBuffer) const {
 }
 
 bool Group::usesScratch() const {
-    return view_ == nullptr && buffers_.size(kScratch) > 0;
+    return !hasLevels() && buffers_.size(kScratch) > 0;
 }
 
 bool Group::writesMotion() const {
@@ -343,6 +358,10 @@ bool Group::writesMotion() const {
 Group::PassCost Group::recordMotion(VkCommandBuffer commandBuffer) const {
     if (!writesMotion()) {
         return {};
+    }
+    if (hasRates()) {
+        recordRates(commandBuffer, true);
+        return {0, 0, visible_ > 0};
     }
     if (view_ != nullptr) {
         forWindows([&](const Window& window, uint32_t, const InstanceSlots::Listed&) {
@@ -394,7 +413,7 @@ uint32_t Group::transfers(Transfers& out) const {
     add(buffers_.buffer(kAttributes), attributes);
     add(buffers_.buffer(kUvs1), attributes);
     add(buffers_.buffer(kFaceUvs), attributes);
-    if (view_ == nullptr) {
+    if (!hasLevels()) {
         add(static_.buffer(kGridIndices), indicesReleaseFrame_ == passesFrame_);
     }
     return count;
@@ -404,7 +423,7 @@ void Group::cancelFrame(uint64_t frame) {
     asset_->buffers.cancelUpload(frame);
     asset_->clips.cancelUpload(frame);
     playback_.cancelUpload(frame);
-    scheme_->buffers.cancelUpload(frame);
+    forSchemes([&](SchemeTables& scheme) { scheme.buffers.cancelUpload(frame); });
     static_.cancelUpload(frame);
     if (clearedFrame_ == frame) {
         cleared_ = false;
@@ -423,7 +442,7 @@ void Group::cancelFrame(uint64_t frame) {
 void Group::releaseStaging(uint64_t completedFrame) {
     asset_->buffers.releaseStaging(completedFrame);
     asset_->clips.releaseStaging(completedFrame);
-    scheme_->buffers.releaseStaging(completedFrame);
+    forSchemes([&](SchemeTables& scheme) { scheme.buffers.releaseStaging(completedFrame); });
     static_.releaseStaging(completedFrame);
 }
 

@@ -100,12 +100,21 @@ Status Group::createSets() {
     const VkBufferView words =
         view_ != nullptr ? view(view_->buffer(View::kWords), kUint4, 0, view_->size(View::kWords), "supple view")
                          : VK_NULL_HANDLE;
-    surfacePool_ = makePool(shared_.surface->layout(), windows_.size() * (motion ? 4 : 1), "supple surface");
-    const VkBuffer table = scheme_->buffers.buffer(0);
-    const VkDeviceSize tableBytes = scheme_->buffers.size(0);
-    const VkBufferView table4 = view(table, kUint4, 0, tableBytes, "supple surface tables");
-    const VkBufferView table1 = view(table, kUint1, 0, tableBytes, "supple surface table words");
-    for (uint32_t w = 0; w < windows_.size(); ++w) {
+    const size_t setsOfAll = windows_.size() * std::max<size_t>(rates_.size(), 1);
+    surfacePool_ = makePool(shared_.surface->layout(), setsOfAll * (motion ? 4 : 1), "supple surface");
+    VkBuffer table = VK_NULL_HANDLE; // of a rate, where there are several
+    VkDeviceSize tableBytes = 0;
+    VkBufferView table4 = VK_NULL_HANDLE, table1 = VK_NULL_HANDLE;
+    for (size_t s = 0; s < setsOfAll; ++s) {
+        const size_t w = s % windows_.size(), r = s / windows_.size();
+        SurfaceSets sets;
+        if (w == 0) {
+            const SchemeTables& scheme = hasRates() ? *rates_[r].scheme : *scheme_;
+            table = scheme.buffers.buffer(0);
+            tableBytes = scheme.buffers.size(0);
+            table4 = view(table, kUint4, 0, tableBytes, "supple surface tables");
+            table1 = view(table, kUint1, 0, tableBytes, "supple surface table words");
+        }
         const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
         const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
         const auto window = [&](BufferIndex index, VkDeviceSize bytes) {
@@ -120,7 +129,7 @@ Status Group::createSets() {
             // Bindings a group does without point at the pool: every binding of the layout must be valid.
             const VkDescriptorBufferInfo unused = range(pool, first * poolBytes, kVec4Bytes);
             const auto wholeOr = [&](BufferIndex index, View::BufferIndex shared) {
-                if (view_ != nullptr) {
+                if (hasLevels()) {
                     // Not the pool: attributes are evaluated in every frame, beside what reads it.
                     return view_->size(shared) > 0 ? ofView(shared) : ofView(View::kSurface);
                 }
@@ -134,19 +143,19 @@ Status Group::createSets() {
                 if (previous && !motion) {
                     continue;
                 }
-                VkDescriptorSet& set = (previous ? windows_[w].motion : windows_[w].surface)[p];
+                VkDescriptorSet& set = (previous ? sets.motion : sets.surface)[p];
                 set = allocate(shared_.surface->layout(), surfacePool_, "supple surface");
                 // Levels of detail, previous positions: today's coefficients in the place of the cage, which no
-                // evaluation reads (shaders/evaluate/bicubic.comp).
+                // evaluation reads (shaders/evaluate/bicubic.comp, shaders/kernel/net.glsl).
                 const bool today = previous && view_ != nullptr;
                 const BufferIndex other = p == 0 ? kSecondPool : kPool;
                 const VkBufferView otherView =
                     today ? view(buffers_.buffer(other), kFloat4, first * poolBytes, count * poolBytes, "supple pool")
                           : cageView;
                 const VkDescriptorBufferInfo vertices =
-                    view_ != nullptr ? ofView(previous ? View::kPreviousPositions : View::kSurface)
-                    : previous       ? window(kPreviousPositions, previousBytes)
-                                     : window(kSurface, surfaceBytes());
+                    hasLevels() ? ofView(previous ? View::kPreviousPositions : View::kSurface)
+                    : previous  ? window(kPreviousPositions, previousBytes)
+                                : window(kSurface, surfaceBytes());
                 const gpu::BoundResource resources[] = {
                     {kTableBinding, range(table, 0, tableBytes), VK_NULL_HANDLE},
                     {kTable4TexelBinding, {}, table4},
@@ -175,6 +184,10 @@ Status Group::createSets() {
                 }
                 gpu::writeSet(device, set, resources);
             }
+        }
+        static_cast<SurfaceSets&>(windows_[w]) = sets; // rates: the finest's remain
+        if (hasRates()) {
+            rates_[r].windows.push_back(sets);
         }
     }
     return status;

@@ -23,8 +23,8 @@ static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t));
 constexpr uint32_t kMinSamples = 3;        ///< of a patch: a triangle at capacity 1
 constexpr uint32_t kPaddingOfRun = 3 * 64; ///< surface vertices that whole draw instances may cost a run
 constexpr uint32_t kFreeRun = 0xFFFFFF00u; ///< a run of no dispatch
-constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4; ///< of a group
-constexpr VkDeviceSize kReadbackBytes = sizeof(LodSolution) + kMaxRuns * kCountBytes;
+constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4;                  ///< of a group
+constexpr VkDeviceSize kReadbackBytes = sizeof(LodSolution) + 2 * kMaxRuns * kCountBytes; // with and without runs
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
 
 } // namespace
@@ -162,6 +162,12 @@ void View::giveRuns(uint32_t first, uint32_t count) {
     while (endOfRuns_ > 0 && !takenRuns_[endOfRuns_ - 1]) {
         --endOfRuns_;
     }
+}
+
+bool View::takeGroup() {
+    const bool room = groupsWithoutRuns_ < kMaxRuns;
+    groupsWithoutRuns_ += room ? 1 : 0;
+    return room;
 }
 
 LodCamera View::lodCamera() const {

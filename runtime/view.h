@@ -44,6 +44,9 @@ public:
     [[nodiscard]] std::optional<uint32_t> takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
                                                    uint32_t windows);
     void giveRuns(uint32_t first, uint32_t count);
+    /// The same for groups without runs, of which there may be kMaxRuns, too. False: the view is full.
+    [[nodiscard]] bool takeGroup();
+    void giveGroup() { --groupsWithoutRuns_; }
 
     [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || !cleared_; }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
@@ -52,7 +55,7 @@ public:
     void recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
                      uint32_t priorities) const;
     /// Copies what the solver found out to where the host reads it frames later; then, for each of its groups, how many
-    /// instances were seen (Culling::countOffset), which have `patches` patches each.
+    /// instances were seen (Culling::countOffset), which have `patches` patches of the view's each.
     void recordReadback(VkCommandBuffer commandBuffer);
     void recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, uint32_t patches);
     void beginFrame(uint64_t completedFrame);
@@ -101,6 +104,7 @@ private:
     std::vector<uint32_t> hostWords_; ///< up to kLodSolution
     std::vector<bool> takenRuns_;
     uint32_t endOfRuns_ = 0;
+    uint32_t groupsWithoutRuns_ = 0;
     uint32_t forms_ = 0; ///< bits of those that runs have
     bool cleared_ = false;
     bool indicesToRelease_ = false;
@@ -109,7 +113,8 @@ private:
     struct Solved {
         uint64_t frame = 0;
         uint32_t groups = 0;
-        std::array<uint32_t, shared::kMaxRuns> patches{}; ///< by group, of an instance; every group takes a run or more
+        std::array<uint32_t, 2 * shared::kMaxRuns>
+            patches{}; ///< by group, of an instance: those with runs, and without
     };
     std::vector<Solved> solved_; ///< by place in readback_
     SuppleViewStatistics newest_{};

@@ -18,6 +18,13 @@ struct Window {
     /// levels.
     VkBuffer arguments = VK_NULL_HANDLE;
     VkDeviceSize firstArgument = 0;
+    bool today = false; ///< previous positions: the set binds today's coefficients in the place of the cage
+};
+
+/// What a dispatch takes an instance: lanes or workgroups, and how many of them a workgroup takes.
+struct DispatchSize {
+    uint32_t elements = 0;
+    uint32_t perGroup = 1;
 };
 
 /// The same for a view's patches.
@@ -38,8 +45,8 @@ struct Evaluation {
     uint32_t firstEdgeVertex = 0;        ///< shared samples: those of edges, then those at corners
     uint32_t firstCornerVertex = 0;
 
-    /// Lays out the ranges of `tables` one after the other; returns the vertices of an instance.
-    uint64_t layOut(const Tables& tables);
+    /// Lays out the ranges of `tables` one after the other from `first` on; returns where they end.
+    uint64_t layOut(const Tables& tables, uint64_t first = 0);
 };
 
 } // namespace supple::surface

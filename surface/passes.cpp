@@ -114,8 +114,8 @@ Shaders Shaders::embedded() {
     return shaders;
 }
 
-uint64_t Evaluation::layOut(const Tables& tables) {
-    uint64_t vertices = 0;
+uint64_t Evaluation::layOut(const Tables& tables, uint64_t first) {
+    uint64_t vertices = first;
     firstVertices.clear();
     const bool shares = tables.sharesSamples();
     for (const PatchRange& range : tables.ranges) {
@@ -211,7 +211,7 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         formats.push_back(kVertexPosition);
     }
     const uint32_t normals = tables.cornerNormals ? 1 : 0;
-    if (status && needs.lod) {
+    if (status && needs.view) {
         status = lod_.prepare(layout_, tables.lod);
     }
     const bool shares = tables.sharesSamples();

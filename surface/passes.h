@@ -35,6 +35,7 @@ struct Needs {
     bool motion = false; ///< positions alone as well
     bool patches = false;
     bool attributes = false;
+    bool view = false; ///< the passes that groups of a view share
     bool lod = false;  ///< records of a view instead of all patches at a rate
     uint32_t rate = 0; ///< that it begins with
 };
@@ -64,6 +65,7 @@ public:
     void recordAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
                           const Evaluation& evaluation) const;
 
+    [[nodiscard]] const kernel::Passes& kernel() const { return kernel_; }
     /// Level of detail: what chooses and places the patches of a view.
     [[nodiscard]] const lod::Passes& lod() const { return lod_; }
     /// As recordEvaluate and recordAttributes, of the patches that a view has placed for this window.

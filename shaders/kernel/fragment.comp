@@ -8,6 +8,8 @@
 #include "shaders/shared/kernel.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/kernel/net.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 
 layout(constant_id = 5) const uint kSharedPoints = 341u; // of the last two levels together
@@ -30,8 +32,8 @@ void writePoint(uint at, vec3 p) {
 void main() {
     // Workgroups past the last repeat it: all lanes must meet at the barriers.
     uint id = min(workgroupIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uvec4 record = tableElement(push.records + (id - entry * push.count));
+    uint place = id / push.count, entry = instanceEntry(place), instance = entry & kInstanceSlotMask;
+    uvec4 record = tableElement(push.records + (id - place * push.count));
     uint header = record.x, fragment = record.y;
     uvec4 head = tableElement(header), last = tableElement(header + 2u);
     uint patches = tableElement(header + 1u).x;
@@ -40,7 +42,7 @@ void main() {
     // Even levels begin at 0, odd ones at the other end, so that the last two share the memory whatever their sizes.
     uint count = tableElement(levels).z;
     for (uint i = gl_LocalInvocationID.x; i < count; i += gl_WorkGroupSize.x)
-        writePoint(i, poolVector(instance * push.poolStride + tableWord(head.z + i * fragments + fragment)));
+        writePoint(i, netPoint(instance * push.poolStride + tableWord(head.z + i * fragments + fragment), entry));
     region = 0u;
     barrier();
     for (uint step = 1u; step <= push.step; ++step) {
@@ -55,12 +57,12 @@ void main() {
     }
     for (uint i = gl_LocalInvocationID.x; i < last.w; i += gl_WorkGroupSize.x) {
         uint at = last.z + 2u * i;
-        uvec4 place = tableElement(at + 1u);
+        uvec4 row = tableElement(at + 1u);
         vec3 position, normal;
-        limitSample(tableElement(at), place, header, fragments, fragment, push.step, position, normal);
-        uint patchIndex = tableWord(patches + (place.z & ~kRightSide) * fragments + fragment);
+        limitSample(tableElement(at), row, header, fragments, fragment, push.step, position, normal);
+        uint patchIndex = tableWord(patches + (row.z & ~kRightSide) * fragments + fragment);
         if (patchIndex != kNoPatch)
-            storeSurfaceVertex(instance * push.verticesPerInstance + patchIndex * push.samples + place.w, position,
-                               unitNormal(normal));
+            storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples + row.w,
+                               position, unitNormal(normal));
     }
 }

@@ -8,14 +8,16 @@
 #include "shaders/shared/kernel.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/kernel/net.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 #include "shaders/kernel/scratch.glsl"
 #include "shaders/kernel/fragment.glsl"
 #include "shaders/kernel/samples.glsl"
 
 void writeSample(uint patchIndex, uint sampleIndex, vec3 position, vec3 normal) {
-    storeSurfaceVertex(lane.instance * push.verticesPerInstance + patchIndex * push.samples + sampleIndex, position,
-                       unitNormal(normal));
+    storeSurfaceVertex(lane.instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples + sampleIndex,
+                       position, unitNormal(normal));
 }
 
 // Along the strip, with the three columns round the sample at hand.

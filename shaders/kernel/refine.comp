@@ -8,6 +8,8 @@
 #include "shaders/shared/kernel.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/kernel/net.glsl"
 #include "shaders/kernel/scratch.glsl"
 #include "shaders/kernel/fragment.glsl"
 

@@ -6,6 +6,7 @@ layout(set = 0, binding = kScratchBinding, std430) buffer Scratch { vec4 scratch
 layout(set = 0, binding = kScratchTexelBinding) uniform samplerBuffer scratchTexels;
 
 struct Lane {
+    uint listed; // the entry of the list
     uint instance, record;
     uint rows, list;
     uint read, write; // runs
@@ -18,7 +19,8 @@ void findLane() {
     uint id = invocationIndex();
     uint block = min(id / kBlockLanes, push.count * instanceCount() - 1u);
     uint entry = block / push.count;
-    lane.instance = instanceSlot(entry);
+    lane.listed = instanceEntry(entry);
+    lane.instance = lane.listed & kInstanceSlotMask;
     lane.record = push.records + 3u * (block - entry * push.count);
     uvec4 where = tableElement(lane.record), what = tableElement(lane.record + 1u);
     lane.rows = where.x;
@@ -37,7 +39,7 @@ void findLane() {
 
 vec3 point(uint i) {
     uint at = lane.read + i * lane.fragments + lane.fragment;
-    if (kFromNet) return poolVector(lane.instance * push.poolStride + tableWord(at));
+    if (kFromNet) return netPoint(lane.instance * push.poolStride + tableWord(at), lane.listed);
     at += lane.instance * push.scratchStride;
     if (kWide) return scratch[at].xyz;
     return texelFetch(scratchTexels, int(at)).xyz;

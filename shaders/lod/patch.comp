@@ -103,10 +103,7 @@ vec2 chartLevels(uint record, uint base) {
 
 // Orthographic: the direction it looks in, which all rays have.
 bool orthographic() { return push.camera.orthographic != 0u; }
-vec3 camera() {
-    return orthographic() ? vec3(push.direction[0], push.direction[1], push.direction[2])
-                          : vec3(push.camera.position[0], push.camera.position[1], push.camera.position[2]);
-}
+vec3 camera() { return vec3(push.camera.position[0], push.camera.position[1], push.camera.position[2]); }
 
 mat3 frameAt(vec3 middle) { return frameTowards(orthographic() ? camera() : middle - camera()); }
 Pyramid emptyPyramid() {

@@ -14,13 +14,17 @@
 // the host list does not say kInstanceIsNew.
 // List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has them,
 // those with a past first, either kind rising; `levels` entries further on each of these has its instance's level.
+// Where instances have one of several rates (subdivision): the same once more a rate, without levels, `rateStride` words from
+// each other, in the order of slots alone. An instance has the smallest rate that is not below its level, or the last.
 // Between the two, `occlude` may take more instances out of sight, by a depth pyramid.
-// Table (uvec4 elements): windows, then arguments.
+// Table (uvec4 elements): windows, then arguments, then draws.
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
 //   argument   (elements an instance, elements a workgroup or 0 for a draw, ListCount, word in the argument buffer); those of
 //              window w stand argumentStride * w words further. A dispatch is (x, y, 1), a draw its instance count alone
+//   draw       (indices, first index, patches an instance, rate): a whole VkDrawIndexedIndirectCommand for all windows
 // Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded; the same
 // of every window; then as the table says.
+// Then, from rateCounts on, how many instances a rate and window has, [rate][window]; from firstDraw on the draws.
 #ifndef SUPPLE_SHARED_BOUNDS_H
 #define SUPPLE_SHARED_BOUNDS_H
 
@@ -87,6 +91,8 @@ SUPPLE_SHARED_CONST kCountWindow = 0u;
 SUPPLE_SHARED_CONST kCountWithPast = 1u; // of the window
 SUPPLE_SHARED_CONST kCountNew = 2u;      // of the window
 SUPPLE_SHARED_CONST kCountAll = 3u;      // of the group; written once
+SUPPLE_SHARED_CONST kCountRate = 4u;     // of the window at this rate; the next at the next one
+SUPPLE_SHARED_CONST kMaxRates = 7u;      // 1, 2, 4 .. 64 segments along an edge
 
 struct ListPush {
     uint windowCount;
@@ -96,6 +102,13 @@ struct ListPush {
     uint levels;    // from entries to their levels
     uint room;      // for vertices, of all groups of the view; kRoomForAll: there is no size pass
     uint maxGroups; // of a dispatch in x
+    uint rateCount; // 0: levels are real numbers
+    uint firstRate; // segments along an edge of the cage; each further rate has twice as many
+    uint rateLists; // first word of the first rate's list
+    uint rateStride;
+    uint rateCounts; // words of the argument buffer
+    uint firstDraw;
+    uint drawCount;
 };
 SUPPLE_SHARED_CONST kRoomForAll = 0xFFFFFFFFu;
 

@@ -76,6 +76,8 @@ struct KernelPush {
     uint verticesPerInstance;
     uint samples; // of a sector
     uint firstInstance; // of the list
+    uint firstVertex;   // of the patches, within an instance
+    uint today;         // 1: instances without a past come from the coefficients that are bound in the place of the cage
 };
 
 SUPPLE_SHARED_END

@@ -117,9 +117,8 @@ struct LodPush {
     uint firstRun;      // of the window, in the view
     uint runCount;      // of the window
     uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
-    LodCamera camera;
+    LodCamera camera;   // with backFaces, of an orthographic one: the direction it looks in for its position
     uint backFaces;     // 1: patches that show their backs are left out
-    float direction[3]; // with it: where an orthographic camera looks
 };
 struct LodSolvePush {
     uint runCount;          // in use, of the view

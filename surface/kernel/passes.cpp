@@ -96,12 +96,44 @@ uint32_t Passes::scratchStride(const Fragments& fragments) const {
     return fragments.steps > 0 && firstStepwise(fragments) < fragments.classes.size() ? fragments.scratchStride : 0;
 }
 
-void Passes::dispatch(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
-                      const shared::KernelPush& push, uint64_t groups) const {
+Section Passes::together(const Fragments& fragments, size_t stepwise, size_t& c) const {
+    const size_t bucket = bucketOf(fragments.classes[c].sharedPoints);
+    Section section{fragments.classes[c].fragments.table, 0};
+    for (; c < stepwise && bucketOf(fragments.classes[c].sharedPoints) == bucket; ++c) {
+        section.count += fragments.classes[c].fragments.count;
+    }
+    return section;
+}
+
+std::vector<DispatchSize> Passes::dispatches(const Fragments& fragments) const {
+    std::vector<DispatchSize> sizes;
+    const size_t stepwise = firstStepwise(fragments);
+    for (size_t c = 0; c < stepwise;) {
+        sizes.push_back({together(fragments, stepwise, c).count, 1});
+    }
+    const size_t kinds = stepwise < fragments.classes.size() ? (fragments.steps + 1) * size_t{shared::kWorkKinds} : 0;
+    for (size_t kind = 0; kind < kinds; ++kind) {
+        const Section blocks = blocksFrom(fragments, stepwise, kind);
+        if (blocks.count > 0) {
+            sizes.push_back({blocks.count * shared::kBlockLanes, device_->mapping.localSize});
+        }
+    }
+    return sizes;
+}
+
+void Passes::dispatch(VkCommandBuffer commandBuffer, VkPipeline pipeline, const Window& window, uint32_t index,
+                      const shared::KernelPush& push, const DispatchSize& size) const {
     device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set, 0, nullptr);
+    device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &window.set, 0,
+                                      nullptr);
     device_->vk.CmdPushConstants(commandBuffer, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
-    gpu::dispatchLinear(*device_, commandBuffer, groups);
+    if (window.arguments != VK_NULL_HANDLE) {
+        device_->vk.CmdDispatchIndirect(commandBuffer, window.arguments,
+                                        window.firstArgument + index * sizeof(VkDispatchIndirectCommand));
+    } else {
+        const uint64_t elements = uint64_t{size.elements} * push.instanceCount;
+        gpu::dispatchLinear(*device_, commandBuffer, (elements + size.perGroup - 1) / size.perGroup);
+    }
 }
 
 void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
@@ -115,18 +147,18 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
     push.scratchStride = fragments.scratchStride;
     push.verticesPerInstance = evaluation.verticesPerInstance;
     push.samples = sampleCount(fragments.loop ? Domain::triangle : Domain::quad, evaluation.rate);
+    push.firstVertex = evaluation.firstVertices.empty() ? 0 : evaluation.firstVertices.front();
+    push.today = window.today ? 1 : 0;
 
     const size_t stepwise = firstStepwise(fragments);
+    uint32_t dispatched = 0;
     push.step = fragments.steps;
     for (size_t c = 0; c < stepwise;) {
-        const size_t bucket = bucketOf(fragments.classes[c].sharedPoints);
-        push.records = fragments.classes[c].fragments.table;
-        push.count = 0;
-        for (; c < stepwise && bucketOf(fragments.classes[c].sharedPoints) == bucket; ++c) {
-            push.count += fragments.classes[c].fragments.count;
-        }
-        dispatch(commandBuffer, buckets_[bucket].pipelines[loop][format].get(), window.set, push,
-                 uint64_t{push.count} * push.instanceCount);
+        const Bucket& bucket = buckets_[bucketOf(fragments.classes[c].sharedPoints)];
+        const Section section = together(fragments, stepwise, c);
+        push.records = section.table;
+        push.count = section.count;
+        dispatch(commandBuffer, bucket.pipelines[loop][format].get(), window, dispatched++, push, {push.count, 1});
     }
     if (stepwise == fragments.classes.size()) {
         return;
@@ -145,9 +177,8 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
         first = false;
         push.records = blocks.table;
         push.count = blocks.count;
-        const uint64_t lanes = uint64_t{push.count} * push.instanceCount * shared::kBlockLanes;
-        const uint64_t local = device_->mapping.localSize;
-        dispatch(commandBuffer, pipeline.get(), window.set, push, (lanes + local - 1) / local);
+        dispatch(commandBuffer, pipeline.get(), window, dispatched++, push,
+                 {push.count * shared::kBlockLanes, device_->mapping.localSize});
     };
     for (uint32_t step = 1; step <= fragments.steps; ++step) {
         push.step = step;

@@ -29,7 +29,10 @@ public:
     /// Points an instance in the scratch buffer; 0 where none is needed.
     [[nodiscard]] uint32_t scratchStride(const Fragments& fragments) const;
 
-    /// Puts its own barriers between levels.
+    /// What record() dispatches, in order.
+    [[nodiscard]] std::vector<DispatchSize> dispatches(const Fragments& fragments) const;
+    /// Puts its own barriers between levels. Where the number of instances is known to the device alone, the window's
+    /// arguments are those of dispatches().
     void record(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window, const Evaluation& evaluation,
                 uint32_t vertexFormat) const;
 
@@ -37,8 +40,10 @@ private:
     /// The first class that goes through the scratch buffer.
     [[nodiscard]] size_t firstStepwise(const Fragments& fragments) const;
     [[nodiscard]] size_t bucketOf(uint32_t sharedPoints) const;
-    void dispatch(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
-                  const shared::KernelPush& push, uint64_t groups) const;
+    /// The shared-memory form's classes from `c` on that one pipeline takes; `c` goes on to the next.
+    [[nodiscard]] Section together(const Fragments& fragments, size_t stepwise, size_t& c) const;
+    void dispatch(VkCommandBuffer commandBuffer, VkPipeline pipeline, const Window& window, uint32_t index,
+                  const shared::KernelPush& push, const DispatchSize& size) const;
 
     const gpu::Device* device_ = nullptr;
     Shaders shaders_;

@@ -830,7 +830,7 @@ void views(Rows& r) {
           [](World& w, SuppleGroupDesc& d) { d.view = w.foreignView; });
     group("of a view, with flags", kBad, SUPPLE_MESSAGE_CONFLICT,
           [](World&, SuppleGroupDesc& d) { d.flags = SUPPLE_GROUP_MOTION; });
-    group("of a view, without levels", kBad, SUPPLE_MESSAGE_CONFLICT,
+    group("of a view, at rates", SUPPLE_OK, kSilent,
           [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CATMULL_CLARK; });
     group("of a view, the cage alone", kBad, SUPPLE_MESSAGE_CONFLICT,
           [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CAGE; });

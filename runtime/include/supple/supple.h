@@ -410,7 +410,8 @@ typedef enum SuppleVertexFormat {
  * edge has a real-valued level that both patches at it take from its boundary curve alone, so that there are no cracks
  * and, since levels and patterns move continuously, no pops; nothing changes while the camera only turns. All groups
  * of a view share its surface vertices. What they want in a frame is counted before anything is written: when it does
- * not fit, all levels are scaled down together, by one continuous factor (docs/lod.md). */
+ * not fit, all levels are scaled down together, by one continuous factor (docs/lod.md). Subdivision has no real-valued
+ * levels: its instances take one of several rates each, and change from one to the next at once. */
 
 /** What a view writes besides surface vertices, for all its groups. */
 typedef enum SuppleViewFlags {
@@ -497,7 +498,8 @@ typedef struct SuppleDepthPyramidDesc {
  * suppleRecord samples it in compute shaders, and only those: its writes must be in `before` (or before
  * suppleGetRecordScopes' first), its next writes wait for compute shaders. It must be owned by queueFamily then, also
  * with SUPPLE_CONTEXT_ASYNC_COMPUTE: share it concurrently, or transfer it. The image and its view must live until the
- * frames that were recorded with them are completed, which a change here does not touch: set another, or null, first. */
+ * frames that were recorded with them are completed, which a change here does not touch: set another, or null, first.
+ */
 SUPPLE_API SuppleResult suppleSetDepthPyramid(SuppleContext context, SuppleView view,
                                               const SuppleDepthPyramidDesc* pyramid);
 
@@ -591,8 +593,10 @@ typedef struct SuppleGroupDesc {
     SuppleCreaseMode creaseMode; /**< BLEND */
     float sharpThreshold;        /**< BLEND: edges of this sharpness and more are sharp; 0 = 1 */
     SupplePoseSource poseSource; /**< PALETTE_BUFFER goes with linear skinning only */
-    /** Optional: the group is drawn at this view's levels of detail. PREP, PM and BLEND. rate, vertexFormat and flags
-     * are then the view's; see SuppleGroupOutput.lodDraws. */
+    /** Optional: the group is drawn at this view's levels of detail. vertexFormat and flags are then the view's. PREP,
+     * PM and BLEND: rate, too; see SuppleGroupOutput.lodDraws. CATMULL_CLARK and LOOP: every instance has the rate its
+     * level asks for, rate being the largest; see SuppleGroupOutput.rates. The vertices are the group's own: the view's
+     * maxVertices and budget do not touch them, and SuppleViewStatistics counts the instances alone. */
     SuppleView view;
 } SuppleGroupDesc;
 
@@ -905,13 +909,22 @@ typedef struct SuppleLodDraw {
     uint32_t verticesPerInstance; /**< of whole patches; those of the last that are none are points */
 } SuppleLodDraw;
 
+/** Instances drawn at one rate: for each draw range bind `instances` in the place of SuppleGroupOutput.instances and
+ * draw its command of `indirect`. */
+typedef struct SuppleRate {
+    uint32_t rate;              /**< segments along a patch edge: R of SuppleDomain */
+    uint32_t firstDrawRange;    /**< in SuppleGroupOutput.drawRanges */
+    uint32_t drawRangeCount;    /**< as many at every rate of a group */
+    SuppleBufferView instances; /**< uint32 per instance drawn at this rate: its slot, slots rising */
+} SuppleRate;
+
 /** The buffers of a group, valid until the group is destroyed or its rate is set. What is counted per instance lies at
  * the instance's slot. Buffers have usage STORAGE, UNIFORM_TEXEL, TRANSFER_SRC and, where it makes sense, TRANSFER_DST,
  * VERTEX, INDEX or INDIRECT. */
 typedef struct SuppleGroupOutput {
     uint32_t structSize;
     uint32_t capacity; /**< instances there is room for */
-    uint32_t rate;     /**< segments along a patch edge: R of SuppleDomain */
+    uint32_t rate;     /**< segments along a patch edge: R of SuppleDomain; of several rates the largest */
     SuppleVertexFormat vertexFormat;
     uint32_t patchCount;              /**< per instance */
     uint32_t vertexCount;             /**< surface vertices per instance */
@@ -947,9 +960,9 @@ typedef struct SuppleGroupOutput {
      * bind pose to its place: transform * joint * inverse bind; then, with morph targets, a float weight each. Dual
      * quaternions: see shaders/shared/deform.h. Null with SUPPLE_POSES_CAGE_BUFFER. */
     SuppleBufferView poses;
-    /** Groups of a view: surfaceVertices, attributes, uvs1, faceUvs, previousPositions and gridIndices are the view's,
-     * drawRanges is null, and the draws are these: draw i has the i-th command of `indirect`. A capacity that no patch
-     * has draws no instances. */
+    /** Groups of a view, PREP and PM: surfaceVertices, attributes, uvs1, faceUvs, previousPositions and gridIndices are
+     * the view's, drawRanges is null, and the draws are these: draw i has the i-th command of `indirect`. A capacity
+     * that no patch has draws no instances. */
     const SuppleLodDraw* lodDraws;
     uint32_t lodDrawCount; /**< entries of lodDraws and of indirect */
     SuppleBufferView
@@ -958,6 +971,11 @@ typedef struct SuppleGroupOutput {
                                   * first surface vertex, - ; then levels (docs/lod.md) */
     SuppleBufferView bounds; /**< SUPPLE_VIEW_CULL: two float4 a slot: the least corner of a box round the surface and
                               * 0; the greatest and 1 where a cage vertex is not finite, else 0 */
+    /** The rates that instances may have, rising: several in groups of a view, CATMULL_CLARK and LOOP, whose instances
+     * have one each, and whose vertices of every rate lie in the instance's, behind those of the coarser ones. Else
+     * one, with all draw ranges and instances. None where lodDraws are drawn. */
+    const SuppleRate* rates;
+    uint32_t rateCount; /**< entries of rates */
 } SuppleGroupOutput;
 
 /** Fills out: where a group's buffers are. Needs no frame; the buffers are filled by suppleRecord. */

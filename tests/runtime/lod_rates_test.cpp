@@ -1,0 +1,656 @@
+// Subdivision in views: which rate instances take, what is evaluated, listed and drawn of each, against groups of that
+// rate alone.
+#include "cage/gltf_reader.h"
+#include "cage/procedural.h"
+#include "surface/lod/instance.h"
+#include "tests/support/gpu_comparison.h"
+#include "tests/support/kernel_zoo.h"
+#include "tests/support/meshes.h"
+#include "tests/support/rigged_tube.h"
+#include "tests/support/test_view.h"
+#include "tests/support/wrapped_vulkan.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <optional>
+#include <set>
+
+namespace supple::test {
+namespace {
+
+class LodRates : public CrowdContexts, public testing::WithParamInterface<SuppleMapping> {};
+INSTANTIATE_TEST_SUITE_P(Mappings, LodRates, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
+                         [](const auto& param) { return mappingName(param.param); });
+
+SuppleGroupDesc groupOf(SuppleAsset asset, uint32_t capacity, SuppleScheme scheme, uint32_t rate) {
+    SuppleGroupDesc desc{};
+    desc.asset = asset;
+    desc.capacity = capacity;
+    desc.scheme = scheme;
+    desc.rate = rate;
+    desc.vertexFormat = SUPPLE_VERTEX_24; // as TestView
+    return desc;
+}
+
+/// One rate of a group as the device left it.
+struct RateOutput {
+    SuppleRate rate{};
+    std::vector<SuppleDrawRange> ranges;
+    std::vector<VkDrawIndexedIndirectCommand> draws;
+    std::vector<uint32_t> slots; ///< as many of its list as the first draw says
+};
+
+/// A group's outputs, read back.
+struct Written {
+    SuppleGroupOutput output{};
+    std::vector<RateOutput> rates;
+    std::vector<std::byte> vertices, previous, attributes, uvs1;
+
+    /// What lies between two vertices of an instance.
+    [[nodiscard]] static std::vector<std::byte> part(const std::vector<std::byte>& bytes, size_t stride, size_t first,
+                                                     size_t count) {
+        EXPECT_LE((first + count) * stride, bytes.size());
+        const auto begin = bytes.begin() + static_cast<ptrdiff_t>(first * stride);
+        return {begin, begin + static_cast<ptrdiff_t>(count * stride)};
+    }
+    [[nodiscard]] size_t firstVertex(uint32_t slot, size_t r) const {
+        return size_t{slot} * output.verticesPerInstance + rates[r].ranges.front().firstVertex;
+    }
+    [[nodiscard]] size_t vertexCount(size_t r) const {
+        const SuppleDrawRange& last = rates[r].ranges.back();
+        return last.firstVertex + size_t{last.patchCount} * last.samplesPerPatch - rates[r].ranges.front().firstVertex;
+    }
+    [[nodiscard]] std::vector<std::byte> verticesOf(uint32_t slot, size_t r) const {
+        return part(vertices, output.surfaceVertices.stride, firstVertex(slot, r), vertexCount(r));
+    }
+    [[nodiscard]] std::vector<std::byte> previousOf(uint32_t slot, size_t r) const {
+        return part(previous, 12, firstVertex(slot, r), vertexCount(r));
+    }
+    /// Positions of verticesOf, without normals.
+    [[nodiscard]] std::vector<std::byte> positionsOf(uint32_t slot, size_t r) const {
+        std::vector<std::byte> positions;
+        for (size_t v = firstVertex(slot, r), end = v + vertexCount(r); v < end; ++v) {
+            const std::vector<std::byte> one = part(vertices, 1, v * output.surfaceVertices.stride, 12);
+            positions.insert(positions.end(), one.begin(), one.end());
+        }
+        return positions;
+    }
+    /// The rate that an instance is listed at; fails where it is more than one.
+    [[nodiscard]] std::optional<size_t> rateOf(uint32_t slot) const {
+        std::optional<size_t> found;
+        for (size_t r = 0; r < rates.size(); ++r) {
+            if (std::count(rates[r].slots.begin(), rates[r].slots.end(), slot) > 0) {
+                EXPECT_FALSE(found.has_value()) << "slot " << slot << " has two rates";
+                found = r;
+            }
+        }
+        return found;
+    }
+};
+
+Written readBack(const Crowd& crowd) {
+    Written written;
+    written.output = crowd.output();
+    const SuppleGroupOutput& o = written.output;
+    written.vertices = crowd.read(o.surfaceVertices);
+    written.previous = crowd.read(o.previousPositions);
+    written.attributes = crowd.read(o.attributes);
+    written.uvs1 = crowd.read(o.uvs1);
+    const std::vector<VkDrawIndexedIndirectCommand> draws = crowd.draws();
+    EXPECT_EQ(draws.size(), o.drawRangeCount);
+    for (uint32_t r = 0; r < o.rateCount; ++r) {
+        RateOutput& rate = written.rates.emplace_back();
+        rate.rate = o.rates[r];
+        for (uint32_t d = 0; d < rate.rate.drawRangeCount; ++d) {
+            rate.ranges.push_back(o.drawRanges[rate.rate.firstDrawRange + d]);
+            rate.draws.push_back(draws[rate.rate.firstDrawRange + d]);
+        }
+        rate.slots.resize(rate.draws.front().instanceCount / rate.ranges.front().patchCount);
+        const std::vector<std::byte> list = crowd.read(rate.rate.instances);
+        EXPECT_LE(rate.slots.size() * 4, list.size());
+        if (!rate.slots.empty()) {
+            std::memcpy(rate.slots.data(), list.data(), rate.slots.size() * 4);
+        }
+        for (uint32_t d = 0; d < rate.rate.drawRangeCount; ++d) {
+            const SuppleDrawRange& range = rate.ranges[d];
+            const VkDrawIndexedIndirectCommand& draw = rate.draws[d];
+            EXPECT_EQ(draw.instanceCount, range.patchCount * rate.slots.size());
+            EXPECT_EQ(draw.indexCount, range.indexCount);
+            EXPECT_EQ(draw.firstIndex, range.firstIndex);
+            EXPECT_EQ(draw.vertexOffset, 0);
+            EXPECT_EQ(draw.firstInstance, 0u);
+        }
+    }
+    return written;
+}
+
+/// The list of all that are drawn.
+std::vector<uint32_t> allSlots(const Crowd& crowd, const Written& written) {
+    size_t count = 0;
+    for (const RateOutput& rate : written.rates) {
+        count += rate.slots.size();
+    }
+    std::vector<uint32_t> slots(count);
+    const std::vector<std::byte> bytes = crowd.read(written.output.instances);
+    if (count > 0) {
+        std::memcpy(slots.data(), bytes.data(), count * 4);
+    }
+    return slots;
+}
+
+/// The level of an instance by its deformed cage, in double.
+double levelOf(const Crowd& crowd, uint32_t slot, const cage::Cage& bindPose, const SuppleCameraDesc& camera) {
+    const surface::lod::InstanceMeasure measure = surface::lod::measureInstance(bindPose);
+    const SuppleGroupOutput output = crowd.output();
+    const std::vector<std::byte> bytes = crowd.slotBytes(output.deformedCage, slot);
+    glm::dvec3 low(1e30), high(-1e30);
+    for (uint32_t v = 0; v < output.cageVertexCount; ++v) {
+        glm::vec3 p;
+        std::memcpy(&p, bytes.data() + size_t{16} * v, sizeof(p));
+        low = glm::min(low, glm::dvec3(p));
+        high = glm::max(high, glm::dvec3(p));
+    }
+    const double diagonal = glm::length(high - low);
+    const glm::dvec3 eye(camera.position[0], camera.position[1], camera.position[2]);
+    const double away = std::max(glm::length((low + high) * 0.5 - eye) - 0.5 * diagonal, 0.01);
+    const double pixels = static_cast<double>(camera.pixelsPerUnit) / away;
+    return std::min(static_cast<double>(measure.longest) * diagonal * pixels / 3.0,
+                    std::sqrt(0.75 / 0.25 * static_cast<double>(measure.bend) * diagonal * pixels));
+}
+
+/// Groups of one rate, each rate of `crowd` one, whose instances do what those of the crowd do.
+class Twins {
+public:
+    Twins(Crowd& crowd, const SuppleGroupDesc& desc, uint32_t flags, uint32_t firstRate) : crowd_(crowd) {
+        SuppleGroupDesc own = desc;
+        own.view = {};
+        own.flags = flags;
+        for (uint32_t r = 0; r < crowd.output().rateCount; ++r) {
+            own.rate = firstRate << r;
+            twins_.push_back(std::make_unique<Crowd>(crowd.context(), own));
+        }
+    }
+    void spawn() {
+        instances_.push_back({crowd_.spawn()});
+        for (const auto& twin : twins_) {
+            instances_.back().push_back(twin->spawn());
+        }
+    }
+    void pose(size_t i, uint32_t clip, double time, const glm::mat4& transform) {
+        crowd_.pose(instances_[i][0], clip, time, transform);
+        for (size_t t = 0; t < twins_.size(); ++t) {
+            twins_[t]->pose(instances_[i][1 + t], clip, time, transform);
+        }
+    }
+    void run() {
+        std::vector<SuppleGroup> groups{crowd_.group()};
+        for (const auto& twin : twins_) {
+            groups.push_back(twin->group());
+        }
+        crowd_.context().run(groups);
+    }
+    [[nodiscard]] size_t size() const { return instances_.size(); }
+    [[nodiscard]] const Crowd& at(size_t rate) const { return *twins_[rate]; }
+
+private:
+    Crowd& crowd_;
+    std::vector<std::unique_ptr<Crowd>> twins_;
+    std::vector<std::vector<SuppleInstance>> instances_; ///< of the crowd, then of its twins
+};
+
+struct RateCase {
+    const char* name;
+    SuppleScheme scheme;
+    cage::Character character;
+    uint32_t clip = SUPPLE_BIND_POSE;
+    uint32_t firstRate = 2; ///< of a cage's edge: one segment a patch
+    uint32_t rate = 16;
+};
+
+cage::Character bodyOf(const cage::Cage& cage) {
+    cage::Character character;
+    character.name = "body";
+    character.cage = cage;
+    return character;
+}
+
+/// Two UV sets with seams at every edge.
+cage::Cage withUvs(cage::Cage cage) {
+    cage.cornerUvs.clear();
+    cage.cornerUvs1.clear();
+    for (uint32_t c = 0; c < cage.cornerCount(); ++c) {
+        const auto x = static_cast<float>(c % 97) / 97.0f;
+        cage.cornerUvs.emplace_back(x, 1.0f - x * x);
+        cage.cornerUvs1.emplace_back(x * x, 0.5f * x);
+    }
+    return cage;
+}
+
+cage::Cage creased(cage::Cage cage) {
+    return withRandomSharpness(std::move(cage), 7);
+}
+
+std::vector<RateCase> rateCases() {
+    const cage::Cage quads = withUvs(perturbed(cage::makeCubeSphere(2), 0.05f, 3));
+    const std::vector<KernelCage>& zoo = kernelZoo();
+    const auto named =
+        std::find_if(zoo.begin(), zoo.end(), [](const KernelCage& z) { return z.name == "mixed, valence 5"; });
+    const cage::Cage mixed = withUvs(named->cage);
+    const cage::Cage triangles = withUvs(inTriangles(perturbed(cage::makeCubeSphere(2), 0.05f, 4)));
+    std::vector<RateCase> cases{
+        {"Catmull-Clark, quads", SUPPLE_SCHEME_CATMULL_CLARK, bodyOf(quads)},
+        {"Catmull-Clark, quads, creased", SUPPLE_SCHEME_CATMULL_CLARK, bodyOf(creased(quads))},
+        {"Catmull-Clark, mixed", SUPPLE_SCHEME_CATMULL_CLARK, bodyOf(mixed), SUPPLE_BIND_POSE, 4},
+        {"Catmull-Clark, mixed, creased", SUPPLE_SCHEME_CATMULL_CLARK, bodyOf(creased(mixed)), SUPPLE_BIND_POSE, 4},
+        {"Loop, triangles", SUPPLE_SCHEME_LOOP, bodyOf(triangles)},
+        {"Loop, triangles, creased", SUPPLE_SCHEME_LOOP, bodyOf(creased(triangles))},
+        {"Loop, mixed", SUPPLE_SCHEME_LOOP, bodyOf(mixed)},
+    };
+    const Result<cage::Character> pip = cage::readGltfFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb");
+    EXPECT_TRUE(pip.ok());
+    if (pip.ok()) {
+        cases.push_back({"Catmull-Clark, animated", SUPPLE_SCHEME_CATMULL_CLARK, *pip, 0, 2, 4});
+    }
+    return cases;
+}
+
+TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    for (const RateCase& c : rateCases()) {
+        SCOPED_TRACE(c.name);
+        TestView view(context, 1024, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1);
+        const SuppleAsset asset =
+            c.clip == SUPPLE_BIND_POSE ? context.createAsset(c.character.cage) : context.createAsset(c.character);
+        SuppleGroupDesc desc = groupOf(asset, 10, c.scheme, c.rate);
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        const uint32_t rates = static_cast<uint32_t>(std::countr_zero(c.rate) - std::countr_zero(c.firstRate)) + 1;
+        ASSERT_EQ(crowd.output().rateCount, rates);
+        ASSERT_EQ(crowd.output().lodDrawCount, 0u);
+        Twins twins(crowd, desc, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, c.firstRate);
+        for (int i = 0; i < 8; ++i) {
+            twins.spawn();
+        }
+        size_t compared = 0, changed = 0;
+        std::vector<size_t> usedBy(rates);
+        std::map<uint32_t, size_t> before; // rates by slot
+        for (uint32_t frame = 0; frame < 6; ++frame) {
+            if (frame == 3) { // two that have no past
+                twins.spawn();
+                twins.spawn();
+            }
+            for (size_t i = 0; i < twins.size(); ++i) {
+                const float turn = 0.1f * static_cast<float>(frame) * static_cast<float>(1 + i);
+                const glm::vec3 at(0.3f * static_cast<float>(frame), 0.0f,
+                                   -std::exp2(1.0f + 0.85f * static_cast<float>(i)));
+                twins.pose(i, c.clip, 0.2 * frame, glm::rotate(glm::translate(glm::mat4(1.0f), at), turn, {0, 1, 0}));
+            }
+            view.camera.pixelsPerUnit = 250.0f * std::pow(1.8f, static_cast<float>(frame));
+            view.look({0.0f, 0.4f, 2.5f});
+            twins.run();
+            const Written written = readBack(crowd);
+            std::vector<Written> alone;
+            for (uint32_t r = 0; r < rates; ++r) {
+                alone.push_back(readBack(twins.at(r)));
+                ASSERT_EQ(alone[r].rates.size(), 1u);
+                ASSERT_EQ(alone[r].output.rate, written.rates[r].rate.rate) << "rate " << r;
+                ASSERT_EQ(alone[r].rates[0].slots.size(), twins.size());
+                ASSERT_EQ(written.rates[r].rate.drawRangeCount, alone[r].rates[0].rate.drawRangeCount);
+                for (size_t d = 0; d < alone[r].rates[0].ranges.size(); ++d) {
+                    const SuppleDrawRange &own = written.rates[r].ranges[d], &theirs = alone[r].rates[0].ranges[d];
+                    EXPECT_EQ(own.firstPatch, theirs.firstPatch);
+                    EXPECT_EQ(own.patchCount, theirs.patchCount);
+                    EXPECT_EQ(own.material, theirs.material);
+                    EXPECT_EQ(own.domain, theirs.domain);
+                    EXPECT_EQ(own.samplesPerPatch, theirs.samplesPerPatch);
+                    const auto triangles = [&](const Crowd& of, const SuppleDrawRange& range) {
+                        return Written::part(of.read(of.output().gridIndices), 2, range.firstIndex, range.indexCount);
+                    };
+                    EXPECT_EQ(triangles(crowd, own), triangles(twins.at(r), theirs));
+                }
+                EXPECT_EQ(Written::part(written.attributes, 16, written.firstVertex(0, r), written.vertexCount(r)),
+                          Written::part(alone[r].attributes, 16, 0, alone[r].vertexCount(0)));
+                ASSERT_EQ(alone[r].uvs1.empty(), c.character.cage.cornerUvs1.empty());
+                ASSERT_EQ(written.uvs1.empty(), alone[r].uvs1.empty());
+                for (size_t v = 0; v < (written.uvs1.empty() ? 0 : written.vertexCount(r)); v += 1) {
+                    ASSERT_EQ(Written::part(written.uvs1, 8, written.firstVertex(0, r) + v, 1),
+                              Written::part(alone[r].uvs1, 8, v, 1));
+                }
+                ASSERT_TRUE(std::is_sorted(written.rates[r].slots.begin(), written.rates[r].slots.end()));
+            }
+            std::vector<uint32_t> everyone(twins.size());
+            for (uint32_t slot = 0; slot < everyone.size(); ++slot) {
+                everyone[slot] = slot;
+                const double level = levelOf(crowd, slot, c.character.cage, view.camera);
+                size_t wanted = 0;
+                while (wanted + 1 < rates && static_cast<double>(c.firstRate << wanted) < level) {
+                    ++wanted;
+                }
+                // The device computes in float: a level this near to a rate says nothing.
+                for (uint32_t r = 0; r < rates; ++r) {
+                    ASSERT_GT(std::abs(level / (c.firstRate << r) - 1.0), 1e-5) << "move the instance a little";
+                }
+                const std::optional<size_t> rate = written.rateOf(slot);
+                ASSERT_TRUE(rate.has_value()) << "slot " << slot;
+                EXPECT_EQ(*rate, wanted) << "slot " << slot << ", level " << level;
+                ++usedBy[*rate];
+                const auto last = before.find(slot);
+                changed += last != before.end() && last->second != *rate ? 1 : 0;
+                before[slot] = *rate;
+
+                EXPECT_EQ(written.verticesOf(slot, *rate), alone[*rate].verticesOf(slot, 0)) << "slot " << slot;
+                EXPECT_EQ(written.previousOf(slot, *rate), alone[*rate].previousOf(slot, 0)) << "slot " << slot;
+                const bool fresh = written.previousOf(slot, *rate) == written.positionsOf(slot, *rate);
+                EXPECT_EQ(fresh, frame == 0 || (frame == 3 && slot >= 8)) << "slot " << slot << ", frame " << frame;
+                compared += written.vertexCount(*rate);
+            }
+            EXPECT_EQ(allSlots(crowd, written), everyone);
+        }
+        std::printf("%s: %zu vertices compared, %zu changes of rate\n", c.name, compared, changed);
+        EXPECT_GE(changed, 3u);
+        for (const size_t used : usedBy) {
+            EXPECT_GT(used, 0u);
+        }
+    }
+}
+
+/// A column of instances that goes away from the camera, each twice as far as the one before.
+void spawnColumn(Crowd& crowd, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) {
+        crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0,
+                   glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, -std::exp2(static_cast<float>(i)))));
+    }
+}
+
+cage::Cage bumpySphere() {
+    return perturbed(cage::makeCubeSphere(2), 0.05f, 3);
+}
+
+std::vector<std::vector<uint32_t>> slotsByRate(const Written& written) {
+    std::vector<std::vector<uint32_t>> slots;
+    for (const RateOutput& rate : written.rates) {
+        slots.push_back(rate.slots);
+    }
+    return slots;
+}
+
+TEST_P(LodRates, OnlyWhatIsSeenIsEvaluatedAndDrawn) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        TestView view(context, 1024, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL);
+        SuppleGroupDesc desc = groupOf(context.createAsset(bumpySphere()), 12, scheme, 8);
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        std::vector<SuppleInstance> instances;
+        for (int i = 0; i < 10; ++i) {
+            instances.push_back(crowd.spawn());
+        }
+        std::map<uint32_t, double> moved; // along x, by slot
+        // Sees about 12 units of a row with an instance every 6, from `left` on.
+        const auto drawn = [&](float left, float drift) {
+            for (size_t i = 0; i < instances.size(); ++i) {
+                const glm::vec3 at(6.0f * static_cast<float>(i) + drift, 0.0f, 0.0f);
+                crowd.pose(instances[i], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
+            }
+            const glm::mat4 both = glm::orthoRH_ZO(-6.0f, 6.0f, -4.0f, 4.0f, 0.1f, 100.0f) *
+                                   glm::lookAt(glm::vec3(left + 6.0f, 0.0f, 30.0f), glm::vec3(left + 6.0f, 0.0f, 0.0f),
+                                               glm::vec3(0.0f, 1.0f, 0.0f));
+            std::memcpy(view.camera.viewProjection, &both, sizeof(both));
+            view.look({left + 6.0f, 0.0f, 30.0f});
+            context.run(crowd.group());
+            const Written written = readBack(crowd);
+            std::set<uint32_t> seen;
+            for (const uint32_t slot : allSlots(crowd, written)) {
+                const size_t rate = written.rateOf(slot).value_or(0);
+                const auto x = [](const std::vector<std::byte>& bytes) {
+                    float first = 0.0f;
+                    std::memcpy(&first, bytes.data(), sizeof(first));
+                    return static_cast<double>(first);
+                };
+                moved[slot] = x(written.positionsOf(slot, rate)) - x(written.previousOf(slot, rate));
+                seen.insert(slot);
+            }
+            size_t listed = 0;
+            for (const RateOutput& rate : written.rates) {
+                listed += rate.slots.size();
+                for (const uint32_t slot : rate.slots) {
+                    EXPECT_TRUE(seen.contains(slot));
+                }
+            }
+            EXPECT_EQ(listed, seen.size());
+            return seen;
+        };
+        EXPECT_EQ(drawn(-3.0f, 0.0f), (std::set<uint32_t>{0, 1}));
+        EXPECT_EQ(drawn(3.0f, 0.25f), (std::set<uint32_t>{1, 2}));
+        EXPECT_NEAR(moved[1], 0.25, 1e-5);
+        EXPECT_NEAR(moved[2], 0.0, 1e-5) << "was not seen before: has no past";
+        EXPECT_EQ(drawn(200.0f, 0.5f), std::set<uint32_t>{});
+        EXPECT_EQ(drawn(3.0f, 0.75f), (std::set<uint32_t>{1, 2}));
+        EXPECT_NEAR(moved[1], 0.0, 1e-5) << "was not seen in the frame before";
+        crowd.setVisible(instances[1], false);
+        EXPECT_EQ(drawn(3.0f, 1.0f), (std::set<uint32_t>{2}));
+        EXPECT_NEAR(moved[2], 0.25, 1e-5);
+        crowd.setVisible(instances[1], true);
+        EXPECT_EQ(drawn(3.0f, 1.25f), (std::set<uint32_t>{1, 2}));
+        EXPECT_NEAR(moved[1], 0.0, 1e-5) << "was hidden";
+        EXPECT_NEAR(moved[2], 0.25, 1e-5);
+        view.camera.farthest = 10.0f;
+        EXPECT_EQ(drawn(3.0f, 1.25f), std::set<uint32_t>{});
+        view.camera.farthest = 0.0f;
+        view.camera.smallestRadius = 1e6f;
+        EXPECT_EQ(drawn(3.0f, 1.25f), std::set<uint32_t>{});
+    }
+}
+
+TEST_P(LodRates, TheViewsBudgetIsNotTheirs) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    const SuppleAsset asset = context.createAsset(bumpySphere());
+    TestView view(context, 60000);
+    SuppleGroupDesc desc = groupOf(asset, 8, SUPPLE_SCHEME_CATMULL_CLARK, 32);
+    desc.view = view.handle();
+    Crowd rates(context, desc);
+    desc.scheme = SUPPLE_SCHEME_PREP;
+    Crowd levels(context, desc);
+    ASSERT_TRUE(rates.valid() && levels.valid());
+    EXPECT_EQ(levels.output().rateCount, 0u);
+    EXPECT_EQ(levels.output().rates, nullptr);
+    spawnColumn(rates, 8);
+    spawnColumn(levels, 8);
+    const auto run = [&](std::span<const SuppleGroup> groups) {
+        view.look({0.0f, 0.0f, 3.0f});
+        context.run(groups);
+        const std::vector<std::vector<uint32_t>> slots = slotsByRate(readBack(rates));
+        context.run(groups); // statistics come with the frame after
+        return slots;
+    };
+    const SuppleGroup alone[] = {rates.group()}, both[] = {rates.group(), levels.group()};
+    const std::vector<std::vector<uint32_t>> wanted = run(alone);
+    EXPECT_EQ(view.statistics().vertexCount, 0u);
+    EXPECT_EQ(view.statistics().patchCount, 0u);
+    EXPECT_EQ(view.statistics().instanceCount, 8u);
+    EXPECT_EQ(view.statistics().drawnInstanceCount, 8u);
+    EXPECT_EQ(view.statistics().levelScales[0], 1.0f);
+    EXPECT_EQ(view.statistics().shortfall, 0u);
+    std::set<size_t> used;
+    for (size_t r = 0; r < wanted.size(); ++r) {
+        if (!wanted[r].empty()) {
+            used.insert(r);
+        }
+    }
+    EXPECT_GE(used.size(), 3u);
+
+    EXPECT_EQ(run(both), wanted);
+    const SuppleViewStatistics free = view.statistics();
+    EXPECT_EQ(free.levelScales[0], 1.0f);
+    EXPECT_EQ(free.instanceCount, 16u);
+    EXPECT_EQ(free.drawnInstanceCount, 16u);
+    EXPECT_EQ(free.backFaceCount, 0u);
+    EXPECT_GT(free.vertexCount, 0u);
+
+    view.camera.vertexBudget = 1024; // not even the coarsest of all
+    EXPECT_EQ(run(both), wanted);
+    EXPECT_EQ(view.statistics().shortfall, 1u);
+    EXPECT_GE(view.statistics().droppedInstanceCount, 1u);
+    EXPECT_EQ(view.statistics().drawnInstanceCount + view.statistics().droppedInstanceCount, 16u);
+    EXPECT_EQ(view.statistics().backFaceCount, 0u);
+}
+
+TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 1024);
+    struct Case {
+        cage::Cage cage;
+        SuppleScheme scheme;
+        uint32_t asked, rateCount, rate;
+    };
+    for (const Case& c : {Case{bumpySphere(), SUPPLE_SCHEME_CATMULL_CLARK, 1, 1, 1},
+                          Case{bumpySphere(), SUPPLE_SCHEME_CATMULL_CLARK, 2, 1, 1},
+                          Case{bumpySphere(), SUPPLE_SCHEME_CATMULL_CLARK, 5, 3, 4},
+                          Case{dodecahedron(), SUPPLE_SCHEME_CATMULL_CLARK, 2, 1, 1},
+                          Case{dodecahedron(), SUPPLE_SCHEME_CATMULL_CLARK, 64, 5, 16},
+                          Case{dodecahedron(), SUPPLE_SCHEME_LOOP, 64, 6, 32}}) {
+        SuppleGroupDesc desc = groupOf(context.createAsset(c.cage), 2, c.scheme, c.asked);
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        ASSERT_TRUE(crowd.valid());
+        (void)crowd.spawn();
+        view.look({0.0f, 0.0f, 2.0f});
+        context.run(crowd.group());
+        const Written written = readBack(crowd);
+        EXPECT_EQ(written.output.rate, c.rate);
+        ASSERT_EQ(written.output.rateCount, c.rateCount);
+        for (uint32_t r = 0; r < c.rateCount; ++r) {
+            EXPECT_EQ(written.rates[r].rate.rate, c.rate >> (c.rateCount - 1 - r));
+        }
+        EXPECT_TRUE(written.rateOf(0).has_value());
+        EXPECT_EQ(suppleSetRate(context.handle(), crowd.group(), c.asked), SUPPLE_OK);
+        EXPECT_EQ(suppleSetRate(context.handle(), crowd.group(), 2 * c.asked), SUPPLE_ERROR_ARGUMENT);
+        EXPECT_NE(context.takeError(), 0);
+    }
+    // A group without a view has one, and it is all of it; also at another rate.
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
+        Crowd crowd(context, groupOf(context.createAsset(bumpySphere()), 2, scheme, 8));
+        ASSERT_TRUE(crowd.valid());
+        for (const uint32_t rate : {8u, 4u}) {
+            if (scheme == SUPPLE_SCHEME_PM) {
+                crowd.setRate(rate);
+            }
+            const SuppleGroupOutput output = crowd.output();
+            ASSERT_EQ(output.rateCount, 1u);
+            EXPECT_EQ(output.rates[0].rate, output.rate);
+            EXPECT_EQ(output.rates[0].firstDrawRange, 0u);
+            EXPECT_EQ(output.rates[0].drawRangeCount, output.drawRangeCount);
+            EXPECT_EQ(output.rates[0].instances.buffer, output.instances.buffer);
+            EXPECT_EQ(output.rates[0].instances.offset, output.instances.offset);
+            EXPECT_EQ(output.rates[0].instances.size, output.instances.size);
+        }
+    }
+}
+
+/// What a view draws of a crowd on a device whose limits `limit` has set, and how many commands it took.
+struct Drawn {
+    std::map<uint32_t, std::pair<size_t, std::vector<std::byte>>> instances; ///< rate and its vertices, by slot
+    std::map<uint32_t, std::vector<std::byte>> previous;
+    WrappedVulkan counts;
+};
+Drawn drawThrough(SuppleMapping mapping, uint32_t count, uint32_t capacity, SuppleScheme scheme,
+                  const std::function<void(WrappedVulkan&)>& limit) {
+    Drawn drawn;
+    WrappedVulkan& wrapped = wrappedVulkan();
+    limit(wrapped);
+    const WrappedVulkan limits = wrapped;
+    const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+    EXPECT_NE(device, nullptr);
+    if (device != nullptr) {
+        CrowdContext context(*device, mapping);
+        TestView view(context, 1024, SUPPLE_VIEW_MOTION);
+        SuppleGroupDesc desc = groupOf(context.createAsset(cube()), capacity, scheme, 8);
+        desc.view = view.handle();
+        Crowd crowd(context, desc);
+        EXPECT_TRUE(crowd.valid());
+        // The visible ones all over the slots, near and far.
+        const uint32_t step = capacity / count;
+        std::vector<SuppleInstance> instances;
+        for (uint32_t slot = 0; slot < capacity; ++slot) {
+            instances.push_back(crowd.spawn());
+            crowd.setVisible(instances.back(), slot % step == 0 && slot / step < count);
+        }
+        for (int frame = 0; frame < 3; ++frame) { // until nothing is new
+            for (uint32_t slot = 0; slot < capacity; slot += step) {
+                const glm::vec3 at(0.1f * static_cast<float>(frame), 0.0f,
+                                   -0.5f * static_cast<float>(slot / step % 96));
+                crowd.pose(instances[slot], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
+            }
+            view.look({0.0f, 1.0f, 4.0f});
+            wrapped = limits;
+            context.run(crowd.group());
+        }
+        drawn.counts = wrapped;
+        const Written written = readBack(crowd);
+        for (size_t r = 0; r < written.rates.size(); ++r) {
+            for (const uint32_t slot : written.rates[r].slots) {
+                const bool once = drawn.instances.try_emplace(slot, r, written.verticesOf(slot, r)).second;
+                EXPECT_TRUE(once) << slot;
+                drawn.previous[slot] = written.previousOf(slot, r);
+            }
+        }
+        EXPECT_EQ(drawn.instances.size(), count);
+        EXPECT_EQ(device->validationMessageCount(), 0u);
+    }
+    (void)wrappedVulkan();
+    return drawn;
+}
+
+TEST_P(LodRates, CommandsDoNotCountInstances) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        const auto unlimited = [](WrappedVulkan&) {};
+        const Drawn one = drawThrough(GetParam(), 1, 1000, scheme, unlimited);
+        for (const uint32_t instances : {10u, 100u, 1000u}) {
+            const Drawn many = drawThrough(GetParam(), instances, 1000, scheme, unlimited);
+            EXPECT_EQ(many.counts.dispatches, one.counts.dispatches);
+            EXPECT_EQ(many.counts.indirectDispatches, one.counts.indirectDispatches);
+            EXPECT_EQ(many.counts.barriers, one.counts.barriers);
+            EXPECT_EQ(many.counts.copies, one.counts.copies);
+        }
+        std::printf("scheme %d: %llu dispatches, %llu indirect ones, %llu barriers\n", scheme,
+                    static_cast<unsigned long long>(one.counts.dispatches),
+                    static_cast<unsigned long long>(one.counts.indirectDispatches),
+                    static_cast<unsigned long long>(one.counts.barriers));
+        EXPECT_GT(one.counts.indirectDispatches, 3u);
+    }
+}
+
+TEST_P(LodRates, SplitDispatchesAndWindowsDrawTheSame) {
+    const uint32_t instances = 600, capacity = 1200;
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        const Drawn whole = drawThrough(GetParam(), instances, capacity, scheme, [](WrappedVulkan&) {});
+        std::set<size_t> rates;
+        for (const auto& [slot, drawn] : whole.instances) {
+            rates.insert(drawn.first);
+        }
+        EXPECT_GE(rates.size(), 2u);
+        const Drawn split = drawThrough(GetParam(), instances, capacity, scheme,
+                                        [](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = 3; });
+        EXPECT_TRUE(split.instances == whole.instances);
+        EXPECT_TRUE(split.previous == whole.previous);
+        const Drawn windows = drawThrough(GetParam(), instances, capacity, scheme,
+                                          [](WrappedVulkan& w) { w.maxStorageBufferRange = 4u << 20; });
+        EXPECT_GT(windows.counts.indirectDispatches, whole.counts.indirectDispatches) << "there is one window";
+        EXPECT_TRUE(windows.instances == whole.instances);
+        EXPECT_TRUE(windows.previous == whole.previous);
+    }
+}
+
+} // namespace
+} // namespace supple::test
