@@ -21,10 +21,12 @@
 #include "shaders/prep_edge_comp.h"
 #include "shaders/prep_vertex_comp.h"
 #include "shaders/shared/kernel.h"
+#include "shaders/shared/lod.h"
 #include "shaders/shared/pm.h"
 #include "surface/lod/tables.h"
 #include "surface/shared_samples.h"
 
+#include <algorithm>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -148,7 +150,7 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     passes.device_ = &device;
     passes.shaders_ = shaders;
     Result<gpu::ComputeLayout> layout =
-        gpu::ComputeLayout::create(device, bindings, sizeof(SurfacePush), "supple surface");
+        gpu::ComputeLayout::create(device, bindings, std::max(sizeof(SurfacePush), sizeof(LodPush)), "supple surface");
     if (!layout) {
         return layout.error();
     }

@@ -969,8 +969,9 @@ typedef struct SuppleGroupOutput {
         lodBuckets; /**< per draw four uint32: first entry of lodPatches, first surface vertex, patches, - */
     SuppleBufferView lodPatches; /**< per patch 64 bytes: uint32 patch (0xFFFFFFFF: none), slot in the low 28 bits,
                                   * first surface vertex, - ; then levels (docs/lod.md) */
-    SuppleBufferView bounds; /**< SUPPLE_VIEW_CULL: two float4 a slot: the least corner of a box round the surface and
-                              * 0; the greatest and 1 where a cage vertex is not finite, else 0 */
+    SuppleBufferView bounds; /**< Groups of a view: two float4 a slot: the least corner of a box round the surface and
+                              * the level the instance asks for as a whole; the greatest and 1 where a cage vertex is
+                              * not finite, else 0 */
     /** The rates that instances may have, rising: several in groups of a view, CATMULL_CLARK and LOOP, whose instances
      * have one each, and whose vertices of every rate lie in the instance's, behind those of the coarser ones. Else
      * one, with all draw ranges and instances. None where lodDraws are drawn. */
