@@ -71,7 +71,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
         lod::appendTables(*tables);
     }
     if (tables && recipe.shared) {
-        if (!hasLevels(recipe.scheme)) {
+        if (recipe.scheme != SchemeId::prep && recipe.scheme != SchemeId::pm) {
             return Error{ErrorCode::argument, std::string(schemeName(recipe.scheme)) + " has no shared samples"};
         }
         appendSharedSamples(*tables, recipe.attributes);

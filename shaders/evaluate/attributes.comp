@@ -79,23 +79,65 @@ Corners loadCorners(uint patchIndex) {
     return c;
 }
 
+// What a sample has.
+struct Sample {
+    vec2 uv;
+    vec4 color, more;
+};
+Sample blended(float a, Sample x, float b, Sample y) {
+    return Sample(a * x.uv + b * y.uv, a * x.color + b * y.color, a * x.more + b * y.more);
+}
+Sample atCorner(Corners c, uint k) { return Sample(c.uv[k], c.color[k], c.more[k]); }
+
+void store(uint vertex, Sample s) {
+    attributes[vertex] = uvec4(floatBitsToUint(s.uv), packUnorm2x16(s.color.xy), packUnorm2x16(s.color.zw));
+    if ((push.outputs & kOutputUvs1) != 0u) uvs1[vertex] = s.more.xy;
+    if ((push.outputs & kOutputFaceUvs) != 0u) faceUvs[vertex] = s.more.zw;
+}
 void store(uint vertex, Corners c, float w[5]) {
-    vec2 uv = vec2(0.0);
-    vec4 color = vec4(0.0), more = vec4(0.0);
-    for (uint k = 0u; k < kCorners; ++k) {
-        uv += w[k] * c.uv[k];
-        color += w[k] * c.color[k];
-        more += w[k] * c.more[k];
+    Sample s = Sample(vec2(0.0), vec4(0.0), vec4(0.0));
+    for (uint k = 0u; k < kCorners; ++k) s = blended(1.0, s, w[k], atCorner(c, k));
+    store(vertex, s);
+}
+
+// A patch with levels, by one lane: what a row or a ring has in common is found once.
+void storeRows(LodRecord r, Corners c) {
+    uint last = r.capacity, vertex = r.firstVertex;
+    uint first = kDomain == kPolarDomain ? 2u : 3u; // above corner 0; above corner 1 is 2
+    LodPattern inside = lodPattern(r.pairs[0], r.capacityIndex), up = lodPattern(r.pairs[1], r.capacityIndex);
+    LodPattern left = lodPattern(r.pairs[5], r.capacityIndex), right = lodPattern(r.pairs[3], r.capacityIndex);
+    for (uint j = 0u; j <= last; ++j) {
+        bool bottom = j == 0u, top = j == last;
+        vec2 end = bottom ? vec2(0.0, 1.0) : vec2(1.0, 0.0);
+        vec2 v = end, vLeft = end, vRight = end;
+        if (!bottom && !top) {
+            v = lodPair(up, j, last);
+            vLeft = lodPair(left, j, last);
+            vRight = lodPair(right, j, last);
+        }
+        LodPattern along = inside;
+        if (bottom) along = lodPattern(r.pairs[2], r.capacityIndex);
+        if (top) along = lodPattern(r.pairs[4], r.capacityIndex);
+        store(vertex, blended(vLeft.y, atCorner(c, 0u), vLeft.x, atCorner(c, first)));
+        Sample begin = blended(v.y, atCorner(c, 0u), v.x, atCorner(c, first));
+        Sample finish = blended(v.y, atCorner(c, 1u), v.x, atCorner(c, 2u));
+        for (uint i = 1u; i < last; ++i) {
+            vec2 u = lodPair(along, i, last);
+            store(vertex + i, blended(u.y, begin, u.x, finish));
+        }
+        store(vertex + last, blended(vRight.y, atCorner(c, 1u), vRight.x, atCorner(c, 2u)));
+        vertex += last + 1u;
     }
-    attributes[vertex] = uvec4(floatBitsToUint(uv), packUnorm2x16(color.xy), packUnorm2x16(color.zw));
-    if ((push.outputs & kOutputUvs1) != 0u) uvs1[vertex] = more.xy;
-    if ((push.outputs & kOutputFaceUvs) != 0u) faceUvs[vertex] = more.zw;
 }
 
 void storeOfRecord(uint index, uint firstSample, uint step) {
     LodRecord r = lodRecord(index);
     if (r.patchIndex == kEmptyRecord) return;
     Corners corners = loadCorners(r.patchIndex - push.firstPatch);
+    if (!kWide && !kRings) {
+        storeRows(r, corners);
+        return;
+    }
     uint samples = kRings ? kCorners * (r.capacity + 1u) * (r.capacity + 1u) / 4u : (r.capacity + 1u) * (r.capacity + 1u);
     for (uint k = firstSample; k < samples; k += step)
         store(r.firstVertex + k, corners, lodCornerWeights(r, k));
