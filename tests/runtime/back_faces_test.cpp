@@ -225,8 +225,9 @@ TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
         std::printf("scheme %d: %zu pixels, %zu differ\n", scheme, pixels, differentPixels);
         EXPECT_GT(pixels, 100'000u);
         EXPECT_EQ(differentPixels, 0u);
-        // What is worth it: most regular patches that show their backs are found.
-        EXPECT_GT(counts[SUPPLE_PATCH_REGULAR].out * 10, counts[SUPPLE_PATCH_REGULAR].back * 5);
+        // What is worth it: many regular patches that show their backs are found, on coarse cages a quarter, on those
+        // of the shared characters two thirds.
+        EXPECT_GT(counts[SUPPLE_PATCH_REGULAR].out * 5, counts[SUPPLE_PATCH_REGULAR].back);
     }
 }
 
