@@ -42,7 +42,7 @@ struct Camera {
 struct CrowdOptions {
     std::array<std::string, kKinds> files; ///< .glb
     uint32_t count = 1000;
-    uint32_t budget = 8'000'000; ///< surface vertices a frame
+    uint32_t budget = 5'500'000; ///< surface vertices a frame
     bool wall = false;           ///< nobody walks where it stands
     bool occlusion = false;
     bool backFaces = false; ///< leave out what faces away
