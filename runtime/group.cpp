@@ -155,6 +155,8 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         group->evaluation_.attributeOutputs = ((flags & SUPPLE_VIEW_UVS1) != 0 ? kOutputUvs1 : 0) |
                                               ((flags & SUPPLE_VIEW_FACE_UVS) != 0 ? kOutputFaceUvs : 0);
     }
+    needs.attributeOutputs = group->evaluation_.attributeOutputs;
+    needs.backFaces = needs.view && group->view_->leavesBackFaces();
     Status status = success();
     for (Rate& rate : group->rates_) {
         rate.evaluation.verticesPerInstance = group->evaluation_.verticesPerInstance;

@@ -272,8 +272,7 @@ LodPush Group::levelPush(const Window& window) const {
     push.scratchStride = scratchElements();
     push.firstRun = firstRun_ + window.index * runs;
     push.runCount = runs;
-    push.backFaces = (view_->desc().flags & SUPPLE_VIEW_BACK_FACES) != 0 ? 1 : 0;
-    if (push.backFaces != 0 && push.camera.orthographic != 0) {
+    if (view_->leavesBackFaces() && push.camera.orthographic != 0) {
         std::copy_n(view_->direction().begin(), 3, push.camera.position);
     }
     return push;
@@ -308,7 +307,7 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
         // All count into one buffer, with atomics; to synchronization validation it is one resource that they read too.
         gpu::computeBarrier(*shared_.device, commandBuffer);
         shared_.surface->lod().recordPatches(commandBuffer, scheme_->tables.lod, window, levelArguments(window),
-                                             levelPush(own));
+                                             levelPush(own), view_->leavesBackFaces());
     });
     const uint64_t points = output_.patchCount;
     return costOfSeen(points, points * kLodPatchLevelWords * sizeof(uint32_t));

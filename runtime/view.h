@@ -23,6 +23,7 @@ public:
                                                               const SuppleViewDesc& desc);
 
     [[nodiscard]] const SuppleViewDesc& desc() const { return desc_; }
+    [[nodiscard]] bool leavesBackFaces() const { return (desc_.flags & SUPPLE_VIEW_BACK_FACES) != 0; }
     void setCamera(const SuppleCameraDesc& camera); ///< as checked by the caller
     /// As checked by the caller; nothing: nothing hides.
     void setDepthPyramid(const std::optional<SuppleDepthPyramidDesc>& pyramid);

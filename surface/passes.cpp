@@ -2,8 +2,11 @@
 
 #include "shaders/blend_chart_comp.h"
 #include "shaders/blend_evaluate_comp.h"
+#include "shaders/blend_evaluate_comp_LEVELS.h"
 #include "shaders/evaluate_attributes_comp.h"
+#include "shaders/evaluate_attributes_comp_LEVELS.h"
 #include "shaders/evaluate_bicubic_comp.h"
+#include "shaders/evaluate_bicubic_comp_LEVELS.h"
 #include "shaders/evaluate_edge_comp.h"
 #include "shaders/evaluate_patch_comp.h"
 #include "shaders/kernel_fragment_comp.h"
@@ -15,6 +18,7 @@
 #include "shaders/lod_place_comp.h"
 #include "shaders/lod_solve_comp.h"
 #include "shaders/pm_evaluate_comp.h"
+#include "shaders/pm_evaluate_comp_LEVELS.h"
 #include "shaders/pm_facet_comp.h"
 #include "shaders/pm_patch_comp.h"
 #include "shaders/pm_vertex_comp.h"
@@ -42,10 +46,10 @@ static_assert(sizeof(shared::KernelPush) <= sizeof(shared::SurfacePush));
 constexpr uint32_t kKindConstant = gpu::kFirstPassConstant;
 constexpr uint32_t kVertexFormatConstant = kKindConstant + 1;
 constexpr uint32_t kCornerNormalsConstant = kKindConstant + 2;
-constexpr uint32_t kLodConstant = kKindConstant + 3;
 constexpr uint32_t kRingsConstant = kKindConstant + 4;
 constexpr uint32_t kInteriorConstant = kKindConstant + 5;
 constexpr uint32_t kRateConstant = kKindConstant + 6;
+constexpr uint32_t kOutputsConstant = kKindConstant + 7;
 
 shared::SurfacePush pushFor(const Tables& tables, const Section& section, const Window& window,
                             const Evaluation& evaluation) {
@@ -67,9 +71,12 @@ shared::SurfacePush pushFor(const Tables& tables, const Section& section, const 
     push.patchesPerGroup = 1;
     push.uvSets = tables.uvSets;
     push.faceUvs = tables.faceUvs ? 1 : 0;
-    push.outputs = ((tables.uvSets == 2 ? shared::kOutputUvs1 : 0) | (tables.faceUvs ? shared::kOutputFaceUvs : 0)) &
-                   evaluation.attributeOutputs;
     return push;
+}
+
+/// Those of `wanted` that the tables have.
+uint32_t outputsOf(const Tables& tables, uint32_t wanted) {
+    return ((tables.uvSets == 2 ? shared::kOutputUvs1 : 0) | (tables.faceUvs ? shared::kOutputFaceUvs : 0)) & wanted;
 }
 
 std::string atRate(uint32_t rate) {
@@ -113,6 +120,8 @@ Shaders Shaders::embedded() {
     shaders.edge = evaluate_edge_comp;
     shaders.attributes = evaluate_attributes_comp;
     shaders.lod = {lod_edge_comp, lod_patch_comp, lod_solve_comp, lod_place_comp};
+    shaders.levels = {pm_evaluate_comp_LEVELS, blend_evaluate_comp_LEVELS, evaluate_bicubic_comp_LEVELS,
+                      evaluate_attributes_comp_LEVELS};
     return shaders;
 }
 
@@ -213,8 +222,9 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         formats.push_back(kVertexPosition);
     }
     const uint32_t normals = tables.cornerNormals ? 1 : 0;
+    const uint32_t outputs = outputsOf(tables, needs.attributeOutputs);
     if (status && needs.view) {
-        status = lod_.prepare(layout_, tables.lod);
+        status = lod_.prepare(layout_, tables.lod, needs.backFaces);
     }
     const bool shares = tables.sharesSamples();
     if (status && shares) {
@@ -225,22 +235,21 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         const std::string name = className(range.patchClass);
         const bool bicubic = patchClass <= kPolarPatch;
         const bool blends = range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp;
-        const std::span<const uint32_t> evaluate = blends    ? shaders_.blendEvaluate
-                                                   : bicubic ? shaders_.bicubic
-                                                             : shaders_.pmEvaluate;
         if (needs.lod) {
+            const std::span<const uint32_t> evaluate = blends    ? shaders_.levels.blendEvaluate
+                                                       : bicubic ? shaders_.levels.bicubic
+                                                                 : shaders_.levels.pmEvaluate;
             for (size_t f = 0; status && f < formats.size(); ++f) {
                 status = make(lodEvaluate_[formats[f]][patchClass][normals], evaluate,
                               {{kKindConstant, patchClass},
                                {kVertexFormatConstant, formats[f]},
-                               {kCornerNormalsConstant, normals},
-                               {kLodConstant, VK_TRUE}},
+                               {kCornerNormalsConstant, normals}},
                               "supple evaluate at levels, " + name);
             }
             if (status && needs.attributes) {
-                status = make(lodAttributes_[patchClass], shaders_.attributes,
+                status = make(lodAttributes_[patchClass][outputs], shaders_.levels.attributes,
                               {{kKindConstant, static_cast<uint32_t>(domainOf(range.patchClass))},
-                               {kLodConstant, VK_TRUE},
+                               {kOutputsConstant, outputs},
                                {kRingsConstant, lod::formOf(range.patchClass) == lod::Form::quad ? VK_FALSE : VK_TRUE}},
                               "supple attributes at levels, " + name);
             }
@@ -248,12 +257,16 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         }
         if (status && needs.attributes && !shares) {
             const auto domain = static_cast<uint32_t>(domainOf(range.patchClass));
-            status = make(attributes_[domain], shaders_.attributes, {{kKindConstant, domain}}, "supple attributes");
+            status = make(attributes_[domain][outputs], shaders_.attributes,
+                          {{kKindConstant, domain}, {kOutputsConstant, outputs}}, "supple attributes");
         }
         if (status && needs.patches) {
             status = make(patch_[patchClass][normals], bicubic ? shaders_.patch : shaders_.pmPatch,
                           {{kKindConstant, patchClass}, {kCornerNormalsConstant, normals}}, "supple patch, " + name);
         }
+        const std::span<const uint32_t> evaluate = blends    ? shaders_.blendEvaluate
+                                                   : bicubic ? shaders_.bicubic
+                                                             : shaders_.pmEvaluate;
         for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty() && !shares; ++f) {
             ByRate& byRate = evaluate_[patchClass][formats[f]][normals];
             // The rate it begins with, where that is worth a pipeline, and any that is set later.
@@ -309,14 +322,17 @@ Status Passes::makeShared(const Tables& tables, const Needs& needs, std::span<co
     if (!needs.attributes) {
         return status;
     }
+    const uint32_t outputs = outputsOf(tables, needs.attributeOutputs);
     for (size_t r = 0; status && r < tables.ranges.size(); ++r) {
         const auto domain = static_cast<uint32_t>(domainOf(tables.ranges[r].patchClass));
-        status = make(insideAttributes_[domain], shaders_.attributes,
-                      {{kKindConstant, domain}, {kInteriorConstant, VK_TRUE}}, "supple attributes inside");
+        status = make(insideAttributes_[domain][outputs], shaders_.attributes,
+                      {{kKindConstant, domain}, {kInteriorConstant, VK_TRUE}, {kOutputsConstant, outputs}},
+                      "supple attributes inside");
     }
     if (status) {
-        status = make(insideAttributes_[shared::kEdgeDomain], shaders_.attributes,
-                      {{kKindConstant, shared::kEdgeDomain}}, "supple attributes of edges");
+        status =
+            make(insideAttributes_[shared::kEdgeDomain][outputs], shaders_.attributes,
+                 {{kKindConstant, shared::kEdgeDomain}, {kOutputsConstant, outputs}}, "supple attributes of edges");
     }
     return status;
 }
@@ -413,6 +429,7 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
 void Passes::recordAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const Window& window,
                               const Evaluation& evaluation) const {
     const bool shares = tables.sharesSamples();
+    const uint32_t outputs = outputsOf(tables, evaluation.attributeOutputs);
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
         const Domain domain = domainOf(range.patchClass);
@@ -422,14 +439,16 @@ void Passes::recordAttributes(VkCommandBuffer commandBuffer, const Tables& table
         push.samples = samples;
         push.firstVertex = evaluation.firstVertices[r];
         const auto& pipelines = shares ? insideAttributes_.data() : attributes_.data();
-        record(commandBuffer, pipelines[static_cast<size_t>(domain)].get(), window.set, push, groupsFor(push.count));
+        record(commandBuffer, pipelines[static_cast<size_t>(domain)][outputs].get(), window.set, push,
+               groupsFor(push.count));
     }
     if (shares) {
         const Section section{tables.shared.attributes.table, tables.shared.attributes.count * evaluation.rate};
         shared::SurfacePush push = pushFor(tables, section, window, evaluation);
         push.ring = tables.shared.edges.front().section.table;
         push.firstVertex = evaluation.firstEdgeVertex;
-        record(commandBuffer, insideAttributes_[shared::kEdgeDomain].get(), window.set, push, groupsFor(push.count));
+        record(commandBuffer, insideAttributes_[shared::kEdgeDomain][outputs].get(), window.set, push,
+               groupsFor(push.count));
     }
 }
 
@@ -463,6 +482,7 @@ void Passes::recordLodEvaluate(VkCommandBuffer commandBuffer, const Tables& tabl
 
 void Passes::recordLodAttributes(VkCommandBuffer commandBuffer, const Tables& tables, const LodWindow& window,
                                  const Evaluation& evaluation) const {
+    const uint32_t outputs = outputsOf(tables, evaluation.attributeOutputs);
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
         shared::SurfacePush push =
@@ -470,7 +490,7 @@ void Passes::recordLodAttributes(VkCommandBuffer commandBuffer, const Tables& ta
         push.firstPatch = range.firstPatch;
         push.firstSlot = window.firstSlot;
         push.dispatch = window.firstDispatch + static_cast<uint32_t>(r);
-        recordLod(commandBuffer, lodAttributes_[static_cast<size_t>(range.patchClass)].get(), window, push);
+        recordLod(commandBuffer, lodAttributes_[static_cast<size_t>(range.patchClass)][outputs].get(), window, push);
     }
 }
 

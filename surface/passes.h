@@ -26,6 +26,9 @@ struct Shaders {
     kernel::Passes::Shaders kernel;
     std::span<const uint32_t> patch, bicubic, edge, attributes;
     lod::Passes::Shaders lod;
+    struct AtLevels {
+        std::span<const uint32_t> pmEvaluate, blendEvaluate, bicubic, attributes;
+    } levels;
     [[nodiscard]] static Shaders embedded();
 };
 
@@ -35,9 +38,11 @@ struct Needs {
     bool motion = false; ///< positions alone as well
     bool patches = false;
     bool attributes = false;
-    bool view = false; ///< the passes that groups of a view share
-    bool lod = false;  ///< records of a view instead of all patches at a rate
-    uint32_t rate = 0; ///< that it begins with
+    uint32_t attributeOutputs = 0; ///< of attributes: as Evaluation::attributeOutputs
+    bool backFaces = false;        ///< of a view: patches that show their backs are left out
+    bool view = false;             ///< the passes that groups of a view share
+    bool lod = false;              ///< records of a view instead of all patches at a rate
+    uint32_t rate = 0;             ///< that it begins with
 };
 
 /// The pipelines, each created when tables first need it. Recording needs no memory and creates nothing. Between the
@@ -99,7 +104,9 @@ private:
     Shaders shaders_;
     gpu::ComputeLayout layout_;
     std::array<gpu::PipelineHandle, static_cast<size_t>(Kernel::count)> construction_;
-    std::array<gpu::PipelineHandle, kDomainCount> attributes_; ///< by domain
+    /// By which outputs there are beside the first (shared::kOutputUvs1, kOutputFaceUvs).
+    using ByOutputs = std::array<gpu::PipelineHandle, shared::kAttributeOutputs>;
+    std::array<ByOutputs, kDomainCount> attributes_; ///< by domain
     /// One a rate that kernels are unrolled for, and the first for any rate.
     using ByRate = std::array<gpu::PipelineHandle, kUnrolledRates + 1>;
     using ByFormat = std::array<std::array<ByRate, 2>, shared::kVertexFormats>; ///< and corner normals
@@ -107,11 +114,11 @@ private:
     std::array<std::array<gpu::PipelineHandle, 2>, kClasses> patch_;
     std::array<ByFormat, kClasses> evaluate_;
     std::array<std::array<gpu::PipelineHandle, 2>, kClasses> lodEvaluate_[shared::kVertexFormats];
-    std::array<gpu::PipelineHandle, kClasses> lodAttributes_;
+    std::array<ByOutputs, kClasses> lodAttributes_;
     // Shared samples: inside patches, as evaluate_ and attributes_, then those of edges.
     std::array<ByFormat, kClasses> inside_;
     std::array<ByFormat, shared::kEdgeKinds> edges_;
-    std::array<gpu::PipelineHandle, kDomainCount + 1> insideAttributes_; ///< the last one: along edges
+    std::array<ByOutputs, kDomainCount + 1> insideAttributes_; ///< the last one: along edges
     kernel::Passes kernel_;
     lod::Passes lod_;
 };

@@ -11,6 +11,7 @@
 
 layout(constant_id = 3) const uint kDomain = kQuadDomain;
 layout(constant_id = 7) const bool kRings = false; // with level of detail: samples lie in rings round a centre
+layout(constant_id = 10) const uint kOutputs = 0u; // kOutputUvs1, kOutputFaceUvs where they are written
 
 layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes { uvec4 attributes[]; };
 layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1[]; };
@@ -71,7 +72,7 @@ void loadCorner(inout Corners c, uint k, uint element) {
     uvec4 corner = tableElement(element);
     c.uv[k] = uintBitsToFloat(corner.xy);
     c.color[k] = vec4(unpackUnorm2x16(corner.z), unpackUnorm2x16(corner.w));
-    c.more[k] = cornerElements() == 2u ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
+    c.more[k] = kOutputs != 0u ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
 }
 Corners loadCorners(uint patchIndex) {
     Corners c;
@@ -91,8 +92,8 @@ Sample atCorner(Corners c, uint k) { return Sample(c.uv[k], c.color[k], c.more[k
 
 void store(uint vertex, Sample s) {
     attributes[vertex] = uvec4(floatBitsToUint(s.uv), packUnorm2x16(s.color.xy), packUnorm2x16(s.color.zw));
-    if ((push.outputs & kOutputUvs1) != 0u) uvs1[vertex] = s.more.xy;
-    if ((push.outputs & kOutputFaceUvs) != 0u) faceUvs[vertex] = s.more.zw;
+    if ((kOutputs & kOutputUvs1) != 0u) uvs1[vertex] = s.more.xy;
+    if ((kOutputs & kOutputFaceUvs) != 0u) faceUvs[vertex] = s.more.zw;
 }
 void store(uint vertex, Corners c, float w[5]) {
     Sample s = Sample(vec2(0.0), vec4(0.0), vec4(0.0));
@@ -158,19 +159,18 @@ void storeOnEdge(uint id) {
 }
 
 void main() {
-    if (kLod) {
-        const uint kForm = !kRings ? kLodQuadForm
-                         : kDomain == kTriangleDomain ? kLodTriangleForm
-                         : kDomain == kPentagonDomain ? kLodPentagonForm : kLodQuadRingsForm;
-        if (kWide) {
-            LodShare share = lodShareOfGroup(kForm);
-            for (uint n = 0u; n < share.recordCount; ++n)
-                storeOfRecord(share.firstRecord + n, gl_LocalInvocationID.x, gl_WorkGroupSize.x);
-        } else {
-            storeOfRecord(lodRecordOfLane(), 0u, 1u);
-        }
-        return;
+#ifdef LEVELS
+    const uint kForm = !kRings ? kLodQuadForm
+                     : kDomain == kTriangleDomain ? kLodTriangleForm
+                     : kDomain == kPentagonDomain ? kLodPentagonForm : kLodQuadRingsForm;
+    if (kWide) {
+        LodShare share = lodShareOfGroup(kForm);
+        for (uint n = 0u; n < share.recordCount; ++n)
+            storeOfRecord(share.firstRecord + n, gl_LocalInvocationID.x, gl_WorkGroupSize.x);
+    } else {
+        storeOfRecord(lodRecordOfLane(), 0u, 1u);
     }
+#else
     uint id = invocationIndex();
     if (id >= push.count) return;
     if (kDomain == kEdgeDomain) {
@@ -179,4 +179,5 @@ void main() {
     }
     uint patchIndex = id / push.samples;
     store(push.firstVertex + id, loadCorners(patchIndex), cornerWeights(id - patchIndex * push.samples));
+#endif
 }

@@ -42,7 +42,8 @@ void main() {
     // Even levels begin at 0, odd ones at the other end, so that the last two share the memory whatever their sizes.
     uint count = tableElement(levels).z;
     for (uint i = gl_LocalInvocationID.x; i < count; i += gl_WorkGroupSize.x)
-        writePoint(i, netPoint(instance * push.poolStride + tableWord(head.z + i * fragments + fragment), entry));
+        writePoint(i, netPoint(instance * push.poolStride + tableWord(head.z + i * fragments + fragment), entry,
+                               kVertexFormat == kVertexPosition));
     region = 0u;
     barrier();
     for (uint step = 1u; step <= push.step; ++step) {

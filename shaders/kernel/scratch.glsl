@@ -1,5 +1,5 @@
 // Points of fragments in the scratch buffer, and the lane's place in its block (shared/kernel.h).
-layout(constant_id = 5) const bool kFromNet = false; // the level that is read is the isolated one
+layout(constant_id = 5) const uint kSource = kFromScratch;
 layout(constant_id = 6) const uint kKind = kInBulk;  // of work
 
 layout(set = 0, binding = kScratchBinding, std430) buffer Scratch { vec4 scratch[]; };
@@ -39,7 +39,8 @@ void findLane() {
 
 vec3 point(uint i) {
     uint at = lane.read + i * lane.fragments + lane.fragment;
-    if (kFromNet) return netPoint(lane.instance * push.poolStride + tableWord(at), lane.listed);
+    if (kSource != kFromScratch)
+        return netPoint(lane.instance * push.poolStride + tableWord(at), lane.listed, kSource == kFromPastNet);
     at += lane.instance * push.scratchStride;
     if (kWide) return scratch[at].xyz;
     return texelFetch(scratchTexels, int(at)).xyz;

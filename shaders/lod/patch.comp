@@ -14,7 +14,8 @@
 #include "shaders/lod/levels.glsl"
 #include "shaders/lod/facing.glsl"
 
-layout(constant_id = 3) const bool kCharts = false; // patches of the blending surface
+layout(constant_id = 3) const bool kCharts = false;    // patches of the blending surface
+layout(constant_id = 4) const bool kBackFaces = false; // patches that show their backs are left out
 const bool kSharp = true;
 #include "shaders/blend/blend.glsl"
 
@@ -248,13 +249,15 @@ void main() {
     uint sides = formSides(form);
     uint target = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
     vec3 g[16];
-    if (!kCharts && form == kLodQuadForm && (push.levels == 0u || push.backFaces != 0u))
+    if (!kCharts && form == kLodQuadForm && (push.levels == 0u || kBackFaces))
         g = bicubicNet(more.z, base, more.w == kPolarPatch);
-    bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
     // Nothing is known of where a blend of charts faces.
-    if (!kCharts && push.backFaces != 0u && !doubleSided && showsItsBack(more.w, more.z, base, sides, g)) {
-        scratchWords[target] = kNoBin;
-        return;
+    if (kBackFaces && !kCharts) {
+        bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
+        if (!doubleSided && showsItsBack(more.w, more.z, base, sides, g)) {
+            scratchWords[target] = kNoBin;
+            return;
+        }
     }
     float level = 0.0;
     vec2 own;

@@ -3,7 +3,13 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/pattern.glsl"
 
-layout(constant_id = 6) const bool kLod = false; // records of a view, else all patches at one rate
+// Records of a view, else all patches at one rate. A macro: what either does without need not be compiled when a pipeline
+// is made.
+#ifdef LEVELS
+const bool kLod = true;
+#else
+const bool kLod = false;
+#endif
 
 struct LodRecord {
     uint patchIndex; // in device order, or kEmptyRecord

@@ -248,11 +248,11 @@ void evaluateWideLod() {
 }
 
 void main() {
-    if (kWide) {
-        if (kLod) evaluateWideLod();
-        else evaluateWide();
-    } else {
-        if (kLod) evaluateNarrowLod();
-        else evaluateNarrow();
-    }
+#ifdef LEVELS
+    if (kWide) evaluateWideLod();
+    else evaluateNarrowLod();
+#else
+    if (kWide) evaluateWide();
+    else evaluateNarrow();
+#endif
 }

@@ -58,6 +58,13 @@ SUPPLE_SHARED_CONST kInBulk = 0u; // cells, strips
 SUPPLE_SHARED_CONST kOneByOne = 1u;
 SUPPLE_SHARED_CONST kWorkKinds = 2u;
 
+// The level that a step reads: the scratch buffer's; the isolated one; that, where previous positions are asked for and
+// instances without a past take today's.
+SUPPLE_SHARED_CONST kFromScratch = 0u;
+SUPPLE_SHARED_CONST kFromNet = 1u;
+SUPPLE_SHARED_CONST kFromPastNet = 2u;
+SUPPLE_SHARED_CONST kSources = 3u;
+
 SUPPLE_SHARED_CONST kCellTargets = 7u;
 // The points a cell makes, by neighbour: its own vertex point, then the edge points (Loop: all, Catmull-Clark: neighbours
 // 0, 2, 6) and face points (Catmull-Clark: 1, 7) towards them.

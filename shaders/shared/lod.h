@@ -3,14 +3,14 @@
 // A view has one buffer, of words; what lies where is a constant, so that no pass is told:
 //   patterns      the words of all capacities (surface/lod/pattern.h)
 //   grids         by form and capacity: (first index, index count) of a draw instance
-//   runs          one word a run: form | dispatch << 8, dispatch from kMaxRuns on where no group has the run. A run is the patches of one class and material of a window of
-//                 instances of a group; a dispatch evaluates the runs of one class, which follow each other
+//   runs          one word a run: form | dispatch << 8, dispatch from kMaxRuns on where no group has the run. A run is
+//                 the patches of one class and material of a window of instances of a group; a dispatch evaluates the
+//                 runs of one class, which follow each other
 //   doubleSided   a bit a run: its patches show their backs too
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
-//   kSplitUnit
-//                 is shared between two bins
+//                 kSplitUnit is shared between two bins
 //   counts        by run, priority and bin: patches
 //   buckets       by run and capacity: four words (LodBucket); one more tells where the last one's records end
 //   dispatches    eight words each (LodDispatch)
@@ -117,8 +117,7 @@ struct LodPush {
     uint firstRun;      // of the window, in the view
     uint runCount;      // of the window
     uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
-    LodCamera camera;   // with backFaces, of an orthographic one: the direction it looks in for its position
-    uint backFaces;     // 1: patches that show their backs are left out
+    LodCamera camera;   // where back faces are left out, of an orthographic one: the direction it looks in for its position
 };
 struct LodSolvePush {
     uint runCount;          // in use, of the view

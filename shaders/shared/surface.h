@@ -71,6 +71,7 @@ SUPPLE_SHARED_CONST kVertexFormats = 3u;
 
 SUPPLE_SHARED_CONST kOutputUvs1 = 1u;
 SUPPLE_SHARED_CONST kOutputFaceUvs = 2u;
+SUPPLE_SHARED_CONST kAttributeOutputs = 4u; // combinations
 
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
 
@@ -114,7 +115,6 @@ struct SurfacePush {
     uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
     uint uvSets;          // 1 or 2
     uint faceUvs;         // 1 where corners have a place in their face's trim tile
-    uint outputs;         // attributes: kOutputUvs1, kOutputFaceUvs where they are written
     uint firstInstance;   // of the list
     uint firstSlot;       // level of detail: of the window, and
     uint dispatch;        // the view's dispatch (shared/lod.h)

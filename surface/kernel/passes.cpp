@@ -8,13 +8,18 @@ namespace {
 
 constexpr uint32_t kLoopConstant = gpu::kFirstPassConstant;
 constexpr uint32_t kVertexFormatConstant = kLoopConstant + 1;
-constexpr uint32_t kFromNetConstant = kLoopConstant + 2;
+constexpr uint32_t kSourceConstant = kLoopConstant + 2;
 constexpr uint32_t kSharedPointsConstant = kLoopConstant + 2;
 constexpr uint32_t kKindConstant = kLoopConstant + 3;
 
 /// Small fragments must not hold the memory of large ones, or too few fit on a compute unit at a time.
 constexpr uint32_t kBucketBytes[] = {4096, 16384, 32768, 49152};
 constexpr uint32_t kPointBytes = 12;
+
+/// Where the isolated level is read.
+uint32_t netFor(uint32_t format) {
+    return format == shared::kVertexPosition ? shared::kFromPastNet : shared::kFromNet;
+}
 
 /// Blocks of one step and kind from class `first` on.
 Section blocksFrom(const Fragments& fragments, size_t first, size_t kind) {
@@ -63,16 +68,18 @@ Status Passes::prepare(const gpu::ComputeLayout& layout, const Fragments& fragme
         return status;
     }
     // The level that is read is the isolated one in the first step, and in the limit where there is none.
-    const uint32_t limitFromNet = fragments.steps == 0 ? 1 : 0;
+    const uint32_t net = netFor(format), limitSource = fragments.steps == 0 ? net : shared::kFromScratch;
     for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
-        for (uint32_t fromNet = fragments.steps > 1 ? 0 : 1; fromNet < 2 && fragments.steps > 0; ++fromNet) {
-            make(refine_[loop][fromNet][kind], shaders_.refine, "supple kernel, refine",
-                 {{kLoopConstant, loop}, {kFromNetConstant, fromNet}, {kKindConstant, kind}});
+        for (const uint32_t source : {shared::kFromScratch, net}) {
+            if (fragments.steps > (source == shared::kFromScratch ? 1u : 0u)) {
+                make(refine_[loop][source][kind], shaders_.refine, "supple kernel, refine",
+                     {{kLoopConstant, loop}, {kSourceConstant, source}, {kKindConstant, kind}});
+            }
         }
-        make(limit_[loop][limitFromNet][kind][format], shaders_.limit, "supple kernel, limit",
+        make(limit_[loop][limitSource][kind][format], shaders_.limit, "supple kernel, limit",
              {{kLoopConstant, loop},
               {kVertexFormatConstant, format},
-              {kFromNetConstant, limitFromNet},
+              {kSourceConstant, limitSource},
               {kKindConstant, kind}});
     }
     return status;
@@ -151,6 +158,7 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
     push.today = window.today ? 1 : 0;
 
     const size_t stepwise = firstStepwise(fragments);
+    const uint32_t net = netFor(format);
     uint32_t dispatched = 0;
     push.step = fragments.steps;
     for (size_t c = 0; c < stepwise;) {
@@ -183,12 +191,13 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
     for (uint32_t step = 1; step <= fragments.steps; ++step) {
         push.step = step;
         for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
-            stepwiseWork(refine_[loop][step == 1 ? 1 : 0][kind], (step - 1) * shared::kWorkKinds + kind);
+            stepwiseWork(refine_[loop][step == 1 ? net : shared::kFromScratch][kind],
+                         (step - 1) * shared::kWorkKinds + kind);
         }
     }
     push.step = fragments.steps;
     for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
-        stepwiseWork(limit_[loop][fragments.steps == 0 ? 1 : 0][kind][format],
+        stepwiseWork(limit_[loop][fragments.steps == 0 ? net : shared::kFromScratch][kind][format],
                      fragments.steps * shared::kWorkKinds + kind);
     }
 }

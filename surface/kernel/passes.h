@@ -53,9 +53,10 @@ private:
         std::array<std::array<gpu::PipelineHandle, shared::kVertexFormats>, 2> pipelines; ///< by loop and vertex format
     };
     std::vector<Bucket> buckets_; ///< sharedPoints rise; empty on CPU devices
-    // By loop, whether the level before is the isolated one, and kind of work; the limit also by vertex format.
-    std::array<std::array<std::array<gpu::PipelineHandle, shared::kWorkKinds>, 2>, 2> refine_;
-    std::array<std::array<std::array<std::array<gpu::PipelineHandle, shared::kVertexFormats>, shared::kWorkKinds>, 2>,
+    // By loop, the level that is read, and kind of work; the limit also by vertex format.
+    std::array<std::array<std::array<gpu::PipelineHandle, shared::kWorkKinds>, shared::kSources>, 2> refine_;
+    std::array<std::array<std::array<std::array<gpu::PipelineHandle, shared::kVertexFormats>, shared::kWorkKinds>,
+                          shared::kSources>,
                2>
         limit_;
 };

@@ -2,6 +2,8 @@
 
 #include "shaders/shared/surface.h"
 
+#include <iterator>
+
 namespace supple::surface::lod {
 
 static_assert(sizeof(shared::LodPush) <= sizeof(shared::SurfacePush), "they share a layout");
@@ -10,22 +12,30 @@ static_assert(shared::kLodRecords % 4 == 0, "records are read as elements");
 
 Passes::Passes(const gpu::Device& device, const Shaders& shaders) : device_(&device), shaders_(shaders) {}
 
-Status Passes::prepare(const gpu::ComputeLayout& layout, const LodTables& tables) {
+// Nothing is known of where a blend of charts faces.
+Passes::Kernel Passes::patchKernel(const LodTables& tables, bool backFaces) {
+    return tables.charts ? kChartPatch : backFaces ? kFacingPatch : kPatch;
+}
+
+Status Passes::prepare(const gpu::ComputeLayout& layout, const LodTables& tables, bool backFaces) {
     layout_ = layout.pipelineLayout.get();
     const struct {
         Kernel kernel;
         std::span<const uint32_t> spirv;
         const char* name;
     } sources[] = {{tables.charts ? kChartEdge : kEdge, shaders_.edge, "supple levels of edges"},
-                   {tables.charts ? kChartPatch : kPatch, shaders_.patch, "supple levels of patches"},
+                   {patchKernel(tables, backFaces), shaders_.patch, "supple levels of patches"},
                    {kSolve, shaders_.solve, "supple level budget"},
                    {kPlace, shaders_.place, "supple level places"}};
-    const gpu::Constant charts{gpu::kFirstPassConstant, tables.charts ? VK_TRUE : VK_FALSE};
+    const gpu::Constant constants[] = {{gpu::kFirstPassConstant, tables.charts ? VK_TRUE : VK_FALSE},
+                                       {gpu::kFirstPassConstant + 1, backFaces ? VK_TRUE : VK_FALSE}};
     for (const auto& [kernel, spirv, name] : sources) {
         if (pipelines_[kernel].get() == VK_NULL_HANDLE) {
-            const bool ofBorders = kernel != kSolve && kernel != kPlace;
+            const size_t used = kernel == kSolve || kernel == kPlace      ? 0
+                                : kernel == kEdge || kernel == kChartEdge ? 1
+                                                                          : std::size(constants);
             Result<gpu::PipelineHandle> pipeline =
-                gpu::createComputePipeline(*device_, layout, spirv, std::span(&charts, ofBorders ? 1 : 0), name);
+                gpu::createComputePipeline(*device_, layout, spirv, std::span(constants, used), name);
             if (!pipeline) {
                 return pipeline.error();
             }
@@ -65,8 +75,8 @@ void Passes::recordEdges(VkCommandBuffer commandBuffer, const LodTables& tables,
 }
 
 void Passes::recordPatches(VkCommandBuffer commandBuffer, const LodTables& tables, const Window& window,
-                           VkDeviceSize arguments, const shared::LodPush& push) const {
-    dispatch(commandBuffer, tables.charts ? kChartPatch : kPatch, window, arguments + sizeof(VkDispatchIndirectCommand),
+                           VkDeviceSize arguments, const shared::LodPush& push, bool backFaces) const {
+    dispatch(commandBuffer, patchKernel(tables, backFaces), window, arguments + sizeof(VkDispatchIndirectCommand),
              push);
 }
 

@@ -21,20 +21,22 @@ public:
     Passes() = default;
     Passes(const gpu::Device& device, const Shaders& shaders);
 
-    [[nodiscard]] Status prepare(const gpu::ComputeLayout& layout, const LodTables& tables);
+    /// `backFaces`: patches that show their backs are left out; recorded as prepared.
+    [[nodiscard]] Status prepare(const gpu::ComputeLayout& layout, const LodTables& tables, bool backFaces);
 
     /// `window`: its instances go into the push; where their number is known to the device alone, `arguments` tells
     /// the groups of edges and, three words on, of patches (Window::arguments behind those of the constructions).
     void recordEdges(VkCommandBuffer commandBuffer, const LodTables& tables, const Window& window,
                      VkDeviceSize arguments, shared::LodPush push) const;
     void recordPatches(VkCommandBuffer commandBuffer, const LodTables& tables, const Window& window,
-                       VkDeviceSize arguments, const shared::LodPush& push) const;
+                       VkDeviceSize arguments, const shared::LodPush& push, bool backFaces) const;
     void recordSolve(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::LodSolvePush& push) const;
     void recordPlaces(VkCommandBuffer commandBuffer, const Window& window, VkDeviceSize arguments,
                       const shared::LodPush& push) const;
 
 private:
-    enum Kernel : size_t { kEdge, kPatch, kChartEdge, kChartPatch, kSolve, kPlace, kKernels };
+    enum Kernel : size_t { kEdge, kPatch, kFacingPatch, kChartEdge, kChartPatch, kSolve, kPlace, kKernels };
+    [[nodiscard]] static Kernel patchKernel(const LodTables& tables, bool backFaces);
     void bind(VkCommandBuffer commandBuffer, Kernel kernel, VkDescriptorSet set, const void* push,
               uint32_t bytes) const;
     void dispatch(VkCommandBuffer commandBuffer, Kernel kernel, const Window& window, VkDeviceSize arguments,
