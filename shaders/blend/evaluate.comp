@@ -163,13 +163,15 @@ void evaluateNarrow() {
     Corner corners[4] = loadCorners(push.table + 4u * patchIndex, instance * push.poolStride, false);
     uint side = push.rate + 1u;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
-    for (uint j = 0u; j < side; ++j) {
-        for (uint i = 0u; i < side; ++i) {
+    uint j = 0u;
+    do {
+        uint i = 0u;
+        do {
             vec3 position, normal;
             evaluateSample(corners, i, j, false, position, normal);
             storeSurfaceVertex(vertex + j * side + i, position, normal);
-        }
-    }
+        } while (++i < side);
+    } while (++j < side);
     if (!kSharp) return;
     // Once more along the border: lanes pay for a second blend, and inside none asks for it.
     for (uint n = 0u; n < 4u * push.rate; ++n) {
@@ -182,27 +184,27 @@ void evaluateNarrow() {
     }
 }
 
+// Loops are tested at the bottom, see evaluate/bicubic.comp. Records that only fill up get points at the origin.
 void evaluateNarrowLod() {
     LodRecord r = lodRecord(lodRecordOfLane());
     uint last = r.capacity, side = last + 1u;
-    if (r.patchIndex == kEmptyRecord) {
-        for (uint k = 0u; k < side * side; ++k) storeSurfaceVertex(r.firstVertex + k, vec3(0.0), vec3(0.0));
-        return;
-    }
-    Corner corners[4] =
-        loadCorners(push.table + 4u * (r.patchIndex - push.firstPatch), r.slot * push.poolStride, r.isNew);
+    bool empty = r.patchIndex == kEmptyRecord;
+    Corner corners[4] = loadCorners(push.table + 4u * (empty ? 0u : r.patchIndex - push.firstPatch),
+                                    empty ? 0u : r.slot * push.poolStride, r.isNew);
     LodPattern patterns[6];
     for (uint k = 0u; k < 6u; ++k) patterns[k] = lodPattern(r.pairs[k], r.capacityIndex);
-    for (uint j = 0u; j < side; ++j) {
-        for (uint i = 0u; i < side; ++i) {
+    uint j = 0u;
+    do {
+        uint i = 0u;
+        do {
             vec2 u = vec2(i == 0u ? 0.0 : 1.0, i == 0u ? 1.0 : 0.0), v = vec2(j == 0u ? 0.0 : 1.0, j == 0u ? 1.0 : 0.0);
             if (i > 0u && i < last) u = lodPair(j == 0u ? patterns[2] : j == last ? patterns[4] : patterns[0], i, last);
             if (j > 0u && j < last) v = lodPair(i == last ? patterns[3] : i == 0u ? patterns[5] : patterns[1], j, last);
             vec3 position, normal;
             evaluateLevels(corners, u, v, position, normal);
-            storeSurfaceVertex(r.firstVertex + j * side + i, position, normal);
-        }
-    }
+            storeSurfaceVertex(r.firstVertex + j * side + i, empty ? vec3(0.0) : position, normal);
+        } while (++i < side);
+    } while (++j < side);
 }
 
 shared vec4 sharedCoefficients[kMaxPatchesPerGroup * 36u];

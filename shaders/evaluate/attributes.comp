@@ -37,18 +37,8 @@ float[5] cornerWeights(uint index) {
     return w;
 }
 
-// The same where a record says that samples lie (surface/lod/grid.h).
-float[5] lodCornerWeights(LodRecord r, uint index) {
-    if (!kRings) {
-        uint j = index / (r.capacity + 1u), i = index - j * (r.capacity + 1u);
-        vec2 u = lodU(r, i, j), v = lodV(r, i, j);
-        if (kDomain == kPolarDomain) return polar(u, v);
-        return bilinear(u, v);
-    }
-    vec2 along;
-    RingSample at = ringSample(kCorners, r.capacity, index);
-    uint sector = at.side;
-    vec3 l = ringWeights(r, at, along);
+// From the weights of corner `sector`, of the next corner and of the centre.
+float[5] sectorWeights(uint sector, vec3 l) {
     if (kDomain == kQuadDomain) {
         const vec2 kSquare[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
         vec2 p = l.x * kSquare[sector & 3u] + l.y * kSquare[(sector + 1u) & 3u] + l.z * vec2(0.5);
@@ -59,6 +49,19 @@ float[5] lodCornerWeights(LodRecord r, uint index) {
         w[c] = c < kCorners ? l.z / float(kCorners) + (c == sector ? l.x : 0.0) + (c == (sector + 1u) % kCorners ? l.y : 0.0)
                             : 0.0;
     return w;
+}
+
+// At corners where a record says that samples lie (surface/lod/grid.h).
+float[5] lodCornerWeights(LodRecord r, uint index) {
+    if (!kRings) {
+        uint j = index / (r.capacity + 1u), i = index - j * (r.capacity + 1u);
+        vec2 u = lodU(r, i, j), v = lodV(r, i, j);
+        if (kDomain == kPolarDomain) return polar(u, v);
+        return bilinear(u, v);
+    }
+    vec2 along;
+    RingSample at = ringSample(kCorners, r.capacity, index);
+    return sectorWeights(at.side, ringWeights(r, at, along));
 }
 
 // What a patch has at its corners.
@@ -101,44 +104,71 @@ void store(uint vertex, Corners c, float w[5]) {
     store(vertex, s);
 }
 
-// A patch with levels, by one lane: what a row or a ring has in common is found once.
+// A patch with levels, by one lane: what a row has in common is found once. Loops are tested at the bottom, see
+// evaluate/bicubic.comp.
 void storeRows(LodRecord r, Corners c) {
     uint last = r.capacity, vertex = r.firstVertex;
     uint first = kDomain == kPolarDomain ? 2u : 3u; // above corner 0; above corner 1 is 2
-    LodPattern inside = lodPattern(r.pairs[0], r.capacityIndex), up = lodPattern(r.pairs[1], r.capacityIndex);
+    LodPattern insideU = lodPattern(r.pairs[0], r.capacityIndex), insideV = lodPattern(r.pairs[1], r.capacityIndex);
+    LodPattern bottom = lodPattern(r.pairs[2], r.capacityIndex), top = lodPattern(r.pairs[4], r.capacityIndex);
     LodPattern left = lodPattern(r.pairs[5], r.capacityIndex), right = lodPattern(r.pairs[3], r.capacityIndex);
-    for (uint j = 0u; j <= last; ++j) {
-        bool bottom = j == 0u, top = j == last;
-        vec2 end = bottom ? vec2(0.0, 1.0) : vec2(1.0, 0.0);
-        vec2 v = end, vLeft = end, vRight = end;
-        if (!bottom && !top) {
-            v = lodPair(up, j, last);
-            vLeft = lodPair(left, j, last);
-            vRight = lodPair(right, j, last);
+    const vec2 kBegin = vec2(0.0, 1.0), kEnd = vec2(1.0, 0.0);
+    uint j = 0u;
+    do {
+        vec2 v = kBegin, vLeft = kBegin, vRight = kBegin;
+        LodPattern along = bottom;
+        if (j > 0u) {
+            bool end = j == last;
+            v = end ? kEnd : lodPair(insideV, j, last);
+            vLeft = end ? kEnd : lodPair(left, j, last);
+            vRight = end ? kEnd : lodPair(right, j, last);
+            along = insideU;
+            if (end) along = top;
         }
-        LodPattern along = inside;
-        if (bottom) along = lodPattern(r.pairs[2], r.capacityIndex);
-        if (top) along = lodPattern(r.pairs[4], r.capacityIndex);
-        store(vertex, blended(vLeft.y, atCorner(c, 0u), vLeft.x, atCorner(c, first)));
         Sample begin = blended(v.y, atCorner(c, 0u), v.x, atCorner(c, first));
-        Sample finish = blended(v.y, atCorner(c, 1u), v.x, atCorner(c, 2u));
-        for (uint i = 1u; i < last; ++i) {
+        Sample end = blended(v.y, atCorner(c, 1u), v.x, atCorner(c, 2u));
+        Sample onLeft = blended(vLeft.y, atCorner(c, 0u), vLeft.x, atCorner(c, first)); // borders: levels of their own
+        Sample onRight = blended(vRight.y, atCorner(c, 1u), vRight.x, atCorner(c, 2u));
+        uint i = 0u;
+        do {
             vec2 u = lodPair(along, i, last);
-            store(vertex + i, blended(u.y, begin, u.x, finish));
-        }
-        store(vertex + last, blended(vRight.y, atCorner(c, 1u), vRight.x, atCorner(c, 2u)));
-        vertex += last + 1u;
+            Sample s = blended(u.y, begin, u.x, end);
+            if (i == 0u) s = onLeft;
+            if (i == last) s = onRight;
+            store(vertex + j * (last + 1u) + i, s);
+        } while (++i <= last);
+    } while (++j <= last);
+}
+
+// The same in rings.
+void storeRings(LodRecord r, Corners c) {
+    uint last = r.capacity, rings = (last + 1u) / 2u;
+    LodPattern inside = lodPattern(r.pairs[0], r.capacityIndex);
+    for (uint sector = 0u; sector < kCorners; ++sector) {
+        LodPattern side = lodPattern(r.pairs[1u + sector], r.capacityIndex);
+        uint ring = 0u;
+        do {
+            float t = lodPair(inside, ring, last).x;
+            uint vertex = r.firstVertex + ringSideStart(kCorners, ring, sector, last);
+            uint k = ring;
+            do {
+                store(vertex + k - ring, c, sectorWeights(sector, ringWeights(lodPair(side, k, last), t)));
+            } while (++k < last - ring);
+            side = inside;
+        } while (++ring < rings);
     }
 }
 
 void storeOfRecord(uint index, uint firstSample, uint step) {
     LodRecord r = lodRecord(index);
-    if (r.patchIndex == kEmptyRecord) return;
-    Corners corners = loadCorners(r.patchIndex - push.firstPatch);
-    if (!kWide && !kRings) {
-        storeRows(r, corners);
+    bool empty = r.patchIndex == kEmptyRecord;
+    Corners corners = loadCorners(empty ? 0u : r.patchIndex - push.firstPatch);
+    if (!kWide) {
+        if (kRings) storeRings(r, corners);
+        else storeRows(r, corners);
         return;
     }
+    if (empty) return;
     uint samples = kRings ? kCorners * (r.capacity + 1u) * (r.capacity + 1u) / 4u : (r.capacity + 1u) * (r.capacity + 1u);
     for (uint k = firstSample; k < samples; k += step)
         store(r.firstVertex + k, corners, lodCornerWeights(r, k));

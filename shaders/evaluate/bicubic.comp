@@ -164,35 +164,45 @@ void evaluateNarrow() {
 }
 
 // A lane a patch. Rows first, the inner ones without their ends: those lie on the borders u = 0 and u = 1, which have
-// levels of their own, and follow one by one.
+// levels of their own, and follow. Loops are tested at the bottom, see above; nothing they compute is used behind them.
+// Records that only fill up get points at the origin.
 void evaluateNarrowLod() {
     LodRecord r = lodRecord(lodRecordOfLane());
-    uint last = r.capacity, side = last + 1u;
-    if (r.patchIndex == kEmptyRecord) {
-        for (uint k = 0u; k < side * side; ++k) storeSurfaceVertex(r.firstVertex + k, vec3(0.0), vec3(0.0));
-        return;
-    }
-    uint record = push.table + (r.patchIndex - push.firstPatch) * recordElements(), base = r.slot * push.poolStride;
+    bool empty = r.patchIndex == kEmptyRecord;
+    uint last = r.capacity, side = last + 1u, vertex = r.firstVertex;
+    uint record = push.table + (empty ? 0u : r.patchIndex - push.firstPatch) * recordElements();
+    uint base = empty ? 0u : r.slot * push.poolStride;
     Patch c = loadPatch(record, base, r.isNew);
     uvec4 slots = normalSlots(record);
-    uint rows = side, columns = 2u * (side - 2u);
-    for (uint n = 0u; n < rows + columns; ++n) {
-        bool column = n >= rows;
-        uint j = column ? 1u + (n - rows) / 2u : n;
-        uint first = column ? ((n - rows) & 1u) * last : j == 0u || j == last ? 0u : 1u;
-        uint end = column ? first + 1u : j == 0u || j == last ? side : last;
-        Row row = collapse(c, lodV(r, column ? first : 1u, j));
-        vec2 level = j == 0u ? r.pairs[2] : j == last ? r.pairs[4] : r.pairs[0];
-        LodPattern along = lodPattern(level, r.capacityIndex);
-        for (uint i = first; i < end; ++i) {
-            vec2 u = i == 0u ? vec2(0.0, 1.0) : i == last ? vec2(1.0, 0.0) : lodPair(along, i, last);
+    LodPattern insideU = lodPattern(r.pairs[0], r.capacityIndex), insideV = lodPattern(r.pairs[1], r.capacityIndex);
+    LodPattern bottom = lodPattern(r.pairs[2], r.capacityIndex), top = lodPattern(r.pairs[4], r.capacityIndex);
+    LodPattern left = lodPattern(r.pairs[5], r.capacityIndex), right = lodPattern(r.pairs[3], r.capacityIndex);
+    const vec2 kBegin = vec2(0.0, 1.0), kEnd = vec2(1.0, 0.0);
+    uint j = 0u;
+    do {
+        bool border = j == 0u || j == last;
+        LodPattern along = insideU;
+        if (j == 0u) along = bottom;
+        if (j == last) along = top;
+        Row row = collapse(c, j == 0u ? kBegin : j == last ? kEnd : lodPair(insideV, j, last));
+        uint i = border ? 0u : 1u, end = border ? side : last;
+        do {
             vec3 position, normal;
-            finish(row, u, position, normal);
+            finish(row, i == 0u ? kBegin : i == last ? kEnd : lodPair(along, i, last), position, normal);
             if (kPolar && j == last) position = c.g[12];
             if (kCornerNormals) normal = cornerNormal(normal, i, j, last, slots, base);
-            storeSurfaceVertex(r.firstVertex + j * side + i, position, normal);
-        }
-    }
+            storeSurfaceVertex(vertex + j * side + i, empty ? vec3(0.0) : position, normal);
+        } while (++i < end);
+    } while (++j < side);
+    if (last == 1u) return; // no inner rows
+    j = 1u;
+    do {
+        vec3 position, normal;
+        finish(collapse(c, lodPair(left, j, last)), kBegin, position, normal);
+        storeSurfaceVertex(vertex + j * side, empty ? vec3(0.0) : position, normal);
+        finish(collapse(c, lodPair(right, j, last)), kEnd, position, normal);
+        storeSurfaceVertex(vertex + j * side + last, empty ? vec3(0.0) : position, normal);
+    } while (++j < last);
 }
 
 const uint kSharedStride = kPerturbed ? 48u : 32u; // g, relative, h

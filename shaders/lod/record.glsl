@@ -68,14 +68,16 @@ RingSample ringSample(uint m, uint capacity, uint index) {
     uint at = index - ringStart(m, ring, capacity), each = capacity - 2u * ring, side = at / each;
     return RingSample(ring, side, ring + at - side * each);
 }
-// Weights of corner `side`, of the next corner and of the centre; `along`: the pair along the ring's side, on the border
-// the edge's own.
+// Weights of corner `side`, of the next corner and of the centre, from the pair along the ring's side, which on the border is
+// the edge's own, and from the ring's place across.
+vec3 ringWeights(vec2 along, float t) {
+    precise vec3 w = vec3(along.y - t, along.x - t, 2.0 * t);
+    return w;
+}
 vec3 ringWeights(LodRecord r, RingSample s, out vec2 along) {
     vec2 level = s.ring == 0u ? r.pairs[1u + s.side] : r.pairs[0];
     along = lodPair(lodPattern(level, r.capacityIndex), s.k, r.capacity);
-    float t = lodPair(lodPattern(r.pairs[0], r.capacityIndex), s.ring, r.capacity).x;
-    precise vec3 w = vec3(along.y - t, along.x - t, 2.0 * t);
-    return w;
+    return ringWeights(along, lodPair(lodPattern(r.pairs[0], r.capacityIndex), s.ring, r.capacity).x);
 }
 
 // The record of a lane, in the narrow mapping. Idle lanes repeat the last.

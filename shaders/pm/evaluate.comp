@@ -154,28 +154,32 @@ void evaluateNarrow() {
     }
 }
 
+// Loops as above; nothing they compute is used behind them. Records that only fill up get points at the origin.
 void evaluateNarrowLod() {
     LodRecord r = lodRecord(lodRecordOfLane());
+    bool empty = r.patchIndex == kEmptyRecord;
     uint last = r.capacity, rings = (last + 1u) / 2u;
-    if (r.patchIndex == kEmptyRecord) {
-        uint samples = ringStart(kSides, rings, last);
-        for (uint k = 0u; k < samples; ++k) storeSurfaceVertex(r.firstVertex + k, vec3(0.0), vec3(0.0));
-        return;
-    }
-    uint record = push.table + kSides * (r.patchIndex - push.firstPatch), base = r.slot * push.poolStride;
+    uint record = push.table + kSides * (empty ? 0u : r.patchIndex - push.firstPatch);
+    uint base = empty ? 0u : r.slot * push.poolStride;
     uint singular = tableElement(record + 1u).w;
+    LodPattern inside = lodPattern(r.pairs[0], r.capacityIndex);
     for (uint sector = 0u; sector < kSides; ++sector) {
         Sector s = loadSector(kSides, kRay, record, base, sector, r.isNew);
         bool step = (singular & (1u << sector)) != 0u;
-        for (uint ring = 0u; ring < rings; ++ring) {
+        LodPattern side = lodPattern(r.pairs[1u + sector], r.capacityIndex);
+        uint ring = 0u;
+        do {
+            float t = lodPair(inside, ring, last).x;
             uint vertex = r.firstVertex + ringSideStart(kSides, ring, sector, last);
-            for (uint k = ring; k < last - ring; ++k) {
+            uint k = ring;
+            do {
+                vec2 along = lodPair(side, k, last);
                 vec3 position, normal;
-                finishInRing(s, r, RingSample(ring, sector, k), step, position, normal);
-                storeSurfaceVertex(vertex, position, normal);
-                ++vertex;
-            }
-        }
+                finish(s, ringWeights(along, t), ring == 0u, along, step && ring == 0u && k == 0u, position, normal);
+                storeSurfaceVertex(vertex + k - ring, empty ? vec3(0.0) : position, normal);
+            } while (++k < last - ring);
+            side = inside;
+        } while (++ring < rings);
     }
 }
 
