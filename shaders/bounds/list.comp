@@ -52,13 +52,12 @@ uint withPast(uint entry, uvec2 state) { return state.y != 0u ? entry : entry | 
 
 // One of: seen and with a past, seen and new, left out, occluded; none where it is not seen anyway.
 uvec4 kind(uint entry, uvec2 state, uint leftOut) {
-    if (state.x == 0u) return uvec4(0u);
-    if (state.x == kOccluded) return uvec4(0u, 0u, 0u, 1u);
+    if (state.x == 0u) return uvec4(0u, 0u, 0u, state.y == kOccluded ? 1u : 0u);
     if (state.x <= leftOut) return uvec4(0u, 0u, 1u, 0u);
     return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec4(0u, 1u, 0u, 0u) : uvec4(1u, 0u, 0u, 0u);
 }
 
-bool isDrawn(uvec2 state, uint leftOut) { return state.x > leftOut && state.x != kOccluded; }
+bool isDrawn(uvec2 state, uint leftOut) { return state.x > leftOut; }
 
 void storeHeader(uint at, uvec4 counts, uint listed) {
     argumentWords[at] = counts.x + counts.y;

@@ -68,5 +68,5 @@ void main() {
     uint index = min(invocationIndex(), push.instanceCount - 1u);
     uint slot = hostEntry(push.firstEntry + index) & kInstanceSlotMask;
     vec4 low = bounds[2u * slot], high = bounds[2u * slot + 1u];
-    if (states[slot].x != 0u && high.w == 0.0 && isHidden(low.xyz, high.xyz)) states[slot].x = kOccluded;
+    if (states[slot].x != 0u && high.w == 0.0 && isHidden(low.xyz, high.xyz)) states[slot] = uvec2(0u, kOccluded);
 }

@@ -11,5 +11,5 @@ void main() {
     uint index = invocationIndex();
     if (index >= push.instanceCount) return;
     uint rank = states[hostEntry(push.firstEntry + index) & kInstanceSlotMask].x;
-    if (rank > 0u && rank != kOccluded) atomicAdd(sizes[rank - 1u], push.vertices);
+    if (rank > 0u) atomicAdd(sizes[rank - 1u], push.vertices);
 }

@@ -14,8 +14,8 @@
 // that many d x e for all differences d along the border; with its chord c and what leads inwards from it, n: d = x c + y n,
 // that c x b less y/x b x n exceeds so many c x e plus y/x e x n.
 
-const float kMostSlopes = 0.9;
-const float kMostBend = 0.9;
+const float kMostSlopes = 0.97;
+const float kMostBend = 0.97;
 const float kBorderReach = 3.4;
 float reachOfBorder(float level, float across) { return min(kBorderReach * max(level, 1.0) / max(across, 3.0), 1.0); }
 

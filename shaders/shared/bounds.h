@@ -9,9 +9,9 @@
 //
 // Host list: an entry an instance, slots of the group rising: slot | priority << kInstancePriorityShift | kInstanceIsNew
 // where the frame before did not list it.
-// State: two words a slot: 0 or kOccluded where it is not seen, else 1 + its rank, the smaller the sooner it is left out where there is no
+// State: two words a slot: 0 where it is not seen, else 1 + its rank, the smaller the sooner it is left out where there is no
 // room: rank of its priority * kSizeBins + bin of its size; and whether it was when it was listed last, which counts as a past only where
-// the host list does not say kInstanceIsNew.
+// the host list does not say kInstanceIsNew; between `occlude` and `list` kOccluded where it is the pyramid that hides it.
 // List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has them,
 // those with a past first, either kind rising; `levels` entries further on each of these has its instance's level.
 // Where instances have one of several rates (subdivision): the same once more a rate, without levels, `rateStride` words from
@@ -48,7 +48,7 @@ SUPPLE_SHARED_CONST kListTableBinding = 9u;
 SUPPLE_SHARED_CONST kCullViewBinding = 10u;
 SUPPLE_SHARED_CONST kSizeBinding = 12u;
 
-SUPPLE_SHARED_CONST kOccluded = 0xFFFFFFFFu; // as a state: not seen, but for the pyramid it would be
+SUPPLE_SHARED_CONST kOccluded = 0xFFFFFFFFu; // in a state: but for the pyramid it would be seen
 
 // What a view sees; without planes and limits everything.
 struct CullView {

@@ -386,7 +386,7 @@ TEST_P(BackFaces, RoughCagesOfAllClassesLoseNothingThatFacesTheCamera) {
     std::mt19937 random(37);
     std::normal_distribution<float> normal;
     std::map<SupplePatchClass, size_t> out;
-    for (const float rough : {0.0f, 0.02f, 0.08f, 0.2f}) {
+    for (const float rough : {0.0f, 0.02f, 0.1f}) {
         const std::pair<cage::Cage, SuppleScheme> cages[] = {
             {perturbed(dodecahedron(), rough, 1), SUPPLE_SCHEME_PM},
             {perturbed(quartered(gyroBipyramid(5)), rough, 2), SUPPLE_SCHEME_PM},
@@ -400,18 +400,18 @@ TEST_P(BackFaces, RoughCagesOfAllClassesLoseNothingThatFacesTheCamera) {
                 high = glm::max(high, p);
             }
             const float size = glm::length(high - low);
-            for (uint32_t frame = 0; frame < 5; ++frame) {
+            for (uint32_t frame = 0; frame < 4; ++frame) {
                 const glm::vec3 direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
-                const float away = std::array{0.7f, 1.0f, 2.5f, 1.5f, 6.0f}[frame] * size;
+                const float away = std::array{0.8f, 1.2f, 3.0f, 1.5f}[frame] * size;
                 const glm::vec3 eye = 0.5f * (low + high) - away * direction;
                 SuppleCameraDesc camera{};
                 camera.flags = frame == 3 ? SUPPLE_CAMERA_ORTHOGRAPHIC : 0;
-                camera.pixelsPerUnit = frame == 3 ? 700.0f / size : 869.0f;
+                camera.pixelsPerUnit = frame == 3 ? 250.0f / size : 300.0f;
                 camera.nearest = 0.01f * size;
                 std::copy_n(&direction.x, 3, camera.direction);
                 std::copy_n(&eye.x, 3, camera.position);
                 both.look(camera);
-                camera.vertexBudget = 10'000;
+                camera.vertexBudget = 6'000; // scales levels down
                 both.look(camera);
             }
             for (const auto& [patchClass, count] : both.outByClass) {
@@ -422,10 +422,9 @@ TEST_P(BackFaces, RoughCagesOfAllClassesLoseNothingThatFacesTheCamera) {
     for (const auto& [patchClass, count] : out) {
         std::printf("class %d: %zu left out\n", patchClass, count);
     }
-    EXPECT_GT(out[SUPPLE_PATCH_REGULAR], 100u);
-    EXPECT_GT(out[SUPPLE_PATCH_P3], 10u);
-    EXPECT_GT(out[SUPPLE_PATCH_P4], 10u);
-    EXPECT_GT(out[SUPPLE_PATCH_P5], 10u);
+    EXPECT_GT(out[SUPPLE_PATCH_REGULAR], 50u);
+    EXPECT_GT(out[SUPPLE_PATCH_P3], 20u);
+    EXPECT_GT(out[SUPPLE_PATCH_P4], 20u);
 }
 
 TEST_P(BackFaces, AreCountedAndDoubleSidedOnesStay) {
