@@ -269,6 +269,8 @@ LodPush Group::levelPush(const Window& window) const {
     push.patches = tables.lod.patches.table;
     push.edgeCount = tables.lod.edges.count;
     push.poolStride = tables.poolStride;
+    push.tangents = tables.tangents;
+    push.faces = tables.faces;
     push.scratchStride = scratchElements();
     push.firstRun = firstRun_ + window.index * runs;
     push.runCount = runs;

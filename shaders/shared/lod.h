@@ -113,6 +113,8 @@ struct LodPush {
     uint patches;       // and of the patches
     uint edgeCount;
     uint poolStride;
+    uint tangents;      // first in the pool
+    uint faces;         // and face coefficients
     uint scratchStride; // elements an instance
     uint firstRun;      // of the window, in the view
     uint runCount;      // of the window
