@@ -11,7 +11,6 @@
 #include "surface/lod/instance.h"
 #include "surface/occlusion_pass.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -52,7 +51,7 @@ public:
 
     /// The table of the list pass, to be uploaded whenever the host's list changes.
     [[nodiscard]] VkDeviceSize tableBytes() const;
-    void writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target) const;
+    void writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target);
     [[nodiscard]] VkBuffer table() const { return buffers_.buffer(kTable); }
 
     /// Once, before anything else.
@@ -91,9 +90,6 @@ private:
     enum BufferIndex : size_t { kBounds, kStates, kList, kTable, kBufferCount };
     [[nodiscard]] Status createSets(const Desc& desc);
     [[nodiscard]] Status createOcclusionSets(const Desc& desc, VkBufferView hostList);
-    struct Argument {
-        uint32_t elements = 0, perGroup = 0, count = 0; ///< as of shared/bounds.h
-    };
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(arguments_.size()); }
     [[nodiscard]] uint32_t rateCount() const { return static_cast<uint32_t>(firstDispatches_.size()); }
     /// Words of kList.
@@ -110,10 +106,11 @@ private:
     uint32_t capacity_ = 0, windowSize_ = 0, windows_ = 0;
     uint32_t leastVertices_ = 0;
     shared::BoundsPush push_{};
-    std::vector<Argument> arguments_;
+    std::vector<surface::ListWindow> listed_; ///< of the table written last
+    std::vector<surface::ListArgument> arguments_;
     uint32_t firstRate_ = 0;
-    std::vector<uint32_t> firstDispatches_;      ///< by rate, in arguments_
-    std::vector<std::array<uint32_t, 4>> draws_; ///< as of shared/bounds.h
+    std::vector<uint32_t> firstDispatches_; ///< by rate, in arguments_
+    std::vector<surface::ListDraw> draws_;
     gpu::BufferSet buffers_;
     gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;

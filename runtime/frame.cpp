@@ -211,7 +211,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
                     priorities |= groupAt(h).view() == groupAt(g).view() ? groupAt(h).priorities() : 0;
                 }
                 groupAt(g).view()->recordSolve(commandBuffer, surface_.lod(), groupAt(g).anySet(), priorities);
-                timing.endPass(Pass::solve, desc.groups[g], 0, 0);
+                timing.endPass(Pass::solve, desc.groups[g], 0, 0, groupAt(g).view());
             }
         }
         device.endLabel(commandBuffer);
@@ -229,6 +229,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
                 groupAt(g).recordReadback(commandBuffer);
             }
         }
+        gpu::memoryBarrier(device, commandBuffer, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                           {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
         if (any([](Group& group) { return group.writesLodAttributes(); })) {
             pass(Pass::attributes, [&](Group& group) { return group.recordLodAttributes(commandBuffer); });
         }

@@ -185,10 +185,9 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
                 const std::vector<cage::Material>& materials = group->asset_->character.materials;
                 doubleSided.push_back(run.material < materials.size() && materials[run.material].doubleSided);
             }
-            const std::optional<uint32_t> first = group->view_->takeRuns(tables.lod, doubleSided, windows);
+            const Result<uint32_t> first = group->view_->takeRuns(tables.lod, doubleSided, windows);
             if (!first) {
-                return Error{ErrorCode::limit, name + ": the view is full: its groups have more than " +
-                                                   std::to_string(kMaxRuns) + " runs of patches"};
+                return Error{first.error().code, name + ": " + first.error().message};
             }
             group->firstRun_ = *first;
             group->hasRuns_ = true;
@@ -607,7 +606,7 @@ void Group::fillOutput() {
     };
     const VkDeviceSize firstDraw = VkDeviceSize{firstRun_} * kCapacityCount;
     o.indirect = words(kLodDraws + 5 * firstDraw, lodDraws_.size(), sizeof(VkDrawIndexedIndirectCommand));
-    o.lodBuckets = words(kLodBuckets + 4 * firstDraw, lodDraws_.size(), 16);
+    o.lodBuckets = words(kLodBuckets + 4 * VkDeviceSize{firstRun_} * kLodBucketStride, lodDraws_.size(), 16);
     o.lodPatches =
         words(kLodRecords, (view_->size(View::kWords) / 4 - kLodRecords) / kLodRecordWords, kLodRecordWords * 4);
 }

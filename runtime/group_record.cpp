@@ -274,6 +274,7 @@ LodPush Group::levelPush(const Window& window) const {
     push.scratchStride = scratchElements();
     push.firstRun = firstRun_ + window.index * runs;
     push.runCount = runs;
+    push.firstBucket = firstRun_ * kLodBucketStride + window.index * runs * kCapacityCount;
     if (view_->leavesBackFaces() && push.camera.orthographic != 0) {
         std::copy_n(view_->direction().begin(), 3, push.camera.position);
     }

@@ -12,7 +12,7 @@ namespace supple::surface {
 
 using namespace shared;
 
-static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16);
+static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16 && sizeof(ListDraw) == 16);
 static_assert(std::max(sizeof(BoundsPush), sizeof(ListPush)) <= gpu::kPushConstantBytes);
 
 namespace {
@@ -40,17 +40,16 @@ float boundsMargin(SchemeId scheme, const cage::Cage& cage) {
     }
 }
 
-std::vector<uint32_t> listTable(std::span<const ListWindow> windows, std::span<const ListArgument> arguments) {
-    std::vector<uint32_t> words;
-    words.reserve(4 * (windows.size() + arguments.size()));
-    for (const ListWindow& window : windows) {
-        words.insert(words.end(), {window.firstEntry, window.entries, window.firstSlot, window.target});
-    }
-    for (const ListArgument& argument : arguments) {
-        words.insert(words.end(),
-                     {argument.elements, argument.perGroup, static_cast<uint32_t>(argument.count), argument.target});
-    }
-    return words;
+size_t listTableBytes(size_t windows, size_t arguments, size_t draws) {
+    return windows * sizeof(ListWindow) + arguments * sizeof(ListArgument) + draws * sizeof(ListDraw);
+}
+
+void writeListTable(std::span<const ListWindow> windows, std::span<const ListArgument> arguments,
+                    std::span<const ListDraw> draws, std::byte* target) {
+    const auto put = [&](std::span<const std::byte> bytes) { target = std::copy(bytes.begin(), bytes.end(), target); };
+    put(std::as_bytes(windows));
+    put(std::as_bytes(arguments));
+    put(std::as_bytes(draws));
 }
 
 std::array<float, 24> frustumPlanes(const std::array<float, 16>& columns) {

@@ -74,6 +74,9 @@ Result<Tables> buildScheme(const Recipe& recipe, const cage::Cage& cage) {
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     Result<Tables> tables = buildScheme(recipe, cage);
+    if (tables && tables->patches.empty()) {
+        return Error{ErrorCode::asset, "every face is a hole: there is no surface"};
+    }
     if (tables && !recipe.attributes && !tables->ranges.empty()) {
         // They come last (finishTables).
         tables->words.resize(size_t{4} * tables->ranges.front().attributes);

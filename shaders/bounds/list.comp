@@ -76,15 +76,12 @@ void storeDispatch(uint at, uint elements, uint perGroup) {
     argumentWords[at + 2u] = 1u;
 }
 
-// Lanes share the arguments of a window, or of the group.
-void storeArguments(uvec4 counts, bool ofGroup, uint offset) {
+// Lanes share the arguments of a window, of all of its instances or of those at a rate.
+void storeArguments(uint which, uint instances, uint window) {
     for (uint i = gl_LocalInvocationID.x; i < push.argumentCount; i += gl_WorkGroupSize.x) {
         uvec4 argument = tableElements[push.windowCount + i];
-        if ((argument.z == kCountAll) != ofGroup || argument.z >= kCountRate) continue;
-        uint instances = argument.z == kCountWithPast ? counts.x : argument.z == kCountNew ? counts.y : counts.x + counts.y;
-        uint elements = argument.x * instances, at = argument.w + offset;
-        if (argument.y == 0u) argumentWords[at] = elements;
-        else storeDispatch(at, elements, argument.y);
+        if (argument.z == which)
+            storeDispatch(argument.w + push.argumentStride * window, argument.x * instances, argument.y);
     }
 }
 
@@ -126,11 +123,7 @@ void listRates(uint leftOut) {
             places[r] = list + before + uvec2(totals[r], window.w);
             totals[r] += count;
             if (lane == 0u) argumentWords[push.rateCounts + r * push.windowCount + w] = count;
-            for (uint i = lane; i < push.argumentCount; i += lanes) {
-                uvec4 argument = tableElements[push.windowCount + i];
-                if (argument.z == kCountRate + r)
-                    storeDispatch(argument.w + push.argumentStride * w, argument.x * count, argument.y);
-            }
+            storeArguments(kCountRate + r, count, w);
         }
         barrier();
         for (uint i = run.x; i < run.y; ++i) {
@@ -194,10 +187,9 @@ void main() {
             states[slot].y = drawn ? 1u : 0u;
         }
         if (lane == 0u) storeHeader(kListHeaderWords * (w + 1u), counts, window.y);
-        storeArguments(counts, false, push.argumentStride * w);
+        storeArguments(kCountWindow, counts.x + counts.y, w);
         total += counts;
         listed += window.y;
     }
     if (lane == 0u) storeHeader(0u, total, listed);
-    storeArguments(total, true, 0u);
 }

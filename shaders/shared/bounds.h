@@ -19,8 +19,8 @@
 // Between the two, `occlude` may take more instances out of sight, by a depth pyramid.
 // Table (uvec4 elements): windows, then arguments, then draws.
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
-//   argument   (elements an instance, elements a workgroup or 0 for a draw, ListCount, word in the argument buffer); those of
-//              window w stand argumentStride * w words further. A dispatch is (x, y, 1), a draw its instance count alone
+//   argument   of a dispatch (x, y, 1): (elements an instance, elements a workgroup, which instances it counts, word in the
+//              argument buffer); those of window w stand argumentStride * w words further
 //   draw       (indices, first index, patches an instance, rate): a whole VkDrawIndexedIndirectCommand for all windows
 // Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded; the same
 // of every window; then as the table says.
@@ -87,12 +87,9 @@ struct SizePush {
 };
 
 // Which instances an argument counts.
-SUPPLE_SHARED_CONST kCountWindow = 0u;
-SUPPLE_SHARED_CONST kCountWithPast = 1u; // of the window
-SUPPLE_SHARED_CONST kCountNew = 2u;      // of the window
-SUPPLE_SHARED_CONST kCountAll = 3u;      // of the group; written once
-SUPPLE_SHARED_CONST kCountRate = 4u;     // of the window at this rate; the next at the next one
-SUPPLE_SHARED_CONST kMaxRates = 7u;      // 1, 2, 4 .. 64 segments along an edge
+SUPPLE_SHARED_CONST kCountWindow = 0u; // all of the window
+SUPPLE_SHARED_CONST kCountRate = 1u;   // of the window at this rate; the next at the next one
+SUPPLE_SHARED_CONST kMaxRates = 7u;    // 1, 2, 4 .. 64 segments along an edge
 
 struct ListPush {
     uint windowCount;
