@@ -51,7 +51,12 @@ uvec2 demand(float x) {
                     add(sum, weight, formSamples(f, capacityOf(capacityOfBin(bin, push.elasticity[p] * x))));
             }
         }
+        if (push.rated == 0u) continue;
+        for (uint bin = lane; bin < kRatedBins; bin += gl_WorkGroupSize.x) {
+            if (float(bin) > push.elasticity[p] * x) add(sum, lodWords[kLodRatedMore + p * kRatedBins + bin], kSplitUnit);
+        }
     }
+    if (push.rated != 0u && lane == 0u) add(sum, lodWords[kLodRated], kSplitUnit);
     sumHigh[lane] = sum.x;
     sumLow[lane] = sum.y;
     barrier();
@@ -127,11 +132,18 @@ void main() {
         }
         for (uint i = lane; i < kLodForms * kLodBinStride; i += gl_WorkGroupSize.x)
             lodWords[kLodSplit + p * kLodForms * kLodBinStride + i] = 0u;
+        for (uint i = lane; push.rated != 0u && i < kRatedBins; i += gl_WorkGroupSize.x)
+            lodWords[kLodRatedMore + p * kRatedBins + i] = 0u;
     }
     barrier();
 
     // Where buckets begin. One lane: there are some hundred, and their counts lie in shared memory.
     if (lane == 0u) {
+        uint room = push.room;
+        if (push.rated != 0u) { // where levels fall short, rates are at their coarsest
+            room -= min(room, lodWords[kLodRated]);
+            lodWords[kLodRated] = 0u;
+        }
         uint record = 0u, vertex = 0u, group = 0u, patches = 0u, counted = 0u, last = kEmptyRecord;
         for (uint run = 0u; run < push.runCount; ++run) {
             uint info = lodWords[kLodRuns + run], form = info & 255u, dispatch = info >> 8u;
@@ -147,9 +159,9 @@ void main() {
                 lodWords[kLodBuckets + 4u * b + 3u] = group;
                 uint whole = padded(counts[b], samples), each = patchesPerGroup(samples);
                 counted += counts[b];
-                if (shortfall && whole * samples > push.room - vertex) {
+                if (shortfall && whole * samples > room - vertex) {
                     uint n = patchesPerDraw(samples);
-                    whole = (push.room - vertex) / (n * samples) * n;
+                    whole = (room - vertex) / (n * samples) * n;
                     counts[b] = min(counts[b], whole);
                 }
                 record += whole;
@@ -164,7 +176,7 @@ void main() {
         lodWords[kLodSolution + 3u] = shortfall ? 1u : 0u;
         for (uint p = 0u; p < kPriorityCount; ++p)
             lodWords[kLodSolution + 4u + p] =
-                shortfall ? 0u : floatBitsToUint(exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
+                floatBitsToUint(shortfall ? 0.0 : x == 0.0 ? 1.0 : exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
         lodWords[kLodBuckets + 4u * buckets] = record;
         lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
         lodWords[kLodSolution + 9u] = counted;

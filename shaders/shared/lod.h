@@ -15,6 +15,8 @@
 //   buckets       by run and capacity: four words (LodBucket); one more tells where the last one's records end
 //   dispatches    eight words each (LodDispatch)
 //   draws         by run and capacity: VkDrawIndexedIndirectCommand
+//   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their coarsest;
+//                 then by priority and bin what finer rates have more, which counts while the bin is above elasticity x
 //   records       sixteen words a patch that is drawn, those of a bucket one after the other, filled up with empty ones
 //                 to whole draw instances: (patch in device order, or kEmptyRecord; slot | kInstanceIsNew; first
 //                 vertex; capacity index), then pairs (a, 1 / L) as float bits: quads u, v inside, then edges 0..3;
@@ -67,7 +69,10 @@ SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBi
 SUPPLE_SHARED_CONST kLodBuckets = kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kLodDispatches = kLodBuckets + 4u * (kMaxRuns * kCapacityCount + 1u);
 SUPPLE_SHARED_CONST kLodDraws = kLodDispatches + 8u * kMaxRuns;
-SUPPLE_SHARED_CONST kLodRecords = kLodDraws + 5u * kMaxRuns * kCapacityCount;
+SUPPLE_SHARED_CONST kLodRated = kLodDraws + 5u * kMaxRuns * kCapacityCount;
+SUPPLE_SHARED_CONST kRatedBins = 516u; // kBinsPerOctave an octave above the level a rate is enough for
+SUPPLE_SHARED_CONST kLodRatedMore = kLodRated + 4u;
+SUPPLE_SHARED_CONST kLodRecords = kLodRatedMore + kPriorityCount * kRatedBins;
 SUPPLE_SHARED_CONST kLodRecordWords = 16u;
 
 SUPPLE_SHARED_CONST kEmptyRecord = 0xFFFFFFFFu;
@@ -75,7 +80,7 @@ SUPPLE_SHARED_CONST kNoBin = 0xFFFFFFFFu; // the patch is not drawn
 
 struct LodSolution {
     float x;        // of the budget: levels are scaled by 2^(-elasticity x / kBinsPerOctave)
-    uint vertices;  // written this frame, padding included
+    uint vertices;  // written this frame, padding included, and those of rates where they count
     uint patches;   // drawn
     uint shortfall; // 1 where scaling by elasticity is not enough: all levels are 1, and what has no room is left out
     float scale[4]; // of levels, by priority
@@ -125,6 +130,7 @@ struct LodSolvePush {
     uint room;     // with it
     uint priorities, forms; // bits of those in use
     uint maxGroups;         // of a dispatch in x
+    uint rated;             // 1: rates count
     float elasticity[4];
 };
 
