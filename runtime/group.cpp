@@ -444,6 +444,9 @@ Status Group::createCulling() {
     desc.words = view_->buffer(View::kWords);
     // Rates count along edges of the cage, levels along those of patches.
     desc.measure = surface::lod::measureInstance(cage, hasLevels() ? tables.isolationSteps : 0);
+    if (scheme_->recipe.scheme == SchemeId::blend) {
+        desc.measure.bend *= 2.0f; // curves that interpolate bend unevenly: found by LodCrowds.OneLevelAnInstance
+    }
     for (const surface::LodTables::Run& run : tables.lod.runs) {
         desc.leastVertices += run.patchCount * surface::lod::sampleCount(surface::lod::formOf(run.patchClass), 1);
     }
