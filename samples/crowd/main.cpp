@@ -135,7 +135,8 @@ void run(const Options& options) {
         }
         char line[80];
         std::snprintf(line, sizeof line, "host %.2f ms, frame %.1f ms", hostMilliseconds, frameMilliseconds);
-        report.emplace_back(line);
+        if (ended > 0) // as a whole, from the end of the frame before to its own
+            report.emplace_back(line);
         const Clock::time_point begun = Clock::now();
         const crowd::Camera camera = cameraAt(time, crowd.reach(), extent);
         crowd.update(time, camera);

@@ -143,20 +143,23 @@ Recorded recordOf(CrowdContext& context, const CommandCase& c, uint32_t visible,
                 {wrapped.dispatches, wrapped.indirectDispatches, wrapped.barriers, wrapped.copies, wrapped.fills});
         }
         const SuppleGroupOutput output = crowd.output();
-        for (uint32_t slot = 0; slot < visible && !c.view; ++slot) {
-            const auto take = [&](const SuppleBufferView& buffer, uint32_t count) {
-                std::vector<std::byte> bytes = crowd.slotBytes(buffer, slot);
-                EXPECT_GE(bytes.size(), size_t{count} * buffer.stride);
-                bytes.resize(size_t{count} * buffer.stride); // without padding
-                recorded.outputs.push_back(std::move(bytes));
-            };
+        const auto take = [&](const SuppleBufferView& buffer, uint32_t count) {
+            const std::vector<std::byte> bytes = crowd.read(buffer);
+            const size_t each = bytes.size() / output.capacity, own = size_t{count} * buffer.stride; // without padding
+            EXPECT_GE(each, own);
+            for (size_t first = 0; first < visible * each && own > 0; first += each) {
+                const auto begin = bytes.begin() + static_cast<ptrdiff_t>(first);
+                recorded.outputs.emplace_back(begin, begin + static_cast<ptrdiff_t>(own));
+            }
+        };
+        if (!c.view) {
             take(output.deformedCage, output.cageVertexCount);
-            if (c.scheme != SUPPLE_SCHEME_CAGE) {
-                take(output.surfaceVertices, output.vertexCount);
-            }
-            if ((c.flags & SUPPLE_GROUP_MOTION) != 0) {
-                take(output.previousPositions, output.vertexCount);
-            }
+        }
+        if (!c.view && c.scheme != SUPPLE_SCHEME_CAGE) {
+            take(output.surfaceVertices, output.vertexCount);
+        }
+        if (!c.view && (c.flags & SUPPLE_GROUP_MOTION) != 0) {
+            take(output.previousPositions, output.vertexCount);
         }
         if ((c.flags & SUPPLE_GROUP_ATTRIBUTES) != 0 && !c.view) {
             std::vector<std::byte> bytes = crowd.read(output.attributes);
