@@ -90,14 +90,14 @@ void finish(Row row, vec2 u, out vec3 position, out vec3 normal) {
               blend4(b5.outer, row.outerV[0], row.outerV[1], row.outerV[2], row.outerV[3]);
     }
     position = p;
-    normal = unitNormal(cross(du, dv)); // outwards
+    normal = cross(du, dv); // outwards
 }
 
 vec3 cornerNormal(vec3 normal, uint i, uint j, uint rate, uvec4 slots, uint base) {
     bool left = i == 0u, right = i == rate, bottom = j == 0u, top = j == rate;
     if (!((left || right) && (bottom || top))) return normal;
     uint slot = bottom ? (left ? slots.x : slots.y) : (left ? slots.w : slots.z);
-    return slot == kNoNormal ? normal : unitNormal(poolVector(base + slot));
+    return slot == kNoNormal ? normal : poolVector(base + slot);
 }
 
 // Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
