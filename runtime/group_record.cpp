@@ -164,8 +164,7 @@ Group::PassCost Group::recordSeen(VkCommandBuffer commandBuffer, uint32_t room) 
     if (!culls()) {
         return {};
     }
-    // Vertices of their own need nobody's room.
-    culling_.recordList(commandBuffer, hasLevels() ? room : kRoomForAll);
+    culling_.recordList(commandBuffer, isBudgeted() ? room : kRoomForAll);
     return {0, 0, true};
 }
 
@@ -303,6 +302,11 @@ Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
 }
 
 Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
+    if (hasRates() && isBudgeted()) {
+        gpu::computeBarrier(*shared_.device, commandBuffer);
+        culling_.recordDemand(commandBuffer, visible_);
+        return {0, 0, visible_ > 0};
+    }
     if (!hasLevels()) {
         return {};
     }
@@ -317,6 +321,11 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
 }
 
 Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
+    if (hasRates()) {
+        gpu::computeBarrier(*shared_.device, commandBuffer);
+        culling_.recordRates(commandBuffer, isBudgeted());
+        return {0, 0, visible_ > 0};
+    }
     if (!hasLevels()) {
         return {};
     }

@@ -90,7 +90,8 @@ struct Sample {
     vec4 color, more;
 };
 Sample blended(float a, Sample x, float b, Sample y) {
-    return Sample(a * x.uv + b * y.uv, a * x.color + b * y.color, a * x.more + b * y.more);
+    precise Sample s = Sample(a * x.uv + b * y.uv, a * x.color + b * y.color, a * x.more + b * y.more);
+    return s;
 }
 Sample atCorner(Corners c, uint k) { return Sample(c.uv[k], c.color[k], c.more[k]); }
 
