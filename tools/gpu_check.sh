@@ -145,7 +145,7 @@ if wanted tests; then
 fi
 if wanted bench; then
     bench=("$supple" bench "${device[@]}" --json "$out/bench.json")
-    [ "$quick" = no ] || bench+=(--quick --cages sphere --schemes pm)
+    [ "$quick" = no ] || bench+=(--quick --cages pip_quads --schemes pm --crowd "$instances" --no-loading)
     run bench "$out/bench.txt" 2400 "${bench[@]}" || true
 fi
 if wanted profile; then

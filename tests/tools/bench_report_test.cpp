@@ -142,8 +142,13 @@ TEST(BenchTargets, LoadingAndPipelines) {
     load("loop", 6.0, 7.0);
     load("blend", 4.0, 5.1);
     const auto create = [&](const char* use, double cold, double warm, int late) {
-        result["pipelines"].push_back(
-            {{"scheme", "pm"}, {"use", use}, {"coldMs", cold}, {"warmMs", warm}, {"createdWhileRecording", late}});
+        result["pipelines"].push_back({{"scheme", "pm"},
+                                       {"use", use},
+                                       {"coldMs", 9 * cold},
+                                       {"warmMs", 9 * warm},
+                                       {"coldCpuMs", cold},
+                                       {"warmCpuMs", warm},
+                                       {"createdWhileRecording", late}});
     };
     create("", 400.0, 40.0, 1);
     create("in a view", 600.0, 20.0, 0);
@@ -157,9 +162,9 @@ TEST(BenchTargets, LoadingAndPipelines) {
                                             "load until the first frame is recorded, us a face | pip, loop",
                                             "load until the first frame is done, us a face | pip, loop",
                                             "load until the first frame is done, us a face | pip, blend",
-                                            "pipelines created with a warm cache, ms | pm",
+                                            "pipelines created with a warm cache, CPU ms | pm",
                                             "pipelines created while recording | pm",
-                                            "pipelines created cold, ms | pm in a view"};
+                                            "pipelines created cold, CPU ms | pm in a view"};
     EXPECT_EQ(missed, expected);
 }
 

@@ -160,8 +160,9 @@ TEST_F(Bench, QuickRunIsWhole) {
     }
     std::set<std::string> uses;
     for (const std::string scheme : {"prep", "pm", "catmull-clark", "loop", "blend"}) {
-        uses.insert({scheme + ", ", scheme + ", in a view"});
+        uses.insert(scheme + ", ");
     }
+    uses.insert("pm, in a view");
     EXPECT_EQ(compiled, uses);
     EXPECT_FALSE(result["targets"].empty());
     EXPECT_FALSE(std::filesystem::exists(file("plots/bench_sphere_points.svg"))) << "one rate makes no line";

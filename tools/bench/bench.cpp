@@ -47,7 +47,7 @@ public:
         if (status) {
             status = heats();
         }
-        if (status) {
+        if (status && options_.loading) {
             status = load();
         }
         if (!status) {
@@ -307,6 +307,9 @@ Status Run::load() {
 
 Status Run::pipelines(const BenchCage& cage, SuppleScheme scheme) {
     for (const PipelineUse use : {PipelineUse::plain, PipelineUse::inView}) {
+        if (use == PipelineUse::inView && options_.quick && scheme != SUPPLE_SCHEME_PM) {
+            continue; // drivers take seconds to compile them
+        }
         std::fprintf(stderr, "\rpipelines of %s   ", schemeName(scheme));
         const Result<Pipelines> made = measurePipelines(device_, options_.mapping, cage, scheme, use);
         if (!made) {
@@ -323,6 +326,8 @@ Status Run::pipelines(const BenchCage& cage, SuppleScheme scheme) {
                                         {"count", made->pipelines.size()},
                                         {"coldMs", made->cold},
                                         {"warmMs", made->warm},
+                                        {"coldCpuMs", made->coldCpu},
+                                        {"warmCpuMs", made->warmCpu},
                                         {"coldFirstFrameMs", made->coldFirstFrame},
                                         {"coldSecondFrameMs", made->coldSecondFrame},
                                         {"warmFirstFrameMs", made->warmFirstFrame},

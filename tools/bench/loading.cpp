@@ -178,6 +178,7 @@ Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, 
                 result.pipelines[i].warm = milliseconds;
             }
             (warm ? result.warm : result.cold) += milliseconds;
+            (warm ? result.warmCpu : result.coldCpu) += 1e3 * seen.cpuSeconds;
         }
     }
     vkDestroyPipelineCache(device.handle(), cache, nullptr);

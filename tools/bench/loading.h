@@ -43,6 +43,7 @@ struct Pipelines {
     std::string cage, scheme;
     std::vector<PipelineTime> pipelines;
     double cold = 0.0, warm = 0.0;                     ///< milliseconds, all of them
+    double coldCpu = 0.0, warmCpu = 0.0;               ///< of these, CPU time of the process
     double coldFirstFrame = 0.0, warmFirstFrame = 0.0; ///< submit to end: drivers that compile at first use do it here
     double coldSecondFrame = 0.0, warmSecondFrame = 0.0; ///< the same of the next frame
     uint32_t createdWhileRecording = 0;
