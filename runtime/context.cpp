@@ -8,6 +8,16 @@ namespace supple::runtime {
 
 namespace {
 
+Timings::Shortfall shortfallOf(const View& view, uint64_t frame) {
+    const std::optional<SuppleViewStatistics> statistics = view.statisticsOf(frame);
+    if (!statistics || statistics->shortfall == 0) {
+        return {};
+    }
+    const uint32_t lacking =
+        statistics->wantedVertexCount - std::min(statistics->wantedVertexCount, statistics->vertexCount);
+    return {true, statistics->droppedInstanceCount, uint64_t{lacking} * view.vertexBytes()};
+}
+
 gpu::MemorySource memorySourceOf(const SuppleMemoryCallbacks& callbacks) {
     gpu::MemorySource source;
     source.allocate = [callbacks](const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
@@ -109,12 +119,25 @@ Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
     frame_ = frame;
     completedFrame_ = completedFrame;
     frameOpen_ = true;
+    // Before anything is freed: what was timed may be of views that go now.
+    Status timed = timings.beginFrame(
+        frame, completedFrame,
+        [this](const View* timedView, uint64_t timedFrame) {
+            Timings::Shortfall shortfall;
+            forViews([&](View& view) {
+                if (&view == timedView) {
+                    shortfall = shortfallOf(view, timedFrame);
+                }
+            });
+            return shortfall;
+        },
+        [this](const char* text) {
+            if (log_ != nullptr) {
+                log_(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_BUDGET, text, logUser_);
+            }
+        });
     retire(completedFrame);
-    return timings.beginFrame(frame, completedFrame, [this](const char* text) {
-        if (log_ != nullptr) {
-            log_(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_BUDGET, text, logUser_);
-        }
-    });
+    return timed;
 }
 
 template <class F>

@@ -82,8 +82,8 @@ private:
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     skinning::DeformPass deform_;
-    std::unique_ptr<surface::BoundsPass> bounds_;       ///< made by the first view that culls
-    std::unique_ptr<surface::OcclusionPass> occlusion_; ///< and with occlusion
+    std::unique_ptr<surface::BoundsPass> bounds_;       ///< made by the first view
+    std::unique_ptr<surface::OcclusionPass> occlusion_; ///< and by the first with occlusion
     std::unique_ptr<skinning::PosePass> pose_;          ///< made for the first group that plays on the device
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;

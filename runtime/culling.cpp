@@ -1,7 +1,6 @@
 #include "runtime/culling.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace supple::runtime {
 
@@ -24,7 +23,7 @@ uint32_t Culling::rateStride() const {
 }
 
 VkDeviceSize Culling::tableBytes() const {
-    return (windows_ + arguments_.size() + draws_.size()) * kElementBytes;
+    return surface::listTableBytes(windows_, arguments_.size(), draws_.size());
 }
 
 Result<Culling> Culling::create(const Desc& desc) {
@@ -35,14 +34,20 @@ Result<Culling> Culling::create(const Desc& desc) {
     culling.capacity_ = desc.capacity;
     culling.windowSize_ = desc.windowSize;
     culling.windows_ = desc.windows;
+    culling.listed_.resize(desc.windows);
+    const auto addDispatch = [&](uint32_t elements, uint32_t perGroup, uint32_t count) {
+        const auto dispatches = static_cast<uint32_t>(culling.arguments_.size());
+        culling.arguments_.push_back({elements, perGroup, count, culling.headerWords() + 3 * dispatches});
+    };
     for (const uint32_t elements : desc.elements) {
-        culling.arguments_.push_back({elements, desc.device->mapping.localSize, kCountWindow});
+        addDispatch(elements, desc.device->mapping.localSize, kCountWindow);
     }
     culling.firstRate_ = desc.firstRate;
     for (uint32_t r = 0; r < desc.rates.size(); ++r) {
+        culling.rateVertices_[r] = desc.rates[r].vertices;
         culling.firstDispatches_.push_back(static_cast<uint32_t>(culling.arguments_.size()));
         for (const surface::DispatchSize& dispatch : desc.rates[r].dispatches) {
-            culling.arguments_.push_back({dispatch.elements, dispatch.perGroup, kCountRate + r});
+            addDispatch(dispatch.elements, dispatch.perGroup, kCountRate + r);
         }
         for (const SuppleDrawRange& draw : desc.rates[r].draws) {
             culling.draws_.push_back({draw.indexCount, draw.firstIndex, draw.patchCount, r});
@@ -120,6 +125,7 @@ Status Culling::createSets(const Desc& desc) {
             {kListTableBinding, whole(buffers_.buffer(kTable)), VK_NULL_HANDLE},
             {kCullViewBinding, whole(desc.view), VK_NULL_HANDLE},
             {kSizeBinding, whole(desc.sizes), VK_NULL_HANDLE},
+            {kViewWordsBinding, whole(desc.words), VK_NULL_HANDLE},
         };
         if (status) {
             gpu::writeSet(device, *set, resources);
@@ -154,22 +160,13 @@ Status Culling::createOcclusionSets(const Desc& desc, VkBufferView hostList) {
     return success();
 }
 
-void Culling::writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target) const {
+void Culling::writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target) {
     uint32_t first = 0;
-    const auto put = [&](std::initializer_list<uint32_t> words) {
-        std::memcpy(target, words.begin(), words.size() * kWordBytes);
-        target += words.size() * kWordBytes;
-    };
     for (uint32_t w = 0; w < windows_; ++w) {
-        put({first, windows[w].count, w * windowSize_, capacity_ + w * windowSize_});
+        listed_[w] = {first, windows[w].count, w * windowSize_, capacity_ + w * windowSize_};
         first += windows[w].count;
     }
-    for (uint32_t i = 0; i < arguments_.size(); ++i) {
-        put({arguments_[i].elements, arguments_[i].perGroup, arguments_[i].count, headerWords() + 3 * i});
-    }
-    for (const std::array<uint32_t, 4>& draw : draws_) {
-        put({draw[0], draw[1], draw[2], draw[3]});
-    }
+    surface::writeListTable(listed_, arguments_, draws_, target);
 }
 
 void Culling::recordClear(VkCommandBuffer commandBuffer) const {
@@ -214,6 +211,23 @@ void Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
     push.windowCount = windows_;
     push.argumentCount = static_cast<uint32_t>(arguments_.size());
     push.argumentStride = argumentStride();
+    pass_->recordList(commandBuffer, sets_.front(), push);
+}
+
+void Culling::recordDemand(VkCommandBuffer commandBuffer, uint32_t listed) const {
+    DemandPush push{};
+    push.instanceCount = listed;
+    push.rateCount = rateCount();
+    push.firstRate = firstRate_;
+    std::ranges::copy(rateVertices_, push.vertices);
+    pass_->recordDemand(commandBuffer, sets_.front(), push);
+}
+
+void Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const {
+    RatesPush push{};
+    push.windowCount = windows_;
+    push.argumentCount = static_cast<uint32_t>(arguments_.size());
+    push.argumentStride = argumentStride();
     push.rateCount = rateCount();
     push.firstRate = firstRate_;
     push.rateLists = firstRateList();
@@ -221,7 +235,9 @@ void Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
     push.rateCounts = firstRateCount();
     push.firstDraw = firstDraw();
     push.drawCount = static_cast<uint32_t>(draws_.size());
-    pass_->recordList(commandBuffer, sets_.front(), push);
+    push.counted = counted ? 1 : 0;
+    std::ranges::copy(rateVertices_, push.vertices);
+    pass_->recordRates(commandBuffer, sets_.front(), push);
 }
 
 surface::Window Culling::window(uint32_t window, VkDescriptorSet set) const {

@@ -24,6 +24,7 @@ class Culling {
 public:
     /// What is dispatched and drawn for the instances of one rate.
     struct Rate {
+        uint32_t vertices = 0;                         ///< of an instance
         std::vector<surface::DispatchSize> dispatches; ///< of a window
         std::vector<SuppleDrawRange> draws;            ///< of all windows
     };
@@ -42,6 +43,7 @@ public:
         VkBuffer hostList = VK_NULL_HANDLE; ///< capacity entries, as shaders/shared/bounds.h has them
         VkBuffer view = VK_NULL_HANDLE;     ///< shared::CullView
         VkBuffer sizes = VK_NULL_HANDLE;    ///< of all groups of the view
+        VkBuffer words = VK_NULL_HANDLE;    ///< of the view (shaders/shared/lod.h)
         std::span<const uint32_t> elements; ///< lanes an instance, of the dispatches that follow
         uint32_t firstRate = 0;             ///< segments along an edge of the cage; the others twice as many each
         std::span<const Rate> rates;        ///< none where levels are real numbers
@@ -52,7 +54,7 @@ public:
 
     /// The table of the list pass, to be uploaded whenever the host's list changes.
     [[nodiscard]] VkDeviceSize tableBytes() const;
-    void writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target) const;
+    void writeTable(std::span<const InstanceSlots::Listed> windows, std::byte* target);
     [[nodiscard]] VkBuffer table() const { return buffers_.buffer(kTable); }
 
     /// Once, before anything else.
@@ -66,6 +68,10 @@ public:
     void recordSizes(VkCommandBuffer commandBuffer, uint32_t listed) const;
     /// `room`: vertices, or shared::kRoomForAll.
     void recordList(VkCommandBuffer commandBuffer, uint32_t room) const;
+    /// Where there are rates, behind the list: what `listed` instances of the host's list need in the budget.
+    void recordDemand(VkCommandBuffer commandBuffer, uint32_t listed) const;
+    /// Behind that and the view's solution: the lists of all rates. `counted`: the budget scales levels.
+    void recordRates(VkCommandBuffer commandBuffer, bool counted) const;
     [[nodiscard]] uint32_t leastVertices() const { return leastVertices_; }
     /// From an entry of the list to the level of its instance.
     [[nodiscard]] uint32_t levelOffset() const { return capacity_; }
@@ -91,9 +97,6 @@ private:
     enum BufferIndex : size_t { kBounds, kStates, kList, kTable, kBufferCount };
     [[nodiscard]] Status createSets(const Desc& desc);
     [[nodiscard]] Status createOcclusionSets(const Desc& desc, VkBufferView hostList);
-    struct Argument {
-        uint32_t elements = 0, perGroup = 0, count = 0; ///< as of shared/bounds.h
-    };
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(arguments_.size()); }
     [[nodiscard]] uint32_t rateCount() const { return static_cast<uint32_t>(firstDispatches_.size()); }
     /// Words of kList.
@@ -110,10 +113,12 @@ private:
     uint32_t capacity_ = 0, windowSize_ = 0, windows_ = 0;
     uint32_t leastVertices_ = 0;
     shared::BoundsPush push_{};
-    std::vector<Argument> arguments_;
+    std::vector<surface::ListWindow> listed_; ///< of the table written last
+    std::vector<surface::ListArgument> arguments_;
     uint32_t firstRate_ = 0;
-    std::vector<uint32_t> firstDispatches_;      ///< by rate, in arguments_
-    std::vector<std::array<uint32_t, 4>> draws_; ///< as of shared/bounds.h
+    std::array<uint32_t, shared::kMaxRates> rateVertices_{};
+    std::vector<uint32_t> firstDispatches_; ///< by rate, in arguments_
+    std::vector<surface::ListDraw> draws_;
     gpu::BufferSet buffers_;
     gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;

@@ -175,7 +175,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             return least <= view->room() ? shared::kRoomForAll : view->room();
         };
         for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            if (groupAt(g).view() != nullptr && roomOf(groupAt(g).view()) != shared::kRoomForAll) {
+            if (groupAt(g).isBudgeted() && roomOf(groupAt(g).view()) != shared::kRoomForAll) {
                 groupAt(g).recordSizes(commandBuffer);
                 computeBarrier();
             }
@@ -211,7 +211,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
                     priorities |= groupAt(h).view() == groupAt(g).view() ? groupAt(h).priorities() : 0;
                 }
                 groupAt(g).view()->recordSolve(commandBuffer, surface_.lod(), groupAt(g).anySet(), priorities);
-                timing.endPass(Pass::solve, desc.groups[g], 0, 0);
+                timing.endPass(Pass::solve, desc.groups[g], 0, 0, groupAt(g).view());
             }
         }
         device.endLabel(commandBuffer);
@@ -229,6 +229,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
                 groupAt(g).recordReadback(commandBuffer);
             }
         }
+        gpu::memoryBarrier(device, commandBuffer, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                           {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
         if (any([](Group& group) { return group.writesLodAttributes(); })) {
             pass(Pass::attributes, [&](Group& group) { return group.recordLodAttributes(commandBuffer); });
         }

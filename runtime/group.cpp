@@ -185,18 +185,17 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
                 const std::vector<cage::Material>& materials = group->asset_->character.materials;
                 doubleSided.push_back(run.material < materials.size() && materials[run.material].doubleSided);
             }
-            const std::optional<uint32_t> first = group->view_->takeRuns(tables.lod, doubleSided, windows);
+            const Result<uint32_t> first = group->view_->takeRuns(tables.lod, doubleSided, windows);
             if (!first) {
-                return Error{ErrorCode::limit, name + ": the view is full: its groups have more than " +
-                                                   std::to_string(kMaxRuns) + " runs of patches"};
+                return Error{first.error().code, name + ": " + first.error().message};
             }
             group->firstRun_ = *first;
             group->hasRuns_ = true;
         } else if (group->hasRates()) {
-            group->hasRuns_ = group->view_->takeGroup();
+            group->hasRuns_ = group->view_->takeGroup(vertices * desc.capacity);
             if (!group->hasRuns_) {
                 return Error{ErrorCode::limit, name + ": the view is full: it has " + std::to_string(kMaxRuns) +
-                                                   " groups of subdivision"};
+                                                   " groups of subdivision, or they have 2^32 vertices"};
             }
         }
         group->slots_ = InstanceSlots(desc.capacity, shared.firstGeneration);
@@ -264,7 +263,7 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
 
 Group::~Group() {
     if (hasRuns_ && hasRates()) {
-        view_->giveGroup();
+        view_->giveGroup(uint64_t{vertexCount_} * capacity_);
     } else if (hasRuns_) {
         view_->giveRuns(firstRun_, static_cast<uint32_t>(scheme_->tables.lod.runs.size() * windows_.size()));
     }
@@ -441,9 +440,17 @@ Status Group::createCulling() {
     desc.hostList = buffers_.buffer(kInstances);
     desc.view = view_->buffer(View::kCull);
     desc.sizes = view_->buffer(View::kSizes);
-    desc.measure = surface::lod::measureInstance(cage);
+    desc.words = view_->buffer(View::kWords);
+    // Rates count along edges of the cage, levels along those of patches.
+    desc.measure = surface::lod::measureInstance(cage, hasLevels() ? tables.isolationSteps : 0);
+    if (scheme_->recipe.scheme == SchemeId::blend) {
+        desc.measure.bend *= 2.0f; // curves that interpolate bend unevenly: found by LodCrowds.OneLevelAnInstance
+    }
     for (const surface::LodTables::Run& run : tables.lod.runs) {
         desc.leastVertices += run.patchCount * surface::lod::sampleCount(surface::lod::formOf(run.patchClass), 1);
+    }
+    if (hasRates()) {
+        desc.leastVertices = rates.front().vertices;
     }
     desc.elements = elements;
     desc.firstRate = 1u << tables.isolationSteps;
@@ -607,7 +614,7 @@ void Group::fillOutput() {
     };
     const VkDeviceSize firstDraw = VkDeviceSize{firstRun_} * kCapacityCount;
     o.indirect = words(kLodDraws + 5 * firstDraw, lodDraws_.size(), sizeof(VkDrawIndexedIndirectCommand));
-    o.lodBuckets = words(kLodBuckets + 4 * firstDraw, lodDraws_.size(), 16);
+    o.lodBuckets = words(kLodBuckets + 4 * VkDeviceSize{firstRun_} * kLodBucketStride, lodDraws_.size(), 16);
     o.lodPatches =
         words(kLodRecords, (view_->size(View::kWords) / 4 - kLodRecords) / kLodRecordWords, kLodRecordWords * 4);
 }

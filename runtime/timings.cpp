@@ -22,6 +22,7 @@ Status Timings::create(const gpu::Device& device, uint32_t framesInFlight) {
         auto slot = std::make_unique<Slot>();
         slot->entries.resize(SUPPLE_MAX_TIMINGS);
         slot->marks.resize(SUPPLE_MAX_TIMINGS);
+        slot->solved.resize(SUPPLE_MAX_TIMINGS);
         if (timestamps_) {
             // A pass ends with a mark and begins with the one before; each suppleRecord adds one.
             Result<gpu::Timers> timers = gpu::Timers::create(device, 2 * SUPPLE_MAX_TIMINGS, "supple timings");
@@ -39,7 +40,7 @@ double Timings::nanoseconds(uint64_t ticks) const {
     return static_cast<double>((ticks - origin_) & tickMask_) * tickPeriod_;
 }
 
-Result<bool> Timings::collect(Slot& slot) {
+Result<bool> Timings::collect(Slot& slot, const std::function<Shortfall(const View*, uint64_t)>& shortfall) {
     const size_t count = std::min<size_t>(slot.count.load(), SUPPLE_MAX_TIMINGS);
     if (timestamps_) {
         const Result<std::span<const gpu::Timers::Tick>> ticks = slot.timers.read();
@@ -61,11 +62,22 @@ Result<bool> Timings::collect(Slot& slot) {
             slot.entries[i].gpuEnd = nanoseconds(at(slot.marks[i]).value);
         }
     }
-    latest_.assign(slot.entries.begin(), slot.entries.begin() + static_cast<ptrdiff_t>(count));
+    latest_.clear();
+    for (size_t i = 0; i < count && latest_.size() < SUPPLE_MAX_TIMINGS; ++i) {
+        latest_.push_back(slot.entries[i]);
+        const Shortfall own = slot.solved[i] != nullptr ? shortfall(slot.solved[i], slot.frame) : Shortfall{};
+        if (own.any && latest_.size() < SUPPLE_MAX_TIMINGS) {
+            const SuppleTiming& solve = slot.entries[i];
+            latest_.push_back(
+                {"shortfall", solve.group, solve.frame, solve.gpuEnd, solve.gpuEnd, 0.0, own.instances, own.bytes});
+        }
+    }
     return true;
 }
 
-Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame, const std::function<void(const char*)>& warn) {
+Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame,
+                           const std::function<Shortfall(const View*, uint64_t)>& shortfall,
+                           const std::function<void(const char*)>& warn) {
     Status status = success();
     // In the order of frames, so that each is counted when several have completed since the last call.
     const auto oldest = [&]() -> Slot* {
@@ -79,7 +91,7 @@ Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame, const std::f
     };
     while (Slot* const slot = oldest()) {
         if (slot->count.load() > 0) {
-            const Result<bool> collected = collect(*slot);
+            const Result<bool> collected = collect(*slot, shortfall);
             if (!collected) {
                 status = collected.error();
             } else if (*collected) {
@@ -104,7 +116,7 @@ Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t groupCo
     Recording recording;
     if (timestamps_) {
         const auto wanted = static_cast<uint32_t>(
-            std::min<uint64_t>(uint64_t{groupCount} * kPassCount, uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
+            std::min<uint64_t>(uint64_t{groupCount} * kMostEntries, uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
         if (!current_->timers.take(commandBuffer, wanted, recording.mark_)) {
             return recording;
         }
@@ -121,7 +133,7 @@ void Timings::Recording::beginPass() {
     }
 }
 
-void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint64_t points, uint64_t bytes) {
+void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint64_t points, uint64_t bytes, const View* solved) {
     if (timings_ == nullptr) {
         return;
     }
@@ -137,6 +149,7 @@ void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint64_t points, 
     }
     slot.entries[entry] = {passName(pass), group, slot.frame, 0.0, 0.0, cpu, points, bytes};
     slot.marks[entry] = mark_;
+    slot.solved[entry] = solved;
 }
 
 size_t Timings::budgetIndex(const char* pass) {

@@ -37,14 +37,24 @@ enum class Pass : uint32_t {
 };
 inline constexpr size_t kPassCount = static_cast<size_t>(Pass::count);
 [[nodiscard]] const char* passName(Pass pass);
+/// That a group can have in a frame: bounds comes again for occlusion, and level for patches.
+inline constexpr size_t kMostEntries = kPassCount + 2;
+
+class View;
 
 class Timings {
 public:
     [[nodiscard]] Status create(const gpu::Device& device, uint32_t framesInFlight);
 
-    /// Collects what completed frames measured; never waits. `warn` is told of passes that have come to exceed their
-    /// budget.
+    /// What a view's budget was not enough for in a frame.
+    struct Shortfall {
+        bool any = false;
+        uint64_t instances = 0, bytes = 0; ///< as of SuppleTiming's `shortfall`
+    };
+    /// Collects what completed frames measured; never waits. `shortfall` is asked of the views that endPass was told
+    /// of, `warn` is told of passes that have come to exceed their budget.
     [[nodiscard]] Status beginFrame(uint64_t frame, uint64_t completedFrame,
+                                    const std::function<Shortfall(const View*, uint64_t frame)>& shortfall,
                                     const std::function<void(const char*)>& warn);
     /// Forgets what the frame has recorded.
     void cancelFrame();
@@ -53,7 +63,8 @@ public:
     class Recording {
     public:
         void beginPass();
-        void endPass(Pass pass, SuppleGroup group, uint64_t points, uint64_t bytes);
+        /// `solved`: the view whose budget the pass has solved.
+        void endPass(Pass pass, SuppleGroup group, uint64_t points, uint64_t bytes, const View* solved = nullptr);
 
     private:
         friend class Timings;
@@ -79,10 +90,11 @@ private:
         uint64_t frame = 0;
         std::vector<SuppleTiming> entries; ///< SUPPLE_MAX_TIMINGS, of which `count` are in use
         std::vector<uint32_t> marks;       ///< per entry: the timestamp that ends it; the one before begins it
+        std::vector<const View*> solved;   ///< per entry, or null; not to be read: it may be gone
         std::atomic<uint32_t> count = 0;
     };
     /// Makes it the latest; false where the device has not written all of its timestamps.
-    [[nodiscard]] Result<bool> collect(Slot& slot);
+    [[nodiscard]] Result<bool> collect(Slot& slot, const std::function<Shortfall(const View*, uint64_t)>& shortfall);
     void judge(const std::function<void(const char*)>& warn);
     [[nodiscard]] double nanoseconds(uint64_t ticks) const;
     [[nodiscard]] static size_t budgetIndex(const char* pass);

@@ -19,10 +19,15 @@ static_assert(SUPPLE_GRID_QUAD == kLodQuadForm && SUPPLE_GRID_TRIANGLE_RINGS == 
               SUPPLE_GRID_QUAD_RINGS == kLodQuadRingsForm && SUPPLE_GRID_PENTAGON_RINGS == kLodPentagonForm);
 static_assert(SUPPLE_PRIORITY_COUNT == kPriorityCount);
 static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t));
+static_assert(kLodAlignment * 4 == 256 && kLodBuckets % kLodAlignment == 0 && kLodRecords % kLodAlignment == 0 &&
+              4 * kLodBucketStride % kLodAlignment == 0 && kLodBucketStride > kCapacityCount);
 
 constexpr uint32_t kMinSamples = 3;        ///< of a patch: a triangle at capacity 1
 constexpr uint32_t kPaddingOfRun = 3 * 64; ///< surface vertices that whole draw instances may cost a run
-constexpr uint32_t kFreeRun = 0xFFFFFF00u; ///< a run of no dispatch
+constexpr uint32_t kFreeRun = 0xFFFF0000u; ///< a run of no dispatch
+/// A patch counts kSplitUnit in 32 bits, and all that have room at their coarsest may fall into one bin.
+constexpr uint32_t kMostVertices = kMinSamples * (0xFFFFFFFFu / kSplitUnit + 1u);
+static_assert(kMostVertices == 50'331'648u);                                              // supple.h
 constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4;                  ///< of a group
 constexpr VkDeviceSize kReadbackBytes = sizeof(LodSolution) + 2 * kMaxRuns * kCountBytes; // with and without runs
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
@@ -31,6 +36,10 @@ constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
 
 Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t framesInFlight,
                                            const SuppleViewDesc& desc) {
+    if (desc.maxVertices > kMostVertices) {
+        return Error{ErrorCode::limit, "maxVertices is " + std::to_string(desc.maxVertices) + ": a view has at most " +
+                                           std::to_string(kMostVertices)};
+    }
     auto view = std::make_shared<View>();
     view->device_ = &device;
     view->framesInFlight_ = framesInFlight;
@@ -53,8 +62,7 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     requests[kCull] = {"supple view, frustum", sizeof(CullView), kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     requests[kSizes] = {"supple view, sizes", kSizeRanks * VkDeviceSize{4},
                         kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    requests[kSurface] = {"supple view, surface vertices", vertices * (desc.vertexFormat == SUPPLE_VERTEX_24 ? 24 : 16),
-                          kVertices};
+    requests[kSurface] = {"supple view, surface vertices", vertices * view->vertexBytes(), kVertices};
     requests[kPreviousPositions] = {"supple view, previous positions", when(SUPPLE_VIEW_MOTION, 12), kVertices};
     requests[kAttributes] = {"supple view, surface attributes", when(SUPPLE_VIEW_ATTRIBUTES, 16), kVertices};
     requests[kUvs1] = {"supple view, second UV set", when(SUPPLE_VIEW_UVS1, 8), kVertices};
@@ -97,8 +105,8 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
 
     const std::vector<uint32_t> patterns = surface::lod::patternWords();
     std::copy(patterns.begin(), patterns.end(), view->hostWords_.begin() + kLodPatterns);
-    std::fill_n(view->hostWords_.begin() + kLodRuns, kMaxRuns, kFreeRun);
     view->takenRuns_.resize(kMaxRuns);
+    view->giveRuns(0, kMaxRuns);
     const gpu::BufferRequest staging{"supple view staging", view->uploadBytes() * framesInFlight,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     const gpu::BufferRequest readback{"supple view statistics", kReadbackBytes * framesInFlight,
@@ -124,8 +132,7 @@ void View::setDepthPyramid(const std::optional<SuppleDepthPyramidDesc>& pyramid)
     ++pyramidGeneration_;
 }
 
-std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
-                                       uint32_t windows) {
+Result<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided, uint32_t windows) {
     const auto each = static_cast<uint32_t>(lod.runs.size());
     const uint64_t wanted = uint64_t{each} * windows;
     uint32_t first = 0, length = 0;
@@ -134,7 +141,14 @@ std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, const std:
         first = r + 1 - length;
     }
     if (length < wanted) {
-        return std::nullopt;
+        return Error{ErrorCode::limit,
+                     "the view is full: its groups have more than " + std::to_string(kMaxRuns) + " runs of patches"};
+    }
+    const uint32_t end = std::max(endOfRuns_, first + static_cast<uint32_t>(wanted));
+    if (end * kPaddingOfRun >= desc_.maxVertices) {
+        return Error{ErrorCode::limit, "the view has too few vertices: " + std::to_string(end) +
+                                           " runs of patches take " + std::to_string(end * kPaddingOfRun) +
+                                           " for padding, maxVertices is " + std::to_string(desc_.maxVertices)};
     }
     for (uint32_t w = 0; w < windows; ++w) {
         uint32_t range = 0;
@@ -143,31 +157,39 @@ std::optional<uint32_t> View::takeRuns(const surface::LodTables& lod, const std:
             const auto form = static_cast<uint32_t>(surface::lod::formOf(lod.runs[r].patchClass));
             const uint32_t run = first + w * each + r;
             takenRuns_[run] = true;
-            hostWords_[kLodRuns + run] = form | (first + w * each + range) << 8;
+            hostWords_[kLodRuns + run] = form | first << 8 | (first + w * each + range) << 16;
             const uint32_t bit = 1u << run % 32;
             uint32_t& bits = hostWords_[kLodDoubleSided + run / 32];
             bits = doubleSided[r] ? bits | bit : bits & ~bit;
             forms_ |= 1u << form;
         }
     }
-    endOfRuns_ = std::max(endOfRuns_, first + static_cast<uint32_t>(wanted));
+    endOfRuns_ = end;
     return first;
 }
 
 void View::giveRuns(uint32_t first, uint32_t count) {
     for (uint32_t r = first; r < first + count; ++r) {
         takenRuns_[r] = false;
-        hostWords_[kLodRuns + r] = kFreeRun;
+        hostWords_[kLodRuns + r] = kFreeRun | r << 8; // empty buckets of its own
     }
     while (endOfRuns_ > 0 && !takenRuns_[endOfRuns_ - 1]) {
         --endOfRuns_;
     }
 }
 
-bool View::takeGroup() {
-    const bool room = groupsWithoutRuns_ < kMaxRuns;
-    groupsWithoutRuns_ += room ? 1 : 0;
-    return room;
+bool View::takeGroup(uint64_t vertices) {
+    if (groupsWithoutRuns_ == kMaxRuns || verticesWithoutRuns_ + vertices > 0xFFFFFFFFull) {
+        return false;
+    }
+    ++groupsWithoutRuns_;
+    verticesWithoutRuns_ += vertices;
+    return true;
+}
+
+void View::giveGroup(uint64_t vertices) {
+    --groupsWithoutRuns_;
+    verticesWithoutRuns_ -= vertices;
 }
 
 LodCamera View::lodCamera() const {
@@ -259,6 +281,7 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
     push.priorities = priorities;
     push.forms = forms_;
     push.maxGroups = std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+    push.rated = countsRates() ? 1 : 0;
     std::copy_n(desc_.elasticities, kPriorityCount, push.elasticity);
     passes.recordSolve(commandBuffer, set, push);
 }
@@ -279,30 +302,45 @@ void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDevi
     device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
 }
 
+SuppleViewStatistics View::read(size_t place) const {
+    const Solved& solved = solved_[place];
+    const std::byte* from = readback_.mapped(0) + place * kReadbackBytes;
+    LodSolution solution;
+    std::memcpy(&solution, from, sizeof(solution));
+    SuppleViewStatistics read{};
+    read.frame = solved.frame;
+    std::copy_n(solution.scale, kPriorityCount, read.levelScales);
+    read.vertexCount = solution.vertices;
+    read.patchCount = solution.patches;
+    read.wantedVertexCount = solution.wanted;
+    uint32_t patches = 0;
+    for (uint32_t g = 0; g < solved.groups; ++g) {
+        std::array<uint32_t, kListHeaderWords> counts{};
+        std::memcpy(counts.data(), from + sizeof(solution) + g * kCountBytes, sizeof(counts));
+        read.drawnInstanceCount += counts[0];
+        read.instanceCount += counts[2];
+        read.droppedInstanceCount += counts[3];
+        read.occludedInstanceCount += counts[4];
+        patches += counts[0] * solved.patches[g];
+    }
+    read.backFaceCount = patches - solution.counted;
+    read.shortfall = solution.shortfall != 0 || read.droppedInstanceCount > 0 ? 1 : 0;
+    return read;
+}
+
+std::optional<SuppleViewStatistics> View::statisticsOf(uint64_t completedFrame) const {
+    for (size_t place = 0; place < solved_.size(); ++place) {
+        if (solved_[place].frame == completedFrame) {
+            return read(place);
+        }
+    }
+    return std::nullopt;
+}
+
 void View::beginFrame(uint64_t completedFrame) {
     for (size_t i = 0; i < solved_.size(); ++i) {
         if (solved_[i].frame > newest_.frame && solved_[i].frame <= completedFrame) {
-            const std::byte* from = readback_.mapped(0) + i * kReadbackBytes;
-            LodSolution solution;
-            std::memcpy(&solution, from, sizeof(solution));
-            newest_ = {};
-            newest_.frame = solved_[i].frame;
-            std::copy_n(solution.scale, kPriorityCount, newest_.levelScales);
-            newest_.vertexCount = solution.vertices;
-            newest_.patchCount = solution.patches;
-            newest_.wantedVertexCount = solution.wanted;
-            uint32_t patches = 0;
-            for (uint32_t g = 0; g < solved_[i].groups; ++g) {
-                std::array<uint32_t, kListHeaderWords> counts{};
-                std::memcpy(counts.data(), from + sizeof(solution) + g * kCountBytes, sizeof(counts));
-                newest_.drawnInstanceCount += counts[0];
-                newest_.instanceCount += counts[2];
-                newest_.droppedInstanceCount += counts[3];
-                newest_.occludedInstanceCount += counts[4];
-                patches += counts[0] * solved_[i].patches[g];
-            }
-            newest_.backFaceCount = patches - solution.counted;
-            newest_.shortfall = solution.shortfall != 0 || newest_.droppedInstanceCount > 0 ? 1 : 0;
+            newest_ = read(i);
         }
     }
 }
@@ -335,6 +373,8 @@ uint32_t View::transfers(Transfers& out) const {
     if (indicesReleaseFrame_ == recordedFrame_) {
         add(static_.buffer(0));
     }
+    out[0].offset = kLodBuckets * VkDeviceSize{4};
+    out[0].size = VK_WHOLE_SIZE;
     return count;
 }
 

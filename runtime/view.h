@@ -42,12 +42,15 @@ public:
     /// A group's windows take runs when it is created and give them back when it goes. The runs of `windows` windows,
     /// one after the other, each as `lod` lists them; patch ranges r of a window evaluate as dispatch firstRun + r.
     /// `doubleSided`: by run of a window.
-    [[nodiscard]] std::optional<uint32_t> takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
-                                                   uint32_t windows);
+    [[nodiscard]] Result<uint32_t> takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
+                                            uint32_t windows);
     void giveRuns(uint32_t first, uint32_t count);
     /// The same for groups without runs, of which there may be kMaxRuns, too. False: the view is full.
-    [[nodiscard]] bool takeGroup();
-    void giveGroup() { --groupsWithoutRuns_; }
+    /// `vertices`: of all its instances at all rates, which in all groups together 32 bits must count.
+    [[nodiscard]] bool takeGroup(uint64_t vertices);
+    void giveGroup(uint64_t vertices);
+    /// Whether vertices of such groups count in the budget.
+    [[nodiscard]] bool countsRates() const { return groupsWithoutRuns_ > 0 && camera_.vertexBudget > 0; }
 
     [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || !cleared_; }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
@@ -62,11 +65,16 @@ public:
     void beginFrame(uint64_t completedFrame);
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
-    /// As Group::transfers, with the first of its groups.
+    /// As Group::transfers, with the first of its groups. Of the words those that hosts read: the others must keep what
+    /// is in them from frame to frame.
     using Transfers = std::array<VkBufferMemoryBarrier2, 8>;
     [[nodiscard]] uint32_t transfers(Transfers& out) const;
     /// Of the newest completed frame; frame 0: none has.
     [[nodiscard]] const SuppleViewStatistics& statistics() const { return newest_; }
+    /// Of a frame that is completed and whose place no other has taken yet, as from beginFrame on until the next
+    /// recording; nothing where the view was not recorded in it.
+    [[nodiscard]] std::optional<SuppleViewStatistics> statisticsOf(uint64_t completedFrame) const;
+    [[nodiscard]] uint32_t vertexBytes() const { return desc_.vertexFormat == SUPPLE_VERTEX_24 ? 24 : 16; }
 
     [[nodiscard]] uint64_t lastRecordedFrame() const { return recordedFrame_; }
 
@@ -106,6 +114,7 @@ private:
     std::vector<bool> takenRuns_;
     uint32_t endOfRuns_ = 0;
     uint32_t groupsWithoutRuns_ = 0;
+    uint64_t verticesWithoutRuns_ = 0;
     uint32_t forms_ = 0; ///< bits of those that runs have
     bool cleared_ = false;
     bool indicesToRelease_ = false;
@@ -117,6 +126,8 @@ private:
         std::array<uint32_t, 2 * shared::kMaxRuns>
             patches{}; ///< by group, of an instance: those with runs, and without
     };
+    [[nodiscard]] SuppleViewStatistics read(size_t place) const; ///< of solved_
+
     std::vector<Solved> solved_; ///< by place in readback_
     SuppleViewStatistics newest_{};
 };

@@ -2,7 +2,9 @@
 
 #include "cage/topology.h"
 #include "shaders/bounds_bounds_comp.h"
+#include "shaders/bounds_demand_comp.h"
 #include "shaders/bounds_list_comp.h"
+#include "shaders/bounds_rates_comp.h"
 #include "shaders/bounds_size_comp.h"
 
 #include <algorithm>
@@ -12,10 +14,12 @@ namespace supple::surface {
 
 using namespace shared;
 
-static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16);
-static_assert(std::max(sizeof(BoundsPush), sizeof(ListPush)) <= gpu::kPushConstantBytes);
+static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16 && sizeof(ListDraw) == 16);
 
 namespace {
+
+constexpr uint32_t kPushBytes = std::max({sizeof(BoundsPush), sizeof(ListPush), sizeof(DemandPush), sizeof(RatesPush)});
+static_assert(kPushBytes <= gpu::kPushConstantBytes);
 
 /// Whether a chart of the blending surface may be open. One that is not has smaller weights.
 bool openOrSharp(const cage::Cage& cage) {
@@ -40,17 +44,16 @@ float boundsMargin(SchemeId scheme, const cage::Cage& cage) {
     }
 }
 
-std::vector<uint32_t> listTable(std::span<const ListWindow> windows, std::span<const ListArgument> arguments) {
-    std::vector<uint32_t> words;
-    words.reserve(4 * (windows.size() + arguments.size()));
-    for (const ListWindow& window : windows) {
-        words.insert(words.end(), {window.firstEntry, window.entries, window.firstSlot, window.target});
-    }
-    for (const ListArgument& argument : arguments) {
-        words.insert(words.end(),
-                     {argument.elements, argument.perGroup, static_cast<uint32_t>(argument.count), argument.target});
-    }
-    return words;
+size_t listTableBytes(size_t windows, size_t arguments, size_t draws) {
+    return windows * sizeof(ListWindow) + arguments * sizeof(ListArgument) + draws * sizeof(ListDraw);
+}
+
+void writeListTable(std::span<const ListWindow> windows, std::span<const ListArgument> arguments,
+                    std::span<const ListDraw> draws, std::byte* target) {
+    const auto put = [&](std::span<const std::byte> bytes) { target = std::copy(bytes.begin(), bytes.end(), target); };
+    put(std::as_bytes(windows));
+    put(std::as_bytes(arguments));
+    put(std::as_bytes(draws));
 }
 
 std::array<float, 24> frustumPlanes(const std::array<float, 16>& columns) {
@@ -76,11 +79,11 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device) {
         {kBoundsStateBinding, kStorage}, {kHostListBinding, kStorage},       {kBoundsStateTexelBinding, kTexels},
         {kListBinding, kStorage},        {kHostListTexelBinding, kTexels},   {kListArgumentBinding, kStorage},
         {kListTableBinding, kStorage},   {kCullViewBinding, kStorage},       {kSizeBinding, kStorage},
+        {kViewWordsBinding, kStorage},
     };
     BoundsPass pass;
     pass.device_ = &device;
-    Result<gpu::ComputeLayout> layout =
-        gpu::ComputeLayout::create(device, bindings, std::max(sizeof(BoundsPush), sizeof(ListPush)), "supple bounds");
+    Result<gpu::ComputeLayout> layout = gpu::ComputeLayout::create(device, bindings, kPushBytes, "supple bounds");
     if (!layout) {
         return layout.error();
     }
@@ -91,7 +94,9 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device) {
         const char* name;
     } pipelines[] = {{&pass.bounds_, bounds_bounds_comp, "supple bounds"},
                      {&pass.sizes_, bounds_size_comp, "supple sizes of instances"},
-                     {&pass.list_, bounds_list_comp, "supple list of instances"}};
+                     {&pass.list_, bounds_list_comp, "supple list of instances"},
+                     {&pass.demand_, bounds_demand_comp, "supple demand of rates"},
+                     {&pass.rates_, bounds_rates_comp, "supple lists of rates"}};
     for (const auto& [target, spirv, name] : pipelines) {
         Result<gpu::PipelineHandle> made = gpu::createComputePipeline(device, pass.layout_, spirv, {}, name);
         if (!made) {
@@ -129,9 +134,28 @@ void BoundsPass::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set,
     gpu::dispatchLinear(*device_, commandBuffer, (push.instanceCount + local - 1) / local);
 }
 
+void BoundsPass::recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const DemandPush& push) const {
+    if (push.instanceCount == 0) {
+        return;
+    }
+    bind(commandBuffer, demand_, set, &push, sizeof(push));
+    const uint32_t local = device_->mapping.localSize;
+    gpu::dispatchLinear(*device_, commandBuffer, (push.instanceCount + local - 1) / local);
+}
+
+uint32_t BoundsPass::maxGroups() const {
+    return std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+}
+
 void BoundsPass::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {
-    push.maxGroups = std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+    push.maxGroups = maxGroups();
     bind(commandBuffer, list_, set, &push, sizeof(push));
+    device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
+}
+
+void BoundsPass::recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, RatesPush push) const {
+    push.maxGroups = maxGroups();
+    bind(commandBuffer, rates_, set, &push, sizeof(push));
     device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
 }
 

@@ -15,9 +15,9 @@
 #include "surface/schemes.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace supple::surface {
 
@@ -31,21 +31,23 @@ struct ListWindow {
     uint32_t firstSlot = 0;
     uint32_t target = 0; ///< first entry in the list
 };
-enum class ListCount : uint32_t {
-    window = shared::kCountWindow,
-    withPast = shared::kCountWithPast, ///< of the window
-    fresh = shared::kCountNew,         ///< of the window
-    all = shared::kCountAll
-};
+/// Of a dispatch.
 struct ListArgument {
-    uint32_t elements = 0; ///< an instance: lanes, patches, instances of a draw
-    uint32_t perGroup = 0; ///< elements a workgroup takes; 0: a draw, whose instance count alone is written
-    ListCount count = ListCount::window;
-    uint32_t target = 0; ///< word in the argument buffer; of window w argumentStride * w words further, but for `all`
+    uint32_t elements = 0; ///< an instance: lanes, patches
+    uint32_t perGroup = 0; ///< elements a workgroup takes
+    uint32_t count = 0;    ///< shared::kCountWindow, or kCountRate and the rate
+    uint32_t target = 0;   ///< word in the argument buffer; of window w argumentStride * w words further
 };
-/// The words of kListTableBinding.
-[[nodiscard]] std::vector<uint32_t> listTable(std::span<const ListWindow> windows,
-                                              std::span<const ListArgument> arguments);
+/// Of the instances of all windows at a rate.
+struct ListDraw {
+    uint32_t indexCount = 0, firstIndex = 0;
+    uint32_t patches = 0; ///< an instance
+    uint32_t rate = 0;
+};
+/// The bytes that kListTableBinding takes, and writes them.
+[[nodiscard]] size_t listTableBytes(size_t windows, size_t arguments, size_t draws);
+void writeListTable(std::span<const ListWindow> windows, std::span<const ListArgument> arguments,
+                    std::span<const ListDraw> draws, std::byte* target);
 
 /// Planes of a matrix that takes points to clip space with depths 0..w (rows as in Vulkan); reversed and infinite depth
 /// too.
@@ -63,14 +65,19 @@ public:
     /// For empty groups too: the arguments are then those of no instances. Any window's set; push.maxGroups is filled
     /// in.
     void recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::ListPush push) const;
+    /// Behind the list: what instances of several rates need. Any window's set. Nothing where push.instanceCount is 0.
+    void recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::DemandPush& push) const;
+    /// As recordList, behind it and the view's solution.
+    void recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::RatesPush push) const;
 
 private:
+    [[nodiscard]] uint32_t maxGroups() const;
     void bind(VkCommandBuffer commandBuffer, const gpu::PipelineHandle& pipeline, VkDescriptorSet set, const void* push,
               uint32_t bytes) const;
 
     const gpu::Device* device_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::PipelineHandle bounds_, sizes_, list_;
+    gpu::PipelineHandle bounds_, sizes_, list_, demand_, rates_;
 };
 
 } // namespace supple::surface

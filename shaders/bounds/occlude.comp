@@ -9,14 +9,21 @@ layout(set = 0, binding = kBoundsBinding, std430) readonly buffer Bounds { vec4 
 layout(set = 0, binding = kPyramidBinding) uniform texture2D pyramid;
 layout(push_constant) uniform Push { OcclusionPush push; };
 
-// Pixels of level 0, and depth: more than the projection's rounding.
+// Pixels of level 0, and depth: more than the rounding from clip space on.
 const float kPixelSlack = 0.02;
 const float kDepthSlack = 1e-7, kRelativeDepthSlack = 2e-6;
+// Of the projection, as a part of the sum of its terms' sizes: a sum of four products is rounded by 4 * 2^-24 of that at
+// most, and what drew the picture may have rounded as much.
+const float kProjectionSlack = 1.0 / 2097152.0;
 
-vec4 clip(vec3 p) {
+// `slack`: of each coordinate.
+vec4 clip(vec3 p, out vec4 slack) {
     vec4 q;
-    for (uint r = 0u; r < 4u; ++r)
-        q[r] = push.columns[r] * p.x + push.columns[4u + r] * p.y + push.columns[8u + r] * p.z + push.columns[12u + r];
+    for (uint r = 0u; r < 4u; ++r) {
+        vec4 terms = vec4(push.columns[r], push.columns[4u + r], push.columns[8u + r], push.columns[12u + r]) * vec4(p, 1.0);
+        q[r] = terms.x + terms.y + terms.z + terms.w;
+        slack[r] = kProjectionSlack * dot(abs(terms), vec4(1.0));
+    }
     return q;
 }
 
@@ -26,13 +33,15 @@ bool isHidden(vec3 low, vec3 high) {
     vec2 least = vec2(1e30), most = vec2(-1e30);
     float nearest = 1e30;
     for (uint k = 0u; k < 8u; ++k) {
+        vec4 slack;
         vec4 q = clip(vec3((k & 1u) != 0u ? high.x : low.x, (k & 2u) != 0u ? high.y : low.y,
-                           (k & 4u) != 0u ? high.z : low.z));
-        if (!(q.w > 1e-6)) return false; // reaches behind the eye
-        vec3 p = q.xyz / q.w;
-        least = min(least, p.xy);
-        most = max(most, p.xy);
-        nearest = min(nearest, turn * p.z);
+                           (k & 4u) != 0u ? high.z : low.z), slack);
+        float w = q.w - slack.w;
+        if (!(w > 1e-6)) return false; // reaches behind the eye
+        vec3 p = q.xyz / q.w, off = (slack.xyz + abs(p) * slack.w) / w;
+        least = min(least, p.xy - off.xy);
+        most = max(most, p.xy + off.xy);
+        nearest = min(nearest, turn * p.z - off.z);
     }
     vec2 size = vec2(push.width, push.height);
     vec2 from = (0.5 * least + 0.5) * size - kPixelSlack, to = (0.5 * most + 0.5) * size + kPixelSlack;

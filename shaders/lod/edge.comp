@@ -1,4 +1,4 @@
-// Levels of edges: what both patches at an edge draw it with, from its curve alone (docs/lod.md, section 4). One invocation
+// Levels of edges: what both patches at an edge draw it with, from its curve alone (docs/lod.md, "Levels"). One invocation
 // an edge and instance, once for both sides; every expression reads the same from either end, so that an edge that two
 // patches know by different coefficients of equal value has one level all the same.
 #version 460

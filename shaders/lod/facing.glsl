@@ -1,4 +1,4 @@
-// Whether a patch surely shows its back (docs/lod.md, section "Back faces").
+// Whether a patch surely shows its back (docs/lod.md, "Back faces").
 //
 // Its normal Du x Dv is a sum, with weights that are not negative, of the products a x b of a difference a along u and a
 // difference b along v of its net; what it is seen along, w, lies in every pyramid from the camera that holds the net.
@@ -6,12 +6,18 @@
 // and n across, a = x m + y n has the slope y / x, b = z m + t n the slope z / t, and a x b > 0 where x, t > 0 and the slopes'
 // product is below 1.
 //
-// Triangles are not the surface. Those whose sides run along u and v are sums of such products too; those between a border
-// and the inside, which have other levels, are askew: there the border, and what runs beside it, must bend less off its
-// chord than the patch rises from it.
+// Triangles are not the surface. Those whose sides run along u and v are sums of such products too. Those between a border
+// and the first inner row are not: either has samples of its own. The corner that lies across is the end of a difference b
+// over the row's distance 1 / Li, from a point that lies off the line through the two corners by |q| e, e being second
+// differences along the border and |q| the product of the point's distances from them. With the border's level Le patterns
+// keep |q| Li below max(1, Li / (3.4 max(Le, 1))) (tests/surface/lod_pattern_test.cpp). So it is enough that d x b exceeds
+// that many d x e for all differences d along the border; with its chord c and what leads inwards from it, n: d = x c + y n,
+// that c x b less y/x b x n exceeds so many c x e plus y/x e x n.
 
 const float kMostSlopes = 0.9;
 const float kMostBend = 0.9;
+const float kBorderReach = 3.4;
+float reachOfBorder(float level, float across) { return min(kBorderReach * max(level, 1.0) / max(across, 3.0), 1.0); }
 
 // Rows: to the right, up, away from the camera. `towards`: from the camera to the patch, of any length.
 mat3 frameTowards(vec3 towards) {
@@ -91,4 +97,25 @@ float riseAlong(Facing f, vec3 chord) {
 }
 float riseAcross(Facing f, vec3 chord) {
     return least(f, f.m, chord) / f.mostArea * f.leastX - most(f, chord, f.n) / f.leastArea * f.mostY;
+}
+
+// A border, and what runs beside it.
+struct Border {
+    vec3 chord, inwards;
+    float slope, bend, stretch; // of differences, y / x; of second differences, by what turns and by what does not
+};
+Border borderOf(vec3 chord, vec3 inwards) { return Border(chord, inwards, 0.0, 0.0, 0.0); }
+// A difference that addAlong or addAcross has taken; one less the one before. `slack`: of their lengths.
+void addDifference(inout Border b, Facing f, vec3 d, float slack) {
+    float x = least(f, d, b.inwards) - slack * seenSize(f, b.inwards);
+    b.slope = max(b.slope, (most(f, b.chord, d) + slack * seenSize(f, b.chord)) / x);
+}
+void addSecondDifference(inout Border b, Facing f, vec3 e, float slack) {
+    b.bend = max(b.bend, most(f, b.chord, e) + slack * seenSize(f, b.chord));
+    b.stretch = max(b.stretch, most(f, e, b.inwards) + slack * seenSize(f, b.inwards));
+}
+// `shift`: the most that differences across go along. `second`: what the second derivative's factor is of the first one's, as
+// a part of a cubic's.
+bool isStraight(Border b, float rise, float shift, float reach, float second) {
+    return second * (b.bend + b.slope * b.stretch) < reach * (kMostBend * rise - b.slope * shift);
 }

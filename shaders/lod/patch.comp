@@ -1,5 +1,5 @@
 // Levels of patches: the largest of a patch's edges and of what its inside asks for, counted into the histograms that the
-// budget is solved with (docs/lod.md, sections 4 and 6); and whether they surely show their backs, which leaves them out of
+// budget is solved with (docs/lod.md, "Levels" and "The budget"); and whether they surely show their backs, which leaves them out of
 // everything. One invocation a patch and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -10,6 +10,7 @@
 #include "shaders/shared/pm.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
+#include "shaders/surface/net.glsl"
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/levels.glsl"
 #include "shaders/lod/facing.glsl"
@@ -25,13 +26,8 @@ vec3 coefficient(uint i, bool today) { return poolVector(i); }
 // The net of a bicubic patch, row by row.
 vec3[16] bicubicNet(uint record, uint base, bool polar) {
     vec3 g[16];
-    for (uint row = 0u; row < 4u; ++row) {
-        uvec4 indices = base + tableElement(record + row);
-        g[4u * row] = poolVector(indices.x);
-        g[4u * row + 1u] = poolVector(indices.y);
-        g[4u * row + 2u] = poolVector(indices.z);
-        g[4u * row + 3u] = poolVector(indices.w);
-    }
+    NetRecord net = netRecord(record);
+    for (uint k = 0u; k < 16u; ++k) g[k] = poolVector(base + netIndex(net, polar, k));
     // Offsets from their corners (shared/surface.h); the rows of corners last. A polar patch has its apex all along row 3.
     for (uint k = 4u; k < 8u; ++k) g[k] += g[k / 2u % 2u * 3u];
     for (uint k = 8u; k < 12u; ++k) g[k] += g[12u + k / 2u % 2u * 3u];
@@ -113,40 +109,45 @@ Pyramid emptyPyramid() {
 
 // Degree 5 of p-rep's perturbed patches as what it can differ by at most: h in evaluation order (shared/prep.h).
 struct Perturbation {
-    float reach, alongU, alongV; // of a point, of the derivatives
+    float reach, alongU, alongV, bendU, bendV; // of a point, of a cubic's differences and second differences
 };
+const Perturbation kNoPerturbation = Perturbation(0.0, 0.0, 0.0, 0.0, 0.0);
 Perturbation perturbationOf(uint record, uint base) {
     vec3 h[16];
-    for (uint k = 0u; k < 4u; ++k) {
-        uvec4 indices = base + tableElement(record + 4u + k);
-        h[4u * k] = poolVector(indices.x);
-        h[4u * k + 1u] = poolVector(indices.y);
-        h[4u * k + 2u] = poolVector(indices.z);
-        h[4u * k + 3u] = poolVector(indices.w);
-    }
+    uvec4 edges = tableElement(record + 2u);
+    for (uint k = 0u; k < 16u; ++k) h[k] = poolVector(base + perturbationIndex(edges, k));
     // In either half: (2, j) and (3, j) for j = 0, 1, 4, 5, which the first parameter takes in from 0 and out to 0 again,
     // while the second one's differences are between j = 0 and 1, 1 and 2, 3 and 4, 4 and 5.
-    Perturbation p = Perturbation(0.0, 0.0, 0.0);
+    Perturbation p = kNoPerturbation;
     for (uint k = 0u; k < 16u; ++k) p.reach = max(p.reach, lengthOf(h[k]));
-    float inner[2] = float[2](0.0, 0.0), outer[2] = float[2](0.0, 0.0);
+    vec2 inner[2] = vec2[2](vec2(0.0), vec2(0.0)), outer[2] = vec2[2](vec2(0.0), vec2(0.0)); // first and second differences
     for (uint part = 0u; part < 2u; ++part) {
         for (uint k = 0u; k < 4u; ++k) {
             // First half: h_2j for four j, then h_3j; second half: (h_i2, h_i3) for four i.
             vec3 two = part == 0u ? h[k] : h[8u + 2u * k], three = part == 0u ? h[4u + k] : h[9u + 2u * k];
-            inner[part] = max(inner[part], max(max(lengthOf(two), lengthOf(three)), lengthOf(three - two)));
+            float either = max(lengthOf(two), lengthOf(three));
+            inner[part] = max(inner[part], vec2(max(either, lengthOf(three - two)),
+                                                max(either, max(lengthOf(three - 2.0 * two), lengthOf(two - 2.0 * three)))));
         }
         for (uint side = 0u; side < 2u; ++side) {
             vec3 a = part == 0u ? h[4u * side] : h[8u + side], b = part == 0u ? h[4u * side + 1u] : h[10u + side];
             vec3 c = part == 0u ? h[4u * side + 2u] : h[12u + side], d = part == 0u ? h[4u * side + 3u] : h[14u + side];
-            outer[part] = max(outer[part], max(max(lengthOf(b - a), lengthOf(d - c)), max(lengthOf(b), lengthOf(c))));
+            float either = max(lengthOf(b), lengthOf(c));
+            outer[part] = max(outer[part], vec2(max(either, max(lengthOf(b - a), lengthOf(d - c))),
+                                                max(either, max(lengthOf(a - 2.0 * b), lengthOf(d - 2.0 * c)))));
         }
     }
-    p.alongU = 5.0 * max(inner[0], outer[1]);
-    p.alongV = 5.0 * max(inner[1], outer[0]);
+    // Degree 5 against 3, and 5 * 4 against 3 * 2.
+    vec2 factors = vec2(5.0 / 3.0, 20.0 / 6.0), u = factors * max(inner[0], outer[1]), v = factors * max(inner[1], outer[0]);
+    p.alongU = u.x;
+    p.alongV = v.x;
+    p.bendU = u.y;
+    p.bendV = v.y;
     return p;
 }
 
-bool bicubicShowsBack(vec3 g[16], bool polar, Perturbation p) {
+// `reach`: of the borders at i = 0 and 3, j = 0 and 3.
+bool bicubicShowsBack(vec3 g[16], Perturbation p, vec4 reach) {
     vec3 from = orthographic() ? vec3(0.0) : camera();
     mat3 frame = frameAt(0.25 * ((g[0] + g[15]) + (g[3] + g[12])));
     vec3 m = frame * ((g[3] - g[0]) + (g[15] - g[12])), n = frame * ((g[12] - g[0]) + (g[15] - g[3]));
@@ -158,37 +159,36 @@ bool bicubicShowsBack(vec3 g[16], bool polar, Perturbation p) {
     }
     Facing f = facingOf(pyramid, m, n);
     if (!(pyramid.nearest > 0.0 && f.leastArea > 0.0)) return false;
-    // Derivatives are three times the differences.
-    float sizeM = seenSize(f, m), sizeN = seenSize(f, n);
-    vec2 slackU = vec2(sizeM, sizeN) * (p.alongU / 3.0), slackV = vec2(sizeM, sizeN) * (p.alongV / 3.0);
+    vec2 sizes = vec2(seenSize(f, m), seenSize(f, n));
     for (uint j = 0u; j < 4u; ++j) {
-        if (polar && j == 3u) continue; // a point
-        for (uint i = 0u; i < 3u; ++i) addAlong(f, g[4u * j + i + 1u] - g[4u * j + i], slackU);
+        for (uint i = 0u; i < 3u; ++i) addAlong(f, g[4u * j + i + 1u] - g[4u * j + i], sizes * p.alongU);
     }
     for (uint j = 0u; j < 3u; ++j) {
-        for (uint i = 0u; i < 4u; ++i) addAcross(f, g[4u * j + i + 4u] - g[4u * j + i], slackV);
+        for (uint i = 0u; i < 4u; ++i) addAcross(f, g[4u * j + i + 4u] - g[4u * j + i], sizes * p.alongV);
     }
     if (!showsBack(f)) return false;
-    bool straight = true;
     for (uint side = 0u; side < 4u; ++side) {
-        if (polar && side == 3u) continue;
         bool across = side < 2u;
-        uint step = across ? 4u : 1u, border = side == 0u ? 0u : side == 1u ? 3u : side == 2u ? 0u : 12u;
+        uint step = across ? 4u : 1u, border = side == 1u ? 3u : side == 3u ? 12u : 0u;
         uint beside = side == 0u ? 1u : side == 1u ? 2u : side == 2u ? 4u : 8u;
-        vec3 chord = g[border + 3u * step] - g[border];
-        float bend = 0.0;
-        for (uint k = 0u; k < 3u; ++k) {
-            uint at = k * step;
-            bend = max(bend, most(f, chord, g[border + at + step] - g[border + at]));
-            bend = max(bend, most(f, chord, g[beside + at + step] - g[beside + at]));
+        Border b = borderOf(g[border + 3u * step] - g[border], across ? -m : n);
+        for (uint row = 0u; row < 2u; ++row) {
+            uint at = row == 0u ? border : beside;
+            vec3 before = vec3(0.0);
+            for (uint k = 0u; k < 3u; ++k, at += step) {
+                vec3 d = g[at + step] - g[at];
+                addDifference(b, f, d, across ? p.alongV : p.alongU);
+                if (k > 0u) addSecondDifference(b, f, d - before, across ? p.bendV : p.bendU);
+                before = d;
+            }
         }
-        bend += (across ? p.alongV : p.alongU) / 3.0 * seenSize(f, chord);
-        straight = straight && bend < kMostBend * (across ? riseAcross(f, chord) : riseAlong(f, chord));
+        float rise = across ? riseAcross(f, b.chord) : riseAlong(f, b.chord);
+        if (!isStraight(b, rise, across ? f.mostY : f.mostZ, reach[side], 1.0)) return false;
     }
-    return straight;
+    return true;
 }
 
-bool sectorShowsBack(Sector s) {
+bool sectorShowsBack(Sector s, float reach) {
     const uint kFirst[10] = uint[10](0u, 1u, 2u, 3u, 5u, 6u, 7u, 9u, 10u, 12u);
     const uint kSecond[10] = uint[10](1u, 2u, 3u, 4u, 6u, 7u, 8u, 10u, 11u, 13u);
     const uint kInner[10] = uint[10](5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u);
@@ -203,14 +203,20 @@ bool sectorShowsBack(Sector s) {
     vec3 chord = s.c[4] - s.c[0];
     Facing f = facingOf(pyramid, chord, 2.0 * s.c[14] - s.c[0] - s.c[4]);
     if (!(pyramid.nearest > 0.0 && f.leastArea > 0.0)) return false;
-    float bend = 0.0;
+    Border b = borderOf(chord, f.n);
+    vec3 before = vec3(0.0);
     for (uint k = 0u; k < 10u; ++k) {
         vec3 along = s.c[kSecond[k]] - s.c[kFirst[k]];
         addAlong(f, along, vec2(0.0));
         addAcross(f, 2.0 * (s.c[kInner[k]] - s.c[kFirst[k]]) - along, vec2(0.0));
-        if (k < 7u) bend = max(bend, most(f, chord, along));
+        if (k < 7u) { // the border, and the row beside it
+            addDifference(b, f, along, 0.0);
+            if (k != 0u && k != 4u) addSecondDifference(b, f, along - before, 0.0);
+        }
+        before = along;
     }
-    return showsBack(f) && bend < kMostBend * f.leastT;
+    // Degree 4: 4 * 3 / 4 against 3 * 2 / 3.
+    return showsBack(f) && isStraight(b, f.leastT, f.mostZ, reach, 1.5);
 }
 
 // Of a patch of sectors: by its corners alone, whether there is anything to it.
@@ -226,16 +232,25 @@ bool mayShowBack(uint record, uint sides, uint base) {
     return may;
 }
 
-bool showsItsBack(uint patchClass, uint record, uint base, uint sides, vec3 g[16]) {
+// `levels`: of edges 0..3, `fifth` of edge 4, `inside` of the inside along u and along v: before the budget, which scales
+// them together, but none to below 1. A polar patch shows nothing: at its apex the sides across meet, and what bends there
+// turns triangles over however little it does.
+bool showsItsBack(uint patchClass, uint record, uint base, uint sides, vec3 g[16], vec4 levels, float fifth, vec2 inside) {
+    if (patchClass == kPolarPatch) return false;
     if (patchClass == kP3Patch || patchClass == kP4Patch || patchClass == kP5Patch) {
         vec2 ray = vec2(SUPPLE_PM_RAY_MIDDLE(sides), SUPPLE_PM_RAY_SIDE(sides));
         bool back = mayShowBack(record, sides, base);
-        for (uint i = 0u; back && i < sides; ++i) back = sectorShowsBack(loadSector(sides, ray, record, base, i, false));
+        for (uint i = 0u; back && i < sides; ++i) {
+            float reach = reachOfBorder(i < 4u ? levels[i] : fifth, inside.x);
+            back = sectorShowsBack(loadSector(sides, ray, record, base, i, false), reach);
+        }
         return back;
     }
-    Perturbation p = Perturbation(0.0, 0.0, 0.0);
+    Perturbation p = kNoPerturbation;
     if (patchClass == kPerturbedPatch) p = perturbationOf(record, base);
-    return bicubicShowsBack(g, patchClass == kPolarPatch, p);
+    vec2 across = max(max(levels.xy, levels.zw), inside); // rows have the finer of theirs, and of the borders beside them
+    return bicubicShowsBack(g, p, vec4(reachOfBorder(levels.w, across.x), reachOfBorder(levels.y, across.x),
+                                       reachOfBorder(levels.x, across.y), reachOfBorder(levels.z, across.y)));
 }
 
 void main() {
@@ -251,25 +266,28 @@ void main() {
     vec3 g[16];
     if (!kCharts && form == kLodQuadForm && (push.levels == 0u || kBackFaces))
         g = bicubicNet(more.z, base, more.w == kPolarPatch);
+    float level = 0.0, fifth = 0.0;
+    vec4 ofEdges;
+    vec2 own;
+    if (push.levels != 0u) {
+        level = fifth = levelOfEntry(entry);
+        ofEdges = vec4(level);
+        own = vec2(level);
+    } else {
+        for (uint k = 0u; k < 4u; ++k) ofEdges[k] = k < sides ? uintBitsToFloat(levelWord(words + edges[k])) : 0.0;
+        if (sides > 4u) fifth = uintBitsToFloat(levelWord(words + more.x));
+        if (kCharts) own = chartLevels(more.z, base);
+        else own = form == kLodQuadForm ? bicubicLevels(g) : vec2(sectorLevel(more.z, sides, base));
+        level = max(max(max(ofEdges.x, ofEdges.y), max(ofEdges.z, ofEdges.w)), max(fifth, max(own.x, own.y)));
+    }
     // Nothing is known of where a blend of charts faces.
     if (kBackFaces && !kCharts) {
         bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
-        if (!doubleSided && showsItsBack(more.w, more.z, base, sides, g)) {
+        vec2 inside = form == kLodQuadForm ? own : vec2(level);
+        if (!doubleSided && showsItsBack(more.w, more.z, base, sides, g, ofEdges, fifth, inside)) {
             scratchWords[target] = kNoBin;
             return;
         }
-    }
-    float level = 0.0;
-    vec2 own;
-    if (push.levels != 0u) {
-        level = levelOfEntry(entry);
-        own = vec2(level);
-    } else {
-        for (uint k = 0u; k < sides; ++k)
-            level = max(level, uintBitsToFloat(levelWord(words + (k < 4u ? edges[k] : more.x))));
-        if (kCharts) own = chartLevels(more.z, base);
-        else own = form == kLodQuadForm ? bicubicLevels(g) : vec2(sectorLevel(more.z, sides, base));
-        level = max(level, max(own.x, own.y));
     }
 
     float at = (clamp(log2(max(level, 1e-3)), -float(kOctavesBelow), 7.99) + float(kOctavesBelow)) * float(kBinsPerOctave);

@@ -1,5 +1,5 @@
 // Puts the patches of a frame into their buckets: levels after the budget, and the record evaluation works from
-// (docs/lod.md, sections 3 and 6). One invocation a patch and instance.
+// (docs/lod.md, "The idea" and "The budget"). One invocation a patch and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define LOD_WRITE
@@ -40,14 +40,14 @@ void main() {
     if (drawn) capacity = lodWord(kLodCapacities + priority * kLodBinStride + bin);
 
     // A place in the bucket. On GPUs a workgroup takes its places together.
-    uint local = more.y * kCapacityCount + capacity, bucket = kLodBuckets + 4u * (push.firstRun * kCapacityCount + local);
+    uint local = more.y * kCapacityCount + capacity, bucket = kLodBuckets + 4u * (push.firstBucket + local);
     uint place = 0u;
     if (kWide) {
         if (drawn) place = atomicAdd(taken[local], 1u);
         barrier();
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) {
             uint n = taken[i];
-            if (n > 0u) taken[i] = atomicAdd(lodWords[kLodBuckets + 4u * (push.firstRun * kCapacityCount + i) + 2u], n);
+            if (n > 0u) taken[i] = atomicAdd(lodWords[kLodBuckets + 4u * (push.firstBucket + i) + 2u], n);
         }
         barrier();
         place += taken[local];

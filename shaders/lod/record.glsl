@@ -99,7 +99,7 @@ LodShare lodShareOfGroup(uint form) {
     while (b > 0u && lodWord(kLodBuckets + 4u * (first + b) + 3u) > workgroupIndex()) --b;
     uint bucket = kLodBuckets + 4u * (first + b);
     uint next = b + 1u < count ? lodWord(bucket + 4u) : end;
-    share.samples = formSamples(form, capacityOf((first + b) % kCapacityCount));
+    share.samples = formSamples(form, capacityOf(b % kCapacityCount));
     uint each = clamp(gl_WorkGroupSize.x / share.samples, 1u, kMaxPatchesPerGroup);
     share.firstRecord = lodWord(bucket) + (workgroupIndex() - lodWord(bucket + 3u)) * each;
     share.recordCount = share.firstRecord < next ? min(each, next - share.firstRecord) : 0u;

@@ -1,5 +1,5 @@
 // The budget: how far all levels are scaled down so that the vertices of a frame fit, from this frame's histograms alone
-// (docs/lod.md, section 6), and from that where everything lies: capacities, buckets, indirect arguments. One workgroup.
+// (docs/lod.md, "The budget"), and from that where everything lies: capacities, buckets, indirect arguments. One workgroup.
 // Sums are of integers: the answer does not depend on the order in which patches were counted.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -51,7 +51,12 @@ uvec2 demand(float x) {
                     add(sum, weight, formSamples(f, capacityOf(capacityOfBin(bin, push.elasticity[p] * x))));
             }
         }
+        if (push.rated == 0u) continue;
+        for (uint bin = lane; bin < kRatedBins; bin += gl_WorkGroupSize.x) {
+            if (float(bin) > push.elasticity[p] * x) add(sum, lodWords[kLodRatedMore + p * kRatedBins + bin], kSplitUnit);
+        }
     }
+    if (push.rated != 0u && lane == 0u) add(sum, lodWords[kLodRated], kSplitUnit);
     sumHigh[lane] = sum.x;
     sumLow[lane] = sum.y;
     barrier();
@@ -74,6 +79,13 @@ uint padded(uint count, uint samples) {
 uint solvedCapacity(uint bin, uint priority, float x, bool shortfall) {
     return shortfall ? 0u : capacityOfBin(bin, push.elasticity[priority] * x);
 }
+// Where the bucket of a run and capacity stands, and among what dispatches count.
+uint bucketIndex(uint run, uint c) {
+    uint first = (lodWords[kLodRuns + run] >> 8u) & 255u; // of the group
+    return first * kLodBucketStride + (run - first) * kCapacityCount + c;
+}
+uint bucketWord(uint run, uint c) { return kLodBuckets + 4u * bucketIndex(run, c); }
+uint dispatchOf(uint run) { return lodWords[kLodRuns + run] >> 16u; }
 uint patchesPerGroup(uint samples) { return clamp(gl_WorkGroupSize.x / samples, 1u, kMaxPatchesPerGroup); }
 
 void main() {
@@ -127,29 +139,37 @@ void main() {
         }
         for (uint i = lane; i < kLodForms * kLodBinStride; i += gl_WorkGroupSize.x)
             lodWords[kLodSplit + p * kLodForms * kLodBinStride + i] = 0u;
+        for (uint i = lane; push.rated != 0u && i < kRatedBins; i += gl_WorkGroupSize.x)
+            lodWords[kLodRatedMore + p * kRatedBins + i] = 0u;
     }
     barrier();
 
     // Where buckets begin. One lane: there are some hundred, and their counts lie in shared memory.
     if (lane == 0u) {
+        uint room = push.room;
+        if (push.rated != 0u) { // where levels fall short, rates are at their coarsest
+            room -= min(room, lodWords[kLodRated]);
+            lodWords[kLodRated] = 0u;
+        }
         uint record = 0u, vertex = 0u, group = 0u, patches = 0u, counted = 0u, last = kEmptyRecord;
         for (uint run = 0u; run < push.runCount; ++run) {
-            uint info = lodWords[kLodRuns + run], form = info & 255u, dispatch = info >> 8u;
+            uint form = lodWords[kLodRuns + run] & 255u, dispatch = dispatchOf(run);
             if (dispatch != last) {
                 group = 0u;
                 last = dispatch;
             }
-            for (uint c = 0u; c < kCapacityCount; ++c) {
+            uint at = bucketWord(run, 0u);
+            for (uint c = 0u; c < kCapacityCount; ++c, at += 4u) {
                 uint b = run * kCapacityCount + c, samples = formSamples(form, capacityOf(c));
-                lodWords[kLodBuckets + 4u * b] = record;
-                lodWords[kLodBuckets + 4u * b + 1u] = vertex;
-                lodWords[kLodBuckets + 4u * b + 2u] = 0u;
-                lodWords[kLodBuckets + 4u * b + 3u] = group;
+                lodWords[at] = record;
+                lodWords[at + 1u] = vertex;
+                lodWords[at + 2u] = 0u;
+                lodWords[at + 3u] = group;
                 uint whole = padded(counts[b], samples), each = patchesPerGroup(samples);
                 counted += counts[b];
-                if (shortfall && whole * samples > push.room - vertex) {
+                if (shortfall && whole * samples > room - vertex) {
                     uint n = patchesPerDraw(samples);
-                    whole = (push.room - vertex) / (n * samples) * n;
+                    whole = (room - vertex) / (n * samples) * n;
                     counts[b] = min(counts[b], whole);
                 }
                 record += whole;
@@ -157,6 +177,7 @@ void main() {
                 group += (whole + each - 1u) / each;
                 patches += counts[b];
             }
+            lodWords[at] = record; // the next run's first, or the end of the group's
         }
         lodWords[kLodSolution] = floatBitsToUint(x);
         lodWords[kLodSolution + 1u] = vertex;
@@ -164,8 +185,7 @@ void main() {
         lodWords[kLodSolution + 3u] = shortfall ? 1u : 0u;
         for (uint p = 0u; p < kPriorityCount; ++p)
             lodWords[kLodSolution + 4u + p] =
-                shortfall ? 0u : floatBitsToUint(exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
-        lodWords[kLodBuckets + 4u * buckets] = record;
+                floatBitsToUint(shortfall ? 0.0 : x == 0.0 ? 1.0 : exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
         lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
         lodWords[kLodSolution + 9u] = counted;
     }
@@ -176,7 +196,7 @@ void main() {
         uint run = b / kCapacityCount, c = b - run * kCapacityCount;
         uint form = lodWords[kLodRuns + run] & 255u, samples = formSamples(form, capacityOf(c));
         uint perDraw = patchesPerDraw(samples), whole = padded(counts[b], samples);
-        uint record = lodWords[kLodBuckets + 4u * b], vertex = lodWords[kLodBuckets + 4u * b + 1u];
+        uint at = bucketWord(run, c), record = lodWords[at], vertex = lodWords[at + 1u];
         uint grid = kLodGrids + 2u * (form * kCapacityCount + c), draw = kLodDraws + 5u * b;
         lodWords[draw] = lodWords[grid + 1u];
         lodWords[draw + 1u] = whole / perDraw;
@@ -184,24 +204,24 @@ void main() {
         lodWords[draw + 3u] = vertex;
         lodWords[draw + 4u] = 0u;
         for (uint i = counts[b]; i < whole; ++i) { // empty records: evaluation makes points of them
-            uint at = kLodRecords + kLodRecordWords * (record + i);
-            lodWords[at] = kEmptyRecord;
-            lodWords[at + 2u] = vertex + i * samples;
-            lodWords[at + 3u] = c;
+            uint to = kLodRecords + kLodRecordWords * (record + i);
+            lodWords[to] = kEmptyRecord;
+            lodWords[to + 2u] = vertex + i * samples;
+            lodWords[to + 3u] = c;
         }
     }
     for (uint run = lane; run < push.runCount; run += gl_WorkGroupSize.x) {
-        uint dispatch = lodWords[kLodRuns + run] >> 8u;
+        uint dispatch = dispatchOf(run);
         if (dispatch >= kMaxRuns) continue; // given back by a group that is gone
-        if (run > 0u && lodWords[kLodRuns + run - 1u] >> 8u == dispatch) continue;
+        if (run > 0u && dispatchOf(run - 1u) == dispatch) continue;
         uint end = run + 1u;
-        while (end < push.runCount && lodWords[kLodRuns + end] >> 8u == dispatch) ++end;
-        uint first = run * kCapacityCount, last = end * kCapacityCount - 1u;
+        while (end < push.runCount && dispatchOf(end) == dispatch) ++end;
+        uint first = bucketWord(run, 0u), last = bucketWord(end - 1u, kCapacityCount - 1u);
         uint samples = formSamples(lodWords[kLodRuns + end - 1u] & 255u, capacityOf(kCapacityCount - 1u));
-        uint firstRecord = lodWords[kLodBuckets + 4u * first], whole = padded(counts[last], samples);
-        uint recordCount = lodWords[kLodBuckets + 4u * last] + whole - firstRecord;
+        uint firstRecord = lodWords[first], whole = padded(counts[end * kCapacityCount - 1u], samples);
+        uint recordCount = lodWords[last] + whole - firstRecord;
         uint each = patchesPerGroup(samples);
-        uint groupCount = kWide ? lodWords[kLodBuckets + 4u * last + 3u] + (whole + each - 1u) / each
+        uint groupCount = kWide ? lodWords[last + 3u] + (whole + each - 1u) / each
                                 : (recordCount + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
         uint rows = max((groupCount + push.maxGroups - 1u) / push.maxGroups, 1u);
         uint at = kLodDispatches + 8u * dispatch;
@@ -210,8 +230,8 @@ void main() {
         lodWords[at + 2u] = 1u;
         lodWords[at + 3u] = firstRecord;
         lodWords[at + 4u] = recordCount;
-        lodWords[at + 5u] = first;
-        lodWords[at + 6u] = last + 1u - first;
+        lodWords[at + 5u] = bucketIndex(run, 0u);
+        lodWords[at + 6u] = (end - run) * kCapacityCount;
         lodWords[at + 7u] = groupCount;
     }
 }

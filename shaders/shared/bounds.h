@@ -6,21 +6,25 @@
 //   size     only where not all may have room even at their coarsest: how many vertices those that are seen need, by size
 //   list     one workgroup a group, after the bounds of all its windows: those that are seen, in order, and the arguments of
 //            the indirect dispatches and draws
+//   demand   where instances have one of several rates and count in the budget: the vertices they need, by how far their
+//            levels are above what a rate is enough for (shaders/shared/lod.h)
+//   rates    one workgroup a group, when the budget is solved: as list, once more for every rate
 //
 // Host list: an entry an instance, slots of the group rising: slot | priority << kInstancePriorityShift | kInstanceIsNew
 // where the frame before did not list it.
-// State: two words a slot: 0 or kOccluded where it is not seen, else 1 + its rank, the smaller the sooner it is left out where there is no
-// room: rank of its priority * kSizeBins + bin of its size; and whether it was when it was listed last, which counts as a past only where
-// the host list does not say kInstanceIsNew.
+// State: two words a slot: 0 or kOccluded where it is not seen, else 1 + its rank, the smaller the sooner it is left out where
+// there is no room: rank of its priority * kSizeBins + bin of its size; and kDrawn or kDrawnWithPast where it was when it was
+// listed last, which counts as a past only where the host list does not say kInstanceIsNew.
 // List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has them,
 // those with a past first, either kind rising; `levels` entries further on each of these has its instance's level.
 // Where instances have one of several rates (subdivision): the same once more a rate, without levels, `rateStride` words from
-// each other, in the order of slots alone. An instance has the smallest rate that is not below its level, or the last.
+// each other, in the order of slots alone. An instance has the smallest rate that is not below its level as the budget
+// scales it, or the last.
 // Between the two, `occlude` may take more instances out of sight, by a depth pyramid.
 // Table (uvec4 elements): windows, then arguments, then draws.
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
-//   argument   (elements an instance, elements a workgroup or 0 for a draw, ListCount, word in the argument buffer); those of
-//              window w stand argumentStride * w words further. A dispatch is (x, y, 1), a draw its instance count alone
+//   argument   of a dispatch (x, y, 1): (elements an instance, elements a workgroup, which instances it counts, word in the
+//              argument buffer); those of window w stand argumentStride * w words further
 //   draw       (indices, first index, patches an instance, rate): a whole VkDrawIndexedIndirectCommand for all windows
 // Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded; the same
 // of every window; then as the table says.
@@ -47,8 +51,11 @@ SUPPLE_SHARED_CONST kListArgumentBinding = 8u;
 SUPPLE_SHARED_CONST kListTableBinding = 9u;
 SUPPLE_SHARED_CONST kCullViewBinding = 10u;
 SUPPLE_SHARED_CONST kSizeBinding = 12u;
+SUPPLE_SHARED_CONST kViewWordsBinding = 13u; // shaders/shared/lod.h
 
 SUPPLE_SHARED_CONST kOccluded = 0xFFFFFFFFu; // as a state: not seen, but for the pyramid it would be
+SUPPLE_SHARED_CONST kDrawn = 1u;
+SUPPLE_SHARED_CONST kDrawnWithPast = 3u;
 
 // What a view sees; without planes and limits everything.
 struct CullView {
@@ -67,9 +74,9 @@ SUPPLE_SHARED_CONST kSizeBinsPerOctave = 64u;
 SUPPLE_SHARED_CONST kSizeOctavesBelow = 4u;
 SUPPLE_SHARED_CONST kSizeRanks = 4u * kSizeBins;
 
-// Bounds of an instance, two vec4: the least corner and the level that the instance asks for as a whole; the greatest corner and 1 where a vertex is not finite. Such
-// vertices are left out of the box, which says little then: the instance counts as seen. No finite vertex: a box from
-// kFloatMax to -kFloatMax.
+// Bounds of an instance, two vec4: the least corner and the level that the instance asks for as a whole; the greatest corner
+// and 1 where a vertex is not finite. Such vertices are left out of the box, which says little then: the instance counts as
+// seen. No finite vertex: a box from kFloatMax to -kFloatMax.
 struct BoundsPush {
     uint vertexCount;
     uint cageStride; // vertices an instance in the deformed cage
@@ -87,12 +94,9 @@ struct SizePush {
 };
 
 // Which instances an argument counts.
-SUPPLE_SHARED_CONST kCountWindow = 0u;
-SUPPLE_SHARED_CONST kCountWithPast = 1u; // of the window
-SUPPLE_SHARED_CONST kCountNew = 2u;      // of the window
-SUPPLE_SHARED_CONST kCountAll = 3u;      // of the group; written once
-SUPPLE_SHARED_CONST kCountRate = 4u;     // of the window at this rate; the next at the next one
-SUPPLE_SHARED_CONST kMaxRates = 7u;      // 1, 2, 4 .. 64 segments along an edge
+SUPPLE_SHARED_CONST kCountWindow = 0u; // all of the window
+SUPPLE_SHARED_CONST kCountRate = 1u;   // of the window at this rate; the next at the next one
+SUPPLE_SHARED_CONST kMaxRates = 7u;    // 1, 2, 4 .. 64 segments along an edge
 
 struct ListPush {
     uint windowCount;
@@ -102,13 +106,28 @@ struct ListPush {
     uint levels;    // from entries to their levels
     uint room;      // for vertices, of all groups of the view; kRoomForAll: there is no size pass
     uint maxGroups; // of a dispatch in x
-    uint rateCount; // 0: levels are real numbers
-    uint firstRate; // segments along an edge of the cage; each further rate has twice as many
+};
+struct DemandPush {
+    uint firstEntry; // of the host list
+    uint instanceCount;
+    uint rateCount;
+    uint firstRate;           // segments along an edge of the cage; each further rate has twice as many
+    uint vertices[kMaxRates]; // of an instance
+};
+struct RatesPush {
+    uint windowCount;
+    uint argumentCount;
+    uint argumentStride;
+    uint maxGroups; // of a dispatch in x
+    uint rateCount;
+    uint firstRate;
     uint rateLists; // first word of the first rate's list
     uint rateStride;
     uint rateCounts; // words of the argument buffer
     uint firstDraw;
     uint drawCount;
+    uint counted; // 1: the budget scales levels, and has what they take
+    uint vertices[kMaxRates];
 };
 SUPPLE_SHARED_CONST kRoomForAll = 0xFFFFFFFFu;
 

@@ -705,7 +705,7 @@ void views(Rows& r) {
     spoiled("vertexFormat", kBad, kRange, [](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(2); });
     spoiled("elasticity", kBad, kRange, [](Desc& d) { d.elasticities[1] = 1.5f; });
     spoiled("elasticity NaN", kBad, kRange, [](Desc& d) { d.elasticities[3] = kNan; });
-    spoiled("more than a buffer holds", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
+    spoiled("more than the budget counts", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
             [](Desc& d) { d.maxVertices = 0xF0000000u; });
     spoiled("all flags", SUPPLE_OK, kSilent, [](Desc& d) { d.flags = 127; });
 

@@ -1,9 +1,11 @@
 // Patches that show their backs: what a view with SUPPLE_VIEW_BACK_FACES leaves out against one without.
 #include "cage/gltf_reader.h"
+#include "cage/procedural.h"
 #include "surface/lod/grid.h"
 #include "surface/schemes.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
+#include "tests/support/meshes.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/test_view.h"
 
@@ -228,7 +230,202 @@ TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
         // What is worth it: many regular patches that show their backs are found, on coarse cages a quarter, on those
         // of the shared characters two thirds.
         EXPECT_GT(counts[SUPPLE_PATCH_REGULAR].out * 5, counts[SUPPLE_PATCH_REGULAR].back);
+        // Of the others some at least, but for polar ones, which all stay.
+        if (scheme == SUPPLE_SCHEME_PREP) {
+            EXPECT_GT(counts[SUPPLE_PATCH_PERTURBED].out, 0u);
+        } else {
+            EXPECT_GT(counts[SUPPLE_PATCH_P4].out, 0u);
+            EXPECT_GT(counts[SUPPLE_PATCH_P3].out + counts[SUPPLE_PATCH_P5].out, 0u);
+            EXPECT_EQ(counts[SUPPLE_PATCH_POLAR].out, 0u);
+        }
     }
+}
+
+/// Two crowds of one asset, drawn with back faces and without, instances in their bind poses.
+class BothWays {
+public:
+    BothWays(CrowdContext& context, SuppleAsset asset, SuppleScheme scheme)
+        : context_(context), whole_(context, 2'000'000), left_(context, 2'000'000, SUPPLE_VIEW_BACK_FACES),
+          wholeCrowd_(context, descOf(asset, scheme, whole_)), leftCrowd_(context, descOf(asset, scheme, left_)) {
+        EXPECT_TRUE(wholeCrowd_.valid() && leftCrowd_.valid());
+        (void)wholeCrowd_.spawn();
+        (void)leftCrowd_.spawn();
+        patches.resize(wholeCrowd_.output().patchCount);
+        auto count = static_cast<uint32_t>(patches.size());
+        EXPECT_EQ(suppleGetPatches(context.handle(), wholeCrowd_.group(), patches.data(), &count), SUPPLE_OK);
+    }
+    /// Nothing that faces the camera is missing. Adds to the counts.
+    void look(const SuppleCameraDesc& camera) {
+        SuppleCameraDesc own = camera;
+        own.structSize = sizeof(own);
+        whole_.camera = left_.camera = own;
+        const glm::vec3 eye(own.position[0], own.position[1], own.position[2]);
+        whole_.look(eye);
+        left_.look(eye);
+        context_.run(wholeCrowd_.group());
+        const SeenPatches whole = seenPatches(readLodSurface(wholeCrowd_), own);
+        context_.run(leftCrowd_.group());
+        const SeenPatches left = seenPatches(readLodSurface(leftCrowd_), own);
+        EXPECT_EQ(whole.size(), patches.size());
+        for (const auto& [which, seen] : whole) {
+            const bool out = !left.contains(which);
+            EXPECT_TRUE(!out || seen.largest < kRounding)
+                << "patch " << which.second << ", class " << patches[which.second].patchClass << ": " << seen.front
+                << " triangles, " << seen.area << " square pixels";
+            outByClass[patches[which.second].patchClass] += out ? 1 : 0;
+            mixed += seen.back > 3 * seen.front && seen.largest >= kRounding ? 1 : 0;
+        }
+    }
+    std::vector<SupplePatchInfo> patches;
+    std::map<SupplePatchClass, size_t> outByClass;
+    size_t mixed = 0; ///< patches that show their backs but for some triangles
+
+private:
+    static SuppleGroupDesc descOf(SuppleAsset asset, SuppleScheme scheme, const TestView& view) {
+        SuppleGroupDesc desc{};
+        desc.asset = asset;
+        desc.capacity = 1;
+        desc.scheme = scheme;
+        desc.view = view.handle();
+        return desc;
+    }
+    CrowdContext& context_;
+    TestView whole_, left_;
+    Crowd wholeCrowd_, leftCrowd_;
+};
+
+using Net = std::array<glm::dvec3, 16>; ///< i + 4 j
+
+/// Appends a grid of 3 x 3 quads whose middle one has this net.
+void appendNet(std::vector<glm::vec3>& positions, Polygons& polygons, Net net) {
+    for (const size_t axis : {0u, 1u}) { // cubic B-splines from Bezier coefficients, along u and then along v
+        for (size_t k = 0; k < 4; ++k) {
+            const auto at = [&](size_t i) -> glm::dvec3& { return net[axis == 0 ? i + 4 * k : k + 4 * i]; };
+            const glm::dvec3 p1 = 2.0 * at(1) - at(2), p2 = 2.0 * at(2) - at(1);
+            at(0) = 6.0 * at(0) - 4.0 * p1 - p2;
+            at(3) = 6.0 * at(3) - 4.0 * p2 - p1;
+            at(1) = p1;
+            at(2) = p2;
+        }
+    }
+    const auto first = static_cast<uint32_t>(positions.size());
+    positions.insert(positions.end(), net.begin(), net.end());
+    for (uint32_t j = 0; j < 3; ++j) {
+        for (uint32_t i = 0; i < 3; ++i) {
+            const uint32_t a = first + i + 4 * j;
+            polygons.push_back({a, a + 1, a + 5, a + 4});
+        }
+    }
+}
+
+// Borders of few segments along insides of many: there the triangles of the first row are long and askew.
+TEST_P(BackFaces, BordersThatAreCoarserThanTheInsideAreMinded) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    std::vector<glm::vec3> positions;
+    Polygons polygons;
+    std::mt19937 random(31);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    constexpr size_t kNets = 240;
+    for (size_t n = 0; n < kNets; ++n) {
+        // The first by hand: its borders have the levels 1 and 11, and of those triangles two face the camera.
+        const bool given = n == 0;
+        const double rises[3] = {given ? 0.4 : 0.2 + unit(random), given ? 0.5 : 0.2 + unit(random),
+                                 given ? 30.0 : 0.3 + 30.0 * unit(random)};
+        const double low = given ? 0.33 : 0.7 * unit(random) * rises[0];
+        const double bend = given ? 30.0 : 60.0 * unit(random), noise = given ? 0.0 : 0.2 * unit(random);
+        Net net;
+        for (size_t j = 0; j < 4; ++j) {
+            for (size_t i = 0; i < 4; ++i) {
+                const double y = (j > 0 ? rises[0] : 0.0) + (j > 1 ? rises[1] : 0.0) + (j > 2 ? rises[2] : 0.0);
+                const double z[4] = {0.0, 30.0, 61.0, 91.0 + bend};
+                const auto off = [&](double size) { return noise * size * (unit(random) - 0.5); };
+                net[i + 4 * j] = {20.0 * static_cast<double>(i) + off(10.0),
+                                  y - (i == 1 || i == 2 ? low : 0.0) + off(rises[0]), z[j]};
+            }
+        }
+        for (size_t turns = 0; turns < n % 4; ++turns) { // every side is the first once
+            Net turned;
+            for (size_t j = 0; j < 4; ++j) {
+                for (size_t i = 0; i < 4; ++i) {
+                    turned[j + 4 * (3 - i)] = net[i + 4 * j];
+                }
+            }
+            net = turned;
+        }
+        appendNet(positions, polygons, net);
+    }
+    const SuppleAsset asset = context.createAsset(makeCage(positions, polygons));
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        BothWays both(context, asset, scheme);
+        SuppleCameraDesc camera{};
+        camera.flags = SUPPLE_CAMERA_ORTHOGRAPHIC;
+        camera.pixelsPerUnit = 1.0f;
+        camera.direction[2] = 1.0f;
+        both.look(camera);
+        EXPECT_GT(both.mixed, 20u);
+        camera.vertexBudget = 40'000; // scales levels down
+        both.look(camera);
+        camera.vertexBudget = 0;
+        // From so far that rays are all but parallel.
+        camera.flags = 0;
+        camera.position[0] = 30.0f;
+        camera.position[1] = 10.0f;
+        camera.position[2] = -3000.0f;
+        camera.pixelsPerUnit = 3000.0f;
+        both.look(camera);
+        std::printf("scheme %d: %zu regular patches left out, %zu show their backs but for some triangles\n", scheme,
+                    both.outByClass[SUPPLE_PATCH_REGULAR], both.mixed);
+        EXPECT_GT(both.outByClass[SUPPLE_PATCH_REGULAR], 50u);
+    }
+}
+
+TEST_P(BackFaces, RoughCagesOfAllClassesLoseNothingThatFacesTheCamera) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    std::mt19937 random(37);
+    std::normal_distribution<float> normal;
+    std::map<SupplePatchClass, size_t> out;
+    for (const float rough : {0.0f, 0.02f, 0.08f, 0.2f}) {
+        const std::pair<cage::Cage, SuppleScheme> cages[] = {
+            {perturbed(dodecahedron(), rough, 1), SUPPLE_SCHEME_PM},
+            {perturbed(quartered(gyroBipyramid(5)), rough, 2), SUPPLE_SCHEME_PM},
+            {perturbed(withMergedFaces(withCutQuads(torus(14, 9), 0.5, 3), 60, 4), rough, 5), SUPPLE_SCHEME_PM},
+            {perturbed(cage::makeCubeSphere(3), rough, 6), SUPPLE_SCHEME_PREP}};
+        for (const auto& [cage, scheme] : cages) {
+            BothWays both(context, context.createAsset(cage), scheme);
+            glm::vec3 low(1e30f), high(-1e30f);
+            for (const glm::vec3& p : cage.positions) {
+                low = glm::min(low, p);
+                high = glm::max(high, p);
+            }
+            const float size = glm::length(high - low);
+            for (uint32_t frame = 0; frame < 5; ++frame) {
+                const glm::vec3 direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+                const float away = std::array{0.7f, 1.0f, 2.5f, 1.5f, 6.0f}[frame] * size;
+                const glm::vec3 eye = 0.5f * (low + high) - away * direction;
+                SuppleCameraDesc camera{};
+                camera.flags = frame == 3 ? SUPPLE_CAMERA_ORTHOGRAPHIC : 0;
+                camera.pixelsPerUnit = frame == 3 ? 700.0f / size : 869.0f;
+                camera.nearest = 0.01f * size;
+                std::copy_n(&direction.x, 3, camera.direction);
+                std::copy_n(&eye.x, 3, camera.position);
+                both.look(camera);
+                camera.vertexBudget = 10'000;
+                both.look(camera);
+            }
+            for (const auto& [patchClass, count] : both.outByClass) {
+                out[patchClass] += count;
+            }
+        }
+    }
+    for (const auto& [patchClass, count] : out) {
+        std::printf("class %d: %zu left out\n", patchClass, count);
+    }
+    EXPECT_GT(out[SUPPLE_PATCH_REGULAR], 100u);
+    EXPECT_GT(out[SUPPLE_PATCH_P3], 10u);
+    EXPECT_GT(out[SUPPLE_PATCH_P4], 10u);
+    EXPECT_GT(out[SUPPLE_PATCH_P5], 10u);
 }
 
 TEST_P(BackFaces, AreCountedAndDoubleSidedOnesStay) {

@@ -243,6 +243,66 @@ TEST_P(Occlusion, AWallHidesWhatLiesBehindIt) {
     }
 }
 
+// What is hidden needs no room: others do not go for it.
+TEST_P(Occlusion, WhatIsHiddenTakesNothingOfTheBudget) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 300'000, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION);
+    SuppleGroupDesc desc{};
+    desc.asset = context.createAsset(cage::makeCubeSphere(4));
+    desc.capacity = 40;
+    desc.scheme = SUPPLE_SCHEME_PREP;
+    desc.view = view.handle();
+    Crowd crowd(context, desc);
+    ASSERT_TRUE(crowd.valid());
+    // A wall over the left half of the picture, before what is farther than ten. Of forty instances in rows that go
+    // away from the camera half are behind it; those before it are larger, those beside it as large as those behind.
+    std::set<uint32_t> behind, seen;
+    for (uint32_t i = 0; i < 40; ++i) {
+        const bool left = i % 2 == 0;
+        const auto away = 14.0f + 3.0f * static_cast<float>(i / 2);
+        crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0,
+                   glm::translate(glm::mat4(1.0f), glm::vec3((left ? -0.3f : 0.3f) * away, 0.0f, -away)));
+        (left ? behind : seen).insert(i);
+    }
+    const glm::mat4 both = glm::perspectiveRH_ZO(glm::radians(60.0f), 16.0f / 9.0f, 0.5f, 200.0f);
+    std::memcpy(view.camera.viewProjection, &both, sizeof(both));
+    const glm::vec4 at = both * glm::vec4(0.0f, 0.0f, -10.0f, 1.0f);
+    DepthPicture picture{320, 180, false, std::vector<float>(size_t{320} * 180, 1.0f)};
+    for (uint32_t y = 0; y < picture.height; ++y) {
+        std::fill_n(picture.depths.begin() + y * picture.width, picture.width / 2, at.z / at.w);
+    }
+    const auto wall = DepthPyramid::create(context.device(), picture, 320, 180);
+    ASSERT_NE(wall, nullptr);
+    const SuppleDepthPyramidDesc pyramid = wall->desc(columnsOf(both));
+    const uint32_t least = crowd.output().patchCount * 4; // vertices of an instance at its coarsest
+    const uint32_t padding = crowd.output().lodDrawCount / 10 * 192;
+    const auto run = [&](uint32_t room) {
+        view.camera.vertexBudget = padding + room;
+        view.look({0.0f, 0.0f, 0.0f});
+        context.run(crowd.group());
+        const std::set<uint32_t> slots = slotsOf(shown(crowd));
+        context.run(crowd.group());
+        return std::pair(slots, view.statistics());
+    };
+    // Room for twenty of forty: without the wall the nearest of both sides, with it all of the right side.
+    const auto [without, freely] = run(20 * least);
+    EXPECT_EQ(freely.droppedInstanceCount, 40 - without.size());
+    EXPECT_GE(freely.droppedInstanceCount, 20u);
+    EXPECT_FALSE(without.contains(39));
+    EXPECT_EQ(suppleSetDepthPyramid(context.handle(), view.handle(), &pyramid), SUPPLE_OK);
+    const auto [with, walled] = run(20 * least);
+    EXPECT_EQ(with, seen);
+    EXPECT_EQ(walled.droppedInstanceCount, 0u);
+    EXPECT_EQ(walled.occludedInstanceCount, 20u);
+    // Room for ten: the nearest ten of those that are seen, and what is hidden counts as hidden.
+    const auto [ten, short10] = run(10 * least);
+    EXPECT_EQ(ten, (std::set<uint32_t>{1, 3, 5, 7, 9, 11, 13, 15, 17, 19}));
+    EXPECT_EQ(short10.droppedInstanceCount, 10u);
+    EXPECT_EQ(short10.occludedInstanceCount, 20u);
+    EXPECT_EQ(short10.shortfall, 1u);
+}
+
 TEST_P(Occlusion, OutOfThePictureIsNotBehindIt) {
     // A wall all over the picture at depth 0: only what lies in the picture, and before the eye, can be behind it.
     CrowdContext& context = CrowdContexts::context(GetParam());

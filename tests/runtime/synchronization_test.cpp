@@ -40,9 +40,10 @@ std::vector<VkBuffer> sorted(std::vector<VkBuffer> buffers) {
     return buffers;
 }
 
-/// The two halves of a handover are what the specification asks for, and fit each other.
+/// The two halves of a handover are what the specification asks for, and fit each other. `partly`: the buffer of which
+/// not all changes hands.
 void expectHalves(const std::vector<VkBufferMemoryBarrier2>& releases,
-                  const std::vector<VkBufferMemoryBarrier2>& acquired, uint32_t from, uint32_t to) {
+                  const std::vector<VkBufferMemoryBarrier2>& acquired, uint32_t from, uint32_t to, VkBuffer partly) {
     SuppleSyncScope last{};
     ASSERT_EQ(suppleGetRecordScopes(nullptr, &last), SUPPLE_OK);
     ASSERT_EQ(releases.size(), acquired.size());
@@ -53,8 +54,8 @@ void expectHalves(const std::vector<VkBufferMemoryBarrier2>& releases,
         EXPECT_EQ(r.pNext, nullptr);
         EXPECT_EQ(a.pNext, nullptr);
         EXPECT_EQ(r.buffer, a.buffer);
-        EXPECT_EQ(r.offset, 0u);
-        EXPECT_EQ(a.offset, 0u);
+        EXPECT_EQ(r.offset, a.offset);
+        EXPECT_EQ(a.offset > 0, a.buffer == partly);
         EXPECT_EQ(r.size, VK_WHOLE_SIZE);
         EXPECT_EQ(a.size, VK_WHOLE_SIZE);
         for (const VkBufferMemoryBarrier2& half : {r, a}) {
@@ -108,7 +109,9 @@ protected:
         EXPECT_EQ(sorted(always).size(), 5u);
     }
     /// A frame of the groups, drawn from in a second submission; the buffers that change hands.
-    std::vector<VkBuffer> handedOver(std::span<const SuppleGroup> groups) {
+    std::vector<VkBuffer> handedOver(std::span<const SuppleGroup> groups) { return buffersOf(barriersOf(groups)); }
+    std::vector<VkBufferMemoryBarrier2> barriersOf(std::span<const SuppleGroup> groups,
+                                                   VkBuffer partly = VK_NULL_HANDLE) {
         context->beginFrame();
         EXPECT_TRUE(device
                         ->submitAndWait([&](VkCommandBuffer commands) {
@@ -121,7 +124,8 @@ protected:
                         })
                         .ok());
         const std::vector<VkBufferMemoryBarrier2> acquired = acquires(*context, groups);
-        expectHalves(currentWrappedVulkan().bufferBarriers, acquired, device->queueFamily(), device->queueFamily());
+        expectHalves(currentWrappedVulkan().bufferBarriers, acquired, device->queueFamily(), device->queueFamily(),
+                     partly);
         EXPECT_TRUE(device
                         ->submitAndWait([&](VkCommandBuffer commands) {
                             VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
@@ -130,7 +134,7 @@ protected:
                             vkCmdPipelineBarrier2(commands, &info);
                         })
                         .ok());
-        return buffersOf(acquired);
+        return acquired;
     }
     /// Of the fixture's group.
     [[nodiscard]] std::vector<VkBuffer> wanted(bool withAttributes, bool withIndices) const {
@@ -174,6 +178,77 @@ TEST_F(AsyncCompute, HandsOverWhatTheFrameWrote) {
         buffers.push_back(buffer);
     }
     EXPECT_EQ(handedOver(both), sorted(buffers));
+}
+
+// What hosts read of a view's words changes hands, and nothing comes back: whatever stands there afterwards, the next
+// frame is right.
+TEST_F(AsyncCompute, OfAViewsWordsOnlyWhatHostsReadIsHandedOver) {
+    SuppleViewDesc viewDesc{};
+    viewDesc.structSize = sizeof(viewDesc);
+    viewDesc.flags = SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;
+    viewDesc.maxVertices = 50'000;
+    SuppleView view{};
+    ASSERT_EQ(suppleCreateView(context->handle(), &viewDesc, &view), SUPPLE_OK);
+    SuppleCameraDesc camera{};
+    camera.structSize = sizeof(camera);
+    camera.position[2] = 5.0f;
+    camera.pixelsPerUnit = 500.0f;
+    ASSERT_EQ(suppleSetCamera(context->handle(), view, &camera), SUPPLE_OK);
+    const SmallGroup first =
+        createGroup(context->handle(), asset, {.capacity = 3, .scheme = SUPPLE_SCHEME_PREP, .view = view});
+    const SmallGroup second =
+        createGroup(context->handle(), asset, {.capacity = 2, .scheme = SUPPLE_SCHEME_PM, .view = view});
+    ASSERT_EQ(first.result, SUPPLE_OK);
+    ASSERT_EQ(second.result, SUPPLE_OK);
+    const SuppleGroup both[] = {first.group, second.group};
+    const SuppleGroupOutput outputs[] = {outputOf(context->handle(), first.group),
+                                         outputOf(context->handle(), second.group)};
+    const VkBuffer words = outputs[0].lodBuckets.buffer;
+    std::vector<std::vector<std::byte>> frames;
+    for (int frame = 0; frame < 4; ++frame) {
+        VkDeviceSize from = 0;
+        for (const VkBufferMemoryBarrier2& barrier : barriersOf(both, words)) {
+            from = barrier.buffer == words ? barrier.offset : from;
+        }
+        EXPECT_GT(from, 0u);
+        std::vector<std::byte> drawn;
+        for (const SuppleGroupOutput& output : outputs) {
+            for (const SuppleBufferView& range : {output.lodBuckets, output.lodPatches, output.indirect}) {
+                EXPECT_EQ(range.buffer, words);
+                EXPECT_GE(range.offset, from);
+            }
+            EXPECT_EQ(output.lodBuckets.offset % 256, 0u);
+            EXPECT_EQ(output.lodPatches.offset % 256, 0u);
+            const Result<std::vector<std::byte>> commands = device->readBuffer(output.indirect);
+            ASSERT_TRUE(commands.ok());
+            drawn.insert(drawn.end(), commands->begin(), commands->end());
+        }
+        frames.push_back(drawn);
+        SuppleViewStatistics statistics{};
+        statistics.structSize = sizeof(statistics);
+        if (frame > 0) {
+            ASSERT_EQ(suppleGetViewStatistics(context->handle(), view, &statistics), SUPPLE_OK);
+            EXPECT_EQ(statistics.patchCount, 3 * outputs[0].patchCount + 2 * outputs[1].patchCount);
+        }
+        EXPECT_TRUE(
+            device
+                ->submitAndWait([&](VkCommandBuffer commands) {
+                    vkCmdFillBuffer(commands, words, from, VK_WHOLE_SIZE, 0xCDCDCDCDu);
+                    const VkMemoryBarrier2 all{
+                        VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr,        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                        VK_ACCESS_2_TRANSFER_WRITE_BIT,     kAnyUse.stages, kAnyUse.access};
+                    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+                    info.memoryBarrierCount = 1;
+                    info.pMemoryBarriers = &all;
+                    vkCmdPipelineBarrier2(commands, &info);
+                })
+                .ok());
+    }
+    EXPECT_EQ(frames[1], frames[0]);
+    EXPECT_EQ(frames[3], frames[0]);
+    EXPECT_EQ(suppleDestroyGroup(context->handle(), first.group), SUPPLE_OK);
+    EXPECT_EQ(suppleDestroyGroup(context->handle(), second.group), SUPPLE_OK);
+    EXPECT_EQ(suppleDestroyView(context->handle(), view), SUPPLE_OK);
 }
 
 TEST_F(AsyncCompute, UploadsOfAnEarlierFrameAreHandedOverByTheFirstThatRecords) {

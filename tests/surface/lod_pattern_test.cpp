@@ -2,6 +2,7 @@
 
 #include "tests/support/lod_levels.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -35,6 +36,42 @@ std::set<uint32_t> distinctBits(uint32_t capacity, float level) {
         bits.insert(std::bit_cast<uint32_t>(parameter(capacity, i, levelPair(level)).t));
     }
     return bits;
+}
+
+// What shaders/lod/facing.glsl takes for granted of the triangles between a border and the first inner row.
+TEST(LodPattern, bordersAndRowsAreNotMoreAskewThanBackFacesAllow) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    double worst = 0.0;
+    for (uint32_t n = 0; n < 400'000; ++n) {
+        const auto level = [&] { return std::exp(unit(random) * std::log(63.0)); };
+        double border = level(), along = level(), across = level();
+        border = n % 3 == 0 ? 1.0 : n % 3 == 1 ? 2.9 + 0.2 * unit(random) : border;
+        const double least = std::min(std::max({border, along, across}), 3.0); // shaders/lod/place.comp
+        along = std::max({along, border, least});
+        across = std::max(across, least);
+        uint32_t index = capacityIndexFor(static_cast<float>(std::max(along, across)));
+        index = std::min<uint32_t>(index + n % 2, kCapacities.size() - 1);
+        const uint32_t capacity = kCapacities[index], h = (capacity - 1) / 2;
+        const auto at = [&](double l, uint32_t i) {
+            return static_cast<double>(parameter(capacity, i, levelPair(static_cast<float>(l))).t);
+        };
+        const double distance = at(across, 1);
+        if (distance <= 0.0) {
+            continue; // no triangles
+        }
+        const double reach = std::min(3.4 * border / std::max(across, 3.0), 1.0);
+        for (uint32_t i = 0; i < capacity; ++i) { // both triangles of a cell
+            const bool before = i <= h;
+            const auto askew = [&](double from, double to, double point) {
+                worst = std::max(worst, to > from ? std::abs((point - from) * (point - to)) / distance * reach : 0.0);
+            };
+            askew(at(border, i), at(border, i + 1), at(along, before ? i + 1 : i));
+            askew(at(along, i), at(along, i + 1), at(border, before ? i : i + 1));
+        }
+    }
+    EXPECT_LT(worst, 1.0);
+    EXPECT_GT(worst, 0.9);
 }
 
 TEST(LodPattern, takesTheSmallestCapacityThatSuffices) {

@@ -421,16 +421,18 @@ typedef enum SuppleViewFlags {
     SUPPLE_VIEW_FACE_UVS = 8,   /**< with ATTRIBUTES: where vertices lie in their faces' trim tiles */
     SUPPLE_VIEW_CULL = 16, /**< instances that the camera does not see are deformed, but no surface is made of them */
     SUPPLE_VIEW_OCCLUSION = 32, /**< with CULL: nor of those behind a depth pyramid, see suppleSetDepthPyramid */
-    SUPPLE_VIEW_BACK_FACES = 64 /**< patches that surely show the camera their backs are left out, but for those of
-                                 * double-sided materials: for hosts that draw what winds counter-clockwise alone, and
-                                 * that from this camera alone */
+    SUPPLE_VIEW_BACK_FACES = 64 /**< patches of PREP and PM that surely show the camera their backs are left out, but
+                                 * for those of double-sided materials: for hosts that draw what winds
+                                 * counter-clockwise alone, and that from this camera alone. Other schemes' stay */
 } SuppleViewFlags;
 
 /** How much a view may write. */
 typedef struct SuppleViewDesc {
     uint32_t structSize;
     uint32_t flags;       /**< SuppleViewFlags */
-    uint32_t maxVertices; /**< surface vertices a frame, of all groups: what memory is kept for. 1024 or more */
+    uint32_t maxVertices; /**< surface vertices a frame, of all groups: what memory is kept for. 1024 to 50,331,648; of
+                           * them 192 go a run of patches (of one class, material and window of instances) of its
+                           * groups, and suppleCreateGroup refuses where nothing is left */
     SuppleVertexFormat vertexFormat; /**< of all groups */
     /** By priority, 0..1: what part of the scaling down an instance takes, as the exponent of the factor. 1: all of it,
      * 0: none. All zero: 1, 1/2, 1/4, 0. */
@@ -444,7 +446,7 @@ SUPPLE_API SuppleResult suppleDestroyView(SuppleContext context, SuppleView view
 
 /** Options of a camera. */
 typedef enum SuppleCameraFlags {
-    SUPPLE_CAMERA_ORTHOGRAPHIC = 1 /**< pixelsPerUnit everywhere; position does not matter */
+    SUPPLE_CAMERA_ORTHOGRAPHIC = 1 /**< pixelsPerUnit everywhere; position matters to `farthest` alone */
 } SuppleCameraFlags;
 
 /** From where levels are measured, and how fine they are. */
@@ -457,7 +459,10 @@ typedef struct SuppleCameraDesc {
     float chordError;    /**< pixels between an edge and its segments, 0 = 0.25 */
     float smallestEdge;  /**< pixels: segments are not made shorter, 0 = 3 */
     float edgeLength;    /**< pixels: segments of this length whatever the error; 0: by the two above */
-    uint32_t vertexBudget; /**< surface vertices a frame; 0, and at most: the view's maxVertices */
+    /** Surface vertices a frame, of all groups: those of CATMULL_CLARK and LOOP count, too, though they lie in memory
+     * of the groups' own. At most the view's maxVertices, as which it counts with 192 a run of patches: with no more
+     * than these no patches are drawn. 0: that, and CATMULL_CLARK and LOOP have no budget. */
+    uint32_t vertexBudget;
     /** SUPPLE_VIEW_CULL: what is outside of it is not seen; column-major, depth 0..w (or reversed, or without end). All
      * zero: everything is inside. Shadow maps want what casts a shadow into the picture: a larger volume. */
     float viewProjection[16];
@@ -511,14 +516,14 @@ typedef struct SuppleViewStatistics {
     uint64_t frame;     /**< of suppleBeginFrame */
     float
         levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
-    uint32_t vertexCount;                   /**< surface vertices written */
-    uint32_t wantedVertexCount;             /**< without a budget, up to a few per cent more */
-    uint32_t patchCount;                    /**< drawn */
-    uint32_t instanceCount;                 /**< visible ones of its groups */
-    uint32_t drawnInstanceCount;            /**< of these: seen, and not missing */
-    uint32_t droppedInstanceCount;          /**< seen, and missing for want of room */
-    uint32_t occludedInstanceCount;         /**< not seen for OCCLUSION alone */
-    uint32_t backFaceCount;                 /**< patches of drawn instances that BACK_FACES left out */
+    uint32_t vertexCount;           /**< surface vertices written; CATMULL_CLARK and LOOP: with a vertexBudget */
+    uint32_t wantedVertexCount;     /**< without a budget, up to a few per cent more */
+    uint32_t patchCount;            /**< drawn */
+    uint32_t instanceCount;         /**< visible ones of its groups */
+    uint32_t drawnInstanceCount;    /**< of these: seen, and not missing */
+    uint32_t droppedInstanceCount;  /**< seen, and missing for want of room */
+    uint32_t occludedInstanceCount; /**< not seen for OCCLUSION alone */
+    uint32_t backFaceCount;         /**< patches of drawn instances that BACK_FACES left out */
 } SuppleViewStatistics;
 
 /** Of the newest completed frame; never blocks. SUPPLE_NOT_READY: there is none. */
@@ -595,8 +600,8 @@ typedef struct SuppleGroupDesc {
     SupplePoseSource poseSource; /**< PALETTE_BUFFER goes with linear skinning only */
     /** Optional: the group is drawn at this view's levels of detail. vertexFormat and flags are then the view's. PREP,
      * PM and BLEND: rate, too; see SuppleGroupOutput.lodDraws. CATMULL_CLARK and LOOP: every instance has the rate its
-     * level asks for, rate being the largest; see SuppleGroupOutput.rates. The vertices are the group's own: the view's
-     * maxVertices and budget do not touch them, and SuppleViewStatistics counts the instances alone. */
+     * level asks for, rate being the largest; see SuppleGroupOutput.rates. The vertices are the group's own: none of
+     * the view's maxVertices, but of SuppleCameraDesc.vertexBudget. */
     SuppleView view;
 } SuppleGroupDesc;
 
@@ -960,13 +965,13 @@ typedef struct SuppleGroupOutput {
      * bind pose to its place: transform * joint * inverse bind; then, with morph targets, a float weight each. Dual
      * quaternions: see shaders/shared/deform.h. Null with SUPPLE_POSES_CAGE_BUFFER. */
     SuppleBufferView poses;
-    /** Groups of a view, PREP and PM: surfaceVertices, attributes, uvs1, faceUvs, previousPositions and gridIndices are
-     * the view's, drawRanges is null, and the draws are these: draw i has the i-th command of `indirect`. A capacity
-     * that no patch has draws no instances. */
+    /** Groups of a view, PREP, PM and BLEND: surfaceVertices, attributes, uvs1, faceUvs, previousPositions and
+     * gridIndices are the view's, drawRanges is null, and the draws are these: draw i has the i-th command of
+     * `indirect`. A capacity that no patch has draws no instances. */
     const SuppleLodDraw* lodDraws;
-    uint32_t lodDrawCount; /**< entries of lodDraws and of indirect */
-    SuppleBufferView
-        lodBuckets; /**< per draw four uint32: first entry of lodPatches, first surface vertex, patches, - */
+    uint32_t lodDrawCount;       /**< entries of lodDraws and of indirect */
+    SuppleBufferView lodBuckets; /**< per draw four uint32: first entry of lodPatches, first surface vertex, patches, -
+                                  * ; its offset, and that of lodPatches, is a multiple of 256 */
     SuppleBufferView lodPatches; /**< per patch 64 bytes: uint32 patch (0xFFFFFFFF: none), slot in the low 28 bits,
                                   * first surface vertex, - ; then levels (docs/lod.md) */
     SuppleBufferView bounds; /**< Groups of a view: two float4 a slot: the least corner of a box round the surface and
@@ -1018,14 +1023,16 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 typedef struct SuppleTiming {
     const char* pass;  /**< static: upload, attributes, pose, deform, vertex, edge (P_m: its facets), patch, evaluate,
                         * motion; groups of a view also bounds (twice with OCCLUSION), list, level (twice), solve (once a
-                        * view), place */
+                        * view), place. `shortfall` is no pass: it follows solve in frames in which the view's budget was
+                        * not enough (SuppleViewStatistics.shortfall), takes no time, and is in no other */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */
     double gpuEnd;
     double cpuRecord; /**< nanoseconds the host spent recording the pass */
     uint64_t points;  /**< elements the pass wrote, and bytes; both 0 where the device alone knows, as in groups of a */
-    uint64_t bytes;   /**< view: SuppleViewStatistics has what the whole view wrote */
+    uint64_t bytes;   /**< view: SuppleViewStatistics has what the whole view wrote. `shortfall`: instances that are
+                       * missing, and of those that are drawn the surface vertices, in bytes, that they lack */
 } SuppleTiming;
 
 /** The passes of the newest completed frame recorded with SUPPLE_RECORD_TIMINGS. Never blocks: SUPPLE_NOT_READY when
