@@ -563,6 +563,7 @@ TEST_F(Cli, ProfileOfAViewShowsItsShortfall) {
         for (const char* pass : {"pose", "deform", "bounds", "list", "level", "solve", "place", "evaluate"}) {
             EXPECT_TRUE(passes.contains(pass)) << pass;
         }
+        EXPECT_FALSE(passes.contains("shortfall")) << "is no pass";
         const Json& view = run["view"];
         EXPECT_EQ(view["budget"], budget);
         EXPECT_GT(view["vertices"], 0);

@@ -158,7 +158,8 @@ void bindBench(CLI::App& app, int& exitCode) {
                      "Characters of the crowd, 0: none; if left out 1000 on GPUs and few on CPU devices, where the "
                      "sphere is measured")
         ->check(CLI::Range(0u, 100000u));
-    command->add_flag("!--no-loading", options.loading, "Leave out loading, static data and pipelines");
+    command->add_flag_callback(
+        "--no-loading", [flags] { flags->bench.loading = false; }, "Leave out loading, static data and pipelines");
     command->add_flag("--driver-cache", flags->driverCache,
                       "Let the driver keep its own cache of shaders on disk, which times of pipelines then include");
     command

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace supple::tools {
 namespace {
@@ -231,6 +232,9 @@ private:
         }
         collected_ = timings_[0].frame;
         for (const SuppleTiming& timing : std::span(timings_).first(count)) {
+            if (std::string_view(timing.pass) == "shortfall") { // is no pass; the view's statistics have it
+                continue;
+            }
             for (auto sample = run.frames.rbegin(); sample != run.frames.rend(); ++sample) {
                 if (sample->frame == timing.frame) {
                     sample->passes.push_back(

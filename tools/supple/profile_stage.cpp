@@ -79,6 +79,7 @@ Status ProfileStage::createView(std::span<const host::CharacterFile> files) {
     camera.structSize = sizeof camera;
     std::memcpy(camera.position, &eye, sizeof camera.position);
     camera.pixelsPerUnit = 0.5f * kHeight / std::tan(0.5f * kFieldOfView);
+    camera.vertexBudget = options_.budget; // subdivision minds it where it is said
     std::memcpy(camera.viewProjection, &viewProjection, sizeof camera.viewProjection);
     return check(suppleSetCamera(handle(), view_, &camera), "suppleSetCamera");
 }
