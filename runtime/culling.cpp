@@ -44,6 +44,7 @@ Result<Culling> Culling::create(const Desc& desc) {
     }
     culling.firstRate_ = desc.firstRate;
     for (uint32_t r = 0; r < desc.rates.size(); ++r) {
+        culling.rateVertices_[r] = desc.rates[r].vertices;
         culling.firstDispatches_.push_back(static_cast<uint32_t>(culling.arguments_.size()));
         for (const surface::DispatchSize& dispatch : desc.rates[r].dispatches) {
             addDispatch(dispatch.elements, dispatch.perGroup, kCountRate + r);
@@ -124,6 +125,7 @@ Status Culling::createSets(const Desc& desc) {
             {kListTableBinding, whole(buffers_.buffer(kTable)), VK_NULL_HANDLE},
             {kCullViewBinding, whole(desc.view), VK_NULL_HANDLE},
             {kSizeBinding, whole(desc.sizes), VK_NULL_HANDLE},
+            {kViewWordsBinding, whole(desc.words), VK_NULL_HANDLE},
         };
         if (status) {
             gpu::writeSet(device, *set, resources);
@@ -209,6 +211,23 @@ void Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
     push.windowCount = windows_;
     push.argumentCount = static_cast<uint32_t>(arguments_.size());
     push.argumentStride = argumentStride();
+    pass_->recordList(commandBuffer, sets_.front(), push);
+}
+
+void Culling::recordDemand(VkCommandBuffer commandBuffer, uint32_t listed) const {
+    DemandPush push{};
+    push.instanceCount = listed;
+    push.rateCount = rateCount();
+    push.firstRate = firstRate_;
+    std::ranges::copy(rateVertices_, push.vertices);
+    pass_->recordDemand(commandBuffer, sets_.front(), push);
+}
+
+void Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const {
+    RatesPush push{};
+    push.windowCount = windows_;
+    push.argumentCount = static_cast<uint32_t>(arguments_.size());
+    push.argumentStride = argumentStride();
     push.rateCount = rateCount();
     push.firstRate = firstRate_;
     push.rateLists = firstRateList();
@@ -216,7 +235,9 @@ void Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
     push.rateCounts = firstRateCount();
     push.firstDraw = firstDraw();
     push.drawCount = static_cast<uint32_t>(draws_.size());
-    pass_->recordList(commandBuffer, sets_.front(), push);
+    push.counted = counted ? 1 : 0;
+    std::ranges::copy(rateVertices_, push.vertices);
+    pass_->recordRates(commandBuffer, sets_.front(), push);
 }
 
 surface::Window Culling::window(uint32_t window, VkDescriptorSet set) const {

@@ -11,6 +11,7 @@
 #include "surface/lod/instance.h"
 #include "surface/occlusion_pass.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,6 +24,7 @@ class Culling {
 public:
     /// What is dispatched and drawn for the instances of one rate.
     struct Rate {
+        uint32_t vertices = 0;                         ///< of an instance
         std::vector<surface::DispatchSize> dispatches; ///< of a window
         std::vector<SuppleDrawRange> draws;            ///< of all windows
     };
@@ -41,6 +43,7 @@ public:
         VkBuffer hostList = VK_NULL_HANDLE; ///< capacity entries, as shaders/shared/bounds.h has them
         VkBuffer view = VK_NULL_HANDLE;     ///< shared::CullView
         VkBuffer sizes = VK_NULL_HANDLE;    ///< of all groups of the view
+        VkBuffer words = VK_NULL_HANDLE;    ///< of the view (shaders/shared/lod.h)
         std::span<const uint32_t> elements; ///< lanes an instance, of the dispatches that follow
         uint32_t firstRate = 0;             ///< segments along an edge of the cage; the others twice as many each
         std::span<const Rate> rates;        ///< none where levels are real numbers
@@ -65,6 +68,10 @@ public:
     void recordSizes(VkCommandBuffer commandBuffer, uint32_t listed) const;
     /// `room`: vertices, or shared::kRoomForAll.
     void recordList(VkCommandBuffer commandBuffer, uint32_t room) const;
+    /// Where there are rates, behind the list: what `listed` instances of the host's list need in the budget.
+    void recordDemand(VkCommandBuffer commandBuffer, uint32_t listed) const;
+    /// Behind that and the view's solution: the lists of all rates. `counted`: the budget scales levels.
+    void recordRates(VkCommandBuffer commandBuffer, bool counted) const;
     [[nodiscard]] uint32_t leastVertices() const { return leastVertices_; }
     /// From an entry of the list to the level of its instance.
     [[nodiscard]] uint32_t levelOffset() const { return capacity_; }
@@ -109,6 +116,7 @@ private:
     std::vector<surface::ListWindow> listed_; ///< of the table written last
     std::vector<surface::ListArgument> arguments_;
     uint32_t firstRate_ = 0;
+    std::array<uint32_t, shared::kMaxRates> rateVertices_{};
     std::vector<uint32_t> firstDispatches_; ///< by rate, in arguments_
     std::vector<surface::ListDraw> draws_;
     gpu::BufferSet buffers_;

@@ -175,7 +175,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             return least <= view->room() ? shared::kRoomForAll : view->room();
         };
         for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            if (groupAt(g).view() != nullptr && roomOf(groupAt(g).view()) != shared::kRoomForAll) {
+            if (groupAt(g).isBudgeted() && roomOf(groupAt(g).view()) != shared::kRoomForAll) {
                 groupAt(g).recordSizes(commandBuffer);
                 computeBarrier();
             }

@@ -192,10 +192,10 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
             group->firstRun_ = *first;
             group->hasRuns_ = true;
         } else if (group->hasRates()) {
-            group->hasRuns_ = group->view_->takeGroup();
+            group->hasRuns_ = group->view_->takeGroup(vertices * desc.capacity);
             if (!group->hasRuns_) {
                 return Error{ErrorCode::limit, name + ": the view is full: it has " + std::to_string(kMaxRuns) +
-                                                   " groups of subdivision"};
+                                                   " groups of subdivision, or they have 2^32 vertices"};
             }
         }
         group->slots_ = InstanceSlots(desc.capacity, shared.firstGeneration);
@@ -263,7 +263,7 @@ Status Group::layOutWindows(const SuppleGroupDesc& desc) {
 
 Group::~Group() {
     if (hasRuns_ && hasRates()) {
-        view_->giveGroup();
+        view_->giveGroup(uint64_t{vertexCount_} * capacity_);
     } else if (hasRuns_) {
         view_->giveRuns(firstRun_, static_cast<uint32_t>(scheme_->tables.lod.runs.size() * windows_.size()));
     }
@@ -440,9 +440,17 @@ Status Group::createCulling() {
     desc.hostList = buffers_.buffer(kInstances);
     desc.view = view_->buffer(View::kCull);
     desc.sizes = view_->buffer(View::kSizes);
-    desc.measure = surface::lod::measureInstance(cage);
+    desc.words = view_->buffer(View::kWords);
+    // Rates count along edges of the cage, levels along those of patches.
+    desc.measure = surface::lod::measureInstance(cage, hasLevels() ? tables.isolationSteps : 0);
+    if (scheme_->recipe.scheme == SchemeId::blend) {
+        desc.measure.bend *= 2.0f; // curves that interpolate bend unevenly: found by LodCrowds.OneLevelAnInstance
+    }
     for (const surface::LodTables::Run& run : tables.lod.runs) {
         desc.leastVertices += run.patchCount * surface::lod::sampleCount(surface::lod::formOf(run.patchClass), 1);
+    }
+    if (hasRates()) {
+        desc.leastVertices = rates.front().vertices;
     }
     desc.elements = elements;
     desc.firstRate = 1u << tables.isolationSteps;

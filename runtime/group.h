@@ -63,6 +63,8 @@ public:
     /// several rates an instance (group_rates.cpp).
     [[nodiscard]] bool hasLevels() const { return view_ != nullptr && !hasRates(); }
     [[nodiscard]] bool hasRates() const { return !rates_.empty(); }
+    /// Its vertices count in the view's budget.
+    [[nodiscard]] bool isBudgeted() const { return hasLevels() || (hasRates() && view_->countsRates()); }
 
     // The passes of a frame, each recorded without barriers; runtime/frame.cpp puts them in order.
     struct PassCost {
@@ -95,7 +97,9 @@ public:
     [[nodiscard]] bool occludes() const { return culls() && visible_ > 0 && view_->depthPyramid().has_value(); }
     PassCost recordOcclusion(VkCommandBuffer commandBuffer);
     /// Of the instances listed.
-    [[nodiscard]] uint64_t leastVertices() const { return uint64_t{culling_.leastVertices()} * visible_; }
+    [[nodiscard]] uint64_t leastVertices() const {
+        return isBudgeted() ? uint64_t{culling_.leastVertices()} * visible_ : 0;
+    }
     void recordSizes(VkCommandBuffer commandBuffer) const { culling_.recordSizes(commandBuffer, visible_); }
     void recordReadback(VkCommandBuffer commandBuffer) const {
         view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset(),
@@ -156,6 +160,7 @@ private:
     [[nodiscard]] uint64_t layOutVertices(); ///< of an instance
     void fillRates();
     [[nodiscard]] std::vector<Culling::Rate> cullingRates() const;
+    [[nodiscard]] uint32_t ownVertices(size_t rate) const; ///< of an instance at this one of rates_
     void recordRates(VkCommandBuffer commandBuffer, bool previous) const;
     /// All tables of the group, once.
     template <class F>

@@ -40,11 +40,19 @@ uint64_t Group::layOutVertices() {
     return vertices;
 }
 
+uint32_t Group::ownVertices(size_t rate) const {
+    const SuppleRate& output = rateOutputs_[rate];
+    const SuppleDrawRange &first = drawRanges_[output.firstDrawRange],
+                          &last = drawRanges_[output.firstDrawRange + output.drawRangeCount - 1];
+    return last.firstVertex + last.patchCount * last.samplesPerPatch - first.firstVertex;
+}
+
 std::vector<Culling::Rate> Group::cullingRates() const {
     std::vector<Culling::Rate> rates;
     for (size_t r = 0; r < rates_.size(); ++r) {
         const auto first = drawRanges_.begin() + rateOutputs_[r].firstDrawRange;
-        rates.push_back({shared_.surface->kernel().dispatches(rates_[r].scheme->tables.fragments),
+        rates.push_back({ownVertices(r),
+                         shared_.surface->kernel().dispatches(rates_[r].scheme->tables.fragments),
                          {first, first + rateOutputs_[r].drawRangeCount}});
     }
     return rates;

@@ -164,8 +164,7 @@ Group::PassCost Group::recordSeen(VkCommandBuffer commandBuffer, uint32_t room) 
     if (!culls()) {
         return {};
     }
-    // Vertices of their own need nobody's room.
-    culling_.recordList(commandBuffer, hasLevels() ? room : kRoomForAll);
+    culling_.recordList(commandBuffer, isBudgeted() ? room : kRoomForAll);
     return {0, 0, true};
 }
 
@@ -269,6 +268,8 @@ LodPush Group::levelPush(const Window& window) const {
     push.patches = tables.lod.patches.table;
     push.edgeCount = tables.lod.edges.count;
     push.poolStride = tables.poolStride;
+    push.tangents = tables.tangents;
+    push.faces = tables.faces;
     push.scratchStride = scratchElements();
     push.firstRun = firstRun_ + window.index * runs;
     push.runCount = runs;
@@ -301,6 +302,11 @@ Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
 }
 
 Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
+    if (hasRates() && isBudgeted()) {
+        gpu::computeBarrier(*shared_.device, commandBuffer);
+        culling_.recordDemand(commandBuffer, visible_);
+        return {0, 0, visible_ > 0};
+    }
     if (!hasLevels()) {
         return {};
     }
@@ -315,6 +321,11 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
 }
 
 Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
+    if (hasRates()) {
+        gpu::computeBarrier(*shared_.device, commandBuffer);
+        culling_.recordRates(commandBuffer, isBudgeted());
+        return {0, 0, visible_ > 0};
+    }
     if (!hasLevels()) {
         return {};
     }

@@ -178,10 +178,18 @@ void View::giveRuns(uint32_t first, uint32_t count) {
     }
 }
 
-bool View::takeGroup() {
-    const bool room = groupsWithoutRuns_ < kMaxRuns;
-    groupsWithoutRuns_ += room ? 1 : 0;
-    return room;
+bool View::takeGroup(uint64_t vertices) {
+    if (groupsWithoutRuns_ == kMaxRuns || verticesWithoutRuns_ + vertices > 0xFFFFFFFFull) {
+        return false;
+    }
+    ++groupsWithoutRuns_;
+    verticesWithoutRuns_ += vertices;
+    return true;
+}
+
+void View::giveGroup(uint64_t vertices) {
+    --groupsWithoutRuns_;
+    verticesWithoutRuns_ -= vertices;
 }
 
 LodCamera View::lodCamera() const {
@@ -273,6 +281,7 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
     push.priorities = priorities;
     push.forms = forms_;
     push.maxGroups = std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+    push.rated = countsRates() ? 1 : 0;
     std::copy_n(desc_.elasticities, kPriorityCount, push.elasticity);
     passes.recordSolve(commandBuffer, set, push);
 }

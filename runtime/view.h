@@ -46,8 +46,11 @@ public:
                                             uint32_t windows);
     void giveRuns(uint32_t first, uint32_t count);
     /// The same for groups without runs, of which there may be kMaxRuns, too. False: the view is full.
-    [[nodiscard]] bool takeGroup();
-    void giveGroup() { --groupsWithoutRuns_; }
+    /// `vertices`: of all its instances at all rates, which in all groups together 32 bits must count.
+    [[nodiscard]] bool takeGroup(uint64_t vertices);
+    void giveGroup(uint64_t vertices);
+    /// Whether vertices of such groups count in the budget.
+    [[nodiscard]] bool countsRates() const { return groupsWithoutRuns_ > 0 && camera_.vertexBudget > 0; }
 
     [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || !cleared_; }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
@@ -111,6 +114,7 @@ private:
     std::vector<bool> takenRuns_;
     uint32_t endOfRuns_ = 0;
     uint32_t groupsWithoutRuns_ = 0;
+    uint64_t verticesWithoutRuns_ = 0;
     uint32_t forms_ = 0; ///< bits of those that runs have
     bool cleared_ = false;
     bool indicesToRelease_ = false;

@@ -23,6 +23,12 @@ uint32_t bits(float value) {
     return std::bit_cast<uint32_t>(value);
 }
 
+/// The time of the clip at `start`. Of a loop without the whole loops in it: the device's floats could not tell more
+/// than 2^24 of them apart.
+double beginOf(const cage::Character& character, const PlaybackLayer& layer) {
+    return layer.loop ? loopTime(layer.offset, character.clips[layer.clip].duration).time : layer.offset;
+}
+
 } // namespace
 
 uint32_t PlaybackState::elements(uint32_t morphCount) {
@@ -56,7 +62,7 @@ void PlaybackState::set(const cage::Character& character, const ClipTable& table
             layer.clip, (layer.loop ? kLayerLoops : 0u) | (layer.mode == LayerMode::additive ? kLayerAdds : 0u),
             layer.mask, 0u};
         std::ranges::copy(ids, words_.begin() + static_cast<ptrdiff_t>(4 * size_t{first}));
-        const SplitTime start = splitTime(layer.start), offset = splitTime(layer.offset),
+        const SplitTime start = splitTime(layer.start), offset = splitTime(beginOf(character, layer)),
                         fade = splitTime(layer.fadeStart), reference = splitTime(layer.referenceTime);
         put(first + 1, start.high, start.low, offset.high, offset.low);
         put(first + 2, layer.speed, layer.weight, layer.fadeWeight, layer.fadeDuration);
@@ -77,10 +83,9 @@ void PlaybackState::set(const cage::Character& character, const ClipTable& table
 
 void PlaybackState::setTravel(const cage::Character& character, const PlaybackLayer& layer, const RootSelection& root) {
     const cage::Clip& clip = character.clips[layer.clip];
-    const LoopTime begin = layer.loop ? loopTime(layer.offset, clip.duration) : LoopTime{layer.offset, 0.0};
-    const RootMotion back = inverse(rootMotionBetween(character, clip, root, 0.0, begin.time, false));
+    const RootMotion back = inverse(rootMotionBetween(character, clip, root, 0.0, beginOf(character, layer), false));
     put(4, static_cast<float>(back.translation.x), static_cast<float>(back.translation.y),
-        static_cast<float>(back.translation.z), static_cast<float>(begin.loops));
+        static_cast<float>(back.translation.z), 0.0f);
     const RootMotion loop = rootMotionBetween(character, clip, root, 0.0, clip.duration, false);
     // What turns by less than this walks straight on for longer than floats count loops.
     constexpr double kStraight = 1e-9;

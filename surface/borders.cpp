@@ -1,22 +1,60 @@
 #include "surface/borders.h"
 
+#include "shaders/shared/surface.h"
+
+#include <string>
+
 namespace supple::surface {
+
+uint32_t spokeWord(uint32_t spoke, uint32_t next) {
+    return spoke | (next - spoke) << shared::kSpokeBits;
+}
+
+Status spokesFit(size_t count, uint32_t most) {
+    if (count > shared::kMaxSpokes) {
+        return Error{ErrorCode::limit, std::to_string(count) + " edges counted from both ends; patch records hold " +
+                                           std::to_string(shared::kMaxSpokes)};
+    }
+    if (most > shared::kMaxSpokeStep) {
+        return Error{ErrorCode::limit, "a vertex has " + std::to_string(most) + " edges; patch records hold " +
+                                           std::to_string(shared::kMaxSpokeStep)};
+    }
+    return success();
+}
+
+std::array<uint32_t, 16> netIndices(const Tables& tables, const uint32_t* record, PatchClass patchClass) {
+    using namespace shared;
+    constexpr uint32_t kCorners[2][16] = {{SUPPLE_NET_CORNERS}, {SUPPLE_POLAR_NET_CORNERS}};
+    constexpr uint32_t kKinds[2][16] = {{SUPPLE_NET_KINDS}, {SUPPLE_POLAR_NET_KINDS}};
+    const size_t polar = patchClass == PatchClass::polar ? 1 : 0;
+    std::array<uint32_t, 16> indices{};
+    for (uint32_t k = 0; k < 16; ++k) {
+        const uint32_t point = record[2 * kCorners[polar][k]], spoke = record[2 * kCorners[polar][k] + 1];
+        const uint32_t choices[] = {point, tables.tangents + SUPPLE_SPOKE(spoke),
+                                    tables.tangents + SUPPLE_NEXT_SPOKE(spoke), tables.faces + SUPPLE_SPOKE(spoke),
+                                    point + 1};
+        static_assert(kNetPoint == 0 && kNetTangent == 1 && kNetNextTangent == 2 && kNetFace == 3 && kNetBehind == 4);
+        indices[k] = choices[kKinds[polar][k]];
+    }
+    return indices;
+}
 
 uint32_t recordElements(const Tables& tables, PatchClass patchClass) {
     switch (patchClass) {
     case PatchClass::regular:
     case PatchClass::polar:
-        return tables.cornerNormals ? 5 : 4;
+        return tables.cornerNormals ? 3 : 2;
     case PatchClass::perturbed:
-        return tables.cornerNormals ? 9 : 8;
+        return tables.cornerNormals ? 4 : 3;
     default:
         return cornerCount(domainOf(patchClass));
     }
 }
 
-std::vector<BorderCurve> borderCurves(const uint32_t* record, PatchClass patchClass) {
+std::vector<BorderCurve> borderCurves(const Tables& tables, const uint32_t* record, PatchClass patchClass) {
     if (patchClass <= PatchClass::polar) {
-        const auto g = [&](uint32_t i, uint32_t j) { return record[4 * j + i]; };
+        const std::array<uint32_t, 16> net = netIndices(tables, record, patchClass);
+        const auto g = [&](uint32_t i, uint32_t j) { return net[4 * j + i]; };
         return {{g(0, 0), g(1, 0), g(2, 0), g(3, 0)},
                 {g(3, 0), g(3, 1), g(3, 2), g(3, 3)},
                 {g(3, 3), g(2, 3), g(1, 3), g(0, 3)},

@@ -1,7 +1,8 @@
-// The borders of patches as their records have them: pool indices, side by side. For the classes whose borders are
-// cubics (p-rep, P_m).
+// The records of patches, written and read, and their borders: pool indices, side by side. For the classes whose
+// borders are cubics (p-rep, P_m).
 #pragma once
 
+#include "base/result.h"
 #include "surface/scheme.h"
 
 #include <array>
@@ -13,10 +14,19 @@ namespace supple::surface {
 /// backwards; across a crease they do not.
 using BorderCurve = std::array<uint32_t, 4>;
 
+/// The spoke of a corner in a bicubic record: its own number, and that of the next one round the vertex.
+[[nodiscard]] uint32_t spokeWord(uint32_t spoke, uint32_t next);
+/// Whether words hold that many spokes, up to `most` of them round a vertex.
+[[nodiscard]] Status spokesFit(size_t count, uint32_t most);
+
+/// Pool indices of the 16 coefficients of a bicubic patch, row by row in v.
+[[nodiscard]] std::array<uint32_t, 16> netIndices(const Tables& tables, const uint32_t* record, PatchClass patchClass);
+
 /// Elements of a patch record.
 [[nodiscard]] uint32_t recordElements(const Tables& tables, PatchClass patchClass);
 
 /// Border curves by side of the grid: a polar patch has four, one of them the apex.
-[[nodiscard]] std::vector<BorderCurve> borderCurves(const uint32_t* record, PatchClass patchClass);
+[[nodiscard]] std::vector<BorderCurve> borderCurves(const Tables& tables, const uint32_t* record,
+                                                    PatchClass patchClass);
 
 } // namespace supple::surface

@@ -2,7 +2,9 @@
 
 #include "cage/topology.h"
 #include "shaders/bounds_bounds_comp.h"
+#include "shaders/bounds_demand_comp.h"
 #include "shaders/bounds_list_comp.h"
+#include "shaders/bounds_rates_comp.h"
 #include "shaders/bounds_size_comp.h"
 
 #include <algorithm>
@@ -13,9 +15,11 @@ namespace supple::surface {
 using namespace shared;
 
 static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16 && sizeof(ListDraw) == 16);
-static_assert(std::max(sizeof(BoundsPush), sizeof(ListPush)) <= gpu::kPushConstantBytes);
 
 namespace {
+
+constexpr uint32_t kPushBytes = std::max({sizeof(BoundsPush), sizeof(ListPush), sizeof(DemandPush), sizeof(RatesPush)});
+static_assert(kPushBytes <= gpu::kPushConstantBytes);
 
 /// Whether a chart of the blending surface may be open. One that is not has smaller weights.
 bool openOrSharp(const cage::Cage& cage) {
@@ -75,11 +79,11 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device) {
         {kBoundsStateBinding, kStorage}, {kHostListBinding, kStorage},       {kBoundsStateTexelBinding, kTexels},
         {kListBinding, kStorage},        {kHostListTexelBinding, kTexels},   {kListArgumentBinding, kStorage},
         {kListTableBinding, kStorage},   {kCullViewBinding, kStorage},       {kSizeBinding, kStorage},
+        {kViewWordsBinding, kStorage},
     };
     BoundsPass pass;
     pass.device_ = &device;
-    Result<gpu::ComputeLayout> layout =
-        gpu::ComputeLayout::create(device, bindings, std::max(sizeof(BoundsPush), sizeof(ListPush)), "supple bounds");
+    Result<gpu::ComputeLayout> layout = gpu::ComputeLayout::create(device, bindings, kPushBytes, "supple bounds");
     if (!layout) {
         return layout.error();
     }
@@ -90,7 +94,9 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device) {
         const char* name;
     } pipelines[] = {{&pass.bounds_, bounds_bounds_comp, "supple bounds"},
                      {&pass.sizes_, bounds_size_comp, "supple sizes of instances"},
-                     {&pass.list_, bounds_list_comp, "supple list of instances"}};
+                     {&pass.list_, bounds_list_comp, "supple list of instances"},
+                     {&pass.demand_, bounds_demand_comp, "supple demand of rates"},
+                     {&pass.rates_, bounds_rates_comp, "supple lists of rates"}};
     for (const auto& [target, spirv, name] : pipelines) {
         Result<gpu::PipelineHandle> made = gpu::createComputePipeline(device, pass.layout_, spirv, {}, name);
         if (!made) {
@@ -128,9 +134,28 @@ void BoundsPass::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set,
     gpu::dispatchLinear(*device_, commandBuffer, (push.instanceCount + local - 1) / local);
 }
 
+void BoundsPass::recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const DemandPush& push) const {
+    if (push.instanceCount == 0) {
+        return;
+    }
+    bind(commandBuffer, demand_, set, &push, sizeof(push));
+    const uint32_t local = device_->mapping.localSize;
+    gpu::dispatchLinear(*device_, commandBuffer, (push.instanceCount + local - 1) / local);
+}
+
+uint32_t BoundsPass::maxGroups() const {
+    return std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+}
+
 void BoundsPass::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {
-    push.maxGroups = std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+    push.maxGroups = maxGroups();
     bind(commandBuffer, list_, set, &push, sizeof(push));
+    device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
+}
+
+void BoundsPass::recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, RatesPush push) const {
+    push.maxGroups = maxGroups();
+    bind(commandBuffer, rates_, set, &push, sizeof(push));
     device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
 }
 

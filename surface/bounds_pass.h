@@ -65,14 +65,19 @@ public:
     /// For empty groups too: the arguments are then those of no instances. Any window's set; push.maxGroups is filled
     /// in.
     void recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::ListPush push) const;
+    /// Behind the list: what instances of several rates need. Any window's set. Nothing where push.instanceCount is 0.
+    void recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::DemandPush& push) const;
+    /// As recordList, behind it and the view's solution.
+    void recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::RatesPush push) const;
 
 private:
+    [[nodiscard]] uint32_t maxGroups() const;
     void bind(VkCommandBuffer commandBuffer, const gpu::PipelineHandle& pipeline, VkDescriptorSet set, const void* push,
               uint32_t bytes) const;
 
     const gpu::Device* device_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::PipelineHandle bounds_, sizes_, list_;
+    gpu::PipelineHandle bounds_, sizes_, list_, demand_, rates_;
 };
 
 } // namespace supple::surface

@@ -2,6 +2,7 @@
 
 #include "cage/trim.h"
 #include "surface/blend/scheme.h"
+#include "surface/borders.h"
 #include "surface/kernel/scheme.h"
 #include "surface/lod/tables.h"
 #include "surface/pm/scheme.h"
@@ -20,6 +21,14 @@ Result<Tables> buildScheme(const Recipe& recipe, const cage::Cage& cage) {
         Result<pm::Mesh> mesh = pm::buildMesh(cage);
         if (!mesh) {
             return mesh.error();
+        }
+        uint32_t most = 0;
+        for (const pm::Sector& sector : mesh->sectors) {
+            most = std::max(most, sector.edges());
+        }
+        const Status fits = spokesFit(mesh->slotSpokes.size(), most);
+        if (!fits) {
+            return fits.error();
         }
         return pm::buildTables(*mesh);
     }
@@ -51,6 +60,14 @@ Result<Tables> buildScheme(const Recipe& recipe, const cage::Cage& cage) {
     const Status accepted = prep::accepts(cage);
     if (!accepted) {
         return accepted.error();
+    }
+    uint32_t most = 0;
+    for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
+        most = std::max(most, topology->spokeCount(v));
+    }
+    const Status fits = spokesFit(topology->spokeVertices.size(), most);
+    if (!fits) {
+        return fits.error();
     }
     return prep::buildTables(cage, *topology, recipe.prep);
 }

@@ -161,7 +161,7 @@ private:
     /// The border curves of its edges; a polar patch's apex is none.
     [[nodiscard]] std::vector<BorderCurve> curvesOf(const PatchRange& range, uint32_t patch) const {
         const uint32_t* record = &tables_.words[size_t{4} * recordOf(range, patch)];
-        std::vector<BorderCurve> curves = borderCurves(record, range.patchClass);
+        std::vector<BorderCurve> curves = borderCurves(tables_, record, range.patchClass);
         if (range.patchClass == PatchClass::polar) {
             curves.erase(curves.begin() + 2);
         }
@@ -177,7 +177,8 @@ private:
             addSector(record, cornerCount(domainOf(range.patchClass)), at.side, source);
             return source;
         }
-        const auto g = [&](uint32_t i, uint32_t j) { return record[4 * j + i]; };
+        const std::array<uint32_t, 16> net = netIndices(tables_, record, range.patchClass);
+        const auto g = [&](uint32_t i, uint32_t j) { return net[4 * j + i]; };
         const bool polar = range.patchClass == PatchClass::polar;
         const uint32_t quadSide = polar && at.side == 2 ? 3 : at.side;
         for (uint32_t k = 0; k < 4; ++k) { // one step inside
@@ -201,18 +202,13 @@ private:
     }
 
     static void addPerturbation(const uint32_t* record, uint32_t side, EdgeSource& source) {
-        constexpr std::array<uint32_t, 16> kFaceEdgeOrder = {SUPPLE_PREP_FACE_EDGE_ORDER};
-        std::array<uint32_t, 16> h{};
-        for (uint32_t k = 0; k < 16; ++k) {
-            h[kFaceEdgeOrder[k]] = record[16 + k];
-        }
-        const uint32_t first = h[size_t{4} * side], second = h[size_t{4} * side + 1];
-        if (first == second) {
-            return; // the zero coefficient
+        const uint32_t edge = record[8 + side];
+        if ((edge & kStillEdgeOfPatch) != 0) {
+            return;
         }
         source.perturbed = true;
-        source.extra = std::min(first, second);
-        source.flags |= second < first ? kSwappedEdge : 0;
+        source.extra = edge & kEdgeOfPatchMask;
+        source.flags |= (edge & kReversedEdgeOfPatch) != 0 ? kSwappedEdge : 0;
     }
 
     static void addSector(const uint32_t* record, uint32_t sides, uint32_t i, EdgeSource& source) {

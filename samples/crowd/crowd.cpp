@@ -1,5 +1,6 @@
 #include "crowd.h"
 
+#include "arcs.h"
 #include "common/context.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -19,13 +20,23 @@ namespace {
 
 struct KindDesc {
     SuppleScheme scheme;
-    const char* clip;
-    float stride;
     float size;
+    float speed; ///< of the clip: feet stand still on the ground at any
 };
-constexpr KindDesc kDescs[kKinds] = {{SUPPLE_SCHEME_PM, "walk", 0.62f, 1.0f},
-                                     {SUPPLE_SCHEME_PREP, "walk", 0.62f, 1.25f},
-                                     {SUPPLE_SCHEME_PM, "joy", 0.9f, 0.7f}};
+constexpr KindDesc kDescs[kKinds] = {
+    {SUPPLE_SCHEME_PM, 1.0f, 1.0f}, {SUPPLE_SCHEME_PREP, 1.25f, 0.85f}, {SUPPLE_SCHEME_BLEND, 0.7f, 1.3f}};
+/// Metres a loop of the demo character's walk: two cycles in which each foot stands for 0.56, moving back by 0.25.
+constexpr float kStride = 2.0f * 0.25f / 0.56f;
+constexpr std::array<float, 3> kRadii = {0.28f, 0.4f, 0.52f};
+
+/// Every radius to either side.
+std::vector<Arc> arcs() {
+    std::vector<Arc> all;
+    for (const float radius : kRadii)
+        for (const float turn : {1.0f, -1.0f})
+            all.push_back({"arc " + std::to_string(all.size()), radius, turn});
+    return all;
+}
 
 std::vector<char> readFile(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -34,17 +45,16 @@ std::vector<char> readFile(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void findClip(Kind& kind, const char* wanted) {
+void findArcs(Kind& kind) {
     SuppleAssetInfo info{};
     sample::check(kind.asset.info(info), "suppleGetAssetInfo");
-    kind.clip = info.clipCount > 0 ? 0 : SUPPLE_REST_POSE;
-    for (uint32_t c = 0; c < info.clipCount; ++c) {
+    const auto wanted = static_cast<uint32_t>(arcs().size());
+    kind.walks = info.clipCount > wanted; // else the file has none to walk by
+    if (kind.walks) {
+        kind.firstArc = info.clipCount - wanted;
         SuppleClipInfo clip{};
-        sample::check(kind.asset.clipInfo(c, clip), "suppleGetClipInfo");
-        if (c == 0 || std::strcmp(clip.name, wanted) == 0) {
-            kind.clip = c;
-            kind.duration = std::max(clip.duration, 0.1);
-        }
+        sample::check(kind.asset.clipInfo(kind.firstArc, clip), "suppleGetClipInfo");
+        kind.duration = std::max(clip.duration, 0.1);
     }
 }
 
@@ -62,15 +72,13 @@ Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
 
     for (size_t k = 0; k < kKinds; ++k) {
         Kind& kind = kinds_[k];
-        const std::vector<char> bytes = readFile(options.files[k]);
+        const std::vector<char> bytes = withArcs(readFile(options.files[k]), "walk", kStride, arcs());
         auto assetDesc = supple::sized<SuppleAssetDesc>();
         assetDesc.name = options.files[k].c_str();
         assetDesc.bytes = bytes.data();
         assetDesc.byteCount = bytes.size();
         sample::check(supple::Asset::create(context_, assetDesc, kind.asset), "suppleCreateAsset");
-        findClip(kind, kDescs[k].clip);
-        kind.stride = kDescs[k].stride;
-        kind.size = kDescs[k].size;
+        findArcs(kind);
 
         auto desc = supple::sized<SuppleGroupDesc>();
         desc.asset = kind.asset.handle();
@@ -87,35 +95,43 @@ Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
     const auto uniform = [&](float low, float high) {
         return low + (high - low) * static_cast<float>(random() >> 8) / static_cast<float>(1u << 24);
     };
+    const std::vector<Arc> all = arcs();
     const auto side = static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<double>(count))));
     constexpr float kSpacing = 1.5f;
     reach_ = 0.5f * kSpacing * static_cast<float>(side);
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t column = i % side, row = i / side;
-        Walker& walker = walkers_.emplace_back();
-        walker.kind = i % kKinds;
-        walker.centre = {kSpacing * (static_cast<float>(column) + 0.5f) - reach_,
+        const Kind& kind = kinds_[i % kKinds];
+        const KindDesc& kindDesc = kDescs[i % kKinds];
+        glm::vec2 centre{kSpacing * (static_cast<float>(column) + 0.5f) - reach_,
                          kSpacing * (static_cast<float>(row) + 0.5f) - reach_};
         if (options.wall) { // makes room on either side
             const glm::vec2 across{std::sin(kWallAngle), std::cos(kWallAngle)};
-            walker.centre += (glm::dot(walker.centre, across) < 0.0f ? -1.5f : 1.5f) * across;
+            centre += (glm::dot(centre, across) < 0.0f ? -1.5f : 1.5f) * across;
         }
-        walker.radius = uniform(0.25f, 0.55f);
-        walker.angle = uniform(0.0f, 6.2831853f);
-        walker.turn = uniform(0.0f, 1.0f) < 0.5f ? -1.0f : 1.0f;
-        const Kind& kind = kinds_[walker.kind];
-        sample::check(supple::Instance::create(kind.group, walker.instance), "suppleCreateInstance");
-        // Once: from then on the clip runs on the device.
+        const auto arc = static_cast<uint32_t>(uniform(0.0f, static_cast<float>(all.size())));
+        const float angle = uniform(0.0f, 6.2831853f), radius = all[arc].radius * kindDesc.size;
+        supple::Instance& instance = instances_.emplace_back();
+        sample::check(supple::Instance::create(kind.group, instance), "suppleCreateInstance");
+
+        // All of it once. From then on the clip runs on the device, and where its root goes, the character goes.
         SupplePlaybackLayer layer{};
-        layer.clip = kind.clip;
+        layer.clip = kind.firstArc + arc;
         layer.flags = SUPPLE_LAYER_LOOP;
         layer.weight = 1.0f;
-        layer.speed = 1.0f;
+        layer.speed = kindDesc.speed;
         layer.offset = static_cast<double>(uniform(0.0f, 1.0f)) * kind.duration;
         auto playback = supple::sized<SupplePlaybackDesc>();
+        playback.flags = SUPPLE_PLAYBACK_TRAVEL;
+        playback.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
         playback.layers = &layer;
-        playback.layerCount = kind.clip == SUPPLE_REST_POSE ? 0 : 1;
-        sample::check(walker.instance.setPlayback(playback), "suppleSetPlayback");
+        playback.layerCount = kind.walks ? 1 : 0;
+        sample::check(instance.setPlayback(playback), "suppleSetPlayback");
+        const glm::vec3 place{centre.x + radius * std::sin(angle), 0.0f, centre.y + radius * std::cos(angle)};
+        glm::mat4 transform = glm::translate(glm::mat4(1.0f), place);
+        transform = glm::rotate(transform, angle + all[arc].turn * glm::half_pi<float>(), glm::vec3(0.0f, 1.0f, 0.0f));
+        transform = glm::scale(transform, glm::vec3(kindDesc.size));
+        sample::check(instance.setTransform(std::span<const float, 16>(&transform[0][0], 16)), "suppleSetTransform");
     }
 }
 
@@ -123,23 +139,9 @@ void Crowd::beginFrame(uint64_t frame, uint64_t completed) const {
     sample::check(context_.beginFrame(frame, completed), "suppleBeginFrame");
 }
 
-void Crowd::update(double time, const Camera& camera) {
+void Crowd::update(double time, const Camera& camera) const {
     for (const Kind& kind : kinds_)
         sample::check(kind.group.setTime(time), "suppleSetTime");
-    for (Walker& walker : walkers_) {
-        const Kind& kind = kinds_[walker.kind];
-        // As far as the feet carry it.
-        const double travelled = time / kind.duration * static_cast<double>(kind.stride * kind.size);
-        const float angle = walker.angle + walker.turn * static_cast<float>(travelled) / walker.radius;
-        const glm::vec3 place{walker.centre.x + walker.radius * std::sin(angle), 0.0f,
-                              walker.centre.y + walker.radius * std::cos(angle)};
-        const float heading = angle + walker.turn * glm::half_pi<float>();
-        glm::mat4 transform = glm::translate(glm::mat4(1.0f), place);
-        transform = glm::rotate(transform, heading, glm::vec3(0.0f, 1.0f, 0.0f));
-        transform = glm::scale(transform, glm::vec3(kind.size));
-        sample::check(walker.instance.setTransform(std::span<const float, 16>(&transform[0][0], 16)),
-                      "suppleSetTransform");
-    }
     auto desc = supple::sized<SuppleCameraDesc>();
     std::memcpy(desc.position, &camera.eye, sizeof desc.position);
     desc.pixelsPerUnit = camera.pixelsPerUnit;
@@ -170,7 +172,7 @@ void Crowd::addToGraph(engine::Graph& graph, engine::Resource buffers, const eng
 std::vector<std::string> Crowd::report() const {
     std::vector<std::string> lines;
     char text[160];
-    std::snprintf(text, sizeof text, "%zu characters of %zu kinds", walkers_.size(), kKinds);
+    std::snprintf(text, sizeof text, "%zu characters of %zu kinds", instances_.size(), kKinds);
     lines.emplace_back(text);
     SuppleViewStatistics drawn{};
     if (view_.statistics(drawn) == SUPPLE_OK) {

@@ -1,4 +1,4 @@
-// Supple in this sample: three kinds of characters, a view that they share, and where everybody walks.
+// Supple in this sample: three kinds of characters, a view that they share, and the circles that everybody walks.
 #pragma once
 
 #include "common/graph.h"
@@ -17,19 +17,9 @@ struct Kind {
     supple::Asset asset;
     supple::Group group;
     SuppleGroupOutput output{};
-    uint32_t clip = 0;
+    uint32_t firstArc = 0; ///< clip of the first of its arcs
     double duration = 1.0;
-    float stride = 1.0f; ///< metres a loop of the clip
-    float size = 1.0f;
-};
-
-struct Walker {
-    supple::Instance instance;
-    uint32_t kind = 0;
-    glm::vec2 centre{}; ///< of the circle it walks
-    float radius = 1.0f;
-    float angle = 0.0f; ///< at time 0
-    float turn = 1.0f;  ///< 1 or -1
+    bool walks = true;
 };
 
 struct Camera {
@@ -56,15 +46,15 @@ public:
     Crowd(const sample::Device& device, const CrowdOptions& options);
 
     void beginFrame(uint64_t frame, uint64_t completed) const;
-    /// Puts everybody where they are at a time of the walk.
-    void update(double time, const Camera& camera);
+    /// All there is to say a frame: where everybody is at a time of the walk, the device finds.
+    void update(double time, const Camera& camera) const;
     /// From now on what lies behind it is left out; null: nothing is.
     void setPyramid(const SuppleDepthPyramidDesc* pyramid) const;
     /// The graph's node. `pyramid`: read where there is one.
     void addToGraph(engine::Graph& graph, engine::Resource buffers, const engine::Resource* pyramid) const;
 
     [[nodiscard]] const std::array<Kind, kKinds>& kinds() const { return kinds_; }
-    [[nodiscard]] size_t size() const { return walkers_.size(); }
+    [[nodiscard]] size_t size() const { return instances_.size(); }
     /// Half the width of the square that they walk in.
     [[nodiscard]] float reach() const { return reach_; }
     /// What the newest finished frame cost and drew, a line each.
@@ -74,7 +64,7 @@ private:
     supple::Context context_;
     supple::View view_;
     std::array<Kind, kKinds> kinds_;
-    std::vector<Walker> walkers_;
+    std::vector<supple::Instance> instances_;
     float reach_ = 1.0f;
     uint32_t budget_ = 0;
     bool backFaces_ = false;

@@ -89,6 +89,7 @@ void run(const Options& options) {
     using Clock = std::chrono::steady_clock;
     Clock::time_point last = Clock::now();
     double time = 0.0, frameMilliseconds = 0.0, hostMilliseconds = 0.0;
+    uint64_t ended = 0; ///< the newest frame that was seen to be complete
     std::vector<std::string> report;
     glm::mat4 depthViewProjection{1.0f}; ///< of the depth that the pyramid holds
     bool hasDepth = false;
@@ -109,6 +110,13 @@ void run(const Options& options) {
             hasDepth = false;
         }
         frames.waitForRoom();
+        if (const uint64_t completed = frames.completed(); completed > ended) { // since the frame before was complete
+            const Clock::time_point now = Clock::now();
+            frameMilliseconds =
+                std::chrono::duration<double, std::milli>(now - last).count() / static_cast<double>(completed - ended);
+            last = now;
+            ended = completed;
+        }
         if (swapchain && !swapchain->acquire(frames.nextSlot())) {
             stale = true;
             continue;
@@ -127,7 +135,8 @@ void run(const Options& options) {
         }
         char line[80];
         std::snprintf(line, sizeof line, "host %.2f ms, frame %.1f ms", hostMilliseconds, frameMilliseconds);
-        report.emplace_back(line);
+        if (ended > 0) // as a whole, from the end of the frame before to its own
+            report.emplace_back(line);
         const Clock::time_point begun = Clock::now();
         const crowd::Camera camera = cameraAt(time, crowd.reach(), extent);
         crowd.update(time, camera);
@@ -161,10 +170,7 @@ void run(const Options& options) {
         } else {
             frames.submit();
         }
-        const Clock::time_point now = Clock::now();
-        frameMilliseconds = std::chrono::duration<double, std::milli>(now - last).count();
         time += options.frames != 0 ? 1.0 / 60.0 : std::min(1e-3 * frameMilliseconds, 0.1);
-        last = now;
     }
     device.waitIdle();
     if (readback.mapped() != nullptr)

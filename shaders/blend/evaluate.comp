@@ -61,11 +61,11 @@ bool liesStill(Corner corners[4], uint i, uint j) {
     return still;
 }
 
-// Of unit length. Where even the face has a longer one, that.
+// Of any length. Where even the face has a longer one, that.
 vec3 normalOf(Corner corners[4], vec3 n) {
     vec3 diagonal = corners[2].c[0] - corners[0].c[0], other = corners[3].c[0] - corners[1].c[0];
     if (!(dot(n, n) > kTinyNormal * (dot(diagonal, diagonal) * dot(other, other)))) n = cross(diagonal, other);
-    return unitNormal(n);
+    return n;
 }
 
 // Half a step inside, for samples on a border.

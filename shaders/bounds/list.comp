@@ -2,20 +2,14 @@
 // One workgroup; every lane takes a run of entries, so that places follow from counts alone and are the same every time.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/bounds/cull.glsl"
+#define LIST_PUSH ListPush
+#include "shaders/bounds/list.glsl"
 
-layout(set = 0, binding = kBoundsStateTexelBinding) uniform usamplerBuffer stateTexels;
-layout(set = 0, binding = kListBinding, std430) writeonly buffer List { uint list[]; };
-layout(set = 0, binding = kListArgumentBinding, std430) writeonly buffer Arguments { uint argumentWords[]; };
-layout(set = 0, binding = kListTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
-layout(set = 0, binding = kBoundsBinding, std430) readonly buffer Bounds { vec4 bounds[]; };
 layout(set = 0, binding = kSizeBinding, std430) readonly buffer Sizes { uint sizes[]; };
-layout(push_constant) uniform Push { ListPush push; };
 
 shared uvec4 countsOf[kMaxLanes]; // with a past, new, left out, occluded
 shared uint sumsOf[kMaxLanes];
 shared uint sharedThreshold;
-shared uint rateCountsOf[kMaxRates * kMaxLanes];
 
 uint saturatingSum(uint a, uint b) { return a + min(b, ~a); }
 
@@ -42,11 +36,6 @@ uint threshold() {
     return sharedThreshold;
 }
 
-uvec2 state(uint slot) {
-    if (kWide) return states[slot];
-    return texelFetch(stateTexels, int(slot)).xy;
-}
-
 // The entry with kInstanceIsNew as it is now.
 uint withPast(uint entry, uvec2 state) { return state.y != 0u ? entry : entry | kInstanceIsNew; }
 
@@ -57,8 +46,6 @@ uvec4 kind(uint entry, uvec2 state, uint leftOut) {
     return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec4(0u, 1u, 0u, 0u) : uvec4(1u, 0u, 0u, 0u);
 }
 
-bool isDrawn(uvec2 state, uint leftOut) { return state.x > leftOut; }
-
 void storeHeader(uint at, uvec4 counts, uint listed) {
     argumentWords[at] = counts.x + counts.y;
     argumentWords[at + 1u] = counts.x;
@@ -67,15 +54,7 @@ void storeHeader(uint at, uvec4 counts, uint listed) {
     argumentWords[at + 4u] = counts.w;
 }
 
-void storeDispatch(uint at, uint elements, uint perGroup) {
-    uint groups = elements / perGroup + (elements % perGroup != 0u ? 1u : 0u);
-    uint rows = max(groups / push.maxGroups + (groups % push.maxGroups != 0u ? 1u : 0u), 1u);
-    argumentWords[at] = groups / rows + (groups % rows != 0u ? 1u : 0u);
-    argumentWords[at + 1u] = rows;
-    argumentWords[at + 2u] = 1u;
-}
-
-// Lanes share the arguments of a window, of all of its instances or of those at a rate.
+// Lanes share the arguments of a window.
 void storeArguments(uint which, uint instances, uint window) {
     for (uint i = gl_LocalInvocationID.x; i < push.argumentCount; i += gl_WorkGroupSize.x) {
         uvec4 argument = tableElements[push.windowCount + i];
@@ -84,73 +63,10 @@ void storeArguments(uint which, uint instances, uint window) {
     }
 }
 
-uint rateOf(uint slot) {
-    float level = bounds[2u * slot].w;
-    uint rate = 0u;
-    while (rate + 1u < push.rateCount && float(push.firstRate << rate) < level) ++rate;
-    return rate;
-}
-
-// The lane's run of a window's entries.
-uvec2 runOf(uvec4 window) {
-    uint lane = gl_LocalInvocationID.x, each = (window.y + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
-    return window.x + min(uvec2(lane, lane + 1u) * each, window.yy);
-}
-
-// The lists of all rates, before anything is noted as seen.
-void listRates(uint leftOut) {
-    uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
-    uint totals[kMaxRates];
-    uvec2 places[kMaxRates];
-    for (uint r = 0u; r < kMaxRates; ++r) totals[r] = 0u;
-    for (uint w = 0u; w < push.windowCount; ++w) {
-        uvec4 window = tableElements[w];
-        uvec2 run = runOf(window);
-        for (uint r = 0u; r < push.rateCount; ++r) rateCountsOf[r * lanes + lane] = 0u;
-        for (uint i = run.x; i < run.y; ++i) {
-            uint slot = hostEntry(i) & kInstanceSlotMask;
-            if (isDrawn(state(slot), leftOut)) rateCountsOf[rateOf(slot) * lanes + lane] += 1u;
-        }
-        barrier();
-        for (uint r = 0u; r < push.rateCount; ++r) {
-            uint before = 0u, count = 0u;
-            for (uint l = 0u; l < lanes; ++l) {
-                if (l == lane) before = count;
-                count += rateCountsOf[r * lanes + l];
-            }
-            uint list = push.rateLists + r * push.rateStride;
-            places[r] = list + before + uvec2(totals[r], window.w);
-            totals[r] += count;
-            if (lane == 0u) argumentWords[push.rateCounts + r * push.windowCount + w] = count;
-            storeArguments(kCountRate + r, count, w);
-        }
-        barrier();
-        for (uint i = run.x; i < run.y; ++i) {
-            uint entry = hostEntry(i), slot = entry & kInstanceSlotMask;
-            uvec2 now = state(slot);
-            if (!isDrawn(now, leftOut)) continue;
-            uint rate = rateOf(slot);
-            list[places[rate].x] = slot;
-            list[places[rate].y] = (slot - window.z) | (withPast(entry, now) & ~kInstanceSlotMask);
-            places[rate] += 1u;
-        }
-    }
-    for (uint i = lane; i < push.drawCount; i += lanes) {
-        uvec4 draw = tableElements[push.windowCount + push.argumentCount + i];
-        uint at = push.firstDraw + 5u * i;
-        argumentWords[at] = draw.x;
-        argumentWords[at + 1u] = draw.z * totals[draw.w];
-        argumentWords[at + 2u] = draw.y;
-        argumentWords[at + 3u] = 0u;
-        argumentWords[at + 4u] = 0u;
-    }
-}
-
 void main() {
     uint lane = gl_LocalInvocationID.x;
     uvec4 total = uvec4(0u);
     uint listed = 0u, leftOut = push.room != kRoomForAll ? threshold() : 0u;
-    if (push.rateCount > 0u) listRates(leftOut);
     for (uint w = 0u; w < push.windowCount; ++w) {
         uvec4 window = tableElements[w];
         uvec2 run = runOf(window);
@@ -183,7 +99,7 @@ void main() {
                 list[place + push.levels] = floatBitsToUint(bounds[2u * slot].w);
                 places += one.xy;
             }
-            states[slot].y = drawn ? 1u : 0u;
+            states[slot].y = one.x != 0u ? kDrawnWithPast : drawn ? kDrawn : 0u;
         }
         if (lane == 0u) storeHeader(kListHeaderWords * (w + 1u), counts, window.y);
         storeArguments(kCountWindow, counts.x + counts.y, w);

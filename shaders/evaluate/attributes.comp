@@ -64,7 +64,8 @@ float[5] lodCornerWeights(LodRecord r, uint index) {
     return sectorWeights(at.side, ringWeights(r, at, along));
 }
 
-// What a patch has at its corners.
+// What a patch has at its corners. Colors in steps of 16-bit unorm: weights do not sum to more than 1, so that nothing has to
+// be clamped; lavapipe spends a third of the pass on packUnorm2x16.
 struct Corners {
     vec2 uv[5];
     vec4 color[5];
@@ -74,7 +75,7 @@ uint cornerElements() { return push.uvSets == 2u || push.faceUvs != 0u ? 2u : 1u
 void loadCorner(inout Corners c, uint k, uint element) {
     uvec4 corner = tableElement(element);
     c.uv[k] = uintBitsToFloat(corner.xy);
-    c.color[k] = vec4(unpackUnorm2x16(corner.z), unpackUnorm2x16(corner.w));
+    c.color[k] = vec4(corner.z & 0xFFFFu, corner.z >> 16u, corner.w & 0xFFFFu, corner.w >> 16u);
     c.more[k] = kOutputs != 0u ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
 }
 Corners loadCorners(uint patchIndex) {
@@ -89,12 +90,14 @@ struct Sample {
     vec4 color, more;
 };
 Sample blended(float a, Sample x, float b, Sample y) {
-    return Sample(a * x.uv + b * y.uv, a * x.color + b * y.color, a * x.more + b * y.more);
+    precise Sample s = Sample(a * x.uv + b * y.uv, a * x.color + b * y.color, a * x.more + b * y.more);
+    return s;
 }
 Sample atCorner(Corners c, uint k) { return Sample(c.uv[k], c.color[k], c.more[k]); }
 
 void store(uint vertex, Sample s) {
-    attributes[vertex] = uvec4(floatBitsToUint(s.uv), packUnorm2x16(s.color.xy), packUnorm2x16(s.color.zw));
+    uvec4 color = uvec4(ivec4(s.color + 0.5));
+    attributes[vertex] = uvec4(floatBitsToUint(s.uv), color.xz | color.yw << 16u);
     if ((kOutputs & kOutputUvs1) != 0u) uvs1[vertex] = s.more.xy;
     if ((kOutputs & kOutputFaceUvs) != 0u) faceUvs[vertex] = s.more.zw;
 }

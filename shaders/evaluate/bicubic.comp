@@ -90,14 +90,14 @@ void finish(Row row, vec2 u, out vec3 position, out vec3 normal) {
               blend4(b5.outer, row.outerV[0], row.outerV[1], row.outerV[2], row.outerV[3]);
     }
     position = p;
-    normal = unitNormal(cross(du, dv)); // outwards
+    normal = cross(du, dv); // outwards
 }
 
 vec3 cornerNormal(vec3 normal, uint i, uint j, uint rate, uvec4 slots, uint base) {
     bool left = i == 0u, right = i == rate, bottom = j == 0u, top = j == rate;
     if (!((left || right) && (bottom || top))) return normal;
     uint slot = bottom ? (left ? slots.x : slots.y) : (left ? slots.w : slots.z);
-    return slot == kNoNormal ? normal : unitNormal(poolVector(base + slot));
+    return slot == kNoNormal ? normal : poolVector(base + slot);
 }
 
 // Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
@@ -109,19 +109,11 @@ vec3 coefficient(uint i, bool today) {
 
 Patch loadPatch(uint record, uint base, bool today) {
     Patch c;
-    for (uint k = 0u; k < 4u; ++k) {
-        uvec4 indices = base + tableElement(record + k);
-        c.g[4u * k] = coefficient(indices.x, today);
-        c.g[4u * k + 1u] = coefficient(indices.y, today);
-        c.g[4u * k + 2u] = coefficient(indices.z, today);
-        c.g[4u * k + 3u] = coefficient(indices.w, today);
-        if (kPerturbed) {
-            indices = base + tableElement(record + 4u + k);
-            c.h[4u * k] = coefficient(indices.x, today);
-            c.h[4u * k + 1u] = coefficient(indices.y, today);
-            c.h[4u * k + 2u] = coefficient(indices.z, today);
-            c.h[4u * k + 3u] = coefficient(indices.w, today);
-        }
+    NetRecord net = netRecord(record);
+    for (uint k = 0u; k < 16u; ++k) c.g[k] = coefficient(base + netIndex(net, kPolar, k), today);
+    if (kPerturbed) {
+        uvec4 edges = tableElement(record + 2u);
+        for (uint k = 0u; k < 16u; ++k) c.h[k] = coefficient(base + perturbationIndex(edges, k), today);
     }
     for (uint k = 0u; k < 16u; ++k) {
         uint corner = cornerOf(k);
@@ -210,15 +202,16 @@ shared vec4 sharedCoefficients[kMaxPatchesPerGroup * kSharedStride];
 
 // Coefficient k of the patch in a place of the workgroup.
 void loadShared(uint place, uint k, uint record, uint base, bool today) {
-    uint words = 4u * record, corner = cornerOf(k);
-    vec3 origin = coefficient(base + tableWord(words), today);
-    vec3 v = coefficient(base + tableWord(words + corner), today), offset = vec3(0.0);
-    if (k != corner) offset = coefficient(base + tableWord(words + k), today);
+    NetRecord net = netRecord(record);
+    uint corner = cornerOf(k);
+    vec3 origin = coefficient(base + net.points.x, today);
+    vec3 v = coefficient(base + netIndex(net, kPolar, corner), today), offset = vec3(0.0);
+    if (k != corner) offset = coefficient(base + netIndex(net, kPolar, k), today);
     uint to = place * kSharedStride + k;
     sharedCoefficients[to] = vec4(k == corner ? v : placed(v, offset), 0.0);
     sharedCoefficients[to + 16u] = vec4(relativeTo(origin, v, offset), 0.0);
     if (kPerturbed)
-        sharedCoefficients[to + 32u] = vec4(coefficient(base + tableWord(words + 16u + k), today), 0.0);
+        sharedCoefficients[to + 32u] = vec4(coefficient(base + perturbationIndex(tableElement(record + 2u), k), today), 0.0);
 }
 
 Patch sharedPatch(uint place) {

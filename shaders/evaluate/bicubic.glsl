@@ -1,4 +1,6 @@
 // The classes of bicubic patches and their records.
+#include "shaders/surface/net.glsl"
+
 layout(constant_id = 3) const uint kClass = kRegularPatch;
 layout(constant_id = 5) const bool kCornerNormals = false; // smooth one-face corners of p-rep: Du x Dv vanishes there
 
@@ -8,4 +10,4 @@ uint cornerOf(uint k) {
     return (k & 12u) / 8u * 12u + (k & 3u) / 2u * 3u;
 }
 
-uint recordElements() { return (kClass == kPerturbedPatch ? 8u : 4u) + (kCornerNormals ? 1u : 0u); }
+uint recordElements() { return (kClass == kPerturbedPatch ? 3u : 2u) + (kCornerNormals ? 1u : 0u); }

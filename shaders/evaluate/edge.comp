@@ -69,7 +69,7 @@ Edge loadEdge(uint record, uvec4 own, uint base) {
         }
     }
     if (kCornerNormals && (own.z & kStoredNormalEdge) != 0u) firstNormal = poolVector(base + own.w);
-    e.firstNormal = unitNormal(firstNormal);
+    e.firstNormal = firstNormal;
     if (kPerturbed) {
         uint swap = (own.z & kSwappedEdge) != 0u ? 1u : 0u, h = base + own.w;
         for (uint s = 0u; s < 4u; ++s) e.h[s] = poolVector(h + (s ^ swap));
@@ -91,7 +91,7 @@ void finish(Edge e, uint k, uint rate, out vec3 position, out vec3 normal) {
         across += (5.0 / 3.0) * blend2(b5.inner, e.h[2] - e.h[0], e.h[3] - e.h[1]);
     }
     position = p;
-    normal = unitNormal(cross(along, across)); // outwards
+    normal = cross(along, across); // outwards
 }
 
 void evaluateNarrow() {

@@ -6,7 +6,6 @@
 #define POOL_READ_ONLY
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
-#include "shaders/shared/prep.h"
 #include "shaders/evaluate/bicubic.glsl"
 
 layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer PatchCoefficients { vec4 coefficients[]; };
@@ -18,16 +17,18 @@ void main() {
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint patchIndex = id - entry * push.count;
     uint record = push.table + patchIndex * recordElements();
+    uint base = instance * push.poolStride;
+    NetRecord net = netRecord(record);
     uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
     for (uint k = 0u; k < 16u; ++k) {
         bool past = kClass == kPolarPatch && k > 12u;
         uint corner = cornerOf(k);
         vec3 g = vec3(0.0);
-        if (!past) g = poolVector(instance * push.poolStride + tableWord(4u * record + corner));
-        if (!past && k != corner) g += poolVector(instance * push.poolStride + tableWord(4u * record + k));
+        if (!past) g = poolVector(base + netIndex(net, kClass == kPolarPatch, corner));
+        if (!past && k != corner) g += poolVector(base + netIndex(net, kClass == kPolarPatch, k));
         coefficients[target + k] = vec4(g, 0.0);
         vec3 h = vec3(0.0);
-        if (kClass == kPerturbedPatch) h = poolVector(instance * push.poolStride + tableWord(4u * record + 16u + k));
+        if (kClass == kPerturbedPatch) h = poolVector(base + perturbationIndex(tableElement(record + 2u), k));
         coefficients[target + 16u + kFaceEdgeOrder[k]] = vec4(h, 0.0);
     }
 }

@@ -7,23 +7,26 @@ layout(set = 0, binding = kSurfaceBinding, scalar) writeonly buffer SurfaceVecto
 const float kTiny = 1e-37; // above the denormals, which devices may flush
 
 // Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer, "A Survey of Efficient Representations for Independent Unit
-// Vectors" (JCGT 2014): octahedral mapping.
+// Vectors" (JCGT 2014): octahedral mapping, of normals of any length. A zero one is +z.
 uint encodeOctahedral(vec3 n) {
-    vec2 p = n.xy / max(abs(n.x) + abs(n.y) + abs(n.z), kTiny);
-    vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-    return packSnorm2x16(n.z < 0.0 ? folded : p);
+    float scale = 1.0 / max(abs(n.x) + abs(n.y) + abs(n.z), kTiny);
+    vec2 p = n.xy * scale;
+    // Where z < 0, 1 - |y| = |x| + |z| with the sign of x, and so for y.
+    uint fold = floatBitsToUint(max(-n.z, 0.0) * scale);
+    p += uintBitsToFloat((floatBitsToUint(p) & 0x80000000u) | fold);
+    // packSnorm2x16 of what needs no clamping: adding 3/2 2^23 rounds to integers, which stand in the low bits then.
+    uvec2 bits = floatBitsToUint(p * 32767.0 + 12582912.0);
+    return (bits.x & 0xFFFFu) | bits.y << 16u;
 }
 
+// `normal`: of any length; a vanishing one stays zero instead of becoming NaN.
 void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
     if (kVertexFormat == kVertexPosition) {
         surfaceVectors[vertex] = position;
     } else if (kVertexFormat == kVertex24) {
         surfaceVectors[2u * vertex] = position;
-        surfaceVectors[2u * vertex + 1u] = normal;
+        surfaceVectors[2u * vertex + 1u] = normal * inversesqrt(max(dot(normal, normal), kTiny));
     } else {
         surface16[vertex] = uvec4(floatBitsToUint(position), encodeOctahedral(normal));
     }
 }
-
-// unit(n); a vanishing n stays zero instead of becoming NaN (and is +z in the 16-byte form).
-vec3 unitNormal(vec3 n) { return n * inversesqrt(max(dot(n, n), kTiny)); }

@@ -64,6 +64,6 @@ void main() {
         uint patchIndex = tableWord(patches + (row.z & ~kRightSide) * fragments + fragment);
         if (patchIndex != kNoPatch)
             storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples + row.w,
-                               position, unitNormal(normal));
+                               position, normal);
     }
 }

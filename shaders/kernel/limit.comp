@@ -17,7 +17,7 @@
 
 void writeSample(uint patchIndex, uint sampleIndex, vec3 position, vec3 normal) {
     storeSurfaceVertex(lane.instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples + sampleIndex,
-                       position, unitNormal(normal));
+                       position, normal);
 }
 
 // Along the strip, with the three columns round the sample at hand.

@@ -10,6 +10,7 @@
 #include "shaders/shared/pm.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
+#include "shaders/surface/net.glsl"
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/levels.glsl"
 #include "shaders/lod/facing.glsl"
@@ -25,13 +26,8 @@ vec3 coefficient(uint i, bool today) { return poolVector(i); }
 // The net of a bicubic patch, row by row.
 vec3[16] bicubicNet(uint record, uint base, bool polar) {
     vec3 g[16];
-    for (uint row = 0u; row < 4u; ++row) {
-        uvec4 indices = base + tableElement(record + row);
-        g[4u * row] = poolVector(indices.x);
-        g[4u * row + 1u] = poolVector(indices.y);
-        g[4u * row + 2u] = poolVector(indices.z);
-        g[4u * row + 3u] = poolVector(indices.w);
-    }
+    NetRecord net = netRecord(record);
+    for (uint k = 0u; k < 16u; ++k) g[k] = poolVector(base + netIndex(net, polar, k));
     // Offsets from their corners (shared/surface.h); the rows of corners last. A polar patch has its apex all along row 3.
     for (uint k = 4u; k < 8u; ++k) g[k] += g[k / 2u % 2u * 3u];
     for (uint k = 8u; k < 12u; ++k) g[k] += g[12u + k / 2u % 2u * 3u];
@@ -118,13 +114,8 @@ struct Perturbation {
 const Perturbation kNoPerturbation = Perturbation(0.0, 0.0, 0.0, 0.0, 0.0);
 Perturbation perturbationOf(uint record, uint base) {
     vec3 h[16];
-    for (uint k = 0u; k < 4u; ++k) {
-        uvec4 indices = base + tableElement(record + 4u + k);
-        h[4u * k] = poolVector(indices.x);
-        h[4u * k + 1u] = poolVector(indices.y);
-        h[4u * k + 2u] = poolVector(indices.z);
-        h[4u * k + 3u] = poolVector(indices.w);
-    }
+    uvec4 edges = tableElement(record + 2u);
+    for (uint k = 0u; k < 16u; ++k) h[k] = poolVector(base + perturbationIndex(edges, k));
     // In either half: (2, j) and (3, j) for j = 0, 1, 4, 5, which the first parameter takes in from 0 and out to 0 again,
     // while the second one's differences are between j = 0 and 1, 1 and 2, 3 and 4, 4 and 5.
     Perturbation p = kNoPerturbation;

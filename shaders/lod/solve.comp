@@ -51,7 +51,12 @@ uvec2 demand(float x) {
                     add(sum, weight, formSamples(f, capacityOf(capacityOfBin(bin, push.elasticity[p] * x))));
             }
         }
+        if (push.rated == 0u) continue;
+        for (uint bin = lane; bin < kRatedBins; bin += gl_WorkGroupSize.x) {
+            if (float(bin) > push.elasticity[p] * x) add(sum, lodWords[kLodRatedMore + p * kRatedBins + bin], kSplitUnit);
+        }
     }
+    if (push.rated != 0u && lane == 0u) add(sum, lodWords[kLodRated], kSplitUnit);
     sumHigh[lane] = sum.x;
     sumLow[lane] = sum.y;
     barrier();
@@ -134,11 +139,18 @@ void main() {
         }
         for (uint i = lane; i < kLodForms * kLodBinStride; i += gl_WorkGroupSize.x)
             lodWords[kLodSplit + p * kLodForms * kLodBinStride + i] = 0u;
+        for (uint i = lane; push.rated != 0u && i < kRatedBins; i += gl_WorkGroupSize.x)
+            lodWords[kLodRatedMore + p * kRatedBins + i] = 0u;
     }
     barrier();
 
     // Where buckets begin. One lane: there are some hundred, and their counts lie in shared memory.
     if (lane == 0u) {
+        uint room = push.room;
+        if (push.rated != 0u) { // where levels fall short, rates are at their coarsest
+            room -= min(room, lodWords[kLodRated]);
+            lodWords[kLodRated] = 0u;
+        }
         uint record = 0u, vertex = 0u, group = 0u, patches = 0u, counted = 0u, last = kEmptyRecord;
         for (uint run = 0u; run < push.runCount; ++run) {
             uint form = lodWords[kLodRuns + run] & 255u, dispatch = dispatchOf(run);
@@ -155,9 +167,9 @@ void main() {
                 lodWords[at + 3u] = group;
                 uint whole = padded(counts[b], samples), each = patchesPerGroup(samples);
                 counted += counts[b];
-                if (shortfall && whole * samples > push.room - vertex) {
+                if (shortfall && whole * samples > room - vertex) {
                     uint n = patchesPerDraw(samples);
-                    whole = (push.room - vertex) / (n * samples) * n;
+                    whole = (room - vertex) / (n * samples) * n;
                     counts[b] = min(counts[b], whole);
                 }
                 record += whole;
@@ -173,7 +185,7 @@ void main() {
         lodWords[kLodSolution + 3u] = shortfall ? 1u : 0u;
         for (uint p = 0u; p < kPriorityCount; ++p)
             lodWords[kLodSolution + 4u + p] =
-                shortfall ? 0u : floatBitsToUint(exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
+                floatBitsToUint(shortfall ? 0.0 : x == 0.0 ? 1.0 : exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
         lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
         lodWords[kLodSolution + 9u] = counted;
     }

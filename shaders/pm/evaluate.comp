@@ -64,7 +64,7 @@ void finish(Sector s, vec3 w, bool onBorder, vec2 along, bool singular, out vec3
         cubicBlends(s, vec3(1.0 - 2.0 * kStep, kStep, kStep), a, b, c);
     }
     position = p;
-    normal = unitNormal(cross(b - a, c - a)); // outwards
+    normal = cross(b - a, c - a); // outwards
 }
 
 // The sample (k, l) of a sector: weights (rate - k - l, k, l) / rate.

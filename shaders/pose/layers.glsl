@@ -151,7 +151,7 @@ Affine placement(uint first) {
         if ((layer.flags & kLayerLoops) != 0u) {
             LoopTime looped = loopTime(layer.time, clipDuration(layer.clip));
             time = looped.time;
-            loops = looped.loops - before.w;
+            loops = looped.loops;
         }
         RootFrame now = rootFrame(layer.clip, time, header.z, header.w, clipTransform(layer.clip, time, header.z));
         precise Motion motion =

@@ -6,16 +6,21 @@
 //   size     only where not all may have room even at their coarsest: how many vertices those that are seen need, by size
 //   list     one workgroup a group, after the bounds of all its windows: those that are seen, in order, and the arguments of
 //            the indirect dispatches and draws
+//   demand   where instances have one of several rates and count in the budget: the vertices they need, by how far their
+//            levels are above what a rate is enough for (shaders/shared/lod.h)
+//   rates    one workgroup a group, when the budget is solved: as list, once more for every rate
 //
 // Host list: an entry an instance, slots of the group rising: slot | priority << kInstancePriorityShift | kInstanceIsNew
 // where the frame before did not list it.
 // State: two words a slot: 0 where it is not seen, else 1 + its rank, the smaller the sooner it is left out where there is no
-// room: rank of its priority * kSizeBins + bin of its size; and whether it was when it was listed last, which counts as a past only where
-// the host list does not say kInstanceIsNew; between `occlude` and `list` kOccluded where it is the pyramid that hides it.
+// room: rank of its priority * kSizeBins + bin of its size; and kDrawn or kDrawnWithPast where it was when it was listed last, which
+// counts as a past only where the host list does not say kInstanceIsNew; between `occlude` and `list` kOccluded where it is the
+// pyramid alone that hides it.
 // List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has them,
 // those with a past first, either kind rising; `levels` entries further on each of these has its instance's level.
 // Where instances have one of several rates (subdivision): the same once more a rate, without levels, `rateStride` words from
-// each other, in the order of slots alone. An instance has the smallest rate that is not below its level, or the last.
+// each other, in the order of slots alone. An instance has the smallest rate that is not below its level as the budget
+// scales it, or the last.
 // Between the two, `occlude` may take more instances out of sight, by a depth pyramid.
 // Table (uvec4 elements): windows, then arguments, then draws.
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
@@ -47,8 +52,11 @@ SUPPLE_SHARED_CONST kListArgumentBinding = 8u;
 SUPPLE_SHARED_CONST kListTableBinding = 9u;
 SUPPLE_SHARED_CONST kCullViewBinding = 10u;
 SUPPLE_SHARED_CONST kSizeBinding = 12u;
+SUPPLE_SHARED_CONST kViewWordsBinding = 13u; // shaders/shared/lod.h
 
-SUPPLE_SHARED_CONST kOccluded = 0xFFFFFFFFu; // in a state: but for the pyramid it would be seen
+SUPPLE_SHARED_CONST kOccluded = 0xFFFFFFFFu;
+SUPPLE_SHARED_CONST kDrawn = 1u;
+SUPPLE_SHARED_CONST kDrawnWithPast = 3u;
 
 // What a view sees; without planes and limits everything.
 struct CullView {
@@ -67,9 +75,9 @@ SUPPLE_SHARED_CONST kSizeBinsPerOctave = 64u;
 SUPPLE_SHARED_CONST kSizeOctavesBelow = 4u;
 SUPPLE_SHARED_CONST kSizeRanks = 4u * kSizeBins;
 
-// Bounds of an instance, two vec4: the least corner and the level that the instance asks for as a whole; the greatest corner and 1 where a vertex is not finite. Such
-// vertices are left out of the box, which says little then: the instance counts as seen. No finite vertex: a box from
-// kFloatMax to -kFloatMax.
+// Bounds of an instance, two vec4: the least corner and the level that the instance asks for as a whole; the greatest corner
+// and 1 where a vertex is not finite. Such vertices are left out of the box, which says little then: the instance counts as
+// seen. No finite vertex: a box from kFloatMax to -kFloatMax.
 struct BoundsPush {
     uint vertexCount;
     uint cageStride; // vertices an instance in the deformed cage
@@ -99,13 +107,28 @@ struct ListPush {
     uint levels;    // from entries to their levels
     uint room;      // for vertices, of all groups of the view; kRoomForAll: there is no size pass
     uint maxGroups; // of a dispatch in x
-    uint rateCount; // 0: levels are real numbers
-    uint firstRate; // segments along an edge of the cage; each further rate has twice as many
+};
+struct DemandPush {
+    uint firstEntry; // of the host list
+    uint instanceCount;
+    uint rateCount;
+    uint firstRate;           // segments along an edge of the cage; each further rate has twice as many
+    uint vertices[kMaxRates]; // of an instance
+};
+struct RatesPush {
+    uint windowCount;
+    uint argumentCount;
+    uint argumentStride;
+    uint maxGroups; // of a dispatch in x
+    uint rateCount;
+    uint firstRate;
     uint rateLists; // first word of the first rate's list
     uint rateStride;
     uint rateCounts; // words of the argument buffer
     uint firstDraw;
     uint drawCount;
+    uint counted; // 1: the budget scales levels, and has what they take
+    uint vertices[kMaxRates];
 };
 SUPPLE_SHARED_CONST kRoomForAll = 0xFFFFFFFFu;
 

@@ -12,6 +12,8 @@
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
 //                 kSplitUnit is shared between two bins
 //   counts        by run, priority and bin: patches
+//   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their coarsest;
+//                 then by priority and bin what finer rates have more, which counts while the bin is above elasticity x
 //   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first run
 //                 on; one more behind them tells where the last one's records end
 //   dispatches    eight words each (LodDispatch)
@@ -65,10 +67,13 @@ SUPPLE_SHARED_CONST kLodSolution = kLodDoubleSided + kMaxRuns / 32u; // what sta
 SUPPLE_SHARED_CONST kLodCapacities = kLodSolution + 16u;
 SUPPLE_SHARED_CONST kLodSplit = kLodCapacities + kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;
+SUPPLE_SHARED_CONST kLodRated = kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride;
+SUPPLE_SHARED_CONST kRatedBins = 516u; // kBinsPerOctave an octave above the level a rate is enough for
+SUPPLE_SHARED_CONST kLodRatedMore = kLodRated + 4u;
 // From here on hosts read. What they may bind lies on multiples of what descriptor offsets need at most, 256 bytes.
 SUPPLE_SHARED_CONST kLodAlignment = 64u; // words
 SUPPLE_SHARED_CONST kLodBuckets =
-    (kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride + kLodAlignment - 1u) / kLodAlignment * kLodAlignment;
+    (kLodRatedMore + kPriorityCount * kRatedBins + kLodAlignment - 1u) / kLodAlignment * kLodAlignment;
 SUPPLE_SHARED_CONST kLodBucketStride = 16u; // buckets; no less than a run's and one
 SUPPLE_SHARED_CONST kLodDispatches = kLodBuckets + 4u * kLodBucketStride * kMaxRuns;
 SUPPLE_SHARED_CONST kLodDraws = kLodDispatches + 8u * kMaxRuns;
@@ -81,7 +86,7 @@ SUPPLE_SHARED_CONST kNoBin = 0xFFFFFFFFu; // the patch is not drawn
 
 struct LodSolution {
     float x;        // of the budget: levels are scaled by 2^(-elasticity x / kBinsPerOctave)
-    uint vertices;  // written this frame, padding included
+    uint vertices;  // written this frame, padding included, and those of rates where they count
     uint patches;   // drawn
     uint shortfall; // 1 where scaling by elasticity is not enough: all levels are 1, and what has no room is left out
     float scale[4]; // of levels, by priority
@@ -119,6 +124,8 @@ struct LodPush {
     uint patches;       // and of the patches
     uint edgeCount;
     uint poolStride;
+    uint tangents;      // first in the pool
+    uint faces;         // and face coefficients
     uint scratchStride; // elements an instance
     uint firstRun;      // of the window, in the view
     uint runCount;      // of the window
@@ -132,6 +139,7 @@ struct LodSolvePush {
     uint room;     // with it
     uint priorities, forms; // bits of those in use
     uint maxGroups;         // of a dispatch in x
+    uint rated;             // 1: rates count
     float elasticity[4];
 };
 

@@ -18,11 +18,11 @@
 //   header     kStateElements: (layers, flags, root node or kNoNode, root axes);
 //              three rows of the instance's transform;
 //              travel: (translation of the first layer's root from the clip's time at the layer's start to the clip's
-//              beginning; whole loops before that time); (sine and cosine of half that turn; a loop's turn in double
+//              beginning; 0); (sine and cosine of half that turn; a loop's turn in double
 //              turns, high and low); (what a loop moves by; 1) where it does not turn, else (x, height a loop, z; 0) with
 //              the point (x, z) that the loop turns about
 //   layer      kLayerElements each, kMaxPlaybackLayers of them, of which only the first `layers` are read:
-//              (clip, flags, mask or 0, 0); (start, clip offset: high and low floats each);
+//              (clip, flags, mask or 0, 0); (start, clip offset, of a loop within it: high and low floats each);
 //              (speed, weight, fade weight, fade duration); (fade start, reference time: high and low each);
 //              the root's position at the clip's beginning; its rotation
 //   weights    the host's morph weights, four an element

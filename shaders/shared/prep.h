@@ -1,7 +1,7 @@
 // The tables and the pool of p-rep (what all schemes share: shared/surface.h).
 //
 // Coefficient pool: limit points X (one a cage vertex), tangents TG and face coefficients FC (one a spoke slot each), edge
-// coefficients H (four a perturbed edge: h20, h30, h21, h31 in the edge's own direction), one zero. The FC slot of a
+// coefficients H (four a perturbed edge: h20, h30, h21, h31 in the edge's own direction), four zeros. The FC slot of a
 // boundary fan's last spoke carries no sector; it holds the vertex normal e1 x e2.
 //
 // Tables
@@ -11,7 +11,9 @@
 //                    (limitEdge, limitFace, e1Edge, e1Face), (e2Edge, e2Face, cosine, sine)
 //   edge records     three elements: pool indices (A, tA, tB, B), (SA1, SA2, SB1, SB2), (H index, edge class element, 0, 0)
 //   edge classes     six elements, for A, tA, tB, B, SA, SB: their weights in (h20, h30, h21, h31)
-//   perturbed patch  pool indices: 16 g (i + 4 j), 16 h in evaluation order (below)
+//   perturbed patch  behind the corners a word an edge: the pool index of its H, or of the zeros with kStillEdgeOfPatch;
+//                    kReversedEdgeOfPatch where the patch runs against the edge's own direction, which swaps h20 with h30 and
+//                    h21 with h31
 #ifndef SUPPLE_SHARED_PREP_H
 #define SUPPLE_SHARED_PREP_H
 
@@ -21,7 +23,14 @@ SUPPLE_SHARED_BEGIN
 
 SUPPLE_SHARED_CONST kBoundaryClass = 0x80000000u;
 
+SUPPLE_SHARED_CONST kReversedEdgeOfPatch = 0x80000000u;
+SUPPLE_SHARED_CONST kStillEdgeOfPatch = 0x40000000u;
+SUPPLE_SHARED_CONST kEdgeOfPatchMask = 0x3FFFFFFFu;
+
 SUPPLE_SHARED_END
+
+// The pool index of the s-th coefficient of an edge, as the patch has them.
+#define SUPPLE_PREP_EDGE_INDEX(word, s) (((word) & kEdgeOfPatchMask) + ((s) ^ ((word) >> 31)))
 
 // Evaluation order of the 16 perturbation coefficients (h_2j, h_3j for j = 0, 1, 4, 5; h_i2, h_i3 for i = 0, 1, 4, 5) to
 // face edge order h[4 e + s], s = local (2,0), (3,0), (2,1), (3,1) of face edge e.

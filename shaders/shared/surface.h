@@ -7,8 +7,11 @@
 // limit point + offset, so that both sides of a border see the same bits.
 //
 // Tables (one buffer, read as uvec4 or as uint) begin with what the scheme's construction needs and end with
-//   patch records    bicubic (regular, polar): 16 pool indices, row by row in v; polar patches repeat the apex in row 3
-//                    perturbed: 16 + 16, see shared/prep.h;  P_m: see shared/pm.h
+//   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 (pool index of the limit point, spoke);
+//                    a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge to the next corner
+//                    among tangents and face coefficients, and the step from it to that of the edge to the last corner. A
+//                    polar patch has three corners, then (pool index of its first inner coefficient, -)
+//                    perturbed: one element more, see shared/prep.h;  P_m: see shared/pm.h
 //                    where the group keeps corner normals (kCornerNormals): one more element, for each corner the pool
 //                    index of its normal, or kNoNormal
 //   attributes       one element a patch corner: (u, v, color as RG and BA in 16-bit unorm); with a second UV set or
@@ -74,6 +77,23 @@ SUPPLE_SHARED_CONST kOutputFaceUvs = 2u;
 SUPPLE_SHARED_CONST kAttributeOutputs = 4u; // combinations
 
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
+
+// Spokes in records of bicubic patches.
+SUPPLE_SHARED_CONST kSpokeBits = 22u;
+SUPPLE_SHARED_CONST kMaxSpokes = 1u << kSpokeBits;
+SUPPLE_SHARED_CONST kMaxSpokeStep = 511u; // up or down
+#define SUPPLE_SPOKE(word) ((word) & (kMaxSpokes - 1u))
+#define SUPPLE_NEXT_SPOKE(word) (SUPPLE_SPOKE(word) + uint(int(word) >> int(kSpokeBits)))
+// The 16 coefficients of a bicubic patch, row by row in v: the corner, and what of it. Polar patches repeat the apex.
+SUPPLE_SHARED_CONST kNetPoint = 0u;
+SUPPLE_SHARED_CONST kNetTangent = 1u;     // of the spoke
+SUPPLE_SHARED_CONST kNetNextTangent = 2u; // of the next spoke
+SUPPLE_SHARED_CONST kNetFace = 3u;        // of the spoke
+SUPPLE_SHARED_CONST kNetBehind = 4u;      // behind the point
+#define SUPPLE_NET_CORNERS 0u, 0u, 1u, 1u, 0u, 0u, 1u, 1u, 3u, 3u, 2u, 2u, 3u, 3u, 2u, 2u
+#define SUPPLE_NET_KINDS 0u, 1u, 2u, 0u, 2u, 3u, 3u, 1u, 1u, 3u, 3u, 2u, 0u, 2u, 1u, 0u
+#define SUPPLE_POLAR_NET_CORNERS 0u, 0u, 1u, 1u, 0u, 0u, 1u, 1u, 2u, 3u, 3u, 2u, 2u, 2u, 2u, 2u
+#define SUPPLE_POLAR_NET_KINDS 0u, 1u, 2u, 0u, 2u, 3u, 3u, 1u, 1u, 0u, 4u, 2u, 0u, 0u, 0u, 0u
 
 // Shared samples: kinds of edges, each a kernel.
 SUPPLE_SHARED_CONST kPlainEdges = 0u;     // of bicubic patches

@@ -1,5 +1,5 @@
 // Where a sample lies in a chart, from its parameters alone: what tables have for one rate, at any. In float with the
-// device's operations (shaders/blend/local.glsl), in double with the library's.
+// device's operations (shaders/blend/blend.glsl), in double with the library's.
 #pragma once
 
 #include "shaders/shared/elementary.h"

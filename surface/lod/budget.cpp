@@ -61,6 +61,22 @@ void Histogram::add(double level) {
     split[place.bin + 1] += place.share;
 }
 
+void Rates::add(double level, uint32_t firstRate, std::span<const uint32_t> vertices) {
+    coarsest += vertices[0];
+    for (size_t r = 1; r < vertices.size(); ++r) {
+        const double enough = firstRate << (r - 1);
+        const double at = std::log2(std::max(level, 1e-30) / enough) * kBinsPerOctave + 1.0 + kGuard;
+        if (at <= 0.0) {
+            return;
+        }
+        const double clamped = std::min(at, kRatedBins - 1.5), bin = std::floor(clamped);
+        const uint32_t step = vertices[r] - vertices[r - 1];
+        const auto next = static_cast<uint64_t>((clamped - bin) * step);
+        more[static_cast<size_t>(bin)] += step - next;
+        more[static_cast<size_t>(bin) + 1] += next;
+    }
+}
+
 uint32_t capacityOfBin(uint32_t bin, double elasticity, double x) {
     const double octave = (bin + 1.0 + kGuard - elasticity * x) / kBinsPerOctave + kLowest;
     const double level = std::exp2(octave);
@@ -76,8 +92,15 @@ double scaledLevel(double level, double elasticity, double x) {
 }
 
 uint64_t demand(std::span<const Priority> priorities, double x) {
-    return weigh(
+    uint64_t sum = weigh(
         priorities, x, [](const Histogram& histogram) -> const auto& { return histogram.split; });
+    for (const Priority& priority : priorities) {
+        sum += priority.rates.coarsest * kSplitUnit;
+        for (uint32_t bin = 0; bin < kRatedBins; ++bin) {
+            sum += bin > priority.elasticity * x ? priority.rates.more[bin] * kSplitUnit : 0;
+        }
+    }
+    return sum;
 }
 
 uint64_t vertexCount(std::span<const Priority> priorities, double x) {

@@ -40,9 +40,19 @@ struct Histogram {
     std::vector<uint32_t> split = std::vector<uint32_t>(shared::kLodBins, 0);
     void add(double level);
 };
+/// Instances of one priority that have one of several rates each: what they take is counted whole, and falls in steps.
+struct Rates {
+    uint64_t coarsest = 0; ///< vertices of all at their coarsest
+    /// What finer rates have more, by how far the level is above what a rate is enough for; counts where the bin is
+    /// above elasticity x.
+    std::vector<uint64_t> more = std::vector<uint64_t>(shared::kRatedBins, 0);
+    /// `vertices`: of an instance, by rate; rates are firstRate and twice the one before.
+    void add(double level, uint32_t firstRate, std::span<const uint32_t> vertices);
+};
 struct Priority {
     double elasticity = 1.0;
     std::array<Histogram, shared::kLodForms> forms;
+    Rates rates;
 };
 
 /// Index of the capacity that patches of a bin take at x: enough for their scaled level.
@@ -52,7 +62,7 @@ struct Priority {
 
 /// Vertices at step x by the shared histogram, in 1 / kSplitUnit.
 [[nodiscard]] uint64_t demand(std::span<const Priority> priorities, double x);
-/// Vertices that are written at x, without the filling of draws.
+/// Vertices of patches that are written at x, without the filling of draws.
 [[nodiscard]] uint64_t vertexCount(std::span<const Priority> priorities, double x);
 
 struct Solution {

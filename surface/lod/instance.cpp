@@ -22,7 +22,7 @@ glm::vec3 beyond(const cage::Cage& cage, const cage::Topology& topology, uint32_
 
 } // namespace
 
-InstanceMeasure measureInstance(const cage::Cage& cage) {
+InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings) {
     const Result<cage::Topology> topology = cage::buildTopology(cage);
     if (!topology || cage.positions.empty()) {
         return {};
@@ -43,7 +43,11 @@ InstanceMeasure measureInstance(const cage::Cage& cage) {
         }
     }
     const float diagonal = glm::length(high - low);
-    return diagonal > 0.0f ? InstanceMeasure{measure.longest / diagonal, measure.bend / diagonal} : InstanceMeasure{};
+    if (diagonal <= 0.0f) {
+        return {};
+    }
+    const float part = 1.0f / static_cast<float>(1u << halvings); // of an edge; second differences shrink by its square
+    return {measure.longest * part / diagonal, measure.bend * part * part / diagonal};
 }
 
 } // namespace supple::surface::lod

@@ -12,6 +12,7 @@ struct InstanceMeasure {
     float bend = 0.0f;    ///< the largest second difference of a boundary cubic: that of the cage's vertices along an
                           ///< edge and on beyond its end, over 6, as of the uniform cubic B-spline
 };
-[[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage);
+/// `halvings`: patches are those of the cage refined so many times.
+[[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings = 0);
 
 } // namespace supple::surface::lod

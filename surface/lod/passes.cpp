@@ -6,7 +6,7 @@
 
 namespace supple::surface::lod {
 
-static_assert(sizeof(shared::LodPush) <= sizeof(shared::SurfacePush), "they share a layout");
+static_assert(sizeof(shared::LodPush) <= gpu::kPushConstantBytes);
 static_assert(sizeof(shared::LodSolvePush) <= sizeof(shared::LodPush));
 static_assert(shared::kLodRecords % 4 == 0, "records are read as elements");
 

@@ -45,7 +45,7 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
         }
         return all;
     }
-    for (const BorderCurve& c : borderCurves(record, patchClass)) {
+    for (const BorderCurve& c : borderCurves(tables, record, patchClass)) {
         all.push_back({{c[0], c[1], c[2], c[3]}, {c[3], c[2], c[1], c[0]}});
     }
     return all;

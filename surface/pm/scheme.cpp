@@ -1,6 +1,7 @@
 #include "surface/pm/scheme.h"
 
 #include "shaders/shared/pm.h"
+#include "surface/borders.h"
 #include "surface/pm/weights.h"
 #include "surface/table_writer.h"
 #include "surface/valence.h"
@@ -232,14 +233,14 @@ private:
             const auto v = [&](uint32_t i) { return corner(patch, i).sector; };
             const auto t0 = [&](uint32_t i) { return tangent(corner(patch, i).slot); };
             const auto t1 = [&](uint32_t i) { return tangent(corner(patch, i).slotBack); };
-            const auto f = [&](uint32_t i) { return face(corner(patch, i).slot); };
-            if (patchClass == PatchClass::regular) {
-                writer_.put({v(0), t0(0), t1(1), v(1), t1(0), f(0), f(1), t0(1), t0(3), f(3), f(2), t1(2), v(3), t1(3),
-                             t0(2), v(2)});
-            } else if (patchClass == PatchClass::polar) {
-                const uint32_t h = inner_[p];
-                writer_.put({v(0), t0(0), t1(1), v(1), t1(0), f(0), f(1), t0(1), t0(2), h, h + 1, t1(2), v(2), v(2),
-                             v(2), v(2)});
+            if (patchClass <= PatchClass::polar) {
+                for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
+                    const FacetCorner& c = corner(patch, i);
+                    writer_.put({c.sector, spokeWord(c.slot, c.slotBack)});
+                }
+                if (patchClass == PatchClass::polar) {
+                    writer_.put({inner_[p], 0u});
+                }
             } else {
                 for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
                     writer_.put({v(i), t0(i), t1(i + 1), i == 0 ? inner_[p] : i == 1 ? singularCorners(patch) : 0u});

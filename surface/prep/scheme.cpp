@@ -1,6 +1,7 @@
 #include "surface/prep/scheme.h"
 
 #include "shaders/shared/prep.h"
+#include "surface/borders.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
@@ -83,7 +84,7 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
     const uint32_t vertexCount = cage.vertexCount(), faceCount = cage.faceCount();
     const auto spokeCount = static_cast<uint32_t>(topology.spokeVertices.size());
 
-    // Pool: X, TG, FC, H of the perturbed edges, one zero.
+    // Pool: X, TG, FC, H of the perturbed edges, four zeros.
     t.tangents = vertexCount;
     t.faces = t.tangents + spokeCount;
     const uint32_t edgeCoefficients = t.faces + spokeCount;
@@ -95,7 +96,7 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
         }
     }
     const uint32_t zero = edgeCoefficients + 4 * static_cast<uint32_t>(perturbedEdges.size());
-    t.poolStride = (zero + 1 + 15) / 16 * 16;
+    t.poolStride = (zero + 4 + 15) / 16 * 16;
 
     // Ring, parallel to the spokes.
     t.ring = 4 * writer.element();
@@ -189,12 +190,6 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
     }
     sortPatches(patches);
 
-    // Corner-local coefficient (a along the edge j -> j+1, b along j -> j-1) to patch index i + 4 j, docs/prep.md.
-    const auto patchIndex = [](uint32_t j, uint32_t a, uint32_t b) {
-        const uint32_t i[4] = {a, 3 - b, 3 - a, b}, k[4] = {b, a, 3 - b, 3 - a};
-        return i[j] + 4 * k[j];
-    };
-    constexpr std::array<uint32_t, 16> kFaceEdgeOrder = {SUPPLE_PREP_FACE_EDGE_ORDER};
     for (uint32_t p = 0; p < patches.size(); ++p) {
         const DraftPatch& patch = patches[p];
         const PatchClass patchClass = patch.info.patchClass;
@@ -202,31 +197,18 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
             t.ranges.push_back({patchClass, {writer.element(), 0}, p, 0});
         }
         ++t.ranges.back().section.count;
-        std::array<uint32_t, 16> g{}, h{};
-        std::array<uint32_t, 4> normals{};
+        std::array<uint32_t, 4> edges{}, normals{};
         for (uint32_t j = 0; j < 4; ++j) {
             const uint32_t c = patch.cageCorners[j];
             const uint32_t v = patch.info.corners[j];
-            g[patchIndex(j, 0, 0)] = v;
-            g[patchIndex(j, 1, 0)] = t.tangents + topology.cornerSpokes[c];
-            g[patchIndex(j, 0, 1)] = t.tangents + topology.cornerSpokesBack[c];
-            g[patchIndex(j, 1, 1)] = t.faces + topology.cornerSpokes[c];
+            writer.put({v, spokeWord(topology.cornerSpokes[c], topology.cornerSpokesBack[c])});
             const uint32_t edge = topology.cornerEdges[c];
-            const uint32_t slot = edgeSlots[edge];
-            // A half-edge that runs against the edge's own direction swaps h20 <-> h30 and h21 <-> h31.
-            const uint32_t swap = topology.edges[edge].corner == c ? 0u : 1u;
-            for (uint32_t s = 0; s < 4; ++s) {
-                h[4 * j + s] = slot == cage::kNone ? zero : slot + (s ^ swap);
-            }
+            edges[j] = edgeSlots[edge] == cage::kNone ? zero | shared::kStillEdgeOfPatch : edgeSlots[edge];
+            edges[j] |= topology.edges[edge].corner == c ? 0u : shared::kReversedEdgeOfPatch;
             normals[j] = smoothCorner(v) ? t.faces + topology.spokeStarts[v] + 1 : shared::kNoNormal;
         }
-        for (uint32_t index : g) {
-            writer.put({index});
-        }
         if (patchClass == PatchClass::perturbed) {
-            for (uint32_t k = 0; k < 16; ++k) {
-                writer.put({h[kFaceEdgeOrder[k]]});
-            }
+            writer.put({edges[0], edges[1], edges[2], edges[3]});
         }
         if (t.cornerNormals) {
             writer.put({normals[0], normals[1], normals[2], normals[3]});

@@ -5,6 +5,7 @@
 #include "surface/lod/budget.h"
 #include "surface/lod/grid.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/kernel_zoo.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test_view.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <random>
 #include <set>
 
 namespace supple::test {
@@ -124,9 +126,18 @@ TEST_P(LodCrowds, ATenthOfTheBudgetStaysValidAndStable) {
 TEST_P(LodCrowds, OneLevelAnInstance) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+    const struct {
+        SuppleScheme scheme;
+        const char* name;
+        cage::Cage cage;
+        float least = 0.84f, most = 1.25f; ///< of what the finest asks for
+    } cases[] = {{SUPPLE_SCHEME_PREP, "p-rep", bumpySphere(4)},
+                 {SUPPLE_SCHEME_PM, "P_m", cage::makeSplitTorus(8, 7)},
+                 {SUPPLE_SCHEME_BLEND, "blend, quads", bumpySphere(4)},
+                 {SUPPLE_SCHEME_BLEND, "blend, triangles", inTriangles(bumpySphere(4)), 0.68f, 1.35f}}; // a step first
+    for (const auto& [scheme, name, cage, least, most] : cases) {
+        SCOPED_TRACE(name);
         TestView view(context, 400000);
-        const cage::Cage cage = scheme == SUPPLE_SCHEME_PREP ? bumpySphere(4) : cage::makeSplitTorus(8, 7);
         const SuppleAsset asset = context.createAsset(cage);
         Crowd perEdge(context, groupOf(asset, 8, view, scheme));
         SuppleGroupDesc desc = groupOf(asset, 8, view, scheme);
@@ -164,12 +175,11 @@ TEST_P(LodCrowds, OneLevelAnInstance) {
                 const auto ratio = static_cast<double>(level / wanted[slot]);
                 low = std::min(low, ratio);
                 high = std::max(high, ratio);
-                EXPECT_GE(level, 0.84f * wanted[slot]);
-                EXPECT_LE(level, 1.25f * wanted[slot]);
+                EXPECT_GE(level, least * wanted[slot]);
+                EXPECT_LE(level, most * wanted[slot]);
             }
         }
-        std::printf("scheme %d: one level %.2f to %.2f of what the finest edge or inside asks for\n", scheme, low,
-                    high);
+        std::printf("%s: one level %.2f to %.2f of what the finest edge or inside asks for\n", name, low, high);
     }
 }
 
@@ -274,6 +284,60 @@ TEST_P(LodCrowds, SplitDispatchesAndWindowsDrawTheSame) {
     }
     EXPECT_GT(windows.counts.indirectDispatches, whole.counts.indirectDispatches) << "there is one window";
     EXPECT_EQ(differing(windows.patches, whole.patches), 0u);
+}
+
+class LodCrowdsOnce : public CrowdContexts {};
+
+// A thousand instances of 54 patches come closer in 400 steps, under half a million vertices and from statistics alone.
+// In one mapping: the passes that decide are held to be alike above, and lavapipe evaluates the narrow one sooner.
+TEST_F(LodCrowdsOnce, AThousandComeCloserWithinTheBudget) {
+    CrowdContext& context = CrowdContexts::context(SUPPLE_MAPPING_NARROW);
+    const ValidationGuard guard;
+    constexpr uint32_t kInstances = 1000, kLimit = 500'000, kSteps = 400;
+    TestView view(context, kLimit);
+    Crowd crowd(context, groupOf(context.createAsset(bumpySphere(3)), kInstances, view));
+    ASSERT_TRUE(crowd.valid());
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> depth(32.0f, 230.0f), aside(-60.0f, 60.0f);
+    for (uint32_t i = 0; i < kInstances; ++i) {
+        const glm::vec3 at(aside(random), 0.0f, -depth(random));
+        crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0,
+                   glm::scale(glm::translate(glm::mat4(1.0f), at), glm::vec3(3.5f)));
+    }
+    view.camera.edgeLength = 8.0f;
+    uint32_t over = 0, least = ~0u, most = 0, leastWanted = ~0u, mostWanted = 0;
+    float first = 0.0f, last = 2.0f, fall = 1.0f;
+    for (uint32_t step = 0; step <= kSteps; ++step) {
+        view.look({0.0f, 0.0f, -0.072f * static_cast<float>(step)});
+        context.run(crowd.group());
+        if (step == 0) {
+            continue; // statistics are of the frame before
+        }
+        const SuppleViewStatistics now = view.statistics();
+        over += now.vertexCount > kLimit ? 1 : 0;
+        ASSERT_EQ(now.shortfall, 0u) << step;
+        ASSERT_EQ(now.drawnInstanceCount, kInstances);
+        ASSERT_EQ(now.patchCount, kInstances * crowd.output().patchCount);
+        ASSERT_LE(now.levelScales[0], last) << "levels rise in step " << step;
+        if (step > 1) {
+            fall = std::max(fall, last / now.levelScales[0]);
+        } else {
+            first = now.levelScales[0];
+        }
+        last = now.levelScales[0];
+        least = std::min(least, now.vertexCount);
+        most = std::max(most, now.vertexCount);
+        leastWanted = std::min(leastWanted, now.wantedVertexCount);
+        mostWanted = std::max(mostWanted, now.wantedVertexCount);
+    }
+    std::printf(
+        "%u to %u vertices wanted, %u to %u of %u written; levels scaled by %.3f to %.3f, at most %.2f %% a step\n",
+        leastWanted, mostWanted, least, most, kLimit, static_cast<double>(first), static_cast<double>(last),
+        100.0 * (static_cast<double>(fall) - 1.0));
+    EXPECT_EQ(over, 0u);
+    EXPECT_GT(leastWanted, kLimit) << "nothing to do";
+    EXPECT_GT(least, kLimit * 9 / 10) << "the limit is not used";
+    EXPECT_LT(fall, 1.011f) << "by more than a bin a step";
 }
 
 // The solver on the device against the one on the CPU, from the levels of a frame without a budget.

@@ -22,12 +22,21 @@ struct LodCase {
     SuppleScheme scheme;
     SuppleCreaseMode creases = SUPPLE_CREASES_CUT;
 
-    /// The blending surface, which takes longest, on the repository's own; tests/runtime/lod_blend_test.cpp has more.
+    /// The repository's own; of the others all in the narrow mapping, every third in the wide one. The blending
+    /// surface, which takes longest, on the repository's own; tests/runtime/lod_blend_test.cpp has more.
     [[nodiscard]] std::vector<std::string> characters(SuppleMapping mapping) const {
-        return mapping == SUPPLE_MAPPING_NARROW && scheme != SUPPLE_SCHEME_BLEND
-                   ? allCharacters()
-                   : filesBelow(SUPPLE_SAMPLE_ASSETS, {".glb"});
+        if (scheme == SUPPLE_SCHEME_BLEND) {
+            return filesBelow(SUPPLE_SAMPLE_ASSETS, {".glb"});
+        }
+        std::vector<std::string> all = allCharacters(), sampled;
+        for (size_t i = 0; i < all.size(); ++i) {
+            if (mapping == SUPPLE_MAPPING_NARROW || i % 3 == 0 || isOwn(all[i])) {
+                sampled.push_back(all[i]);
+            }
+        }
+        return sampled;
     }
+    [[nodiscard]] static bool isOwn(const std::string& path) { return path.starts_with(SUPPLE_SAMPLE_ASSETS); }
     [[nodiscard]] surface::Recipe recipe() const {
         surface::Recipe recipe;
         recipe.scheme = static_cast<surface::SchemeId>(scheme);
@@ -60,9 +69,9 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
         uint32_t characters = 0;
         size_t edges = 0, samples = 0, triangles = 0, scaledFrames = 0;
         std::set<uint32_t> capacities;
-        const std::vector<std::string> paths =
-            c.scheme == SUPPLE_SCHEME_BLEND ? c.characters(GetParam()) : allCharacters();
-        for (const std::string& path : paths) {
+        // Four cameras on the repository's own; on others the second, which has a budget, and one of the rest in turn.
+        constexpr uint32_t kRest[] = {0, 2, 3};
+        for (const std::string& path : c.characters(GetParam())) {
             const std::string name = std::filesystem::path(path).filename().string();
             const Result<cage::Character> character = cage::readGltfFile(path);
             ASSERT_TRUE(character.ok());
@@ -97,6 +106,9 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
                 }
                 const float size = glm::length(high - low);
                 for (uint32_t frame = 0; frame < 4; ++frame) {
+                    if (!LodCase::isOwn(path) && frame != 1 && frame != kRest[characters % 3]) {
+                        continue;
+                    }
                     if (crowd.clipCount() > 0) {
                         crowd.pose(instance, frame % crowd.clipCount(), unit(random), glm::mat4(1.0f));
                     }

@@ -2,6 +2,7 @@
 // rate alone.
 #include "cage/gltf_reader.h"
 #include "cage/procedural.h"
+#include "surface/lod/budget.h"
 #include "surface/lod/instance.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/kernel_zoo.h"
@@ -93,14 +94,17 @@ struct Written {
     }
 };
 
-Written readBack(const Crowd& crowd) {
+enum class Parts { all, lists };
+Written readBack(const Crowd& crowd, Parts parts = Parts::all) {
     Written written;
     written.output = crowd.output();
     const SuppleGroupOutput& o = written.output;
-    written.vertices = crowd.read(o.surfaceVertices);
-    written.previous = crowd.read(o.previousPositions);
-    written.attributes = crowd.read(o.attributes);
-    written.uvs1 = crowd.read(o.uvs1);
+    if (parts == Parts::all) {
+        written.vertices = crowd.read(o.surfaceVertices);
+        written.previous = crowd.read(o.previousPositions);
+        written.attributes = crowd.read(o.attributes);
+        written.uvs1 = crowd.read(o.uvs1);
+    }
     const std::vector<VkDrawIndexedIndirectCommand> draws = crowd.draws();
     EXPECT_EQ(draws.size(), o.drawRangeCount);
     for (uint32_t r = 0; r < o.rateCount; ++r) {
@@ -453,7 +457,7 @@ TEST_P(LodRates, OnlyWhatIsSeenIsEvaluatedAndDrawn) {
     }
 }
 
-TEST_P(LodRates, TheViewsBudgetIsNotTheirs) {
+TEST_P(LodRates, WithoutAVertexBudgetTheyAreNotCounted) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     const SuppleAsset asset = context.createAsset(bumpySphere());
@@ -500,12 +504,187 @@ TEST_P(LodRates, TheViewsBudgetIsNotTheirs) {
     EXPECT_EQ(free.backFaceCount, 0u);
     EXPECT_GT(free.vertexCount, 0u);
 
-    view.camera.vertexBudget = 1024; // less than the coarsest of all
-    EXPECT_EQ(run(both), wanted);
-    EXPECT_EQ(view.statistics().shortfall, 1u);
-    EXPECT_GE(view.statistics().droppedInstanceCount, 1u);
-    EXPECT_EQ(view.statistics().drawnInstanceCount + view.statistics().droppedInstanceCount, 24u);
-    EXPECT_EQ(view.statistics().backFaceCount, 0u);
+    // Other groups' patches have no room: less than the coarsest of all. What does not count is not left out either.
+    TestView small(context, 1024);
+    desc.view = small.handle();
+    desc.capacity = 16;
+    Crowd many(context, desc);
+    desc.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+    desc.capacity = 8;
+    Crowd few(context, desc);
+    ASSERT_TRUE(many.valid() && few.valid());
+    spawnColumn(many, 16);
+    spawnColumn(few, 8);
+    const SuppleGroup crowded[] = {many.group(), few.group()};
+    small.look({0.0f, 0.0f, 3.0f});
+    context.run(crowded);
+    EXPECT_EQ(slotsByRate(readBack(few)), wanted);
+    context.run(crowded);
+    EXPECT_EQ(small.statistics().shortfall, 1u);
+    EXPECT_GE(small.statistics().droppedInstanceCount, 1u);
+    EXPECT_EQ(small.statistics().drawnInstanceCount + small.statistics().droppedInstanceCount, 24u);
+    EXPECT_LE(small.statistics().vertexCount, 1024u);
+}
+
+/// Vertices of an instance, by rate.
+std::vector<uint32_t> verticesByRate(const Crowd& crowd) {
+    const SuppleGroupOutput output = crowd.output();
+    std::vector<uint32_t> vertices;
+    for (uint32_t r = 0; r < output.rateCount; ++r) {
+        vertices.push_back(0);
+        for (uint32_t d = 0; d < output.rates[r].drawRangeCount; ++d) {
+            const SuppleDrawRange& range = output.drawRanges[output.rates[r].firstDrawRange + d];
+            vertices.back() += range.patchCount * range.samplesPerPatch;
+        }
+    }
+    return vertices;
+}
+
+/// Those that the draws take.
+uint32_t drawnVertices(const Crowd& crowd) {
+    const SuppleGroupOutput output = crowd.output();
+    const std::vector<VkDrawIndexedIndirectCommand> draws = crowd.draws();
+    uint32_t vertices = 0;
+    for (uint32_t d = 0; d < output.drawRangeCount; ++d) {
+        vertices += draws[d].instanceCount * output.drawRanges[d].samplesPerPatch;
+    }
+    return vertices;
+}
+
+// Rates and levels share a budget as a camera comes closer: no frame is over, all levels only fall, and each instance's
+// rate is what its level asks for as it is scaled.
+TEST_P(LodRates, TheBudgetHolds) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    const SuppleAsset asset = context.createAsset(bumpySphere());
+    for (const bool alone : {true, false}) {
+        TestView view(context, 300000);
+        SuppleGroupDesc desc = groupOf(asset, 48, SUPPLE_SCHEME_CATMULL_CLARK, 32);
+        desc.view = view.handle();
+        Crowd rates(context, desc);
+        desc.scheme = SUPPLE_SCHEME_PREP;
+        desc.capacity = 16;
+        Crowd levels(context, desc);
+        ASSERT_TRUE(rates.valid() && levels.valid());
+        for (int i = 0; i < 48; ++i) {
+            const SuppleInstance instance = rates.spawn();
+            const glm::vec3 at(3.0f * static_cast<float>(i % 8) - 10.5f, 0.0f, -3.1f * static_cast<float>(i / 8));
+            rates.pose(instance, SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
+            EXPECT_EQ(suppleSetPriority(context.handle(), instance, i % 7 == 0 ? 1 : i == 9 ? 3 : 0), SUPPLE_OK);
+        }
+        spawnColumn(levels, 16);
+        std::vector<SuppleGroup> groups{rates.group()};
+        if (!alone) {
+            groups.push_back(levels.group());
+        }
+        const std::vector<uint32_t> vertices = verticesByRate(rates);
+        const auto frame = [&](float distance, uint32_t vertexBudget) {
+            view.camera.vertexBudget = vertexBudget;
+            view.look({0.0f, 2.0f, distance});
+            context.run(groups);
+            context.run(groups);
+            return view.statistics();
+        };
+        // Enough: as without one.
+        (void)frame(14.0f, 0);
+        const std::vector<std::vector<uint32_t>> wanted = slotsByRate(readBack(rates, Parts::lists));
+        const uint32_t free = drawnVertices(rates);
+        const SuppleViewStatistics enough = frame(14.0f, 300000);
+        ASSERT_LT(enough.wantedVertexCount, 290000u);
+        EXPECT_GE(enough.wantedVertexCount, enough.vertexCount - (alone ? 0 : 200 * 3));
+        EXPECT_EQ(slotsByRate(readBack(rates, Parts::lists)), wanted);
+        EXPECT_EQ(enough.levelScales[0], 1.0f);
+        if (alone) {
+            EXPECT_EQ(enough.vertexCount, free);
+            EXPECT_EQ(enough.patchCount, 0u);
+        } else {
+            EXPECT_GT(enough.vertexCount, free);
+        }
+
+        const uint32_t limit = enough.vertexCount / 3;
+        const uint32_t padding = levels.output().lodDrawCount / shared::kCapacityCount * 3 * 64; // runtime/view.cpp
+        float distance = 40.0f, before = 1.0f, steepest = 0.0f;
+        size_t steps = 0, changes = 0, scaled = 0;
+        std::vector<std::vector<uint32_t>> last;
+        uint32_t most = 0, least = ~0u;
+        for (; distance > 12.0f; distance *= 0.98f, ++steps) {
+            const SuppleViewStatistics now = frame(distance, limit);
+            ASSERT_LE(now.vertexCount, limit) << steps;
+            ASSERT_EQ(now.shortfall, 0u) << steps;
+            ASSERT_EQ(now.drawnInstanceCount, alone ? 48u : 64u);
+            ASSERT_LE(now.levelScales[0], before * 1.0001f) << steps;
+            ASSERT_NEAR(now.levelScales[1], std::sqrt(now.levelScales[0]), 1e-5f);
+            ASSERT_EQ(now.levelScales[3], 1.0f);
+            const Written written = readBack(rates, Parts::lists);
+            if (alone) {
+                ASSERT_EQ(now.vertexCount, drawnVertices(rates));
+            }
+            const std::vector<std::byte> bounds = rates.read(rates.output().bounds);
+            surface::lod::budget::Priority reference[4];
+            for (uint32_t slot = 0; slot < 48; ++slot) {
+                const uint32_t priority = slot % 7 == 0 ? 1 : slot == 9 ? 3 : 0;
+                float asked = 0.0f;
+                std::memcpy(&asked, bounds.data() + size_t{32} * slot + 12, sizeof(asked));
+                const auto level = static_cast<double>(asked);
+                reference[priority].rates.add(level, 2, vertices);
+                const double own = level * static_cast<double>(now.levelScales[priority]);
+                size_t r = 0;
+                while (r + 1 < vertices.size() && (2u << r) < own) {
+                    ++r;
+                }
+                if (std::abs(own / std::exp2(std::round(std::log2(own))) - 1.0) > 1e-4) {
+                    ASSERT_EQ(written.rateOf(slot), r) << "slot " << slot << ", step " << steps;
+                }
+            }
+            if (alone && now.levelScales[0] < 1.0f) {
+                const double elasticities[] = {1.0, 0.5, 0.25, 0.0};
+                for (size_t p = 0; p < 4; ++p) {
+                    reference[p].elasticity = elasticities[p];
+                }
+                const surface::lod::budget::Solution expected = surface::lod::budget::solve(reference, limit - padding);
+                ASSERT_TRUE(expected.fits);
+                const double x = -std::log2(static_cast<double>(now.levelScales[0])) * shared::kBinsPerOctave;
+                // A step of demand is as steep as a rate's vertices in one bin.
+                ASSERT_NEAR(x, expected.x, 0.02) << steps;
+            }
+            if (before < 1.0f) {
+                steepest = std::max(steepest, before / now.levelScales[0] - 1.0f);
+                least = std::min(least, now.vertexCount);
+                ++scaled;
+            }
+            most = std::max(most, now.vertexCount);
+            changes += steps > 0 && slotsByRate(written) != last ? 1 : 0;
+            last = slotsByRate(written);
+            before = now.levelScales[0];
+        }
+        std::printf(
+            "%s: %zu steps, %zu scaled down, to %.3f, at most %.2f %% a step; %u to %u of %u vertices used; rates "
+            "changed in %zu steps\n",
+            alone ? "rates alone" : "rates and levels", steps, scaled, static_cast<double>(before),
+            100.0 * static_cast<double>(steepest), least, most, limit, changes);
+        EXPECT_GT(scaled, 20u);
+        // The same again is the same, bit for bit.
+        const SuppleViewStatistics once = frame(13.0f, limit);
+        const std::vector<std::vector<uint32_t>> first = slotsByRate(readBack(rates, Parts::lists));
+        (void)frame(30.0f, limit);
+        const SuppleViewStatistics again = frame(13.0f, limit);
+        EXPECT_EQ(std::memcmp(once.levelScales, again.levelScales, sizeof(once.levelScales)), 0);
+        EXPECT_EQ(once.vertexCount, again.vertexCount);
+        EXPECT_EQ(slotsByRate(readBack(rates, Parts::lists)), first);
+
+        // Not even the coarsest of all: whole instances go, the untouchable one last; the rest is at its coarsest.
+        const SuppleViewStatistics short_ = frame(13.0f, vertices[0] * 20 + 1024);
+        EXPECT_LE(short_.vertexCount, vertices[0] * 20 + 1024);
+        EXPECT_EQ(short_.shortfall, 1u);
+        EXPECT_GE(short_.droppedInstanceCount, 1u);
+        EXPECT_EQ(short_.drawnInstanceCount + short_.droppedInstanceCount, alone ? 48u : 64u);
+        const Written coarse = readBack(rates, Parts::lists);
+        EXPECT_EQ(coarse.rateOf(9), 0u);
+        for (size_t r = 1; r < coarse.rates.size(); ++r) {
+            EXPECT_TRUE(coarse.rates[r].slots.empty());
+        }
+        EXPECT_EQ(allSlots(rates, coarse), coarse.rates[0].slots);
+    }
 }
 
 TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {

@@ -130,11 +130,14 @@ struct MotionCase {
     }
     friend std::ostream& operator<<(std::ostream& out, const MotionCase& c) { return out << c.name; }
 };
+/// Every scheme in both mappings and in both formats of vertices, one format a mapping, of every other scheme the other
+/// way round.
 std::vector<MotionCase> motionCases() {
     std::vector<MotionCase> cases;
     for (const SuppleMapping mapping : kMappings) {
         for (const SuppleVertexFormat format : {SUPPLE_VERTEX_16, SUPPLE_VERTEX_24}) {
             const std::string suffix = format == SUPPLE_VERTEX_16 ? "16" : "24";
+            bool taken = (mapping == SUPPLE_MAPPING_NARROW) == (format == SUPPLE_VERTEX_16);
             // At rate 8 the narrow mapping subdivides through scratch memory.
             const uint32_t kernelRate = mapping == SUPPLE_MAPPING_NARROW ? 8 : 4;
             const MotionCase own[] = {{"Prep", SUPPLE_SCHEME_PREP, 3},
@@ -149,7 +152,10 @@ std::vector<MotionCase> motionCases() {
                 c.name = mappingName(mapping) + c.name + suffix;
                 c.mapping = mapping;
                 c.format = format;
-                cases.push_back(c);
+                if (taken) {
+                    cases.push_back(c);
+                }
+                taken = !taken;
             }
         }
     }

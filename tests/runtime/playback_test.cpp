@@ -630,6 +630,30 @@ TEST_F(PlaybackOnGpu, TravelsByTheRootsMovement) {
     }
 }
 
+TEST_F(PlaybackOnGpu, TravelsFromAClipTimeFarOff) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        ASSERT_TRUE(own.valid());
+        for (const float turn : {0.0f, 0.7f}) {
+            Duet duet(own, cageGroup(own.createAsset(wanderingTube(turn)), 4));
+            ASSERT_TRUE(duet.valid());
+            // More whole loops of 0.96 s than floats tell apart.
+            const double offsets[] = {1e8, 1e8 + 0.5, -1e8, 3e8};
+            for (uint32_t i = 0; i < 4; ++i) {
+                duet.set(i, {{playing(0, offsets[i], i == 1 ? -0.7f : 1.0f)}, kAllAxes, SUPPLE_PLAYBACK_TRAVEL});
+            }
+            Difference worst;
+            for (const double time : {0.0, 0.3, 0.96, 2.0, 7.3}) {
+                duet.run(time);
+                worst.add(duet.difference());
+            }
+            worst.print(mappingName(mapping) + ", " + std::to_string(turn) + " rad a loop, 1e8 s into the clip");
+            EXPECT_LT(worst.largest(), kBound);
+        }
+    }
+}
+
 TEST_F(PlaybackOnGpu, BothMappingsGiveTheSameBits) {
     const ValidationGuard guard;
     // More nodes than shared memory holds, too.

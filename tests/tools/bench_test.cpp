@@ -1,4 +1,5 @@
 // supple bench run as a user would: is every row there, do the contestants do the same job. Times are not judged.
+#include "tests/support/shared_assets.h"
 #include "tests/tools/command_runner.h"
 
 #include <cmath>
@@ -33,15 +34,23 @@ struct Expected {
     std::vector<std::string> schemes;
     bool peers;
 };
-const std::vector<Expected> kExpected{
-    {"sphere", 1350, {"prep", "pm", "catmull-clark", "blend"}, true},
-    {"irregular", 1296, {"prep", "pm", "catmull-clark", "blend"}, true},
-    {"triangles", 2700, {"pm", "catmull-clark", "loop", "blend"}, false},
-    {"pip_quads", 1496, {"prep", "pm", "catmull-clark", "blend"}, false},
-    {"pip", 1832, {"pm", "catmull-clark", "loop", "blend"}, false},
-};
+std::vector<Expected> expectedCages() {
+    std::vector<Expected> cages{
+        {"sphere", 1350, {"prep", "pm", "catmull-clark", "blend"}, true},
+        {"irregular", 1296, {"prep", "pm", "catmull-clark", "blend"}, true},
+        {"triangles", 2700, {"pm", "catmull-clark", "loop", "blend"}, false},
+        {"man_casual_quads", 3966, {"prep", "pm", "catmull-clark", "blend"}, false},
+        {"pip_quads", 1496, {"prep", "pm", "catmull-clark", "blend"}, false},
+        {"pip", 1832, {"pm", "catmull-clark", "loop", "blend"}, false},
+    };
+    if (supple::test::sharedAssets({"characters/man_casual_quads.glb"}).empty()) {
+        std::erase_if(cages, [](const Expected& expected) { return expected.cage == std::string("man_casual_quads"); });
+    }
+    return cages;
+}
 
 TEST_F(Bench, QuickRunIsWhole) {
+    const std::vector<Expected> cages = expectedCages();
     const Outcome outcome = runOnDevice("bench --quick --json quick.json --plots plots");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const Json result = Json::parse(readText(file("quick.json")), nullptr, false);
@@ -60,15 +69,18 @@ TEST_F(Bench, QuickRunIsWhole) {
     for (const auto& [peer, what] : result["peers"].items()) { // what is missing is said
         EXPECT_NE(outcome.out.find(peer + ": " + what.get<std::string>()), std::string::npos) << peer;
     }
-    size_t agreements = 1 + (avx2 ? 1 : 0) + (cpuPeer ? 4 : 0) + (cpuPeer && hasGlsl ? 4 : 0);
+    EXPECT_EQ(result["complete"], true);
+    EXPECT_EQ(outcome.out.find("man_casual_quads: not there") == std::string::npos, cages.size() == 6) << outcome.out;
+    EXPECT_EQ(result["leftOut"].size(), 6 - cages.size());
+    size_t agreements = 5 + (avx2 ? 1 : 0) + (cpuPeer ? 4 : 0) + (cpuPeer && hasGlsl ? 4 : 0);
     EXPECT_EQ(result["agreement"].size(), agreements);
     for (const Json& one : result["agreement"]) {
         EXPECT_LE(one["difference"].get<double>(), one["bound"].get<double>()) << one["what"];
     }
 
-    ASSERT_EQ(result["rows"].size(), kExpected.size());
-    for (size_t i = 0; i < kExpected.size(); ++i) {
-        const Expected& expected = kExpected[i];
+    ASSERT_EQ(result["rows"].size(), cages.size());
+    for (size_t i = 0; i < cages.size(); ++i) {
+        const Expected& expected = cages[i];
         const Json& row = result["rows"][i];
         SCOPED_TRACE(expected.cage);
         EXPECT_EQ(row["cage"], expected.cage);
@@ -95,7 +107,7 @@ TEST_F(Bench, QuickRunIsWhole) {
             for (const std::string job : {"limit stencils", "patches"}) {
                 if (cpuPeer) {
                     contestants.insert("OpenSubdiv CPU, " + job);
-                    ratios.insert("prep evaluate / OpenSubdiv CPU, " + job);
+                    ratios.insert({"prep evaluate / OpenSubdiv CPU, " + job, "pm evaluate / OpenSubdiv CPU, " + job});
                 }
                 if (cpuPeer && hasGlsl) {
                     contestants.insert("OpenSubdiv GLSL, " + job);
@@ -122,7 +134,7 @@ TEST_F(Bench, QuickRunIsWhole) {
     }
 
     std::set<std::string> loaded, expectedLoads, compiled;
-    for (const Expected& expected : kExpected) {
+    for (const Expected& expected : cages) {
         for (const std::string& scheme : expected.schemes) {
             expectedLoads.insert(std::string(expected.cage) + " " + scheme);
         }
@@ -132,10 +144,11 @@ TEST_F(Bench, QuickRunIsWhole) {
         for (const auto& [key, value] : loading.items()) {
             EXPECT_TRUE(value.is_string() || finitePositive(value)) << key << " of " << loading;
         }
+        EXPECT_GT(loading["untilDoneUsPerFace"], loading["untilRecordedUsPerFace"]);
     }
     EXPECT_EQ(loaded, expectedLoads);
     for (const Json& scheme : result["pipelines"]) {
-        compiled.insert(scheme["scheme"]);
+        compiled.insert(scheme["scheme"].get<std::string>() + ", " + scheme["use"].get<std::string>());
         EXPECT_GT(scheme["count"], 4);
         EXPECT_EQ(scheme["count"], scheme["pipelines"].size());
         EXPECT_EQ(scheme["createdWhileRecording"], 0);
@@ -145,9 +158,45 @@ TEST_F(Bench, QuickRunIsWhole) {
             EXPECT_TRUE(finitePositive(pipeline["warmMs"])) << pipeline;
         }
     }
-    EXPECT_EQ(compiled, (std::set<std::string>{"prep", "pm", "catmull-clark", "loop", "blend"}));
+    std::set<std::string> uses;
+    for (const std::string scheme : {"prep", "pm", "catmull-clark", "loop", "blend"}) {
+        uses.insert(scheme + ", ");
+    }
+    uses.insert("pm, in a view");
+    EXPECT_EQ(compiled, uses);
     EXPECT_FALSE(result["targets"].empty());
     EXPECT_FALSE(std::filesystem::exists(file("plots/bench_sphere_points.svg"))) << "one rate makes no line";
+}
+
+TEST_F(Bench, CrowdGoesFromPoseToVertices) {
+    const Outcome outcome = runOnDevice("bench --quick --cages none --crowd 3 --json crowd.json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Json result = Json::parse(readText(file("crowd.json")), nullptr, false);
+    ASSERT_TRUE(result.is_object());
+    const Json& crowd = result["crowd"];
+    EXPECT_EQ(crowd["faces"], 1350);
+    EXPECT_NE(outcome.out.find("## Crowd: the sphere of 1350 faces"), std::string::npos) << outcome.out;
+    std::set<std::string> rows;
+    for (const Json& row : crowd["rows"]) {
+        rows.insert(row["scheme"].get<std::string>() + " " + row["rate"].dump() + " " + row["characters"].dump());
+        const uint64_t rate = row["rate"], characters = row["characters"];
+        EXPECT_EQ(row["vertices"], 1350 * (rate + 1) * (rate + 1) * characters);
+        EXPECT_TRUE(finitePositive(row["evaluateMs"]) && finitePositive(row["frameMs"])) << row;
+        for (const char* key : {"evaluateGigabytesPerSecond", "fillGigabytesPerSecond", "storeGigabytesPerSecond"}) {
+            EXPECT_EQ(row.contains(key) && finitePositive(row[key]), characters > 1) << row;
+        }
+        if (characters > 1) {
+            const Json& share = row["bandwidthShare"];
+            EXPECT_TRUE(finitePositive(share["least"])) << row;
+            EXPECT_LE(share["least"].get<double>(), share["median"].get<double>()) << row;
+            EXPECT_GE(share["largest"].get<double>(), share["median"].get<double>()) << row;
+        }
+    }
+    EXPECT_EQ(rows, (std::set<std::string>{"prep 4 3", "prep 8 1", "pm 4 3", "pm 8 1"}));
+    const Outcome none = runOnDevice("bench --quick --cages none --json none.json");
+    ASSERT_EQ(none.exitCode, 0) << none.err;
+    EXPECT_FALSE(Json::parse(readText(file("none.json")), nullptr, false).contains("crowd"));
+    expectFailure(run("bench --crowd -1"), 2, "--crowd");
 }
 
 /// A result with one ratio, as far as --check looks.

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -540,6 +541,38 @@ TEST_F(Cli, ProfilePlaysOnTheDeviceWhenAsked) {
         EXPECT_EQ(run["playback"].get<bool>(), playback);
         EXPECT_EQ(run["passes"][0]["pass"], playback ? "pose" : "upload") << "nothing is uploaded where nothing is set";
     }
+}
+
+TEST_F(Cli, ProfileOfAViewShowsItsShortfall) {
+    for (const uint32_t budget : {200000u, 1024u}) {
+        const Outcome outcome = runOnDevice("profile cube.gltf triangles.gltf --view --instances 40 --frames 3 "
+                                            "--json p.json --budget " +
+                                            std::to_string(budget));
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const Json runs = Json::parse(readText(file("p.json")))["runs"];
+        ASSERT_EQ(runs.size(), 1u) << "all files are one crowd";
+        const Json& run = runs[0];
+        EXPECT_EQ(run["file"], "cube.gltf + triangles.gltf");
+        EXPECT_EQ(run["instances"], 40);
+        EXPECT_EQ(run["playback"], true);
+        EXPECT_EQ(run["frames"], 3);
+        std::set<std::string> passes;
+        for (const Json& pass : run["passes"]) {
+            EXPECT_TRUE(passes.insert(pass["pass"]).second) << "each once: " << pass;
+        }
+        for (const char* pass : {"pose", "deform", "bounds", "list", "level", "solve", "place", "evaluate"}) {
+            EXPECT_TRUE(passes.contains(pass)) << pass;
+        }
+        EXPECT_FALSE(passes.contains("shortfall")) << "is no pass";
+        const Json& view = run["view"];
+        EXPECT_EQ(view["budget"], budget);
+        EXPECT_GT(view["vertices"], 0);
+        EXPECT_LE(view["vertices"], budget);
+        EXPECT_EQ(run["frame"]["points"], view["vertices"]);
+        EXPECT_EQ(view["shortfallFrames"], budget == 1024 ? 3 : 0) << view;
+        EXPECT_EQ(view["mostDroppedInstances"] > 0, budget == 1024) << view;
+    }
+    expectFailure(run("profile cube.gltf --budget 5000"), 2, "--view");
 }
 
 TEST_F(Cli, ProfileWritesTableJsonCsvAndTrace) {

@@ -57,6 +57,46 @@ TEST(ProfileReport, APassThatRunsOnceIsNotDilutedByTheOtherFrames) {
     EXPECT_DOUBLE_EQ(summary.passes[2].gpu.median, 5.0);
 }
 
+TEST(ProfileReport, PartsOfAPassAreAddedUp) {
+    ProfileRun run = sampleRun();
+    for (FrameSample& frame : run.frames) {
+        frame.passes.push_back({"deform", 0.0, 5 * kMillisecond, 0.1 * kMillisecond, 10, 160});
+    }
+    const RunSummary summary = summarizeRun(run);
+    ASSERT_EQ(summary.passes.size(), 2u);
+    EXPECT_DOUBLE_EQ(summary.passes[0].gpu.median, 7.0);
+    EXPECT_NEAR(summary.passes[0].cpuRecord.median, 0.2, 1e-12);
+    EXPECT_EQ(summary.passes[0].points, 110u);
+    EXPECT_EQ(summary.passes[0].bytes, 1760u);
+}
+
+TEST(ProfileReport, AViewTellsWhatItDrew) {
+    ProfileRun run = sampleRun();
+    run.budget = 5000;
+    for (size_t i = 0; i < run.frames.size(); ++i) {
+        const auto number = static_cast<uint32_t>(i);
+        run.frames[i].drawn = {4000 + number, 9000, 100, 2, number, 0.5f + 0.1f * static_cast<float>(i), i == 1};
+    }
+    const RunSummary summary = summarizeRun(run);
+    EXPECT_EQ(summary.total.points, 4001u) << "what comes out of a frame is what the view drew";
+    EXPECT_EQ(summary.drawn.mostDropped, 2u);
+    EXPECT_EQ(summary.drawn.shortfallFrames, 1u);
+    const std::string table = toTable(run, summary);
+    EXPECT_NE(table.find("in a view of 5000 vertices"), std::string::npos) << table;
+    EXPECT_NE(table.find("4001 vertices of 9000 wanted"), std::string::npos) << table;
+    EXPECT_NE(table.find("shortfall in 1 of 3 frames"), std::string::npos) << table;
+    const std::vector<ProfileRun> runs{run};
+    const auto json = toJson({}, runs)["runs"][0]["view"];
+    EXPECT_EQ(json["budget"], 5000);
+    EXPECT_EQ(json["wantedVertices"], 9000);
+    EXPECT_EQ(json["shortfallFrames"], 1);
+    EXPECT_FLOAT_EQ(json["leastLevelScale"].get<float>(), 0.5f);
+    const std::string csv = toCsv(runs);
+    EXPECT_NE(csv.find(",view_budget,view_wanted_vertices,view_shortfall_frames\n"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",5000,9000,1\n"), std::string::npos) << csv;
+    EXPECT_EQ(toCsv(std::vector{sampleRun()}).find("5000"), std::string::npos);
+}
+
 TEST(ProfileReport, NoFramesGiveZeros) {
     ProfileRun run = sampleRun();
     run.frames.clear();

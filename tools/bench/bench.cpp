@@ -2,6 +2,7 @@
 
 #include "tools/bench/agreement.h"
 #include "tools/bench/avx2_evaluation.h"
+#include "tools/bench/crowd.h"
 #include "tools/bench/heat.h"
 #include "tools/bench/loading.h"
 #include "tools/bench/plain_evaluation.h"
@@ -24,27 +25,36 @@ namespace {
 
 constexpr double kTurnSeconds = 0.02, kQuickTurnSeconds = 0.002;
 constexpr uint32_t kLoads = 9, kQuickLoads = 2;
+/// On CPU devices a crowd is no game's: so many show that it works and what a character costs.
+constexpr uint32_t kGpuCrowd = 1000, kCpuCrowd = 16, kQuickCpuCrowd = 4;
 
 class Run {
 public:
     Run(host::Device& device, const BenchOptions& options) : device_(device), options_(options) {}
 
     Result<Json> all(const tools::Machine& machine) {
+        describe(machine);
         Status status = prepare();
         if (status) {
-            describe(machine);
             status = agree();
+        }
+        if (status) {
+            status = keep();
+        }
+        if (status) {
+            status = crowd();
         }
         if (status) {
             status = heats();
         }
-        if (status) {
+        if (status && options_.loading) {
             status = load();
         }
         if (!status) {
             return status.error();
         }
         result_["targets"] = judge(result_);
+        result_["complete"] = true;
         return std::move(result_);
     }
 
@@ -52,12 +62,19 @@ private:
     Status prepare();
     void describe(const tools::Machine& machine);
     Status agree();
+    Status crowd();
     Status heats();
     Status load();
+    Status pipelines(const BenchCage& cage, SuppleScheme scheme);
+    Status keep();
+    [[nodiscard]] RoundOptions roundOptions() const;
+    [[nodiscard]] uint32_t crowdSize() const;
+    [[nodiscard]] std::vector<SuppleScheme> crowdSchemes() const;
 
     host::Device& device_;
     const BenchOptions& options_;
-    std::vector<BenchCage> cages_;
+    std::vector<BenchCage> cages_; ///< built-in ones first
+    size_t builtIn_ = 0;
     std::unique_ptr<Workbench> workbench_;
     OpensubdivPeers peers_;
     std::vector<float> yardstick_;
@@ -67,9 +84,14 @@ private:
 Status Run::prepare() {
     for (const std::string& name : options_.cages) {
         Result<BenchCage> cage = makeCage(name);
+        if (!cage && cage.error().code == ErrorCode::io) {
+            result_["leftOut"].push_back({{"what", name}, {"reason", cage.error().message}});
+            continue;
+        }
         if (!cage) {
             return cage.error();
         }
+        ++builtIn_;
         cages_.push_back(std::move(*cage));
     }
     for (const std::string& path : options_.files) {
@@ -98,6 +120,7 @@ Status Run::prepare() {
 void Run::describe(const tools::Machine& machine) {
     result_["version"] = std::to_string(SUPPLE_VERSION_MAJOR) + "." + std::to_string(SUPPLE_VERSION_MINOR) + "." +
                          std::to_string(SUPPLE_VERSION_PATCH);
+    result_["complete"] = false;
     result_["machine"] = {
         {"device", machine.device},   {"driver", machine.driver}, {"driverInfo", machine.driverInfo},
         {"mapping", machine.mapping}, {"cpu", machine.cpu},       {"threads", std::thread::hardware_concurrency()}};
@@ -107,6 +130,61 @@ void Run::describe(const tools::Machine& machine) {
                         {"AVX2", hasAvx2Evaluation() ? "AVX2 and FMA by hand, one thread" : "not on this CPU"},
                         {"OpenSubdiv CPU", peers_.cpu()},
                         {"OpenSubdiv GLSL", peers_.glsl()}};
+    for (const char* list : {"leftOut", "agreement", "rows", "loading", "pipelines"}) {
+        result_[list] = Json::array();
+    }
+}
+
+Status Run::keep() {
+    if (!options_.keep) {
+        return success();
+    }
+    result_["targets"] = judge(result_);
+    return options_.keep(result_);
+}
+
+RoundOptions Run::roundOptions() const {
+    RoundOptions rounds;
+    rounds.rounds = options_.rounds;
+    rounds.turnSeconds = options_.quick ? kQuickTurnSeconds : kTurnSeconds;
+    rounds.timestampsAreCheap = !device_.isCpu();
+    return rounds;
+}
+
+uint32_t Run::crowdSize() const {
+    const std::vector<std::string>& cages = options_.cages;
+    if (!options_.crowd && std::find(cages.begin(), cages.end(), "sphere") == cages.end()) {
+        return 0;
+    }
+    return options_.crowd.value_or(!device_.isCpu() ? kGpuCrowd : options_.quick ? kQuickCpuCrowd : kCpuCrowd);
+}
+
+std::vector<SuppleScheme> Run::crowdSchemes() const {
+    std::vector<SuppleScheme> schemes{SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM};
+    const std::vector<std::string>& wanted = options_.schemes;
+    std::erase_if(schemes, [&](SuppleScheme scheme) {
+        return !wanted.empty() && std::find(wanted.begin(), wanted.end(), schemeName(scheme)) == wanted.end();
+    });
+    return schemes;
+}
+
+Status Run::crowd() {
+    CrowdDesc desc;
+    desc.characters = crowdSize();
+    desc.schemes = crowdSchemes();
+    if (desc.characters == 0 || desc.schemes.empty()) {
+        return success();
+    }
+    desc.rates = options_.quick ? std::vector<uint32_t>{4} : std::vector<uint32_t>{4, 8, 16};
+    desc.rounds = roundOptions();
+    desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rcrowd: %s   ", what.c_str()); };
+    Result<Json> measured = measureCrowd(device_, *workbench_, desc);
+    std::fprintf(stderr, "\n");
+    if (!measured) {
+        return measured.error();
+    }
+    result_["crowd"] = std::move(*measured);
+    return keep();
 }
 
 Status Run::agree() {
@@ -129,6 +207,14 @@ Status Run::agree() {
             all->insert(all->end(), peers->begin(), peers->end());
         }
     }
+    for (const SuppleScheme scheme : crowdSize() > 0 ? crowdSchemes() : std::vector<SuppleScheme>()) {
+        const Result<std::vector<Agreement>> crowd =
+            all ? compareCrowd(device_, *workbench_, scheme) : Result<std::vector<Agreement>>(all.error());
+        if (!crowd) {
+            return crowd.error();
+        }
+        all->insert(all->end(), crowd->begin(), crowd->end());
+    }
     if (!all) {
         return all.error();
     }
@@ -142,16 +228,13 @@ Status Run::agree() {
 }
 
 Status Run::heats() {
-    result_["rows"] = Json::array();
     for (const BenchCage& cage : cages_) {
         for (const uint32_t rate : options_.rates) {
             HeatDesc desc;
             desc.cage = &cage;
             desc.rate = rate;
             desc.yardstick = yardstick_;
-            desc.rounds.rounds = options_.rounds;
-            desc.rounds.turnSeconds = options_.quick ? kQuickTurnSeconds : kTurnSeconds;
-            desc.rounds.timestampsAreCheap = !device_.isCpu();
+            desc.rounds = roundOptions();
             desc.rounds.progress = [&](uint32_t round) {
                 std::fprintf(stderr, "\r%s, rate %u: round %u of %u   ", cage.name.c_str(), rate, round,
                              options_.rounds);
@@ -162,14 +245,16 @@ Status Run::heats() {
                 return row.error();
             }
             result_["rows"].push_back(std::move(*row));
+            const Status kept = keep();
+            if (!kept) {
+                return kept;
+            }
         }
     }
     return success();
 }
 
 Status Run::load() {
-    result_["loading"] = Json::array();
-    result_["pipelines"] = Json::array();
     std::set<SuppleScheme> compiled;
     // The demo characters, the last of the built-in cages, have patches of all classes: pipelines are taken from the
     // first in this order that has the scheme.
@@ -177,7 +262,7 @@ Status Run::load() {
     for (const BenchCage& cage : cages_) {
         order.push_back(&cage);
     }
-    std::reverse(order.begin(), order.begin() + static_cast<ptrdiff_t>(options_.cages.size()));
+    std::reverse(order.begin(), order.begin() + static_cast<ptrdiff_t>(builtIn_));
     for (const BenchCage* cage : order) {
         for (const SuppleScheme scheme : cage->schemes) {
             Result<Loading> loading =
@@ -201,38 +286,56 @@ Status Run::load() {
                  {"firstSubmitMs", times.submit},
                  {"secondSubmitMs", times.secondSubmit},
                  {"untilRecordedUsPerFace", aFace(1e3 * times.untilRecorded())},
+                 {"untilDoneUsPerFace", aFace(1e3 * times.untilDone())},
                  {"deformBytesPerFace", aFace(static_cast<double>(loading->bytes.deform))},
                  {"tableBytesPerFace", aFace(static_cast<double>(loading->bytes.tables))},
                  {"staticBytesPerFace", aFace(static_cast<double>(loading->bytes.deform + loading->bytes.tables))},
+                 {"indexBytes", loading->bytes.indices},
                  {"groupBytes", loading->bytes.group}});
-            if (!compiled.insert(scheme).second) {
-                continue;
+            Status status = keep();
+            if (status && compiled.insert(scheme).second) {
+                status = pipelines(*cage, scheme);
             }
-            std::fprintf(stderr, "\rpipelines of %s   ", loading->scheme.c_str());
-            const Result<Pipelines> pipelines = measurePipelines(device_, options_.mapping, *cage, scheme);
-            if (!pipelines) {
-                return pipelines.error();
+            if (!status) {
+                return status;
             }
-            Json list = Json::array();
-            for (const PipelineTime& one : pipelines->pipelines) {
-                list.push_back(
-                    {{"name", one.name}, {"spirvBytes", one.spirvBytes}, {"coldMs", one.cold}, {"warmMs", one.warm}});
-            }
-            result_["pipelines"].push_back({{"scheme", pipelines->scheme},
-                                            {"cage", pipelines->cage},
-                                            {"count", pipelines->pipelines.size()},
-                                            {"coldMs", pipelines->cold},
-                                            {"warmMs", pipelines->warm},
-                                            {"coldFirstFrameMs", pipelines->coldFirstFrame},
-                                            {"coldSecondFrameMs", pipelines->coldSecondFrame},
-                                            {"warmFirstFrameMs", pipelines->warmFirstFrame},
-                                            {"warmSecondFrameMs", pipelines->warmSecondFrame},
-                                            {"createdWhileRecording", pipelines->createdWhileRecording},
-                                            {"pipelines", list}});
         }
     }
     std::fprintf(stderr, "\n");
     return success();
+}
+
+Status Run::pipelines(const BenchCage& cage, SuppleScheme scheme) {
+    for (const PipelineUse use : {PipelineUse::plain, PipelineUse::inView}) {
+        if (use == PipelineUse::inView && options_.quick && scheme != SUPPLE_SCHEME_PM) {
+            continue; // drivers take seconds to compile them
+        }
+        std::fprintf(stderr, "\rpipelines of %s   ", schemeName(scheme));
+        const Result<Pipelines> made = measurePipelines(device_, options_.mapping, cage, scheme, use);
+        if (!made) {
+            return made.error();
+        }
+        Json list = Json::array();
+        for (const PipelineTime& one : made->pipelines) {
+            list.push_back(
+                {{"name", one.name}, {"spirvBytes", one.spirvBytes}, {"coldMs", one.cold}, {"warmMs", one.warm}});
+        }
+        result_["pipelines"].push_back({{"scheme", made->scheme},
+                                        {"use", use == PipelineUse::inView ? "in a view" : ""},
+                                        {"cage", made->cage},
+                                        {"count", made->pipelines.size()},
+                                        {"coldMs", made->cold},
+                                        {"warmMs", made->warm},
+                                        {"coldCpuMs", made->coldCpu},
+                                        {"warmCpuMs", made->warmCpu},
+                                        {"coldFirstFrameMs", made->coldFirstFrame},
+                                        {"coldSecondFrameMs", made->coldSecondFrame},
+                                        {"warmFirstFrameMs", made->warmFirstFrame},
+                                        {"warmSecondFrameMs", made->warmSecondFrame},
+                                        {"createdWhileRecording", made->createdWhileRecording},
+                                        {"pipelines", list}});
+    }
+    return keep();
 }
 
 } // namespace

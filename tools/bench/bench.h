@@ -6,7 +6,9 @@
 #include "tools/supple/machine.h"
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,13 @@ struct BenchOptions {
     std::vector<std::string> schemes; ///< empty: all
     std::vector<uint32_t> rates = {4, 8, 16, 32};
     uint32_t rounds = 7;
-    bool quick = false; ///< shorter turns, fewer loads
+    bool quick = false;  ///< shorter turns, fewer loads, of pipelines in views P_m's alone
+    bool loading = true; ///< and pipelines
     SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
+    /// Characters of the crowd, 0: no crowd. Left out: as many as the device is good for, where the sphere is measured.
+    std::optional<uint32_t> crowd;
+    /// Is given the result so far after every measurement, "complete" being false: a failure later loses nothing.
+    std::function<Status(const nlohmann::ordered_json&)> keep;
 };
 
 /// Before the first Vulkan call of the process: has drivers compile anew what an earlier run left in their own caches

@@ -15,6 +15,7 @@ namespace supple::bench {
 
 namespace {
 
+constexpr const char* kManCasualQuads = "man_casual_quads";
 constexpr uint32_t kSphereSide = 15;
 constexpr uint32_t kTorusAround = 18, kTorusAcross = 12;
 
@@ -76,7 +77,8 @@ Result<BenchCage> embedded(const std::string& name, std::span<const uint8_t> byt
 } // namespace
 
 const std::vector<std::string>& builtInCages() {
-    static const std::vector<std::string> names{"sphere", "irregular", "triangles", "pip_quads", "pip"};
+    static const std::vector<std::string> names{"sphere",        "irregular", "triangles",
+                                                kManCasualQuads, "pip_quads", "pip"};
     return names;
 }
 
@@ -95,6 +97,14 @@ Result<BenchCage> makeCage(const std::string& name) {
     }
     if (name == "pip_quads") {
         return embedded(name, kPipQuads);
+    }
+    if (name == kManCasualQuads) {
+#ifdef SUPPLE_MAN_CASUAL_QUADS
+        if (std::filesystem::exists(SUPPLE_MAN_CASUAL_QUADS)) {
+            return readCage(SUPPLE_MAN_CASUAL_QUADS);
+        }
+#endif
+        return Error{ErrorCode::io, "not there"};
     }
     return Error{ErrorCode::argument, "no cage is called " + name};
 }

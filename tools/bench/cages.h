@@ -21,6 +21,7 @@ struct BenchCage {
 
 /// The names of the built-in ones.
 [[nodiscard]] const std::vector<std::string>& builtInCages();
+/// ErrorCode::io: man_casual_quads, a file that lies beside the source tree on some machines, is not there.
 [[nodiscard]] Result<BenchCage> makeCage(const std::string& name);
 /// From a file, called as the file without its folder and suffix.
 [[nodiscard]] Result<BenchCage> readCage(const std::string& path);

@@ -14,6 +14,10 @@ Function load(const char* name) {
     return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
+// gl.h of OpenGL 1 lacks them.
+constexpr GLenum kTimeElapsed = 0x88BF; // GL_TIME_ELAPSED
+constexpr GLenum kQueryResult = 0x8866; // GL_QUERY_RESULT
+
 EGLDisplay openDisplay() {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto has = [&](const char* extension) {
@@ -64,7 +68,13 @@ Result<std::unique_ptr<GlContext>> GlContext::create() {
     }
     gl->finish_ = load<void (*)()>("glFinish");
     const auto getString = load<const GLubyte* (*)(GLenum)>("glGetString");
-    if (gl->finish_ == nullptr || getString == nullptr) {
+    gl->genQueries_ = load<decltype(gl->genQueries_)>("glGenQueries");
+    gl->deleteQueries_ = load<decltype(gl->deleteQueries_)>("glDeleteQueries");
+    gl->beginQuery_ = load<decltype(gl->beginQuery_)>("glBeginQuery");
+    gl->endQuery_ = load<decltype(gl->endQuery_)>("glEndQuery");
+    gl->queryResult_ = load<decltype(gl->queryResult_)>("glGetQueryObjectui64v");
+    if (gl->finish_ == nullptr || getString == nullptr || gl->genQueries_ == nullptr || gl->deleteQueries_ == nullptr ||
+        gl->beginQuery_ == nullptr || gl->endQuery_ == nullptr || gl->queryResult_ == nullptr) {
         return Error{ErrorCode::unsupported, "EGL gives no OpenGL functions"};
     }
     for (const GLenum what : {GL_RENDERER, GL_VERSION}) {
@@ -73,6 +83,26 @@ Result<std::unique_ptr<GlContext>> GlContext::create() {
                      (text == nullptr ? "?" : reinterpret_cast<const char*>(text));
     }
     return gl;
+}
+
+Result<double> GlContext::elapsedSeconds(uint32_t times, const std::function<Status()>& work) const {
+    uint32_t query = 0;
+    genQueries_(1, &query);
+    Status status = success();
+    double total = 0.0;
+    for (uint32_t i = 0; status && i < times; ++i) {
+        uint64_t nanoseconds = 0;
+        beginQuery_(kTimeElapsed, query);
+        status = work();
+        endQuery_(kTimeElapsed);
+        queryResult_(query, kQueryResult, &nanoseconds); // waits for it
+        total += static_cast<double>(nanoseconds);
+    }
+    deleteQueries_(1, &query);
+    if (!status) {
+        return status.error();
+    }
+    return 1e-9 * total / times;
 }
 
 GlContext::~GlContext() {

@@ -4,6 +4,8 @@
 
 #include "base/result.h"
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -22,6 +24,9 @@ public:
     [[nodiscard]] const std::string& name() const { return name_; }
     /// Waits for all that was asked for so far.
     void finish() const { finish_(); }
+    /// Mean seconds of so many runs of `work`, by GL_TIME_ELAPSED, waiting for the end of each. llvmpipe gives 0 for
+    /// compute shaders. The first failure of `work` ends it.
+    [[nodiscard]] Result<double> elapsedSeconds(uint32_t times, const std::function<Status()>& work) const;
 
 private:
     GlContext() = default;
@@ -29,6 +34,11 @@ private:
     void* display_ = nullptr; ///< EGLDisplay
     void* context_ = nullptr; ///< EGLContext
     void (*finish_)() = nullptr;
+    void (*genQueries_)(int count, uint32_t* queries) = nullptr;
+    void (*deleteQueries_)(int count, const uint32_t* queries) = nullptr;
+    void (*beginQuery_)(uint32_t target, uint32_t query) = nullptr;
+    void (*endQuery_)(uint32_t target) = nullptr;
+    void (*queryResult_)(uint32_t query, uint32_t what, uint64_t* value) = nullptr;
     std::string name_;
 };
 

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <set>
 
 namespace supple::bench {
 
@@ -66,6 +66,7 @@ private:
     std::vector<SuppleGroup> groups_;
     std::vector<std::unique_ptr<Replay>> replays_;
     std::vector<Peer> peers_;
+    std::set<std::string> wallAlone_; ///< of these: run on the device, which does not time them
     std::vector<float> plainOut_, avx2Out_, writeOut_;
     BicubicWeights weights_{};
     std::vector<std::string> schemes_; ///< that took the cage
@@ -138,13 +139,8 @@ Status Heat::addReplay(const std::string& name, uint64_t points, const std::func
     if (!made) {
         return made.error();
     }
-    Replay* replay = made->get();
+    contestants_.push_back((*made)->contestant(name, points));
     replays_.push_back(std::move(*made));
-    Contestant contestant{name, points, [replay](uint32_t times) { return replay->run(times); }, nullptr};
-    if (replay->hasTimestamps()) {
-        contestant.deviceSeconds = [replay](uint32_t times) { return replay->deviceSeconds(times); };
-    }
-    contestants_.push_back(std::move(contestant));
     return success();
 }
 
@@ -158,15 +154,27 @@ Status Heat::addPeers(const OpensubdivPeers& peers) {
     }
     peers_ = std::move(*made);
     for (const Peer& peer : peers_) {
-        contestants_.push_back({peer.name, peer.points,
-                                [run = peer.run](uint32_t times) {
-                                    Status status = success();
-                                    for (uint32_t i = 0; status && i < times; ++i) {
-                                        status = run();
-                                    }
-                                    return status;
-                                },
-                                nullptr});
+        Contestant contestant{peer.name, peer.points,
+                              [run = peer.run](uint32_t times) {
+                                  Status status = success();
+                                  for (uint32_t i = 0; status && i < times; ++i) {
+                                      status = run();
+                                  }
+                                  return status;
+                              },
+                              nullptr};
+        if (peer.deviceSeconds && !device_.isCpu()) {
+            const Result<double> seconds = peer.deviceSeconds(1);
+            if (!seconds) {
+                return seconds.error();
+            }
+            if (*seconds > 0.0) {
+                contestant.deviceSeconds = peer.deviceSeconds;
+            } else {
+                wallAlone_.insert(peer.name);
+            }
+        }
+        contestants_.push_back(std::move(contestant));
     }
     return success();
 }
@@ -207,8 +215,8 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
         }
         return nullptr;
     };
-    const auto cost = [&](const Series& s) -> const std::vector<double>& {
-        return device_.isCpu() ? s.cpu : s.gpu.empty() ? s.wall : s.gpu;
+    const auto cost = [&](const Series& s, bool wall) -> const std::vector<double>& {
+        return device_.isCpu() ? s.cpu : s.gpu.empty() || wall ? s.wall : s.gpu;
     };
     row["ratios"] = Json::array();
     const auto add = [&](const std::string& of, const std::string& over, bool yardstick) {
@@ -216,9 +224,10 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
         if (above == nullptr || below == nullptr) {
             return;
         }
+        const bool wall = wallAlone_.contains(of) || wallAlone_.contains(over);
         std::vector<double> ratios;
         for (size_t i = 0; i < above->cpu.size(); ++i) {
-            ratios.push_back(cost(*above)[i] / cost(*below)[i]);
+            ratios.push_back(cost(*above, wall)[i] / cost(*below, wall)[i]);
         }
         std::sort(ratios.begin(), ratios.end());
         row["ratios"].push_back({{"name", of + " / " + over},
@@ -242,7 +251,7 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
         if (scheme != schemes_.front()) {
             add(scheme + " evaluate", schemes_.front() + " evaluate", false);
         }
-        if (scheme == "prep" || scheme == "catmull-clark") {
+        if (scheme == "prep" || scheme == "pm" || scheme == "catmull-clark") {
             for (const Peer& peer : peers_) {
                 add(scheme + " evaluate", peer.name, true);
             }

@@ -22,7 +22,8 @@ struct HeatDesc {
 
 /// A row of the result: contestants with the medians of their times, ratios with the median, least and largest of the
 /// rounds; "yardstick" marks ratios of Supple's own over others', which --check compares. A ratio is taken of CPU time
-/// on CPU devices; on others of device time, and of wall time for what runs on the host. Schemes that refuse the cage
+/// on CPU devices; on others of device time, of wall time for what runs on the host, and of both contestants' wall time
+/// where one of them runs on the device and is not timed there. Schemes that refuse the cage
 /// are named with their reason.
 [[nodiscard]] Result<nlohmann::ordered_json> runHeat(host::Device& device, Workbench& workbench,
                                                      const OpensubdivPeers& peers, const HeatDesc& desc);

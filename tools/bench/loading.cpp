@@ -14,6 +14,7 @@ namespace supple::bench {
 namespace {
 
 constexpr uint32_t kRate = 8;
+constexpr uint32_t kViewVertices = 1u << 20; ///< room for any of the cages
 
 SuppleGroupDesc groupDesc(const BenchCage& cage, SuppleScheme scheme, SuppleAsset asset) {
     SuppleGroupDesc desc{};
@@ -109,8 +110,33 @@ Result<Loading> measureLoading(host::Device& device, Workbench& workbench, const
     return loading;
 }
 
+namespace {
+
+Result<SuppleGroup> groupFor(Workbench& workbench, const BenchCage& cage, SuppleScheme scheme, PipelineUse use) {
+    Result<SuppleAsset> asset = workbench.createAsset(cage.character);
+    if (!asset) {
+        return asset.error();
+    }
+    SuppleGroupDesc desc = groupDesc(cage, scheme, *asset);
+    if (use == PipelineUse::inView) {
+        SuppleViewDesc view{};
+        view.flags = SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;
+        view.maxVertices = kViewVertices;
+        Result<SuppleView> made = workbench.createView(view);
+        if (!made) {
+            return made.error();
+        }
+        desc.view = *made;
+        desc.flags = 0; // the view's
+        desc.poseSource = SUPPLE_POSES_PLAYBACK;
+    }
+    return workbench.createGroup(desc);
+}
+
+} // namespace
+
 Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, const BenchCage& cage,
-                                   SuppleScheme scheme) {
+                                   SuppleScheme scheme, PipelineUse use) {
     Pipelines result;
     result.cage = cage.name;
     result.scheme = schemeName(scheme);
@@ -132,9 +158,7 @@ Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, 
             status = workbench.error();
             break;
         }
-        Result<SuppleAsset> asset = (*workbench)->createAsset(cage.character);
-        Result<SuppleGroup> group =
-            asset ? (*workbench)->createGroup(groupDesc(cage, scheme, *asset)) : Result<SuppleGroup>(asset.error());
+        Result<SuppleGroup> group = groupFor(**workbench, cage, scheme, use);
         const size_t made = watch.pipelines().size();
         Result<FrameTimes> first = group ? frame(device, **workbench, *group) : Result<FrameTimes>(group.error());
         Result<FrameTimes> second = first ? frame(device, **workbench, *group) : first;
@@ -154,6 +178,7 @@ Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, 
                 result.pipelines[i].warm = milliseconds;
             }
             (warm ? result.warm : result.cold) += milliseconds;
+            (warm ? result.warmCpu : result.coldCpu) += 1e3 * seen.cpuSeconds;
         }
     }
     vkDestroyPipelineCache(device.handle(), cache, nullptr);

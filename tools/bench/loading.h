@@ -18,6 +18,7 @@ struct LoadTimes {
     double submit = 0.0;       ///< until the device is done with it
     double secondSubmit = 0.0; ///< the same of the next frame, which uploads a pose and no tables
     [[nodiscard]] double untilRecorded() const { return createAsset + createGroup + record; }
+    [[nodiscard]] double untilDone() const { return untilRecorded() + submit; }
 };
 
 struct Loading {
@@ -42,14 +43,20 @@ struct Pipelines {
     std::string cage, scheme;
     std::vector<PipelineTime> pipelines;
     double cold = 0.0, warm = 0.0;                     ///< milliseconds, all of them
+    double coldCpu = 0.0, warmCpu = 0.0;               ///< of these, CPU time of the process
     double coldFirstFrame = 0.0, warmFirstFrame = 0.0; ///< submit to end: drivers that compile at first use do it here
     double coldSecondFrame = 0.0, warmSecondFrame = 0.0; ///< the same of the next frame
     uint32_t createdWhileRecording = 0;
 };
 
+enum class PipelineUse {
+    plain, ///< a group of one rate
+    inView ///< in a view that culls and has motion and attributes; it plays on the device
+};
+
 /// Everything a group of the cage needs, in a context of its own with an empty VkPipelineCache, then in another with
 /// that cache filled.
 [[nodiscard]] Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, const BenchCage& cage,
-                                                 SuppleScheme scheme);
+                                                 SuppleScheme scheme, PipelineUse use);
 
 } // namespace supple::bench

@@ -30,7 +30,7 @@ Peer limitStencils(const std::shared_ptr<const OpensubdivTables>& tables) {
             stencils.GetWeights().data(), stencils.GetDuWeights().data(), stencils.GetDvWeights().data(), 0,
             stencils.GetNumStencils()));
     };
-    return {"OpenSubdiv CPU, limit stencils", tables->points(), run, [out] { return out->position; }};
+    return {"OpenSubdiv CPU, limit stencils", tables->points(), run, nullptr, [out] { return out->position; }};
 }
 
 Peer patches(const std::shared_ptr<const OpensubdivTables>& tables) {
@@ -51,7 +51,7 @@ Peer patches(const std::shared_ptr<const OpensubdivTables>& tables) {
                                    patchTable->GetPatchArrayBuffer(), patchTable->GetPatchIndexBuffer(),
                                    patchTable->GetPatchParamBuffer()));
     };
-    return {"OpenSubdiv CPU, patches", tables->points(), run, [out] { return out->position; }};
+    return {"OpenSubdiv CPU, patches", tables->points(), run, nullptr, [out] { return out->position; }};
 }
 
 } // namespace

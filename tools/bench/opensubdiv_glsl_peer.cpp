@@ -31,9 +31,19 @@ std::vector<float> readBack(Osd::GLVertexBuffer& from, size_t floats) {
     return values;
 }
 
-Status outcome(const GlContext& gl, bool done) {
-    gl.finish();
-    return done ? success() : Status(Error{ErrorCode::vulkan, "OpenSubdiv's GLComputeEvaluator failed"});
+/// `ask` hands the work to OpenGL and says whether that went well.
+Peer peer(const GlContext& gl, const std::string& name, size_t points, const std::function<bool()>& ask,
+          std::function<std::vector<float>()> positions) {
+    const auto asked = [ask] {
+        return ask() ? success() : Status(Error{ErrorCode::vulkan, "OpenSubdiv's GLComputeEvaluator failed"});
+    };
+    const auto run = [&gl, asked] {
+        const Status status = asked();
+        gl.finish();
+        return status;
+    };
+    const auto seconds = [&gl, asked](uint32_t times) { return gl.elapsedSeconds(times, asked); };
+    return {name, points, run, seconds, std::move(positions)};
 }
 
 struct Output {
@@ -64,22 +74,20 @@ Result<std::vector<Peer>> opensubdivGlslPeers(const GlContext& gl,
     coordinates->UpdateData(reinterpret_cast<const float*>(tables->coordinates.data()), 0, static_cast<int>(points));
 
     const auto limitOut = std::make_shared<Output>(points), patchOut = std::make_shared<Output>(points);
-    const auto runLimits = [&gl, evaluator, limits, source, limitOut] {
-        return outcome(gl, evaluator->EvalStencils(source.get(), kXyz, limitOut->position.get(), kXyz,
-                                                   limitOut->du.get(), kXyz, limitOut->dv.get(), kXyz, limits.get()));
+    const auto askLimits = [evaluator, limits, source, limitOut] {
+        return evaluator->EvalStencils(source.get(), kXyz, limitOut->position.get(), kXyz, limitOut->du.get(), kXyz,
+                                       limitOut->dv.get(), kXyz, limits.get());
     };
-    const auto runPatches = [&gl, evaluator, refiner, refined, stencils, patches, coordinates, source, patchOut,
-                             points] {
-        const bool done = refiner->EvalStencils(source.get(), kXyz, source.get(), refined, stencils.get()) &&
-                          evaluator->EvalPatches(source.get(), kXyz, patchOut->position.get(), kXyz, patchOut->du.get(),
-                                                 kXyz, patchOut->dv.get(), kXyz, static_cast<int>(points),
-                                                 coordinates.get(), patches.get());
-        return outcome(gl, done);
+    const auto askPatches = [evaluator, refiner, refined, stencils, patches, coordinates, source, patchOut, points] {
+        return refiner->EvalStencils(source.get(), kXyz, source.get(), refined, stencils.get()) &&
+               evaluator->EvalPatches(source.get(), kXyz, patchOut->position.get(), kXyz, patchOut->du.get(), kXyz,
+                                      patchOut->dv.get(), kXyz, static_cast<int>(points), coordinates.get(),
+                                      patches.get());
     };
-    return std::vector<Peer>{{"OpenSubdiv GLSL, limit stencils", points, runLimits,
-                              [limitOut, points] { return readBack(*limitOut->position, 3 * points); }},
-                             {"OpenSubdiv GLSL, patches", points, runPatches,
-                              [patchOut, points] { return readBack(*patchOut->position, 3 * points); }}};
+    return std::vector<Peer>{peer(gl, "OpenSubdiv GLSL, limit stencils", points, askLimits,
+                                  [limitOut, points] { return readBack(*limitOut->position, 3 * points); }),
+                             peer(gl, "OpenSubdiv GLSL, patches", points, askPatches,
+                                  [patchOut, points] { return readBack(*patchOut->position, 3 * points); })};
 }
 
 } // namespace supple::bench

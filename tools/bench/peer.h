@@ -15,6 +15,9 @@ struct Peer {
     uint64_t points = 0;
     /// Evaluates all points and waits for the end. What it needs lives as long as this.
     std::function<Status()> run;
+    /// Mean seconds by the device's own clock of so many evaluations; null for what runs on the host. 0 from drivers
+    /// that do not time compute shaders.
+    std::function<Result<double>(uint32_t times)> deviceSeconds;
     /// x, y, z of the points of the last run, (rate + 1)^2 a face, faces in order.
     std::function<std::vector<float>()> positions;
 };

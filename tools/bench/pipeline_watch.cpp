@@ -21,11 +21,12 @@ struct WatchedFunctions {
 
     static VKAPI_ATTR VkResult VKAPI_CALL shaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
                                                        const VkAllocationCallbacks* allocator, VkShaderModule* out) {
-        const double begin = wallSeconds();
+        const double begin = wallSeconds(), cpuBegin = processSeconds();
         const VkResult result = now().createShaderModule(device, info, allocator, out);
         if (PipelineWatch* watch = now().watch; watch != nullptr) {
             watch->moduleBytes_ = info->codeSize;
             watch->moduleSeconds_ = wallSeconds() - begin;
+            watch->moduleCpuSeconds_ = processSeconds() - cpuBegin;
         }
         return result;
     }
@@ -33,12 +34,13 @@ struct WatchedFunctions {
     static VKAPI_ATTR VkResult VKAPI_CALL computePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                            const VkComputePipelineCreateInfo* infos,
                                                            const VkAllocationCallbacks* allocator, VkPipeline* out) {
-        const double begin = wallSeconds();
+        const double begin = wallSeconds(), cpuBegin = processSeconds();
         const VkResult result = now().createComputePipelines(device, cache, count, infos, allocator, out);
+        const double cpu = (processSeconds() - cpuBegin) / count;
         if (PipelineWatch* watch = now().watch; watch != nullptr && result == VK_SUCCESS) {
             for (uint32_t i = 0; i < count; ++i) {
-                watch->pipelines_.push_back(
-                    {"", watch->moduleBytes_, (wallSeconds() - begin) / count, watch->moduleSeconds_});
+                watch->pipelines_.push_back({"", watch->moduleBytes_, (wallSeconds() - begin) / count,
+                                             watch->moduleSeconds_, cpu + watch->moduleCpuSeconds_});
                 watch->handles_.push_back(out[i]);
             }
         }

@@ -13,6 +13,7 @@ struct WatchedPipeline {
     uint64_t spirvBytes = 0;
     double seconds = 0.0;       ///< vkCreateComputePipelines
     double moduleSeconds = 0.0; ///< vkCreateShaderModule
+    double cpuSeconds = 0.0;    ///< of the process, in both
 };
 
 /// While one lives, contexts made with getInstanceProcAddr() are watched. One at a time, one thread: Vulkan's functions
@@ -33,7 +34,7 @@ private:
     std::vector<WatchedPipeline> pipelines_;
     std::vector<VkPipeline> handles_;
     uint64_t moduleBytes_ = 0; ///< of the last shader module, which the next pipeline is made of
-    double moduleSeconds_ = 0.0;
+    double moduleSeconds_ = 0.0, moduleCpuSeconds_ = 0.0;
 };
 
 } // namespace supple::bench

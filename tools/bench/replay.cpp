@@ -74,6 +74,14 @@ Replay::~Replay() {
     }
 }
 
+Contestant Replay::contestant(const std::string& name, uint64_t points) {
+    Contestant contestant{name, points, [this](uint32_t times) { return run(times); }, nullptr};
+    if (hasTimestamps()) {
+        contestant.deviceSeconds = [this](uint32_t times) { return deviceSeconds(times); };
+    }
+    return contestant;
+}
+
 Status Replay::submit(VkCommandBuffer commands, uint32_t times) {
     VkResult result = VK_SUCCESS;
     for (uint32_t i = 0; i < times && result == VK_SUCCESS; ++i) {

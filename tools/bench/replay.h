@@ -2,10 +2,12 @@
 #pragma once
 
 #include "base/result.h"
+#include "tools/bench/rounds.h"
 #include "tools/host/device.h"
 
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace supple::bench {
 
@@ -19,6 +21,9 @@ public:
 
     /// Submits and waits, so many times.
     [[nodiscard]] Status run(uint32_t times) { return submit(plain_, times); }
+
+    /// What rounds are run with; valid as long as this lives.
+    [[nodiscard]] Contestant contestant(const std::string& name, uint64_t points);
 
     /// Whether the queue has timestamps.
     [[nodiscard]] bool hasTimestamps() const { return queries_ != VK_NULL_HANDLE; }

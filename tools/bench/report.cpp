@@ -11,6 +11,10 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+constexpr const char* kTargetNote =
+    "The AVX2 loop evaluates plain bicubic patches and nothing else: it is a measure on the sphere, where nearly all "
+    "patches are\nof that kind, and judged there alone. Crowds are judged on GPUs, ratios on CPU devices.\n";
+
 /// Three significant digits, and no exponent: times and ratios of all sizes in one column.
 std::string number(const Json& value) {
     if (!value.is_number()) {
@@ -116,31 +120,53 @@ std::string cageTables(const Json& result, const std::string& cage) {
 }
 
 std::string loadingTable(const Json& result) {
-    Table table({"loading, ms", "asset", "group", "record", "first submit", "second", "us a face", "bytes a face",
-                 "skin", "tables"});
+    Table table({"loading, ms", "asset", "group", "record", "first submit", "second", "us a face", "done, us a face",
+                 "bytes a face", "skin", "tables", "index bytes"});
     for (const Json& one : result["loading"]) {
         table.add({one["cage"].get<std::string>() + ", " + one["scheme"].get<std::string>(),
                    number(one["createAssetMs"]), number(one["createGroupMs"]), number(one["recordMs"]),
                    number(one["firstSubmitMs"]), number(one["secondSubmitMs"]), number(one["untilRecordedUsPerFace"]),
-                   number(one["staticBytesPerFace"]), number(one["deformBytesPerFace"]),
-                   number(one["tableBytesPerFace"])});
+                   number(one.value("untilDoneUsPerFace", Json())), number(one["staticBytesPerFace"]),
+                   number(one["deformBytesPerFace"]), number(one["tableBytesPerFace"]),
+                   number(one.value("indexBytes", Json()))});
     }
     return table.empty() ? "" : table.text();
 }
 
 std::string pipelineTables(const Json& result) {
-    Table sums({"pipelines, ms", "count", "created cold", "warm", "first frame cold", "warm", "second frame"});
+    Table sums({"pipelines, ms", "count", "created cold", "warm", "CPU cold", "warm", "first frame cold", "warm",
+                "second frame"});
     Table each({"scheme", "pipeline", "SPIR-V bytes", "cold ms", "warm ms"});
     for (const Json& one : result["pipelines"]) {
-        sums.add({one["scheme"].get<std::string>() + " on " + one["cage"].get<std::string>(), number(one["count"]),
-                  number(one["coldMs"]), number(one["warmMs"]), number(one["coldFirstFrameMs"]),
-                  number(one["warmFirstFrameMs"]), number(one["warmSecondFrameMs"])});
+        const std::string use = one.value("use", ""),
+                          scheme = one["scheme"].get<std::string>() + (use.empty() ? "" : " " + use);
+        sums.add({scheme + " on " + one["cage"].get<std::string>(), number(one["count"]), number(one["coldMs"]),
+                  number(one["warmMs"]), number(one.value("coldCpuMs", Json())), number(one.value("warmCpuMs", Json())),
+                  number(one["coldFirstFrameMs"]), number(one["warmFirstFrameMs"]), number(one["warmSecondFrameMs"])});
         for (const Json& pipeline : one["pipelines"]) {
-            each.add({one["scheme"], pipeline["name"], pipeline["spirvBytes"].dump(), number(pipeline["coldMs"]),
+            each.add({scheme, pipeline["name"], pipeline["spirvBytes"].dump(), number(pipeline["coldMs"]),
                       number(pipeline["warmMs"])});
         }
     }
     return sums.empty() ? "" : sums.text() + each.text(2);
+}
+
+std::string crowdTable(const Json& crowd) {
+    Table table({"characters", "scheme, rate", "evaluate, ms", "pose to vertices, ms", "us a character",
+                 "evaluate, GB/s", "fill, GB/s", "store, GB/s", "share"});
+    for (const Json& row : crowd["rows"]) {
+        const double each = 1e3 * row["frameMs"].get<double>() / row["characters"].get<double>();
+        const Json none;
+        table.add({row["characters"].dump(), row["scheme"].get<std::string>() + ", rate " + row["rate"].dump(),
+                   number(row["evaluateMs"]), number(row["frameMs"]), number(each),
+                   number(row.value("evaluateGigabytesPerSecond", none)),
+                   number(row.value("fillGigabytesPerSecond", none)),
+                   number(row.value("storeGigabytesPerSecond", none)),
+                   row.contains("bandwidthShare") ? number(row["bandwidthShare"]["median"]) : ""});
+    }
+    return "## Crowd: the " + crowd["character"].get<std::string>() + " of " + crowd["faces"].dump() + " faces with " +
+           crowd["joints"].dump() + " joints, " + crowd["influences"].dump() + " influences a vertex\n\n" +
+           (table.empty() ? "" : table.text(2));
 }
 
 /// A line a target and limit: in how many places it is met, and where the value is worst.
@@ -152,7 +178,8 @@ std::string targetTable(const Json& result) {
     };
     std::vector<Line> lines;
     for (const Json& target : result["targets"]) {
-        const std::string what = target["what"], limit = number(target["limit"]);
+        const bool atLeast = target.value("atLeast", false);
+        const std::string what = target["what"], limit = (atLeast ? "at least " : "at most ") + number(target["limit"]);
         auto line = std::find_if(lines.begin(), lines.end(),
                                  [&](const Line& known) { return known.what == what && known.limit == limit; });
         if (line == lines.end()) {
@@ -160,16 +187,17 @@ std::string targetTable(const Json& result) {
         }
         ++line->places;
         line->met += target["met"] ? 1 : 0;
-        if (line->worst == nullptr || target["value"] > (*line->worst)["value"]) {
+        if (line->worst == nullptr ||
+            (atLeast ? target["value"] < (*line->worst)["value"] : target["value"] > (*line->worst)["value"])) {
             line->worst = &target;
         }
     }
-    Table table({"target", "worst at", "worst", "at most", "met in"});
+    Table table({"target", "worst at", "worst", "limit", "met in"});
     for (const Line& line : lines) {
         table.add({line.what, (*line.worst)["where"], number((*line.worst)["value"]), line.limit,
                    std::to_string(line.met) + " of " + std::to_string(line.places)});
     }
-    return table.empty() ? "" : table.text(2);
+    return table.empty() ? "" : table.text(2) + kTargetNote;
 }
 
 } // namespace
@@ -205,6 +233,12 @@ std::string toTables(const Json& result) {
     for (const auto& [name, what] : result["peers"].items()) {
         out += "peer    " + name + ": " + text(what) + "\n";
     }
+    for (const Json& one : result.value("leftOut", Json::array())) {
+        out += "left out: " + text(one["what"]) + ": " + text(one["reason"]) + "\n";
+    }
+    if (!result.value("complete", true)) {
+        out += "not complete: the run ended early\n";
+    }
     for (const Json& one : result["agreement"]) {
         char difference[64];
         std::snprintf(difference, sizeof difference, "%.2g (at most %.0e)", one["difference"].get<double>(),
@@ -218,6 +252,9 @@ std::string toTables(const Json& result) {
             cages.push_back(row["cage"]);
             out += cageTables(result, cages.back());
         }
+    }
+    if (result.contains("crowd")) {
+        out += crowdTable(result["crowd"]);
     }
     out += "## Loading, pipelines, targets\n\n" + loadingTable(result) + pipelineTables(result) + targetTable(result);
     return out;

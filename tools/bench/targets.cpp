@@ -1,5 +1,6 @@
 #include "tools/bench/targets.h"
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -20,8 +21,13 @@ constexpr RatioTarget kRatios[] = {
     {"prep evaluate / AVX2 bi-3", "sphere", "median", {4.7, 4.7, 4.7, 4.7}},
     {"prep evaluate / AVX2 bi-3", "sphere", "largest", {7.5, 7.5, 7.5, 7.5}},
     {"prep shared evaluate / AVX2 bi-3", "sphere", "median", {4.0, 4.0, 4.0, 4.0}},
+    {"pm evaluate / AVX2 bi-3", "sphere", "median", {4.7, 4.7, 4.7, 4.7}},
+    {"pm evaluate / AVX2 bi-3", "sphere", "largest", {7.5, 7.5, 7.5, 7.5}},
+    {"pm shared evaluate / AVX2 bi-3", "sphere", "median", {4.0, 4.0, 4.0, 4.0}},
     {"prep evaluate / OpenSubdiv CPU, limit stencils", "", "median", {0.10, 0.10, 0.10, 0.10}},
     {"prep evaluate / OpenSubdiv GLSL, limit stencils", "", "median", {0.04, 0.04, 0.04, 0.04}},
+    {"pm evaluate / OpenSubdiv CPU, limit stencils", "", "median", {0.10, 0.10, 0.10, 0.10}},
+    {"pm evaluate / OpenSubdiv GLSL, limit stencils", "", "median", {0.04, 0.04, 0.04, 0.04}},
     {"prep frame / prep evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
     {"pm frame / pm evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
     {"catmull-clark frame / catmull-clark evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
@@ -30,7 +36,34 @@ constexpr RatioTarget kRatios[] = {
 };
 constexpr uint32_t kRates[] = {4, 8, 16, 32};
 constexpr double kLoadMicrosecondsAFace = 5.0, kStaticBytesAFace = 150.0;
+constexpr double kBandwidthShare = 0.70, kCrowdMilliseconds = 0.5, kOneCharacterMicroseconds = 40.0;
+constexpr uint32_t kCrowd = 1000, kCrowdRate = 4;
 constexpr double kColdMilliseconds = 500.0, kWarmMilliseconds = 30.0;
+
+/// Those of a GPU.
+void judgeCrowd(const Json& crowd, const std::function<void(const char*, const std::string&, double, double)>& atMost,
+                Json& targets) {
+    for (const Json& row : crowd["rows"]) {
+        const uint32_t characters = row["characters"], rate = row["rate"];
+        const std::string where = row["scheme"].get<std::string>() + ", rate " + std::to_string(rate);
+        if (row.contains("bandwidthShare")) {
+            const double share = row["bandwidthShare"]["median"];
+            targets.push_back({{"what", "crowd's evaluation / write bandwidth"},
+                               {"where", where + ", " + std::to_string(characters) + " characters"},
+                               {"value", share},
+                               {"limit", kBandwidthShare},
+                               {"atLeast", true},
+                               {"met", share >= kBandwidthShare}});
+        }
+        if (characters == kCrowd && rate == kCrowdRate) {
+            atMost("1,000 characters, pose to vertices, GPU ms", where, row["frameMs"], kCrowdMilliseconds);
+        }
+        if (characters == 1) {
+            atMost("one character, pose to vertices, GPU us", where, 1e3 * row["frameMs"].get<double>(),
+                   kOneCharacterMicroseconds);
+        }
+    }
+}
 
 } // namespace
 
@@ -60,18 +93,28 @@ Json judge(const Json& result) {
             }
         }
     }
+    if (!result.value("cpuDevice", false) && result.contains("crowd")) {
+        judgeCrowd(result["crowd"], add, targets);
+    }
     for (const Json& loading : result["loading"]) {
         const std::string scheme = loading["scheme"], where = loading["cage"].get<std::string>() + ", " + scheme;
         add("load until the first frame is recorded, us a face", where, loading["untilRecordedUsPerFace"],
+            kLoadMicrosecondsAFace);
+        add("load until the first frame is done, us a face", where, loading["untilDoneUsPerFace"],
             kLoadMicrosecondsAFace);
         if (scheme == "prep" || scheme == "pm") {
             add("static device data, bytes a face", where, loading["staticBytesPerFace"], kStaticBytesAFace);
         }
     }
     for (const Json& pipelines : result["pipelines"]) {
-        const std::string scheme = pipelines["scheme"];
-        add("pipelines created cold, ms", scheme, pipelines["coldMs"], kColdMilliseconds);
-        add("pipelines created with a warm cache, ms", scheme, pipelines["warmMs"], kWarmMilliseconds);
+        const std::string use = pipelines["use"];
+        const std::string scheme = pipelines["scheme"].get<std::string>() + (use.empty() ? "" : " " + use);
+        // As with ratios: on CPU devices other load of the machine does not count.
+        const bool cpu = result.value("cpuDevice", false);
+        const std::string unit = cpu ? "CPU ms" : "ms";
+        add("pipelines created cold, " + unit, scheme, pipelines[cpu ? "coldCpuMs" : "coldMs"], kColdMilliseconds);
+        add("pipelines created with a warm cache, " + unit, scheme, pipelines[cpu ? "warmCpuMs" : "warmMs"],
+            kWarmMilliseconds);
         add("pipelines created while recording", scheme, pipelines["createdWhileRecording"], 0.0);
     }
     return targets;

@@ -5,8 +5,9 @@
 
 namespace supple::bench {
 
-/// An array of {what, where, value, limit, met}. Ratios have targets on CPU devices alone. `value` and `met` are null
-/// for what the library does not have yet, with a note that says so; what a result does not hold has no entry.
+/// An array of {what, where, value, limit, met}, and atLeast where the value must not be below the limit. Ratios have
+/// targets on CPU devices alone, crowds on others. What a result does not hold, or in another form than the target asks
+/// for, has no entry.
 [[nodiscard]] nlohmann::ordered_json judge(const nlohmann::ordered_json& result);
 
 } // namespace supple::bench

@@ -1,6 +1,10 @@
 #include "tools/bench/workbench.h"
 
 #include "runtime/context.h"
+#include "runtime/playback_desc.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace supple::bench {
 
@@ -9,6 +13,7 @@ namespace {
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
 constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+constexpr float kCameraDistance = 4.0f, kPixelsPerUnit = 1000.0f;
 
 } // namespace
 
@@ -42,14 +47,51 @@ Result<SuppleAsset> Workbench::createAsset(cage::Character character) {
 
 Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc) {
     desc.structSize = sizeof desc;
-    desc.capacity = 1;
+    desc.capacity = std::max(desc.capacity, 1u);
     Result<uint64_t> id = inside_->context->createGroup(desc);
     if (!id) {
         return id.error();
     }
-    const SuppleGroup group{*id};
-    (void)inside_->group(group).slots().create();
-    return group;
+    runtime::Group& group = inside_->group({*id});
+    for (uint32_t i = 0; i < desc.capacity; ++i) { // slots come in order
+        (void)group.slots().create();
+        if (group.plays()) {
+            group.playback().reset(i);
+        }
+    }
+    const std::vector<cage::Clip>& clips = group.asset().character.clips;
+    for (uint32_t i = 0; group.plays() && !clips.empty() && i < desc.capacity; ++i) {
+        SupplePlaybackLayer layer{};
+        layer.flags = SUPPLE_LAYER_LOOP;
+        layer.weight = layer.speed = 1.0f;
+        layer.offset = clips.front().duration * phaseOf(i);
+        SupplePlaybackDesc playback{};
+        playback.structSize = sizeof playback;
+        playback.layers = &layer;
+        playback.layerCount = 1;
+        runtime::PlaybackLayers layers;
+        group.playback().set(i, runtime::playbackOf(group.asset(), playback, layers));
+    }
+    return SuppleGroup{*id};
+}
+
+double Workbench::phaseOf(uint32_t instance) {
+    constexpr double kGolden = 0.6180339887498949;
+    return std::fmod(instance * kGolden, 1.0);
+}
+
+Result<SuppleView> Workbench::createView(SuppleViewDesc desc) {
+    desc.structSize = sizeof desc;
+    Result<uint64_t> id = inside_->context->createView(desc);
+    if (!id) {
+        return id.error();
+    }
+    SuppleCameraDesc camera{};
+    camera.structSize = sizeof camera;
+    camera.position[2] = kCameraDistance;
+    camera.pixelsPerUnit = kPixelsPerUnit;
+    inside_->context->views.find(*id)->setCamera(camera);
+    return SuppleView{*id};
 }
 
 void Workbench::destroy(SuppleAsset asset) {
@@ -58,6 +100,10 @@ void Workbench::destroy(SuppleAsset asset) {
 
 void Workbench::destroy(SuppleGroup group) {
     inside_->context->destroyGroup(group.id);
+}
+
+void Workbench::destroy(SuppleView view) {
+    inside_->context->destroyView(view.id);
 }
 
 Status Workbench::recordFrame(SuppleGroup group, VkCommandBuffer commands) {
@@ -82,6 +128,10 @@ void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) cons
 void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
     const runtime::Group& group = inside_->group(id);
     const auto barrier = [&] { host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite}); };
+    if (group.plays()) {
+        group.recordPose(commands);
+        barrier();
+    }
     group.recordDeform(commands);
     barrier();
     for (const surface::Stage stage : {surface::Stage::vertex, surface::Stage::edge}) {
@@ -124,6 +174,7 @@ Workbench::StaticBytes Workbench::staticBytes(SuppleGroup id) const {
             bytes.tables = scheme->buffers.size(0);
         }
     }
+    bytes.indices = group.hasLevels() ? 0 : group.output().gridIndices.size; // a view has them for all its groups
     bytes.group = group.output().deviceBytes;
     return bytes;
 }

@@ -1,5 +1,5 @@
-// Groups of one instance, whose passes are recorded apart. The one file of the benchmark that knows the runtime's
-// inside: the public interface records whole frames.
+// Groups whose passes are recorded apart. The one file of the benchmark that knows the runtime's inside: the public
+// interface records whole frames.
 #pragma once
 
 #include "base/result.h"
@@ -22,17 +22,25 @@ public:
     Workbench& operator=(const Workbench&) = delete;
 
     [[nodiscard]] Result<SuppleAsset> createAsset(cage::Character character);
-    /// A group with one instance in the bind pose. `desc.asset` is one of createAsset's.
+    /// A group with as many instances as it has room for, one where desc.capacity is 0. `desc.asset` is one of
+    /// createAsset's. All are in the bind pose; or, with SUPPLE_POSES_PLAYBACK, instance i plays the first clip, in a
+    /// loop, from phaseOf(i) of its length on.
     [[nodiscard]] Result<SuppleGroup> createGroup(SuppleGroupDesc desc);
+    /// Irrational steps: no two instances have a pose in common, and an instance's does not hang on how many there are.
+    [[nodiscard]] static double phaseOf(uint32_t instance);
+    /// With a camera that sees what lies about the origin.
+    [[nodiscard]] Result<SuppleView> createView(SuppleViewDesc desc);
     /// Their memory is freed in a later frame.
     void destroy(SuppleAsset asset);
     void destroy(SuppleGroup group);
+    void destroy(SuppleView view);
 
     /// What suppleBeginFrame and suppleRecord do, all earlier frames being done. Timestamps off.
     [[nodiscard]] Status recordFrame(SuppleGroup group, VkCommandBuffer commands);
     /// The evaluation alone, from the coefficients of the last frame.
     void recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const;
-    /// Deformation to evaluation with the barriers between; the pose stays as it was uploaded.
+    /// Deformation to evaluation with the barriers between, the pose staying as it was uploaded; of groups that play,
+    /// from sampling their poses on. Groups without a view.
     void recordCompute(SuppleGroup group, VkCommandBuffer commands) const;
 
     [[nodiscard]] const SuppleGroupOutput& output(SuppleGroup group) const;
@@ -42,9 +50,10 @@ public:
     [[nodiscard]] std::vector<uint32_t> patchFaces(SuppleGroup group) const;
 
     struct StaticBytes {
-        uint64_t deform = 0; ///< weights and morph targets
-        uint64_t tables = 0; ///< of the scheme, corner attributes among them
-        uint64_t group = 0;  ///< all that the group holds for its one instance
+        uint64_t deform = 0;  ///< weights and morph targets
+        uint64_t tables = 0;  ///< of the scheme, corner attributes among them
+        uint64_t indices = 0; ///< the group's own: the triangles of a patch, for every rate that may be set
+        uint64_t group = 0;   ///< all that the group holds
     };
     [[nodiscard]] StaticBytes staticBytes(SuppleGroup group) const;
 

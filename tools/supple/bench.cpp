@@ -108,6 +108,9 @@ int runBenchCommand(BenchFlags flags) {
         bench::disableDriverCaches();
     }
     flags.bench.mapping = mappingOf(flags.device);
+    if (!flags.json.empty()) {
+        flags.bench.keep = [&flags](const Json& soFar) { return writeTextFile(flags.json, soFar.dump(2) + "\n"); };
+    }
     return withSession(flags.device, [&](Session& session) {
         const Result<Json> result =
             bench::runBench(*session.device, describeMachine(*session.device, flags.device.mapping), flags.bench);
@@ -150,9 +153,19 @@ void bindBench(CLI::App& app, int& exitCode) {
                               ->capture_default_str();
     CLI::Option* rates = command->get_option("--rates");
     CLI::Option* quick = command->add_flag("--quick", options.quick, "Rate 8, three short rounds: does it all work?");
+    command
+        ->add_option("--crowd", options.crowd,
+                     "Characters of the crowd, 0: none; if left out 1000 on GPUs and few on CPU devices, where the "
+                     "sphere is measured")
+        ->check(CLI::Range(0u, 100000u));
+    command->add_flag_callback(
+        "--no-loading", [flags] { flags->bench.loading = false; }, "Leave out loading, static data and pipelines");
     command->add_flag("--driver-cache", flags->driverCache,
                       "Let the driver keep its own cache of shaders on disk, which times of pipelines then include");
-    command->add_option("--json", flags->json, "Write the result to this file")->type_name("OUT.json");
+    command
+        ->add_option("--json", flags->json,
+                     "Write the result to this file, and what there is of it after every measurement")
+        ->type_name("OUT.json");
     command->add_option("--plots", flags->plots, "Write plots of the result to this folder")->type_name("FOLDER");
     command
         ->add_option("--check", flags->check,

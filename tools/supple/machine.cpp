@@ -27,7 +27,7 @@ Machine describeMachine(const host::Device& device, const std::string& mapping) 
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     properties.pNext = &driver;
     vkGetPhysicalDeviceProperties2(device.physicalDevice(), &properties);
-    return {device.name(), driver.driverName, driver.driverInfo, mapping, cpuName()};
+    return {device.name(), driver.driverName, driver.driverInfo, mapping, cpuName(), device.isCpu()};
 }
 
 } // namespace supple::tools

@@ -11,6 +11,7 @@ namespace supple::tools {
 
 struct Machine {
     std::string device, driver, driverInfo, mapping, cpu;
+    bool cpuDevice = false;
 };
 [[nodiscard]] Machine describeMachine(const host::Device& device, const std::string& mapping);
 

@@ -3,35 +3,26 @@
 #include "tools/supple/command.h"
 #include "tools/supple/machine.h"
 #include "tools/supple/profile_report.h"
+#include "tools/supple/profile_stage.h"
 #include "tools/supple/session.h"
 #include "tools/supple/text_file.h"
 
 #include <CLI/CLI.hpp>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
+#include <string_view>
 
 namespace supple::tools {
 namespace {
 
 constexpr uint32_t kFramesInFlight = 2;
+constexpr size_t kMaxTimings = 1024;  ///< passes of a frame, of all groups
 constexpr uint32_t kWarmUpFrames = 3; ///< drivers finish compiling, caches fill
-constexpr double kFrameTime = 1.0 / 60.0;
-
-struct ProfileOptions {
-    std::vector<std::string> files;
-    SurfaceFlags surface;
-    DeviceFlags device;
-    uint32_t instances = 1;
-    uint32_t frames = 60;
-    bool motion = false;
-    bool playback = false;
-    std::string json, csv, trace;
-};
 
 /// Command buffers and fences of the frames in flight.
 class FrameRing {
@@ -112,48 +103,33 @@ private:
     std::array<VkFence, kFramesInFlight> fences_{};
 };
 
-/// Runs one file under one scheme. Frame numbers must rise over the life of the context, so runs share them.
+/// Runs files under a scheme. Frame numbers must rise over the life of the context, so runs share them.
 class Profiler {
 public:
     Profiler(Session& session, const ProfileOptions& options) : session_(session), options_(options) {}
 
-    Result<ProfileRun> run(const host::CharacterFile& file, const std::string& scheme) {
+    /// One file; in a view as many as there are.
+    Result<ProfileRun> run(std::span<const host::CharacterFile> files, const std::string& scheme) {
         ProfileRun result;
-        result.file = file.path;
+        for (const host::CharacterFile& file : files) {
+            result.file += (result.file.empty() ? "" : " + ") + file.path;
+        }
         result.scheme = resolvedScheme(scheme);
         result.rate = options_.surface.rate;
-        result.instances = options_.instances;
-        result.playback = options_.playback;
-        Status status = createGroup(file, scheme, result);
-        FrameRing ring(*session_.device);
+        result.playback = options_.plays();
+        ProfileStage stage(*session_.context, options_);
+        Status status = stage.create(files, scheme, result);
         if (status) {
-            status = ring.create();
+            status = frames(stage, result);
         }
-        for (uint32_t i = 0; status && i < kWarmUpFrames + options_.frames; ++i) {
-            status = frame(ring, i, result);
-        }
-        // The last frames' timings come in once the library is told that they have finished.
-        for (uint32_t i = 0; status && i < kFramesInFlight; ++i) {
-            status = ring.wait(++frame_);
-            if (status) {
-                status = check(suppleBeginFrame(context(), frame_, frame_ - kFramesInFlight), "suppleBeginFrame");
-            }
-            if (status) {
-                status = collect(result);
-            }
-        }
-        if (status) {
-            status = check(suppleDestroyGroup(context(), group_), "suppleDestroyGroup");
-        }
-        if (status) {
-            status = check(suppleDestroyAsset(context(), asset_), "suppleDestroyAsset");
-        }
+        const Status ended = stage.destroy();
+        status = status ? ended : status;
         if (!status) {
             return status.error();
         }
         std::erase_if(result.frames, [](const FrameSample& f) { return f.passes.empty(); });
         if (result.frames.empty()) {
-            return Error{ErrorCode::vulkan, file.path + ": the device reported no timings"};
+            return Error{ErrorCode::vulkan, result.file + ": the device reported no timings"};
         }
         return result;
     }
@@ -165,76 +141,26 @@ private:
         return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start_).count();
     }
 
-    Status createGroup(const host::CharacterFile& file, const std::string& scheme, ProfileRun& run) {
-        const Result<SuppleAsset> asset = host::createAsset(*session_.context, file);
-        if (!asset) {
-            return asset.error();
+    Status frames(ProfileStage& stage, ProfileRun& run) {
+        FrameRing ring(*session_.device);
+        Status status = ring.create();
+        for (uint32_t i = 0; status && i < kWarmUpFrames + options_.frames; ++i) {
+            status = frame(ring, i, stage, run);
         }
-        asset_ = *asset;
-        const std::vector<cage::Clip>& clips = file.character.clips;
-        clip_ = clips.empty() ? SUPPLE_BIND_POSE : 0;
-        clipDuration_ = clips.empty() ? 0.0 : clips[0].duration;
-        SuppleGroupDesc desc{};
-        desc.structSize = sizeof desc;
-        desc.flags = options_.motion ? uint32_t{SUPPLE_GROUP_MOTION} : 0;
-        desc.asset = asset_;
-        desc.capacity = options_.instances;
-        desc.scheme = schemeOf(scheme);
-        desc.rate = options_.surface.rate;
-        describeSurface(options_.surface, desc);
-        desc.poseSource = options_.playback ? SUPPLE_POSES_PLAYBACK : SUPPLE_POSES_SET;
-        Status status = check(suppleCreateGroup(context(), &desc, &group_), "suppleCreateGroup");
-        if (status) {
-            status = session_.context->createInstances(group_, options_.instances, instances_);
-        }
-        if (status && options_.playback) {
-            status = startPlayback();
-        }
-        if (status) {
-            SuppleGroupOutput output{};
-            output.structSize = sizeof output;
-            status = check(suppleGetGroupOutput(context(), group_, &output), "suppleGetGroupOutput");
-            run.patches = output.patchCount;
-            run.patchRate = output.rate;
-            run.deviceBytes = output.deviceBytes;
+        // The last frames' timings come in once the library is told that they have finished.
+        for (uint32_t i = 0; status && i < kFramesInFlight; ++i) {
+            status = ring.wait(++frame_);
+            if (status) {
+                status = check(suppleBeginFrame(context(), frame_, frame_ - kFramesInFlight), "suppleBeginFrame");
+            }
+            if (status) {
+                status = collect(stage, run);
+            }
         }
         return status;
     }
 
-    // All instances play clip 0 in a loop, spread evenly over its length.
-    [[nodiscard]] double phase(uint32_t instance) const { return clipDuration_ * instance / options_.instances; }
-
-    Status startPlayback() {
-        Status status = success();
-        for (uint32_t i = 0; status && clip_ != SUPPLE_BIND_POSE && i < options_.instances; ++i) {
-            SupplePlaybackLayer layer{};
-            layer.clip = clip_;
-            layer.flags = SUPPLE_LAYER_LOOP;
-            layer.weight = 1.0f;
-            layer.speed = 1.0f;
-            layer.offset = phase(i);
-            SupplePlaybackDesc playback{};
-            playback.structSize = sizeof playback;
-            playback.layers = &layer;
-            playback.layerCount = 1;
-            status = check(suppleSetPlayback(context(), instances_[i], &playback), "suppleSetPlayback");
-        }
-        return status;
-    }
-
-    Status setPoses(uint32_t index) {
-        if (options_.playback) {
-            return check(suppleSetTime(context(), group_, index * kFrameTime), "suppleSetTime");
-        }
-        Status status = success();
-        for (uint32_t i = 0; status && clip_ != SUPPLE_BIND_POSE && i < options_.instances; ++i) {
-            const double time = clipDuration_ > 0.0 ? std::fmod(index * kFrameTime + phase(i), clipDuration_) : 0.0;
-            status = check(suppleSetClipPose(context(), instances_[i], clip_, time), "suppleSetClipPose");
-        }
-        return status;
-    }
-
-    Status frame(FrameRing& ring, uint32_t index, ProfileRun& run) {
+    Status frame(FrameRing& ring, uint32_t index, ProfileStage& stage, ProfileRun& run) {
         Status status = ring.wait(++frame_);
         if (!status) {
             return status;
@@ -245,11 +171,11 @@ private:
         sample.frame = frame_;
         status = check(suppleBeginFrame(context(), frame_, completed), "suppleBeginFrame");
         if (status) {
-            status = collect(run);
+            status = collect(stage, run);
         }
         sample.poseBegin = now();
         if (status) {
-            status = setPoses(index);
+            status = stage.setPoses(index);
         }
         sample.poseTime = now() - sample.poseBegin;
         if (!status) {
@@ -262,8 +188,8 @@ private:
         SuppleRecordDesc record{};
         record.structSize = sizeof record;
         record.flags = SUPPLE_RECORD_TIMINGS;
-        record.groups = &group_;
-        record.groupCount = 1;
+        record.groups = stage.groups().data();
+        record.groupCount = static_cast<uint32_t>(stage.groups().size());
         // As a host that draws would ask.
         record.before = {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
         record.after = {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
@@ -281,8 +207,18 @@ private:
         return status;
     }
 
-    /// Adds the timings of the newest finished frame to its sample, if it is one of this run's measured frames.
-    Status collect(ProfileRun& run) {
+    /// Adds the timings of the newest finished frame to its sample, if it is one of this run's measured frames, and
+    /// what the view drew in it.
+    Status collect(const ProfileStage& stage, ProfileRun& run) {
+        if (const std::optional<SuppleViewStatistics> drawn = stage.statistics()) {
+            for (FrameSample& sample : run.frames) {
+                if (sample.frame == drawn->frame) {
+                    sample.drawn = {drawn->vertexCount,        drawn->wantedVertexCount,    drawn->patchCount,
+                                    drawn->drawnInstanceCount, drawn->droppedInstanceCount, drawn->levelScales[0],
+                                    drawn->shortfall != 0};
+                }
+            }
+        }
         uint32_t count = static_cast<uint32_t>(timings_.size());
         const SuppleResult result = suppleGetTimings(context(), timings_.data(), &count);
         if (result == SUPPLE_NOT_READY) {
@@ -296,6 +232,9 @@ private:
         }
         collected_ = timings_[0].frame;
         for (const SuppleTiming& timing : std::span(timings_).first(count)) {
+            if (std::string_view(timing.pass) == "shortfall") { // is no pass; the view's statistics have it
+                continue;
+            }
             for (auto sample = run.frames.rbegin(); sample != run.frames.rend(); ++sample) {
                 if (sample->frame == timing.frame) {
                     sample->passes.push_back(
@@ -312,12 +251,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     uint64_t frame_ = 0;
     uint64_t collected_ = 0; ///< whose timings came in last
-    SuppleAsset asset_{};
-    SuppleGroup group_{};
-    std::vector<SuppleInstance> instances_;
-    uint32_t clip_ = SUPPLE_BIND_POSE;
-    double clipDuration_ = 0.0;
-    std::array<SuppleTiming, 64> timings_{};
+    std::vector<SuppleTiming> timings_ = std::vector<SuppleTiming>(kMaxTimings);
 };
 
 std::string dump(const nlohmann::ordered_json& json, int indent) {
@@ -338,9 +272,11 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
     }
     std::vector<ProfileRun> runs;
     Profiler profiler(session, options);
-    for (const host::CharacterFile& file : files) {
+    const std::span<const host::CharacterFile> everything = files;
+    const size_t together = options.view ? files.size() : 1;
+    for (size_t first = 0; first < files.size(); first += together) {
         for (const std::string& scheme : names) {
-            Result<ProfileRun> run = profiler.run(file, scheme);
+            Result<ProfileRun> run = profiler.run(everything.subspan(first, together), scheme);
             const bool refused = !run && (run.error().code == ErrorCode::asset || run.error().code == ErrorCode::limit);
             if (refused && all) { // not every scheme takes every cage
                 warn(run.error().message);
@@ -352,15 +288,18 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
             std::printf("\n%s", toTable(*run, summarizeRun(*run)).c_str());
             std::fflush(stdout);
             runs.push_back(std::move(*run));
+            if (!options.json.empty()) { // after every run: a later one's failure loses nothing
+                const Status kept = writeTextFile(options.json, dump(toJson(machine, runs), 2));
+                if (!kept) {
+                    return kept;
+                }
+            }
         }
     }
     if (runs.empty()) {
         return Error{ErrorCode::asset, "no scheme takes any of the files"};
     }
     Status status = success();
-    if (!options.json.empty()) {
-        status = writeTextFile(options.json, dump(toJson(machine, runs), 2));
-    }
     if (status && !options.csv.empty()) {
         status = writeTextFile(options.csv, toCsv(runs));
     }
@@ -396,7 +335,16 @@ void bindProfile(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     command->add_flag("--motion", options->motion, "Previous positions as well, for motion vectors");
     command->add_flag("--playback", options->playback, "Poses on the device, from the group's time alone");
-    command->add_option("--json", options->json, "Write the figures as JSON")->type_name("OUT.json");
+    CLI::Option* view =
+        command->add_flag("--view", options->view,
+                          "All files together in one view: levels of detail under a budget, a crowd before a "
+                          "camera, poses on the device");
+    command->add_option("--budget", options->budget, "Surface vertices of the view's frame")
+        ->needs(view)
+        ->check(CLI::Range(1024u, 200000000u))
+        ->capture_default_str();
+    command->add_option("--json", options->json, "Write the figures as JSON, anew after every run")
+        ->type_name("OUT.json");
     command->add_option("--csv", options->csv, "Write the figures as CSV, a row a pass")->type_name("OUT.csv");
     command->add_option("--trace", options->trace, "Write every frame as a Chrome trace, for Perfetto")
         ->type_name("OUT.json");

@@ -40,6 +40,27 @@ double lastEnd(const FrameSample& frame) {
     return last;
 }
 
+DrawnSummary summarizeDrawn(const ProfileRun& run) {
+    const auto median = [&](uint32_t DrawnSample::*count) {
+        std::vector<double> values;
+        for (const FrameSample& frame : run.frames) {
+            values.push_back(frame.drawn.*count);
+        }
+        return static_cast<uint64_t>(summarize(values).median);
+    };
+    DrawnSummary summary;
+    summary.vertices = median(&DrawnSample::vertices);
+    summary.wantedVertices = median(&DrawnSample::wantedVertices);
+    summary.patches = median(&DrawnSample::patches);
+    summary.drawnInstances = median(&DrawnSample::drawnInstances);
+    for (const FrameSample& frame : run.frames) {
+        summary.mostDropped = std::max(summary.mostDropped, frame.drawn.droppedInstances);
+        summary.leastLevelScale = std::min(summary.leastLevelScale, frame.drawn.levelScale);
+        summary.shortfallFrames += frame.drawn.shortfall ? 1 : 0;
+    }
+    return summary;
+}
+
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
     char line[512];
     va_list arguments;
@@ -66,11 +87,8 @@ Json toJson(const PassSummary& pass) {
 }
 
 Json toJson(const Machine& machine) {
-    return {{"device", machine.device},
-            {"driver", machine.driver},
-            {"driverInfo", machine.driverInfo},
-            {"mapping", machine.mapping},
-            {"cpu", machine.cpu}};
+    return {{"device", machine.device},   {"driver", machine.driver}, {"driverInfo", machine.driverInfo},
+            {"mapping", machine.mapping}, {"cpu", machine.cpu},       {"cpuDevice", machine.cpuDevice}};
 }
 
 /// RFC 4180: quoted, quotes doubled.
@@ -115,21 +133,33 @@ RunSummary summarizeRun(const ProfileRun& run) {
     summary.pose = summarizeFrames(run, [](const FrameSample& f) { return f.poseTime; });
     summary.record = summarizeFrames(run, [](const FrameSample& f) { return f.recordTime; });
 
-    // A pass may be missing from some frames (uploads happen once), so each is summed up over the frames that had it.
+    // A pass may be missing from some frames (uploads happen once), so each is summed up over the frames that had it. A
+    // frame may have it several times: a group each, or in parts.
     std::vector<std::vector<double>> gpu;
     std::vector<std::vector<double>> cpu;
     for (const FrameSample& frame : run.frames) {
+        std::vector<bool> met(summary.passes.size(), false);
         for (const PassSample& pass : frame.passes) {
             const auto known = std::find_if(summary.passes.begin(), summary.passes.end(),
                                             [&](const PassSummary& s) { return s.pass == pass.pass; });
             const auto index = static_cast<size_t>(known - summary.passes.begin());
             if (known == summary.passes.end()) {
-                summary.passes.push_back({pass.pass, {}, {}, pass.points, pass.bytes});
+                summary.passes.push_back({pass.pass, {}, {}, 0, 0});
                 gpu.emplace_back();
                 cpu.emplace_back();
+                met.push_back(false);
             }
-            gpu[index].push_back((pass.gpuEnd - pass.gpuBegin) / kNanosecondsInMillisecond);
-            cpu[index].push_back(pass.cpuRecord / kNanosecondsInMillisecond);
+            if (!met[index]) {
+                met[index] = true;
+                gpu[index].push_back(0.0);
+                cpu[index].push_back(0.0);
+            }
+            if (gpu[index].size() == 1) { // points and bytes are the first such frame's
+                summary.passes[index].points += pass.points;
+                summary.passes[index].bytes += pass.bytes;
+            }
+            gpu[index].back() += (pass.gpuEnd - pass.gpuBegin) / kNanosecondsInMillisecond;
+            cpu[index].back() += pass.cpuRecord / kNanosecondsInMillisecond;
         }
     }
     for (size_t i = 0; i < summary.passes.size(); ++i) {
@@ -140,15 +170,23 @@ RunSummary summarizeRun(const ProfileRun& run) {
             summary.total.points = summary.passes[i].points;
         }
     }
+    if (run.budget > 0) {
+        summary.drawn = summarizeDrawn(run);
+        if (summary.drawn.vertices > 0) { // subdivision's are the groups' own
+            summary.total.points = summary.drawn.vertices;
+        }
+    }
     return summary;
 }
 
 std::string toTable(const ProfileRun& run, const RunSummary& summary) {
     const std::string patchRate = run.patchRate == run.rate ? "" : format(" (%u a patch)", run.patchRate);
-    std::string table =
-        run.file + format(": scheme %s, rate %u%s, %u instance%s of %u patches, %zu frames, %.1f MiB\n",
-                          run.scheme.c_str(), run.rate, patchRate.c_str(), run.instances, run.instances == 1 ? "" : "s",
-                          run.patches, run.frames.size(), static_cast<double>(run.deviceBytes) / (1024.0 * 1024.0));
+    const std::string fineness = run.budget > 0 ? format("in a view of %u vertices", run.budget)
+                                                : format("rate %u%s", run.rate, patchRate.c_str());
+    std::string table = run.file + format(": scheme %s, %s, %u instance%s of %s%u patches, %zu frames, %.1f MiB\n",
+                                          run.scheme.c_str(), fineness.c_str(), run.instances,
+                                          run.instances == 1 ? "" : "s", run.budget > 0 ? "up to " : "", run.patches,
+                                          run.frames.size(), static_cast<double>(run.deviceBytes) / (1024.0 * 1024.0));
     table += format("  %-12s %10s %10s %10s %10s %12s %13s %10s\n", "pass", "GPU ms", "p95", "max", "CPU ms", "points",
                     "bytes", "Mpoints/s");
     for (const PassSummary& pass : summary.passes) {
@@ -157,6 +195,15 @@ std::string toTable(const ProfileRun& run, const RunSummary& summary) {
     table += tableRow(summary.total);
     table += format("  CPU a frame: %.4f ms to set the %s, %.4f ms to record (medians)\n", summary.pose.median,
                     run.playback ? "time" : "poses", summary.record.median);
+    if (run.budget > 0) {
+        const DrawnSummary& drawn = summary.drawn;
+        table += format(
+            "  drawn: %llu vertices of %llu wanted, %llu patches, %llu instances; levels scaled by %.3f and "
+            "more; %u instances dropped at most; shortfall in %zu of %zu frames\n",
+            static_cast<unsigned long long>(drawn.vertices), static_cast<unsigned long long>(drawn.wantedVertices),
+            static_cast<unsigned long long>(drawn.patches), static_cast<unsigned long long>(drawn.drawnInstances),
+            static_cast<double>(drawn.leastLevelScale), drawn.mostDropped, drawn.shortfallFrames, run.frames.size());
+    }
     return table;
 }
 
@@ -179,6 +226,16 @@ nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun
         entry["frame"].erase("pass");
         entry["cpuPoseMs"] = toJson(summary.pose);
         entry["cpuRecordMs"] = toJson(summary.record);
+        if (run.budget > 0) {
+            entry["view"] = {{"budget", run.budget},
+                             {"vertices", summary.drawn.vertices},
+                             {"wantedVertices", summary.drawn.wantedVertices},
+                             {"patches", summary.drawn.patches},
+                             {"drawnInstances", summary.drawn.drawnInstances},
+                             {"mostDroppedInstances", summary.drawn.mostDropped},
+                             {"leastLevelScale", summary.drawn.leastLevelScale},
+                             {"shortfallFrames", summary.drawn.shortfallFrames}};
+        }
         json["runs"].push_back(std::move(entry));
     }
     return json;
@@ -186,17 +243,21 @@ nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun
 
 std::string toCsv(std::span<const ProfileRun> runs) {
     std::string csv = "file,scheme,rate,instances,frames,pass,gpu_ms_median,gpu_ms_p95,gpu_ms_max,cpu_ms_median,"
-                      "points,bytes,mpoints_per_s\n";
+                      "points,bytes,mpoints_per_s,view_budget,view_wanted_vertices,view_shortfall_frames\n";
     for (const ProfileRun& run : runs) {
         const RunSummary summary = summarizeRun(run);
         std::vector<PassSummary> rows = summary.passes;
         rows.push_back(summary.total);
+        const std::string view = run.budget == 0 ? ",,,"
+                                                 : format(",%u,%llu,%zu", run.budget,
+                                                          static_cast<unsigned long long>(summary.drawn.wantedVertices),
+                                                          summary.drawn.shortfallFrames);
         for (const PassSummary& pass : rows) {
-            csv += csvText(run.file) + format(",%s,%u,%u,%zu,%s,%.6f,%.6f,%.6f,%.6f,%llu,%llu,%.3f\n",
-                                              run.scheme.c_str(), run.rate, run.instances, run.frames.size(),
-                                              pass.pass.c_str(), pass.gpu.median, pass.gpu.p95, pass.gpu.max,
-                                              pass.cpuRecord.median, static_cast<unsigned long long>(pass.points),
-                                              static_cast<unsigned long long>(pass.bytes), pass.megapointsPerSecond());
+            csv += csvText(run.file) +
+                   format(",%s,%u,%u,%zu,%s,%.6f,%.6f,%.6f,%.6f,%llu,%llu,%.3f%s\n", run.scheme.c_str(), run.rate,
+                          run.instances, run.frames.size(), pass.pass.c_str(), pass.gpu.median, pass.gpu.p95,
+                          pass.gpu.max, pass.cpuRecord.median, static_cast<unsigned long long>(pass.points),
+                          static_cast<unsigned long long>(pass.bytes), pass.megapointsPerSecond(), view.c_str());
         }
     }
     return csv;

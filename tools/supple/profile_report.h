@@ -22,6 +22,14 @@ struct PassSample {
     uint64_t bytes = 0;
 };
 
+/// What a view drew of a frame.
+struct DrawnSample {
+    uint32_t vertices = 0, wantedVertices = 0, patches = 0;
+    uint32_t drawnInstances = 0, droppedInstances = 0;
+    float levelScale = 1.0f;
+    bool shortfall = false;
+};
+
 /// One frame. CPU times are nanoseconds; begins count from the start of the run.
 struct FrameSample {
     uint64_t frame = 0;
@@ -29,22 +37,24 @@ struct FrameSample {
     double poseBegin = 0.0, poseTime = 0.0;     ///< setting the poses of all instances
     double recordBegin = 0.0, recordTime = 0.0; ///< suppleRecord
     double submitted = 0.0;                     ///< when the frame was handed to the device
+    DrawnSample drawn;                          ///< in a view
 };
 
-/// One file under one scheme.
+/// One file under one scheme; or several in a view.
 struct ProfileRun {
-    std::string file;
+    std::string file; ///< or all of them
     std::string scheme;
     uint32_t rate = 0;
     uint32_t patchRate = 0; ///< segments along a patch edge: less than the rate where an edge of the cage has several
     uint32_t instances = 0;
     bool playback = false;    ///< poses on the device
-    uint32_t patches = 0;     ///< an instance
-    uint64_t deviceBytes = 0; ///< of the group
+    uint32_t budget = 0;      ///< of the view, surface vertices; 0: no view
+    uint32_t patches = 0;     ///< an instance; of several kinds the most
+    uint64_t deviceBytes = 0; ///< of the groups
     std::vector<FrameSample> frames;
 };
 
-/// One pass over all frames of a run; times in milliseconds.
+/// One pass over all frames of a run, all groups and parts of it together; times in milliseconds.
 struct PassSummary {
     std::string pass;
     Summary gpu;
@@ -54,11 +64,20 @@ struct PassSummary {
     [[nodiscard]] double megapointsPerSecond() const; ///< at the median; 0 when the clock showed no time
 };
 
+/// What a view drew over all frames of a run.
+struct DrawnSummary {
+    uint64_t vertices = 0, wantedVertices = 0, patches = 0, drawnInstances = 0; ///< medians
+    uint32_t mostDropped = 0;                                                   ///< instances, of a frame
+    float leastLevelScale = 1.0f;
+    size_t shortfallFrames = 0;
+};
+
 struct RunSummary {
     std::vector<PassSummary> passes; ///< in the order of the frame
     PassSummary total;               ///< GPU: first begin to last end of a frame; CPU, points, bytes: the sums
     Summary pose;                    ///< CPU: setting the poses
     Summary record;                  ///< CPU: suppleRecord
+    DrawnSummary drawn;              ///< in a view
 };
 [[nodiscard]] RunSummary summarizeRun(const ProfileRun& run);
 

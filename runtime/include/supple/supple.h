@@ -459,8 +459,10 @@ typedef struct SuppleCameraDesc {
     float chordError;    /**< pixels between an edge and its segments, 0 = 0.25 */
     float smallestEdge;  /**< pixels: segments are not made shorter, 0 = 3 */
     float edgeLength;    /**< pixels: segments of this length whatever the error; 0: by the two above */
-    uint32_t vertexBudget; /**< surface vertices a frame; 0, and at most: the view's maxVertices, as which it counts
-                            * with 192 a run of patches: with no more than these nothing is drawn */
+    /** Surface vertices a frame, of all groups: those of CATMULL_CLARK and LOOP count, too, though they lie in memory
+     * of the groups' own. At most the view's maxVertices, as which it counts with 192 a run of patches: with no more
+     * than these no patches are drawn. 0: that, and CATMULL_CLARK and LOOP have no budget. */
+    uint32_t vertexBudget;
     /** SUPPLE_VIEW_CULL: what is outside of it is not seen; column-major, depth 0..w (or reversed, or without end). All
      * zero: everything is inside. Shadow maps want what casts a shadow into the picture: a larger volume. */
     float viewProjection[16];
@@ -514,14 +516,14 @@ typedef struct SuppleViewStatistics {
     uint64_t frame;     /**< of suppleBeginFrame */
     float
         levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
-    uint32_t vertexCount;                   /**< surface vertices written */
-    uint32_t wantedVertexCount;             /**< without a budget, up to a few per cent more */
-    uint32_t patchCount;                    /**< drawn */
-    uint32_t instanceCount;                 /**< visible ones of its groups */
-    uint32_t drawnInstanceCount;            /**< of these: seen, and not missing */
-    uint32_t droppedInstanceCount;          /**< seen, and missing for want of room */
-    uint32_t occludedInstanceCount;         /**< not seen for OCCLUSION alone */
-    uint32_t backFaceCount;                 /**< patches of drawn instances that BACK_FACES left out */
+    uint32_t vertexCount;           /**< surface vertices written; CATMULL_CLARK and LOOP: with a vertexBudget */
+    uint32_t wantedVertexCount;     /**< without a budget, up to a few per cent more */
+    uint32_t patchCount;            /**< drawn */
+    uint32_t instanceCount;         /**< visible ones of its groups */
+    uint32_t drawnInstanceCount;    /**< of these: seen, and not missing */
+    uint32_t droppedInstanceCount;  /**< seen, and missing for want of room */
+    uint32_t occludedInstanceCount; /**< not seen for OCCLUSION alone */
+    uint32_t backFaceCount;         /**< patches of drawn instances that BACK_FACES left out */
 } SuppleViewStatistics;
 
 /** Of the newest completed frame; never blocks. SUPPLE_NOT_READY: there is none. */
@@ -598,8 +600,8 @@ typedef struct SuppleGroupDesc {
     SupplePoseSource poseSource; /**< PALETTE_BUFFER goes with linear skinning only */
     /** Optional: the group is drawn at this view's levels of detail. vertexFormat and flags are then the view's. PREP,
      * PM and BLEND: rate, too; see SuppleGroupOutput.lodDraws. CATMULL_CLARK and LOOP: every instance has the rate its
-     * level asks for, rate being the largest; see SuppleGroupOutput.rates. The vertices are the group's own: the view's
-     * maxVertices and budget do not touch them, and SuppleViewStatistics counts the instances alone. */
+     * level asks for, rate being the largest; see SuppleGroupOutput.rates. The vertices are the group's own: none of
+     * the view's maxVertices, but of SuppleCameraDesc.vertexBudget. */
     SuppleView view;
 } SuppleGroupDesc;
 

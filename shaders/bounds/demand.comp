@@ -1,0 +1,33 @@
+// Demand pass: the vertices that instances of several rates need, by how far above its threshold each rate is, for the budget
+// (shaders/lod/solve.comp). One lane an instance, behind the list pass.
+//
+// A bin counts while it is above elasticity x. It is above where the level is above the threshold by one bin and a sixteenth
+// less than it, so that what is counted is not less than what is drawn; each step is shared by two bins, so that the
+// demand is continuous in levels.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/bounds/cull.glsl"
+#include "shaders/shared/lod.h"
+
+layout(set = 0, binding = kBoundsBinding, std430) readonly buffer Bounds { vec4 bounds[]; };
+layout(set = 0, binding = kViewWordsBinding, std430) buffer Words { uint words[]; };
+layout(push_constant) uniform Push { DemandPush push; };
+
+void main() {
+    uint index = invocationIndex();
+    if (index >= push.instanceCount) return;
+    uint entry = hostEntry(push.firstEntry + index), slot = entry & kInstanceSlotMask;
+    if (states[slot].y == 0u) return;
+    atomicAdd(words[kLodRated], push.vertices[0]);
+    uint first = kLodRatedMore + ((entry >> kInstancePriorityShift) & 3u) * kRatedBins;
+    float octave = log2(max(bounds[2u * slot].w, 1e-30));
+    for (uint r = 1u; r < push.rateCount; ++r) {
+        float at = (octave - log2(float(push.firstRate << (r - 1u)))) * float(kBinsPerOctave) + 1.0625;
+        if (!(at > 0.0)) break;
+        at = min(at, float(kRatedBins) - 1.5);
+        uint bin = uint(at), more = push.vertices[r] - push.vertices[r - 1u];
+        uint next = min(uint((at - float(bin)) * float(more)), more);
+        atomicAdd(words[first + bin], more - next);
+        atomicAdd(words[first + bin + 1u], next);
+    }
+}

@@ -1,0 +1,73 @@
+// Rates pass: which rate each instance takes of those that its group has, by its level as the budget scales it, and lists,
+// counts, dispatches and draws of every rate. One workgroup; what is drawn the list pass has found.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define LIST_PUSH RatesPush
+#include "shaders/bounds/list.glsl"
+#include "shaders/shared/lod.h"
+
+layout(set = 0, binding = kViewWordsBinding, std430) buffer Words { uint words[]; };
+
+shared uint countsOf[kMaxRates * kMaxLanes];
+
+uint rateOf(uint entry) {
+    float level = bounds[2u * (entry & kInstanceSlotMask)].w;
+    uint priority = (entry >> kInstancePriorityShift) & 3u, rate = 0u;
+    if (push.counted != 0u) level *= uintBitsToFloat(words[kLodSolution + 4u + priority]);
+    while (rate + 1u < push.rateCount && float(push.firstRate << rate) < level) ++rate;
+    return rate;
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
+    uint totals[kMaxRates];
+    uvec2 places[kMaxRates];
+    for (uint r = 0u; r < kMaxRates; ++r) totals[r] = 0u;
+    for (uint w = 0u; w < push.windowCount; ++w) {
+        uvec4 window = tableElements[w];
+        uvec2 run = runOf(window);
+        for (uint r = 0u; r < push.rateCount; ++r) countsOf[r * lanes + lane] = 0u;
+        for (uint i = run.x; i < run.y; ++i) {
+            uint entry = hostEntry(i);
+            if (state(entry & kInstanceSlotMask).y != 0u) countsOf[rateOf(entry) * lanes + lane] += 1u;
+        }
+        barrier();
+        for (uint r = 0u; r < push.rateCount; ++r) {
+            uint before = 0u, count = 0u;
+            for (uint l = 0u; l < lanes; ++l) {
+                if (l == lane) before = count;
+                count += countsOf[r * lanes + l];
+            }
+            uint list = push.rateLists + r * push.rateStride;
+            places[r] = list + before + uvec2(totals[r], window.w);
+            totals[r] += count;
+            if (lane == 0u) argumentWords[push.rateCounts + r * push.windowCount + w] = count;
+            for (uint i = lane; i < push.argumentCount; i += lanes) {
+                uvec4 argument = tableElements[push.windowCount + i];
+                if (argument.z == kCountRate + r)
+                    storeDispatch(argument.w + push.argumentStride * w, argument.x * count, argument.y);
+            }
+        }
+        barrier();
+        for (uint i = run.x; i < run.y; ++i) {
+            uint entry = hostEntry(i), slot = entry & kInstanceSlotMask, drawn = state(slot).y;
+            if (drawn == 0u) continue;
+            uint rate = rateOf(entry), flags = entry & ~kInstanceSlotMask;
+            list[places[rate].x] = slot;
+            list[places[rate].y] = (slot - window.z) | flags | (drawn == kDrawnWithPast ? 0u : kInstanceIsNew);
+            places[rate] += 1u;
+        }
+    }
+    for (uint i = lane; i < push.drawCount; i += lanes) {
+        uvec4 draw = tableElements[push.windowCount + push.argumentCount + i];
+        uint at = push.firstDraw + 5u * i;
+        argumentWords[at] = draw.x;
+        argumentWords[at + 1u] = draw.z * totals[draw.w];
+        argumentWords[at + 2u] = draw.y;
+        argumentWords[at + 3u] = 0u;
+        argumentWords[at + 4u] = 0u;
+    }
+    if (lane == 0u && push.counted != 0u) {
+        for (uint r = 0u; r < push.rateCount; ++r) words[kLodSolution + 1u] += totals[r] * push.vertices[r];
+    }
+}

@@ -1,0 +1,203 @@
+#include "tools/supple/profile_stage.h"
+
+#include "tools/host/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace supple::tools {
+
+namespace {
+
+constexpr double kFrameTime = 1.0 / 60.0;
+constexpr float kWidth = 1920.0f, kHeight = 1080.0f; ///< of the picture that the crowd is drawn for
+constexpr float kFieldOfView = 0.7f, kNear = 0.1f, kFar = 1000.0f;
+
+/// A square of so many instances a side.
+uint32_t sideOf(size_t instances) {
+    return static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<double>(instances))));
+}
+
+} // namespace
+
+Status ProfileStage::create(std::span<const host::CharacterFile> files, const std::string& scheme, ProfileRun& run) {
+    Status status = options_.view ? createView(files) : success();
+    const auto kinds = static_cast<uint32_t>(files.size());
+    for (uint32_t k = 0; status && k < kinds; ++k) {
+        const uint32_t dealt = options_.instances / kinds + (k < options_.instances % kinds ? 1 : 0);
+        status = createGroup(files[k], scheme, std::max(dealt, 1u), run);
+    }
+    if (status && options_.view) {
+        run.budget = options_.budget;
+        status = place();
+    }
+    return status;
+}
+
+Status ProfileStage::destroy() {
+    Status status = success();
+    const auto keepFirst = [&](Status next) { status = status ? std::move(next) : std::move(status); };
+    for (const SuppleGroup group : groups_) {
+        keepFirst(check(suppleDestroyGroup(handle(), group), "suppleDestroyGroup"));
+    }
+    for (const Subject& subject : subjects_) {
+        keepFirst(check(suppleDestroyAsset(handle(), subject.asset), "suppleDestroyAsset"));
+    }
+    if (view_.id != 0) {
+        keepFirst(check(suppleDestroyView(handle(), view_), "suppleDestroyView"));
+    }
+    groups_.clear();
+    subjects_.clear();
+    view_ = {};
+    return status;
+}
+
+Status ProfileStage::createView(std::span<const host::CharacterFile> files) {
+    SuppleViewDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.flags = uint32_t{SUPPLE_VIEW_CULL} | (options_.motion ? uint32_t{SUPPLE_VIEW_MOTION} : 0);
+    desc.maxVertices = options_.budget;
+    Status status = check(suppleCreateView(handle(), &desc, &view_), "suppleCreateView");
+    if (!status) {
+        return status;
+    }
+    float radius = 0.0f;
+    for (const host::CharacterFile& file : files) {
+        radius = std::max(radius, host::boundsOf(file.character.cage.positions).radius());
+    }
+    spacing_ = radius;
+    // Before the middle of the square's edge, somewhat above: some instances fill the picture, some are small, and
+    // those at the sides of the first rows are out of it.
+    const float reach = 0.5f * spacing_ * static_cast<float>(sideOf(options_.instances));
+    const glm::vec3 eye(0.0f, 1.5f * radius, reach + 3.0f * radius);
+    const glm::mat4 viewProjection =
+        glm::perspectiveRH_ZO(kFieldOfView, kWidth / kHeight, kNear * radius, kFar * radius) *
+        glm::lookAtRH(eye, glm::vec3(0.0f, 0.5f * radius, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
+    SuppleCameraDesc camera{};
+    camera.structSize = sizeof camera;
+    std::memcpy(camera.position, &eye, sizeof camera.position);
+    camera.pixelsPerUnit = 0.5f * kHeight / std::tan(0.5f * kFieldOfView);
+    camera.vertexBudget = options_.budget; // subdivision minds it where it is said
+    std::memcpy(camera.viewProjection, &viewProjection, sizeof camera.viewProjection);
+    return check(suppleSetCamera(handle(), view_, &camera), "suppleSetCamera");
+}
+
+Status ProfileStage::createGroup(const host::CharacterFile& file, const std::string& scheme, uint32_t instances,
+                                 ProfileRun& run) {
+    const Result<SuppleAsset> asset = host::createAsset(context_, file);
+    if (!asset) {
+        return asset.error();
+    }
+    Subject& subject = subjects_.emplace_back();
+    subject.asset = *asset;
+    const std::vector<cage::Clip>& clips = file.character.clips;
+    if (!clips.empty()) {
+        subject.clip = 0;
+        subject.clipDuration = clips[0].duration;
+    }
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.flags = options_.motion && !options_.view ? uint32_t{SUPPLE_GROUP_MOTION} : 0;
+    desc.asset = subject.asset;
+    desc.capacity = instances;
+    desc.scheme = schemeOf(scheme);
+    desc.rate = options_.surface.rate;
+    describeSurface(options_.surface, desc);
+    desc.poseSource = options_.plays() ? SUPPLE_POSES_PLAYBACK : SUPPLE_POSES_SET;
+    desc.view = view_;
+    SuppleGroup group{};
+    Status status = check(suppleCreateGroup(handle(), &desc, &group), "suppleCreateGroup");
+    if (!status) {
+        return status;
+    }
+    groups_.push_back(group);
+    status = context_.createInstances(group, instances, subject.instances);
+    if (status && options_.plays()) {
+        status = startPlayback(subject);
+    }
+    SuppleGroupOutput output{};
+    output.structSize = sizeof output;
+    if (status) {
+        status = check(suppleGetGroupOutput(handle(), group, &output), "suppleGetGroupOutput");
+    }
+    run.instances += instances;
+    run.patches = std::max(run.patches, output.patchCount);
+    run.patchRate = output.rate;
+    run.deviceBytes += output.deviceBytes;
+    return status;
+}
+
+double ProfileStage::phase(const Subject& subject, size_t instance) {
+    return subject.clipDuration * static_cast<double>(instance) / static_cast<double>(subject.instances.size());
+}
+
+Status ProfileStage::startPlayback(const Subject& subject) {
+    Status status = success();
+    for (size_t i = 0; status && subject.clip != SUPPLE_BIND_POSE && i < subject.instances.size(); ++i) {
+        SupplePlaybackLayer layer{};
+        layer.clip = subject.clip;
+        layer.flags = SUPPLE_LAYER_LOOP;
+        layer.weight = 1.0f;
+        layer.speed = 1.0f;
+        layer.offset = phase(subject, i);
+        SupplePlaybackDesc playback{};
+        playback.structSize = sizeof playback;
+        playback.layers = &layer;
+        playback.layerCount = 1;
+        status = check(suppleSetPlayback(handle(), subject.instances[i], &playback), "suppleSetPlayback");
+    }
+    return status;
+}
+
+Status ProfileStage::place() {
+    size_t total = 0;
+    for (const Subject& subject : subjects_) {
+        total += subject.instances.size();
+    }
+    const uint32_t side = sideOf(total);
+    const float middle = 0.5f * static_cast<float>(side - 1);
+    Status status = success();
+    for (size_t k = 0; k < subjects_.size(); ++k) {
+        for (size_t i = 0; status && i < subjects_[k].instances.size(); ++i) {
+            const size_t place = i * subjects_.size() + k; // kinds side by side
+            const auto column = static_cast<float>(place % side), row = static_cast<float>(place / side);
+            const glm::mat4 transform =
+                glm::translate(glm::mat4(1.0f), spacing_ * glm::vec3(column - middle, 0.0f, row - middle));
+            status =
+                check(suppleSetTransform(handle(), subjects_[k].instances[i], &transform[0][0]), "suppleSetTransform");
+        }
+    }
+    return status;
+}
+
+Status ProfileStage::setPoses(uint32_t frame) {
+    Status status = success();
+    if (options_.plays()) {
+        for (size_t g = 0; status && g < groups_.size(); ++g) {
+            status = check(suppleSetTime(handle(), groups_[g], frame * kFrameTime), "suppleSetTime");
+        }
+        return status;
+    }
+    for (const Subject& subject : subjects_) {
+        for (size_t i = 0; status && subject.clip != SUPPLE_BIND_POSE && i < subject.instances.size(); ++i) {
+            const double time = subject.clipDuration > 0.0
+                                    ? std::fmod(frame * kFrameTime + phase(subject, i), subject.clipDuration)
+                                    : 0.0;
+            status = check(suppleSetClipPose(handle(), subject.instances[i], subject.clip, time), "suppleSetClipPose");
+        }
+    }
+    return status;
+}
+
+std::optional<SuppleViewStatistics> ProfileStage::statistics() const {
+    SuppleViewStatistics drawn{};
+    drawn.structSize = sizeof drawn;
+    if (view_.id == 0 || suppleGetViewStatistics(handle(), view_, &drawn) != SUPPLE_OK) {
+        return std::nullopt;
+    }
+    return drawn;
+}
+
+} // namespace supple::tools

@@ -1,0 +1,70 @@
+// What supple profile runs frames of: a group, or a crowd of several in a view; made, posed and destroyed.
+#pragma once
+
+#include "tools/host/character_file.h"
+#include "tools/supple/options.h"
+#include "tools/supple/profile_report.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace supple::tools {
+
+struct ProfileOptions {
+    std::vector<std::string> files;
+    SurfaceFlags surface;
+    DeviceFlags device;
+    uint32_t instances = 1;
+    uint32_t frames = 60;
+    bool motion = false;
+    bool playback = false;
+    bool view = false;
+    uint32_t budget = 1000000; ///< of the view
+    std::string json, csv, trace;
+
+    [[nodiscard]] bool plays() const { return playback || view; }
+};
+
+class ProfileStage {
+public:
+    ProfileStage(host::Context& context, const ProfileOptions& options) : context_(context), options_(options) {}
+
+    /// A group a file, in a view where the options say so, and all instances, dealt to the groups in turn. Fills in
+    /// what `run` says of them.
+    [[nodiscard]] Status create(std::span<const host::CharacterFile> files, const std::string& scheme, ProfileRun& run);
+    [[nodiscard]] Status destroy();
+
+    [[nodiscard]] std::span<const SuppleGroup> groups() const { return groups_; }
+    /// Of a frame a sixtieth of a second after the one before: all instances play clip 0 in a loop, spread evenly over
+    /// its length.
+    [[nodiscard]] Status setPoses(uint32_t frame);
+    /// Of the newest completed frame, if there is one and a view.
+    [[nodiscard]] std::optional<SuppleViewStatistics> statistics() const;
+
+private:
+    struct Subject {
+        SuppleAsset asset{};
+        std::vector<SuppleInstance> instances;
+        uint32_t clip = SUPPLE_BIND_POSE;
+        double clipDuration = 0.0;
+    };
+    [[nodiscard]] Status createView(std::span<const host::CharacterFile> files);
+    [[nodiscard]] Status createGroup(const host::CharacterFile& file, const std::string& scheme, uint32_t instances,
+                                     ProfileRun& run);
+    [[nodiscard]] Status startPlayback(const Subject& subject);
+    [[nodiscard]] Status place();
+    [[nodiscard]] static double phase(const Subject& subject, size_t instance);
+    [[nodiscard]] Status check(SuppleResult result, const char* call) { return context_.check(result, call); }
+    [[nodiscard]] SuppleContext handle() const { return context_.handle(); }
+
+    host::Context& context_;
+    const ProfileOptions& options_;
+    SuppleView view_{};
+    float spacing_ = 1.0f; ///< of the crowd
+    std::vector<Subject> subjects_;
+    std::vector<SuppleGroup> groups_; ///< in their order
+};
+
+} // namespace supple::tools
