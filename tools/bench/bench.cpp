@@ -307,7 +307,7 @@ Status Run::load() {
 
 Status Run::pipelines(const BenchCage& cage, SuppleScheme scheme) {
     for (const PipelineUse use : {PipelineUse::plain, PipelineUse::inView}) {
-        if (use == PipelineUse::inView && options_.quick && scheme != SUPPLE_SCHEME_PM) {
+        if (use == PipelineUse::inView && options_.quick && scheme != SUPPLE_SCHEME_PREP) {
             continue; // drivers take seconds to compile them
         }
         std::fprintf(stderr, "\rpipelines of %s   ", schemeName(scheme));
