@@ -244,8 +244,8 @@ TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
 /// Two crowds of one asset, drawn with back faces and without, instances in their bind poses.
 class BothWays {
 public:
-    BothWays(CrowdContext& context, SuppleAsset asset, SuppleScheme scheme)
-        : context_(context), whole_(context, 2'000'000), left_(context, 2'000'000, SUPPLE_VIEW_BACK_FACES),
+    BothWays(CrowdContext& context, SuppleAsset asset, SuppleScheme scheme, uint32_t maxVertices)
+        : context_(context), whole_(context, maxVertices), left_(context, maxVertices, SUPPLE_VIEW_BACK_FACES),
           wholeCrowd_(context, descOf(asset, scheme, whole_)), leftCrowd_(context, descOf(asset, scheme, left_)) {
         EXPECT_TRUE(wholeCrowd_.valid() && leftCrowd_.valid());
         (void)wholeCrowd_.spawn();
@@ -357,7 +357,7 @@ TEST_P(BackFaces, BordersThatAreCoarserThanTheInsideAreMinded) {
     }
     const SuppleAsset asset = context.createAsset(makeCage(positions, polygons));
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
-        BothWays both(context, asset, scheme);
+        BothWays both(context, asset, scheme, 1'000'000);
         SuppleCameraDesc camera{};
         camera.flags = SUPPLE_CAMERA_ORTHOGRAPHIC;
         camera.pixelsPerUnit = 1.0f;
@@ -393,7 +393,7 @@ TEST_P(BackFaces, RoughCagesOfAllClassesLoseNothingThatFacesTheCamera) {
             {perturbed(withMergedFaces(withCutQuads(torus(14, 9), 0.5, 3), 60, 4), rough, 5), SUPPLE_SCHEME_PM},
             {perturbed(cage::makeCubeSphere(3), rough, 6), SUPPLE_SCHEME_PREP}};
         for (const auto& [cage, scheme] : cages) {
-            BothWays both(context, context.createAsset(cage), scheme);
+            BothWays both(context, context.createAsset(cage), scheme, 150'000);
             glm::vec3 low(1e30f), high(-1e30f);
             for (const glm::vec3& p : cage.positions) {
                 low = glm::min(low, p);
