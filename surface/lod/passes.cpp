@@ -30,7 +30,9 @@ Status Passes::prepare(const gpu::ComputeLayout& layout, const LodTables& tables
     const gpu::Constant constants[] = {{gpu::kFirstPassConstant, tables.charts ? VK_TRUE : VK_FALSE},
                                        {gpu::kFirstPassConstant + 1, backFaces ? VK_TRUE : VK_FALSE}};
     for (const auto& [kernel, spirv, name] : sources) {
-        if (pipelines_[kernel].get() == VK_NULL_HANDLE) {
+        // Groups of rates have no patches with levels; the view's budget is solved for them, too.
+        const bool asked = kernel == kSolve || !tables.runs.empty();
+        if (asked && pipelines_[kernel].get() == VK_NULL_HANDLE) {
             const size_t used = kernel == kSolve || kernel == kPlace      ? 0
                                 : kernel == kEdge || kernel == kChartEdge ? 1
                                                                           : std::size(constants);
