@@ -227,12 +227,13 @@ TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
         std::printf("scheme %d: %zu pixels, %zu differ\n", scheme, pixels, differentPixels);
         EXPECT_GT(pixels, 100'000u);
         EXPECT_EQ(differentPixels, 0u);
-        // What is worth it: many regular patches that show their backs are found, on coarse cages a quarter, on those
-        // of the shared characters two thirds.
-        EXPECT_GT(counts[SUPPLE_PATCH_REGULAR].out * 5, counts[SUPPLE_PATCH_REGULAR].back);
-        // Of the others some at least, but for polar ones, which all stay.
+        // What is worth it: many regular patches that show their backs are found, on coarse cages a sixth, on those
+        // of the shared characters half of them.
+        EXPECT_GT(counts[SUPPLE_PATCH_REGULAR].out * 10, counts[SUPPLE_PATCH_REGULAR].back);
+        // Of the others some at least, but for polar ones, which all stay. Perturbed patches: of 100 one or two, where
+        // there are more characters than the repository's own.
         if (scheme == SUPPLE_SCHEME_PREP) {
-            EXPECT_GT(counts[SUPPLE_PATCH_PERTURBED].out, 0u);
+            EXPECT_TRUE(cameras < 20 || counts[SUPPLE_PATCH_PERTURBED].out > 0);
         } else {
             EXPECT_GT(counts[SUPPLE_PATCH_P4].out, 0u);
             EXPECT_GT(counts[SUPPLE_PATCH_P3].out + counts[SUPPLE_PATCH_P5].out, 0u);
