@@ -151,8 +151,12 @@ void writeSet(const Device& device, VkDescriptorSet set, std::span<const BoundRe
     device.vk.UpdateDescriptorSets(device.handle, static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
 }
 
+uint32_t maxGroupsInX(const Device& device) {
+    return std::min(device.limits.maxComputeWorkGroupCount[0], 65535u);
+}
+
 void dispatchLinear(const Device& device, VkCommandBuffer commandBuffer, uint64_t groups) {
-    const uint64_t limit = std::min<uint64_t>(device.limits.maxComputeWorkGroupCount[0], 65535);
+    const uint64_t limit = maxGroupsInX(device);
     const uint64_t rows = (groups + limit - 1) / limit;
     // Even rows: the last one would otherwise be nearly empty for a count just above the limit.
     const uint64_t columns = (groups + rows - 1) / rows;

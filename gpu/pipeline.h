@@ -48,6 +48,9 @@ struct BoundResource {
 };
 void writeSet(const Device& device, VkDescriptorSet set, std::span<const BoundResource> resources);
 
+/// What a dispatch may have in x: the least that devices must take at most, so that splits are the same everywhere.
+[[nodiscard]] uint32_t maxGroupsInX(const Device& device);
+
 /// Records a dispatch of at least `groups` workgroups, split in x and y at the device's limit
 /// (shaders/shared/mapping.glsl puts the linear index together again).
 void dispatchLinear(const Device& device, VkCommandBuffer commandBuffer, uint64_t groups);

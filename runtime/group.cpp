@@ -442,10 +442,7 @@ Status Group::createCulling() {
     desc.sizes = view_->buffer(View::kSizes);
     desc.words = view_->buffer(View::kWords);
     // Rates count along edges of the cage, levels along those of patches.
-    desc.measure = surface::lod::measureInstance(cage, hasLevels() ? tables.isolationSteps : 0);
-    if (scheme_->recipe.scheme == SchemeId::blend) {
-        desc.measure.bend *= 2.0f; // curves that interpolate bend unevenly: found by LodCrowds.OneLevelAnInstance
-    }
+    desc.measure = surface::lod::measureInstance(cage, hasLevels() ? tables.isolationSteps : 0, tables.lod.charts);
     for (const surface::LodTables::Run& run : tables.lod.runs) {
         desc.leastVertices += run.patchCount * surface::lod::sampleCount(surface::lod::formOf(run.patchClass), 1);
     }

@@ -280,7 +280,7 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
     push.room = budget();
     push.priorities = priorities;
     push.forms = forms_;
-    push.maxGroups = std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+    push.maxGroups = gpu::maxGroupsInX(*device_);
     push.rated = countsRates() ? 1 : 0;
     std::copy_n(desc_.elasticities, kPriorityCount, push.elasticity);
     passes.recordSolve(commandBuffer, set, push);
@@ -373,6 +373,7 @@ uint32_t View::transfers(Transfers& out) const {
     if (indicesReleaseFrame_ == recordedFrame_) {
         add(static_.buffer(0));
     }
+    static_assert(kWords == 0);
     out[0].offset = kLodBuckets * VkDeviceSize{4};
     out[0].size = VK_WHOLE_SIZE;
     return count;

@@ -10,14 +10,23 @@ uint32_t spokeWord(uint32_t spoke, uint32_t next) {
     return spoke | (next - spoke) << shared::kSpokeBits;
 }
 
-Status spokesFit(size_t count, uint32_t most) {
-    if (count > shared::kMaxSpokes) {
-        return Error{ErrorCode::limit, std::to_string(count) + " edges counted from both ends; patch records hold " +
+void SpokeLimits::add(uint32_t vertex, uint32_t spokes) {
+    count_ += spokes;
+    if (spokes > most_) {
+        vertex_ = vertex;
+        most_ = spokes;
+    }
+}
+
+Status SpokeLimits::check() const {
+    if (count_ > shared::kMaxSpokes) {
+        return Error{ErrorCode::limit, "the cage has " + std::to_string(count_) +
+                                           " edges counted from both ends; patch records hold " +
                                            std::to_string(shared::kMaxSpokes)};
     }
-    if (most > shared::kMaxSpokeStep) {
-        return Error{ErrorCode::limit, "a vertex has " + std::to_string(most) + " edges; patch records hold " +
-                                           std::to_string(shared::kMaxSpokeStep)};
+    if (most_ > shared::kMaxSpokeStep) {
+        return Error{ErrorCode::limit, "vertex " + std::to_string(vertex_) + " has " + std::to_string(most_) +
+                                           " edges; patch records hold " + std::to_string(shared::kMaxSpokeStep)};
     }
     return success();
 }

@@ -16,8 +16,16 @@ using BorderCurve = std::array<uint32_t, 4>;
 
 /// The spoke of a corner in a bicubic record: its own number, and that of the next one round the vertex.
 [[nodiscard]] uint32_t spokeWord(uint32_t spoke, uint32_t next);
-/// Whether words hold that many spokes, up to `most` of them round a vertex.
-[[nodiscard]] Status spokesFit(size_t count, uint32_t most);
+/// Whether words hold the spokes of all fans round vertices; refuses by the vertex.
+class SpokeLimits {
+public:
+    void add(uint32_t vertex, uint32_t spokes);
+    [[nodiscard]] Status check() const;
+
+private:
+    size_t count_ = 0;
+    uint32_t vertex_ = 0, most_ = 0; ///< the fullest one
+};
 
 /// Pool indices of the 16 coefficients of a bicubic patch, row by row in v.
 [[nodiscard]] std::array<uint32_t, 16> netIndices(const Tables& tables, const uint32_t* record, PatchClass patchClass);

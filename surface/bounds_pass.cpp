@@ -115,14 +115,17 @@ void BoundsPass::bind(VkCommandBuffer commandBuffer, const gpu::PipelineHandle& 
     device_->vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, bytes, push);
 }
 
+uint32_t BoundsPass::groupsFor(uint32_t lanes) const {
+    return (lanes + device_->mapping.localSize - 1) / device_->mapping.localSize;
+}
+
 void BoundsPass::recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const BoundsPush& push) const {
     if (push.instanceCount == 0) {
         return;
     }
     bind(commandBuffer, bounds_, set, &push, sizeof(push));
-    const uint32_t local = device_->mapping.localSize;
     gpu::dispatchLinear(*device_, commandBuffer,
-                        device_->mapping.wide ? push.instanceCount : (push.instanceCount + local - 1) / local);
+                        device_->mapping.wide ? push.instanceCount : groupsFor(push.instanceCount));
 }
 
 void BoundsPass::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set, const SizePush& push) const {
@@ -130,8 +133,7 @@ void BoundsPass::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set,
         return;
     }
     bind(commandBuffer, sizes_, set, &push, sizeof(push));
-    const uint32_t local = device_->mapping.localSize;
-    gpu::dispatchLinear(*device_, commandBuffer, (push.instanceCount + local - 1) / local);
+    gpu::dispatchLinear(*device_, commandBuffer, groupsFor(push.instanceCount));
 }
 
 void BoundsPass::recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const DemandPush& push) const {
@@ -139,22 +141,17 @@ void BoundsPass::recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set
         return;
     }
     bind(commandBuffer, demand_, set, &push, sizeof(push));
-    const uint32_t local = device_->mapping.localSize;
-    gpu::dispatchLinear(*device_, commandBuffer, (push.instanceCount + local - 1) / local);
-}
-
-uint32_t BoundsPass::maxGroups() const {
-    return std::min(device_->limits.maxComputeWorkGroupCount[0], 65535u);
+    gpu::dispatchLinear(*device_, commandBuffer, groupsFor(push.instanceCount));
 }
 
 void BoundsPass::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {
-    push.maxGroups = maxGroups();
+    push.maxGroups = gpu::maxGroupsInX(*device_);
     bind(commandBuffer, list_, set, &push, sizeof(push));
     device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
 }
 
 void BoundsPass::recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, RatesPush push) const {
-    push.maxGroups = maxGroups();
+    push.maxGroups = gpu::maxGroupsInX(*device_);
     bind(commandBuffer, rates_, set, &push, sizeof(push));
     device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
 }

@@ -71,7 +71,7 @@ public:
     void recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::RatesPush push) const;
 
 private:
-    [[nodiscard]] uint32_t maxGroups() const;
+    [[nodiscard]] uint32_t groupsFor(uint32_t lanes) const;
     void bind(VkCommandBuffer commandBuffer, const gpu::PipelineHandle& pipeline, VkDescriptorSet set, const void* push,
               uint32_t bytes) const;
 

@@ -22,11 +22,11 @@ Result<Tables> buildScheme(const Recipe& recipe, const cage::Cage& cage) {
         if (!mesh) {
             return mesh.error();
         }
-        uint32_t most = 0;
+        SpokeLimits spokes;
         for (const pm::Sector& sector : mesh->sectors) {
-            most = std::max(most, sector.edges());
+            spokes.add(sector.vertex, sector.edges());
         }
-        const Status fits = spokesFit(mesh->slotSpokes.size(), most);
+        const Status fits = spokes.check();
         if (!fits) {
             return fits.error();
         }
@@ -61,11 +61,11 @@ Result<Tables> buildScheme(const Recipe& recipe, const cage::Cage& cage) {
     if (!accepted) {
         return accepted.error();
     }
-    uint32_t most = 0;
+    SpokeLimits spokes;
     for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
-        most = std::max(most, topology->spokeCount(v));
+        spokes.add(v, topology->spokeCount(v));
     }
-    const Status fits = spokesFit(topology->spokeVertices.size(), most);
+    const Status fits = spokes.check();
     if (!fits) {
         return fits.error();
     }

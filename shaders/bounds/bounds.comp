@@ -65,7 +65,7 @@ uint rankOf(vec3 low, vec3 high, uint priority) {
 }
 
 void store(uint entry, Box box) {
-    uint slot = entry & kInstanceSlotMask, priority = (entry >> kInstancePriorityShift) & 3u;
+    uint slot = entry & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(entry);
     precise vec3 grown = push.margin * (box.high - box.low);
     bool empty = box.low.x > box.high.x;
     precise vec3 low = empty ? box.low : box.low - grown;

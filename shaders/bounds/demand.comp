@@ -19,7 +19,7 @@ void main() {
     uint entry = hostEntry(push.firstEntry + index), slot = entry & kInstanceSlotMask;
     if (states[slot].y == 0u) return;
     atomicAdd(words[kLodRated], push.vertices[0]);
-    uint first = kLodRatedMore + ((entry >> kInstancePriorityShift) & 3u) * kRatedBins;
+    uint first = kLodRatedMore + SUPPLE_INSTANCE_PRIORITY(entry) * kRatedBins;
     float octave = log2(max(bounds[2u * slot].w, 1e-30));
     for (uint r = 1u; r < push.rateCount; ++r) {
         float at = (octave - log2(float(push.firstRate << (r - 1u)))) * float(kBinsPerOctave) + 1.0625;

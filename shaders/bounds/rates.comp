@@ -12,7 +12,7 @@ shared uint countsOf[kMaxRates * kMaxLanes];
 
 uint rateOf(uint entry) {
     float level = bounds[2u * (entry & kInstanceSlotMask)].w;
-    uint priority = (entry >> kInstancePriorityShift) & 3u, rate = 0u;
+    uint priority = SUPPLE_INSTANCE_PRIORITY(entry), rate = 0u;
     if (push.counted != 0u) level *= uintBitsToFloat(words[kLodSolution + 4u + priority]);
     while (rate + 1u < push.rateCount && float(push.firstRate << rate) < level) ++rate;
     return rate;

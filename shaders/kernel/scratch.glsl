@@ -1,6 +1,6 @@
 // Points of fragments in the scratch buffer, and the lane's place in its block (shared/kernel.h).
-layout(constant_id = 5) const uint kSource = kFromScratch;
-layout(constant_id = 6) const uint kKind = kInBulk;  // of work
+layout(constant_id = 5) const uint kSource = kFromScratch; // the level that is read
+layout(constant_id = 6) const uint kKind = kInBulk;        // of work
 
 layout(set = 0, binding = kScratchBinding, std430) buffer Scratch { vec4 scratch[]; };
 layout(set = 0, binding = kScratchTexelBinding) uniform samplerBuffer scratchTexels;

@@ -1,6 +1,6 @@
 // Levels of patches: the largest of a patch's edges and of what its inside asks for, counted into the histograms that the
-// budget is solved with (docs/lod.md, "Levels" and "The budget"); and whether they surely show their backs, which leaves them out of
-// everything. One invocation a patch and instance.
+// budget is solved with (docs/lod.md, "Levels" and "The budget"); and whether they surely show their backs, which leaves them
+// out of everything. One invocation a patch and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POOL_READ_ONLY
@@ -257,7 +257,7 @@ void main() {
     uint id = invocationIndex();
     if (id >= push.count * instanceCount()) return;
     uint entry = id / push.count, listed = instanceEntry(entry), patchIndex = id - entry * push.count;
-    uint instance = listed & kInstanceSlotMask, priority = (listed >> kInstancePriorityShift) & (kPriorityCount - 1u);
+    uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), base = instance * push.poolStride;
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
     uint run = push.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;

@@ -30,7 +30,7 @@ void main() {
     bool inside = id < total;
     id = min(id, total - 1u);
     uint entry = id / push.count, listed = instanceEntry(entry), patchIndex = id - entry * push.count;
-    uint instance = listed & kInstanceSlotMask, priority = (listed >> kInstancePriorityShift) & (kPriorityCount - 1u);
+    uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), at = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
     uint bin = levelWord(at);
     vec2 own = uintBitsToFloat(uvec2(levelWord(at + 1u), levelWord(at + 2u)));

@@ -12,7 +12,8 @@ struct InstanceMeasure {
     float bend = 0.0f;    ///< the largest second difference of a boundary cubic: that of the cage's vertices along an
                           ///< edge and on beyond its end, over 6, as of the uniform cubic B-spline
 };
-/// `halvings`: patches are those of the cage refined so many times.
-[[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings = 0);
+/// `halvings`: patches are those of the cage refined so many times. `charts`: of the blending surface, whose curves
+/// interpolate and bend unevenly.
+[[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings = 0, bool charts = false);
 
 } // namespace supple::surface::lod

@@ -2,8 +2,6 @@
 
 #include "shaders/shared/surface.h"
 
-#include <iterator>
-
 namespace supple::surface::lod {
 
 static_assert(sizeof(shared::LodPush) <= gpu::kPushConstantBytes);
@@ -19,25 +17,23 @@ Passes::Kernel Passes::patchKernel(const LodTables& tables, bool backFaces) {
 
 Status Passes::prepare(const gpu::ComputeLayout& layout, const LodTables& tables, bool backFaces) {
     layout_ = layout.pipelineLayout.get();
+    const gpu::Constant constants[] = {{gpu::kFirstPassConstant, tables.charts ? VK_TRUE : VK_FALSE},
+                                       {gpu::kFirstPassConstant + 1, backFaces ? VK_TRUE : VK_FALSE}};
     const struct {
         Kernel kernel;
         std::span<const uint32_t> spirv;
+        size_t constants; // as many of them as it has
         const char* name;
-    } sources[] = {{tables.charts ? kChartEdge : kEdge, shaders_.edge, "supple levels of edges"},
-                   {patchKernel(tables, backFaces), shaders_.patch, "supple levels of patches"},
-                   {kSolve, shaders_.solve, "supple level budget"},
-                   {kPlace, shaders_.place, "supple level places"}};
-    const gpu::Constant constants[] = {{gpu::kFirstPassConstant, tables.charts ? VK_TRUE : VK_FALSE},
-                                       {gpu::kFirstPassConstant + 1, backFaces ? VK_TRUE : VK_FALSE}};
-    for (const auto& [kernel, spirv, name] : sources) {
+    } sources[] = {{tables.charts ? kChartEdge : kEdge, shaders_.edge, 1, "supple levels of edges"},
+                   {patchKernel(tables, backFaces), shaders_.patch, 2, "supple levels of patches"},
+                   {kSolve, shaders_.solve, 0, "supple level budget"},
+                   {kPlace, shaders_.place, 0, "supple level places"}};
+    for (const auto& [kernel, spirv, constantCount, name] : sources) {
         // Groups of rates have no patches with levels; the view's budget is solved for them, too.
         const bool asked = kernel == kSolve || !tables.runs.empty();
         if (asked && pipelines_[kernel].get() == VK_NULL_HANDLE) {
-            const size_t used = kernel == kSolve || kernel == kPlace      ? 0
-                                : kernel == kEdge || kernel == kChartEdge ? 1
-                                                                          : std::size(constants);
             Result<gpu::PipelineHandle> pipeline =
-                gpu::createComputePipeline(*device_, layout, spirv, std::span(constants, used), name);
+                gpu::createComputePipeline(*device_, layout, spirv, std::span(constants).first(constantCount), name);
             if (!pipeline) {
                 return pipeline.error();
             }
