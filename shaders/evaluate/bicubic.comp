@@ -1,8 +1,8 @@
 // Evaluation of bicubic patches: regular, p-rep's with the sparse bi-5 perturbation (docs/prep.md), polar (docs/pm.md).
 // Coefficients are gathered from the pool by index. Narrow mapping: one lane a patch, everything in registers, rows collapsed
-// in v first. Wide mapping: a workgroup takes a few patches into shared memory, its lanes share the samples. Both use the functions
-// collapse() and finish(), so positions agree bit for bit. With level of detail samples lie where the patch's record says
-// instead of at i / rate (docs/lod.md).
+// in v first. Wide mapping: a workgroup takes a few patches into shared memory; its lanes share the columns of the rows to
+// collapse, some rows at a time, and then their samples. Both use the functions collapse...() and finish(), so positions agree
+// bit for bit. With level of detail samples lie where the patch's record says instead of at i / rate (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -44,31 +44,44 @@ struct Row {
     vec3 inner[2], innerV[2];
 };
 
-Row collapse(Patch c, vec2 v) {
-    Row row;
+// What column i of the coefficients gives to a row: points, and what derivatives come from.
+void collapseColumn(vec2 v, vec3 g[4], vec3 relative[4], out vec3 point, out vec3 fromFirst, out vec3 slope) {
     vec4 b = bernstein3(v);
-    vec3 d = derivativeWeights3(v);
     // Du of a polar patch has the factor 1 - v, which vanishes at the apex: it is left out.
     vec4 along = kPolar ? vec4(v.y * v.y, 3.0 * (v.x * v.y), 3.0 * (v.x * v.x), 0.0) : b;
+    precise vec3 p = sum4(b, g[0], g[1], g[2], g[3]);
+    point = p;
+    fromFirst = blend4(along, relative[0], relative[1], relative[2], relative[3]);
+    slope = blend3(derivativeWeights3(v), relative[1] - relative[0], relative[2] - relative[1], relative[3] - relative[2]);
+}
+
+// h: h_i2, h_i3 of i = 0, 1, 4, 5.
+void collapseOuter(vec2 v, vec3 h[2], out vec3 point, out vec3 slope) {
+    precise vec3 p = sum2(bernstein5(v).inner, h[0], h[1]);
+    point = p;
+    slope = blend2(bernsteinDerivative5(v).inner, h[0], h[1]);
+}
+// h: h_i0, h_i1, h_i4, h_i5 of i = 2, 3.
+void collapseInner(vec2 v, vec3 h[4], out vec3 point, out vec3 slope) {
+    precise vec3 p = sum4(bernstein5(v).outer, h[0], h[1], h[2], h[3]);
+    point = p;
+    slope = blend4(bernsteinDerivative5(v).outer, h[0], h[1], h[2], h[3]);
+}
+
+Row collapse(Patch c, vec2 v) {
+    Row row;
     vec3 relative[4];
-    for (uint i = 0u; i < 4u; ++i) {
-        precise vec3 g = sum4(b, c.g[i], c.g[4u + i], c.g[8u + i], c.g[12u + i]);
-        row.g[i] = g;
-        relative[i] = blend4(along, c.relative[i], c.relative[4u + i], c.relative[8u + i], c.relative[12u + i]);
-        row.gv[i] = blend3(d, c.relative[4u + i] - c.relative[i], c.relative[8u + i] - c.relative[4u + i],
-                           c.relative[12u + i] - c.relative[8u + i]);
-    }
+    for (uint i = 0u; i < 4u; ++i)
+        collapseColumn(v, vec3[4](c.g[i], c.g[4u + i], c.g[8u + i], c.g[12u + i]),
+                       vec3[4](c.relative[i], c.relative[4u + i], c.relative[8u + i], c.relative[12u + i]), row.g[i],
+                       relative[i], row.gv[i]);
     for (uint i = 0u; i < 3u; ++i) row.gu[i] = relative[i + 1u] - relative[i];
     if (kPerturbed) {
-        Basis5 b5 = bernstein5(v), d5 = bernsteinDerivative5(v);
-        for (uint i = 0u; i < 2u; ++i) {
-            row.inner[i] = sum4(b5.outer, c.h[4u * i], c.h[4u * i + 1u], c.h[4u * i + 2u], c.h[4u * i + 3u]);
-            row.innerV[i] = blend4(d5.outer, c.h[4u * i], c.h[4u * i + 1u], c.h[4u * i + 2u], c.h[4u * i + 3u]);
-        }
-        for (uint i = 0u; i < 4u; ++i) {
-            row.outer[i] = sum2(b5.inner, c.h[8u + 2u * i], c.h[9u + 2u * i]);
-            row.outerV[i] = blend2(d5.inner, c.h[8u + 2u * i], c.h[9u + 2u * i]);
-        }
+        for (uint i = 0u; i < 2u; ++i)
+            collapseInner(v, vec3[4](c.h[4u * i], c.h[4u * i + 1u], c.h[4u * i + 2u], c.h[4u * i + 3u]), row.inner[i],
+                          row.innerV[i]);
+        for (uint i = 0u; i < 4u; ++i)
+            collapseOuter(v, vec3[2](c.h[8u + 2u * i], c.h[9u + 2u * i]), row.outer[i], row.outerV[i]);
     }
     return row;
 }
@@ -216,15 +229,52 @@ void loadShared(uint place, uint k, uint record, uint base, bool today) {
         sharedCoefficients[to + 32u] = vec4(coefficient(base + perturbationIndex(tableElement(record + 2u), k), today), 0.0);
 }
 
-Patch sharedPatch(uint place) {
-    Patch c;
-    for (uint n = 0u; n < 16u; ++n) {
-        uint from = place * kSharedStride + n;
-        c.g[n] = sharedCoefficients[from].xyz;
-        c.relative[n] = sharedCoefficients[from + 16u].xyz;
-        if (kPerturbed) c.h[n] = sharedCoefficients[from + 32u].xyz;
+const uint kRowsAtOnce = kPerturbed ? 15u : 30u; // with the coefficients below 16 KiB, which every device has
+const uint kColumns = 4u * kRowsAtOnce;          // of a kind; of perturbations 4 outer ones and 4 with 2 inner ones follow
+shared vec4 sharedPoints[(kPerturbed ? 3u : 1u) * kColumns];
+shared vec4 sharedSlopes[(kPerturbed ? 4u : 2u) * kColumns]; // relative points and slopes; slopes of perturbations
+
+// Collapses a column of the patch in a place of the workgroup into column `to` of the shared ones.
+void collapseShared(uint to, uint place, uint i, vec2 v) {
+    vec3 g[4], relative[4], point, fromFirst, slope;
+    for (uint k = 0u; k < 4u; ++k) {
+        uint from = place * kSharedStride + 4u * k + i;
+        g[k] = sharedCoefficients[from].xyz;
+        relative[k] = sharedCoefficients[from + 16u].xyz;
     }
-    return c;
+    collapseColumn(v, g, relative, point, fromFirst, slope);
+    sharedPoints[to] = vec4(point, 0.0);
+    sharedSlopes[to] = vec4(fromFirst, 0.0);
+    sharedSlopes[kColumns + to] = vec4(slope, 0.0);
+    if (!kPerturbed) return;
+    uint from = place * kSharedStride + 32u;
+    vec3 two[2], four[4];
+    for (uint k = 0u; k < 2u; ++k) two[k] = sharedCoefficients[from + 8u + 2u * i + k].xyz;
+    collapseOuter(v, two, point, slope);
+    sharedPoints[kColumns + to] = vec4(point, 0.0);
+    sharedSlopes[2u * kColumns + to] = vec4(slope, 0.0);
+    if (i > 1u) return;
+    for (uint k = 0u; k < 4u; ++k) four[k] = sharedCoefficients[from + 4u * i + k].xyz;
+    collapseInner(v, four, point, slope);
+    sharedPoints[2u * kColumns + to] = vec4(point, 0.0);
+    sharedSlopes[3u * kColumns + to] = vec4(slope, 0.0);
+}
+
+Row sharedRow(uint slot) {
+    Row row;
+    for (uint i = 0u; i < 4u; ++i) {
+        uint from = 4u * slot + i;
+        row.g[i] = sharedPoints[from].xyz;
+        row.gv[i] = sharedSlopes[kColumns + from].xyz;
+        if (i < 3u) row.gu[i] = sharedSlopes[from + 1u].xyz - sharedSlopes[from].xyz;
+        if (!kPerturbed) continue;
+        row.outer[i] = sharedPoints[kColumns + from].xyz;
+        row.outerV[i] = sharedSlopes[2u * kColumns + from].xyz;
+        if (i > 1u) continue;
+        row.inner[i] = sharedPoints[2u * kColumns + from].xyz;
+        row.innerV[i] = sharedSlopes[3u * kColumns + from].xyz;
+    }
+    return row;
 }
 
 void evaluateWide() {
@@ -237,28 +287,34 @@ void evaluateWide() {
         loadShared(place, n - place * 16u, push.table + (id - entry * push.count) * recordElements(),
                    instance * push.poolStride, false);
     }
-    barrier();
-    uint samples = push.samples;
-    for (uint k = gl_LocalInvocationID.x; k < here * samples; k += gl_WorkGroupSize.x) {
-        uint place = k / samples, sampleIndex = k - place * samples;
-        uvec3 at = gridSample(kQuadDomain, push.rate, sampleIndex);
-        uint i = at.x, j = at.y;
-        uint id = first + place;
-        uint entry = id / push.count, instance = instanceSlot(entry);
-        uint patchIndex = id - entry * push.count;
-        Patch c = sharedPatch(place);
-        Row row = collapse(c, parameterPair(j, push.rate, push.pairs));
-        vec3 position, normal;
-        finish(row, parameterPair(i, push.rate, push.pairs), position, normal);
-        if (kPolar && j == push.rate) position = c.g[12];
-        if (kCornerNormals && !kInterior)
-            normal = cornerNormal(normal, i, j, push.rate, normalSlots(push.table + patchIndex * recordElements()),
-                                  instance * push.poolStride);
-        storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples + sampleIndex,
-                           position, normal);
+    uint inset = kInterior ? 1u : 0u, side = push.rate + 1u - 2u * inset, rows = here * side;
+    for (uint firstRow = 0u; firstRow < rows; firstRow += kRowsAtOnce) {
+        uint count = min(kRowsAtOnce, rows - firstRow);
+        barrier();
+        for (uint n = gl_LocalInvocationID.x; n < 4u * count; n += gl_WorkGroupSize.x) {
+            uint row = firstRow + n / 4u, place = row / side;
+            collapseShared(n, place, n & 3u, parameterPair(row - place * side + inset, push.rate, push.pairs));
+        }
+        barrier();
+        for (uint n = gl_LocalInvocationID.x; n < count * side; n += gl_WorkGroupSize.x) {
+            uint slot = n / side, row = firstRow + slot, place = row / side;
+            uint i = n - slot * side + inset, j = row - place * side + inset;
+            uint id = first + place;
+            uint entry = id / push.count, instance = instanceSlot(entry);
+            uint patchIndex = id - entry * push.count;
+            vec3 position, normal;
+            finish(sharedRow(slot), parameterPair(i, push.rate, push.pairs), position, normal);
+            if (kPolar && j == push.rate) position = sharedCoefficients[place * kSharedStride + 12u].xyz;
+            if (kCornerNormals && !kInterior)
+                normal = cornerNormal(normal, i, j, push.rate, normalSlots(push.table + patchIndex * recordElements()),
+                                      instance * push.poolStride);
+            uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
+            storeSurfaceVertex(vertex + (j - inset) * side + i - inset, position, normal);
+        }
     }
 }
 
+// A row has three slots: of the samples inside, and of those on the borders u = 0 and u = 1, which have levels of their own.
 void evaluateWideLod() {
     LodShare share = lodShareOfGroup(kLodQuadForm);
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 16u; n += gl_WorkGroupSize.x) {
@@ -268,23 +324,31 @@ void evaluateWideLod() {
             loadShared(place, n - place * 16u, push.table + (r.patchIndex - push.firstPatch) * recordElements(),
                        r.slot * push.poolStride, r.isNew);
     }
-    barrier();
-    for (uint k = gl_LocalInvocationID.x; k < share.recordCount * share.samples; k += gl_WorkGroupSize.x) {
-        uint place = k / share.samples, sampleIndex = k - place * share.samples;
-        LodRecord r = lodRecord(share.firstRecord + place);
-        uint side = r.capacity + 1u, j = sampleIndex / side, i = sampleIndex - j * side;
-        vec3 position = vec3(0.0), normal = vec3(0.0);
-        if (r.patchIndex != kEmptyRecord) {
-            Patch c = sharedPatch(place);
-            Row row = collapse(c, lodV(r, i, j));
-            finish(row, lodU(r, i, j), position, normal);
-            if (kPolar && j == r.capacity) position = c.g[12];
-            if (kCornerNormals)
-                normal = cornerNormal(normal, i, j, r.capacity,
-                                      normalSlots(push.table + (r.patchIndex - push.firstPatch) * recordElements()),
-                                      r.slot * push.poolStride);
+    uint side = share.side, rows = share.recordCount * side;
+    for (uint firstRow = 0u; firstRow < rows; firstRow += kRowsAtOnce / 3u) {
+        uint count = min(kRowsAtOnce / 3u, rows - firstRow);
+        barrier();
+        for (uint n = gl_LocalInvocationID.x; n < 12u * count; n += gl_WorkGroupSize.x) {
+            uint row = firstRow + n / 12u, place = row / side, column = n / 4u % 3u;
+            LodRecord r = lodRecord(share.firstRecord + place);
+            if (r.patchIndex != kEmptyRecord)
+                collapseShared(n, place, n & 3u, lodV(r, column == 0u ? 1u : column == 1u ? 0u : r.capacity, row - place * side));
         }
-        storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
+        barrier();
+        for (uint n = gl_LocalInvocationID.x; n < count * side; n += gl_WorkGroupSize.x) {
+            uint slot = n / side, row = firstRow + slot, place = row / side, i = n - slot * side, j = row - place * side;
+            LodRecord r = lodRecord(share.firstRecord + place);
+            vec3 position = vec3(0.0), normal = vec3(0.0);
+            if (r.patchIndex != kEmptyRecord) {
+                finish(sharedRow(3u * slot + (i == 0u ? 1u : i == r.capacity ? 2u : 0u)), lodU(r, i, j), position, normal);
+                if (kPolar && j == r.capacity) position = sharedCoefficients[place * kSharedStride + 12u].xyz;
+                if (kCornerNormals)
+                    normal = cornerNormal(normal, i, j, r.capacity,
+                                          normalSlots(push.table + (r.patchIndex - push.firstPatch) * recordElements()),
+                                          r.slot * push.poolStride);
+            }
+            storeSurfaceVertex(r.firstVertex + j * side + i, position, normal);
+        }
     }
 }
 

@@ -88,18 +88,20 @@ uint lodRecordOfLane() {
 
 // What a workgroup takes, in the wide mapping: some records of one bucket.
 struct LodShare {
-    uint firstRecord, recordCount, samples;
+    uint firstRecord, recordCount, samples, side;
 };
 LodShare lodShareOfGroup(uint form) {
     uint at = kLodDispatches + 8u * push.dispatch;
     uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = lodWord(at + 6u);
-    LodShare share = LodShare(0u, 0u, 1u);
+    LodShare share = LodShare(0u, 0u, 1u, 1u);
     if (workgroupIndex() >= lodWord(at + 7u)) return share;
     uint b = count - 1u; // the last bucket that begins at or before this group, and is not empty
     while (b > 0u && lodWord(kLodBuckets + 4u * (first + b) + 3u) > workgroupIndex()) --b;
     uint bucket = kLodBuckets + 4u * (first + b);
     uint next = b + 1u < count ? lodWord(bucket + 4u) : end;
-    share.samples = formSamples(form, capacityOf(b % kCapacityCount));
+    uint capacity = capacityOf(b % kCapacityCount);
+    share.samples = formSamples(form, capacity);
+    share.side = capacity + 1u; // of a grid of rows
     uint each = clamp(gl_WorkGroupSize.x / share.samples, 1u, kMaxPatchesPerGroup);
     share.firstRecord = lodWord(bucket) + (workgroupIndex() - lodWord(bucket + 3u)) * each;
     share.recordCount = share.firstRecord < next ? min(each, next - share.firstRecord) : 0u;
