@@ -64,6 +64,8 @@ shared::SurfacePush pushFor(const Tables& tables, const Section& section, const 
     push.poolStride = tables.poolStride;
     push.tangents = tables.tangents;
     push.faces = tables.faces;
+    push.inner = tables.inner;
+    push.edgeClasses = tables.edgeClasses;
     push.rate = evaluation.rate;
     push.patchCount = static_cast<uint32_t>(tables.patches.size());
     push.verticesPerInstance = evaluation.verticesPerInstance;

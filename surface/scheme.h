@@ -176,6 +176,8 @@ struct Tables {
     uint32_t poolStride = 0;     ///< coefficients an instance, padded so that instances start on 256 bytes
     uint32_t tangents = 0;       ///< first tangent in the pool
     uint32_t faces = 0;          ///< first face coefficient in the pool
+    uint32_t inner = 0;          ///< p-rep: first coefficient of the perturbed edges in the pool
+    uint32_t edgeClasses = 0;    ///< p-rep, P_m: first element of the weights that edges have in common
     uint32_t uvSets = 1;
     bool faceUvs = false;        ///< corners have a place in their face's trim tile (cage::Cage::cornerFaceUvs)
     uint32_t isolationSteps = 0; ///< patches are this many halvings smaller than the cage's faces

@@ -1,5 +1,6 @@
 #include "surface/shared_samples.h"
 
+#include "shaders/shared/pm.h"
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
 #include "surface/table_writer.h"
@@ -211,13 +212,15 @@ private:
         source.flags |= (edge & kReversedEdgeOfPatch) != 0 ? kSwappedEdge : 0;
     }
 
-    static void addSector(const uint32_t* record, uint32_t sides, uint32_t i, EdgeSource& source) {
+    void addSector(const uint32_t* record, uint32_t sides, uint32_t i, EdgeSource& source) const {
         const uint32_t next = (i + 1) % sides, last = (i + sides - 1) % sides;
-        const uint32_t inner = record[3] + 1; // b211, b121, b112 a sector
-        source.across = {record[4 * last + 2], inner + 3 * i, inner + 3 * i + 1, record[4 * next + 1]};
+        const uint32_t innerWord = record[SUPPLE_PM_INNER_WORD(sides)];
+        const uint32_t inner = SUPPLE_INNER(innerWord) + 1; // b211, b121, b112 a sector
+        source.across = {tables_.tangents + SUPPLE_NEXT_SPOKE(record[SUPPLE_PM_SPOKE_WORD(i)]), inner + 3 * i,
+                         inner + 3 * i + 1, tables_.tangents + SUPPLE_SPOKE(record[SUPPLE_PM_SPOKE_WORD(next)])};
         source.mixed = true;
         source.flags = sides;
-        if ((record[7] & 1u << i) != 0) {
+        if ((SUPPLE_SINGULAR(innerWord) & 1u << i) != 0) {
             source.flags |= kSingularEdge;
             source.extra = inner + 3 * last + 1;
         }

@@ -1,7 +1,6 @@
 // The vertex stage, as far as schemes share it: limit point, tangent points and face coefficients of a fan whose weights
-// depend on connectivity alone. Needs tables.glsl, pool.glsl, store.glsl, and from the scheme the ring:
-//   vec3 ringSpoke(uint words, uint k, uint cageBase)     far end of edge k
-//   vec3 ringDiagonal(uint words, uint k, uint cageBase, vec3 p0)   opposite corner of facet k, relative to p0
+// depend on connectivity alone. Needs tables.glsl, pool.glsl, store.glsl, ring.glsl, and from the scheme
+//   vec3 ringDiagonal(uint word, uint cageBase, vec3 p0)   opposite corner of a spoke's facet, relative to p0
 // Everything is summed over differences to the vertex: far from the origin that keeps the tangents, and with them the
 // normals, several times more exact. The weights of a point sum to 1 and those of a vector to 0, so that the centre's own
 // weight never appears.
@@ -24,11 +23,11 @@ void storeOffset(uint i, vec3 point, vec3 limit) {
 }
 
 // A closed fan of four: the uniform bicubic B-spline.
-void regularFan(uint limit, uint tangent, uint face, uint words, uint cageBase, vec3 p0) {
+void regularFan(uint limit, uint tangent, uint face, uvec4 words, uint cageBase, vec3 p0) {
     precise vec3 e[4], d[4];
     for (uint k = 0u; k < 4u; ++k) {
-        e[k] = ringSpoke(words, k, cageBase) - p0;
-        d[k] = ringDiagonal(words, k, cageBase, p0);
+        e[k] = ringSpoke(words[k], cageBase) - p0;
+        d[k] = ringDiagonal(words[k], cageBase, p0);
     }
     precise vec3 x = (4.0 * ((e[0] + e[2]) + (e[1] + e[3])) + ((d[0] + d[2]) + (d[1] + d[3]))) * (1.0 / 36.0);
     precise vec3 e1 = (4.0 * (e[0] - e[2]) + ((d[0] - d[2]) + (d[3] - d[1]))) * (1.0 / 36.0);
@@ -48,8 +47,9 @@ vec3 weightedFan(uint limit, uint tangent, uint face, uint words, uint cageBase,
     precise vec3 x = vec3(0.0), e1 = vec3(0.0), e2 = vec3(0.0);
     vec3 firstSpoke = vec3(0.0), lastSpoke = vec3(0.0);
     for (uint k = 0u; k < spokes; ++k) {
-        precise vec3 spoke = ringSpoke(words, k, cageBase) - p0;
-        precise vec3 diagonal = ringDiagonal(words, k, cageBase, p0);
+        uint word = tableWord(words + k);
+        precise vec3 spoke = ringSpoke(word, cageBase) - p0;
+        precise vec3 diagonal = ringDiagonal(word, cageBase, p0);
         vec4 a = uintBitsToFloat(tableElement(weights + 2u * k));
         vec4 b = uintBitsToFloat(tableElement(weights + 1u + 2u * k));
         x = x + (a.x * spoke + a.y * diagonal);
@@ -65,8 +65,9 @@ vec3 weightedFan(uint limit, uint tangent, uint face, uint words, uint cageBase,
         precise vec3 t = e1 * b.z + e2 * b.w;
         storePool(tangent + k, t);
         if (k < sectors) {
-            precise vec3 far = ringSpoke(words, k + 1u == spokes ? 0u : k + 1u, cageBase) - p0;
-            storeOffset(face + k, faceCoefficient(near, far, ringDiagonal(words, k, cageBase, p0)), x);
+            uint next = tableWord(words + (k + 1u == spokes ? 0u : k + 1u));
+            precise vec3 far = ringSpoke(next, cageBase) - p0;
+            storeOffset(face + k, faceCoefficient(near, far, ringDiagonal(tableWord(words + k), cageBase, p0)), x);
             near = far;
         }
     }
