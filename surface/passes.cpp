@@ -65,6 +65,8 @@ shared::SurfacePush pushFor(const Tables& tables, const Section& section, const 
     push.tangents = tables.tangents;
     push.faces = tables.faces;
     push.inner = tables.inner;
+    push.attributes = tables.attributes;
+    push.attributeHalves = tables.attributeHalves ? 1 : 0;
     push.edgeClasses = tables.edgeClasses;
     push.rate = evaluation.rate;
     push.patchCount = static_cast<uint32_t>(tables.patches.size());

@@ -109,7 +109,7 @@ struct PatchRange {
     PatchClass patchClass = PatchClass::regular;
     Section section;
     uint32_t firstPatch = 0;
-    uint32_t attributes = 0; ///< first element of the corner attributes
+    uint32_t attributes = 0; ///< first word of the corners' attribute numbers
 };
 
 /// Consecutive patches of one domain and material.
@@ -179,11 +179,13 @@ struct Tables {
     uint32_t inner = 0;          ///< p-rep: first coefficient of the perturbed edges in the pool
     uint32_t edgeClasses = 0;    ///< p-rep, P_m: first element of the weights that edges have in common
     uint32_t uvSets = 1;
-    bool faceUvs = false;        ///< corners have a place in their face's trim tile (cage::Cage::cornerFaceUvs)
-    uint32_t isolationSteps = 0; ///< patches are this many halvings smaller than the cage's faces
-    uint32_t rate = 0;           ///< segments along a patch edge that the tables are made for; 0: any
-    Fragments fragments;         ///< subdivision kernel only
-    bool cornerNormals = false;  ///< p-rep: some corner needs its stored normal (CornerRule::smooth)
+    bool faceUvs = false;         ///< corners have a place in their face's trim tile (cage::Cage::cornerFaceUvs)
+    uint32_t attributes = 0;      ///< first element of the corner attributes, all from there on
+    bool attributeHalves = false; ///< two attribute numbers a word
+    uint32_t isolationSteps = 0;  ///< patches are this many halvings smaller than the cage's faces
+    uint32_t rate = 0;            ///< segments along a patch edge that the tables are made for; 0: any
+    Fragments fragments;          ///< subdivision kernel only
+    bool cornerNormals = false;   ///< p-rep: some corner needs its stored normal (CornerRule::smooth)
     std::vector<Construction> constructions;
     std::vector<PatchRange> ranges;
     std::vector<PatchInfo> patches;

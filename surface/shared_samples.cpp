@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace supple::surface {
 
@@ -50,13 +51,15 @@ private:
     }
     [[nodiscard]] uint32_t cornerElements() const { return tables_.uvSets == 2 || tables_.faceUvs ? 2 : 1; }
     [[nodiscard]] uint32_t attributeElement(const PatchRange& range, uint32_t patch, uint32_t corner) const {
-        const uint32_t corners = cornerCount(domainOf(range.patchClass));
-        return range.attributes + cornerElements() * (corners * (patch - range.firstPatch) + corner);
+        const uint32_t at = cornerCount(domainOf(range.patchClass)) * (patch - range.firstPatch) + corner;
+        const uint32_t word = tables_.words[range.attributes + (tables_.attributeHalves ? at / 2 : at)];
+        const uint32_t number = !tables_.attributeHalves ? word : word >> 16 * (at % 2) & 0xFFFFu;
+        return tables_.attributes + cornerElements() * number;
     }
 
     /// Numbers corners and edges in the order in which patches come to them.
     void collect() {
-        std::map<std::array<uint32_t, 9>, uint32_t> corners;
+        std::map<std::pair<uint32_t, uint32_t>, uint32_t> corners; // by limit point and attributes
         std::map<BorderCurve, uint32_t> edges;
         for (const PatchRange& range : tables_.ranges) {
             const uint32_t sides = cornerCount(domainOf(range.patchClass));
@@ -64,11 +67,7 @@ private:
                 const std::vector<BorderCurve> curves = curvesOf(range, patch);
                 SharedTables::Patch& own = tables_.shared.patches.emplace_back();
                 for (uint32_t i = 0; i < sides; ++i) {
-                    std::array<uint32_t, 9> key{curves[i][0]};
-                    if (attributes_) {
-                        const uint32_t first = 4 * attributeElement(range, patch, i);
-                        std::copy_n(tables_.words.begin() + first, 4 * cornerElements(), key.begin() + 1);
-                    }
+                    const std::pair key(curves[i][0], attributes_ ? attributeElement(range, patch, i) : 0);
                     own.corners[i] = corners.try_emplace(key, static_cast<uint32_t>(corners.size())).first->second;
                 }
                 for (uint32_t i = 0; i < sides; ++i) {

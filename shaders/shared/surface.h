@@ -20,8 +20,10 @@
 //                    end and the facet's two other far corners, a quad's twice. The element is the first of a patch's record,
 //                    whose limit points are numbered as the cage's vertices are, or one of its own: of holes, and where a crease
 //                    gives a vertex several limit points. A fan's last spoke without a facet has the vertex for far corners
-//   attributes       one element a patch corner: (u, v, color as RG and BA in 16-bit unorm); with a second UV set or
-//                    face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
+//   attributes       one element for all corners that have the same: (u, v, color as RG and BA in 16-bit unorm); with a second
+//                    UV set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
+//   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every class
+//                    of patches begins an element
 //   shared edges     shared samples: three elements an edge, as one of its patches has it on its left: pool indices of the
 //                    border cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative
 //                    across is made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the
@@ -137,7 +139,7 @@ SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u; // wide mapping: what the shared m
 struct SurfacePush {
     uint count;         // elements an instance: vertices, edges, facets, patches or patch samples
     uint instanceCount; // of this window
-    uint table;         // first table element of the pass's records
+    uint table;         // first table element of the pass's records; attributes: first word of the numbers
     uint ring;          // first table word of the ring; blending surface: first element of the coordinates; attributes of
                         // shared samples: first element of the edge records
     uint cageStride;    // cage vertices an instance in the deformed cage
@@ -159,6 +161,8 @@ struct SurfacePush {
     uint dispatch;        // the view's dispatch (shared/lod.h)
     uint firstCorner;     // shared samples: the first at a corner, in the instance's surface vertices
     uint edgeClasses;     // construction: first table element of the edges' weights
+    uint attributes;      // first element of the corner attributes,
+    uint attributeHalves; // and 1 where a word holds the numbers of two
     uint inner;           // p-rep: first coefficient of the edges in the pool
 };
 
