@@ -195,12 +195,14 @@ Status Passes::makeConstruction(Kernel kernel) {
         const char* name;
     };
     constexpr Source kSources[] = {
-        {&Shaders::prepVertex, 1, "supple p-rep vertex, regular"},
-        {&Shaders::prepVertex, 0, "supple p-rep vertex"},
+        {&Shaders::prepVertex, kRegularFan, "supple p-rep vertex, regular"},
+        {&Shaders::prepVertex, kFewFan, "supple p-rep vertex"},
+        {&Shaders::prepVertex, kManyFan, "supple p-rep vertex, many spokes"},
         {&Shaders::prepEdge, 0, "supple p-rep edge"},
-        {&Shaders::pmVertex, kPmRegularSector, "supple P_m vertex, regular"},
-        {&Shaders::pmVertex, kPmSmoothSector, "supple P_m vertex"},
-        {&Shaders::pmVertex, kPmCreasedSector, "supple P_m vertex, creased"},
+        {&Shaders::pmVertex, kRegularFan, "supple P_m vertex, regular"},
+        {&Shaders::pmVertex, kFewFan, "supple P_m vertex"},
+        {&Shaders::pmVertex, kManyFan, "supple P_m vertex, many spokes"},
+        {&Shaders::pmVertex, kCreasedFan, "supple P_m vertex, creased"},
         {&Shaders::pmFacet, kPolarPatch, "supple P_m facet, polar"},
         {&Shaders::pmFacet, kP3Patch, "supple P_m facet, triangle"},
         {&Shaders::pmFacet, kP4Patch, "supple P_m facet, quad"},

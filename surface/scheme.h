@@ -73,10 +73,12 @@ enum class Kernel : uint32_t {
     // p-rep
     prepVertexRegular,
     prepVertex,
+    prepVertexMany,
     prepEdge,
     // P_m
     pmVertexRegular,
     pmVertex,
+    pmVertexMany,
     pmVertexCreased,
     pmPolar,
     pmFacet3,

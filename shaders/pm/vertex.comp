@@ -3,6 +3,7 @@
 // the sector's kind alone; creased sectors are computed as the equations stand.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_WRITE_ONLY
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
@@ -10,7 +11,7 @@
 #include "shaders/surface/cage.glsl"
 #include "shaders/shared/pm.h"
 
-layout(constant_id = 3) const uint kKind = kPmSmoothSector;
+layout(constant_id = 3) const uint kFan = kManyFan;
 
 #include "shaders/surface/ring.glsl"
 // Q_j = (p_3j+1 + p_3j+2) / 2; exact where the two are one vertex.
@@ -106,7 +107,7 @@ void main() {
     uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry), index = id - entry * push.count;
     uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
-    if (kKind == kPmRegularSector) {
+    if (kFan == kRegularFan) {
         uvec4 words = tableElement(push.ring / 4u + index);
         uint vertex = ringCorner(words.x, kRingVertex), slot = 4u * index;
         regularFan(base + vertex, base + push.tangents + slot, base + push.faces + slot, words, cageBase,
@@ -117,10 +118,10 @@ void main() {
     uint slot = tableWord(record), weights = tableWord(record + 1u), words = push.ring + slot;
     uint limit = base + tableWord(record + 2u), tangent = base + push.tangents + slot, face = base + push.faces + slot;
     vec3 p0 = ringPoint(tableWord(words), kRingVertex, cageBase);
-    if (kKind == kPmSmoothSector) {
+    if (kFan != kCreasedFan) {
         uint header = tableElement(weights).x;
         weightedFan(limit, tangent, face, words, cageBase, p0, weights + 1u, header & ~kOpenSector,
-                    (header & kOpenSector) != 0u);
+                    (header & kOpenSector) != 0u, kFan == kFewFan);
     } else {
         creasedFan(limit, tangent, face, words, cageBase, p0, weights);
     }

@@ -1,7 +1,9 @@
 // Vertex stage of p-rep: limit point, spoke tangents, face coefficients (SMI 2008, eqs. (2)-(4), corrected as docs/prep.md).
-// One invocation a cage vertex and instance. kRegular: interior vertices of valence 4, with the weights as constants.
+// One invocation a cage vertex and instance. Interior vertices of valence 4 have
+// their weights as constants.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_WRITE_ONLY
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
@@ -9,7 +11,7 @@
 #include "shaders/surface/cage.glsl"
 #include "shaders/shared/prep.h"
 
-layout(constant_id = 3) const uint kRegular = 0u;
+layout(constant_id = 3) const uint kFan = kManyFan;
 
 #include "shaders/surface/ring.glsl"
 vec3 ringDiagonal(uint word, uint cageBase, vec3 p0) {
@@ -22,7 +24,7 @@ void main() {
     uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry), index = id - entry * push.count;
     uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
-    if (kRegular != 0u) {
+    if (kFan == kRegularFan) {
         uvec4 words = tableElement(push.ring / 4u + index);
         uint vertex = ringCorner(words.x, kRingVertex), slot = 4u * index;
         regularFan(base + vertex, base + push.tangents + slot, base + push.faces + slot, words, cageBase,
@@ -37,6 +39,6 @@ void main() {
     bool boundary = (header & kBoundaryClass) != 0u;
     uint sectors = header & ~kBoundaryClass;
     vec3 normal = weightedFan(base + vertex, tangent, face, words, cageBase, cageVertex(cageBase + vertex), weights + 1u,
-                              sectors, boundary);
+                              sectors, boundary, kFan == kFewFan);
     if (boundary) pool[face + sectors] = vec4(normal, 0.0); // a normal, no position: shared/prep.h
 }

@@ -30,11 +30,6 @@
 
 SUPPLE_SHARED_BEGIN
 
-// Kinds of sectors: specialization of pm/vertex.comp.
-SUPPLE_SHARED_CONST kPmRegularSector = 0u; // closed, four facets, no crease
-SUPPLE_SHARED_CONST kPmSmoothSector = 1u;
-SUPPLE_SHARED_CONST kPmCreasedSector = 2u;
-
 SUPPLE_SHARED_CONST kOpenSector = 0x80000000u;
 SUPPLE_SHARED_CONST kCornerSector = 0x40000000u;
 SUPPLE_SHARED_CONST kPinnedSector = 0x20000000u; // moved so that v is the vertex

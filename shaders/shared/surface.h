@@ -96,6 +96,13 @@ SUPPLE_SHARED_CONST kMaxSpokeStep = 511u; // up or down
 SUPPLE_SHARED_CONST kPointBits = kSpokeBits - 1u;
 #define SUPPLE_POINT(word) ((word) & ((1u << kPointBits) - 1u))
 
+// Kinds of fans: specialization of the vertex stage. Creased ones are P_m's alone.
+SUPPLE_SHARED_CONST kRegularFan = 0u; // closed, four facets, no crease
+SUPPLE_SHARED_CONST kFewFan = 1u;     // up to kFewSpokes spokes
+SUPPLE_SHARED_CONST kManyFan = 2u;
+SUPPLE_SHARED_CONST kCreasedFan = 3u;
+SUPPLE_SHARED_CONST kFewSpokes = 6u;
+
 // Words of the ring.
 SUPPLE_SHARED_CONST kRingPlaceBits = 8u;
 SUPPLE_SHARED_CONST kRingVertex = 0u;

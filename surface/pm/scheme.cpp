@@ -29,7 +29,10 @@ Kernel sectorKernel(const Sector& sector) {
     if (sector.creased || sector.pinned) {
         return Kernel::pmVertexCreased;
     }
-    return sector.closed() && sector.facets == 4 ? Kernel::pmVertexRegular : Kernel::pmVertex;
+    if (sector.closed() && sector.facets == 4) {
+        return Kernel::pmVertexRegular;
+    }
+    return sector.edges() <= shared::kFewSpokes ? Kernel::pmVertex : Kernel::pmVertexMany;
 }
 
 class Builder {
@@ -180,7 +183,7 @@ private:
             const Sector& sector = mesh_.sectors[s];
             if (sectorKernel(sector) == Kernel::pmVertexCreased) {
                 weights[s] = writeCreasedWeights(sector);
-            } else if (sectorKernel(sector) == Kernel::pmVertex) {
+            } else if (sectorKernel(sector) != Kernel::pmVertexRegular) {
                 const auto [known, isNew] = smooth.try_emplace({sector.kind, sector.facets}, 0u);
                 if (isNew) {
                     known->second = writeSmoothWeights(sector);

@@ -123,16 +123,21 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
     ClassTable classes(topology, options);
     classes.write(writer, vertexCount);
 
-    Section regularVertices, otherVertices{writer.element(), 0};
     for (uint32_t v : order) {
-        if (std::get<0>(rank(v))) {
+        const uint32_t spokes = topology.spokeCount(v);
+        const bool regularFan = !std::get<0>(rank(v));
+        const Kernel kernel = regularFan                     ? Kernel::prepVertexRegular
+                              : spokes <= shared::kFewSpokes ? Kernel::prepVertex
+                                                             : Kernel::prepVertexMany;
+        if (t.constructions.empty() || t.constructions.back().kernel != kernel) {
+            t.constructions.push_back({Stage::vertex, kernel, {writer.element(), 0}, 0});
+        }
+        ++t.constructions.back().section.count;
+        t.constructions.back().coefficients += 1 + 2 * spokes;
+        if (!regularFan) {
             writer.put({slots[topology.spokeStarts[v]], classes.element(v)});
         }
-        (std::get<0>(rank(v)) ? otherVertices : regularVertices).count += 1;
     }
-    t.constructions.push_back({Stage::vertex, Kernel::prepVertexRegular, regularVertices, 9 * regularVertices.count});
-    const uint32_t otherCoefficients = vertexCount + 2 * spokeCount - 9 * regularVertices.count;
-    t.constructions.push_back({Stage::vertex, Kernel::prepVertex, otherVertices, otherCoefficients});
 
     // Edge classes, then edges.
     t.edgeClasses = writer.element();
