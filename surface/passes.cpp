@@ -208,6 +208,7 @@ Status Passes::makeConstruction(Kernel kernel) {
         {&Shaders::pmFacet, kP4Patch, "supple P_m facet, quad"},
         {&Shaders::pmFacet, kP5Patch, "supple P_m facet, pentagon"},
         {&Shaders::isolate, 0, "supple kernel, isolate"},
+        {&Shaders::isolate, 1, "supple kernel, isolate once more"},
         {&Shaders::blendChart, 0, "supple blend, chart"},
         {&Shaders::blendChart, 1, "supple blend, chart of a subdivided cage"},
     };

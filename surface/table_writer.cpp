@@ -50,6 +50,8 @@ void writeAttributes(const cage::Cage& cage, const std::vector<DraftPatch>& patc
     tables.attributes = writer.element();
     std::unordered_map<CornerWords, uint32_t, HashOfWords> known;
     std::vector<uint32_t> numbers; // patch by patch
+    known.reserve(cage.vertexCount());
+    numbers.reserve(cage.cornerCount());
     for (const DraftPatch& patch : patches) {
         for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
             const CornerWords words = attributesOf(patch.cageCorners[i]);
@@ -85,9 +87,12 @@ bool Tables::has(Stage stage) const {
 }
 
 void sortPatches(std::vector<DraftPatch>& patches) {
-    std::sort(patches.begin(), patches.end(), [](const DraftPatch& a, const DraftPatch& b) {
+    const auto before = [](const DraftPatch& a, const DraftPatch& b) {
         return std::tuple(a.info.patchClass, a.material, a.facet) < std::tuple(b.info.patchClass, b.material, b.facet);
-    });
+    };
+    if (!std::is_sorted(patches.begin(), patches.end(), before)) { // which they mostly are
+        std::sort(patches.begin(), patches.end(), before);
+    }
 }
 
 void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables) {
