@@ -1,5 +1,6 @@
 #include "surface/borders.h"
 
+#include "shaders/shared/pm.h"
 #include "shaders/shared/surface.h"
 
 #include <string>
@@ -38,7 +39,7 @@ std::array<uint32_t, 16> netIndices(const Tables& tables, const uint32_t* record
     const size_t polar = patchClass == PatchClass::polar ? 1 : 0;
     std::array<uint32_t, 16> indices{};
     for (uint32_t k = 0; k < 16; ++k) {
-        const uint32_t point = record[2 * kCorners[polar][k]], spoke = record[2 * kCorners[polar][k] + 1];
+        const uint32_t corner = kCorners[polar][k], point = record[corner], spoke = record[4 + corner];
         const uint32_t choices[] = {point, tables.tangents + SUPPLE_SPOKE(spoke),
                                     tables.tangents + SUPPLE_NEXT_SPOKE(spoke), tables.faces + SUPPLE_SPOKE(spoke),
                                     point + 1};
@@ -55,6 +56,10 @@ uint32_t recordElements(const Tables& tables, PatchClass patchClass) {
         return tables.cornerNormals ? 3 : 2;
     case PatchClass::perturbed:
         return tables.cornerNormals ? 4 : 3;
+    case PatchClass::p3:
+    case PatchClass::p4:
+    case PatchClass::p5:
+        return SUPPLE_PM_RECORD_ELEMENTS(cornerCount(domainOf(patchClass)));
     default:
         return cornerCount(domainOf(patchClass));
     }
@@ -69,12 +74,14 @@ std::vector<BorderCurve> borderCurves(const Tables& tables, const uint32_t* reco
                 {g(3, 3), g(2, 3), g(1, 3), g(0, 3)},
                 {g(0, 3), g(0, 2), g(0, 1), g(0, 0)}};
     }
+    using namespace shared;
     std::vector<BorderCurve> curves;
     const uint32_t sides = cornerCount(domainOf(patchClass));
+    const auto point = [&](uint32_t i) { return SUPPLE_POINT(record[SUPPLE_PM_POINT_WORD(i)]); };
     for (uint32_t i = 0; i < sides; ++i) {
-        const uint32_t* corner = record + size_t{4} * i;
-        const uint32_t* next = record + size_t{4} * ((i + 1) % sides);
-        curves.push_back({corner[0], corner[1], corner[2], next[0]});
+        const uint32_t next = (i + 1) % sides;
+        curves.push_back({point(i), tables.tangents + SUPPLE_SPOKE(record[SUPPLE_PM_SPOKE_WORD(i)]),
+                          tables.tangents + SUPPLE_NEXT_SPOKE(record[SUPPLE_PM_SPOKE_WORD(next)]), point(next)});
     }
     return curves;
 }

@@ -64,6 +64,10 @@ shared::SurfacePush pushFor(const Tables& tables, const Section& section, const 
     push.poolStride = tables.poolStride;
     push.tangents = tables.tangents;
     push.faces = tables.faces;
+    push.inner = tables.inner;
+    push.attributes = tables.attributes;
+    push.attributeHalves = tables.attributeHalves ? 1 : 0;
+    push.edgeClasses = tables.edgeClasses;
     push.rate = evaluation.rate;
     push.patchCount = static_cast<uint32_t>(tables.patches.size());
     push.verticesPerInstance = evaluation.verticesPerInstance;
@@ -191,12 +195,14 @@ Status Passes::makeConstruction(Kernel kernel) {
         const char* name;
     };
     constexpr Source kSources[] = {
-        {&Shaders::prepVertex, 1, "supple p-rep vertex, regular"},
-        {&Shaders::prepVertex, 0, "supple p-rep vertex"},
+        {&Shaders::prepVertex, kRegularFan, "supple p-rep vertex, regular"},
+        {&Shaders::prepVertex, kFewFan, "supple p-rep vertex"},
+        {&Shaders::prepVertex, kManyFan, "supple p-rep vertex, many spokes"},
         {&Shaders::prepEdge, 0, "supple p-rep edge"},
-        {&Shaders::pmVertex, kPmRegularSector, "supple P_m vertex, regular"},
-        {&Shaders::pmVertex, kPmSmoothSector, "supple P_m vertex"},
-        {&Shaders::pmVertex, kPmCreasedSector, "supple P_m vertex, creased"},
+        {&Shaders::pmVertex, kRegularFan, "supple P_m vertex, regular"},
+        {&Shaders::pmVertex, kFewFan, "supple P_m vertex"},
+        {&Shaders::pmVertex, kManyFan, "supple P_m vertex, many spokes"},
+        {&Shaders::pmVertex, kCreasedFan, "supple P_m vertex, creased"},
         {&Shaders::pmFacet, kPolarPatch, "supple P_m facet, polar"},
         {&Shaders::pmFacet, kP3Patch, "supple P_m facet, triangle"},
         {&Shaders::pmFacet, kP4Patch, "supple P_m facet, quad"},

@@ -73,10 +73,12 @@ enum class Kernel : uint32_t {
     // p-rep
     prepVertexRegular,
     prepVertex,
+    prepVertexMany,
     prepEdge,
     // P_m
     pmVertexRegular,
     pmVertex,
+    pmVertexMany,
     pmVertexCreased,
     pmPolar,
     pmFacet3,
@@ -111,7 +113,7 @@ struct PatchRange {
     PatchClass patchClass = PatchClass::regular;
     Section section;
     uint32_t firstPatch = 0;
-    uint32_t attributes = 0; ///< first element of the corner attributes
+    uint32_t attributes = 0; ///< first word of the corners' attribute numbers
 };
 
 /// Consecutive patches of one domain and material.
@@ -178,12 +180,16 @@ struct Tables {
     uint32_t poolStride = 0;     ///< coefficients an instance, padded so that instances start on 256 bytes
     uint32_t tangents = 0;       ///< first tangent in the pool
     uint32_t faces = 0;          ///< first face coefficient in the pool
+    uint32_t inner = 0;          ///< p-rep: first coefficient of the perturbed edges in the pool
+    uint32_t edgeClasses = 0;    ///< p-rep, P_m: first element of the weights that edges have in common
     uint32_t uvSets = 1;
-    bool faceUvs = false;        ///< corners have a place in their face's trim tile (cage::Cage::cornerFaceUvs)
-    uint32_t isolationSteps = 0; ///< patches are this many halvings smaller than the cage's faces
-    uint32_t rate = 0;           ///< segments along a patch edge that the tables are made for; 0: any
-    Fragments fragments;         ///< subdivision kernel only
-    bool cornerNormals = false;  ///< p-rep: some corner needs its stored normal (CornerRule::smooth)
+    bool faceUvs = false;         ///< corners have a place in their face's trim tile (cage::Cage::cornerFaceUvs)
+    uint32_t attributes = 0;      ///< first element of the corner attributes, all from there on
+    bool attributeHalves = false; ///< two attribute numbers a word
+    uint32_t isolationSteps = 0;  ///< patches are this many halvings smaller than the cage's faces
+    uint32_t rate = 0;            ///< segments along a patch edge that the tables are made for; 0: any
+    Fragments fragments;          ///< subdivision kernel only
+    bool cornerNormals = false;   ///< p-rep: some corner needs its stored normal (CornerRule::smooth)
     std::vector<Construction> constructions;
     std::vector<PatchRange> ranges;
     std::vector<PatchInfo> patches;

@@ -79,7 +79,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     }
     if (tables && !recipe.attributes && !tables->ranges.empty()) {
         // They come last (finishTables).
-        tables->words.resize(size_t{4} * tables->ranges.front().attributes);
+        tables->words.resize(size_t{4} * tables->attributes);
         for (PatchRange& range : tables->ranges) {
             range.attributes = 0;
         }

@@ -1,11 +1,13 @@
 #include "surface/shared_samples.h"
 
+#include "shaders/shared/pm.h"
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace supple::surface {
 
@@ -49,13 +51,15 @@ private:
     }
     [[nodiscard]] uint32_t cornerElements() const { return tables_.uvSets == 2 || tables_.faceUvs ? 2 : 1; }
     [[nodiscard]] uint32_t attributeElement(const PatchRange& range, uint32_t patch, uint32_t corner) const {
-        const uint32_t corners = cornerCount(domainOf(range.patchClass));
-        return range.attributes + cornerElements() * (corners * (patch - range.firstPatch) + corner);
+        const uint32_t at = cornerCount(domainOf(range.patchClass)) * (patch - range.firstPatch) + corner;
+        const uint32_t word = tables_.words[range.attributes + (tables_.attributeHalves ? at / 2 : at)];
+        const uint32_t number = !tables_.attributeHalves ? word : word >> 16 * (at % 2) & 0xFFFFu;
+        return tables_.attributes + cornerElements() * number;
     }
 
     /// Numbers corners and edges in the order in which patches come to them.
     void collect() {
-        std::map<std::array<uint32_t, 9>, uint32_t> corners;
+        std::map<std::pair<uint32_t, uint32_t>, uint32_t> corners; // by limit point and attributes
         std::map<BorderCurve, uint32_t> edges;
         for (const PatchRange& range : tables_.ranges) {
             const uint32_t sides = cornerCount(domainOf(range.patchClass));
@@ -63,11 +67,7 @@ private:
                 const std::vector<BorderCurve> curves = curvesOf(range, patch);
                 SharedTables::Patch& own = tables_.shared.patches.emplace_back();
                 for (uint32_t i = 0; i < sides; ++i) {
-                    std::array<uint32_t, 9> key{curves[i][0]};
-                    if (attributes_) {
-                        const uint32_t first = 4 * attributeElement(range, patch, i);
-                        std::copy_n(tables_.words.begin() + first, 4 * cornerElements(), key.begin() + 1);
-                    }
+                    const std::pair key(curves[i][0], attributes_ ? attributeElement(range, patch, i) : 0);
                     own.corners[i] = corners.try_emplace(key, static_cast<uint32_t>(corners.size())).first->second;
                 }
                 for (uint32_t i = 0; i < sides; ++i) {
@@ -211,13 +211,15 @@ private:
         source.flags |= (edge & kReversedEdgeOfPatch) != 0 ? kSwappedEdge : 0;
     }
 
-    static void addSector(const uint32_t* record, uint32_t sides, uint32_t i, EdgeSource& source) {
+    void addSector(const uint32_t* record, uint32_t sides, uint32_t i, EdgeSource& source) const {
         const uint32_t next = (i + 1) % sides, last = (i + sides - 1) % sides;
-        const uint32_t inner = record[3] + 1; // b211, b121, b112 a sector
-        source.across = {record[4 * last + 2], inner + 3 * i, inner + 3 * i + 1, record[4 * next + 1]};
+        const uint32_t innerWord = record[SUPPLE_PM_INNER_WORD(sides)];
+        const uint32_t inner = SUPPLE_INNER(innerWord) + 1; // b211, b121, b112 a sector
+        source.across = {tables_.tangents + SUPPLE_NEXT_SPOKE(record[SUPPLE_PM_SPOKE_WORD(i)]), inner + 3 * i,
+                         inner + 3 * i + 1, tables_.tangents + SUPPLE_SPOKE(record[SUPPLE_PM_SPOKE_WORD(next)])};
         source.mixed = true;
         source.flags = sides;
-        if ((record[7] & 1u << i) != 0) {
+        if ((SUPPLE_SINGULAR(innerWord) & 1u << i) != 0) {
             source.flags |= kSingularEdge;
             source.extra = inner + 3 * last + 1;
         }

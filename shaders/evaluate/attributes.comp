@@ -80,7 +80,11 @@ void loadCorner(inout Corners c, uint k, uint element) {
 }
 Corners loadCorners(uint patchIndex) {
     Corners c;
-    for (uint k = 0u; k < kCorners; ++k) loadCorner(c, k, push.table + cornerElements() * (kCorners * patchIndex + k));
+    for (uint k = 0u; k < kCorners; ++k) {
+        uint corner = kCorners * patchIndex + k, number = tableWord(push.table + (corner >> push.attributeHalves));
+        if (push.attributeHalves != 0u) number = number >> 16u * (corner & 1u) & 0xFFFFu;
+        loadCorner(c, k, push.attributes + cornerElements() * number);
+    }
     return c;
 }
 

@@ -60,10 +60,10 @@ vec2 bicubicLevels(vec3 g[16]) {
 float sectorLevel(uint record, uint sides, uint base) {
     vec3 corners[5], mean = vec3(0.0);
     for (uint i = 0u; i < sides; ++i) {
-        corners[i] = poolVector(base + tableElement(record + i).x);
+        corners[i] = poolVector(base + pointIndex(record, i));
         mean += corners[i] / float(sides);
     }
-    vec3 centre = poolVector(base + tableElement(record).w);
+    vec3 centre = poolVector(base + centreIndex(record, sides));
     float reach = 0.0;
     for (uint i = 0u; i < sides; ++i) reach = max(reach, lengthOf(corners[i] - centre));
     // A cubic's second differences b make a sag of 3/4 b.
@@ -221,11 +221,11 @@ bool sectorShowsBack(Sector s, float reach) {
 
 // Of a patch of sectors: by its corners alone, whether there is anything to it.
 bool mayShowBack(uint record, uint sides, uint base) {
-    vec3 centre = poolVector(base + tableElement(record).w), w = orthographic() ? camera() : centre - camera();
-    vec3 first = poolVector(base + tableElement(record).x) - centre, from = first;
+    vec3 centre = poolVector(base + centreIndex(record, sides)), w = orthographic() ? camera() : centre - camera();
+    vec3 first = poolVector(base + pointIndex(record, 0u)) - centre, from = first;
     bool may = true;
     for (uint i = 1u; i <= sides; ++i) {
-        vec3 to = i == sides ? first : poolVector(base + tableElement(record + i).x) - centre;
+        vec3 to = i == sides ? first : poolVector(base + pointIndex(record, i)) - centre;
         may = may && dot(w, cross(from, to)) > 0.0;
         from = to;
     }

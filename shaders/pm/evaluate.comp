@@ -20,6 +20,7 @@
 // Samples of a sector lie in rows parallel to its edge, kRowStep / rate of the way to the centre apart.
 const uint kRowStep = kClass == kP5Patch ? 1u : kClass == kP4Patch ? 2u : 3u;
 const vec2 kRay = vec2(kRayMiddle, kRaySide);
+const uint kElements = SUPPLE_PM_RECORD_ELEMENTS(kSides);
 const uint kSectorPoints = 20u; // centre, border[4], c[15]
 
 // Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
@@ -148,12 +149,12 @@ void evaluateNarrow() {
     uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint patchIndex = id - entry * push.count;
-    uint record = push.table + kSides * patchIndex, base = instance * push.poolStride;
+    uint record = push.table + kElements * patchIndex, base = instance * push.poolStride;
     uint samples = push.samples;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
-    uint singular = tableElement(record + 1u).w, inner = centreIndex(record, base);
+    uint innerBits = innerWord(record, kSides), singular = SUPPLE_SINGULAR(innerBits), inner = base + SUPPLE_INNER(innerBits);
     vec3 centre = coefficient(inner, false);
-    SectorSide own = loadSide(record, base, inner, kSides - 1u, false), next = loadSide(record, base, inner, 0u, false);
+    SectorSide own = loadSide(kSides, record, base, inner, kSides - 1u, false), next = loadSide(kSides, record, base, inner, 0u, false);
     // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do. All lanes go
     // round equally often. The centre is sector 0's, which therefore comes last.
     Sector s;
@@ -161,7 +162,7 @@ void evaluateNarrow() {
     uint sector = kSides;
     do {
         --sector;
-        SectorSide last = loadSide(record, base, inner, sector == 0u ? kSides - 1u : sector - 1u, false);
+        SectorSide last = loadSide(kSides, record, base, inner, sector == 0u ? kSides - 1u : sector - 1u, false);
         s = makeSector(kRay, centre, last, own, next);
         if (!kInterior) {
             Border border = makeBorder(s, last, own, next, (singular & (1u << sector)) != 0u);
@@ -196,14 +197,14 @@ void evaluateNarrowLod() {
     LodRecord r = lodRecord(lodRecordOfLane());
     bool empty = r.patchIndex == kEmptyRecord;
     uint last = r.capacity, rings = (last + 1u) / 2u;
-    uint record = push.table + kSides * (empty ? 0u : r.patchIndex - push.firstPatch);
+    uint record = push.table + kElements * (empty ? 0u : r.patchIndex - push.firstPatch);
     uint base = empty ? 0u : r.slot * push.poolStride;
-    uint singular = tableElement(record + 1u).w, inner = centreIndex(record, base);
+    uint innerBits = innerWord(record, kSides), singular = SUPPLE_SINGULAR(innerBits), inner = base + SUPPLE_INNER(innerBits);
     vec3 centre = coefficient(inner, r.isNew);
-    SectorSide before = loadSide(record, base, inner, kSides - 1u, r.isNew), own = loadSide(record, base, inner, 0u, r.isNew);
+    SectorSide before = loadSide(kSides, record, base, inner, kSides - 1u, r.isNew), own = loadSide(kSides, record, base, inner, 0u, r.isNew);
     LodPattern inside = lodPattern(r.pairs[0], r.capacityIndex);
     for (uint sector = 0u; sector < kSides; ++sector) {
-        SectorSide next = loadSide(record, base, inner, sector + 1u == kSides ? 0u : sector + 1u, r.isNew);
+        SectorSide next = loadSide(kSides, record, base, inner, sector + 1u == kSides ? 0u : sector + 1u, r.isNew);
         Sector s = makeSector(kRay, centre, before, own, next);
         Border border = makeBorder(s, before, own, next, (singular & (1u << sector)) != 0u);
         LodPattern side = lodPattern(r.pairs[1u + sector], r.capacityIndex);
@@ -254,7 +255,7 @@ void evaluateWide() {
     for (uint n = gl_LocalInvocationID.x; n < here * kSides; n += gl_WorkGroupSize.x) {
         uint slot = n / kSides, id = first + slot;
         uint entry = id / push.count, instance = instanceSlot(entry);
-        uint record = push.table + kSides * (id - entry * push.count);
+        uint record = push.table + kElements * (id - entry * push.count);
         storeShared(n, loadSector(kSides, kRay, record, instance * push.poolStride, n - slot * kSides, false));
     }
     barrier();
@@ -266,7 +267,7 @@ void evaluateWide() {
         uint patchIndex = id - entry * push.count;
         uvec3 at = sectorOf(sampleIndex);
         Sector s = sharedSector(slot * kSides + at.z);
-        uint singular = tableElement(push.table + kSides * patchIndex + 1u).w;
+        uint singular = SUPPLE_SINGULAR(innerWord(push.table + kElements * patchIndex, kSides));
         vec3 position, normal;
         bool step = at.x == 0u && at.y == 0u && (singular & (1u << at.z)) != 0u;
         finish(s, weightsAtRate(at.x, at.y), at.y == 0u, parameterPair(at.x, push.rate, push.pairs), step, position, normal);
@@ -282,7 +283,7 @@ void evaluateWideLod() {
         uint place = n / kSides;
         LodRecord r = lodRecord(share.firstRecord + place);
         if (r.patchIndex != kEmptyRecord)
-            storeShared(n, loadSector(kSides, kRay, push.table + kSides * (r.patchIndex - push.firstPatch),
+            storeShared(n, loadSector(kSides, kRay, push.table + kElements * (r.patchIndex - push.firstPatch),
                                       r.slot * push.poolStride, n - place * kSides, r.isNew));
     }
     barrier();
@@ -292,7 +293,7 @@ void evaluateWideLod() {
         vec3 position = vec3(0.0), normal = vec3(0.0);
         if (r.patchIndex != kEmptyRecord) {
             RingSample at = ringSample(kSides, r.capacity, sampleIndex);
-            uint singular = tableElement(push.table + kSides * (r.patchIndex - push.firstPatch) + 1u).w;
+            uint singular = SUPPLE_SINGULAR(innerWord(push.table + kElements * (r.patchIndex - push.firstPatch), kSides));
             vec2 along;
             vec3 w = ringWeights(r, at, along);
             bool step = at.ring == 0u && at.k == 0u && (singular & (1u << at.side)) != 0u;

@@ -8,43 +8,49 @@
 #include "shaders/surface/pool.glsl"
 #include "shaders/surface/store.glsl"
 #include "shaders/pm/pm.glsl"
+#include "shaders/pm/record.glsl"
 
 void polarFacet(uint record, uint base) {
-    uvec4 points = base + tableElement(record);
-    vec4 w = uintBitsToFloat(tableElement(record + 1u));
-    vec3 h02 = poolVector(points.y), h32 = poolVector(points.z);
+    uvec4 points = tableElement(record), spokes = tableElement(record + 1u);
+    vec4 w = uintBitsToFloat(tableElement(spokes.w));
+    uint tangents = base + push.tangents, target = base + points.w;
+    vec3 h02 = poolVector(tangents + SUPPLE_SPOKE(spokes.z)), h32 = poolVector(tangents + SUPPLE_NEXT_SPOKE(spokes.z));
     precise float scale = 1.0 / (2.0 + w.x);
     precise vec3 h12 = (2.0 * h02 + h32) * scale, h22 = (h02 + 2.0 * h32) * scale;          // (18)
     precise vec3 creased12 = w.y * h12 + (1.0 - w.y) * h02, creased22 = w.z * h22 + (1.0 - w.z) * h32; // (19)
-    storePool(points.w, creased12);
-    storePool(points.w + 1u, creased22);
+    storePool(target, creased12);
+    storePool(target + 1u, creased22);
 }
 
 void innerFacet(uint record, uint base) {
     const uint m = kSides;
-    vec3 origin = poolVector(base + tableElement(record).x);
+    vec3 origin = poolVector(base + pointIndex(record, 0u));
     vec3 v[kSides];
     vec3 t0[kSides], t1[kSides];    // from v_i
     vec3 own[kSides], back[kSides]; // f - f_across over edge i and over edge i - 1, or f - t where the edge ends the sector
     uint edgeClass[kSides];
     precise vec3 centre = vec3(0.0);
-    uint target = 0u;
+    uint tangents = base + push.tangents, faces = base + push.faces;
+    uint target = base + SUPPLE_INNER(innerWord(record, m));
     for (uint i = 0u; i < m; ++i) {
-        uvec4 points = tableElement(record + 2u * i), across = tableElement(record + 2u * i + 1u);
-        precise vec3 vi = poolVector(base + points.x) - origin;
-        vec3 a = poolVector(base + points.y), b = poolVector(base + points.z), f = poolVector(base + points.w);
-        vec3 fa = poolVector(base + across.x), fb = poolVector(base + across.y);
+        uint point = pointWord(record, i), spoke = SUPPLE_SPOKE(spokeWord(record, i));
+        uint behind = SUPPLE_NEXT_SPOKE(spokeWord(record, i));
+        int step = SUPPLE_ACROSS_STEP(point);
+        bool ends = step == 0, endsBehind = (point & kEndsBehind) != 0u;
+        precise vec3 vi = poolVector(base + SUPPLE_POINT(point)) - origin;
+        vec3 a = poolVector(tangents + spoke), b = poolVector(tangents + behind), f = poolVector(faces + spoke);
+        vec3 fa = poolVector(ends ? tangents + spoke : faces + uint(int(spoke) + step));
+        vec3 fb = poolVector((endsBehind ? tangents : faces) + behind);
         precise vec3 ea = (f + fa) * 0.5, eb = (f + fb) * 0.5;
-        if (across.x == points.y) ea = a;
-        if (across.y == points.z) eb = b;
+        if (ends) ea = a;
+        if (endsBehind) eb = b;
         centre = centre + ((kCentreWeight + 15.0) * vi + (3.0 * (ea + eb) + 9.0 * f)); // (20)
         v[i] = vi;
         t0[i] = a;
         t1[i] = b;
         own[i] = f - fa;
         back[i] = f - fb;
-        edgeClass[i] = across.z;
-        target = base + across.w;
+        edgeClass[i] = push.edgeClasses + 2u * SUPPLE_EDGE_CLASS(classWord(record, m, i), i);
     }
     precise vec3 b004 = centre * kCentreScale;
     precise vec3 centrePoint = origin + b004;
@@ -94,5 +100,5 @@ void main() {
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint facet = id - entry * push.count, base = instance * push.poolStride;
     if (kClass == kPolarPatch) polarFacet(push.table + 2u * facet, base);
-    else innerFacet(push.table + 2u * kSides * facet, base);
+    else innerFacet(push.table + SUPPLE_PM_RECORD_ELEMENTS(kSides) * facet, base);
 }

@@ -6,6 +6,7 @@
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/pm/pm.glsl"
+#include "shaders/pm/record.glsl"
 
 layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer PatchCoefficients { vec4 coefficients[]; };
 
@@ -13,18 +14,18 @@ void main() {
     uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
     uint patchIndex = id - entry * push.count, base = instance * push.poolStride;
-    uint record = push.table + kSides * patchIndex;
+    uint record = push.table + SUPPLE_PM_RECORD_ELEMENTS(kSides) * patchIndex;
     uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
-    uint inner = base + tableElement(record).w;
+    uint inner = base + centreIndex(record, kSides), tangents = base + push.tangents;
     vec3 centre = poolVector(inner);
     coefficients[target] = vec4(centre, 0.0);
     for (uint i = 0u; i < kSides; ++i) {
-        uvec4 border = base + tableElement(record + i);
+        uint n = (i + 1u) % kSides;
         uint to = target + 1u + 6u * i, from = inner + 1u + 3u * i;
-        vec3 v = poolVector(border.x), next = poolVector(base + tableElement(record + (i + 1u) % kSides).x);
+        vec3 v = poolVector(base + pointIndex(record, i)), next = poolVector(base + pointIndex(record, n));
         coefficients[to] = vec4(v, 0.0);
-        coefficients[to + 1u] = vec4(v + poolVector(border.y), 0.0);
-        coefficients[to + 2u] = vec4(next + poolVector(border.z), 0.0);
+        coefficients[to + 1u] = vec4(v + poolVector(tangents + SUPPLE_SPOKE(spokeWord(record, i))), 0.0);
+        coefficients[to + 2u] = vec4(next + poolVector(tangents + SUPPLE_NEXT_SPOKE(spokeWord(record, n))), 0.0);
         coefficients[to + 3u] = vec4(v + poolVector(from), 0.0);
         coefficients[to + 4u] = vec4(next + poolVector(from + 1u), 0.0);
         coefficients[to + 5u] = vec4(centre + poolVector(from + 2u), 0.0);

@@ -3,6 +3,7 @@
 // the sector's kind alone; creased sectors are computed as the equations stand.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_WRITE_ONLY
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
@@ -10,13 +11,13 @@
 #include "shaders/surface/cage.glsl"
 #include "shaders/shared/pm.h"
 
-layout(constant_id = 3) const uint kKind = kPmSmoothSector;
+layout(constant_id = 3) const uint kFan = kManyFan;
 
-vec3 ringSpoke(uint words, uint k, uint cageBase) { return cageVertex(cageBase + tableWord(words + 3u * k)); }
+#include "shaders/surface/ring.glsl"
 // Q_j = (p_3j+1 + p_3j+2) / 2; exact where the two are one vertex.
-vec3 ringDiagonal(uint words, uint k, uint cageBase, vec3 p0) {
-    precise vec3 a = cageVertex(cageBase + tableWord(words + 3u * k + 1u)) - p0;
-    precise vec3 b = cageVertex(cageBase + tableWord(words + 3u * k + 2u)) - p0;
+vec3 ringDiagonal(uint word, uint cageBase, vec3 p0) {
+    precise vec3 a = ringPoint(word, kRingFarCorner, cageBase) - p0;
+    precise vec3 b = ringPoint(word, kRingOtherCorner, cageBase) - p0;
     precise vec3 d = (a + b) * 0.5;
     return d;
 }
@@ -41,7 +42,8 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
     float firstAlpha = 0.0, lastAlpha = 0.0;
     for (uint k = 0u; k <= facets; ++k) { // a closed sector's last round is its first edge again
         uint j = k < edges ? k : 0u;
-        precise vec3 spoke = ringSpoke(words, j, cageBase) - p0;
+        uint word = tableWord(words + j);
+        precise vec3 spoke = ringSpoke(word, cageBase) - p0;
         vec4 w = uintBitsToFloat(tableElement(weights + 1u + j));
         if (k == 0u) {
             firstSpoke = spoke;
@@ -61,7 +63,7 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
             lastFace = f;
         }
         lastSpoke = spoke;
-        lastDiagonal = ringDiagonal(words, j, cageBase, p0);
+        lastDiagonal = ringDiagonal(word, cageBase, p0);
         lastAlpha = w.x;
     }
     precise vec3 x, e1, e2;
@@ -86,9 +88,10 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
         storePool(tangent + k, t);
         if (k < facets) { // once more: v was not known above
             uint n = k + 1u == edges ? 0u : k + 1u;
-            precise vec3 far = ringSpoke(words, n, cageBase) - p0;
+            precise vec3 far = ringSpoke(tableWord(words + n), cageBase) - p0;
             float next = uintBitsToFloat(tableElement(weights + 1u + n).x);
-            storeOffset(face + k, creasedFace(w.x, next, near, far, ringDiagonal(words, k, cageBase, p0)), x);
+            vec3 diagonal = ringDiagonal(tableWord(words + k), cageBase, p0);
+            storeOffset(face + k, creasedFace(w.x, next, near, far, diagonal), x);
             near = far;
         }
     }
@@ -102,19 +105,24 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
 
 void main() {
     uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uvec4 record = tableElement(push.table + (id - entry * push.count));
+    uint entry = id / push.count, instance = instanceSlot(entry), index = id - entry * push.count;
     uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
-    uint words = push.ring + 3u * record.y;
-    uint limit = base + record.w, tangent = base + push.tangents + record.y, face = base + push.faces + record.y;
-    vec3 p0 = cageVertex(cageBase + record.x);
-    if (kKind == kPmRegularSector) {
-        regularFan(limit, tangent, face, words, cageBase, p0);
-    } else if (kKind == kPmSmoothSector) {
-        uint header = tableElement(record.z).x;
-        weightedFan(limit, tangent, face, words, cageBase, p0, record.z + 1u, header & ~kOpenSector,
-                    (header & kOpenSector) != 0u);
+    if (kFan == kRegularFan) {
+        uvec4 words = tableElement(push.ring / 4u + index);
+        uint vertex = ringCorner(words.x, kRingVertex), slot = 4u * index;
+        regularFan(base + vertex, base + push.tangents + slot, base + push.faces + slot, words, cageBase,
+                   cageVertex(cageBase + vertex));
+        return;
+    }
+    uint record = 4u * push.table + 3u * index;
+    uint slot = tableWord(record), weights = tableWord(record + 1u), words = push.ring + slot;
+    uint limit = base + tableWord(record + 2u), tangent = base + push.tangents + slot, face = base + push.faces + slot;
+    vec3 p0 = ringPoint(tableWord(words), kRingVertex, cageBase);
+    if (kFan != kCreasedFan) {
+        uint header = tableElement(weights).x;
+        weightedFan(limit, tangent, face, words, cageBase, p0, weights + 1u, header & ~kOpenSector,
+                    (header & kOpenSector) != 0u, kFan == kFewFan);
     } else {
-        creasedFan(limit, tangent, face, words, cageBase, p0, record.z);
+        creasedFan(limit, tangent, face, words, cageBase, p0, weights);
     }
 }

@@ -6,6 +6,7 @@
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/surface/store.glsl"
+#include "shaders/shared/prep.h"
 
 // Relative to A, which keeps cancellation small: the weights of a row sum to zero (SA and SB are sums of two points), so
 // that the weight of A itself never appears.
@@ -17,19 +18,21 @@ vec3 weighted(float w[6], vec3 tA, vec3 tB, vec3 B, vec3 SA, vec3 SB) {
 void main() {
     uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
-    uint record = push.table + 3u * (id - entry * push.count);
-    uint base = instance * push.poolStride;
-    uvec4 curve = base + tableElement(record);
-    uvec4 sums = base + tableElement(record + 1u);
-    uvec4 edge = tableElement(record + 2u);
+    uint index = id - entry * push.count;
+    uvec4 record = tableElement(push.table + index); // A, its spoke, B, its spoke
+    uint base = instance * push.poolStride, tangents = base + push.tangents, faces = base + push.faces;
+    uint weights = push.edgeClasses + kEdgeClassElements * SUPPLE_PREP_EDGE_CLASS(record.x, record.z);
+    uint target = base + push.inner + 4u * index;
 
-    vec3 tA = poolVector(curve.y);
-    precise vec3 B = poolVector(curve.w) - poolVector(curve.x), tB = B + poolVector(curve.z);
-    precise vec3 SA = poolVector(sums.x) + poolVector(sums.y);
-    precise vec3 SB = (B + poolVector(sums.z)) + (B + poolVector(sums.w));
+    vec3 tA = poolVector(tangents + SUPPLE_SPOKE(record.y));
+    precise vec3 B = poolVector(base + SUPPLE_POINT(record.z)) - poolVector(base + SUPPLE_POINT(record.x));
+    precise vec3 tB = B + poolVector(tangents + SUPPLE_SPOKE(record.w));
+    precise vec3 SA = poolVector(faces + SUPPLE_SPOKE(record.y)) + poolVector(faces + SUPPLE_NEXT_SPOKE(record.y));
+    precise vec3 SB =
+        (B + poolVector(faces + SUPPLE_NEXT_SPOKE(record.w))) + (B + poolVector(faces + SUPPLE_SPOKE(record.w)));
     vec4 w[6];
-    for (uint k = 0u; k < 6u; ++k) w[k] = uintBitsToFloat(tableElement(edge.y + k));
+    for (uint k = 0u; k < 6u; ++k) w[k] = uintBitsToFloat(tableElement(weights + k));
     for (uint row = 0u; row < 4u; ++row)
-        storePool(base + edge.x + row,
+        storePool(target + row,
                   weighted(float[6](w[0][row], w[1][row], w[2][row], w[3][row], w[4][row], w[5][row]), tA, tB, B, SA, SB));
 }

@@ -5,37 +5,54 @@
 // each), then what the facet stage adds: polar patches h12, h22; P_m patches b004, then b211 b121 b112 a sector.
 //
 // Tables
-//   sector records   (cage vertex, first slot, element of the weights, sector): regular, then smooth, then creased ones
-//   ring             three words a slot: far end of edge j, the two far corners of facet j (a quad's twice; a triangle's two
-//                    edge ends); at an open sector's last slot the vertex itself
+// Limit points are numbered as the cage's vertices are, a vertex's first sector with its vertex; other sectors' come behind.
+//   ring             see shared/surface.h; regular sectors come first and have nothing else; of a triangle the far corners are
+//                    its two edges' ends
+//   sector records   of all others three words, one behind the other: first slot, element of the weights, limit point; smooth,
+//                    then creased ones
 //   smooth weights   (facets | kOpenSector, 0, 0, 0), then two elements a slot: (limitEdge, limitFace, e1Edge, e1Face),
 //                    (e2Edge, e2Face, cosine, sine); one a kind and count of facets
 //   creased weights  (facets | kOpenSector | kCornerSector | kPinnedSector, limit scale, tangent scale, 0), then one element a slot:
 //                    (alpha, cosine, sine, 0); one a sector
-//   polar facets     two elements: pool indices (v, h02, h32, h12), (c, 3/2 alpha of h02, 3/2 alpha of h32, 0)
-//   P_m facets       two elements a corner i: pool indices (v_i, t0, t1, f), (f across edge i, f across edge i - 1,
-//                    edge class element, b004); where an edge ends the sector, `across` is its tangent point
+//   apex classes     (c, 3/2 alpha of h02, 3/2 alpha of h32, 0); polar patches have the element as their fourth spoke
 //   edge classes     two elements (20): (chi0 / 4 mu, (2 mu - chi1) / 8 mu, factor of f - f_across at v_0, same at v_1),
 //                    (chi1 / 4 mu, (2 mu - chi0) / 8 mu, 0, 0)
-//   P_m patches      one element a corner i: pool indices (v_i, t0, t1 of corner i + 1, x); x is b004 for i = 0, and for
-//                    i = 1 a bit a corner whose normal is taken a step inside
+//   P_m patches      m - 1 elements, words as the macros below say: of every corner its limit point and its spoke, as in the
+//                    records of bicubic patches; b004, and in the bits above one a corner whose normal is taken a step inside;
+//                    the numbers of the edges' classes, three a word.
+//                    With the limit point: whether the edge to the last corner ends the sector, and the step from the spoke
+//                    to the one whose facet lies across the edge to the next corner, 0 where that edge ends the sector
 #ifndef SUPPLE_SHARED_PM_H
 #define SUPPLE_SHARED_PM_H
 
 #include "shaders/shared/portable.h"
+#include "shaders/shared/surface.h"
 
 SUPPLE_SHARED_BEGIN
-
-// Kinds of sectors: specialization of pm/vertex.comp.
-SUPPLE_SHARED_CONST kPmRegularSector = 0u; // closed, four facets, no crease
-SUPPLE_SHARED_CONST kPmSmoothSector = 1u;
-SUPPLE_SHARED_CONST kPmCreasedSector = 2u;
 
 SUPPLE_SHARED_CONST kOpenSector = 0x80000000u;
 SUPPLE_SHARED_CONST kCornerSector = 0x40000000u;
 SUPPLE_SHARED_CONST kPinnedSector = 0x20000000u; // moved so that v is the vertex
 
+// Words of P_m patches.
+SUPPLE_SHARED_CONST kEndsBehind = 1u << kPointBits;
+SUPPLE_SHARED_CONST kInnerBits = 27u; // b004: a pool has fewer coefficients than that
+SUPPLE_SHARED_CONST kEdgeClassBits = 10u;
+SUPPLE_SHARED_CONST kMaxPmEdgeClasses = 1u << kEdgeClassBits;
+
 SUPPLE_SHARED_END
+
+#define SUPPLE_ACROSS_STEP(pointWord) (int(pointWord) >> int(kSpokeBits))
+#define SUPPLE_INNER(word) ((word) & ((1u << kInnerBits) - 1u))
+#define SUPPLE_SINGULAR(word) ((word) >> kInnerBits)
+#define SUPPLE_EDGE_CLASS(word, i) ((word) >> kEdgeClassBits * ((i) % 3u) & (kMaxPmEdgeClasses - 1u))
+
+// Words of a record, of corner i and of m corners.
+#define SUPPLE_PM_POINT_WORD(i) ((i) < 4u ? (i) : 8u)
+#define SUPPLE_PM_SPOKE_WORD(i) ((i) < 4u ? 4u + (i) : 9u)
+#define SUPPLE_PM_INNER_WORD(m) ((m) == 5u ? 10u : (m) == 4u ? 8u : 3u)
+#define SUPPLE_PM_CLASS_WORD(m, i) (((m) == 5u ? 11u : (m) == 4u ? 9u : 7u) + (i) / 3u)
+#define SUPPLE_PM_RECORD_ELEMENTS(m) ((m) - 1u)
 
 // k0 and k1 of (3) for facets of m sides.
 #define SUPPLE_PM_RAY_SIDE(m) ((m) == 5u ? 0.7236067977499790 : (m) == 4u ? 0.5 : 1.0 / 3.0)

@@ -5,11 +5,12 @@
 // boundary fan's last spoke carries no sector; it holds the vertex normal e1 x e2.
 //
 // Tables
-//   vertex records   (cage vertex, spoke slot, class element, 0): regular interior vertices first
-//   ring             two words a spoke slot: the spoke's vertex, the diagonal of its sector
+//   ring             see shared/surface.h; regular interior vertices come first and have nothing else
+//   vertex records   of all others two words, one behind the other: first spoke slot, class element
 //   classes          (sectors | kBoundaryClass, 0, 0, 0), then two elements a spoke:
 //                    (limitEdge, limitFace, e1Edge, e1Face), (e2Edge, e2Face, cosine, sine)
-//   edge records     three elements: pool indices (A, tA, tB, B), (SA1, SA2, SB1, SB2), (H index, edge class element, 0, 0)
+//   edge records     one element: for A, then for B, the vertex and in the bits above half of the edge class's number; then
+//                    the edge's spoke there, and the step to the one before it, whose sector is on the edge's other side
 //   edge classes     six elements, for A, tA, tB, B, SA, SB: their weights in (h20, h30, h21, h31)
 //   perturbed patch  behind the corners a word an edge: the pool index of its H, or of the zeros with kStillEdgeOfPatch;
 //                    kReversedEdgeOfPatch where the patch runs against the edge's own direction, which swaps h20 with h30 and
@@ -18,6 +19,7 @@
 #define SUPPLE_SHARED_PREP_H
 
 #include "shaders/shared/portable.h"
+#include "shaders/shared/surface.h"
 
 SUPPLE_SHARED_BEGIN
 
@@ -28,6 +30,9 @@ SUPPLE_SHARED_CONST kStillEdgeOfPatch = 0x40000000u;
 SUPPLE_SHARED_CONST kEdgeOfPatchMask = 0x3FFFFFFFu;
 
 SUPPLE_SHARED_END
+
+SUPPLE_SHARED_CONST kEdgeClassElements = 6u;
+#define SUPPLE_PREP_EDGE_CLASS(wordA, wordB) ((wordA) >> kPointBits | (wordB) >> kPointBits << (32u - kPointBits))
 
 // The pool index of the s-th coefficient of an edge, as the patch has them.
 #define SUPPLE_PREP_EDGE_INDEX(word, s) (((word) & kEdgeOfPatchMask) + ((s) ^ ((word) >> 31)))

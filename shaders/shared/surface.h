@@ -7,15 +7,23 @@
 // limit point + offset, so that both sides of a border see the same bits.
 //
 // Tables (one buffer, read as uvec4 or as uint) begin with what the scheme's construction needs and end with
-//   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 (pool index of the limit point, spoke);
-//                    a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge to the next corner
-//                    among tangents and face coefficients, and the step from it to that of the edge to the last corner. A
-//                    polar patch has three corners, then (pool index of its first inner coefficient, -)
+//   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 the pool indices of the limit points,
+//                    then the spokes; a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge to the
+//                    next corner among tangents and face coefficients, and the step from it to that of the edge to the last
+//                    corner. A polar patch has three corners, then the pool index of its first inner coefficient; and see
+//                    shared/pm.h
 //                    perturbed: one element more, see shared/prep.h;  P_m: see shared/pm.h
 //                    where the group keeps corner normals (kCornerNormals): one more element, for each corner the pool
 //                    index of its normal, or kNoNormal
-//   attributes       one element a patch corner: (u, v, color as RG and BA in 16-bit unorm); with a second UV set or
-//                    face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
+//   ring             p-rep, P_m: what a vertex's fan is made of, one word a spoke: the element that holds the corners of the
+//                    facet behind the spoke, and where in it stand (SUPPLE_RING_PLACE) the vertex itself, the spoke's far
+//                    end and the facet's two other far corners, a quad's twice. The element is the first of a patch's record,
+//                    whose limit points are numbered as the cage's vertices are, or one of its own: of holes, and where a crease
+//                    gives a vertex several limit points. A fan's last spoke without a facet has the vertex for far corners
+//   attributes       one element for all corners that have the same: (u, v, color as RG and BA in 16-bit unorm); with a second
+//                    UV set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
+//   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every class
+//                    of patches begins an element
 //   shared edges     shared samples: three elements an edge, as one of its patches has it on its left: pool indices of the
 //                    border cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative
 //                    across is made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the
@@ -84,6 +92,26 @@ SUPPLE_SHARED_CONST kMaxSpokes = 1u << kSpokeBits;
 SUPPLE_SHARED_CONST kMaxSpokeStep = 511u; // up or down
 #define SUPPLE_SPOKE(word) ((word) & (kMaxSpokes - 1u))
 #define SUPPLE_NEXT_SPOKE(word) (SUPPLE_SPOKE(word) + uint(int(word) >> int(kSpokeBits)))
+// Limit points in records: every one has two spokes and more.
+SUPPLE_SHARED_CONST kPointBits = kSpokeBits - 1u;
+#define SUPPLE_POINT(word) ((word) & ((1u << kPointBits) - 1u))
+
+// Kinds of fans: specialization of the vertex stage. Creased ones are P_m's alone.
+SUPPLE_SHARED_CONST kRegularFan = 0u; // closed, four facets, no crease
+SUPPLE_SHARED_CONST kFewFan = 1u;     // up to kFewSpokes spokes
+SUPPLE_SHARED_CONST kManyFan = 2u;
+SUPPLE_SHARED_CONST kCreasedFan = 3u;
+SUPPLE_SHARED_CONST kFewSpokes = 6u;
+
+// Words of the ring.
+SUPPLE_SHARED_CONST kRingPlaceBits = 8u;
+SUPPLE_SHARED_CONST kRingVertex = 0u;
+SUPPLE_SHARED_CONST kRingFarEnd = 1u;
+SUPPLE_SHARED_CONST kRingFarCorner = 2u;
+SUPPLE_SHARED_CONST kRingOtherCorner = 3u;
+#define SUPPLE_RING_ELEMENT(word) ((word) >> kRingPlaceBits)
+#define SUPPLE_RING_PLACE(word, which) ((word) >> 2u * (which) & 3u)
+
 // The 16 coefficients of a bicubic patch, row by row in v: the corner, and what of it. Polar patches repeat the apex.
 SUPPLE_SHARED_CONST kNetPoint = 0u;
 SUPPLE_SHARED_CONST kNetTangent = 1u;     // of the spoke
@@ -118,7 +146,7 @@ SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u; // wide mapping: what the shared m
 struct SurfacePush {
     uint count;         // elements an instance: vertices, edges, facets, patches or patch samples
     uint instanceCount; // of this window
-    uint table;         // first table element of the pass's records
+    uint table;         // first table element of the pass's records; attributes: first word of the numbers
     uint ring;          // first table word of the ring; blending surface: first element of the coordinates; attributes of
                         // shared samples: first element of the edge records
     uint cageStride;    // cage vertices an instance in the deformed cage
@@ -139,6 +167,10 @@ struct SurfacePush {
     uint firstSlot;       // level of detail: of the window, and
     uint dispatch;        // the view's dispatch (shared/lod.h)
     uint firstCorner;     // shared samples: the first at a corner, in the instance's surface vertices
+    uint edgeClasses;     // construction: first table element of the edges' weights
+    uint attributes;      // first element of the corner attributes,
+    uint attributeHalves; // and 1 where a word holds the numbers of two
+    uint inner;           // p-rep: first coefficient of the edges in the pool
 };
 
 SUPPLE_SHARED_END

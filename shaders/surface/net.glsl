@@ -7,7 +7,7 @@ struct NetRecord {
 };
 NetRecord netRecord(uint record) {
     uvec4 a = tableElement(record), b = tableElement(record + 1u);
-    return NetRecord(uvec4(a.xz, b.xz), uvec4(a.yw, b.yw));
+    return NetRecord(a, b);
 }
 
 // Of coefficient k, row by row in v.

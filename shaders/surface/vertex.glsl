@@ -1,7 +1,6 @@
 // The vertex stage, as far as schemes share it: limit point, tangent points and face coefficients of a fan whose weights
-// depend on connectivity alone. Needs tables.glsl, pool.glsl, store.glsl, and from the scheme the ring:
-//   vec3 ringSpoke(uint words, uint k, uint cageBase)     far end of edge k
-//   vec3 ringDiagonal(uint words, uint k, uint cageBase, vec3 p0)   opposite corner of facet k, relative to p0
+// depend on connectivity alone. Needs tables.glsl, pool.glsl, store.glsl, ring.glsl, and from the scheme
+//   vec3 ringDiagonal(uint word, uint cageBase, vec3 p0)   opposite corner of a spoke's facet, relative to p0
 // Everything is summed over differences to the vertex: far from the origin that keeps the tangents, and with them the
 // normals, several times more exact. The weights of a point sum to 1 and those of a vector to 0, so that the centre's own
 // weight never appears.
@@ -24,11 +23,11 @@ void storeOffset(uint i, vec3 point, vec3 limit) {
 }
 
 // A closed fan of four: the uniform bicubic B-spline.
-void regularFan(uint limit, uint tangent, uint face, uint words, uint cageBase, vec3 p0) {
+void regularFan(uint limit, uint tangent, uint face, uvec4 words, uint cageBase, vec3 p0) {
     precise vec3 e[4], d[4];
     for (uint k = 0u; k < 4u; ++k) {
-        e[k] = ringSpoke(words, k, cageBase) - p0;
-        d[k] = ringDiagonal(words, k, cageBase, p0);
+        e[k] = ringSpoke(words[k], cageBase) - p0;
+        d[k] = ringDiagonal(words[k], cageBase, p0);
     }
     precise vec3 x = (4.0 * ((e[0] + e[2]) + (e[1] + e[3])) + ((d[0] + d[2]) + (d[1] + d[3]))) * (1.0 / 36.0);
     precise vec3 e1 = (4.0 * (e[0] - e[2]) + ((d[0] - d[2]) + (d[3] - d[1]))) * (1.0 / 36.0);
@@ -41,41 +40,67 @@ void regularFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
     for (uint k = 0u; k < 4u; ++k) storeOffset(face + k, faceCoefficient(e[k], e[(k + 1u) & 3u], d[k]), x);
 }
 
-// Any fan, with the weights of its class (two elements a spoke from `weights` on). Gives e1 x e2.
+// What the spokes of a fan add up to: the limit point and the two tangents, relative to p0.
+struct Fan {
+    vec3 x, e1, e2;
+};
+void addSpoke(inout Fan fan, uint word, uint cageBase, vec3 p0, uint weights) {
+    precise vec3 spoke = ringSpoke(word, cageBase) - p0;
+    precise vec3 diagonal = ringDiagonal(word, cageBase, p0);
+    vec4 a = uintBitsToFloat(tableElement(weights)), b = uintBitsToFloat(tableElement(weights + 1u));
+    precise vec3 x = fan.x + (a.x * spoke + a.y * diagonal);
+    precise vec3 e1 = fan.e1 + (a.z * spoke + a.w * diagonal);
+    precise vec3 e2 = fan.e2 + (b.x * spoke + b.y * diagonal);
+    fan = Fan(x, e1, e2);
+}
+
+// Spoke k's tangent; and of the facet behind it, if there is one, the coefficient: `near` lies at the spoke's far end and then
+// at the next one's.
+void storeSpoke(Fan fan, uint tangent, uint face, uint words, uint cageBase, vec3 p0, uint weights, uint k, uint spokes,
+                bool facet, inout vec3 near) {
+    vec4 b = uintBitsToFloat(tableElement(weights + 1u + 2u * k));
+    precise vec3 t = fan.e1 * b.z + fan.e2 * b.w;
+    storePool(tangent + k, t);
+    precise vec3 far = ringSpoke(tableWord(words + (k + 1u == spokes ? 0u : k + 1u)), cageBase) - p0;
+    if (facet) storeOffset(face + k, faceCoefficient(near, far, ringDiagonal(tableWord(words + k), cageBase, p0)), fan.x);
+    near = far;
+}
+
+// Any fan, with the weights of its class (two elements a spoke from `weights` on). Gives e1 x e2. `few`: of no more than
+// kFewSpokes spokes, on CPU devices without a loop: rounds that lanes go through for others' sake cost as much there as their
+// own. What comes behind a fan's last spoke adds nothing, and stores the last one's once more.
 vec3 weightedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, vec3 p0, uint weights, uint sectors,
-                 bool open) {
+                 bool open, bool few) {
     uint spokes = open ? sectors + 1u : sectors;
-    precise vec3 x = vec3(0.0), e1 = vec3(0.0), e2 = vec3(0.0);
-    vec3 firstSpoke = vec3(0.0), lastSpoke = vec3(0.0);
-    for (uint k = 0u; k < spokes; ++k) {
-        precise vec3 spoke = ringSpoke(words, k, cageBase) - p0;
-        precise vec3 diagonal = ringDiagonal(words, k, cageBase, p0);
-        vec4 a = uintBitsToFloat(tableElement(weights + 2u * k));
-        vec4 b = uintBitsToFloat(tableElement(weights + 1u + 2u * k));
-        x = x + (a.x * spoke + a.y * diagonal);
-        e1 = e1 + (a.z * spoke + a.w * diagonal);
-        e2 = e2 + (b.x * spoke + b.y * diagonal);
-        if (k == 0u) firstSpoke = spoke;
-        lastSpoke = spoke;
-    }
-    storeLimit(limit, p0, x);
-    vec3 near = firstSpoke;
-    for (uint k = 0u; k < spokes; ++k) {
-        vec4 b = uintBitsToFloat(tableElement(weights + 1u + 2u * k));
-        precise vec3 t = e1 * b.z + e2 * b.w;
-        storePool(tangent + k, t);
-        if (k < sectors) {
-            precise vec3 far = ringSpoke(words, k + 1u == spokes ? 0u : k + 1u, cageBase) - p0;
-            storeOffset(face + k, faceCoefficient(near, far, ringDiagonal(words, k, cageBase, p0)), x);
-            near = far;
+    Fan fan = Fan(vec3(0.0), vec3(0.0), vec3(0.0));
+    vec3 near = ringSpoke(tableWord(words), cageBase) - p0;
+    precise vec3 first = near * (1.0 / 3.0);
+    if (few && !kWide) {
+        [[unroll]] for (uint k = 0u; k < kFewSpokes; ++k) {
+            uint own = min(k, spokes - 1u);
+            Fan more = fan;
+            addSpoke(more, tableWord(words + own), cageBase, p0, weights + 2u * own);
+            if (k < spokes) fan = more;
         }
+        storeLimit(limit, p0, fan.x);
+        [[unroll]] for (uint k = 0u; k < kFewSpokes; ++k) {
+            uint own = min(k, spokes - 1u);
+            vec3 before = near;
+            storeSpoke(fan, tangent, face, words, cageBase, p0, weights, own, spokes, own < sectors, near);
+            if (k + 1u >= spokes) near = before;
+        }
+    } else {
+        for (uint k = 0u; k < spokes; ++k) addSpoke(fan, tableWord(words + k), cageBase, p0, weights + 2u * k);
+        storeLimit(limit, p0, fan.x);
+        for (uint k = 0u; k < spokes; ++k)
+            storeSpoke(fan, tangent, face, words, cageBase, p0, weights, k, spokes, k < sectors, near);
     }
     if (open) {
         // The curve at its end is the cubic B-spline of the control polygon, whatever the inside does.
-        precise vec3 first = firstSpoke * (1.0 / 3.0);
+        precise vec3 lastSpoke = ringSpoke(tableWord(words + sectors), cageBase) - p0;
         precise vec3 last = lastSpoke * (1.0 / 3.0);
-        storeOffset(tangent, first, x);
-        storeOffset(tangent + sectors, last, x);
+        storeOffset(tangent, first, fan.x);
+        storeOffset(tangent + sectors, last, fan.x);
     }
-    return cross(e1, e2);
+    return cross(fan.e1, fan.e2);
 }

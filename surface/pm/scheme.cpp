@@ -3,19 +3,21 @@
 #include "shaders/shared/pm.h"
 #include "surface/borders.h"
 #include "surface/pm/weights.h"
+#include "surface/ring_writer.h"
 #include "surface/table_writer.h"
 #include "surface/valence.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 
 namespace supple::surface::pm {
 
 namespace {
-
-constexpr uint32_t kRingWords = 3;
 
 PatchClass patchClassOf(FacetClass facetClass) {
     constexpr PatchClass kClasses[] = {PatchClass::regular, PatchClass::polar, PatchClass::p3, PatchClass::p4,
@@ -27,21 +29,29 @@ Kernel sectorKernel(const Sector& sector) {
     if (sector.creased || sector.pinned) {
         return Kernel::pmVertexCreased;
     }
-    return sector.closed() && sector.facets == 4 ? Kernel::pmVertexRegular : Kernel::pmVertex;
+    if (sector.closed() && sector.facets == 4) {
+        return Kernel::pmVertexRegular;
+    }
+    return sector.edges() <= shared::kFewSpokes ? Kernel::pmVertex : Kernel::pmVertexMany;
 }
 
 class Builder {
 public:
     explicit Builder(const Mesh& mesh) : mesh_(mesh), cage_(mesh.cage), writer_(tables_.words) {}
 
-    Tables build() {
+    Result<Tables> build() {
         tables_.notes = mesh_.notes;
         sortedPatches();
+        sortSectors();
         layOutPool();
-        writeRing();
         writeSectors();
-        writeFacets();
+        const Status numbered = writeEdgeClasses();
+        if (!numbered) {
+            return numbered.error();
+        }
         writePatches();
+        addFacets();
+        writeRing();
         finishTables(cage_, patches_, writer_, tables_);
         return std::move(tables_);
     }
@@ -50,9 +60,6 @@ private:
     [[nodiscard]] const FacetCorner& corner(const DraftPatch& patch, uint32_t i) const {
         return mesh_.corners[patch.cageCorners[i % patch.info.cornerCount]];
     }
-    [[nodiscard]] uint32_t tangent(uint32_t slot) const { return tables_.tangents + slot; }
-    [[nodiscard]] uint32_t face(uint32_t slot) const { return tables_.faces + slot; }
-
     void sortedPatches() {
         for (uint32_t f = 0; f < cage_.faceCount(); ++f) {
             if (std::binary_search(cage_.holes.begin(), cage_.holes.end(), f)) {
@@ -73,6 +80,31 @@ private:
         sortPatches(patches_);
     }
 
+    /// By kernel, regular ones first, then by size, so that neighbouring lanes loop equally long. Slots lie in this
+    /// order.
+    void sortSectors() {
+        const auto count = static_cast<uint32_t>(mesh_.sectors.size());
+        for (uint32_t s = 0; s < count; ++s) {
+            order_.push_back(s);
+        }
+        const auto rank = [&](uint32_t s) {
+            return std::tuple(sectorKernel(mesh_.sectors[s]), mesh_.sectors[s].edges(), mesh_.sectors[s].kind, s);
+        };
+        std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
+        slots_.resize(mesh_.slotSpokes.size());
+        uint32_t next = 0;
+        for (const uint32_t s : order_) {
+            for (uint32_t j = 0; j < mesh_.sectors[s].edges(); ++j) {
+                slots_[mesh_.sectors[s].firstSlot + j] = next++;
+            }
+        }
+        uint32_t others = cage_.vertexCount();
+        for (uint32_t s = 0; s < count; ++s) {
+            const bool first = s == 0 || mesh_.sectors[s - 1].vertex != mesh_.sectors[s].vertex;
+            points_.push_back(first ? mesh_.sectors[s].vertex : others++);
+        }
+    }
+
     /// v, t, f, then what the facet stage adds, patch by patch.
     void layOutPool() {
         const auto slots = static_cast<uint32_t>(mesh_.slotSpokes.size());
@@ -89,21 +121,31 @@ private:
     }
 
     void writeRing() {
-        tables_.ring = 4 * writer_.element();
-        for (const Sector& sector : mesh_.sectors) {
+        RingWriter ring(writer_, cage_.faceCount());
+        for (uint32_t p = 0; p < patches_.size(); ++p) {
+            ring.setRecord(patches_[p].facet, records_[p]);
+        }
+        for (const uint32_t s : order_) {
+            const Sector& sector = mesh_.sectors[s];
             for (uint32_t j = 0; j < sector.edges(); ++j) {
+                // The last edge of an open sector has no facet behind it: its far end is in the one before.
+                const bool last = j == sector.facets;
                 const uint32_t spoke = mesh_.slotSpokes[sector.firstSlot + j];
-                uint32_t far[2] = {sector.vertex, sector.vertex};
-                if (j < sector.facets) {
-                    const uint32_t c = mesh_.topology.sectorCorners[spoke];
-                    const uint32_t f = mesh_.topology.cornerFaces[c], first = cage_.faceStarts[f], m = cage_.sides(f);
-                    const auto at = [&](uint32_t steps) { return cage_.faceVertices[first + (c - first + steps) % m]; };
-                    far[0] = at(2);
-                    far[1] = at(m - 2);
+                const uint32_t c =
+                    mesh_.topology.sectorCorners[last ? mesh_.slotSpokes[sector.firstSlot + j - 1] : spoke];
+                const uint32_t f = mesh_.topology.cornerFaces[c], first = cage_.faceStarts[f], m = cage_.sides(f);
+                const auto at = [&](uint32_t steps) { return cage_.faceVertices[first + (c - first + steps) % m]; };
+                std::array<uint32_t, kMaxSides> points{};
+                for (uint32_t i = 0; i < m; ++i) {
+                    const uint32_t corner = mesh_.corner(f, i), vertex = cage_.faceVertices[corner];
+                    points[i] = points_[mesh_.corners[corner].sector] == vertex ? vertex : cage::kNone;
                 }
-                writer_.put({mesh_.topology.spokeVertices[spoke], far[0], far[1]});
+                ring.add({sector.vertex, mesh_.topology.spokeVertices[spoke], last ? sector.vertex : at(2),
+                          last ? sector.vertex : at(m - 2)},
+                         f, std::span(points).first(m));
             }
         }
+        tables_.ring = ring.write();
     }
 
     uint32_t writeSmoothWeights(const Sector& sector) {
@@ -137,13 +179,11 @@ private:
     void writeSectors() {
         std::vector<uint32_t> weights(mesh_.sectors.size(), 0);
         std::map<std::pair<SectorKind, uint32_t>, uint32_t> smooth;
-        std::vector<uint32_t> order(mesh_.sectors.size());
-        for (uint32_t s = 0; s < order.size(); ++s) {
-            order[s] = s;
+        for (uint32_t s = 0; s < weights.size(); ++s) {
             const Sector& sector = mesh_.sectors[s];
             if (sectorKernel(sector) == Kernel::pmVertexCreased) {
                 weights[s] = writeCreasedWeights(sector);
-            } else if (sectorKernel(sector) == Kernel::pmVertex) {
+            } else if (sectorKernel(sector) != Kernel::pmVertexRegular) {
                 const auto [known, isNew] = smooth.try_emplace({sector.kind, sector.facets}, 0u);
                 if (isNew) {
                     known->second = writeSmoothWeights(sector);
@@ -151,27 +191,18 @@ private:
                 weights[s] = known->second;
             }
         }
-        // By kernel, then by size, so that neighbouring lanes loop equally long.
-        const auto rank = [&](uint32_t s) {
-            return std::tuple(sectorKernel(mesh_.sectors[s]), mesh_.sectors[s].edges(), mesh_.sectors[s].kind, s);
-        };
-        std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
-        uint32_t element = writer_.element();
-        for (uint32_t s : order) {
+        for (const uint32_t s : order_) {
             const Sector& sector = mesh_.sectors[s];
-            addRecord(Stage::vertex, sectorKernel(sector), element, 1 + sector.edges() + sector.facets);
-            writer_.put({sector.vertex, sector.firstSlot, weights[s], s});
-            ++element;
+            const Kernel kernel = sectorKernel(sector);
+            if (tables_.constructions.empty() || tables_.constructions.back().kernel != kernel) {
+                tables_.constructions.push_back({Stage::vertex, kernel, {writer_.element(), 0}, 0});
+            }
+            ++tables_.constructions.back().section.count;
+            tables_.constructions.back().coefficients += 1 + sector.edges() + sector.facets;
+            if (kernel != Kernel::pmVertexRegular) {
+                writer_.put({slots_[sector.firstSlot], weights[s], points_[s]});
+            }
         }
-    }
-
-    /// Counts the record that begins at `element` towards its kernel's section.
-    void addRecord(Stage stage, Kernel kernel, uint32_t element, uint32_t coefficients) {
-        if (tables_.constructions.empty() || tables_.constructions.back().kernel != kernel) {
-            tables_.constructions.push_back({stage, kernel, {element, 0}, 0});
-        }
-        ++tables_.constructions.back().section.count;
-        tables_.constructions.back().coefficients += coefficients;
     }
 
     [[nodiscard]] EdgeClass edgeClass(const DraftPatch& patch, uint32_t i) const {
@@ -182,47 +213,60 @@ private:
                 {a.across == cage::kNone, b.acrossBack == cage::kNone}};
     }
 
-    void writeFacets() {
-        std::map<EdgeClass, uint32_t> edgeClasses;
+    Status writeEdgeClasses() {
+        tables_.edgeClasses = writer_.element();
         for (const DraftPatch& patch : patches_) {
             for (uint32_t i = 0; patch.info.patchClass >= PatchClass::p3 && i < patch.info.cornerCount; ++i) {
-                const auto [known, isNew] = edgeClasses.try_emplace(edgeClass(patch, i), 0u);
+                const auto number = static_cast<uint32_t>(edgeClasses_.size());
+                const auto [known, isNew] = edgeClasses_.try_emplace(edgeClass(patch, i), number);
                 if (isNew) {
                     const EdgeFactors f = makeEdgeFactors(known->first);
-                    known->second = writer_.element();
                     writer_.put({floatBits(f.along[0]), floatBits(f.own[0]), floatBits(f.across[0]),
                                  floatBits(f.across[1]), floatBits(f.along[1]), floatBits(f.own[1]), 0u, 0u});
                 }
             }
         }
-        for (uint32_t p = 0; p < patches_.size(); ++p) {
-            const DraftPatch& patch = patches_[p];
-            if (patch.info.patchClass == PatchClass::regular) {
+        if (edgeClasses_.size() > shared::kMaxPmEdgeClasses) {
+            return Error{ErrorCode::limit,
+                         "the cage has edges of " + std::to_string(edgeClasses_.size()) +
+                             " kinds, by the valences of their ends and the sides of their faces; patch "
+                             "records hold " +
+                             std::to_string(shared::kMaxPmEdgeClasses)};
+        }
+        return success();
+    }
+
+    /// The facet stage reads the records of the patches.
+    void addFacets() {
+        for (const PatchRange& range : tables_.ranges) {
+            constexpr Kernel kKernels[] = {Kernel::pmPolar, Kernel::pmFacet3, Kernel::pmFacet4, Kernel::pmFacet5};
+            if (range.patchClass == PatchClass::regular) {
                 continue;
             }
-            const uint32_t element = writer_.element();
-            if (patch.info.patchClass == PatchClass::polar) {
-                addRecord(Stage::edge, Kernel::pmPolar, element, 2);
-                const FacetCorner& apex = corner(patch, 2);
-                const double c = turn(1, mesh_.sectors[apex.sector].valence()).first;
-                writer_.put({apex.sector, tangent(apex.slot), tangent(apex.slotBack), inner_[p], floatBits(c),
-                             floatBits(1.5 * mesh_.slotAlphas[apex.slot]),
-                             floatBits(1.5 * mesh_.slotAlphas[apex.slotBack]), 0u});
-                continue;
-            }
-            constexpr Kernel kKernels[] = {Kernel::pmFacet3, Kernel::pmFacet4, Kernel::pmFacet5};
-            addRecord(Stage::edge, kKernels[patch.info.cornerCount - 3], element, 1 + 3 * patch.info.cornerCount);
-            for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
-                const FacetCorner& c = corner(patch, i);
-                writer_.put({c.sector, tangent(c.slot), tangent(c.slotBack), face(c.slot),
-                             c.across == cage::kNone ? tangent(c.slot) : face(c.across),
-                             c.acrossBack == cage::kNone ? tangent(c.slotBack) : face(c.acrossBack),
-                             edgeClasses.at(edgeClass(patch, i)), inner_[p]});
-            }
+            const auto kernel = static_cast<size_t>(range.patchClass) - static_cast<size_t>(PatchClass::polar);
+            const uint32_t sides = cornerCount(domainOf(range.patchClass));
+            const uint32_t coefficients = range.patchClass == PatchClass::polar ? 2 : 1 + 3 * sides;
+            tables_.constructions.push_back(
+                {Stage::edge, kKernels[kernel], range.section, coefficients * range.section.count});
         }
     }
 
     void writePatches() {
+        std::map<std::array<uint32_t, 3>, uint32_t> apexes;
+        const auto apexWeights = [&](const DraftPatch& patch) -> std::array<uint32_t, 3> {
+            const FacetCorner& apex = corner(patch, 2);
+            const double c = turn(1, mesh_.sectors[apex.sector].valence()).first;
+            return {floatBits(c), floatBits(1.5 * mesh_.slotAlphas[apex.slot]),
+                    floatBits(1.5 * mesh_.slotAlphas[apex.slotBack])};
+        };
+        for (const DraftPatch& patch : patches_) {
+            if (patch.info.patchClass == PatchClass::polar) {
+                const std::array<uint32_t, 3> weights = apexWeights(patch);
+                if (apexes.try_emplace(weights, writer_.element()).second) {
+                    writer_.put({weights[0], weights[1], weights[2], 0u});
+                }
+            }
+        }
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             const DraftPatch& patch = patches_[p];
             const PatchClass patchClass = patch.info.patchClass;
@@ -230,22 +274,41 @@ private:
                 tables_.ranges.push_back({patchClass, {writer_.element(), 0}, p, 0});
             }
             ++tables_.ranges.back().section.count;
-            const auto v = [&](uint32_t i) { return corner(patch, i).sector; };
-            const auto t0 = [&](uint32_t i) { return tangent(corner(patch, i).slot); };
-            const auto t1 = [&](uint32_t i) { return tangent(corner(patch, i).slotBack); };
-            if (patchClass <= PatchClass::polar) {
-                for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
-                    const FacetCorner& c = corner(patch, i);
-                    writer_.put({c.sector, spokeWord(c.slot, c.slotBack)});
-                }
-                if (patchClass == PatchClass::polar) {
-                    writer_.put({inner_[p], 0u});
-                }
-            } else {
-                for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
-                    writer_.put({v(i), t0(i), t1(i + 1), i == 0 ? inner_[p] : i == 1 ? singularCorners(patch) : 0u});
-                }
+            records_.push_back(writer_.element());
+            if (patchClass > PatchClass::polar) {
+                writeFacet(patch, inner_[p]);
+                continue;
             }
+            std::array<uint32_t, 4> points{}, spokes{};
+            for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
+                const FacetCorner& c = corner(patch, i);
+                points[i] = points_[c.sector];
+                spokes[i] = spokeWord(slots_[c.slot], slots_[c.slotBack]);
+            }
+            if (patchClass == PatchClass::polar) {
+                points[3] = inner_[p];
+                spokes[3] = apexes.at(apexWeights(patch));
+            }
+            writer_.put({points[0], points[1], points[2], points[3], spokes[0], spokes[1], spokes[2], spokes[3]});
+        }
+    }
+
+    /// The record of a patch of sectors.
+    void writeFacet(const DraftPatch& patch, uint32_t inner) {
+        using namespace shared;
+        const uint32_t m = patch.info.cornerCount;
+        std::array<uint32_t, size_t{4} * SUPPLE_PM_RECORD_ELEMENTS(kMaxSides)> words{};
+        for (uint32_t i = 0; i < m; ++i) {
+            const FacetCorner& c = corner(patch, i);
+            const uint32_t slot = slots_[c.slot], across = c.across == cage::kNone ? slot : slots_[c.across];
+            words[SUPPLE_PM_POINT_WORD(i)] = spokeWord(points_[c.sector], points_[c.sector] + (across - slot)) |
+                                             (c.acrossBack == cage::kNone ? kEndsBehind : 0u);
+            words[SUPPLE_PM_SPOKE_WORD(i)] = spokeWord(slot, slots_[c.slotBack]);
+            words[SUPPLE_PM_CLASS_WORD(m, i)] |= edgeClasses_.at(edgeClass(patch, i)) << kEdgeClassBits * (i % 3);
+        }
+        words[SUPPLE_PM_INNER_WORD(m)] = inner | singularCorners(patch) << kInnerBits;
+        for (uint32_t w = 0; w < 4 * SUPPLE_PM_RECORD_ELEMENTS(m); ++w) {
+            writer_.put({words[w]});
         }
     }
 
@@ -264,12 +327,17 @@ private:
     Tables tables_;
     TableWriter writer_;
     std::vector<DraftPatch> patches_;
-    std::vector<uint32_t> inner_; ///< per patch: its first coefficient of the facet stage in the pool
+    std::vector<uint32_t> inner_;   ///< per patch: its first coefficient of the facet stage in the pool
+    std::vector<uint32_t> records_; ///< per patch: the element its record begins with
+    std::vector<uint32_t> order_;   ///< sectors as the vertex stage takes them
+    std::vector<uint32_t> slots_;   ///< per slot of the mesh: its number in the pool
+    std::vector<uint32_t> points_;  ///< per sector: its limit point in the pool
+    std::map<EdgeClass, uint32_t> edgeClasses_;
 };
 
 } // namespace
 
-Tables buildTables(const Mesh& mesh) {
+Result<Tables> buildTables(const Mesh& mesh) {
     return Builder(mesh).build();
 }
 

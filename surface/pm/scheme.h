@@ -6,7 +6,8 @@
 
 namespace supple::surface::pm {
 
-/// The tables of shaders/shared/{surface,pm}.h. O(corners).
-[[nodiscard]] Tables buildTables(const Mesh& mesh);
+/// The tables of shaders/shared/{surface,pm}.h. O(corners). Refuses cages whose edges are of too many kinds (valences
+/// of the ends, sides of the face) with ErrorCode::limit.
+[[nodiscard]] Result<Tables> buildTables(const Mesh& mesh);
 
 } // namespace supple::surface::pm

@@ -2,12 +2,14 @@
 
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
+#include "surface/ring_writer.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
 #include <bit>
 #include <glm/glm.hpp>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -84,38 +86,8 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
     const uint32_t vertexCount = cage.vertexCount(), faceCount = cage.faceCount();
     const auto spokeCount = static_cast<uint32_t>(topology.spokeVertices.size());
 
-    // Pool: X, TG, FC, H of the perturbed edges, four zeros.
-    t.tangents = vertexCount;
-    t.faces = t.tangents + spokeCount;
-    const uint32_t edgeCoefficients = t.faces + spokeCount;
-    std::vector<uint32_t> perturbedEdges, edgeSlots(topology.edges.size(), cage::kNone);
-    for (uint32_t e = 0; e < topology.edges.size(); ++e) {
-        if (isPerturbed(cage, topology, e)) {
-            edgeSlots[e] = edgeCoefficients + 4 * static_cast<uint32_t>(perturbedEdges.size());
-            perturbedEdges.push_back(e);
-        }
-    }
-    const uint32_t zero = edgeCoefficients + 4 * static_cast<uint32_t>(perturbedEdges.size());
-    t.poolStride = (zero + 4 + 15) / 16 * 16;
-
-    // Ring, parallel to the spokes.
-    t.ring = 4 * writer.element();
-    for (uint32_t v = 0; v < vertexCount; ++v) {
-        for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
-            const uint32_t corner = topology.sectorCorners[s];
-            uint32_t diagonal = v;
-            if (corner != cage::kNone) {
-                const uint32_t first = cage.faceStarts[topology.cornerFaces[corner]];
-                diagonal = cage.faceVertices[first + (corner - first + 2) % 4];
-            }
-            writer.put({topology.spokeVertices[s], diagonal});
-        }
-    }
-
-    ClassTable classes(topology, options);
-    classes.write(writer, vertexCount);
-
-    // Vertices: regular interior ones first; the others by class, so that neighbouring lanes loop equally long.
+    // Spokes lie vertex by vertex: regular interior ones first; the others by class, so that neighbouring lanes loop
+    // equally long.
     std::vector<uint32_t> order(vertexCount);
     for (uint32_t v = 0; v < vertexCount; ++v) {
         order[v] = v;
@@ -125,17 +97,50 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
         return std::tuple(!interiorRegular, topology.spokeCount(v), topology.boundary[v]);
     };
     std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
-    Section regularVertices{writer.element(), 0}, otherVertices;
-    for (uint32_t v : order) {
-        writer.put({v, topology.spokeStarts[v], classes.element(v), 0u});
-        (std::get<0>(rank(v)) ? otherVertices : regularVertices).count += 1;
+    std::vector<uint32_t> slots(spokeCount);
+    uint32_t nextSlot = 0;
+    for (const uint32_t v : order) {
+        for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
+            slots[s] = nextSlot++;
+        }
     }
-    otherVertices.table = regularVertices.table + regularVertices.count;
-    t.constructions.push_back({Stage::vertex, Kernel::prepVertexRegular, regularVertices, 9 * regularVertices.count});
-    const uint32_t otherCoefficients = vertexCount + 2 * spokeCount - 9 * regularVertices.count;
-    t.constructions.push_back({Stage::vertex, Kernel::prepVertex, otherVertices, otherCoefficients});
+    const auto cornerSlot = [&](uint32_t c) { return slots[topology.cornerSpokes[c]]; };
+
+    // Pool: X, TG, FC, H of the perturbed edges, four zeros.
+    t.tangents = vertexCount;
+    t.faces = t.tangents + spokeCount;
+    t.inner = t.faces + spokeCount;
+    std::vector<uint32_t> perturbedEdges, edgeSlots(topology.edges.size(), cage::kNone);
+    for (uint32_t e = 0; e < topology.edges.size(); ++e) {
+        if (isPerturbed(cage, topology, e)) {
+            edgeSlots[e] = t.inner + 4 * static_cast<uint32_t>(perturbedEdges.size());
+            perturbedEdges.push_back(e);
+        }
+    }
+    const uint32_t zero = t.inner + 4 * static_cast<uint32_t>(perturbedEdges.size());
+    t.poolStride = (zero + 4 + 15) / 16 * 16;
+
+    ClassTable classes(topology, options);
+    classes.write(writer, vertexCount);
+
+    for (uint32_t v : order) {
+        const uint32_t spokes = topology.spokeCount(v);
+        const bool regularFan = !std::get<0>(rank(v));
+        const Kernel kernel = regularFan                     ? Kernel::prepVertexRegular
+                              : spokes <= shared::kFewSpokes ? Kernel::prepVertex
+                                                             : Kernel::prepVertexMany;
+        if (t.constructions.empty() || t.constructions.back().kernel != kernel) {
+            t.constructions.push_back({Stage::vertex, kernel, {writer.element(), 0}, 0});
+        }
+        ++t.constructions.back().section.count;
+        t.constructions.back().coefficients += 1 + 2 * spokes;
+        if (!regularFan) {
+            writer.put({slots[topology.spokeStarts[v]], classes.element(v)});
+        }
+    }
 
     // Edge classes, then edges.
+    t.edgeClasses = writer.element();
     std::map<std::pair<double, double>, uint32_t> edgeClasses;
     for (uint32_t e : perturbedEdges) {
         const cage::Topology::Edge& edge = topology.edges[e];
@@ -143,7 +148,7 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
         if (edgeClasses.contains(key)) {
             continue;
         }
-        edgeClasses[key] = writer.element();
+        edgeClasses.emplace(key, static_cast<uint32_t>(edgeClasses.size()));
         const EdgeWeights weights = makeEdgeWeights(key.first, key.second);
         for (size_t vector = 0; vector < 6; ++vector) {
             writer.put({floatBits(weights[0][vector]), floatBits(weights[1][vector]), floatBits(weights[2][vector]),
@@ -159,10 +164,10 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
     for (uint32_t e : perturbedEdges) {
         const uint32_t f = topology.edges[e].corner, o = topology.edges[e].twin; // faces left and right of A -> B
         const uint32_t a = cage.faceVertices[f], b = cage.faceVertices[o];
-        writer.put({a, t.tangents + topology.cornerSpokes[f], t.tangents + topology.cornerSpokes[o], b});
-        writer.put({t.faces + topology.cornerSpokes[f], t.faces + topology.cornerSpokes[corner(o, 1)],
-                    t.faces + topology.cornerSpokes[corner(f, 1)], t.faces + topology.cornerSpokes[o]});
-        writer.put({edgeSlots[e], edgeClasses.at({classes.c(a), classes.c(b)}), 0u, 0u});
+        const uint32_t edgeClass = edgeClasses.at({classes.c(a), classes.c(b)});
+        writer.put({a | edgeClass << shared::kPointBits, spokeWord(cornerSlot(f), cornerSlot(corner(o, 1))),
+                    b | edgeClass >> (32 - shared::kPointBits) << shared::kPointBits,
+                    spokeWord(cornerSlot(o), cornerSlot(corner(f, 1)))});
     }
 
     const auto smoothCorner = [&](uint32_t v) {
@@ -190,6 +195,7 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
     }
     sortPatches(patches);
 
+    RingWriter ring(writer, faceCount);
     for (uint32_t p = 0; p < patches.size(); ++p) {
         const DraftPatch& patch = patches[p];
         const PatchClass patchClass = patch.info.patchClass;
@@ -197,16 +203,19 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
             t.ranges.push_back({patchClass, {writer.element(), 0}, p, 0});
         }
         ++t.ranges.back().section.count;
-        std::array<uint32_t, 4> edges{}, normals{};
+        ring.setRecord(patch.facet, writer.element());
+        std::array<uint32_t, 4> spokes{}, edges{}, normals{};
         for (uint32_t j = 0; j < 4; ++j) {
             const uint32_t c = patch.cageCorners[j];
             const uint32_t v = patch.info.corners[j];
-            writer.put({v, spokeWord(topology.cornerSpokes[c], topology.cornerSpokesBack[c])});
+            spokes[j] = spokeWord(cornerSlot(c), slots[topology.cornerSpokesBack[c]]);
             const uint32_t edge = topology.cornerEdges[c];
             edges[j] = edgeSlots[edge] == cage::kNone ? zero | shared::kStillEdgeOfPatch : edgeSlots[edge];
             edges[j] |= topology.edges[edge].corner == c ? 0u : shared::kReversedEdgeOfPatch;
-            normals[j] = smoothCorner(v) ? t.faces + topology.spokeStarts[v] + 1 : shared::kNoNormal;
+            normals[j] = smoothCorner(v) ? t.faces + slots[topology.spokeStarts[v]] + 1 : shared::kNoNormal;
         }
+        const std::array<uint32_t, kMaxSides>& points = patch.info.corners;
+        writer.put({points[0], points[1], points[2], points[3], spokes[0], spokes[1], spokes[2], spokes[3]});
         if (patchClass == PatchClass::perturbed) {
             writer.put({edges[0], edges[1], edges[2], edges[3]});
         }
@@ -214,6 +223,19 @@ Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const
             writer.put({normals[0], normals[1], normals[2], normals[3]});
         }
     }
+
+    for (const uint32_t v : order) {
+        for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
+            // The last spoke of a boundary fan has no face behind it: its far end is in the one before.
+            const uint32_t own = topology.sectorCorners[s],
+                           c = own == cage::kNone ? topology.sectorCorners[s - 1] : own;
+            const uint32_t face = topology.cornerFaces[c];
+            const uint32_t diagonal = own == cage::kNone ? v : cage.faceVertices[corner(c, 2)];
+            ring.add({v, topology.spokeVertices[s], diagonal, diagonal}, face,
+                     std::span(cage.faceVertices).subspan(cage.faceStarts[face], 4));
+        }
+    }
+    t.ring = ring.write();
     finishTables(cage, patches, writer, t);
     return t;
 }
