@@ -4,7 +4,6 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <tuple>
-#include <unordered_map>
 
 namespace supple::surface {
 
@@ -13,56 +12,86 @@ namespace {
 /// What a corner has, as the tables hold it.
 using CornerWords = std::array<uint32_t, 8>;
 
-struct HashOfWords {
-    size_t operator()(const CornerWords& words) const {
-        uint64_t hash = 0;
-        for (const uint32_t word : words) {
-            hash = (std::rotl(hash, 25) ^ word) * 0x9E3779B97F4A7C15u;
+/// Numbers what corners have, once for corners of a vertex that have the same.
+class CornerNumbers {
+public:
+    explicit CornerNumbers(const cage::Cage& cage)
+        : cage_(cage), alike_(cage.cornerUvs.empty() && cage.cornerUvs1.empty() && cage.cornerColors.empty() &&
+                              cage.cornerFaceUvs.empty()),
+          last_(alike_ ? 1 : cage.vertexCount(), cage::kNone) {}
+
+    uint32_t of(uint32_t corner) {
+        uint32_t& last = last_[alike_ ? 0 : cage_.faceVertices[corner]];
+        const CornerWords words = wordsOf(corner);
+        uint32_t number = last;
+        for (uint32_t tries = 0; number != cage::kNone && tries < kTries; ++tries, number = known_[number].before) {
+            if (known_[number].words == words) {
+                return number;
+            }
         }
-        return static_cast<size_t>(hash ^ hash >> 32);
+        known_.push_back({words, last});
+        last = static_cast<uint32_t>(known_.size() - 1);
+        return last;
     }
+
+    [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(known_.size()); }
+    [[nodiscard]] const CornerWords& words(uint32_t number) const { return known_[number].words; }
+
+private:
+    static constexpr uint32_t kTries = 8; ///< a vertex of many thousand corners may not cost their square
+
+    struct Known {
+        CornerWords words;
+        uint32_t before = cage::kNone; ///< of the vertex
+    };
+
+    [[nodiscard]] CornerWords wordsOf(uint32_t corner) const {
+        const auto uvOf = [&](const std::vector<glm::vec2>& uvs) {
+            return uvs.empty() ? glm::vec2(0.0f) : uvs[corner];
+        };
+        const glm::vec4 color = cage_.cornerColors.empty() ? glm::vec4(1.0f) : cage_.cornerColors[corner];
+        const auto unorm16 = [&](int channel) {
+            return static_cast<uint32_t>(std::clamp(color[channel], 0.0f, 1.0f) * 65535.0f + 0.5f);
+        };
+        const glm::vec2 uv = uvOf(cage_.cornerUvs), uv1 = uvOf(cage_.cornerUvs1), faceUv = uvOf(cage_.cornerFaceUvs);
+        const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
+        return {bits(uv.x),
+                bits(uv.y),
+                unorm16(0) | unorm16(1) << 16,
+                unorm16(2) | unorm16(3) << 16,
+                bits(uv1.x),
+                bits(uv1.y),
+                bits(faceUv.x),
+                bits(faceUv.y)};
+    }
+
+    const cage::Cage& cage_;
+    bool alike_;                 ///< corners have nothing
+    std::vector<uint32_t> last_; ///< by vertex
+    std::vector<Known> known_;
 };
 
 void writeAttributes(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer,
                      Tables& tables) {
     tables.uvSets = cage.cornerUvs1.empty() ? 1 : 2;
     tables.faceUvs = !cage.cornerFaceUvs.empty();
-    const bool more = tables.uvSets == 2 || tables.faceUvs;
-    const auto attributesOf = [&](uint32_t corner) {
-        const auto uvOf = [&](const std::vector<glm::vec2>& uvs) {
-            return uvs.empty() ? glm::vec2(0.0f) : uvs[corner];
-        };
-        const glm::vec4 color = cage.cornerColors.empty() ? glm::vec4(1.0f) : cage.cornerColors[corner];
-        const auto unorm16 = [&](int channel) {
-            return static_cast<uint32_t>(std::clamp(color[channel], 0.0f, 1.0f) * 65535.0f + 0.5f);
-        };
-        const glm::vec2 uv = uvOf(cage.cornerUvs), uv1 = uvOf(cage.cornerUvs1), faceUv = uvOf(cage.cornerFaceUvs);
-        const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
-        return CornerWords{bits(uv.x),
-                           bits(uv.y),
-                           unorm16(0) | unorm16(1) << 16,
-                           unorm16(2) | unorm16(3) << 16,
-                           bits(uv1.x),
-                           bits(uv1.y),
-                           bits(faceUv.x),
-                           bits(faceUv.y)};
-    };
-    tables.attributes = writer.element();
-    std::unordered_map<CornerWords, uint32_t, HashOfWords> known;
+    const size_t elementWords = tables.uvSets == 2 || tables.faceUvs ? 8 : 4;
+    CornerNumbers known(cage);
     std::vector<uint32_t> numbers; // patch by patch
-    known.reserve(cage.vertexCount());
     numbers.reserve(cage.cornerCount());
     for (const DraftPatch& patch : patches) {
         for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
-            const CornerWords words = attributesOf(patch.cageCorners[i]);
-            const auto [found, isNew] = known.try_emplace(words, static_cast<uint32_t>(known.size()));
-            numbers.push_back(found->second);
-            for (size_t w = 0; isNew && w < (more ? 8 : 4); ++w) {
-                writer.put({words[w]});
-            }
+            numbers.push_back(known.of(patch.cageCorners[i]));
         }
     }
-    tables.attributeHalves = known.size() <= 1u << 16;
+    tables.attributes = writer.element();
+    writer.reserve(elementWords * known.count() + numbers.size());
+    for (uint32_t number = 0; number < known.count(); ++number) {
+        for (size_t w = 0; w < elementWords; ++w) {
+            writer.put({known.words(number)[w]});
+        }
+    }
+    tables.attributeHalves = known.count() <= 1u << 16;
     size_t next = 0;
     for (PatchRange& range : tables.ranges) {
         range.attributes = 4 * writer.element();
