@@ -169,7 +169,7 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     return passes;
 }
 
-Status Passes::make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv,
+Status Passes::make(gpu::PipelineHandle& target, const gpu::Spirv& spirv,
                     std::initializer_list<gpu::Constant> constants, const std::string& name) {
     if (target.get() != VK_NULL_HANDLE) {
         return success();
@@ -186,7 +186,7 @@ Status Passes::make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv
 Status Passes::makeConstruction(Kernel kernel) {
     using namespace shared;
     struct Source {
-        std::span<const uint32_t> Shaders::*spirv;
+        gpu::Spirv Shaders::*spirv;
         uint32_t kind;
         const char* name;
     };
@@ -236,9 +236,9 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         const bool bicubic = patchClass <= kPolarPatch;
         const bool blends = range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp;
         if (needs.lod) {
-            const std::span<const uint32_t> evaluate = blends    ? shaders_.levels.blendEvaluate
-                                                       : bicubic ? shaders_.levels.bicubic
-                                                                 : shaders_.levels.pmEvaluate;
+            const gpu::Spirv& evaluate = blends    ? shaders_.levels.blendEvaluate
+                                         : bicubic ? shaders_.levels.bicubic
+                                                   : shaders_.levels.pmEvaluate;
             for (size_t f = 0; status && f < formats.size(); ++f) {
                 status = make(lodEvaluate_[formats[f]][patchClass][normals], evaluate,
                               {{kKindConstant, patchClass},
@@ -264,9 +264,7 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
             status = make(patch_[patchClass][normals], bicubic ? shaders_.patch : shaders_.pmPatch,
                           {{kKindConstant, patchClass}, {kCornerNormalsConstant, normals}}, "supple patch, " + name);
         }
-        const std::span<const uint32_t> evaluate = blends    ? shaders_.blendEvaluate
-                                                   : bicubic ? shaders_.bicubic
-                                                             : shaders_.pmEvaluate;
+        const gpu::Spirv& evaluate = blends ? shaders_.blendEvaluate : bicubic ? shaders_.bicubic : shaders_.pmEvaluate;
         for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty() && !shares; ++f) {
             ByRate& byRate = evaluate_[patchClass][formats[f]][normals];
             // The rate it begins with, where that is worth a pipeline, and any that is set later.

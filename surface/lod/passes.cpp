@@ -21,7 +21,7 @@ Status Passes::prepare(const gpu::ComputeLayout& layout, const LodTables& tables
                                        {gpu::kFirstPassConstant + 1, backFaces ? VK_TRUE : VK_FALSE}};
     const struct {
         Kernel kernel;
-        std::span<const uint32_t> spirv;
+        gpu::Spirv spirv;
         size_t constants; // as many of them as it has
         const char* name;
     } sources[] = {{tables.charts ? kChartEdge : kEdge, shaders_.edge, 1, "supple levels of edges"},

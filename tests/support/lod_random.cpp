@@ -32,19 +32,19 @@ constexpr const char* kRandomCapacity = R"(
 
 RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges)
     : edge_(compileEdited("lod/edge.comp", "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
-                          kRandomEdge)),
+                          kRandomEdge, mapping == SUPPLE_MAPPING_WIDE)),
       patch_(compileEdited("lod/patch.comp",
                            "    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));",
-                           kRandomCapacity)) {
+                           kRandomCapacity, mapping == SUPPLE_MAPPING_WIDE)) {
     if (testDevice() == nullptr || edge_.empty() || patch_.empty()) {
         ADD_FAILURE() << "no device, or no shaders";
         return;
     }
     surface::Shaders shaders = surface::Shaders::embedded();
     if (edges == Edges::random) {
-        shaders.lod.edge = edge_;
+        shaders.lod.edge = {edge_, edge_}; // of this mapping
     }
-    shaders.lod.patch = patch_;
+    shaders.lod.patch = {patch_, patch_};
     SuppleContextDesc contextDesc = host::contextDesc(*testDevice());
     contextDesc.mapping = mapping;
     Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(contextDesc, shaders);
