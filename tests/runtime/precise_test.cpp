@@ -21,12 +21,12 @@ struct Checked {
     bool roots = false;   ///< a joint's matrix is computed once: its square roots need not agree with another's
 };
 constexpr Checked kShaders[] = {
-    {"evaluate/bicubic.comp", "position"}, {"evaluate/edge.comp", "position"},   {"prep/vertex.comp", "canonical"},
-    {"prep/edge.comp", "canonical"},       {"pm/vertex.comp", "canonical"},      {"pm/facet.comp", "canonical"},
-    {"pm/evaluate.comp", "position"},      {"deform/deform.comp", "p"},          {"kernel/isolate.comp", "canonical"},
-    {"kernel/refine.comp", "p"},           {"blend/chart.comp", "canonical"},    {"blend/evaluate.comp", "position"},
-    {"kernel/limit.comp", "position"},     {"kernel/fragment.comp", "position"}, {"pose/locals.comp", "local", true},
-    {"pose/palette.comp", "placed", true},
+    {"evaluate/bicubic.comp", "position"}, {"evaluate/edge.comp", "position"},    {"prep/vertex.comp", "canonical"},
+    {"prep/edge.comp", "canonical"},       {"pm/vertex.comp", "canonical"},       {"pm/facet.comp", "canonical"},
+    {"pm/evaluate.comp", "position"},      {"deform/deform.comp", "p"},           {"kernel/isolate.comp", "canonical"},
+    {"kernel/refine.comp", "p"},           {"blend/chart.comp", "canonical"},     {"blend/evaluate.comp", "position"},
+    {"kernel/limit.comp", "position"},     {"kernel/fragment.comp", "position"},  {"pose/locals.comp", "local", true},
+    {"pose/roots.comp", "local", true},    {"pose/palette.comp", "placed", true},
 };
 
 TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
