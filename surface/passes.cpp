@@ -5,6 +5,7 @@
 #include "shaders/blend_evaluate_comp_LEVELS.h"
 #include "shaders/evaluate_attributes_comp.h"
 #include "shaders/evaluate_attributes_comp_LEVELS.h"
+#include "shaders/evaluate_attributes_comp_LEVELS_RINGS.h"
 #include "shaders/evaluate_bicubic_comp.h"
 #include "shaders/evaluate_bicubic_comp_LEVELS.h"
 #include "shaders/evaluate_edge_comp.h"
@@ -15,6 +16,8 @@
 #include "shaders/kernel_refine_comp.h"
 #include "shaders/lod_edge_comp.h"
 #include "shaders/lod_patch_comp.h"
+#include "shaders/lod_patch_comp_BACK_FACES.h"
+#include "shaders/lod_patch_comp_CHARTS.h"
 #include "shaders/lod_place_comp.h"
 #include "shaders/lod_solve_comp.h"
 #include "shaders/pm_evaluate_comp.h"
@@ -46,7 +49,6 @@ static_assert(sizeof(shared::KernelPush) <= sizeof(shared::SurfacePush));
 constexpr uint32_t kKindConstant = gpu::kFirstPassConstant;
 constexpr uint32_t kVertexFormatConstant = kKindConstant + 1;
 constexpr uint32_t kCornerNormalsConstant = kKindConstant + 2;
-constexpr uint32_t kRingsConstant = kKindConstant + 4;
 constexpr uint32_t kInteriorConstant = kKindConstant + 5;
 constexpr uint32_t kRateConstant = kKindConstant + 6;
 constexpr uint32_t kOutputsConstant = kKindConstant + 7;
@@ -119,9 +121,10 @@ Shaders Shaders::embedded() {
     shaders.bicubic = evaluate_bicubic_comp;
     shaders.edge = evaluate_edge_comp;
     shaders.attributes = evaluate_attributes_comp;
-    shaders.lod = {lod_edge_comp, lod_patch_comp, lod_solve_comp, lod_place_comp};
+    shaders.lod = {lod_edge_comp,         lod_patch_comp, lod_patch_comp_BACK_FACES,
+                   lod_patch_comp_CHARTS, lod_solve_comp, lod_place_comp};
     shaders.levels = {pm_evaluate_comp_LEVELS, blend_evaluate_comp_LEVELS, evaluate_bicubic_comp_LEVELS,
-                      evaluate_attributes_comp_LEVELS};
+                      evaluate_attributes_comp_LEVELS, evaluate_attributes_comp_LEVELS_RINGS};
     return shaders;
 }
 
@@ -247,11 +250,12 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
                               "supple evaluate at levels, " + name);
             }
             if (status && needs.attributes) {
-                status = make(lodAttributes_[patchClass][outputs], shaders_.levels.attributes,
-                              {{kKindConstant, static_cast<uint32_t>(domainOf(range.patchClass))},
-                               {kOutputsConstant, outputs},
-                               {kRingsConstant, lod::formOf(range.patchClass) == lod::Form::quad ? VK_FALSE : VK_TRUE}},
-                              "supple attributes at levels, " + name);
+                status = make(
+                    lodAttributes_[patchClass][outputs],
+                    lod::formOf(range.patchClass) == lod::Form::quad ? shaders_.levels.attributes
+                                                                     : shaders_.levels.ringAttributes,
+                    {{kKindConstant, static_cast<uint32_t>(domainOf(range.patchClass))}, {kOutputsConstant, outputs}},
+                    "supple attributes at levels, " + name);
             }
             continue;
         }

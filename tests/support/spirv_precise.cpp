@@ -430,8 +430,8 @@ std::vector<uint32_t> compileShader(const std::string& path, const std::string& 
 }
 
 std::vector<uint32_t> compileEdited(const std::string& path, const std::string& from, const std::string& to,
-                                    bool wide) {
-    return compileCopy(path, wide ? " -DWIDE" : "", [&](const std::filesystem::path& shaders) {
+                                    const std::string& macros) {
+    return compileCopy(path, " " + macros, [&](const std::filesystem::path& shaders) {
         std::string text = readText(shaders / path);
         const size_t at = text.find(from);
         ASSERT_NE(at, std::string::npos) << path << " has no " << from;

@@ -23,9 +23,9 @@ namespace supple::test {
 /// Empty result: it did not compile (the test fails).
 [[nodiscard]] std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip);
 
-/// For either mapping, with a piece of the file replaced, which must stand in it once.
+/// With macros ("-DWIDE"), and with a piece of the file replaced, which must stand in it once.
 [[nodiscard]] std::vector<uint32_t> compileEdited(const std::string& path, const std::string& from,
-                                                  const std::string& to, bool wide);
+                                                  const std::string& to, const std::string& macros);
 
 /// As the build does to the library's kernels. Empty: it failed, and so does the test.
 [[nodiscard]] std::vector<uint32_t> optimized(const std::vector<uint32_t>& spirv);
