@@ -205,6 +205,7 @@ Status Passes::makeConstruction(Kernel kernel) {
         {&Shaders::pmFacet, kP4Patch, "supple P_m facet, quad"},
         {&Shaders::pmFacet, kP5Patch, "supple P_m facet, pentagon"},
         {&Shaders::isolate, 0, "supple kernel, isolate"},
+        {&Shaders::isolate, 1, "supple kernel, isolate once more"},
         {&Shaders::blendChart, 0, "supple blend, chart"},
         {&Shaders::blendChart, 1, "supple blend, chart of a subdivided cage"},
     };
@@ -273,7 +274,7 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
             ByRate& byRate = evaluate_[patchClass][formats[f]][normals];
             // The rate it begins with, where that is worth a pipeline, and any that is set later.
             for (const uint32_t rate : {0u, unrolled(needs.rate)}) {
-                if (status && (rate == 0 || (patchClass == kRegularPatch && formats[f] != kVertexPosition))) {
+                if (status && (rate == 0 || (patchClass <= kPerturbedPatch && formats[f] != kVertexPosition))) {
                     status = make(byRate[rate], evaluate,
                                   {{kKindConstant, patchClass},
                                    {kVertexFormatConstant, formats[f]},
@@ -296,7 +297,7 @@ Status Passes::makeShared(const Tables& tables, const Needs& needs, std::span<co
     for (const uint32_t format : formats) {
         for (size_t r = 0; status && r < tables.ranges.size(); ++r) {
             const auto patchClass = static_cast<uint32_t>(tables.ranges[r].patchClass);
-            const uint32_t rate = patchClass == shared::kRegularPatch ? unrolled(needs.rate) : 0;
+            const uint32_t rate = patchClass <= shared::kPerturbedPatch ? unrolled(needs.rate) : 0;
             status =
                 make(inside_[patchClass][format][normals][rate],
                      patchClass <= shared::kPolarPatch ? shaders_.bicubic : shaders_.pmEvaluate,

@@ -84,6 +84,7 @@ enum class Kernel : uint32_t {
     pmFacet5,
     // subdivision kernel, and the blending surface where it subdivides first
     isolate,
+    isolateFromPool, ///< a second step
     // blending surface
     blendChart,
     blendChartFromPool,
@@ -92,8 +93,9 @@ enum class Kernel : uint32_t {
 
 /// The passes between deformed cage and coefficients, in order; a barrier stands between them.
 enum class Stage : uint32_t {
-    vertex, ///< one invocation a cage vertex or sector; subdivision kernel: a vertex of the isolated level
-    edge    ///< p-rep: a perturbed edge; P_m: a facet; blending surface on a subdivided cage: a chart
+    vertex, ///< one invocation a cage vertex or sector; subdivision kernel: a vertex of the first step
+    edge ///< p-rep: a perturbed edge; P_m: a facet; subdivision kernel: a vertex of a second step; blending surface on
+         ///< a subdivided cage: a chart
 };
 inline constexpr uint32_t kStageCount = 2;
 

@@ -1,5 +1,5 @@
-// Stencils as the device reads them: the vertices of a subdivided cage, into the front of the coefficient pool. Private
-// to surface/.
+// Stencils as the device reads them: the vertices of a step of subdivision, into the coefficient pool. Private to
+// surface/.
 #pragma once
 
 #include "surface/subdivision.h"
@@ -7,7 +7,15 @@
 
 namespace supple::surface {
 
-/// Adds the records of kernel/isolate.comp and its construction: row i becomes pool element i.
-void writeStencils(const Stencils& stencils, TableWriter& writer, Tables& tables);
+/// Which vertices stencils read and where their own go.
+struct StencilPlace {
+    Stage stage = Stage::vertex;
+    Kernel kernel = Kernel::isolate; ///< or isolateFromPool
+    uint32_t from = 0;               ///< first vertex: of the cage, or in the pool
+    uint32_t to = 0;                 ///< in the pool
+};
+
+/// Adds the records of kernel/isolate.comp and their construction.
+void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWriter& writer, Tables& tables);
 
 } // namespace supple::surface

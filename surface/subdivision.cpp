@@ -3,8 +3,7 @@
 #include "cage/features.h"
 
 #include <algorithm>
-#include <array>
-#include <span>
+#include <initializer_list>
 #include <utility>
 
 namespace supple::surface {
@@ -17,23 +16,19 @@ float markedInfinite(float sharpness) {
     return sharpness >= cage::kHardSharpness ? kInfiniteSharpness : sharpness;
 }
 
-/// Writes stencil rows of a level from combinations of its parent's points.
+/// Writes stencil rows of a level over its parent's vertices.
 class RowWriter {
 public:
-    RowWriter(const Stencils& parent, uint32_t vertices, Stencils& out)
-        : parent_(parent), out_(out), sums_(vertices, 0.0), met_(vertices, 0) {
+    RowWriter(uint32_t vertices, Stencils& out) : out_(out), sums_(vertices, 0.0), met_(vertices, 0) {
         out_.starts.push_back(0);
     }
 
-    void add(uint32_t parentPoint, double weight) {
-        for (uint32_t i = parent_.starts[parentPoint]; i < parent_.starts[parentPoint + 1]; ++i) {
-            const uint32_t v = parent_.vertices[i];
-            if (met_[v] == 0) {
-                met_[v] = 1;
-                touched_.push_back(v);
-            }
-            sums_[v] += weight * parent_.weights[i];
+    void add(uint32_t v, double weight) {
+        if (met_[v] == 0) {
+            met_[v] = 1;
+            touched_.push_back(v);
         }
+        sums_[v] += weight;
     }
 
     void close() {
@@ -49,19 +44,19 @@ public:
     }
 
 private:
-    const Stencils& parent_;
     Stencils& out_;
-    std::vector<double> sums_; ///< per vertex of the cage
+    std::vector<double> sums_; ///< per vertex of the parent
     std::vector<uint8_t> met_;
     std::vector<uint32_t> touched_;
 };
 
 class Refiner {
 public:
-    Refiner(const Level& parent, Subdivision subdivision, uint32_t cageVertices)
-        : parent_(parent), subdivision_(subdivision), rows_(parent.stencils, cageVertices, child_.stencils) {}
+    Refiner(const Level& parent, Subdivision subdivision)
+        : parent_(parent), subdivision_(subdivision), rows_(parent.cage.vertexCount(), child_.stencils) {}
 
     Level run() {
+        reserve();
         for (uint32_t v = 0; v < parent_.cage.vertexCount(); ++v) {
             addVertexPoint(v);
         }
@@ -81,17 +76,29 @@ public:
                 addTriangles(f);
             }
         }
+        forEachCornerAttribute(parent_.cage, child_.cage, [&](const auto& from, auto& to) { carry(from, to); });
         return std::move(child_);
     }
 
 private:
-    /// What a corner of a child face is made of: corners of the parent face, all with the same weight.
-    struct ChildCorner {
-        uint32_t vertex = 0;
-        uint32_t first = 0; ///< parent corners; first == second at a vertex point
-        uint32_t second = 0;
-        bool mean = false; ///< of the whole face instead
-    };
+    void reserve() {
+        const bool quads = subdivision_ == Subdivision::catmullClark;
+        const size_t corners = parent_.cage.cornerCount(),
+                     faces = quads ? corners : 4 * size_t{parent_.cage.faceCount()};
+        const size_t points =
+            size_t{parent_.cage.vertexCount()} + parent_.topology.edges.size() + (quads ? parent_.cage.faceCount() : 0);
+        child_.cage.positions.reserve(points);
+        child_.stencils.starts.reserve(points + 1);
+        child_.stencils.vertices.reserve(8 * points);
+        child_.stencils.weights.reserve(8 * points);
+        child_.cage.faceStarts.reserve(faces + 1);
+        child_.cage.faceVertices.reserve((quads ? 4 : 3) * faces);
+        child_.sourceFaces.reserve(faces);
+        child_.holes.reserve(faces);
+        forEachCornerAttribute(parent_.cage, child_.cage, [&](const auto& from, auto& to) {
+            to.reserve(from.empty() ? 0 : (quads ? 4 : 3) * faces);
+        });
+    }
 
     [[nodiscard]] uint32_t vertexAt(uint32_t corner) const { return parent_.cage.faceVertices[corner]; }
     [[nodiscard]] uint32_t faceOf(uint32_t corner) const { return parent_.topology.cornerFaces[corner]; }
@@ -171,48 +178,56 @@ private:
         rows_.close();
     }
 
-    [[nodiscard]] ChildCorner vertexPoint(uint32_t corner) const { return {vertexAt(corner), corner, corner, false}; }
-    [[nodiscard]] ChildCorner edgePoint(uint32_t corner) const {
-        return {parent_.cage.vertexCount() + parent_.topology.cornerEdges[corner], corner, next(corner), false};
+    [[nodiscard]] uint32_t edgePoint(uint32_t corner) const {
+        return parent_.cage.vertexCount() + parent_.topology.cornerEdges[corner];
     }
-    [[nodiscard]] ChildCorner facePoint(uint32_t face) const {
-        const auto edges = static_cast<uint32_t>(parent_.topology.edges.size());
-        return {parent_.cage.vertexCount() + edges + face, 0, 0, true};
+    [[nodiscard]] uint32_t facePoint(uint32_t face) const {
+        return parent_.cage.vertexCount() + static_cast<uint32_t>(parent_.topology.edges.size()) + face;
     }
 
     void addQuads(uint32_t f) {
         for (uint32_t c = parent_.cage.faceStarts[f]; c < parent_.cage.faceStarts[f + 1]; ++c) {
-            addFace(f, std::array{vertexPoint(c), edgePoint(c), facePoint(f), edgePoint(previous(c))});
+            addFace(f, {vertexAt(c), edgePoint(c), facePoint(f), edgePoint(previous(c))});
         }
     }
 
     void addTriangles(uint32_t f) {
         const uint32_t first = parent_.cage.faceStarts[f];
         for (uint32_t c = first; c < first + 3; ++c) {
-            addFace(f, std::array{vertexPoint(c), edgePoint(c), edgePoint(previous(c))});
+            addFace(f, {vertexAt(c), edgePoint(c), edgePoint(previous(c))});
         }
-        addFace(f, std::array{edgePoint(first), edgePoint(first + 1), edgePoint(first + 2)});
+        addFace(f, {edgePoint(first), edgePoint(first + 1), edgePoint(first + 2)});
     }
 
-    void addFace(uint32_t f, std::span<const ChildCorner> corners) {
-        for (const ChildCorner& corner : corners) {
-            child_.cage.faceVertices.push_back(corner.vertex);
-            forEachCornerAttribute(parent_.cage, child_.cage, [&](const auto& from, auto& to) {
-                if (!from.empty()) {
-                    to.push_back(corner.mean ? faceMean(from, f) : (from[corner.first] + from[corner.second]) * 0.5f);
-                }
-            });
-        }
+    void addFace(uint32_t f, std::initializer_list<uint32_t> vertices) {
+        child_.cage.faceVertices.insert(child_.cage.faceVertices.end(), vertices);
         closeFace(child_, parent_, f);
     }
 
+    /// An attribute of the children's corners, in the order of addQuads() and addTriangles(): along edges and over
+    /// faces the mean.
     template <class Value>
-    [[nodiscard]] Value faceMean(const std::vector<Value>& values, uint32_t f) const {
-        Value sum(0.0f);
-        for (uint32_t c = parent_.cage.faceStarts[f]; c < parent_.cage.faceStarts[f + 1]; ++c) {
-            sum += values[c];
+    void carry(const std::vector<Value>& from, std::vector<Value>& to) const {
+        for (uint32_t f = 0; f < parent_.cage.faceCount() && !from.empty(); ++f) {
+            const uint32_t first = parent_.cage.faceStarts[f], end = parent_.cage.faceStarts[f + 1];
+            const auto middle = [&](uint32_t c) { return (from[c] + from[c + 1 == end ? first : c + 1]) * 0.5f; };
+            const auto before = [&](uint32_t c) { return middle(c == first ? end - 1 : c - 1); };
+            if (subdivision_ == Subdivision::catmullClark) {
+                Value mean(0.0f);
+                for (uint32_t c = first; c < end; ++c) {
+                    mean += from[c];
+                }
+                mean /= static_cast<float>(end - first);
+                for (uint32_t c = first; c < end; ++c) {
+                    to.insert(to.end(), {from[c], middle(c), mean, before(c)});
+                }
+            } else {
+                for (uint32_t c = first; c < end; ++c) {
+                    to.insert(to.end(), {from[c], middle(c), before(c)});
+                }
+                to.insert(to.end(), {middle(first), middle(first + 1), middle(first + 2)});
+            }
         }
-        return sum / static_cast<float>(parent_.cage.sides(f));
     }
 
     const Level& parent_;
@@ -290,9 +305,9 @@ void beginLevel(Level& level, const Cage& cage, std::vector<std::string>& notes)
     level.stencils.starts.push_back(level.cage.vertexCount());
 }
 
-Level refine(const Level& parent, Subdivision subdivision, const std::vector<glm::vec3>& cagePositions) {
-    Level child = Refiner(parent, subdivision, static_cast<uint32_t>(cagePositions.size())).run();
-    placeVertices(child, cagePositions);
+Level refine(const Level& parent, Subdivision subdivision) {
+    Level child = Refiner(parent, subdivision).run();
+    placeVertices(child, parent.cage.positions);
     return child;
 }
 

@@ -13,10 +13,10 @@
 
 namespace supple::surface {
 
-/// Points as affine combinations of the cage's vertices: row i is the entries [starts[i], starts[i + 1]).
+/// Points as affine combinations of a cage's vertices: row i is the entries [starts[i], starts[i + 1]).
 struct Stencils {
     std::vector<uint32_t> starts;
-    std::vector<uint32_t> vertices; ///< cage vertices, rising within a row
+    std::vector<uint32_t> vertices; ///< rising within a row
     std::vector<double> weights;    ///< sum to 1 in every row
 
     [[nodiscard]] uint32_t rows() const { return static_cast<uint32_t>(starts.size() - 1); }
@@ -27,7 +27,7 @@ struct Level {
     cage::Cage cage;                   ///< without creases, sharp vertices and holes
     std::vector<uint32_t> sourceFaces; ///< per face: the face of the first level it came from
     std::vector<uint8_t> holes;        ///< per face: 1 where that one is not drawn
-    Stencils stencils;
+    Stencils stencils;                 ///< of its vertices, over those of the level before
     // What a further step needs; a child has none of it until equip().
     cage::Topology topology;
     std::vector<float> edgeSharpness, vertexSharpness;
@@ -48,15 +48,15 @@ void closeFace(Level& to, const Level& from, uint32_t face);
 /// The cage's faces, attributes and holes; then `topology` has to be filled in, and beginLevel() called.
 [[nodiscard]] Level givenLevel(const cage::Cage& cage);
 
-/// Lays the cage's creases and sharp vertices on the level and begins its stencils; adds to `notes` what names no edge
-/// or vertex.
+/// Lays the cage's creases and sharp vertices on the level and gives it stencils of 1 times itself; adds to `notes`
+/// what names no edge or vertex.
 void beginLevel(Level& level, const cage::Cage& cage, std::vector<std::string>& notes);
 
 /// A step of Catmull-Clark on any faces, or of Loop on triangles: the child but for what equip() gives it. Its vertices
 /// are the parent's, then a point an edge (in the order of Topology::edges), then, Catmull-Clark, a point a face. Its
 /// faces come in the order of the parent's, of each a face a corner (which is that face's corner 0), then, Loop, the
 /// middle one.
-[[nodiscard]] Level refine(const Level& parent, Subdivision subdivision, const std::vector<glm::vec3>& cagePositions);
+[[nodiscard]] Level refine(const Level& parent, Subdivision subdivision);
 
 /// Gives a child of Catmull-Clark what another step asks of it.
 [[nodiscard]] std::optional<Error> equip(Level& child, const Level& parent);

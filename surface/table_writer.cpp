@@ -12,9 +12,12 @@ bool Tables::has(Stage stage) const {
 }
 
 void sortPatches(std::vector<DraftPatch>& patches) {
-    std::sort(patches.begin(), patches.end(), [](const DraftPatch& a, const DraftPatch& b) {
+    const auto before = [](const DraftPatch& a, const DraftPatch& b) {
         return std::tuple(a.info.patchClass, a.material, a.facet) < std::tuple(b.info.patchClass, b.material, b.facet);
-    });
+    };
+    if (!std::is_sorted(patches.begin(), patches.end(), before)) { // which they mostly are
+        std::sort(patches.begin(), patches.end(), before);
+    }
 }
 
 void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables) {
@@ -24,6 +27,8 @@ void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches
         const glm::vec2 uv = uvs.empty() ? glm::vec2(0.0f) : uvs[corner];
         writer.put({std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y)});
     };
+    writer.reserve(size_t{tables.uvSets == 2 || tables.faceUvs ? 8u : 4u} * cage.cornerCount() +
+                   4 * tables.ranges.size());
     for (PatchRange& range : tables.ranges) {
         range.attributes = writer.element();
         for (uint32_t p = range.firstPatch; p < range.firstPatch + range.section.count; ++p) {

@@ -3,6 +3,7 @@
 
 #include "surface/scheme.h"
 
+#include <algorithm>
 #include <bit>
 #include <initializer_list>
 
@@ -18,6 +19,12 @@ public:
             words_.push_back(0);
         }
         return static_cast<uint32_t>(words_.size() / 4);
+    }
+    /// Room for so many words more.
+    void reserve(size_t words) {
+        if (words_.size() + words > words_.capacity()) {
+            words_.reserve(std::max(words_.size() + words, 2 * words_.capacity()));
+        }
     }
     void put(std::initializer_list<uint32_t> values) { words_.insert(words_.end(), values); }
 
@@ -43,6 +50,7 @@ struct DraftPatch {
 template <class Mesh>
 [[nodiscard]] std::vector<DraftPatch> draftPatches(const Mesh& mesh) {
     std::vector<DraftPatch> patches;
+    patches.reserve(mesh.cage.faceCount());
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
         if (mesh.holes[f] != 0) {
             continue;

@@ -187,14 +187,16 @@ void evaluateNarrowLod() {
         } while (++i < end);
     } while (++j < side);
     if (last == 1u) return; // no inner rows
-    j = 1u;
+    uint n = 0u, count = 2u * (last - 1u);
     do {
+        bool onRight = n >= last - 1u;
+        LodPattern border = left;
+        if (onRight) border = right;
+        j = n + (onRight ? 2u - last : 1u);
         vec3 position, normal;
-        finish(collapse(c, lodPair(left, j, last)), kBegin, position, normal);
-        storeSurfaceVertex(vertex + j * side, empty ? vec3(0.0) : position, normal);
-        finish(collapse(c, lodPair(right, j, last)), kEnd, position, normal);
-        storeSurfaceVertex(vertex + j * side + last, empty ? vec3(0.0) : position, normal);
-    } while (++j < last);
+        finish(collapse(c, lodPair(border, j, last)), onRight ? kEnd : kBegin, position, normal);
+        storeSurfaceVertex(vertex + j * side + (onRight ? last : 0u), empty ? vec3(0.0) : position, normal);
+    } while (++n < count);
 }
 
 const uint kSharedStride = kPerturbed ? 48u : 32u; // g, relative, h

@@ -11,6 +11,8 @@
 #include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
+#include "shaders/pm/border.glsl"
+#include "shaders/shared/pm.h"
 
 layout(constant_id = 3) const uint kEdges = kPlainEdges;
 layout(constant_id = 5) const bool kCornerNormals = false;
@@ -40,7 +42,7 @@ Edge loadEdge(uint record, uvec4 own, uint base) {
     Edge e;
     e.border = vec3[4](v0, placed(v0, t0), placed(v1, t1), v1);
     vec3 chord = v1 - v0;
-    e.along = vec3[3](t0, chord + t1 - t0, -t1);
+    e.along = alongBorder(chord, t0, t1);
     e.across = vec3[4](q0, q1 - t0, q2 - t1, q3);
     vec3 firstNormal = cross(t0, q0); // outwards
     if (kMixed) {
@@ -51,22 +53,12 @@ Edge loadEdge(uint record, uvec4 own, uint base) {
             e.across = vec3[4](a[0], a[0] * (1.0 / 3.0) + a[1], a[1] + a[2], 3.0 * a[2]);
         if ((own.z & kApexFirstEdge) != 0u)
             e.across = vec3[4](3.0 * a[1], a[1] + a[2], a[3] * (1.0 / 3.0) + a[2], a[3]);
-        // A sector of a P_m patch: the rows 301 .. 031 and 400 .. 130 of its coefficients (pm/evaluate.comp).
         uint sides = own.z & kEdgeSidesMask;
-        if (sides != 0u) {
-            float ray = sides == 3u ? 1.0 / 3.0 : sides == 4u ? 0.5 : 0.7236067977499790;
-            e.across = vec3[4](0.75 * ray * (t0 + q0), q1 - 0.75 * t0, q2 + 0.5 * (chord - (t0 + t1)),
-                               0.75 * (ray * (t1 + q3) - t1));
-        }
+        float ray = sides == 3u ? SUPPLE_PM_RAY_SIDE(3u) : sides == 4u ? SUPPLE_PM_RAY_SIDE(4u) : SUPPLE_PM_RAY_SIDE(5u);
+        if (sides != 0u) e.across = acrossSector(ray, chord, t0, t1, q0, q3, q1, q2);
         firstNormal = cross(e.along[0], e.across[0]);
-        if ((own.z & kSingularEdge) != 0u) {
-            // The tangents are parallel at the beginning: the limit of the normals on the way to the middle.
-            float ray = sides == 3u ? 1.0 / 3.0 : sides == 4u ? 0.5 : 0.7236067977499790;
-            vec3 last121 = poolVector(base + own.w), first = 0.75 * t0, second = e.across[0];
-            vec3 firstStep = -2.0 * first + (0.5 * (chord + t1) - 0.25 * t0) + (q1 - second);
-            vec3 secondStep = -2.0 * second + (q1 - first) + ray * (q1 + last121 - 2.0 * second);
-            firstNormal = cross(firstStep, second) + cross(first, secondStep);
-        }
+        if ((own.z & kSingularEdge) != 0u)
+            firstNormal = singularNormal(ray, chord, t0, t1, e.across[0], q1, poolVector(base + own.w));
     }
     if (kCornerNormals && (own.z & kStoredNormalEdge) != 0u) firstNormal = poolVector(base + own.w);
     e.firstNormal = firstNormal;

@@ -1,9 +1,9 @@
 // Evaluation of P_3, P_4 and P_5 patches: m triangular sectors of degree 4 round a centre (docs/pm.md). Coefficients are
 // gathered from the pool by index; a sector's 15 are expanded from the patch's 6 m + 1. Samples on a border come from the
-// border's cubic alone, by the same sum as every other class of patch. Narrow mapping: one lane a patch, sector by sector.
-// Wide mapping: a workgroup expands the sectors of a few patches into shared memory, its lanes share the samples. Both use
-// loadSector() and finish(), so positions agree bit for bit. With level of detail samples lie in rings, where the patch's
-// record says (docs/lod.md).
+// border's cubic alone, by the same sum as every other class of patch. Narrow mapping: one lane a patch, sector by sector,
+// of each its border and then what lies inside. Wide mapping: a workgroup expands the sectors of a few patches into shared
+// memory, its lanes share the samples. Both use makeSector(), borderPosition() and finishInside(), so positions agree bit for bit.
+// With level of detail samples lie in rings, where the patch's record says (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -30,6 +30,7 @@ vec3 coefficient(uint i, bool today) {
 }
 
 #include "shaders/pm/sector.glsl"
+#include "shaders/pm/border.glsl"
 
 // One step of de Casteljau's algorithm short of the point: the cubic blends towards corner i, corner i + 1 and the centre.
 // The position is their blend, the derivatives are 4 times their differences.
@@ -43,42 +44,66 @@ void cubicBlends(Sector s, vec3 w, out vec3 first, out vec3 second, out vec3 inn
     precise vec3 q = ((b[0] * s.c[1] + b[1] * s.c[2]) + (b[2] * s.c[3] + b[3] * s.c[4])) +
                      ((b[4] * s.c[6] + b[5] * s.c[7]) + b[6] * s.c[8]) + ((b[7] * s.c[10] + b[8] * s.c[11]) + b[9] * s.c[13]);
     precise vec3 r = ((b[0] * s.c[5] + b[1] * s.c[6]) + (b[2] * s.c[7] + b[3] * s.c[8])) +
-                     ((b[4] * s.c[9] + b[5] * s.c[10]) + b[6] * s.c[11]) + ((b[7] * s.c[12] + b[8] * s.c[13]) + b[9] * s.c[14]);
+                     ((b[4] * s.c[9] + b[5] * s.c[10]) + b[6] * s.c[11]) + (b[7] * s.c[12] + b[8] * s.c[13]); // 004 is 0
     first = p;
     second = q;
     inner = r;
 }
 
-// The sample of these weights of a sector's corners and the centre. On the border its parameter there is `along`.
-// `singular`: it is a corner with parallel tangents.
-void finish(Sector s, vec3 w, bool onBorder, vec2 along, bool singular, out vec3 position, out vec3 normal) {
+// The sample of these weights of a sector's corners and the centre.
+void finishInside(Sector s, vec3 w, out vec3 position, out vec3 normal) {
     vec3 a, b, c;
     cubicBlends(s, w, a, b, c);
     precise vec3 p = s.centre + ((w.x * a + w.y * b) + w.z * c);
-    if (onBorder) {
-        precise vec3 q = sum4(bernstein3(along), s.border[0], s.border[1], s.border[2], s.border[3]);
-        p = q;
-    }
-    if (singular) {
-        const float kStep = 1e-3 / 3.0; // a step inside, where there is a normal
-        cubicBlends(s, vec3(1.0 - 2.0 * kStep, kStep, kStep), a, b, c);
-    }
     position = p;
     normal = cross(b - a, c - a); // outwards
 }
-
-// The sample (k, l) of a sector: weights (rate - k - l, k, l) / rate.
-void finishAtRate(Sector s, uint k, uint l, bool singular, out vec3 position, out vec3 normal) {
-    vec2 second = parameterPair(k, push.rate, push.pairs), third = parameterPair(l, push.rate, push.pairs);
-    vec3 w = vec3(parameterPair(push.rate - k - l, push.rate, push.pairs).x, second.x, third.x);
-    finish(s, w, l == 0u, second, singular && k == 0u && l == 0u, position, normal);
+void finishCentre(Sector s, out vec3 position, out vec3 normal) {
+    position = s.centre;
+    normal = cross(s.c[13] - s.c[12], -s.c[12]);
 }
 
-// A sample of a sector at levels of detail.
-void finishInRing(Sector s, LodRecord r, RingSample at, bool singular, out vec3 position, out vec3 normal) {
-    vec2 along;
-    vec3 w = ringWeights(r, at, along);
-    finish(s, w, at.ring == 0u, along, singular && at.ring == 0u && at.k == 0u, position, normal);
+vec3 borderPosition(vec4 weights, vec3 border[4]) {
+    precise vec3 p = sum4(weights, border[0], border[1], border[2], border[3]);
+    return p;
+}
+
+// Narrow mapping: a sector's border, `singular` where its first corner has parallel tangents.
+struct Border {
+    vec3 points[4], along[3], across[4];
+    vec3 firstNormal;
+    bool singular;
+};
+Border makeBorder(Sector s, SectorSide last, SectorSide own, SectorSide next, bool singular) {
+    vec3 chord = next.v - own.v;
+    Border b;
+    b.points = s.border;
+    b.along = alongBorder(chord, own.t0, own.t1);
+    b.across = acrossSector(kRaySide, chord, own.t0, own.t1, last.t1, next.t0, own.o211, own.o121);
+    b.firstNormal = singularNormal(kRaySide, chord, own.t0, own.t1, b.across[0], own.o211, last.o121);
+    b.singular = singular;
+    return b;
+}
+void finishBorder(Border b, bool first, vec2 along, out vec3 position, out vec3 normal) {
+    vec4 w = bernstein3(along);
+    position = borderPosition(w, b.points);
+    normal = cross(blend3(derivativeWeights3(along), b.along[0], b.along[1], b.along[2]),
+                   blend4(w, b.across[0], b.across[1], b.across[2], b.across[3]));
+    if (first && b.singular) normal = b.firstNormal;
+}
+
+// Wide mapping: any sample of a sector. A singular corner takes the normal of a step inside.
+void finish(Sector s, vec3 w, bool onBorder, vec2 along, bool singular, out vec3 position, out vec3 normal) {
+    const float kStep = 1e-3 / 3.0;
+    if (singular) w = vec3(1.0 - 2.0 * kStep, kStep, kStep);
+    finishInside(s, w, position, normal);
+    if (onBorder) position = borderPosition(bernstein3(along), s.border);
+}
+
+// Weights of the sample (k, l) of a sector: (rate - k - l, k, l) / rate.
+vec3 weightsAtRate(uint k, uint l) {
+    return vec3(parameterPair(push.rate - k - l, push.rate, push.pairs).x, parameterPair(k, push.rate, push.pairs).x,
+                parameterPair(l, push.rate, push.pairs).x);
 }
 
 // Number of the sample (k, l) in a sector.
@@ -126,7 +151,9 @@ void evaluateNarrow() {
     uint record = push.table + kSides * patchIndex, base = instance * push.poolStride;
     uint samples = push.samples;
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
-    uint singular = tableElement(record + 1u).w;
+    uint singular = tableElement(record + 1u).w, inner = centreIndex(record, base);
+    vec3 centre = coefficient(inner, false);
+    SectorSide own = loadSide(record, base, inner, kSides - 1u, false), next = loadSide(record, base, inner, 0u, false);
     // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do. All lanes go
     // round equally often. The centre is sector 0's, which therefore comes last.
     Sector s;
@@ -134,22 +161,32 @@ void evaluateNarrow() {
     uint sector = kSides;
     do {
         --sector;
-        s = loadSector(kSides, kRay, record, base, sector, false);
-        bool step = (singular & (1u << sector)) != 0u;
-        uint l = kInterior ? kRowStep : 0u;
+        SectorSide last = loadSide(record, base, inner, sector == 0u ? kSides - 1u : sector - 1u, false);
+        s = makeSector(kRay, centre, last, own, next);
+        if (!kInterior) {
+            Border border = makeBorder(s, last, own, next, (singular & (1u << sector)) != 0u);
+            uint k = 0u;
+            do {
+                finishBorder(border, k == 0u, parameterPair(k, push.rate, push.pairs), position, normal);
+                storeSurfaceVertex(vertex + sampleOf(sector, k, 0u), position, normal);
+            } while (++k < push.rate);
+        }
+        uint l = kRowStep;
         if (l < push.rate) {
             do {
                 uint k = 0u;
                 do {
-                    finishAtRate(s, k, l, step, position, normal);
+                    finishInside(s, weightsAtRate(k, l), position, normal);
                     storeSurfaceVertex(vertex + sampleOf(sector, k, l), position, normal);
                 } while (++k < push.rate - l);
                 l += kRowStep;
             } while (l < push.rate);
         }
+        next = own;
+        own = last;
     } while (sector > 0u);
     if (push.rate % kRowStep == 0u) {
-        finishAtRate(s, 0u, push.rate, false, position, normal);
+        finishCentre(s, position, normal);
         storeSurfaceVertex(vertex + sampleOf(0u, 0u, push.rate), position, normal);
     }
 }
@@ -161,25 +198,35 @@ void evaluateNarrowLod() {
     uint last = r.capacity, rings = (last + 1u) / 2u;
     uint record = push.table + kSides * (empty ? 0u : r.patchIndex - push.firstPatch);
     uint base = empty ? 0u : r.slot * push.poolStride;
-    uint singular = tableElement(record + 1u).w;
+    uint singular = tableElement(record + 1u).w, inner = centreIndex(record, base);
+    vec3 centre = coefficient(inner, r.isNew);
+    SectorSide before = loadSide(record, base, inner, kSides - 1u, r.isNew), own = loadSide(record, base, inner, 0u, r.isNew);
     LodPattern inside = lodPattern(r.pairs[0], r.capacityIndex);
     for (uint sector = 0u; sector < kSides; ++sector) {
-        Sector s = loadSector(kSides, kRay, record, base, sector, r.isNew);
-        bool step = (singular & (1u << sector)) != 0u;
+        SectorSide next = loadSide(record, base, inner, sector + 1u == kSides ? 0u : sector + 1u, r.isNew);
+        Sector s = makeSector(kRay, centre, before, own, next);
+        Border border = makeBorder(s, before, own, next, (singular & (1u << sector)) != 0u);
         LodPattern side = lodPattern(r.pairs[1u + sector], r.capacityIndex);
-        uint ring = 0u;
+        vec3 position, normal;
+        uint vertex = r.firstVertex + sector * last, k = 0u; // of ring 0
         do {
-            float t = lodPair(inside, ring, last).x;
-            uint vertex = r.firstVertex + ringSideStart(kSides, ring, sector, last);
-            uint k = ring;
+            finishBorder(border, k == 0u, lodPair(side, k, last), position, normal);
+            storeSurfaceVertex(vertex + k, empty ? vec3(0.0) : position, normal);
+        } while (++k < last);
+        uint ring = 1u;
+        if (ring < rings) {
             do {
-                vec2 along = lodPair(side, k, last);
-                vec3 position, normal;
-                finish(s, ringWeights(along, t), ring == 0u, along, step && ring == 0u && k == 0u, position, normal);
-                storeSurfaceVertex(vertex + k - ring, empty ? vec3(0.0) : position, normal);
-            } while (++k < last - ring);
-            side = inside;
-        } while (++ring < rings);
+                float t = lodPair(inside, ring, last).x;
+                vertex = r.firstVertex + ringSideStart(kSides, ring, sector, last);
+                k = ring;
+                do {
+                    finishInside(s, ringWeights(lodPair(inside, k, last), t), position, normal);
+                    storeSurfaceVertex(vertex + k - ring, empty ? vec3(0.0) : position, normal);
+                } while (++k < last - ring);
+            } while (++ring < rings);
+        }
+        before = own;
+        own = next;
     }
 }
 
@@ -221,7 +268,8 @@ void evaluateWide() {
         Sector s = sharedSector(slot * kSides + at.z);
         uint singular = tableElement(push.table + kSides * patchIndex + 1u).w;
         vec3 position, normal;
-        finishAtRate(s, at.x, at.y, (singular & (1u << at.z)) != 0u, position, normal);
+        bool step = at.x == 0u && at.y == 0u && (singular & (1u << at.z)) != 0u;
+        finish(s, weightsAtRate(at.x, at.y), at.y == 0u, parameterPair(at.x, push.rate, push.pairs), step, position, normal);
         storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples + sampleIndex,
                            position, normal);
     }
@@ -245,7 +293,10 @@ void evaluateWideLod() {
         if (r.patchIndex != kEmptyRecord) {
             RingSample at = ringSample(kSides, r.capacity, sampleIndex);
             uint singular = tableElement(push.table + kSides * (r.patchIndex - push.firstPatch) + 1u).w;
-            finishInRing(sharedSector(place * kSides + at.side), r, at, (singular & (1u << at.side)) != 0u, position, normal);
+            vec2 along;
+            vec3 w = ringWeights(r, at, along);
+            bool step = at.ring == 0u && at.k == 0u && (singular & (1u << at.side)) != 0u;
+            finish(sharedSector(place * kSides + at.side), w, at.ring == 0u, along, step, position, normal);
         }
         storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
     }

@@ -18,26 +18,41 @@ vec3[3] rayPoints(vec2 ray, vec3 v, vec3 p310, vec3 p130, vec3 p211, vec3 p121, 
     return vec3[3](x1, x2, x3);
 }
 
-// Of a patch of m sides, from its record; ray: the weights of (3), of the ray's own point and of either side's.
-Sector loadSector(uint m, vec2 ray, uint record, uint base, uint i, bool today) {
-    uint n = i + 1u == m ? 0u : i + 1u, l = i == 0u ? m - 1u : i - 1u;
-    uint inner = base + tableElement(record).w;
-    uvec4 own = base + tableElement(record + i), next = base + tableElement(record + n), last = base + tableElement(record + l);
+// What a side of a patch brings to the sectors beside it: its first corner, the tangents along it at both ends, and what the
+// facet stage has put behind it.
+struct SectorSide {
+    vec3 v, t0, t1;
+    vec3 o211, o121, p112;
+};
+SectorSide loadSide(uint record, uint base, uint inner, uint i, bool today) {
+    uvec4 own = base + tableElement(record + i);
+    uint at = inner + 1u + 3u * i;
+    return SectorSide(coefficient(own.x, today), coefficient(own.y, today), coefficient(own.z, today), coefficient(at, today),
+                      coefficient(at + 1u, today), coefficient(at + 2u, today));
+}
+uint centreIndex(uint record, uint base) { return base + tableElement(record).w; }
+
+// The sector of a side between its neighbours; ray: the weights of (3), of the ray's own point and of either side's.
+Sector makeSector(vec2 ray, vec3 centre, SectorSide last, SectorSide own, SectorSide next) {
     Sector s;
-    s.centre = coefficient(inner, today);
-    vec3 v0 = coefficient(own.x, today), t0 = coefficient(own.y, today), t1 = coefficient(own.z, today), v1 = coefficient(next.x, today);
-    precise vec3 border1 = v0 + t0, border2 = v1 + t1;
-    s.border = vec3[4](v0, border1, border2, v1);
-    precise vec3 a = v0 - s.centre, d = v1 - s.centre;
-    uint at = inner + 1u + 3u * i, atNext = inner + 1u + 3u * n, atLast = inner + 1u + 3u * l;
-    precise vec3 p211 = a + coefficient(at, today), p121 = d + coefficient(at + 1u, today), p112 = coefficient(at + 2u, today);
-    precise vec3 last121 = a + coefficient(atLast + 1u, today), last112 = coefficient(atLast + 2u, today);
-    precise vec3 next211 = d + coefficient(atNext, today), next112 = coefficient(atNext + 2u, today);
-    precise vec3 p310 = a + 0.75 * t0, p130 = d + 0.75 * t1;
-    precise vec3 last130 = a + 0.75 * coefficient(last.z, today), next310 = d + 0.75 * coefficient(next.y, today);
-    precise vec3 p220 = ((a + t0) + (d + t1)) * 0.5;
-    vec3 left[3] = rayPoints(ray, a, p310, last130, p211, last121, p112, last112);
-    vec3 right[3] = rayPoints(ray, d, next310, p130, next211, p121, next112, p112);
-    s.c = vec3[15](a, p310, p220, p130, d, left[0], p211, p121, right[0], left[1], p112, right[1], left[2], right[2], vec3(0.0));
+    s.centre = centre;
+    precise vec3 border1 = own.v + own.t0, border2 = next.v + own.t1;
+    s.border = vec3[4](own.v, border1, border2, next.v);
+    precise vec3 a = own.v - centre, d = next.v - centre;
+    precise vec3 p211 = a + own.o211, p121 = d + own.o121, last121 = a + last.o121, next211 = d + next.o211;
+    precise vec3 p310 = a + 0.75 * own.t0, p130 = d + 0.75 * own.t1;
+    precise vec3 last130 = a + 0.75 * last.t1, next310 = d + 0.75 * next.t0;
+    precise vec3 p220 = ((a + own.t0) + (d + own.t1)) * 0.5;
+    vec3 left[3] = rayPoints(ray, a, p310, last130, p211, last121, own.p112, last.p112);
+    vec3 right[3] = rayPoints(ray, d, next310, p130, next211, p121, next.p112, own.p112);
+    s.c = vec3[15](a, p310, p220, p130, d, left[0], p211, p121, right[0], left[1], own.p112, right[1], left[2], right[2],
+                   vec3(0.0));
     return s;
+}
+
+// Of a patch of m sides, from its record.
+Sector loadSector(uint m, vec2 ray, uint record, uint base, uint i, bool today) {
+    uint inner = centreIndex(record, base);
+    return makeSector(ray, coefficient(inner, today), loadSide(record, base, inner, i == 0u ? m - 1u : i - 1u, today),
+                      loadSide(record, base, inner, i, today), loadSide(record, base, inner, i + 1u == m ? 0u : i + 1u, today));
 }

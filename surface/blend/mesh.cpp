@@ -183,7 +183,7 @@ Result<Mesh> build(const Cage& cage, const Options& options) {
         mesh.notes.push_back(std::to_string(others) + " of " + std::to_string(cage.faceCount()) +
                              " faces are no quads: the cage takes one step of Catmull-Clark first");
         makeSharp(level, marks);
-        Level child = refine(level, Subdivision::catmullClark, cage.positions);
+        Level child = refine(level, Subdivision::catmullClark);
         if (std::optional<Error> error = equip(child, level)) {
             return std::move(*error);
         }

@@ -31,7 +31,7 @@ public:
         sortPatches();
         layOutPool();
         if (mesh_.refined) {
-            writeStencils(mesh_.stencils, writer_, tables_);
+            writeStencils(mesh_.stencils, {}, writer_, tables_);
         }
         writeCharts();
         if (rate_ > 0) {

@@ -115,6 +115,11 @@ public:
           quads_(mesh.subdivision == Subdivision::catmullClark) {}
 
     void run() {
+        const size_t corners = parent_.cage.cornerCount(), vertices = parent_.cage.vertexCount();
+        const size_t facets = quads_ ? 0 : parent_.cage.faceCount();
+        mesh_.fragments.reserve(vertices + facets);
+        mesh_.net.reserve(vertices + (quads_ ? 6 : 3) * (corners + vertices) + facetPointCount(1) * facets);
+        mesh_.sectorFaces.reserve(corners + facets);
         for (uint32_t v = 0; v < parent_.cage.vertexCount(); ++v) {
             addVertex(v);
         }
@@ -262,21 +267,23 @@ Result<Mesh> build(const Cage& cage, Subdivision subdivision) {
     beginLevel(parent, cage, mesh.notes);
     mesh.isolationSteps = subdivision == Subdivision::catmullClark && !allOf(cage, 4) ? 2 : 1;
     if (mesh.isolationSteps == 2) {
-        Level quads = refine(parent, subdivision, cage.positions);
+        Level quads = refine(parent, subdivision);
         if (std::optional<Error> error = equip(quads, parent)) {
             return std::move(*error);
         }
+        mesh.stencils.push_back(std::move(quads.stencils));
         parent = std::move(quads);
     }
-    Level isolated = refine(parent, subdivision, cage.positions);
+    Level isolated = refine(parent, subdivision);
     FragmentBuilder(parent, mesh).run();
+    mesh.cornerSources.reserve(isolated.cage.cornerCount());
     for (const uint32_t v : isolated.cage.faceVertices) {
         mesh.cornerSources.push_back(v < cage.vertexCount() ? v : kNone);
     }
     mesh.cage = std::move(isolated.cage);
     mesh.sourceFaces = std::move(isolated.sourceFaces);
     mesh.holes = std::move(isolated.holes);
-    mesh.stencils = std::move(isolated.stencils);
+    mesh.stencils.push_back(std::move(isolated.stencils));
     return mesh;
 }
 

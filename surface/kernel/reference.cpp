@@ -324,7 +324,11 @@ private:
 
 template <class T>
 std::vector<Vec3<T>> isolate(const Mesh& mesh, std::span<const Vec3<T>> positions) {
-    return applyStencils<T>(mesh.stencils, positions);
+    std::vector<Vec3<T>> points(positions.begin(), positions.end());
+    for (const Stencils& step : mesh.stencils) {
+        points = applyStencils<T>(step, std::span<const Vec3<T>>(points));
+    }
+    return points;
 }
 
 template <class T>

@@ -26,7 +26,7 @@ struct SectorGrid {
     std::vector<Sample<T>> samples;
 };
 
-/// Vertices of the isolated level: p_first + sum of w_i (p_i - p_first) over a row's other entries.
+/// Vertices of the isolated level: at every step p_first + sum of w_i (p_i - p_first) over a row's other entries.
 template <class T>
 [[nodiscard]] std::vector<glm::vec<3, T>> isolate(const Mesh& mesh, std::span<const glm::vec<3, T>> positions);
 

@@ -91,8 +91,9 @@ public:
         tables_.isolationSteps = mesh_.isolationSteps;
         tables_.rate = 1u << steps_;
         tables_.notes = mesh_.notes;
-        tables_.poolStride = (mesh_.stencils.rows() + 15) / 16 * 16;
-        writeStencils(mesh_.stencils, writer_, tables_);
+        // What there is of them all, roughly: untouched pages cost nothing, growing does.
+        writer_.reserve(24 * size_t{mesh_.cage.vertexCount()} + 32 * size_t{mesh_.cage.faceCount()});
+        writeSteps();
         for (ClassTables& c : classes_) {
             writeClass(c);
         }
@@ -148,6 +149,21 @@ private:
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             facePatches_[patches_[p].facet] = p;
         }
+    }
+
+    /// The isolated level stands at the front of the pool, a step before it behind.
+    void writeSteps() {
+        const std::vector<Stencils>& steps = mesh_.stencils;
+        const uint32_t isolated = steps.back().rows();
+        if (steps.size() == 1) {
+            writeStencils(steps[0], {}, writer_, tables_);
+            tables_.poolStride = isolated;
+        } else {
+            writeStencils(steps[0], {Stage::vertex, Kernel::isolate, 0, isolated}, writer_, tables_);
+            writeStencils(steps[1], {Stage::edge, Kernel::isolateFromPool, isolated, 0}, writer_, tables_);
+            tables_.poolStride = isolated + steps[0].rows();
+        }
+        tables_.poolStride = (tables_.poolStride + 15) / 16 * 16;
     }
 
     void putHalves(const std::array<uint32_t, 8>& values) {
@@ -352,12 +368,16 @@ private:
 
     void writeClass(ClassTables& c) {
         const bool facet = c.key.kind == FragmentKind::facet;
+        const uint32_t sectors = c.key.fan.sectors;
         writeWork(c);
         writeLimits(c);
-        const uint32_t sectors = c.key.fan.sectors;
-        if (!facet) {
-            for (const uint32_t f : c.fragments) {
-                writeMasks(c.key.fan, mesh_.fragments[f]);
+        for (size_t i = 0; i < c.fragments.size() && !facet; ++i) {
+            if (i == 0 || c.key.sharp) {
+                writeMasks(c.key.fan, mesh_.fragments[c.fragments[i]]);
+            } else { // the same as the first one's
+                for (uint32_t h = 0; h < sectors; ++h) {
+                    masks_.push_back(masks_[masks_.size() - sectors]);
+                }
             }
         }
         if (c.key.sharp && !facet) {

@@ -53,17 +53,22 @@ TEST(KernelMesh, parts) {
             const Mesh mesh = kernelMesh(entry.cage, subdivision);
             const bool quads = subdivision == Subdivision::catmullClark;
             ASSERT_TRUE(cage::buildTopology(mesh.cage).ok());
-            ASSERT_EQ(mesh.stencils.rows(), mesh.cage.vertexCount());
-            for (uint32_t row = 0; row < mesh.stencils.rows(); ++row) {
-                const uint32_t begin = mesh.stencils.starts[row], end = mesh.stencils.starts[row + 1];
-                ASSERT_LT(begin, end);
-                double sum = 0.0;
-                for (uint32_t i = begin; i < end; ++i) {
-                    sum += mesh.stencils.weights[i];
-                    ASSERT_LT(mesh.stencils.vertices[i], entry.cage.vertexCount());
-                    ASSERT_TRUE(i == begin || mesh.stencils.vertices[i - 1] < mesh.stencils.vertices[i]);
+            ASSERT_EQ(mesh.stencils.size(), mesh.isolationSteps);
+            ASSERT_EQ(mesh.stencils.back().rows(), mesh.cage.vertexCount());
+            uint32_t before = entry.cage.vertexCount();
+            for (const Stencils& stencils : mesh.stencils) {
+                for (uint32_t row = 0; row < stencils.rows(); ++row) {
+                    const uint32_t begin = stencils.starts[row], end = stencils.starts[row + 1];
+                    ASSERT_LT(begin, end);
+                    double sum = 0.0;
+                    for (uint32_t i = begin; i < end; ++i) {
+                        sum += stencils.weights[i];
+                        ASSERT_LT(stencils.vertices[i], before);
+                        ASSERT_TRUE(i == begin || stencils.vertices[i - 1] < stencils.vertices[i]);
+                    }
+                    EXPECT_NEAR(sum, 1.0, 1e-14);
                 }
-                EXPECT_NEAR(sum, 1.0, 1e-14);
+                before = stencils.rows();
             }
             ASSERT_EQ(mesh.sourceFaces.size(), mesh.cage.faceCount());
             ASSERT_EQ(mesh.holes.size(), mesh.cage.faceCount());
