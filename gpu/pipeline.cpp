@@ -48,12 +48,12 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
     return layout;
 }
 
-Result<PipelineHandle> createComputePipeline(const Device& device, const ComputeLayout& layout,
-                                             std::span<const uint32_t> spirv, std::span<const Constant> constants,
-                                             const char* name) {
+Result<PipelineHandle> createComputePipeline(const Device& device, const ComputeLayout& layout, const Spirv& spirv,
+                                             std::span<const Constant> constants, const char* name) {
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    moduleInfo.codeSize = spirv.size_bytes();
-    moduleInfo.pCode = spirv.data();
+    const std::span<const uint32_t> words = device.mapping.wide ? spirv.wide : spirv.narrow;
+    moduleInfo.codeSize = words.size_bytes();
+    moduleInfo.pCode = words.data();
     VkShaderModule shader = VK_NULL_HANDLE;
     VkResult result = device.vk.CreateShaderModule(device.handle, &moduleInfo, device.allocator, &shader);
     if (result != VK_SUCCESS) {
@@ -62,7 +62,6 @@ Result<PipelineHandle> createComputePipeline(const Device& device, const Compute
     const ShaderModuleHandle module(device, shader);
 
     std::vector<Constant> all = {{kLocalSizeConstant, device.mapping.localSize},
-                                 {kWideConstant, device.mapping.wide ? VK_TRUE : VK_FALSE},
                                  {kExactDivisionConstant, device.mapping.exactDivision ? VK_TRUE : VK_FALSE}};
     all.insert(all.end(), constants.begin(), constants.end());
     std::vector<VkSpecializationMapEntry> entries;

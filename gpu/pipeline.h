@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "gpu/handle.h"
+#include "gpu/spirv.h"
 
 #include <span>
 #include <vector>
@@ -29,10 +30,10 @@ struct Constant {
     uint32_t value = 0; ///< bool constants: VK_TRUE or VK_FALSE
 };
 
-/// The mapping's constants are added to `constants`.
+/// Of the device's mapping, whose constants are added to `constants`.
 [[nodiscard]] Result<PipelineHandle> createComputePipeline(const Device& device, const ComputeLayout& layout,
-                                                           std::span<const uint32_t> spirv,
-                                                           std::span<const Constant> constants, const char* name);
+                                                           const Spirv& spirv, std::span<const Constant> constants,
+                                                           const char* name);
 
 /// A pool for `setCount` sets of `layout` and nothing else.
 [[nodiscard]] Result<DescriptorPoolHandle> createDescriptorPool(const Device& device, const ComputeLayout& layout,

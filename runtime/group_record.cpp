@@ -204,13 +204,16 @@ Group::PassCost Group::recordPose(VkCommandBuffer commandBuffer) const {
     if (!plays()) {
         return {};
     }
-    for (const Playback::Half half : {Playback::Half::locals, Playback::Half::palette}) {
-        if (half == Playback::Half::palette) {
+    for (const Playback::Part part : {Playback::Part::locals, Playback::Part::roots, Playback::Part::palette}) {
+        if (part == Playback::Part::roots && !playback_.hasRoots()) {
+            continue;
+        }
+        if (part != Playback::Part::locals) {
             gpu::computeBarrier(*shared_.device, commandBuffer);
         }
         forWindows([&](const Window& own, uint32_t first, const InstanceSlots::Listed& listed) {
             const auto window = static_cast<uint32_t>(&own - windows_.data());
-            playback_.record(commandBuffer, half, window, first, listed.count);
+            playback_.record(commandBuffer, part, window, first, listed.count);
         });
     }
     return {uint64_t{poses_.layout().jointCount} * visible_, poses_.instanceBytes() * visible_};

@@ -178,9 +178,9 @@ void Playback::reset(uint32_t slot) {
 
 void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     state(slot).set(asset_->character, asset_->clipTable, desc);
-    features_.roots = features_.roots || desc.root.axes != 0;
+    roots_ = roots_ || desc.root.axes != 0;
     for (const skinning::PlaybackLayer& layer : desc.layers) {
-        features_.adds = features_.adds || layer.mode == skinning::LayerMode::additive;
+        adds_ = adds_ || layer.mode == skinning::LayerMode::additive;
     }
     markChanged(slot);
 }
@@ -251,17 +251,23 @@ void Playback::cancelUpload(uint64_t frame) {
     masksChanged_ = masksChanged_ || masksFrame_ == frame;
 }
 
-void Playback::record(VkCommandBuffer commandBuffer, Half half, uint32_t window, uint32_t first, uint32_t count) const {
+void Playback::record(VkCommandBuffer commandBuffer, Part part, uint32_t window, uint32_t first, uint32_t count) const {
     PosePush push = push_;
     const skinning::SplitTime time = skinning::splitTime(time_);
     push.timeHigh = time.high;
     push.timeLow = time.low;
     push.firstInstance = first;
     push.instanceCount = count;
-    if (half == Half::locals) {
-        pass_->recordLocals(commandBuffer, sets_[window], features_, push);
-    } else {
+    switch (part) {
+    case Part::locals:
+        pass_->recordLocals(commandBuffer, sets_[window], adds_, push);
+        break;
+    case Part::roots:
+        pass_->recordRoots(commandBuffer, sets_[window], push);
+        break;
+    case Part::palette:
         pass_->recordPalette(commandBuffer, sets_[window], mode_, push);
+        break;
     }
 }
 

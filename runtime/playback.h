@@ -55,8 +55,10 @@ public:
     void cancelUpload(uint64_t frame);
 
     /// The pass over `count` instances of a window, whose entries of the list begin at `first`.
-    enum class Half { locals, palette };
-    void record(VkCommandBuffer commandBuffer, Half half, uint32_t window, uint32_t first, uint32_t count) const;
+    enum class Part { locals, roots, palette };
+    void record(VkCommandBuffer commandBuffer, Part part, uint32_t window, uint32_t first, uint32_t count) const;
+    /// Without there is nothing to record of the roots.
+    [[nodiscard]] bool hasRoots() const { return roots_; }
 
     [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes(); }
 
@@ -76,8 +78,8 @@ private:
     uint32_t capacity_ = 0, windowSize_ = 0, framesInFlight_ = 2;
     double time_ = 0.0;
     skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
-    skinning::PosePass::Features features_; ///< what some instance has ever been set to play
-    shared::PosePush push_{};               ///< but for the time and the instances
+    bool adds_ = false, roots_ = false; ///< what some instance has ever been set to play
+    shared::PosePush push_{};           ///< but for the time and the instances
 
     // As it shall be on the device.
     std::vector<uint32_t> states_;

@@ -2,7 +2,9 @@
 
 #include "gpu/device.h"
 #include "shaders/pose_locals_comp.h"
+#include "shaders/pose_locals_comp_ADDS.h"
 #include "shaders/pose_palette_comp.h"
+#include "shaders/pose_roots_comp.h"
 
 namespace supple::skinning {
 namespace {
@@ -11,9 +13,7 @@ using namespace shared;
 
 static_assert(sizeof(PosePush) <= gpu::kPushConstantBytes);
 
-// Specialization constants: shaders/pose/locals.comp, palette.comp.
-constexpr uint32_t kRootsConstant = gpu::kFirstPassConstant;
-constexpr uint32_t kAddsConstant = kRootsConstant + 1;
+// Specialization constants of shaders/pose/palette.comp.
 constexpr uint32_t kSharedRowsConstant = gpu::kFirstPassConstant;
 constexpr uint32_t kDualQuaternionsConstant = kSharedRowsConstant + 1;
 
@@ -40,26 +40,25 @@ Result<PosePass> PosePass::create(const gpu::Device& device) {
         return layout.error();
     }
     pass.layout_ = std::move(*layout);
-    for (uint32_t roots = 0; roots < 2; ++roots) {
-        for (uint32_t adds = 0; adds < 2; ++adds) {
-            const gpu::Constant constants[] = {{kRootsConstant, roots}, {kAddsConstant, adds}};
-            Result<gpu::PipelineHandle> pipeline = gpu::createComputePipeline(device, pass.layout_, pose_locals_comp,
-                                                                              constants, "supple pose, local matrices");
-            if (!pipeline) {
-                return pipeline.error();
-            }
-            pass.locals_[roots][adds] = std::move(*pipeline);
-        }
-    }
     const uint32_t rows = device.mapping.wide ? kAffineElements * kSharedNodes : 1;
-    for (uint32_t mode = 0; mode < 2; ++mode) {
-        const gpu::Constant constants[] = {{kSharedRowsConstant, rows}, {kDualQuaternionsConstant, mode}};
-        Result<gpu::PipelineHandle> pipeline =
-            gpu::createComputePipeline(device, pass.layout_, pose_palette_comp, constants, "supple pose, palette");
-        if (!pipeline) {
-            return pipeline.error();
+    const gpu::Constant linear[] = {{kSharedRowsConstant, rows}, {kDualQuaternionsConstant, VK_FALSE}};
+    const gpu::Constant dual[] = {{kSharedRowsConstant, rows}, {kDualQuaternionsConstant, VK_TRUE}};
+    const struct {
+        gpu::PipelineHandle* target;
+        const gpu::Spirv& spirv;
+        std::span<const gpu::Constant> constants;
+        const char* name;
+    } pipelines[] = {{&pass.locals_[0], pose_locals_comp, {}, "supple pose, local matrices"},
+                     {&pass.locals_[1], pose_locals_comp_ADDS, {}, "supple pose, local matrices, additive"},
+                     {&pass.roots_, pose_roots_comp, {}, "supple pose, roots"},
+                     {&pass.palette_[0], pose_palette_comp, linear, "supple pose, palette"},
+                     {&pass.palette_[1], pose_palette_comp, dual, "supple pose, palette of dual quaternions"}};
+    for (const auto& [target, spirv, constants, name] : pipelines) {
+        Result<gpu::PipelineHandle> made = gpu::createComputePipeline(device, pass.layout_, spirv, constants, name);
+        if (!made) {
+            return made.error();
         }
-        pass.palette_[mode] = std::move(*pipeline);
+        *target = std::move(*made);
     }
     return pass;
 }
@@ -73,12 +72,15 @@ void PosePass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const 
     gpu::dispatchLinear(*device_, commandBuffer, groups);
 }
 
-void PosePass::recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, Features features,
-                            const PosePush& push) const {
+void PosePass::recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, bool adds, const PosePush& push) const {
     const uint64_t items = uint64_t{push.nodeCount} + 1 + (push.morphCount + 3) / 4;
     const uint64_t local = device_->mapping.localSize;
-    record(commandBuffer, set, push, locals_[features.roots ? 1 : 0][features.adds ? 1 : 0].get(),
-           (items * push.instanceCount + local - 1) / local);
+    record(commandBuffer, set, push, locals_[adds ? 1 : 0].get(), (items * push.instanceCount + local - 1) / local);
+}
+
+void PosePass::recordRoots(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push) const {
+    const uint64_t local = device_->mapping.localSize;
+    record(commandBuffer, set, push, roots_.get(), (push.instanceCount + local - 1) / local);
 }
 
 void PosePass::recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,

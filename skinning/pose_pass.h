@@ -13,14 +13,11 @@ public:
     [[nodiscard]] static Result<PosePass> create(const gpu::Device& device);
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
-    /// What instances may play beyond clips that are blended; code for the rest costs time even where no one runs it.
-    struct Features {
-        bool roots = false; ///< root motion
-        bool adds = false;  ///< additive layers
-    };
-    /// Each records one dispatch over a window of instances; a barrier stands between the two.
-    void recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, Features features,
+    /// Each records one dispatch over a window of instances; a barrier stands between each two. `adds`: some instance
+    /// has an additive layer; code that no one runs costs time on CPU devices. Roots only where one has root motion.
+    void recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, bool adds,
                       const shared::PosePush& push) const;
+    void recordRoots(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push) const;
     void recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
                        const shared::PosePush& push) const;
 
@@ -30,8 +27,9 @@ private:
 
     const gpu::Device* device_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::PipelineHandle locals_[2][2]; ///< by Features: roots, adds
-    gpu::PipelineHandle palette_[2];   ///< by SkinningMode
+    gpu::PipelineHandle locals_[2]; ///< by whether layers may be additive
+    gpu::PipelineHandle roots_;
+    gpu::PipelineHandle palette_[2]; ///< by SkinningMode
 };
 
 } // namespace supple::skinning

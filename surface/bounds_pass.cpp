@@ -90,7 +90,7 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device) {
     pass.layout_ = std::move(*layout);
     const struct {
         gpu::PipelineHandle* target;
-        std::span<const uint32_t> spirv;
+        gpu::Spirv spirv;
         const char* name;
     } pipelines[] = {{&pass.bounds_, bounds_bounds_comp, "supple bounds"},
                      {&pass.sizes_, bounds_size_comp, "supple sizes of instances"},

@@ -5,6 +5,7 @@
 #include "shaders/blend_evaluate_comp_LEVELS.h"
 #include "shaders/evaluate_attributes_comp.h"
 #include "shaders/evaluate_attributes_comp_LEVELS.h"
+#include "shaders/evaluate_attributes_comp_LEVELS_RINGS.h"
 #include "shaders/evaluate_bicubic_comp.h"
 #include "shaders/evaluate_bicubic_comp_LEVELS.h"
 #include "shaders/evaluate_edge_comp.h"
@@ -15,6 +16,8 @@
 #include "shaders/kernel_refine_comp.h"
 #include "shaders/lod_edge_comp.h"
 #include "shaders/lod_patch_comp.h"
+#include "shaders/lod_patch_comp_BACK_FACES.h"
+#include "shaders/lod_patch_comp_CHARTS.h"
 #include "shaders/lod_place_comp.h"
 #include "shaders/lod_solve_comp.h"
 #include "shaders/pm_evaluate_comp.h"
@@ -46,7 +49,6 @@ static_assert(sizeof(shared::KernelPush) <= sizeof(shared::SurfacePush));
 constexpr uint32_t kKindConstant = gpu::kFirstPassConstant;
 constexpr uint32_t kVertexFormatConstant = kKindConstant + 1;
 constexpr uint32_t kCornerNormalsConstant = kKindConstant + 2;
-constexpr uint32_t kRingsConstant = kKindConstant + 4;
 constexpr uint32_t kInteriorConstant = kKindConstant + 5;
 constexpr uint32_t kRateConstant = kKindConstant + 6;
 constexpr uint32_t kOutputsConstant = kKindConstant + 7;
@@ -123,9 +125,10 @@ Shaders Shaders::embedded() {
     shaders.bicubic = evaluate_bicubic_comp;
     shaders.edge = evaluate_edge_comp;
     shaders.attributes = evaluate_attributes_comp;
-    shaders.lod = {lod_edge_comp, lod_patch_comp, lod_solve_comp, lod_place_comp};
+    shaders.lod = {lod_edge_comp,         lod_patch_comp, lod_patch_comp_BACK_FACES,
+                   lod_patch_comp_CHARTS, lod_solve_comp, lod_place_comp};
     shaders.levels = {pm_evaluate_comp_LEVELS, blend_evaluate_comp_LEVELS, evaluate_bicubic_comp_LEVELS,
-                      evaluate_attributes_comp_LEVELS};
+                      evaluate_attributes_comp_LEVELS, evaluate_attributes_comp_LEVELS_RINGS};
     return shaders;
 }
 
@@ -173,7 +176,7 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     return passes;
 }
 
-Status Passes::make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv,
+Status Passes::make(gpu::PipelineHandle& target, const gpu::Spirv& spirv,
                     std::initializer_list<gpu::Constant> constants, const std::string& name) {
     if (target.get() != VK_NULL_HANDLE) {
         return success();
@@ -190,7 +193,7 @@ Status Passes::make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv
 Status Passes::makeConstruction(Kernel kernel) {
     using namespace shared;
     struct Source {
-        std::span<const uint32_t> Shaders::*spirv;
+        gpu::Spirv Shaders::*spirv;
         uint32_t kind;
         const char* name;
     };
@@ -243,9 +246,9 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         const bool bicubic = patchClass <= kPolarPatch;
         const bool blends = range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp;
         if (needs.lod) {
-            const std::span<const uint32_t> evaluate = blends    ? shaders_.levels.blendEvaluate
-                                                       : bicubic ? shaders_.levels.bicubic
-                                                                 : shaders_.levels.pmEvaluate;
+            const gpu::Spirv& evaluate = blends    ? shaders_.levels.blendEvaluate
+                                         : bicubic ? shaders_.levels.bicubic
+                                                   : shaders_.levels.pmEvaluate;
             for (size_t f = 0; status && f < formats.size(); ++f) {
                 status = make(lodEvaluate_[formats[f]][patchClass][normals], evaluate,
                               {{kKindConstant, patchClass},
@@ -254,11 +257,12 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
                               "supple evaluate at levels, " + name);
             }
             if (status && needs.attributes) {
-                status = make(lodAttributes_[patchClass][outputs], shaders_.levels.attributes,
-                              {{kKindConstant, static_cast<uint32_t>(domainOf(range.patchClass))},
-                               {kOutputsConstant, outputs},
-                               {kRingsConstant, lod::formOf(range.patchClass) == lod::Form::quad ? VK_FALSE : VK_TRUE}},
-                              "supple attributes at levels, " + name);
+                status = make(
+                    lodAttributes_[patchClass][outputs],
+                    lod::formOf(range.patchClass) == lod::Form::quad ? shaders_.levels.attributes
+                                                                     : shaders_.levels.ringAttributes,
+                    {{kKindConstant, static_cast<uint32_t>(domainOf(range.patchClass))}, {kOutputsConstant, outputs}},
+                    "supple attributes at levels, " + name);
             }
             continue;
         }
@@ -271,9 +275,7 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
             status = make(patch_[patchClass][normals], bicubic ? shaders_.patch : shaders_.pmPatch,
                           {{kKindConstant, patchClass}, {kCornerNormalsConstant, normals}}, "supple patch, " + name);
         }
-        const std::span<const uint32_t> evaluate = blends    ? shaders_.blendEvaluate
-                                                   : bicubic ? shaders_.bicubic
-                                                             : shaders_.pmEvaluate;
+        const gpu::Spirv& evaluate = blends ? shaders_.blendEvaluate : bicubic ? shaders_.bicubic : shaders_.pmEvaluate;
         for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty() && !shares; ++f) {
             ByRate& byRate = evaluate_[patchClass][formats[f]][normals];
             // The rate it begins with, where that is worth a pipeline, and any that is set later.

@@ -19,15 +19,15 @@ namespace supple::surface {
 
 /// SPIR-V of the passes. The default is what was embedded at build time; tests put mutations in.
 struct Shaders {
-    std::span<const uint32_t> prepVertex, prepEdge;
-    std::span<const uint32_t> pmVertex, pmFacet, pmPatch, pmEvaluate;
-    std::span<const uint32_t> isolate;
-    std::span<const uint32_t> blendChart, blendEvaluate;
+    gpu::Spirv prepVertex, prepEdge;
+    gpu::Spirv pmVertex, pmFacet, pmPatch, pmEvaluate;
+    gpu::Spirv isolate;
+    gpu::Spirv blendChart, blendEvaluate;
     kernel::Passes::Shaders kernel;
-    std::span<const uint32_t> patch, bicubic, edge, attributes;
+    gpu::Spirv patch, bicubic, edge, attributes;
     lod::Passes::Shaders lod;
     struct AtLevels {
-        std::span<const uint32_t> pmEvaluate, blendEvaluate, bicubic, attributes;
+        gpu::Spirv pmEvaluate, blendEvaluate, bicubic, attributes, ringAttributes;
     } levels;
     [[nodiscard]] static Shaders embedded();
 };
@@ -80,7 +80,7 @@ public:
                              const Evaluation& evaluation) const;
 
 private:
-    [[nodiscard]] Status make(gpu::PipelineHandle& target, std::span<const uint32_t> spirv,
+    [[nodiscard]] Status make(gpu::PipelineHandle& target, const gpu::Spirv& spirv,
                               std::initializer_list<gpu::Constant> constants, const std::string& name);
     [[nodiscard]] Status makeConstruction(Kernel kernel);
     [[nodiscard]] Status makeShared(const Tables& tables, const Needs& needs, std::span<const uint32_t> formats);

@@ -10,7 +10,11 @@
 #include "shaders/lod/record.glsl"
 
 layout(constant_id = 3) const uint kDomain = kQuadDomain;
-layout(constant_id = 7) const bool kRings = false; // with level of detail: samples lie in rings round a centre
+#ifdef RINGS
+const bool kRings = true; // with level of detail: samples lie in rings round a centre
+#else
+const bool kRings = false;
+#endif
 layout(constant_id = 10) const uint kOutputs = 0u; // kOutputUvs1, kOutputFaceUvs where they are written
 
 layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes { uvec4 attributes[]; };

@@ -15,8 +15,17 @@
 #include "shaders/lod/levels.glsl"
 #include "shaders/lod/facing.glsl"
 
-layout(constant_id = 3) const bool kCharts = false;    // patches of the blending surface
-layout(constant_id = 4) const bool kBackFaces = false; // patches that show their backs are left out
+// Macros: what a form does without need not be compiled for it.
+#ifdef CHARTS
+const bool kCharts = true; // patches of the blending surface
+#else
+const bool kCharts = false;
+#endif
+#ifdef BACK_FACES
+const bool kBackFaces = true; // patches that show their backs are left out
+#else
+const bool kBackFaces = false;
+#endif
 const bool kSharp = true;
 #include "shaders/blend/blend.glsl"
 

@@ -18,8 +18,8 @@ shared uint counts[kMaxRuns * kCapacityCount];
 // 2^(-scaled / kBinsPerOctave). A sixteenth of a bin guards the rounding of log2 and exp2.
 uint capacityOfBin(uint bin, float scaled) {
     float level = exp2((float(bin) + 1.0625 - scaled) / float(kBinsPerOctave) - float(kOctavesBelow));
-    uint index = 0u;
-    while (index + 1u < kCapacityCount && float(capacityOf(index)) < level) ++index;
+    uint index = 0u; // no branches: unrolled, those are much to compile
+    for (uint i = 0u; i + 1u < kCapacityCount; ++i) index += float(capacityOf(i)) < level ? 1u : 0u;
     return index;
 }
 
@@ -93,31 +93,33 @@ void main() {
     uvec2 limit = uvec2(0u);
     add(limit, push.limit, kSplitUnit);
 
-    float x = 0.0;
-    bool shortfall = false;
-    uvec2 over = demand(-1.0);
-    uvec2 wanted = demand(0.0);
-    if (above(over, limit)) {
-        int low = -1, high = int(kBudgetSteps);
-        uvec2 fits = demand(float(high));
-        if (above(fits, limit)) {
-            x = float(kBudgetSteps);
-            shortfall = true;
+    // What is wanted; then both ends of the search, the last step only where the first is over; then the middles. One loop, so
+    // that the code of demand() is there once.
+    int low = -1, high = int(kBudgetSteps), step = 0;
+    uvec2 wanted = uvec2(0u), over = wanted, fits = wanted;
+    bool shortfall = false, searching = true;
+    for (uint turn = 0u; searching; ++turn) {
+        uvec2 d = demand(float(step));
+        bool tooMuch = above(d, limit);
+        if (turn == 0u) {
+            wanted = d;
+            step = low;
         } else {
-            while (high - low > 1) {
-                int middle = (low + high) >> 1;
-                uvec2 d = demand(float(middle));
-                if (above(d, limit)) {
-                    low = middle;
-                    over = d;
-                } else {
-                    high = middle;
-                    fits = d;
-                }
+            if (tooMuch) {
+                low = step;
+                over = d;
+            } else {
+                high = step;
+                fits = d;
             }
-            x = float(high) + toFloat(minus(over, limit)) / toFloat(minus(over, fits));
+            shortfall = turn == 2u && tooMuch;
+            searching = turn == 1u ? tooMuch : high - low > 1;
+            step = turn == 1u ? high : (low + high) >> 1;
         }
     }
+    float x = 0.0;
+    if (shortfall) x = float(kBudgetSteps);
+    else if (above(over, limit)) x = float(high) + toFloat(minus(over, limit)) / toFloat(minus(over, fits));
 
     for (uint i = lane; i < kPriorityCount * kLodBins; i += gl_WorkGroupSize.x) {
         uint p = i / kLodBins, bin = i - p * kLodBins;

@@ -1,4 +1,10 @@
 // What an instance plays: its layers at the group's time, applied in order to the rest pose; as skinning/layers.h has it.
+// Needs tables.glsl and `const bool kAdds`, `kRoots`: whether layers may be additive, and roots move.
+#include "shaders/pose/time.glsl"
+#include "shaders/pose/rotation.glsl"
+#include "shaders/pose/affine.glsl"
+#include "shaders/pose/clip.glsl"
+#include "shaders/pose/root.glsl"
 
 struct Layer {
     uint first; // state element
@@ -47,14 +53,15 @@ float masked(Layer layer, uint element, uint i) {
     return weight;
 }
 
-// The layer's clip at a time of the clip, with the movement of the root taken out.
-Transform layerTransform(uvec4 header, Layer layer, vec2 time, uint node) {
+// The layer's clip at a time of the clip; with kRoots, of the root, with its movement taken out.
+Transform layerTransform(uvec4 header, Layer layer, vec2 time, uint node, inout Motion motion) {
     precise Transform t = clipTransform(layer.clip, time, node);
-    if (kRoots && header.w != 0u && node == header.z) {
+    if (kRoots) {
         RootFrame now = rootFrame(layer.clip, time, node, header.w, t);
-        Motion motion =
+        precise Motion moved =
             motionSince(stateFloats(layer.first + 4u).xyz, stateFloats(layer.first + 5u), now, header.w);
-        t = stayingRoot(now, motion, t, header.w);
+        t = stayingRoot(now, moved, t, header.w);
+        motion = moved;
     }
     return t;
 }
@@ -88,13 +95,16 @@ Transform added(Transform pose, Transform to, Transform reference, float weight)
     return t;
 }
 
-Transform posedTransform(uint first, uint node) {
+// `sinceBegin`: with kRoots, what the first layer's root has moved by, whatever the layer's weight.
+Transform posedTransform(uint first, uint node, inout Motion sinceBegin) {
     uvec4 header = state(first);
     precise Transform pose = restTransform(node);
     for (uint i = 0u; i < header.x; ++i) {
         Layer layer = layerAt(first + kStateElements + i * kLayerElements);
         float weight = masked(layer, 0u, node);
-        if (weight != 0.0) {
+        bool travels = kRoots && i == 0u;
+        if (weight != 0.0 || travels) {
+            precise Motion motion = sinceBegin;
             // A loop, so that the code is there once: what the layer adds to, then what it shows.
             bool adds = kAdds && (layer.flags & kLayerAdds) != 0u;
             precise Transform reference = pose, to = pose;
@@ -103,15 +113,18 @@ Transform posedTransform(uint first, uint node) {
                     vec2 time = layer.time;
                     if (sampled == 0u) time = referenceTime(layer);
                     reference = to;
-                    to = layerTransform(header, layer, clipTime(layer, time), node);
+                    to = layerTransform(header, layer, clipTime(layer, time), node, motion);
                 }
             } else {
-                to = layerTransform(header, layer, clipTime(layer, layer.time), node);
+                to = layerTransform(header, layer, clipTime(layer, layer.time), node, motion);
             }
-            if (adds) {
-                pose = added(pose, to, reference, weight);
-            } else {
-                pose = blended(pose, to, weight);
+            if (travels) sinceBegin = motion;
+            if (weight != 0.0) {
+                if (adds) {
+                    pose = added(pose, to, reference, weight);
+                } else {
+                    pose = blended(pose, to, weight);
+                }
             }
         }
     }
@@ -139,29 +152,7 @@ float posedMorphWeight(uint first, uint target) {
     return pose;
 }
 
-// The instance's transform, with what the first layer's root has travelled before it.
-Affine placement(uint first) {
-    uvec4 header = state(first);
-    precise Affine placed = Affine(stateFloats(first + 1u), stateFloats(first + 2u), stateFloats(first + 3u));
-    if (kRoots && (header.y & kStateTravels) != 0u) {
-        Layer layer = layerAt(first + kStateElements);
-        vec4 before = stateFloats(first + 4u), turns = stateFloats(first + 5u), center = stateFloats(first + 6u);
-        vec2 time = layer.time;
-        precise float loops = 0.0;
-        if ((layer.flags & kLayerLoops) != 0u) {
-            LoopTime looped = loopTime(layer.time, clipDuration(layer.clip));
-            time = looped.time;
-            loops = looped.loops;
-        }
-        RootFrame now = rootFrame(layer.clip, time, header.z, header.w, clipTransform(layer.clip, time, header.z));
-        precise Motion motion =
-            motionSince(stateFloats(layer.first + 4u).xyz, stateFloats(layer.first + 5u), now, header.w);
-        motion = combinedMotion(loopsMotion(loops, turns.zw, center), motion);
-        motion = combinedMotion(Motion(before.xyz, turns.xy), motion);
-        vec3 x = turnedAboutY(motion.halfTurn, vec3(1.0, 0.0, 0.0)), z = turnedAboutY(motion.halfTurn, vec3(0.0, 0.0, 1.0));
-        placed = combined(placed, Affine(vec4(x.x, 0.0, z.x, motion.translation.x),
-                                         vec4(0.0, 1.0, 0.0, motion.translation.y),
-                                         vec4(x.z, 0.0, z.z, motion.translation.z)));
-    }
-    return placed;
+Affine transformOf(uint first) {
+    precise Affine m = Affine(stateFloats(first + 1u), stateFloats(first + 2u), stateFloats(first + 3u));
+    return m;
 }

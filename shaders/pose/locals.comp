@@ -1,28 +1,19 @@
-// Pose pass, first half: local matrices. One invocation a node and instance; of the instance's transform one, and one for
-// every four morph weights, which go straight into the pose.
+// Pose pass, first part: local matrices. One invocation a node and instance; of the instance's transform one, and one for
+// every four morph weights, which go straight into the pose. What root motion changes of it is left to roots.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"
 
-// What some instance of the group plays: lavapipe steps through what no lane takes, so that it must not be there.
-layout(constant_id = 3) const bool kRoots = true; // root motion
-layout(constant_id = 4) const bool kAdds = true;  // additive layers
-
-#include "shaders/pose/time.glsl"
-#include "shaders/pose/rotation.glsl"
-#include "shaders/pose/affine.glsl"
-#include "shaders/pose/clip.glsl"
-#include "shaders/pose/root.glsl"
+// Additive layers, which some instance of the group plays or none: lavapipe steps through what no lane takes, so that it
+// must not be there.
+#ifdef ADDS
+const bool kAdds = true;
+#else
+const bool kAdds = false;
+#endif
+const bool kRoots = false;
 #include "shaders/pose/layers.glsl"
-
-layout(set = 0, binding = kScratchPoseBinding, std430) writeonly buffer Scratch { vec4 scratch[]; };
-
-void storeLocal(uint i, Affine m) {
-    precise Affine local = m;
-    scratch[i] = local.x;
-    scratch[i + 1u] = local.y;
-    scratch[i + 2u] = local.z;
-}
+#include "shaders/pose/local.glsl"
 
 vec4 morphWeights(uint first, uint quad) {
     uint flags = state(first).y;
@@ -49,9 +40,10 @@ void main() {
     uint instance = instanceSlot(entry);
     uint first = instance * push.stateStride, matrices = instance * push.scratchStride;
     if (item < push.nodeCount) {
-        storeLocal(matrices + kAffineElements * item, localMatrix(item, posedTransform(first, item)));
+        Motion none = standing();
+        storeLocal(matrices + kAffineElements * item, localMatrix(item, posedTransform(first, item, none)));
     } else if (item == push.nodeCount) {
-        storeLocal(matrices + kAffineElements * item, placement(first));
+        storeLocal(matrices + kAffineElements * item, transformOf(first));
     } else {
         uint quad = item - push.nodeCount - 1u;
         precise vec4 weights = morphWeights(first, quad);

@@ -1,4 +1,4 @@
-// Pose pass, second half: parents before children, then the joint palette. Narrow: one lane an instance. Wide: one
+// Pose pass, last part: parents before children, then the joint palette. Narrow: one lane an instance. Wide: one
 // workgroup an instance, a level of the hierarchy at a time, the matrices in shared memory where they fit.
 #version 460
 #extension GL_GOOGLE_include_directive : require

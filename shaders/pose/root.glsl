@@ -6,6 +6,8 @@ struct Motion {
     vec2 halfTurn;
 };
 
+Motion standing() { return Motion(vec3(0.0), vec2(0.0, 1.0)); }
+
 vec3 turnedAboutY(vec2 halfTurn, vec3 p) {
     precise float s = 2.0 * (halfTurn.x * halfTurn.y);
     precise float c = halfTurn.y * halfTurn.y - halfTurn.x * halfTurn.x;

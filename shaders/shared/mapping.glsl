@@ -1,6 +1,11 @@
 // The constants that lay the same code on a CPU device or a GPU; chosen in gpu/mapping.cpp, ids in gpu/mapping.h.
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const bool kWide = false;        // many lanes a patch, storage-buffer loads
+// Many lanes a patch, storage-buffer loads. A macro: what one mapping does without need not be compiled for it.
+#ifdef WIDE
+const bool kWide = true;
+#else
+const bool kWide = false;
+#endif
 layout(constant_id = 2) const bool kExactDivision = false; // the device rounds k / rate correctly
 
 const uint kMaxLanes = 128u; // of gl_WorkGroupSize.x: gpu/mapping.cpp

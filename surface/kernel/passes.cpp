@@ -45,7 +45,7 @@ Passes::Passes(const gpu::Device& device, const Shaders& shaders) : device_(&dev
 Status Passes::prepare(const gpu::ComputeLayout& layout, const Fragments& fragments, uint32_t format) {
     layout_ = layout.pipelineLayout.get();
     Status status = success();
-    const auto make = [&](gpu::PipelineHandle& target, std::span<const uint32_t> spirv, const char* name,
+    const auto make = [&](gpu::PipelineHandle& target, const gpu::Spirv& spirv, const char* name,
                           std::initializer_list<gpu::Constant> constants) {
         if (!status || target.get() != VK_NULL_HANDLE) {
             return;

@@ -18,7 +18,7 @@ namespace supple::surface::kernel {
 class Passes {
 public:
     struct Shaders {
-        std::span<const uint32_t> fragment, refine, limit;
+        gpu::Spirv fragment, refine, limit;
     };
     Passes() = default;
     Passes(const gpu::Device& device, const Shaders& shaders);

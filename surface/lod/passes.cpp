@@ -17,23 +17,27 @@ Passes::Kernel Passes::patchKernel(const LodTables& tables, bool backFaces) {
 
 Status Passes::prepare(const gpu::ComputeLayout& layout, const LodTables& tables, bool backFaces) {
     layout_ = layout.pipelineLayout.get();
-    const gpu::Constant constants[] = {{gpu::kFirstPassConstant, tables.charts ? VK_TRUE : VK_FALSE},
-                                       {gpu::kFirstPassConstant + 1, backFaces ? VK_TRUE : VK_FALSE}};
+    const gpu::Constant charts[] = {{gpu::kFirstPassConstant, tables.charts ? VK_TRUE : VK_FALSE}};
+    const Kernel patch = patchKernel(tables, backFaces);
     const struct {
         Kernel kernel;
-        std::span<const uint32_t> spirv;
-        size_t constants; // as many of them as it has
+        const gpu::Spirv& spirv;
+        std::span<const gpu::Constant> constants;
         const char* name;
-    } sources[] = {{tables.charts ? kChartEdge : kEdge, shaders_.edge, 1, "supple levels of edges"},
-                   {patchKernel(tables, backFaces), shaders_.patch, 2, "supple levels of patches"},
-                   {kSolve, shaders_.solve, 0, "supple level budget"},
-                   {kPlace, shaders_.place, 0, "supple level places"}};
-    for (const auto& [kernel, spirv, constantCount, name] : sources) {
+    } sources[] = {{tables.charts ? kChartEdge : kEdge, shaders_.edge, charts, "supple levels of edges"},
+                   {patch,
+                    patch == kChartPatch    ? shaders_.chartPatch
+                    : patch == kFacingPatch ? shaders_.facingPatch
+                                            : shaders_.patch,
+                    {},
+                    "supple levels of patches"},
+                   {kSolve, shaders_.solve, {}, "supple level budget"},
+                   {kPlace, shaders_.place, {}, "supple level places"}};
+    for (const auto& [kernel, spirv, constants, name] : sources) {
         // Groups of rates have no patches with levels; the view's budget is solved for them, too.
         const bool asked = kernel == kSolve || !tables.runs.empty();
         if (asked && pipelines_[kernel].get() == VK_NULL_HANDLE) {
-            Result<gpu::PipelineHandle> pipeline =
-                gpu::createComputePipeline(*device_, layout, spirv, std::span(constants).first(constantCount), name);
+            Result<gpu::PipelineHandle> pipeline = gpu::createComputePipeline(*device_, layout, spirv, constants, name);
             if (!pipeline) {
                 return pipeline.error();
             }

@@ -16,7 +16,7 @@ namespace supple::surface::lod {
 class Passes {
 public:
     struct Shaders {
-        std::span<const uint32_t> edge, patch, solve, place;
+        gpu::Spirv edge, patch, facingPatch, chartPatch, solve, place;
     };
     Passes() = default;
     Passes(const gpu::Device& device, const Shaders& shaders);

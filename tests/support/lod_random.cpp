@@ -30,21 +30,27 @@ constexpr const char* kRandomCapacity = R"(
 
 } // namespace
 
-RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges)
-    : edge_(compileEdited("lod/edge.comp", "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
-                          kRandomEdge)),
-      patch_(compileEdited("lod/patch.comp",
-                           "    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));",
-                           kRandomCapacity)) {
-    if (testDevice() == nullptr || edge_.empty() || patch_.empty()) {
+RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
+    const std::string macros = mapping == SUPPLE_MAPPING_WIDE ? "-DWIDE" : "";
+    edge_ = compileEdited("lod/edge.comp", "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
+                          kRandomEdge, macros);
+    const auto patches = [&](const std::string& form) {
+        return compileEdited("lod/patch.comp",
+                             "    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));",
+                             kRandomCapacity, macros + form);
+    };
+    patch_ = patches("");
+    chartPatch_ = patches(" -DCHARTS");
+    if (testDevice() == nullptr || edge_.empty() || patch_.empty() || chartPatch_.empty()) {
         ADD_FAILURE() << "no device, or no shaders";
         return;
     }
     surface::Shaders shaders = surface::Shaders::embedded();
     if (edges == Edges::random) {
-        shaders.lod.edge = edge_;
+        shaders.lod.edge = {edge_, edge_}; // of this mapping
     }
-    shaders.lod.patch = patch_;
+    shaders.lod.patch = {patch_, patch_};
+    shaders.lod.chartPatch = {chartPatch_, chartPatch_};
     SuppleContextDesc contextDesc = host::contextDesc(*testDevice());
     contextDesc.mapping = mapping;
     Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(contextDesc, shaders);

@@ -383,8 +383,16 @@ std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> s
 
 namespace {
 
-/// GLSL below a copy of shaders/ that `edit` has changed.
-std::vector<uint32_t> compileCopy(const std::string& path,
+std::vector<uint32_t> readWords(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    std::vector<uint32_t> words(bytes.size() / 4);
+    std::memcpy(words.data(), bytes.data(), words.size() * 4);
+    return words;
+}
+
+/// GLSL below a copy of shaders/ that `edit` has changed. `flags`: of the compiler.
+std::vector<uint32_t> compileCopy(const std::string& path, const std::string& flags,
                                   const std::function<void(const std::filesystem::path& shaders)>& edit) {
     namespace fs = std::filesystem;
     const fs::path root = fs::temp_directory_path() / ("supple_precise_" + std::to_string(getpid()));
@@ -394,12 +402,10 @@ std::vector<uint32_t> compileCopy(const std::string& path,
     edit(root / "shaders");
     const fs::path output = root / "out.spv";
     const std::string command = std::string(SUPPLE_GLSLANG_COMMAND) + " --quiet -g -V --target-env vulkan1.3 -I" +
-                                root.string() + " -o " + output.string() + " " + (root / "shaders" / path).string();
+                                root.string() + flags + " -o " + output.string() + " " +
+                                (root / "shaders" / path).string();
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    std::ifstream file(output, std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    std::vector<uint32_t> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), words.size() * 4);
+    const std::vector<uint32_t> words = readWords(output);
     fs::remove_all(root);
     return words;
 }
@@ -408,7 +414,7 @@ std::vector<uint32_t> compileCopy(const std::string& path,
 
 std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip) {
     namespace fs = std::filesystem;
-    return compileCopy(path, [&](const fs::path& shaders) {
+    return compileCopy(path, "", [&](const fs::path& shaders) {
         if (strip.empty()) {
             return;
         }
@@ -423,8 +429,9 @@ std::vector<uint32_t> compileShader(const std::string& path, const std::string& 
     });
 }
 
-std::vector<uint32_t> compileEdited(const std::string& path, const std::string& from, const std::string& to) {
-    return compileCopy(path, [&](const std::filesystem::path& shaders) {
+std::vector<uint32_t> compileEdited(const std::string& path, const std::string& from, const std::string& to,
+                                    const std::string& macros) {
+    return compileCopy(path, " " + macros, [&](const std::filesystem::path& shaders) {
         std::string text = readText(shaders / path);
         const size_t at = text.find(from);
         ASSERT_NE(at, std::string::npos) << path << " has no " << from;
@@ -432,6 +439,18 @@ std::vector<uint32_t> compileEdited(const std::string& path, const std::string& 
         text.replace(at, from.size(), to);
         std::ofstream(shaders / path) << text;
     });
+}
+
+std::vector<uint32_t> optimized(const std::vector<uint32_t>& spirv) {
+    namespace fs = std::filesystem;
+    const fs::path path = fs::temp_directory_path() / ("supple_precise_" + std::to_string(getpid()) + ".spv");
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(spirv.data()), static_cast<std::streamsize>(spirv.size() * 4));
+    const std::string command = std::string(SUPPLE_SPIRV_OPT_COMMAND) + " " + path.string() + " -o " + path.string();
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    const std::vector<uint32_t> words = readWords(path);
+    fs::remove(path);
+    return words;
 }
 
 } // namespace supple::test

@@ -18,13 +18,16 @@ namespace supple::test {
                                                                    const std::string& positionName, uint32_t& checked,
                                                                    bool roots = false);
 
-/// GLSL below shaders/, compiled with names kept. `strip`: the name of a function whose `precise` qualifiers are
-/// removed first, wherever it is defined; "*": everywhere; empty leaves the source alone. Empty result: it did not
-/// compile (the test fails).
+/// GLSL below shaders/, compiled with names kept for the narrow mapping. `strip`: the name of a function whose
+/// `precise` qualifiers are removed first, wherever it is defined; "*": everywhere; empty leaves the source alone.
+/// Empty result: it did not compile (the test fails).
 [[nodiscard]] std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip);
 
-/// The same with a piece of the file replaced, which must stand in it once.
+/// With macros ("-DWIDE"), and with a piece of the file replaced, which must stand in it once.
 [[nodiscard]] std::vector<uint32_t> compileEdited(const std::string& path, const std::string& from,
-                                                  const std::string& to);
+                                                  const std::string& to, const std::string& macros);
+
+/// As the build does to the library's kernels. Empty: it failed, and so does the test.
+[[nodiscard]] std::vector<uint32_t> optimized(const std::vector<uint32_t>& spirv);
 
 } // namespace supple::test
