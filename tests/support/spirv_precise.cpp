@@ -412,9 +412,9 @@ std::vector<uint32_t> compileCopy(const std::string& path, const std::string& fl
 
 } // namespace
 
-std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip) {
+std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip, const std::string& macros) {
     namespace fs = std::filesystem;
-    return compileCopy(path, "", [&](const fs::path& shaders) {
+    return compileCopy(path, " " + macros, [&](const fs::path& shaders) {
         if (strip.empty()) {
             return;
         }

@@ -18,12 +18,13 @@ namespace supple::test {
                                                                    const std::string& positionName, uint32_t& checked,
                                                                    bool roots = false);
 
-/// GLSL below shaders/, compiled with names kept for the narrow mapping. `strip`: the name of a function whose
-/// `precise` qualifiers are removed first, wherever it is defined; "*": everywhere; empty leaves the source alone.
-/// Empty result: it did not compile (the test fails).
-[[nodiscard]] std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip);
+/// GLSL below shaders/, compiled with names kept. `strip`: the name of a function whose `precise` qualifiers are
+/// removed first, wherever it is defined; "*": everywhere; empty leaves the source alone. `macros`: "-DWIDE", else it
+/// is for the narrow mapping. Empty result: it did not compile (the test fails).
+[[nodiscard]] std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip,
+                                                  const std::string& macros = "");
 
-/// With macros ("-DWIDE"), and with a piece of the file replaced, which must stand in it once.
+/// With a piece of the file replaced, which must stand in it once.
 [[nodiscard]] std::vector<uint32_t> compileEdited(const std::string& path, const std::string& from,
                                                   const std::string& to, const std::string& macros);
 
