@@ -332,7 +332,8 @@ void evaluateWideLod() {
             uint row = firstRow + n / 12u, place = row / side, column = n / 4u % 3u;
             LodRecord r = lodRecord(share.firstRecord + place);
             if (r.patchIndex != kEmptyRecord)
-                collapseShared(n, place, n & 3u, lodV(r, column == 0u ? 1u : column == 1u ? 0u : r.capacity, row - place * side));
+                collapseShared(n, place, n & 3u,
+                               lodV(r, column == 0u ? 1u : column == 1u ? 0u : r.capacity, row - place * side));
         }
         barrier();
         for (uint n = gl_LocalInvocationID.x; n < count * side; n += gl_WorkGroupSize.x) {

@@ -2,8 +2,8 @@
 // gathered from the pool by index; a sector's 15 are expanded from the patch's 6 m + 1. Samples on a border come from the
 // border's cubic alone, by the same sum as every other class of patch. Narrow mapping: one lane a patch, sector by sector,
 // of each its border and then what lies inside. Wide mapping: a workgroup expands the sectors of a few patches into shared
-// memory, its lanes share the samples. Both use makeSector(), borderPosition() and finishInside(), so positions agree bit for bit.
-// With level of detail samples lie in rings, where the patch's record says (docs/lod.md).
+// memory, its lanes share the samples. Both use makeSector(), borderPosition() and finishInside(), so positions agree bit for
+// bit. With level of detail samples lie in rings, where the patch's record says (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -154,7 +154,8 @@ void evaluateNarrow() {
     uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
     uint innerBits = innerWord(record, kSides), singular = SUPPLE_SINGULAR(innerBits), inner = base + SUPPLE_INNER(innerBits);
     vec3 centre = coefficient(inner, false);
-    SectorSide own = loadSide(kSides, record, base, inner, kSides - 1u, false), next = loadSide(kSides, record, base, inner, 0u, false);
+    SectorSide own = loadSide(kSides, record, base, inner, kSides - 1u, false);
+    SectorSide next = loadSide(kSides, record, base, inner, 0u, false);
     // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do. All lanes go
     // round equally often. The centre is sector 0's, which therefore comes last.
     Sector s;
@@ -201,7 +202,8 @@ void evaluateNarrowLod() {
     uint base = empty ? 0u : r.slot * push.poolStride;
     uint innerBits = innerWord(record, kSides), singular = SUPPLE_SINGULAR(innerBits), inner = base + SUPPLE_INNER(innerBits);
     vec3 centre = coefficient(inner, r.isNew);
-    SectorSide before = loadSide(kSides, record, base, inner, kSides - 1u, r.isNew), own = loadSide(kSides, record, base, inner, 0u, r.isNew);
+    SectorSide before = loadSide(kSides, record, base, inner, kSides - 1u, r.isNew);
+    SectorSide own = loadSide(kSides, record, base, inner, 0u, r.isNew);
     LodPattern inside = lodPattern(r.pairs[0], r.capacityIndex);
     for (uint sector = 0u; sector < kSides; ++sector) {
         SectorSide next = loadSide(kSides, record, base, inner, sector + 1u == kSides ? 0u : sector + 1u, r.isNew);
