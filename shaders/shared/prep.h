@@ -29,9 +29,10 @@ SUPPLE_SHARED_CONST kReversedEdgeOfPatch = 0x80000000u;
 SUPPLE_SHARED_CONST kStillEdgeOfPatch = 0x40000000u;
 SUPPLE_SHARED_CONST kEdgeOfPatchMask = 0x3FFFFFFFu;
 
+SUPPLE_SHARED_CONST kEdgeClassElements = 6u;
+
 SUPPLE_SHARED_END
 
-SUPPLE_SHARED_CONST kEdgeClassElements = 6u;
 #define SUPPLE_PREP_EDGE_CLASS(wordA, wordB) ((wordA) >> kPointBits | (wordB) >> kPointBits << (32u - kPointBits))
 
 // The pool index of the s-th coefficient of an edge, as the patch has them.
