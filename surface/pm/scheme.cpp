@@ -134,7 +134,10 @@ private:
                 const uint32_t c =
                     mesh_.topology.sectorCorners[last ? mesh_.slotSpokes[sector.firstSlot + j - 1] : spoke];
                 const uint32_t f = mesh_.topology.cornerFaces[c], first = cage_.faceStarts[f], m = cage_.sides(f);
-                const auto at = [&](uint32_t steps) { return cage_.faceVertices[first + (c - first + steps) % m]; };
+                const auto at = [&](uint32_t steps) { // fewer than m
+                    const uint32_t k = c - first + steps;
+                    return cage_.faceVertices[first + (k < m ? k : k - m)];
+                };
                 std::array<uint32_t, kMaxSides> points{};
                 for (uint32_t i = 0; i < m; ++i) {
                     const uint32_t corner = mesh_.corner(f, i), vertex = cage_.faceVertices[corner];
