@@ -405,7 +405,7 @@ std::vector<uint32_t> compileCopy(const std::string& path, const std::string& fl
                                 root.string() + flags + " -o " + output.string() + " " +
                                 (root / "shaders" / path).string();
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    const std::vector<uint32_t> words = readWords(output);
+    std::vector<uint32_t> words = readWords(output);
     fs::remove_all(root);
     return words;
 }
@@ -448,7 +448,7 @@ std::vector<uint32_t> optimized(const std::vector<uint32_t>& spirv) {
         .write(reinterpret_cast<const char*>(spirv.data()), static_cast<std::streamsize>(spirv.size() * 4));
     const std::string command = std::string(SUPPLE_SPIRV_OPT_COMMAND) + " " + path.string() + " -o " + path.string();
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    const std::vector<uint32_t> words = readWords(path);
+    std::vector<uint32_t> words = readWords(path);
     fs::remove(path);
     return words;
 }
