@@ -50,8 +50,8 @@ struct Mesh {
     /// Per face of `cage` and corner (3 or 4 a face, packed as its corners are): the host's cage vertex that stands
     /// there, or kNone.
     std::vector<uint32_t> cornerSources;
-    std::vector<Stencils>
-        stencils; ///< a step each, the last of `cage`; over the vertices of the step before, in double
+    /// A step each, the last of `cage`; over the vertices of the step before, in double.
+    std::vector<Stencils> stencils;
 
     std::vector<Fragment> fragments;
     std::vector<uint32_t> net; ///< vertices of `cage`, in the order of the spiral index (pattern.h), radius 2
