@@ -218,23 +218,28 @@ private:
 
     Status writeEdgeClasses() {
         tables_.edgeClasses = writer_.element();
+        uint32_t firstTooMany = cage::kNone; // face
         for (const DraftPatch& patch : patches_) {
             for (uint32_t i = 0; patch.info.patchClass >= PatchClass::p3 && i < patch.info.cornerCount; ++i) {
                 const auto number = static_cast<uint32_t>(edgeClasses_.size());
                 const auto [known, isNew] = edgeClasses_.try_emplace(edgeClass(patch, i), number);
                 if (isNew) {
+                    if (number == shared::kMaxPmEdgeClasses) {
+                        firstTooMany = patch.info.face;
+                    }
                     const EdgeFactors f = makeEdgeFactors(known->first);
                     writer_.put({floatBits(f.along[0]), floatBits(f.own[0]), floatBits(f.across[0]),
                                  floatBits(f.across[1]), floatBits(f.along[1]), floatBits(f.own[1]), 0u, 0u});
                 }
             }
         }
-        if (edgeClasses_.size() > shared::kMaxPmEdgeClasses) {
+        if (firstTooMany != cage::kNone) {
             return Error{ErrorCode::limit,
-                         "the cage has edges of " + std::to_string(edgeClasses_.size()) +
+                         "face " + std::to_string(firstTooMany) + ": the cage has edges of " +
+                             std::to_string(edgeClasses_.size()) +
                              " kinds, by the valences of their ends and the sides of their faces; patch "
                              "records hold " +
-                             std::to_string(shared::kMaxPmEdgeClasses)};
+                             std::to_string(shared::kMaxPmEdgeClasses) + ", and this face has the first one more"};
         }
         return success();
     }

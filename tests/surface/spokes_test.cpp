@@ -73,6 +73,7 @@ TEST(Spokes, TooManyKindsOfEdgesAreCounted) {
     ASSERT_FALSE(tooMany.ok());
     EXPECT_EQ(tooMany.error().code, ErrorCode::limit);
     EXPECT_NE(tooMany.error().message.find("patch records hold 1024"), std::string::npos) << tooMany.error().message;
+    EXPECT_EQ(tooMany.error().message.find("face "), 0u) << tooMany.error().message;
 }
 
 // Vertex and far end of every spoke, as the ring has them: in records of patches, and where a face is a hole in
