@@ -165,14 +165,20 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     }
     group->forSchemes(
         [&](const SchemeTables& scheme) { status = status ? shared.surface->prepare(scheme.tables, needs) : status; });
-    if (status && group->deforms()) {
-        status = shared.deform->prepare(desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION
+    const skinning::SkinningMode mode = desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION
                                             ? skinning::SkinningMode::dualQuaternion
-                                            : skinning::SkinningMode::linear,
-                                        group->asset_->firstInfluences != 0);
+                                            : skinning::SkinningMode::linear;
+    if (status && group->deforms()) {
+        status = shared.deform->prepare(mode, group->asset_->firstInfluences != 0);
+    }
+    if (status && group->plays()) {
+        status = shared.pose->prepare(mode);
     }
     if (status && group->plays()) {
         status = group->asset_->makeClips(*shared.device);
+    }
+    if (status && group->hasRates()) {
+        status = shared.bounds->prepareRates();
     }
     if (status) {
         status = group->layOutWindows(desc);

@@ -26,11 +26,11 @@ namespace supple::runtime {
 struct GroupShared {
     const gpu::Device* device = nullptr;
     skinning::DeformPass* deform = nullptr;
-    const skinning::PosePass* pose = nullptr; ///< for groups that play on the device
+    skinning::PosePass* pose = nullptr; ///< for groups that play on the device
     surface::Passes* surface = nullptr;
     VkBuffer pairs = VK_NULL_HANDLE;
     VkDeviceSize pairBytes = 0;
-    const surface::BoundsPass* bounds = nullptr;       ///< for groups of views
+    surface::BoundsPass* bounds = nullptr;             ///< for groups of views
     const surface::OcclusionPass* occlusion = nullptr; ///< for groups of views with occlusion
     std::shared_ptr<View> view;                        ///< of the description
     uint32_t framesInFlight = 2;

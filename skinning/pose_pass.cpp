@@ -40,27 +40,40 @@ Result<PosePass> PosePass::create(const gpu::Device& device) {
         return layout.error();
     }
     pass.layout_ = std::move(*layout);
-    const uint32_t rows = device.mapping.wide ? kAffineElements * kSharedNodes : 1;
-    const gpu::Constant linear[] = {{kSharedRowsConstant, rows}, {kDualQuaternionsConstant, VK_FALSE}};
-    const gpu::Constant dual[] = {{kSharedRowsConstant, rows}, {kDualQuaternionsConstant, VK_TRUE}};
     const struct {
         gpu::PipelineHandle* target;
         const gpu::Spirv& spirv;
-        std::span<const gpu::Constant> constants;
         const char* name;
-    } pipelines[] = {{&pass.locals_[0], pose_locals_comp, {}, "supple pose, local matrices"},
-                     {&pass.locals_[1], pose_locals_comp_ADDS, {}, "supple pose, local matrices, additive"},
-                     {&pass.roots_, pose_roots_comp, {}, "supple pose, roots"},
-                     {&pass.palette_[0], pose_palette_comp, linear, "supple pose, palette"},
-                     {&pass.palette_[1], pose_palette_comp, dual, "supple pose, palette of dual quaternions"}};
-    for (const auto& [target, spirv, constants, name] : pipelines) {
-        Result<gpu::PipelineHandle> made = gpu::createComputePipeline(device, pass.layout_, spirv, constants, name);
+    } pipelines[] = {{&pass.locals_[0], pose_locals_comp, "supple pose, local matrices"},
+                     {&pass.locals_[1], pose_locals_comp_ADDS, "supple pose, local matrices, additive"},
+                     {&pass.roots_, pose_roots_comp, "supple pose, roots"}};
+    for (const auto& [target, spirv, name] : pipelines) {
+        Result<gpu::PipelineHandle> made = gpu::createComputePipeline(device, pass.layout_, spirv, {}, name);
         if (!made) {
             return made.error();
         }
         *target = std::move(*made);
     }
     return pass;
+}
+
+Status PosePass::prepare(SkinningMode mode) {
+    gpu::PipelineHandle& palette = palette_[static_cast<size_t>(mode)];
+    if (palette.get() != VK_NULL_HANDLE) {
+        return success();
+    }
+    const bool dual = mode == SkinningMode::dualQuaternion;
+    const gpu::Constant constants[] = {
+        {kSharedRowsConstant, device_->mapping.wide ? kAffineElements * kSharedNodes : 1},
+        {kDualQuaternionsConstant, dual ? VK_TRUE : VK_FALSE}};
+    Result<gpu::PipelineHandle> made =
+        gpu::createComputePipeline(*device_, layout_, pose_palette_comp, constants,
+                                   dual ? "supple pose, palette of dual quaternions" : "supple pose, palette");
+    if (!made) {
+        return made.error();
+    }
+    palette = std::move(*made);
+    return success();
 }
 
 void PosePass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push, VkPipeline pipeline,

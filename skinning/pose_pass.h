@@ -11,6 +11,8 @@ namespace supple::skinning {
 class PosePass {
 public:
     [[nodiscard]] static Result<PosePass> create(const gpu::Device& device);
+    /// Makes the palettes of a mode, which the first group with it calls for.
+    [[nodiscard]] Status prepare(SkinningMode mode);
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// Each records one dispatch over a window of instances; a barrier stands between each two. `adds`: some instance

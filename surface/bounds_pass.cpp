@@ -88,23 +88,33 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device) {
         return layout.error();
     }
     pass.layout_ = std::move(*layout);
-    const struct {
-        gpu::PipelineHandle* target;
-        gpu::Spirv spirv;
-        const char* name;
-    } pipelines[] = {{&pass.bounds_, bounds_bounds_comp, "supple bounds"},
-                     {&pass.sizes_, bounds_size_comp, "supple sizes of instances"},
-                     {&pass.list_, bounds_list_comp, "supple list of instances"},
-                     {&pass.demand_, bounds_demand_comp, "supple demand of rates"},
-                     {&pass.rates_, bounds_rates_comp, "supple lists of rates"}};
-    for (const auto& [target, spirv, name] : pipelines) {
-        Result<gpu::PipelineHandle> made = gpu::createComputePipeline(device, pass.layout_, spirv, {}, name);
-        if (!made) {
-            return made.error();
-        }
-        *target = std::move(*made);
+    const Source sources[] = {{&pass.bounds_, bounds_bounds_comp, "supple bounds"},
+                              {&pass.sizes_, bounds_size_comp, "supple sizes of instances"},
+                              {&pass.list_, bounds_list_comp, "supple list of instances"}};
+    const Status made = pass.make(sources);
+    if (!made) {
+        return made.error();
     }
     return pass;
+}
+
+Status BoundsPass::prepareRates() {
+    const Source sources[] = {{&demand_, bounds_demand_comp, "supple demand of rates"},
+                              {&rates_, bounds_rates_comp, "supple lists of rates"}};
+    return make(sources);
+}
+
+Status BoundsPass::make(std::span<const Source> sources) {
+    for (const auto& [target, spirv, name] : sources) {
+        if (target->get() == VK_NULL_HANDLE) {
+            Result<gpu::PipelineHandle> made = gpu::createComputePipeline(*device_, layout_, spirv, {}, name);
+            if (!made) {
+                return made.error();
+            }
+            *target = std::move(*made);
+        }
+    }
+    return success();
 }
 
 void BoundsPass::bind(VkCommandBuffer commandBuffer, const gpu::PipelineHandle& pipeline, VkDescriptorSet set,

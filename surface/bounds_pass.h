@@ -56,6 +56,8 @@ void writeListTable(std::span<const ListWindow> windows, std::span<const ListArg
 class BoundsPass {
 public:
     [[nodiscard]] static Result<BoundsPass> create(const gpu::Device& device);
+    /// Makes the passes of instances of several rates, which the first group that has some calls for.
+    [[nodiscard]] Status prepareRates();
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// `set` binds the window's cages. Nothing where push.instanceCount is 0.
@@ -71,6 +73,12 @@ public:
     void recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::RatesPush push) const;
 
 private:
+    struct Source {
+        gpu::PipelineHandle* target;
+        gpu::Spirv spirv;
+        const char* name;
+    };
+    [[nodiscard]] Status make(std::span<const Source> sources);
     [[nodiscard]] uint32_t groupsFor(uint32_t lanes) const;
     void bind(VkCommandBuffer commandBuffer, const gpu::PipelineHandle& pipeline, VkDescriptorSet set, const void* push,
               uint32_t bytes) const;

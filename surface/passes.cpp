@@ -8,6 +8,7 @@
 #include "shaders/evaluate_attributes_comp_LEVELS_RINGS.h"
 #include "shaders/evaluate_bicubic_comp.h"
 #include "shaders/evaluate_bicubic_comp_LEVELS.h"
+#include "shaders/evaluate_bicubic_comp_LEVELS_REGULAR.h"
 #include "shaders/evaluate_edge_comp.h"
 #include "shaders/evaluate_patch_comp.h"
 #include "shaders/kernel_fragment_comp.h"
@@ -127,8 +128,9 @@ Shaders Shaders::embedded() {
     shaders.attributes = evaluate_attributes_comp;
     shaders.lod = {lod_edge_comp,         lod_patch_comp, lod_patch_comp_BACK_FACES,
                    lod_patch_comp_CHARTS, lod_solve_comp, lod_place_comp};
-    shaders.levels = {pm_evaluate_comp_LEVELS, blend_evaluate_comp_LEVELS, evaluate_bicubic_comp_LEVELS,
-                      evaluate_attributes_comp_LEVELS, evaluate_attributes_comp_LEVELS_RINGS};
+    shaders.levels = {
+        pm_evaluate_comp_LEVELS,      blend_evaluate_comp_LEVELS,      evaluate_bicubic_comp_LEVELS_REGULAR,
+        evaluate_bicubic_comp_LEVELS, evaluate_attributes_comp_LEVELS, evaluate_attributes_comp_LEVELS_RINGS};
     return shaders;
 }
 
@@ -246,9 +248,10 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         const bool bicubic = patchClass <= kPolarPatch;
         const bool blends = range.patchClass == PatchClass::blend || range.patchClass == PatchClass::blendSharp;
         if (needs.lod) {
-            const gpu::Spirv& evaluate = blends    ? shaders_.levels.blendEvaluate
-                                         : bicubic ? shaders_.levels.bicubic
-                                                   : shaders_.levels.pmEvaluate;
+            const gpu::Spirv& evaluate = blends                        ? shaders_.levels.blendEvaluate
+                                         : patchClass == kRegularPatch ? shaders_.levels.regular
+                                         : bicubic                     ? shaders_.levels.bicubic
+                                                                       : shaders_.levels.pmEvaluate;
             for (size_t f = 0; status && f < formats.size(); ++f) {
                 status = make(lodEvaluate_[formats[f]][patchClass][normals], evaluate,
                               {{kKindConstant, patchClass},

@@ -27,7 +27,7 @@ struct Shaders {
     gpu::Spirv patch, bicubic, edge, attributes;
     lod::Passes::Shaders lod;
     struct AtLevels {
-        gpu::Spirv pmEvaluate, blendEvaluate, bicubic, attributes, ringAttributes;
+        gpu::Spirv pmEvaluate, blendEvaluate, regular, bicubic, attributes, ringAttributes;
     } levels;
     [[nodiscard]] static Shaders embedded();
 };

@@ -55,13 +55,15 @@ float masked(Layer layer, uint element, uint i) {
 
 // The layer's clip at a time of the clip; with kRoots, of the root, with its movement taken out.
 Transform layerTransform(uvec4 header, Layer layer, vec2 time, uint node, inout Motion motion) {
-    precise Transform t = clipTransform(layer.clip, time, node);
+    precise Transform t;
     if (kRoots) {
         RootFrame now = rootFrame(layer.clip, time, node, header.w, t);
         precise Motion moved =
             motionSince(stateFloats(layer.first + 4u).xyz, stateFloats(layer.first + 5u), now, header.w);
         t = stayingRoot(now, moved, t, header.w);
         motion = moved;
+    } else {
+        t = clipTransform(layer.clip, time, node);
     }
     return t;
 }

@@ -30,13 +30,23 @@ struct RootFrame {
     vec3 position;
     vec4 rotation;
 };
-RootFrame rootFrame(uint clip, vec2 time, uint root, uint axes, Transform local) {
+// `local`: the root's own transform.
+RootFrame rootFrame(uint clip, vec2 time, uint root, uint axes, out Transform local) {
     precise RootFrame frame;
     frame.parent = identity();
-    for (uint node = parentOf(root); node != kNoNode; node = parentOf(node)) {
-        frame.parent = combined(localMatrix(node, clipTransform(clip, time, node)), frame.parent);
+    precise Affine own = identity();
+    // The root first: one loop, so that the code is there once.
+    for (uint node = root; node != kNoNode; node = parentOf(node)) {
+        precise Transform t = clipTransform(clip, time, node);
+        precise Affine m = localMatrix(node, t);
+        if (node == root) {
+            local = t;
+            own = m;
+        } else {
+            frame.parent = combined(m, frame.parent);
+        }
     }
-    precise Affine global = combined(frame.parent, localMatrix(root, local));
+    precise Affine global = combined(frame.parent, own);
     frame.position = vec3(global.x.w, global.y.w, global.z.w);
     frame.rotation = frame.parentRotation = vec4(0.0, 0.0, 0.0, 1.0);
     // A loop, so that the code is there once; only turns need it.
