@@ -34,17 +34,16 @@ Status SpokeLimits::check() const {
 
 std::array<uint32_t, 16> netIndices(const Tables& tables, const uint32_t* record, PatchClass patchClass) {
     using namespace shared;
-    constexpr uint32_t kCorners[2][16] = {{SUPPLE_NET_CORNERS}, {SUPPLE_POLAR_NET_CORNERS}};
-    constexpr uint32_t kKinds[2][16] = {{SUPPLE_NET_KINDS}, {SUPPLE_POLAR_NET_KINDS}};
-    const size_t polar = patchClass == PatchClass::polar ? 1 : 0;
+    const bool polar = patchClass == PatchClass::polar;
     std::array<uint32_t, 16> indices{};
     for (uint32_t k = 0; k < 16; ++k) {
-        const uint32_t corner = kCorners[polar][k], point = record[corner], spoke = record[4 + corner];
+        const uint32_t corner = polar ? SUPPLE_POLAR_NET_CORNER(k) : SUPPLE_NET_CORNER(k);
+        const uint32_t point = record[corner], spoke = record[4 + corner];
         const uint32_t choices[] = {point, tables.tangents + SUPPLE_SPOKE(spoke),
                                     tables.tangents + SUPPLE_NEXT_SPOKE(spoke), tables.faces + SUPPLE_SPOKE(spoke),
                                     point + 1};
         static_assert(kNetPoint == 0 && kNetTangent == 1 && kNetNextTangent == 2 && kNetFace == 3 && kNetBehind == 4);
-        indices[k] = choices[kKinds[polar][k]];
+        indices[k] = choices[polar ? SUPPLE_POLAR_NET_KIND(k) : SUPPLE_NET_KIND(k)];
     }
     return indices;
 }

@@ -41,11 +41,12 @@ float[5] cornerWeights(uint index) {
     return w;
 }
 
+vec2 squareCorner(uint k) { return vec2(k == 1u || k == 2u, k >= 2u); }
+
 // From the weights of corner `sector`, of the next corner and of the centre.
 float[5] sectorWeights(uint sector, vec3 l) {
     if (kDomain == kQuadDomain) {
-        const vec2 kSquare[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
-        vec2 p = l.x * kSquare[sector & 3u] + l.y * kSquare[(sector + 1u) & 3u] + l.z * vec2(0.5);
+        vec2 p = l.x * squareCorner(sector & 3u) + l.y * squareCorner((sector + 1u) & 3u) + l.z * vec2(0.5);
         return bilinear(vec2(p.x, 1.0 - p.x), vec2(p.y, 1.0 - p.y));
     }
     float w[5];

@@ -10,8 +10,6 @@
 
 layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer PatchCoefficients { vec4 coefficients[]; };
 
-const uint kFaceEdgeOrder[16] = uint[16](SUPPLE_PREP_FACE_EDGE_ORDER);
-
 void main() {
     uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
@@ -29,6 +27,6 @@ void main() {
         coefficients[target + k] = vec4(g, 0.0);
         vec3 h = vec3(0.0);
         if (kClass == kPerturbedPatch) h = poolVector(base + perturbationIndex(tableElement(record + 2u), k));
-        coefficients[target + 16u + kFaceEdgeOrder[k]] = vec4(h, 0.0);
+        coefficients[target + 16u + SUPPLE_PREP_FACE_EDGE(k)] = vec4(h, 0.0);
     }
 }

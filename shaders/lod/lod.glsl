@@ -19,10 +19,7 @@ uint lodWord(uint i) {
     return texelFetch(lodTexels, int(i >> 2u))[i & 3u];
 }
 
-uint capacityOf(uint index) {
-    const uint kCapacities[kCapacityCount] = uint[kCapacityCount](SUPPLE_LOD_CAPACITIES);
-    return kCapacities[index];
-}
+uint capacityOf(uint index) { return SUPPLE_LOD_CAPACITY(index); }
 uint formSides(uint form) { return form == kLodTriangleForm ? 3u : form == kLodPentagonForm ? 5u : 4u; }
 uint formSamples(uint form, uint capacity) { return formSides(form) * (capacity + 1u) * (capacity + 1u) / 4u; }
 // Patches of one draw instance (surface/lod/grid.h).

@@ -7,8 +7,7 @@ struct LodPattern {
 };
 
 LodPattern lodPattern(vec2 level, uint capacityIndex) {
-    const uint kFirstWords[kCapacityCount] = uint[kCapacityCount](SUPPLE_LOD_FIRST_WORDS);
-    uint words = kLodPatterns + kFirstWords[capacityIndex], last = (capacityOf(capacityIndex) - 1u) / 2u;
+    uint words = kLodPatterns + SUPPLE_LOD_FIRST_WORD(capacityIndex), last = (capacityOf(capacityIndex) - 1u) / 2u;
     uint n = min(uint(level.x), last);
     uint full = lodWord(words + n);
     precise float part = level.x - float(n);

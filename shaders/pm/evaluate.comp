@@ -142,7 +142,7 @@ uvec3 sectorOf(uint index) {
     uint d = min(w[0], min(w[1], w[2]));
     if (3u * d == rate) return uvec3(0u, rate, 0u);
     uint s = w[2] == d && w[0] > d ? 0u : w[0] == d && w[1] > d ? 1u : 2u;
-    return uvec3(w[(s + 1u) % 3u] - d, 3u * d, s);
+    return uvec3((s == 0u ? w[1] : s == 1u ? w[2] : w[0]) - d, 3u * d, s);
 }
 
 void evaluateNarrow() {

@@ -40,6 +40,10 @@ SUPPLE_SHARED_CONST kCapacityCount = 10u;
 // Capacities, and where the words of their patterns begin, (capacity + 1) / 2 each.
 #define SUPPLE_LOD_CAPACITIES 1u, 3u, 5u, 7u, 11u, 15u, 23u, 31u, 47u, 63u
 #define SUPPLE_LOD_FIRST_WORDS 0u, 1u, 3u, 6u, 10u, 16u, 24u, 36u, 52u, 76u
+// The same in six and in eight bits each: GPUs keep arrays that lanes index differently in memory.
+#define SUPPLE_LOD_CAPACITY(i) (((i) < 5u ? 0x0B1C50C1u : 0x3FBDF5CFu) >> 6u * ((i) < 5u ? (i) : (i)-5u) & 63u)
+#define SUPPLE_LOD_FIRST_WORD(i) \
+    (((i) < 4u ? 0x06030100u : (i) < 8u ? 0x2418100Au : 0x00004C34u) >> 8u * ((i) & 3u) & 255u)
 SUPPLE_SHARED_CONST kPriorityCount = 4u;
 SUPPLE_SHARED_CONST kMaxRuns = 256u; // of a view, and dispatches
 

@@ -40,6 +40,7 @@ SUPPLE_SHARED_END
 
 // Evaluation order of the 16 perturbation coefficients (h_2j, h_3j for j = 0, 1, 4, 5; h_i2, h_i3 for i = 0, 1, 4, 5) to
 // face edge order h[4 e + s], s = local (2,0), (3,0), (2,1), (3,1) of face edge e.
-#define SUPPLE_PREP_FACE_EDGE_ORDER 0u, 2u, 11u, 9u, 1u, 3u, 10u, 8u, 13u, 12u, 15u, 14u, 6u, 7u, 4u, 5u
+// 0, 2, 11, 9, 1, 3, 10, 8, 13, 12, 15, 14, 6, 7, 4, 5: four bits a coefficient, as in shared/surface.h.
+#define SUPPLE_PREP_FACE_EDGE(k) (((k) < 8u ? 0x8A319B20u : 0x5476EFCDu) >> 4u * ((k) & 7u) & 15u)
 
 #endif

@@ -118,10 +118,11 @@ SUPPLE_SHARED_CONST kNetTangent = 1u;     // of the spoke
 SUPPLE_SHARED_CONST kNetNextTangent = 2u; // of the next spoke
 SUPPLE_SHARED_CONST kNetFace = 3u;        // of the spoke
 SUPPLE_SHARED_CONST kNetBehind = 4u;      // behind the point
-#define SUPPLE_NET_CORNERS 0u, 0u, 1u, 1u, 0u, 0u, 1u, 1u, 3u, 3u, 2u, 2u, 3u, 3u, 2u, 2u
-#define SUPPLE_NET_KINDS 0u, 1u, 2u, 0u, 2u, 3u, 3u, 1u, 1u, 3u, 3u, 2u, 0u, 2u, 1u, 0u
-#define SUPPLE_POLAR_NET_CORNERS 0u, 0u, 1u, 1u, 0u, 0u, 1u, 1u, 2u, 3u, 3u, 2u, 2u, 2u, 2u, 2u
-#define SUPPLE_POLAR_NET_KINDS 0u, 1u, 2u, 0u, 2u, 3u, 3u, 1u, 1u, 0u, 4u, 2u, 0u, 0u, 0u, 0u
+// Two bits a coefficient, from the lowest on: GPUs keep arrays that lanes index differently in memory.
+#define SUPPLE_NET_CORNER(k) (0xAFAF5050u >> 2u * (k) & 3u)       // 0011 0011 3322 3322
+#define SUPPLE_NET_KIND(k) (0x18BD7E24u >> 2u * (k) & 3u)         // 0120 2331 1332 0210
+#define SUPPLE_POLAR_NET_CORNER(k) (0xAABE5050u >> 2u * (k) & 3u) // 0011 0011 2332 2222
+#define SUPPLE_POLAR_NET_KIND(k) ((k) == 10u ? kNetBehind : 0x00817E24u >> 2u * (k) & 3u) // 0120 2331 1042 0000
 
 // Shared samples: kinds of edges, each a kernel.
 SUPPLE_SHARED_CONST kPlainEdges = 0u;     // of bicubic patches

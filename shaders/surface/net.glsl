@@ -10,13 +10,14 @@ NetRecord netRecord(uint record) {
     return NetRecord(a, b);
 }
 
+// Where lanes ask for different components.
+uint componentOf(uvec4 v, uint i) { return i < 2u ? (i == 0u ? v.x : v.y) : i == 2u ? v.z : v.w; }
+
 // Of coefficient k, row by row in v.
 uint netIndex(NetRecord r, bool polar, uint k) {
-    const uint kCorners[16] = uint[16](SUPPLE_NET_CORNERS), kPolarCorners[16] = uint[16](SUPPLE_POLAR_NET_CORNERS);
-    const uint kKinds[16] = uint[16](SUPPLE_NET_KINDS), kPolarKinds[16] = uint[16](SUPPLE_POLAR_NET_KINDS);
-    uint corner = kCorners[k], kind = kKinds[k];
-    if (polar) corner = kPolarCorners[k], kind = kPolarKinds[k];
-    uint point = r.points[corner], spoke = r.spokes[corner];
+    uint corner = SUPPLE_NET_CORNER(k), kind = SUPPLE_NET_KIND(k);
+    if (polar) corner = SUPPLE_POLAR_NET_CORNER(k), kind = SUPPLE_POLAR_NET_KIND(k);
+    uint point = componentOf(r.points, corner), spoke = componentOf(r.spokes, corner);
     if (kind == kNetPoint) return point;
     if (kind == kNetBehind) return point + 1u;
     if (kind == kNetFace) return push.faces + SUPPLE_SPOKE(spoke);
@@ -25,7 +26,6 @@ uint netIndex(NetRecord r, bool polar, uint k) {
 
 // Of h[k] of a perturbed patch, in evaluation order; `edges`: the element behind the corners.
 uint perturbationIndex(uvec4 edges, uint k) {
-    const uint kFaceEdgeOrder[16] = uint[16](SUPPLE_PREP_FACE_EDGE_ORDER);
-    uint at = kFaceEdgeOrder[k];
-    return SUPPLE_PREP_EDGE_INDEX(edges[at / 4u], at % 4u);
+    uint at = SUPPLE_PREP_FACE_EDGE(k);
+    return SUPPLE_PREP_EDGE_INDEX(componentOf(edges, at / 4u), at % 4u);
 }

@@ -16,7 +16,8 @@ constexpr bool firstWordsFollow() {
     uint32_t next = 0;
     bool follow = true;
     for (size_t c = 0; c < kFirstPatternWords.size(); ++c) {
-        follow = follow && kFirstPatternWords[c] == next;
+        follow = follow && kFirstPatternWords[c] == next && SUPPLE_LOD_FIRST_WORD(c) == next &&
+                 SUPPLE_LOD_CAPACITY(c) == kCapacities[c];
         next += pairsOf(kCapacities[c]) + 1;
     }
     return follow && next == shared::kPatternWordCount;
