@@ -86,10 +86,6 @@ uint32_t outputsOf(const Tables& tables, uint32_t wanted) {
     return ((tables.uvSets == 2 ? shared::kOutputUvs1 : 0) | (tables.faceUvs ? shared::kOutputFaceUvs : 0)) & wanted;
 }
 
-std::string atRate(uint32_t rate) {
-    return rate == 0 ? "" : ", rate " + std::to_string(rate);
-}
-
 /// Patches a workgroup takes in the wide mapping: the count that leaves the fewest lanes idle.
 uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
     uint32_t best = 1;
@@ -178,8 +174,8 @@ Result<Passes> Passes::create(const gpu::Device& device, const Shaders& shaders)
     return passes;
 }
 
-Status Passes::make(gpu::PipelineHandle& target, const gpu::Spirv& spirv,
-                    std::initializer_list<gpu::Constant> constants, const std::string& name) {
+Status Passes::make(gpu::PipelineHandle& target, const gpu::Spirv& spirv, std::span<const gpu::Constant> constants,
+                    const std::string& name) {
     if (target.get() != VK_NULL_HANDLE) {
         return success();
     }
@@ -190,6 +186,16 @@ Status Passes::make(gpu::PipelineHandle& target, const gpu::Spirv& spirv,
     }
     target = std::move(*pipeline);
     return success();
+}
+
+Status Passes::makeAtRate(ByRate& kernels, uint32_t rate, const gpu::Spirv& spirv, std::vector<gpu::Constant> constants,
+                          const std::string& name) {
+    constants.push_back({kRateConstant, rate});
+    auto own = std::find_if(kernels.begin(), kernels.end(), [&](const AtRate& k) { return k.rate == rate; });
+    if (own == kernels.end()) {
+        own = kernels.insert(kernels.end(), {rate, {}});
+    }
+    return make(own->pipeline, spirv, constants, name + (rate == 0 ? "" : ", rate " + std::to_string(rate)));
 }
 
 Status Passes::makeConstruction(Kernel kernel) {
@@ -280,16 +286,15 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
         }
         const gpu::Spirv& evaluate = blends ? shaders_.blendEvaluate : bicubic ? shaders_.bicubic : shaders_.pmEvaluate;
         for (size_t f = 0; status && f < formats.size() && tables.fragments.classes.empty() && !shares; ++f) {
-            ByRate& byRate = evaluate_[patchClass][formats[f]][normals];
-            // The rate it begins with, where that is worth a pipeline, and any that is set later.
-            for (const uint32_t rate : {0u, unrolled(needs.rate)}) {
-                if (status && (rate == 0 || (patchClass <= kPerturbedPatch && formats[f] != kVertexPosition))) {
-                    status = make(byRate[rate], evaluate,
-                                  {{kKindConstant, patchClass},
-                                   {kVertexFormatConstant, formats[f]},
-                                   {kCornerNormalsConstant, normals},
-                                   {kRateConstant, rate}},
-                                  "supple evaluate, " + name + atRate(rate));
+            // Any rate that is set later, and the one it begins with, where that is worth a pipeline.
+            const bool own = isWorthOwn(needs.rate, patchClass) && formats[f] != kVertexPosition;
+            for (const uint32_t rate : {0u, needs.rate}) {
+                if (status && (rate == 0 || own)) {
+                    status = makeAtRate(evaluate_[patchClass][formats[f]][normals], rate, evaluate,
+                                        {{kKindConstant, patchClass},
+                                         {kVertexFormatConstant, formats[f]},
+                                         {kCornerNormalsConstant, normals}},
+                                        "supple evaluate, " + name);
                 }
             }
         }
@@ -306,29 +311,24 @@ Status Passes::makeShared(const Tables& tables, const Needs& needs, std::span<co
     for (const uint32_t format : formats) {
         for (size_t r = 0; status && r < tables.ranges.size(); ++r) {
             const auto patchClass = static_cast<uint32_t>(tables.ranges[r].patchClass);
-            const uint32_t rate = patchClass <= shared::kPerturbedPatch ? unrolled(needs.rate) : 0;
             status =
-                make(inside_[patchClass][format][normals][rate],
-                     patchClass <= shared::kPolarPatch ? shaders_.bicubic : shaders_.pmEvaluate,
-                     {{kKindConstant, patchClass},
-                      {kVertexFormatConstant, format},
-                      {kCornerNormalsConstant, normals},
-                      {kInteriorConstant, VK_TRUE},
-                      {kRateConstant, rate}},
-                     std::string("supple evaluate inside, ") + className(tables.ranges[r].patchClass) + atRate(rate));
+                makeAtRate(inside_[patchClass][format][normals], isWorthOwn(needs.rate, patchClass) ? needs.rate : 0,
+                           patchClass <= shared::kPolarPatch ? shaders_.bicubic : shaders_.pmEvaluate,
+                           {{kKindConstant, patchClass},
+                            {kVertexFormatConstant, format},
+                            {kCornerNormalsConstant, normals},
+                            {kInteriorConstant, VK_TRUE}},
+                           std::string("supple evaluate inside, ") + className(tables.ranges[r].patchClass));
         }
         for (size_t e = 0; status && e < tables.shared.edges.size(); ++e) {
             const uint32_t kind = tables.shared.edges[e].kind;
             constexpr const char* kNames[] = {"supple evaluate edges", "supple evaluate edges, perturbed",
                                               "supple evaluate edges, P_m"};
             static_assert(std::size(kNames) == shared::kEdgeKinds);
-            const uint32_t rate = unrolled(needs.rate);
-            status = make(edges_[kind][format][normals][rate], shaders_.edge,
-                          {{kKindConstant, kind},
-                           {kVertexFormatConstant, format},
-                           {kCornerNormalsConstant, normals},
-                           {kRateConstant, rate}},
-                          kNames[kind] + atRate(rate));
+            status =
+                makeAtRate(edges_[kind][format][normals], isWorthOwn(needs.rate) ? needs.rate : 0, shaders_.edge,
+                           {{kKindConstant, kind}, {kVertexFormatConstant, format}, {kCornerNormalsConstant, normals}},
+                           kNames[kind]);
         }
     }
     if (!needs.attributes) {
@@ -410,8 +410,13 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
     const bool wide = device_->mapping.wide, shares = tables.sharesSamples();
     const size_t normals = tables.cornerNormals ? 1 : 0;
     const auto at = [&](const ByRate& pipelines, uint32_t rate) {
-        const VkPipeline own = pipelines[unrolled(rate)].get();
-        return own != VK_NULL_HANDLE ? own : pipelines[0].get();
+        const auto find = [&](uint32_t wanted) {
+            const auto found =
+                std::find_if(pipelines.begin(), pipelines.end(), [&](const AtRate& k) { return k.rate == wanted; });
+            return found != pipelines.end() ? found->pipeline.get() : VK_NULL_HANDLE;
+        };
+        const VkPipeline own = find(rate);
+        return own != VK_NULL_HANDLE ? own : find(0);
     };
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];

@@ -81,7 +81,11 @@ public:
 
 private:
     [[nodiscard]] Status make(gpu::PipelineHandle& target, const gpu::Spirv& spirv,
-                              std::initializer_list<gpu::Constant> constants, const std::string& name);
+                              std::span<const gpu::Constant> constants, const std::string& name);
+    [[nodiscard]] Status make(gpu::PipelineHandle& target, const gpu::Spirv& spirv,
+                              std::initializer_list<gpu::Constant> constants, const std::string& name) {
+        return make(target, spirv, std::span(constants.begin(), constants.size()), name);
+    }
     [[nodiscard]] Status makeConstruction(Kernel kernel);
     [[nodiscard]] Status makeShared(const Tables& tables, const Needs& needs, std::span<const uint32_t> formats);
     void record(VkCommandBuffer commandBuffer, VkPipeline pipeline, VkDescriptorSet set,
@@ -94,12 +98,24 @@ private:
                    const shared::SurfacePush& push) const;
 
     static constexpr size_t kClasses = kPatchClassCount;
-    static constexpr uint32_t kUnrolledRates = 8;
-    /// Where a kernel of this rate is kept: 0 where it is not unrolled. Only lanes that loop over a patch's samples
-    /// gain by it, and what is compiled grows with the rate.
-    [[nodiscard]] uint32_t unrolled(uint32_t rate) const {
-        return !device_->mapping.wide && rate <= kUnrolledRates ? rate : 0;
+    /// Kernels of one kind, each for a rate that is a constant of it, and with 0 the one for any rate.
+    struct AtRate {
+        uint32_t rate = 0;
+        gpu::PipelineHandle pipeline;
+    };
+    using ByRate = std::vector<AtRate>;
+    using ByFormat = std::array<std::array<ByRate, 2>, shared::kVertexFormats>; ///< and corner normals
+    /// Whether this rate is worth a kernel of its own. In the narrow mapping it unrolls all loops over a patch's
+    /// samples, and what is compiled grows with it; in the wide one it makes divisions cheap, and loops of many rounds
+    /// stay.
+    [[nodiscard]] bool isWorthOwn(uint32_t rate) const { return device_->mapping.wide || rate <= kUnrolledRates; }
+    [[nodiscard]] bool isWorthOwn(uint32_t rate, uint32_t patchClass) const {
+        return isWorthOwn(rate) &&
+               patchClass <= (device_->mapping.wide ? shared::kPolarPatch : shared::kPerturbedPatch);
     }
+    [[nodiscard]] Status makeAtRate(ByRate& kernels, uint32_t rate, const gpu::Spirv& spirv,
+                                    std::vector<gpu::Constant> constants, const std::string& name);
+    static constexpr uint32_t kUnrolledRates = 8;
     const gpu::Device* device_ = nullptr;
     Shaders shaders_;
     gpu::ComputeLayout layout_;
@@ -107,9 +123,6 @@ private:
     /// By which outputs there are beside the first (shared::kOutputUvs1, kOutputFaceUvs).
     using ByOutputs = std::array<gpu::PipelineHandle, shared::kAttributeOutputs>;
     std::array<ByOutputs, kDomainCount> attributes_; ///< by domain
-    /// One a rate that kernels are unrolled for, and the first for any rate.
-    using ByRate = std::array<gpu::PipelineHandle, kUnrolledRates + 1>;
-    using ByFormat = std::array<std::array<ByRate, 2>, shared::kVertexFormats>; ///< and corner normals
     // By class and by corner normals, which only p-rep's classes have; evaluate_ also by vertex format.
     std::array<std::array<gpu::PipelineHandle, 2>, kClasses> patch_;
     std::array<ByFormat, kClasses> evaluate_;

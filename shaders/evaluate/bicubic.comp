@@ -287,13 +287,13 @@ void evaluateWide() {
         loadShared(place, n - place * 16u, push.table + (id - entry * push.count) * recordElements(),
                    instance * push.poolStride, false);
     }
-    uint inset = kInterior ? 1u : 0u, side = push.rate + 1u - 2u * inset, rows = here * side;
+    uint rate = fixedRate(), inset = kInterior ? 1u : 0u, side = rate + 1u - 2u * inset, rows = here * side;
     for (uint firstRow = 0u; firstRow < rows; firstRow += kRowsAtOnce) {
         uint count = min(kRowsAtOnce, rows - firstRow);
         barrier();
         for (uint n = gl_LocalInvocationID.x; n < 4u * count; n += gl_WorkGroupSize.x) {
             uint row = firstRow + n / 4u, place = row / side;
-            collapseShared(n, place, n & 3u, parameterPair(row - place * side + inset, push.rate, push.pairs));
+            collapseShared(n, place, n & 3u, parameterPair(row - place * side + inset, rate, push.pairs));
         }
         barrier();
         for (uint n = gl_LocalInvocationID.x; n < count * side; n += gl_WorkGroupSize.x) {
@@ -303,10 +303,10 @@ void evaluateWide() {
             uint entry = id / push.count, instance = instanceSlot(entry);
             uint patchIndex = id - entry * push.count;
             vec3 position, normal;
-            finish(sharedRow(slot), parameterPair(i, push.rate, push.pairs), position, normal);
-            if (kPolar && j == push.rate) position = sharedCoefficients[place * kSharedStride + 12u].xyz;
+            finish(sharedRow(slot), parameterPair(i, rate, push.pairs), position, normal);
+            if (kPolar && j == rate) position = sharedCoefficients[place * kSharedStride + 12u].xyz;
             if (kCornerNormals && !kInterior)
-                normal = cornerNormal(normal, i, j, push.rate, normalSlots(push.table + patchIndex * recordElements()),
+                normal = cornerNormal(normal, i, j, rate, normalSlots(push.table + patchIndex * recordElements()),
                                       instance * push.poolStride);
             uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
             storeSurfaceVertex(vertex + (j - inset) * side + i - inset, position, normal);

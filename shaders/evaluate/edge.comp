@@ -106,10 +106,10 @@ void evaluateNarrow() {
 }
 
 void evaluateWide() {
-    uint id = invocationIndex(), lanes = push.count * push.rate;
+    uint rate = fixedRate(), id = invocationIndex(), lanes = push.count * rate;
     if (id >= lanes * instanceCount()) return;
     uint entry = id / lanes, instance = instanceSlot(entry), lane = id - entry * lanes;
-    uint edge = lane / push.rate, k = lane - edge * push.rate;
+    uint edge = lane / rate, k = lane - edge * rate;
     uint record = push.table + edge * kSharedEdgeElements;
     uvec4 own = tableElement(record + 2u);
     if (k == 0u && own.x == kNoEdgeSample) return;
@@ -120,8 +120,8 @@ void evaluateWide() {
         return;
     }
     vec3 position, normal;
-    finish(e, k, push.rate, position, normal);
-    storeSurfaceVertex(first + push.firstVertex + own.y * (push.rate - 1u) + k - 1u, position, normal);
+    finish(e, k, rate, position, normal);
+    storeSurfaceVertex(first + push.firstVertex + own.y * (rate - 1u) + k - 1u, position, normal);
 }
 
 void main() {
