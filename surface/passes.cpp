@@ -104,6 +104,13 @@ uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
     return best;
 }
 
+/// The same of bicubic patches, whose rows take a lane each.
+uint32_t bicubicPatchesPerGroup(uint32_t patchClass, uint32_t side, uint32_t localSize) {
+    const uint32_t elements =
+        patchClass == shared::kPerturbedPatch ? shared::kWidePerturbedNetElements : shared::kWideNetElements;
+    return std::min(localSize / side, shared::kWideElements / elements);
+}
+
 } // namespace
 
 Shaders Shaders::embedded() {
@@ -428,7 +435,11 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
         }
         push.firstPatch = range.firstPatch;
         push.firstVertex = evaluation.firstVertices[r];
-        push.patchesPerGroup = wide ? patchesPerGroup(push.samples, device_->mapping.localSize) : 1;
+        const auto patchClass = static_cast<uint32_t>(range.patchClass);
+        const uint32_t local = device_->mapping.localSize, side = push.rate + 1 - (shares ? 2 : 0);
+        push.patchesPerGroup = !wide                               ? 1
+                               : patchClass <= shared::kPolarPatch ? bicubicPatchesPerGroup(patchClass, side, local)
+                                                                   : patchesPerGroup(push.samples, local);
         const uint64_t patches = uint64_t{push.count} * push.instanceCount;
         const uint64_t groups = wide ? (patches + push.patchesPerGroup - 1) / push.patchesPerGroup : groupsFor(patches);
         const auto& pipelines = (shares ? inside_ : evaluate_)[static_cast<size_t>(range.patchClass)][vertexFormat];

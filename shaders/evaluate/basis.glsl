@@ -15,6 +15,12 @@ vec2 parameterPair(uint k, uint rate, uint firstPair) {
         precise vec2 p = vec2(float(k) / float(rate), float(rate - k) / float(rate));
         return p;
     }
+    // Powers of two divide without rounding: where the rate is one, and known, so are the pairs.
+    if (kRate != 0u && (kRate & (kRate - 1u)) == 0u) {
+        float inverse = uintBitsToFloat(127u - uint(findMSB(kRate)) << 23);
+        precise vec2 p = vec2(float(k) * inverse, float(kRate - k) * inverse);
+        return p;
+    }
     return pairs[firstPair + k];
 }
 

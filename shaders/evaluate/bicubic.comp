@@ -1,8 +1,9 @@
 // Evaluation of bicubic patches: regular, p-rep's with the sparse bi-5 perturbation (docs/prep.md), polar (docs/pm.md).
 // Coefficients are gathered from the pool by index. Narrow mapping: one lane a patch, everything in registers, rows collapsed
-// in v first. Wide mapping: a workgroup takes a few patches into shared memory; its lanes share the columns of the rows to
-// collapse, some rows at a time, and then their samples. Both use the functions collapse...() and finish(), so positions agree
-// bit for bit. With level of detail samples lie where the patch's record says instead of at i / rate (docs/lod.md).
+// in v first. Wide mapping: a workgroup takes a few patches into shared memory, each lane collapses a row and has all of its
+// samples; at levels, where workgroups have fewer rows, lanes share the columns to collapse and then the samples. All use the
+// functions collapse...() and finish(), so positions agree bit for bit. With level of detail samples lie where the patch's
+// record says instead of at i / rate (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -212,24 +213,141 @@ void evaluateNarrowLod() {
     } while (++n < count);
 }
 
-const uint kSharedStride = kPerturbed ? 48u : 32u; // g, relative, h
-shared vec4 sharedCoefficients[kMaxPatchesPerGroup * kSharedStride];
+#ifdef WIDE
+// The coefficients of a workgroup's patches: of every corner its point, tangent, next tangent and face coefficient (of a polar
+// patch's last corner the point and what is behind it), then the perturbation's, four an edge. One element more keeps the same
+// one of neighbouring patches in different banks.
+const uint kSharedStride = kPerturbed ? kWidePerturbedNetElements : kWideNetElements;
+#ifdef LEVELS
+const uint kSharedElements = kMaxPatchesPerGroup * kSharedStride;
+#else
+const uint kSharedElements = kWideElements; // where samples wait to be stored, too
+#endif
+shared uvec4 sharedElements[kSharedElements];
 
-// Coefficient k of the patch in a place of the workgroup.
-void loadShared(uint place, uint k, uint record, uint base, bool today) {
-    NetRecord net = netRecord(record);
-    uint corner = cornerOf(k);
-    vec3 origin = coefficient(base + net.points.x, today);
-    vec3 v = coefficient(base + netIndex(net, kPolar, corner), today), offset = vec3(0.0);
-    if (k != corner) offset = coefficient(base + netIndex(net, kPolar, k), today);
-    uint to = place * kSharedStride + k;
-    sharedCoefficients[to] = vec4(k == corner ? v : placed(v, offset), 0.0);
-    sharedCoefficients[to + 16u] = vec4(relativeTo(origin, v, offset), 0.0);
-    if (kPerturbed)
-        sharedCoefficients[to + 32u] = vec4(coefficient(base + perturbationIndex(tableElement(record + 2u), k), today), 0.0);
+vec3 sharedVector(uint at) { return uintBitsToFloat(sharedElements[at].xyz); }
+void share(uint at, uint coefficientIndex, bool today) {
+    sharedElements[at] = uvec4(floatBitsToUint(coefficient(coefficientIndex, today)), 0u);
 }
 
-const uint kRowsAtOnce = kPerturbed ? 15u : 30u; // with the coefficients below 16 KiB, which every device has
+// What corner and edge `corner` of a patch bring, whose elements begin at `to`.
+void shareCorner(uint to, uint corner, uint record, uint base, bool today) {
+    uint point = tableWord(4u * record + corner), spoke = tableWord(4u * record + 4u + corner), at = to + 4u * corner;
+    share(at, base + point, today);
+    if (kPolar && corner == 3u) { // it has no spoke
+        share(at + 1u, base + point + 1u, today);
+    } else {
+        share(at + 1u, base + push.tangents + SUPPLE_SPOKE(spoke), today);
+        share(at + 2u, base + push.tangents + SUPPLE_NEXT_SPOKE(spoke), today);
+        share(at + 3u, base + push.faces + SUPPLE_SPOKE(spoke), today);
+    }
+    if (!kPerturbed) return;
+    uint edge = tableWord(4u * record + 8u + corner);
+    for (uint s = 0u; s < 4u; ++s) share(at + 16u + s, base + SUPPLE_PREP_EDGE_INDEX(edge, s), today);
+}
+
+// Where coefficient k is, and perturbation coefficient k.
+uint sharedSlot(uint k) {
+    if (!kPolar) return 4u * SUPPLE_NET_CORNER(k) + SUPPLE_NET_KIND(k);
+    uint kind = SUPPLE_POLAR_NET_KIND(k);
+    return 4u * SUPPLE_POLAR_NET_CORNER(k) + (kind == kNetBehind ? 1u : kind);
+}
+vec3 sharedPerturbation(uint from, uint k) { return sharedVector(from + 16u + SUPPLE_PREP_FACE_EDGE(k)); }
+
+// Column i of the coefficients, as loadPatch() has them.
+void sharedColumn(uint from, uint i, out vec3 g[4], out vec3 relative[4]) {
+    vec3 first = sharedVector(from + sharedSlot(0u));
+    for (uint j = 0u; j < 4u; ++j) {
+        uint k = 4u * j + i, corner = cornerOf(k);
+        vec3 v = sharedVector(from + sharedSlot(corner)), offset = vec3(0.0);
+        if (k != corner) offset = sharedVector(from + sharedSlot(k));
+        relative[j] = relativeTo(first, v, offset);
+        g[j] = k == corner ? v : placed(v, offset);
+    }
+}
+void sharedOuter(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
+    collapseOuter(v, vec3[2](sharedPerturbation(from, 8u + 2u * i), sharedPerturbation(from, 9u + 2u * i)), point, slope);
+}
+void sharedInner(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
+    collapseInner(v, vec3[4](sharedPerturbation(from, 4u * i), sharedPerturbation(from, 4u * i + 1u),
+                             sharedPerturbation(from, 4u * i + 2u), sharedPerturbation(from, 4u * i + 3u)), point, slope);
+}
+#endif
+
+#if defined(WIDE) && !defined(LEVELS)
+shared uint sharedRows[kMaxLanes]; // the first surface vertex of each
+
+Row collapseFrom(uint from, vec2 v) {
+    Row row;
+    vec3 relative[4];
+    [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+        vec3 g[4], r[4];
+        sharedColumn(from, i, g, r);
+        collapseColumn(v, g, r, row.g[i], relative[i], row.gv[i]);
+    }
+    for (uint i = 0u; i < 3u; ++i) row.gu[i] = relative[i + 1u] - relative[i];
+    if (kPerturbed) {
+        [[unroll]] for (uint i = 0u; i < 2u; ++i) sharedInner(from, i, v, row.inner[i], row.innerV[i]);
+        [[unroll]] for (uint i = 0u; i < 4u; ++i) sharedOuter(from, i, v, row.outer[i], row.outerV[i]);
+    }
+    return row;
+}
+
+// A lane a row, in registers; a lane a corner loads before. As coefficients are not needed any more then, the samples take
+// their place, some of each row at a time, on their way to be stored by neighbouring lanes side by side.
+void evaluateWide() {
+    const uint kInset = kInterior ? 1u : 0u, kParts = kSurfaceVertexParts;
+    uint rate = fixedRate(), side = rate + 1u - 2u * kInset, lane = gl_LocalInvocationID.x;
+    uint total = push.count * instanceCount(), first = workgroupIndex() * push.patchesPerGroup;
+    if (first >= total) return;
+    uint here = min(push.patchesPerGroup, total - first), rows = here * side;
+    for (uint n = lane; n < 4u * here; n += gl_WorkGroupSize.x) {
+        uint place = n / 4u, id = first + place;
+        uint entry = id / push.count, instance = instanceSlot(entry), patchIndex = id - entry * push.count;
+        shareCorner(place * kSharedStride, n & 3u, push.table + patchIndex * recordElements(), instance * push.poolStride, false);
+        uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
+        for (uint j = n & 3u; j < side; j += 4u) sharedRows[place * side + j] = vertex + j * side;
+    }
+    barrier();
+    uint place = lane / side, j = lane - place * side + kInset;
+    Row row;
+    vec3 apex;
+    if (lane < rows) {
+        row = collapseFrom(place * kSharedStride, parameterPair(j, rate, push.pairs));
+        if (kPolar) apex = sharedVector(place * kSharedStride + sharedSlot(12u));
+    }
+    // As many samples at a time as there is room for; an odd number, so that rows begin in different banks.
+    const uint kMost = (kWideElements / (gl_WorkGroupSize.x * kParts) - 1u) | 1u;
+    uint rounds = (side + kMost - 1u) / kMost, chunk = ((side + rounds - 1u) / rounds) | 1u;
+    for (uint from = 0u; from < side; from += chunk) {
+        barrier();
+        if (lane < rows) {
+            [[unroll]] for (uint c = 0u; c < chunk; ++c) {
+                uint i = from + c + kInset;
+                if (from + c >= side) break;
+                vec3 position, normal;
+                finish(row, parameterPair(i, rate, push.pairs), position, normal);
+                if (kPolar && j == rate) position = apex;
+                if (kCornerNormals && !kInterior && (i == 0u || i == rate) && (j == 0u || j == rate)) {
+                    uint id = first + place, entry = id / push.count;
+                    uint record = push.table + (id - entry * push.count) * recordElements();
+                    normal = cornerNormal(normal, i, j, rate, normalSlots(record), instanceSlot(entry) * push.poolStride);
+                }
+                for (uint part = 0u; part < kParts; ++part)
+                    sharedElements[(lane * chunk + c) * kParts + part] = surfaceVertexPart(part, position, normal);
+            }
+        }
+        barrier();
+        for (uint n = lane; n < rows * chunk * kParts; n += gl_WorkGroupSize.x) {
+            uint at = n / kParts, slot = at / chunk, c = at - slot * chunk;
+            if (from + c < side) storeSurfaceVertexPart(sharedRows[slot] + from + c, n - at * kParts, sharedElements[n]);
+        }
+    }
+}
+#endif
+
+#if defined(WIDE) && defined(LEVELS)
+const uint kRowsAtOnce = kPerturbed ? 24u : 51u; // with the coefficients below 16 KiB, which every device has
 const uint kColumns = 4u * kRowsAtOnce;          // of a kind; of perturbations 4 outer ones and 4 with 2 inner ones follow
 shared vec4 sharedPoints[(kPerturbed ? 3u : 1u) * kColumns];
 shared vec4 sharedSlopes[(kPerturbed ? 4u : 2u) * kColumns]; // relative points and slopes; slopes of perturbations
@@ -237,25 +355,18 @@ shared vec4 sharedSlopes[(kPerturbed ? 4u : 2u) * kColumns]; // relative points 
 // Collapses a column of the patch in a place of the workgroup into column `to` of the shared ones.
 void collapseShared(uint to, uint place, uint i, vec2 v) {
     vec3 g[4], relative[4], point, fromFirst, slope;
-    for (uint k = 0u; k < 4u; ++k) {
-        uint from = place * kSharedStride + 4u * k + i;
-        g[k] = sharedCoefficients[from].xyz;
-        relative[k] = sharedCoefficients[from + 16u].xyz;
-    }
+    uint from = place * kSharedStride;
+    sharedColumn(from, i, g, relative);
     collapseColumn(v, g, relative, point, fromFirst, slope);
     sharedPoints[to] = vec4(point, 0.0);
     sharedSlopes[to] = vec4(fromFirst, 0.0);
     sharedSlopes[kColumns + to] = vec4(slope, 0.0);
     if (!kPerturbed) return;
-    uint from = place * kSharedStride + 32u;
-    vec3 two[2], four[4];
-    for (uint k = 0u; k < 2u; ++k) two[k] = sharedCoefficients[from + 8u + 2u * i + k].xyz;
-    collapseOuter(v, two, point, slope);
+    sharedOuter(from, i, v, point, slope);
     sharedPoints[kColumns + to] = vec4(point, 0.0);
     sharedSlopes[2u * kColumns + to] = vec4(slope, 0.0);
     if (i > 1u) return;
-    for (uint k = 0u; k < 4u; ++k) four[k] = sharedCoefficients[from + 4u * i + k].xyz;
-    collapseInner(v, four, point, slope);
+    sharedInner(from, i, v, point, slope);
     sharedPoints[2u * kColumns + to] = vec4(point, 0.0);
     sharedSlopes[3u * kColumns + to] = vec4(slope, 0.0);
 }
@@ -277,52 +388,15 @@ Row sharedRow(uint slot) {
     return row;
 }
 
-void evaluateWide() {
-    uint total = push.count * instanceCount();
-    uint first = workgroupIndex() * push.patchesPerGroup;
-    uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
-    for (uint n = gl_LocalInvocationID.x; n < here * 16u; n += gl_WorkGroupSize.x) {
-        uint place = n / 16u, id = first + place;
-        uint entry = id / push.count, instance = instanceSlot(entry);
-        loadShared(place, n - place * 16u, push.table + (id - entry * push.count) * recordElements(),
-                   instance * push.poolStride, false);
-    }
-    uint rate = fixedRate(), inset = kInterior ? 1u : 0u, side = rate + 1u - 2u * inset, rows = here * side;
-    for (uint firstRow = 0u; firstRow < rows; firstRow += kRowsAtOnce) {
-        uint count = min(kRowsAtOnce, rows - firstRow);
-        barrier();
-        for (uint n = gl_LocalInvocationID.x; n < 4u * count; n += gl_WorkGroupSize.x) {
-            uint row = firstRow + n / 4u, place = row / side;
-            collapseShared(n, place, n & 3u, parameterPair(row - place * side + inset, rate, push.pairs));
-        }
-        barrier();
-        for (uint n = gl_LocalInvocationID.x; n < count * side; n += gl_WorkGroupSize.x) {
-            uint slot = n / side, row = firstRow + slot, place = row / side;
-            uint i = n - slot * side + inset, j = row - place * side + inset;
-            uint id = first + place;
-            uint entry = id / push.count, instance = instanceSlot(entry);
-            uint patchIndex = id - entry * push.count;
-            vec3 position, normal;
-            finish(sharedRow(slot), parameterPair(i, rate, push.pairs), position, normal);
-            if (kPolar && j == rate) position = sharedCoefficients[place * kSharedStride + 12u].xyz;
-            if (kCornerNormals && !kInterior)
-                normal = cornerNormal(normal, i, j, rate, normalSlots(push.table + patchIndex * recordElements()),
-                                      instance * push.poolStride);
-            uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
-            storeSurfaceVertex(vertex + (j - inset) * side + i - inset, position, normal);
-        }
-    }
-}
-
 // A row has three slots: of the samples inside, and of those on the borders u = 0 and u = 1, which have levels of their own.
 void evaluateWideLod() {
     LodShare share = lodShareOfGroup(kLodQuadForm);
-    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 16u; n += gl_WorkGroupSize.x) {
-        uint place = n / 16u;
+    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 4u; n += gl_WorkGroupSize.x) {
+        uint place = n / 4u;
         LodRecord r = lodRecord(share.firstRecord + place);
         if (r.patchIndex != kEmptyRecord)
-            loadShared(place, n - place * 16u, push.table + (r.patchIndex - push.firstPatch) * recordElements(),
-                       r.slot * push.poolStride, r.isNew);
+            shareCorner(place * kSharedStride, n & 3u, push.table + (r.patchIndex - push.firstPatch) * recordElements(),
+                        r.slot * push.poolStride, r.isNew);
     }
     uint side = share.side, rows = share.recordCount * side;
     for (uint firstRow = 0u; firstRow < rows; firstRow += kRowsAtOnce / 3u) {
@@ -342,7 +416,7 @@ void evaluateWideLod() {
             vec3 position = vec3(0.0), normal = vec3(0.0);
             if (r.patchIndex != kEmptyRecord) {
                 finish(sharedRow(3u * slot + (i == 0u ? 1u : i == r.capacity ? 2u : 0u)), lodU(r, i, j), position, normal);
-                if (kPolar && j == r.capacity) position = sharedCoefficients[place * kSharedStride + 12u].xyz;
+                if (kPolar && j == r.capacity) position = sharedVector(place * kSharedStride + sharedSlot(12u));
                 if (kCornerNormals)
                     normal = cornerNormal(normal, i, j, r.capacity,
                                           normalSlots(push.table + (r.patchIndex - push.firstPatch) * recordElements()),
@@ -352,13 +426,20 @@ void evaluateWideLod() {
         }
     }
 }
+#endif
 
 void main() {
+#ifdef WIDE
 #ifdef LEVELS
-    if (kWide) evaluateWideLod();
-    else evaluateNarrowLod();
+    evaluateWideLod();
 #else
-    if (kWide) evaluateWide();
-    else evaluateNarrow();
+    evaluateWide();
+#endif
+#else
+#ifdef LEVELS
+    evaluateNarrowLod();
+#else
+    evaluateNarrow();
+#endif
 #endif
 }

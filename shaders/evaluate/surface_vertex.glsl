@@ -30,3 +30,15 @@ void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
         surface16[vertex] = uvec4(floatBitsToUint(position), encodeOctahedral(normal));
     }
 }
+
+// The same in elements of four words, which another lane may store: a vertex has one, of 24 bytes two.
+const uint kSurfaceVertexParts = kVertexFormat == kVertex24 ? 2u : 1u;
+uvec4 surfaceVertexPart(uint part, vec3 position, vec3 normal) {
+    if (kVertexFormat == kVertex16) return uvec4(floatBitsToUint(position), encodeOctahedral(normal));
+    if (part == 1u) position = normal * inversesqrt(max(dot(normal, normal), kTiny));
+    return uvec4(floatBitsToUint(position), 0u);
+}
+void storeSurfaceVertexPart(uint vertex, uint part, uvec4 element) {
+    if (kVertexFormat == kVertex16) surface16[vertex] = element;
+    else surfaceVectors[kSurfaceVertexParts * vertex + part] = uintBitsToFloat(element.xyz);
+}
