@@ -105,10 +105,10 @@ uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
 }
 
 /// The same of bicubic patches, whose rows take a lane each.
-uint32_t bicubicPatchesPerGroup(uint32_t patchClass, uint32_t side, uint32_t localSize) {
-    const uint32_t elements =
-        patchClass == shared::kPerturbedPatch ? shared::kWidePerturbedNetElements : shared::kWideNetElements;
-    return std::min(localSize / side, shared::kWideElements / elements);
+uint32_t bicubicPatchesPerGroup(uint32_t patchClass, uint32_t vertexFormat, uint32_t side, uint32_t localSize) {
+    using namespace shared;
+    const uint32_t elements = patchClass == kPerturbedPatch ? kWidePerturbedNetElements : kWideNetElements;
+    return std::min(localSize / side, SUPPLE_WIDE_ELEMENTS(vertexFormat) / elements);
 }
 
 } // namespace
@@ -437,9 +437,10 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
         push.firstVertex = evaluation.firstVertices[r];
         const auto patchClass = static_cast<uint32_t>(range.patchClass);
         const uint32_t local = device_->mapping.localSize, side = push.rate + 1 - (shares ? 2 : 0);
-        push.patchesPerGroup = !wide                               ? 1
-                               : patchClass <= shared::kPolarPatch ? bicubicPatchesPerGroup(patchClass, side, local)
-                                                                   : patchesPerGroup(push.samples, local);
+        push.patchesPerGroup = !wide ? 1
+                               : patchClass <= shared::kPolarPatch
+                                   ? bicubicPatchesPerGroup(patchClass, vertexFormat, side, local)
+                                   : patchesPerGroup(push.samples, local);
         const uint64_t patches = uint64_t{push.count} * push.instanceCount;
         const uint64_t groups = wide ? (patches + push.patchesPerGroup - 1) / push.patchesPerGroup : groupsFor(patches);
         const auto& pipelines = (shares ? inside_ : evaluate_)[static_cast<size_t>(range.patchClass)][vertexFormat];

@@ -17,7 +17,7 @@ vec2 parameterPair(uint k, uint rate, uint firstPair) {
     }
     // Powers of two divide without rounding: where the rate is one, and known, so are the pairs.
     if (kRate != 0u && (kRate & (kRate - 1u)) == 0u) {
-        float inverse = uintBitsToFloat(127u - uint(findMSB(kRate)) << 23);
+        float inverse = uintBitsToFloat((127u << 24) - floatBitsToUint(float(kRate)));
         precise vec2 p = vec2(float(k) * inverse, float(kRate - k) * inverse);
         return p;
     }

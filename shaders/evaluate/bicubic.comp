@@ -221,14 +221,12 @@ const uint kSharedStride = kPerturbed ? kWidePerturbedNetElements : kWideNetElem
 #ifdef LEVELS
 const uint kSharedElements = kMaxPatchesPerGroup * kSharedStride;
 #else
-const uint kSharedElements = kWideElements; // where samples wait to be stored, too
+const uint kSharedElements = SUPPLE_WIDE_ELEMENTS(kVertexFormat);
 #endif
-shared uvec4 sharedElements[kSharedElements];
+shared vec4 sharedElements[kSharedElements]; // at a rate the positions of samples as well, when these are done with
 
-vec3 sharedVector(uint at) { return uintBitsToFloat(sharedElements[at].xyz); }
-void share(uint at, uint coefficientIndex, bool today) {
-    sharedElements[at] = uvec4(floatBitsToUint(coefficient(coefficientIndex, today)), 0u);
-}
+vec3 sharedVector(uint at) { return sharedElements[at].xyz; }
+void share(uint at, uint coefficientIndex, bool today) { sharedElements[at].xyz = coefficient(coefficientIndex, today); }
 
 // What corner and edge `corner` of a patch bring, whose elements begin at `to`.
 void shareCorner(uint to, uint corner, uint record, uint base, bool today) {
@@ -275,6 +273,9 @@ void sharedInner(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
 #endif
 
 #if defined(WIDE) && !defined(LEVELS)
+// Samples of a row that are stored together: what there is room for, and an odd number, so that rows begin in different banks.
+const uint kMostTogether = kVertexFormat == kVertex24 ? 3u : 5u;
+shared uint sharedNormals[kMaxLanes * kMostTogether * (kNormalWords == 0u ? 1u : kNormalWords)];
 shared uint sharedRows[kMaxLanes]; // the first surface vertex of each
 
 Row collapseFrom(uint from, vec2 v) {
@@ -293,10 +294,10 @@ Row collapseFrom(uint from, vec2 v) {
     return row;
 }
 
-// A lane a row, in registers; a lane a corner loads before. As coefficients are not needed any more then, the samples take
-// their place, some of each row at a time, on their way to be stored by neighbouring lanes side by side.
+// A lane a row, in registers; a lane a corner loads before. As coefficients are not needed any more then, positions take
+// their place on their way to be stored by neighbouring lanes side by side.
 void evaluateWide() {
-    const uint kInset = kInterior ? 1u : 0u, kParts = kSurfaceVertexParts;
+    const uint kInset = kInterior ? 1u : 0u;
     uint rate = fixedRate(), side = rate + 1u - 2u * kInset, lane = gl_LocalInvocationID.x;
     uint total = push.count * instanceCount(), first = workgroupIndex() * push.patchesPerGroup;
     if (first >= total) return;
@@ -304,7 +305,8 @@ void evaluateWide() {
     for (uint n = lane; n < 4u * here; n += gl_WorkGroupSize.x) {
         uint place = n / 4u, id = first + place;
         uint entry = id / push.count, instance = instanceSlot(entry), patchIndex = id - entry * push.count;
-        shareCorner(place * kSharedStride, n & 3u, push.table + patchIndex * recordElements(), instance * push.poolStride, false);
+        shareCorner(place * kSharedStride, n & 3u, push.table + patchIndex * recordElements(), instance * push.poolStride,
+                    false);
         uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
         for (uint j = n & 3u; j < side; j += 4u) sharedRows[place * side + j] = vertex + j * side;
     }
@@ -316,14 +318,12 @@ void evaluateWide() {
         row = collapseFrom(place * kSharedStride, parameterPair(j, rate, push.pairs));
         if (kPolar) apex = sharedVector(place * kSharedStride + sharedSlot(12u));
     }
-    // As many samples at a time as there is room for; an odd number, so that rows begin in different banks.
-    const uint kMost = (kWideElements / (gl_WorkGroupSize.x * kParts) - 1u) | 1u;
-    uint rounds = (side + kMost - 1u) / kMost, chunk = ((side + rounds - 1u) / rounds) | 1u;
+    uint rounds = (side + kMostTogether - 1u) / kMostTogether, chunk = ((side + rounds - 1u) / rounds) | 1u;
     for (uint from = 0u; from < side; from += chunk) {
         barrier();
         if (lane < rows) {
             [[unroll]] for (uint c = 0u; c < chunk; ++c) {
-                uint i = from + c + kInset;
+                uint i = from + c + kInset, to = lane * chunk + c;
                 if (from + c >= side) break;
                 vec3 position, normal;
                 finish(row, parameterPair(i, rate, push.pairs), position, normal);
@@ -333,14 +333,20 @@ void evaluateWide() {
                     uint record = push.table + (id - entry * push.count) * recordElements();
                     normal = cornerNormal(normal, i, j, rate, normalSlots(record), instanceSlot(entry) * push.poolStride);
                 }
-                for (uint part = 0u; part < kParts; ++part)
-                    sharedElements[(lane * chunk + c) * kParts + part] = surfaceVertexPart(part, position, normal);
+                sharedElements[to].xyz = position;
+                uvec3 words = normalWords(normal);
+                for (uint k = 0u; k < kNormalWords; ++k) sharedNormals[kNormalWords * to + k] = words[k];
             }
         }
         barrier();
-        for (uint n = lane; n < rows * chunk * kParts; n += gl_WorkGroupSize.x) {
-            uint at = n / kParts, slot = at / chunk, c = at - slot * chunk;
-            if (from + c < side) storeSurfaceVertexPart(sharedRows[slot] + from + c, n - at * kParts, sharedElements[n]);
+        for (uint n = lane; n < rows * chunk * kVertexStores; n += gl_WorkGroupSize.x) {
+            uint at = n / kVertexStores, slot = at / chunk, c = at - slot * chunk;
+            if (from + c >= side) continue;
+            uint vertex = sharedRows[slot] + from + c, word = kNormalWords * at;
+            if (n - at * kVertexStores == 0u)
+                storePosition(vertex, sharedVector(at), kNormalWords == 1u ? sharedNormals[word] : 0u);
+            else
+                storeNormal(vertex, uvec3(sharedNormals[word], sharedNormals[word + 1u], sharedNormals[word + 2u]));
         }
     }
 }

@@ -31,14 +31,16 @@ void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
     }
 }
 
-// The same in elements of four words, which another lane may store: a vertex has one, of 24 bytes two.
-const uint kSurfaceVertexParts = kVertexFormat == kVertex24 ? 2u : 1u;
-uvec4 surfaceVertexPart(uint part, vec3 position, vec3 normal) {
-    if (kVertexFormat == kVertex16) return uvec4(floatBitsToUint(position), encodeOctahedral(normal));
-    if (part == 1u) position = normal * inversesqrt(max(dot(normal, normal), kTiny));
-    return uvec4(floatBitsToUint(position), 0u);
+// The same in two steps: the normal's words, and their storing by another lane. Where a vertex takes two stores, neighbouring
+// lanes do one each.
+const uint kNormalWords = kVertexFormat == kVertex16 ? 1u : kVertexFormat == kVertex24 ? 3u : 0u;
+const uint kVertexStores = kVertexFormat == kVertex24 ? 2u : 1u;
+uvec3 normalWords(vec3 normal) {
+    if (kVertexFormat == kVertex16) return uvec3(encodeOctahedral(normal), 0u, 0u);
+    return floatBitsToUint(normal * inversesqrt(max(dot(normal, normal), kTiny)));
 }
-void storeSurfaceVertexPart(uint vertex, uint part, uvec4 element) {
-    if (kVertexFormat == kVertex16) surface16[vertex] = element;
-    else surfaceVectors[kSurfaceVertexParts * vertex + part] = uintBitsToFloat(element.xyz);
+void storePosition(uint vertex, vec3 position, uint word) {
+    if (kVertexFormat == kVertex16) surface16[vertex] = uvec4(floatBitsToUint(position), word);
+    else surfaceVectors[kVertexStores * vertex] = position;
 }
+void storeNormal(uint vertex, uvec3 words) { surfaceVectors[kVertexStores * vertex + 1u] = uintBitsToFloat(words); }

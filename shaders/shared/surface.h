@@ -141,10 +141,12 @@ SUPPLE_SHARED_CONST kStoredNormalEdge = 64u;
 SUPPLE_SHARED_CONST kSingularEdge = 128u; // no normal at its beginning but as a limit
 
 SUPPLE_SHARED_CONST kPatchStride = 32u;       // elements a patch of any class in the patch-coefficient buffer
-SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u; // wide mapping: what the shared memory of the evaluation passes holds,
-SUPPLE_SHARED_CONST kWideElements = 992u;     // but for bicubic patches at a rate: 16 KiB with a word a lane
-SUPPLE_SHARED_CONST kWideNetElements = 17u;   // of which such a patch takes so many,
-SUPPLE_SHARED_CONST kWidePerturbedNetElements = 33u; // and a perturbed one
+// Wide mapping: what the shared memory of the evaluation passes holds, patches of any class, and of bicubic ones at a rate
+// elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes, or three of 12.
+SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u;
+SUPPLE_SHARED_CONST kWideNetElements = 17u; // of a patch
+SUPPLE_SHARED_CONST kWidePerturbedNetElements = 33u;
+#define SUPPLE_WIDE_ELEMENTS(vertexFormat) ((vertexFormat) == kVertex24 ? 704u : 832u)
 
 // Where the sections of the tables and of the pool lie, and what a dispatch covers.
 struct SurfacePush {
