@@ -249,11 +249,13 @@ void evaluateWide() {
     }
 }
 
+#if defined(WIDE) && defined(LEVELS)
 void evaluateWideLod() {
     LodShare share = lodShareOfGroup(kLodQuadForm);
+    shareRecords(share);
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 36u; n += gl_WorkGroupSize.x) {
         uint place = n / 36u;
-        LodRecord r = lodRecord(share.firstRecord + place);
+        LodRecord r = sharedRecord(place);
         if (r.patchIndex != kEmptyRecord)
             loadShared(place, n - place * 36u, push.table + 4u * (r.patchIndex - push.firstPatch),
                        r.slot * push.poolStride, r.isNew);
@@ -261,23 +263,30 @@ void evaluateWideLod() {
     barrier();
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * share.samples; n += gl_WorkGroupSize.x) {
         uint place = n / share.samples, sampleIndex = n - place * share.samples;
-        LodRecord r = lodRecord(share.firstRecord + place);
+        LodRecord r = sharedRecord(place);
         uint side = r.capacity + 1u, j = sampleIndex / side, i = sampleIndex - j * side;
         vec3 position = vec3(0.0), normal = vec3(0.0);
         if (r.patchIndex != kEmptyRecord) {
             Corner corners[4] = sharedCorners(place, push.table + 4u * (r.patchIndex - push.firstPatch));
-            evaluateLevels(corners, lodU(r, i, j), lodV(r, i, j), position, normal);
+            evaluateLevels(corners, lodU(place, r.capacity, i, j), lodV(place, r.capacity, i, j), position, normal);
         }
         storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
     }
 }
+#endif
 
 void main() {
+#ifdef WIDE
 #ifdef LEVELS
-    if (kWide) evaluateWideLod();
-    else evaluateNarrowLod();
+    evaluateWideLod();
 #else
-    if (kWide) evaluateWide();
-    else evaluateNarrow();
+    evaluateWide();
+#endif
+#else
+#ifdef LEVELS
+    evaluateNarrowLod();
+#else
+    evaluateNarrow();
+#endif
 #endif
 }

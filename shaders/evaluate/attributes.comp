@@ -56,18 +56,20 @@ float[5] sectorWeights(uint sector, vec3 l) {
     return w;
 }
 
+#if defined(WIDE) && defined(LEVELS)
 // At corners where a record says that samples lie (surface/lod/grid.h).
-float[5] lodCornerWeights(LodRecord r, uint index) {
+float[5] lodCornerWeights(uint place, LodRecord r, uint index) {
     if (!kRings) {
         uint j = index / (r.capacity + 1u), i = index - j * (r.capacity + 1u);
-        vec2 u = lodU(r, i, j), v = lodV(r, i, j);
+        vec2 u = lodU(place, r.capacity, i, j), v = lodV(place, r.capacity, i, j);
         if (kDomain == kPolarDomain) return polar(u, v);
         return bilinear(u, v);
     }
     vec2 along;
     RingSample at = ringSample(kCorners, r.capacity, index);
-    return sectorWeights(at.side, ringWeights(r, at, along));
+    return sectorWeights(at.side, ringWeights(place, r.capacity, at, along));
 }
+#endif
 
 // What a patch has at its corners. Colors in steps of 16-bit unorm: weights do not sum to more than 1, so that nothing has to
 // be clamped; lavapipe spends a third of the pass on packUnorm2x16.
@@ -171,19 +173,26 @@ void storeRings(LodRecord r, Corners c) {
     }
 }
 
-void storeOfRecord(uint index, uint firstSample, uint step) {
-    LodRecord r = lodRecord(index);
-    bool empty = r.patchIndex == kEmptyRecord;
-    Corners corners = loadCorners(empty ? 0u : r.patchIndex - push.firstPatch);
-    if (!kWide) {
-        if (kRings) storeRings(r, corners);
-        else storeRows(r, corners);
-        return;
-    }
-    if (empty) return;
-    uint samples = kRings ? kCorners * (r.capacity + 1u) * (r.capacity + 1u) / 4u : (r.capacity + 1u) * (r.capacity + 1u);
-    for (uint k = firstSample; k < samples; k += step)
-        store(r.firstVertex + k, corners, lodCornerWeights(r, k));
+#if defined(WIDE) && defined(LEVELS)
+// A workgroup has several records only where it has a lane for each of their samples.
+void evaluateWideLod(uint form) {
+    LodShare share = lodShareOfGroup(form);
+    shareRecords(share);
+    uint place = gl_LocalInvocationID.x / share.samples;
+    if (place >= share.recordCount) return;
+    LodRecord r = sharedRecord(place);
+    if (r.patchIndex == kEmptyRecord) return;
+    Corners corners = loadCorners(r.patchIndex - push.firstPatch);
+    for (uint k = gl_LocalInvocationID.x - place * share.samples; k < share.samples; k += gl_WorkGroupSize.x)
+        store(r.firstVertex + k, corners, lodCornerWeights(place, r, k));
+}
+#endif
+
+void evaluateNarrowLod() {
+    LodRecord r = lodRecord(lodRecordOfLane());
+    Corners corners = loadCorners(r.patchIndex == kEmptyRecord ? 0u : r.patchIndex - push.firstPatch);
+    if (kRings) storeRings(r, corners);
+    else storeRows(r, corners);
 }
 
 // A sample along an edge, or at the corner where it begins: see evaluate/edge.comp.
@@ -205,13 +214,11 @@ void main() {
     const uint kForm = !kRings ? kLodQuadForm
                      : kDomain == kTriangleDomain ? kLodTriangleForm
                      : kDomain == kPentagonDomain ? kLodPentagonForm : kLodQuadRingsForm;
-    if (kWide) {
-        LodShare share = lodShareOfGroup(kForm);
-        for (uint n = 0u; n < share.recordCount; ++n)
-            storeOfRecord(share.firstRecord + n, gl_LocalInvocationID.x, gl_WorkGroupSize.x);
-    } else {
-        storeOfRecord(lodRecordOfLane(), 0u, 1u);
-    }
+#ifdef WIDE
+    evaluateWideLod(kForm);
+#else
+    evaluateNarrowLod();
+#endif
 #else
     uint id = invocationIndex();
     if (id >= push.count) return;

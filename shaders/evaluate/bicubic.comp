@@ -397,9 +397,10 @@ Row sharedRow(uint slot) {
 // A row has three slots: of the samples inside, and of those on the borders u = 0 and u = 1, which have levels of their own.
 void evaluateWideLod() {
     LodShare share = lodShareOfGroup(kLodQuadForm);
+    shareRecords(share);
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 4u; n += gl_WorkGroupSize.x) {
         uint place = n / 4u;
-        LodRecord r = lodRecord(share.firstRecord + place);
+        LodRecord r = sharedRecord(place);
         if (r.patchIndex != kEmptyRecord)
             shareCorner(place * kSharedStride, n & 3u, push.table + (r.patchIndex - push.firstPatch) * recordElements(),
                         r.slot * push.poolStride, r.isNew);
@@ -410,18 +411,18 @@ void evaluateWideLod() {
         barrier();
         for (uint n = gl_LocalInvocationID.x; n < 12u * count; n += gl_WorkGroupSize.x) {
             uint row = firstRow + n / 12u, place = row / side, column = n / 4u % 3u;
-            LodRecord r = lodRecord(share.firstRecord + place);
+            LodRecord r = sharedRecord(place);
             if (r.patchIndex != kEmptyRecord)
                 collapseShared(n, place, n & 3u,
-                               lodV(r, column == 0u ? 1u : column == 1u ? 0u : r.capacity, row - place * side));
+                               lodV(place, r.capacity, column == 0u ? 1u : column == 1u ? 0u : r.capacity, row - place * side));
         }
         barrier();
         for (uint n = gl_LocalInvocationID.x; n < count * side; n += gl_WorkGroupSize.x) {
             uint slot = n / side, row = firstRow + slot, place = row / side, i = n - slot * side, j = row - place * side;
-            LodRecord r = lodRecord(share.firstRecord + place);
+            LodRecord r = sharedRecord(place);
             vec3 position = vec3(0.0), normal = vec3(0.0);
             if (r.patchIndex != kEmptyRecord) {
-                finish(sharedRow(3u * slot + (i == 0u ? 1u : i == r.capacity ? 2u : 0u)), lodU(r, i, j), position, normal);
+                finish(sharedRow(3u * slot + (i == 0u ? 1u : i == r.capacity ? 2u : 0u)), lodU(place, r.capacity, i, j), position, normal);
                 if (kPolar && j == r.capacity) position = sharedVector(place * kSharedStride + sharedSlot(12u));
                 if (kCornerNormals)
                     normal = cornerNormal(normal, i, j, r.capacity,

@@ -20,9 +20,9 @@ struct LodRecord {
     vec2 pairs[6];
 };
 
-LodRecord lodRecord(uint index) {
-    uint at = (kLodRecords + kLodRecordWords * index) / 4u;
-    uvec4 head = lodElement(at);
+uint lodRecordElement(uint index) { return (kLodRecords + kLodRecordWords * index) / 4u; }
+// All but the pairs.
+LodRecord lodRecordOf(uvec4 head) {
     LodRecord r;
     r.patchIndex = head.x;
     r.slot = (head.y & kInstanceSlotMask) - push.firstSlot;
@@ -30,26 +30,17 @@ LodRecord lodRecord(uint index) {
     r.firstVertex = head.z;
     r.capacityIndex = head.w;
     r.capacity = capacityOf(head.w);
+    return r;
+}
+LodRecord lodRecord(uint index) {
+    uint at = lodRecordElement(index);
+    LodRecord r = lodRecordOf(lodElement(at));
     for (uint k = 0u; k < 3u; ++k) {
         vec4 two = uintBitsToFloat(lodElement(at + 1u + k));
         r.pairs[2u * k] = two.xy;
         r.pairs[2u * k + 1u] = two.zw;
     }
     return r;
-}
-
-// Parameters of a sample on a border are the edge's, else the patch's own. At a corner they are 0 and 1 themselves.
-vec2 lodU(LodRecord r, uint i, uint j) {
-    if (i == 0u) return vec2(0.0, 1.0);
-    if (i == r.capacity) return vec2(1.0, 0.0);
-    vec2 level = j == 0u ? r.pairs[2] : j == r.capacity ? r.pairs[4] : r.pairs[0];
-    return lodPair(lodPattern(level, r.capacityIndex), i, r.capacity);
-}
-vec2 lodV(LodRecord r, uint i, uint j) {
-    if (j == 0u) return vec2(0.0, 1.0);
-    if (j == r.capacity) return vec2(1.0, 0.0);
-    vec2 level = i == r.capacity ? r.pairs[3] : i == 0u ? r.pairs[5] : r.pairs[1];
-    return lodPair(lodPattern(level, r.capacityIndex), j, r.capacity);
 }
 
 // A sample of a ring grid (surface/lod/grid.h): its ring, the side of it, and the place along the side, counted from the
@@ -74,12 +65,6 @@ vec3 ringWeights(vec2 along, float t) {
     precise vec3 w = vec3(along.y - t, along.x - t, 2.0 * t);
     return w;
 }
-vec3 ringWeights(LodRecord r, RingSample s, out vec2 along) {
-    vec2 level = s.ring == 0u ? r.pairs[1u + s.side] : r.pairs[0];
-    along = lodPair(lodPattern(level, r.capacityIndex), s.k, r.capacity);
-    return ringWeights(along, lodPair(lodPattern(r.pairs[0], r.capacityIndex), s.ring, r.capacity).x);
-}
-
 // The record of a lane, in the narrow mapping. Idle lanes repeat the last.
 uint lodRecordOfLane() {
     uint at = kLodDispatches + 8u * push.dispatch;
@@ -95,8 +80,12 @@ LodShare lodShareOfGroup(uint form) {
     uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = lodWord(at + 6u);
     LodShare share = LodShare(0u, 0u, 1u, 1u);
     if (workgroupIndex() >= lodWord(at + 7u)) return share;
-    uint b = count - 1u; // the last bucket that begins at or before this group, and is not empty
-    while (b > 0u && lodWord(kLodBuckets + 4u * (first + b) + 3u) > workgroupIndex()) --b;
+    uint b = 0u, past = count; // the last bucket that begins at or before this group, and is not empty
+    while (past - b > 1u) {
+        uint middle = (b + past) / 2u;
+        if (lodWord(kLodBuckets + 4u * (first + middle) + 3u) <= workgroupIndex()) b = middle;
+        else past = middle;
+    }
     uint bucket = kLodBuckets + 4u * (first + b);
     uint next = b + 1u < count ? lodWord(bucket + 4u) : end;
     uint capacity = capacityOf(b % kCapacityCount);
@@ -107,3 +96,47 @@ LodShare lodShareOfGroup(uint form) {
     share.recordCount = share.firstRecord < next ? min(each, next - share.firstRecord) : 0u;
     return share;
 }
+
+#if defined(WIDE) && defined(LEVELS)
+// The records of a workgroup and their patterns, in shared memory. The latter in two parts: one is integers.
+shared uvec4 sharedHeads[kMaxPatchesPerGroup];
+shared uvec2 sharedPatternBits[6u * kMaxPatchesPerGroup];
+shared vec2 sharedPatternWidths[6u * kMaxPatchesPerGroup];
+
+// To be called by all lanes.
+void shareRecords(LodShare share) {
+    for (uint n = gl_LocalInvocationID.x; n < 6u * share.recordCount; n += gl_WorkGroupSize.x) {
+        uint place = n / 6u, k = n - 6u * place, at = lodRecordElement(share.firstRecord + place);
+        uvec4 head = lodElement(at);
+        vec4 two = uintBitsToFloat(lodElement(at + 1u + k / 2u));
+        LodPattern p = lodPattern((k & 1u) == 0u ? two.xy : two.zw, head.w);
+        sharedPatternBits[n] = uvec2(p.full, p.fresh);
+        sharedPatternWidths[n] = vec2(p.part, p.inverse);
+        if (k == 0u) sharedHeads[place] = head;
+    }
+    barrier();
+}
+// Of the record in a place, without its pairs.
+LodRecord sharedRecord(uint place) { return lodRecordOf(sharedHeads[place]); }
+vec2 sharedPair(uint place, uint k, uint i, uint capacity) {
+    uvec2 bits = sharedPatternBits[6u * place + k];
+    vec2 widths = sharedPatternWidths[6u * place + k];
+    return lodPair(LodPattern(bits.x, bits.y, widths.x, widths.y), i, capacity);
+}
+
+// Parameters of a sample on a border are the edge's, else the patch's own. At a corner they are 0 and 1 themselves.
+vec2 lodU(uint place, uint capacity, uint i, uint j) {
+    if (i == 0u) return vec2(0.0, 1.0);
+    if (i == capacity) return vec2(1.0, 0.0);
+    return sharedPair(place, j == 0u ? 2u : j == capacity ? 4u : 0u, i, capacity);
+}
+vec2 lodV(uint place, uint capacity, uint i, uint j) {
+    if (j == 0u) return vec2(0.0, 1.0);
+    if (j == capacity) return vec2(1.0, 0.0);
+    return sharedPair(place, i == capacity ? 3u : i == 0u ? 5u : 1u, j, capacity);
+}
+vec3 ringWeights(uint place, uint capacity, RingSample s, out vec2 along) {
+    along = sharedPair(place, s.ring == 0u ? 1u + s.side : 0u, s.k, capacity);
+    return ringWeights(along, sharedPair(place, 0u, s.ring, capacity).x);
+}
+#endif

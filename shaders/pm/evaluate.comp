@@ -278,12 +278,14 @@ void evaluateWide() {
     }
 }
 
+#if defined(WIDE) && defined(LEVELS)
 void evaluateWideLod() {
     const uint kForm = kClass == kP3Patch ? kLodTriangleForm : kClass == kP4Patch ? kLodQuadRingsForm : kLodPentagonForm;
     LodShare share = lodShareOfGroup(kForm);
+    shareRecords(share);
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * kSides; n += gl_WorkGroupSize.x) {
         uint place = n / kSides;
-        LodRecord r = lodRecord(share.firstRecord + place);
+        LodRecord r = sharedRecord(place);
         if (r.patchIndex != kEmptyRecord)
             storeShared(n, loadSector(kSides, kRay, push.table + kElements * (r.patchIndex - push.firstPatch),
                                       r.slot * push.poolStride, n - place * kSides, r.isNew));
@@ -291,26 +293,33 @@ void evaluateWideLod() {
     barrier();
     for (uint n = gl_LocalInvocationID.x; n < share.recordCount * share.samples; n += gl_WorkGroupSize.x) {
         uint place = n / share.samples, sampleIndex = n - place * share.samples;
-        LodRecord r = lodRecord(share.firstRecord + place);
+        LodRecord r = sharedRecord(place);
         vec3 position = vec3(0.0), normal = vec3(0.0);
         if (r.patchIndex != kEmptyRecord) {
             RingSample at = ringSample(kSides, r.capacity, sampleIndex);
             uint singular = SUPPLE_SINGULAR(innerWord(push.table + kElements * (r.patchIndex - push.firstPatch), kSides));
             vec2 along;
-            vec3 w = ringWeights(r, at, along);
+            vec3 w = ringWeights(place, r.capacity, at, along);
             bool step = at.ring == 0u && at.k == 0u && (singular & (1u << at.side)) != 0u;
             finish(sharedSector(place * kSides + at.side), w, at.ring == 0u, along, step, position, normal);
         }
         storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
     }
 }
+#endif
 
 void main() {
+#ifdef WIDE
 #ifdef LEVELS
-    if (kWide) evaluateWideLod();
-    else evaluateNarrowLod();
+    evaluateWideLod();
 #else
-    if (kWide) evaluateWide();
-    else evaluateNarrow();
+    evaluateWide();
+#endif
+#else
+#ifdef LEVELS
+    evaluateNarrowLod();
+#else
+    evaluateNarrow();
+#endif
 #endif
 }
