@@ -278,4 +278,10 @@ void computeBarrier(const Device& device, VkCommandBuffer commandBuffer) {
                   {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead | kWrite});
 }
 
+void disjointBarrier(const Device& device, VkCommandBuffer commandBuffer) {
+    if (!device.mapping.wide) {
+        computeBarrier(device, commandBuffer);
+    }
+}
+
 } // namespace supple::gpu

@@ -103,5 +103,9 @@ void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScop
 [[nodiscard]] VkBufferMemoryBarrier2 bufferBarrier(VkBuffer buffer);
 /// What compute shaders wrote before, compute shaders after may read (texel buffers too) and write.
 void computeBarrier(const Device& device, VkCommandBuffer commandBuffer);
+/// Between dispatches that share a buffer and nothing in it, or only atomics. Synchronization validation asks for a
+/// barrier where buffers are read as texels, to it one resource each; in the wide mapping, where none are and a barrier
+/// lets the device run empty, there is none.
+void disjointBarrier(const Device& device, VkCommandBuffer commandBuffer);
 
 } // namespace supple::gpu

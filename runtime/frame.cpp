@@ -154,8 +154,12 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         pass(Pass::attributes, [&](Group& group) { return group.recordAttributes(commandBuffer); });
     }
     if (any([](Group& group) { return group.plays(); })) {
-        pass(Pass::pose, [&](Group& group) { return group.recordPose(commandBuffer); });
-        computeBarrier();
+        for (const Playback::Part part : Playback::kParts) {
+            if (part != Playback::Part::roots || any([](Group& group) { return group.movesRoots(); })) {
+                pass(Pass::pose, [&](Group& group) { return group.recordPose(commandBuffer, part); });
+                computeBarrier();
+            }
+        }
     }
     pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
     computeBarrier();
@@ -200,6 +204,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     if (views) {
         pass(Pass::level, [&](Group& group) { return group.recordEdgeLevels(commandBuffer); });
+        computeBarrier();
         pass(Pass::level, [&](Group& group) { return group.recordPatchLevels(commandBuffer); });
         computeBarrier();
         device.beginLabel(commandBuffer, passName(Pass::solve));

@@ -81,7 +81,8 @@ public:
     PassCost recordAttributes(VkCommandBuffer commandBuffer); ///< nothing after the first time at a rate
     [[nodiscard]] bool attributesPending() const { return attributesPending_; }
     [[nodiscard]] bool plays() const { return poseSource_ == SUPPLE_POSES_PLAYBACK; }
-    PassCost recordPose(VkCommandBuffer commandBuffer) const; ///< with barriers in it
+    [[nodiscard]] bool movesRoots() const { return plays() && playback_.hasRoots(); }
+    PassCost recordPose(VkCommandBuffer commandBuffer, Playback::Part part) const; ///< a barrier stands between parts
     [[nodiscard]] bool deforms() const { return poseSource_ != SUPPLE_POSES_CAGE_BUFFER; }
     PassCost recordDeform(VkCommandBuffer commandBuffer) const;
     PassCost recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const;

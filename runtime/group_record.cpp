@@ -200,21 +200,16 @@ Group::PassCost Group::recordLodAttributes(VkCommandBuffer commandBuffer) const 
     return {0, 0, visible_ > 0};
 }
 
-Group::PassCost Group::recordPose(VkCommandBuffer commandBuffer) const {
-    if (!plays()) {
+Group::PassCost Group::recordPose(VkCommandBuffer commandBuffer, Playback::Part part) const {
+    if (!plays() || (part == Playback::Part::roots && !movesRoots())) {
         return {};
     }
-    for (const Playback::Part part : {Playback::Part::locals, Playback::Part::roots, Playback::Part::palette}) {
-        if (part == Playback::Part::roots && !playback_.hasRoots()) {
-            continue;
-        }
-        if (part != Playback::Part::locals) {
-            gpu::computeBarrier(*shared_.device, commandBuffer);
-        }
-        forWindows([&](const Window& own, uint32_t first, const InstanceSlots::Listed& listed) {
-            const auto window = static_cast<uint32_t>(&own - windows_.data());
-            playback_.record(commandBuffer, part, window, first, listed.count);
-        });
+    forWindows([&](const Window& own, uint32_t first, const InstanceSlots::Listed& listed) {
+        const auto window = static_cast<uint32_t>(&own - windows_.data());
+        playback_.record(commandBuffer, part, window, first, listed.count);
+    });
+    if (part != Playback::Part::palette) { // whose poses are what is counted
+        return {0, 0, visible_ > 0};
     }
     return {uint64_t{poses_.layout().jointCount} * visible_, poses_.instanceBytes() * visible_};
 }
@@ -306,7 +301,7 @@ Group::PassCost Group::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
 
 Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
     if (hasRates() && isBudgeted()) {
-        gpu::computeBarrier(*shared_.device, commandBuffer);
+        gpu::disjointBarrier(*shared_.device, commandBuffer);
         culling_.recordDemand(commandBuffer, visible_);
         return {0, 0, visible_ > 0};
     }
@@ -314,8 +309,8 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
-        // All count into one buffer, with atomics; to synchronization validation it is one resource that they read too.
-        gpu::computeBarrier(*shared_.device, commandBuffer);
+        // All count into one buffer, with atomics.
+        gpu::disjointBarrier(*shared_.device, commandBuffer);
         shared_.surface->lod().recordPatches(commandBuffer, scheme_->tables.lod, window, levelArguments(window),
                                              levelPush(own), view_->leavesBackFaces());
     });
@@ -325,6 +320,7 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
 
 Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
     if (hasRates()) {
+        // All add to the view's count of vertices, each with one lane.
         gpu::computeBarrier(*shared_.device, commandBuffer);
         culling_.recordRates(commandBuffer, isBudgeted());
         return {0, 0, visible_ > 0};
@@ -333,6 +329,7 @@ Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
+        // Places are taken with atomics; to synchronization validation the view's words are one resource.
         gpu::computeBarrier(*shared_.device, commandBuffer);
         shared_.surface->lod().recordPlaces(commandBuffer, window, levelArguments(window), levelPush(own));
     });
@@ -391,8 +388,7 @@ Group::PassCost Group::recordMotion(VkCommandBuffer commandBuffer) const {
             return;
         }
         if (!first) {
-            // Other instances; to synchronization validation the buffers are one resource each.
-            gpu::computeBarrier(*shared_.device, commandBuffer);
+            gpu::disjointBarrier(*shared_.device, commandBuffer); // other instances
         }
         first = false;
         shared_.surface->recordEvaluate(commandBuffer, scheme_->tables, {set, from, count}, evaluation_,

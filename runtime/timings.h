@@ -37,8 +37,8 @@ enum class Pass : uint32_t {
 };
 inline constexpr size_t kPassCount = static_cast<size_t>(Pass::count);
 [[nodiscard]] const char* passName(Pass pass);
-/// That a group can have in a frame: bounds comes again for occlusion, and level for patches.
-inline constexpr size_t kMostEntries = kPassCount + 2;
+/// That a group can have in a frame: pose is up to three, bounds comes again for occlusion, and level for patches.
+inline constexpr size_t kMostEntries = kPassCount + 4;
 
 class View;
 

@@ -380,9 +380,8 @@ void Passes::recordStage(VkCommandBuffer commandBuffer, Stage stage, const Table
         const Construction& c = tables.constructions[i];
         if (c.stage == stage) {
             if (stage == Stage::edge && !first) {
-                // No facet kernel of P_m reads what another writes. Synchronization validation cannot know: to it the
-                // pool is one resource, which they all read and write.
-                gpu::computeBarrier(*device_, commandBuffer);
+                // No facet kernel of P_m reads what another writes.
+                gpu::disjointBarrier(*device_, commandBuffer);
             }
             first = false;
             const shared::SurfacePush push = pushFor(tables, c.section, window, evaluation);

@@ -98,8 +98,8 @@ void blend(Corner corners[4], CornerView views[4], out vec3 position, out vec3 d
         dy[k] = (x.x * y.y) * relative + weight * localY;
     }
     // Opposite corners together: on an edge one of the two is zero, and the sum reads the same from both faces.
-    precise vec3 sum = ((points[0] + points[2]) + (points[1] + points[3])) + 0.0;
-    position = sum;
+    precise vec3 sum = (points[0] + points[2]) + (points[1] + points[3]);
+    position = withPositiveZeros(sum);
     du = (dx[0] - dx[2]) + (dy[3] - dy[1]);
     dv = (dy[0] - dy[2]) + (dx[1] - dx[3]);
 }

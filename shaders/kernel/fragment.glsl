@@ -61,7 +61,7 @@ void centreLimit(uint mask, out vec3 position, out vec3 normal) {
         precise vec3 a = point(1u + stride * (h % spokes)) - c, b = point(1u + stride * ((h + 1u) % spokes)) - c;
         n = n + crossProduct(a, b);
     }
-    precise vec3 p = (c + sum) + 0.0;
-    position = p;
+    precise vec3 p = c + sum;
+    position = withPositiveZeros(p);
     normal = n;
 }

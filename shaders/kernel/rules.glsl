@@ -127,7 +127,7 @@ void limitPoint(vec3 c, vec3 p[8], float sharpness, bool right, out vec3 positio
         }
     }
     precise vec3 crease = (4.0 * c + axis) * (1.0 / 6.0);
-    precise vec3 p0 = (sharp ? crease : limit) + 0.0; // no -0: sides of a border may come to different zeros
-    position = p0;
+    precise vec3 p0 = sharp ? crease : limit;
+    position = withPositiveZeros(p0);
     normal = sharp && right ? crossProduct(across, along) : crossProduct(along, across);
 }

@@ -262,9 +262,39 @@ bool showsItsBack(uint patchClass, uint record, uint base, uint sides, vec3 g[16
                                        reachOfBorder(levels.x, across.y), reachOfBorder(levels.z, across.y)));
 }
 
+shared uint commonPlace, commonSums[3];
+
+// Counts a patch into its bin. On GPUs a workgroup first adds up what falls where its first patch does: of instances of one
+// level that is all there is, and so many atomics on one word would wait for each other.
+void countPatch(bool counted, uint run, uint form, uint priority, uint bin, uint weight) {
+    uint split = kLodSplit + (priority * kLodForms + form) * kLodBinStride + bin;
+    uint place = kLodCounts + (run * kPriorityCount + priority) * kLodBinStride + bin;
+    uvec3 own = uvec3(kSplitUnit - weight, weight, 1u);
+    if (kWide) {
+        bool first = gl_LocalInvocationID.x == 0u;
+        if (first) {
+            commonPlace = counted ? place : kNoBin;
+            for (uint k = 0u; k < 3u; ++k) commonSums[k] = 0u;
+        }
+        barrier();
+        if (counted && place == commonPlace) {
+            for (uint k = 0u; k < 3u; ++k) atomicAdd(commonSums[k], own[k]);
+            counted = first;
+        }
+        barrier();
+        if (first) own = uvec3(commonSums[0], commonSums[1], commonSums[2]);
+    }
+    if (!counted) return;
+    atomicAdd(lodWords[split], own.x);
+    if (own.y > 0u) atomicAdd(lodWords[split + 1u], own.y);
+    atomicAdd(lodWords[place], own.z);
+}
+
 void main() {
-    uint id = invocationIndex();
-    if (id >= push.count * instanceCount()) return;
+    uint id = invocationIndex(), total = push.count * instanceCount();
+    bool inside = id < total, counted = inside;
+    if (!kWide && !inside) return;
+    id = min(id, total - 1u);
     uint entry = id / push.count, listed = instanceEntry(entry), patchIndex = id - entry * push.count;
     uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), base = instance * push.poolStride;
@@ -292,20 +322,16 @@ void main() {
     // Nothing is known of where a blend of charts faces.
     if (kBackFaces && !kCharts) {
         bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
-        vec2 inside = form == kLodQuadForm ? own : vec2(level);
-        if (!doubleSided && showsItsBack(more.w, more.z, base, sides, g, ofEdges, fifth, inside)) {
-            scratchWords[target] = kNoBin;
-            return;
-        }
+        vec2 across = form == kLodQuadForm ? own : vec2(level);
+        if (!doubleSided && showsItsBack(more.w, more.z, base, sides, g, ofEdges, fifth, across)) counted = false;
     }
 
     float at = (clamp(log2(max(level, 1e-3)), -float(kOctavesBelow), 7.99) + float(kOctavesBelow)) * float(kBinsPerOctave);
     uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));
-    scratchWords[target] = bin;
-    scratchWords[target + 1u] = floatBitsToUint(own.x);
-    scratchWords[target + 2u] = floatBitsToUint(own.y);
-    uint split = kLodSplit + (priority * kLodForms + form) * kLodBinStride + bin;
-    atomicAdd(lodWords[split], kSplitUnit - weight);
-    if (weight > 0u) atomicAdd(lodWords[split + 1u], weight);
-    atomicAdd(lodWords[kLodCounts + (run * kPriorityCount + priority) * kLodBinStride + bin], 1u);
+    if (inside) {
+        scratchWords[target] = counted ? bin : kNoBin;
+        scratchWords[target + 1u] = floatBitsToUint(own.x);
+        scratchWords[target + 2u] = floatBitsToUint(own.y);
+    }
+    countPatch(counted, run, form, priority, bin, weight);
 }

@@ -15,8 +15,8 @@ shared uint taken[kMaxRuns * kCapacityCount];
 
 // a = (L - 1) / 2 and 1 / L, as bits.
 uvec2 levelPair(float level) {
-    precise float a = (level - 1.0) * 0.5;
-    return floatBitsToUint(vec2(a, 1.0 / level));
+    precise float a = (level - 1.0) * 0.5, inverse = 1.0 / level;
+    return floatBitsToUint(vec2(a, inverse));
 }
 
 void main() {
@@ -71,16 +71,18 @@ void main() {
     }
     own = clamp(own * scale, 1.0, 63.0);
     float most = max(largest, max(own.x, own.y));
-    uvec2 pairs[6];
+    // Edges' in one place for all forms: division is not exact, and both sides of a border need the same quotient.
+    uvec2 pairs[6], ofEdges[5];
+    for (uint k = 0u; k < 5u; ++k) ofEdges[k] = levelPair(level[k]);
     if (form == kLodQuadForm) {
         // Three and more as soon as an edge has them: the first inner row keeps its distance from the border.
         float least = min(3.0, most);
         pairs[0] = levelPair(max(max(level[0], level[2]), max(own.x, least)));
         pairs[1] = levelPair(max(max(level[1], level[3]), max(own.y, least)));
-        for (uint k = 0u; k < 4u; ++k) pairs[2u + k] = levelPair(level[k]);
+        for (uint k = 0u; k < 4u; ++k) pairs[2u + k] = ofEdges[k];
     } else {
         pairs[0] = levelPair(most);
-        for (uint k = 0u; k < 5u; ++k) pairs[1u + k] = levelPair(level[k]);
+        for (uint k = 0u; k < 5u; ++k) pairs[1u + k] = ofEdges[k];
     }
     uint samples = formSamples(form, capacityOf(capacity));
     uint to = kLodRecords / 4u + kLodRecordWords / 4u * (lodWord(bucket) + place);

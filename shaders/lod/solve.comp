@@ -17,7 +17,7 @@ shared uint counts[kMaxRuns * kCapacityCount];
 // The smallest capacity that patches of a bin, and of the one below it, fit into when levels are scaled by
 // 2^(-scaled / kBinsPerOctave). A sixteenth of a bin guards the rounding of log2 and exp2.
 uint capacityOfBin(uint bin, float scaled) {
-    float level = exp2((float(bin) + 1.0625 - scaled) / float(kBinsPerOctave) - float(kOctavesBelow));
+    precise float level = exp2(((float(bin) + 1.0625) - scaled) / float(kBinsPerOctave) - float(kOctavesBelow));
     uint index = 0u; // no branches: unrolled, those are much to compile
     for (uint i = 0u; i + 1u < kCapacityCount; ++i) index += float(capacityOf(i)) < level ? 1u : 0u;
     return index;
@@ -75,10 +75,6 @@ uint padded(uint count, uint samples) {
     uint n = patchesPerDraw(samples);
     return (count + n - 1u) / n * n;
 }
-// Of a patch of a bin, at the solution.
-uint solvedCapacity(uint bin, uint priority, float x, bool shortfall) {
-    return shortfall ? 0u : capacityOfBin(bin, push.elasticity[priority] * x);
-}
 // Where the bucket of a run and capacity stands, and among what dispatches count.
 uint bucketIndex(uint run, uint c) {
     uint first = (lodWords[kLodRuns + run] >> 8u) & 255u; // of the group
@@ -121,22 +117,23 @@ void main() {
     if (shortfall) x = float(kBudgetSteps);
     else if (above(over, limit)) x = float(high) + toFloat(minus(over, limit)) / toFloat(minus(over, fits));
 
-    for (uint i = lane; i < kPriorityCount * kLodBins; i += gl_WorkGroupSize.x) {
-        uint p = i / kLodBins, bin = i - p * kLodBins;
-        lodWords[kLodCapacities + p * kLodBinStride + bin] = solvedCapacity(bin, p, x, shortfall);
-    }
     uint buckets = push.runCount * kCapacityCount;
     for (uint i = lane; i < buckets; i += gl_WorkGroupSize.x) counts[i] = 0u;
     barrier();
-    // Exact counts; what was counted is cleared for the next frame.
+    // Capacities at the solution, and exact counts by them: from one value, for patches are placed by the capacity of their
+    // bin, and one that was counted elsewhere has no place. What was counted is cleared for the next frame.
     for (uint p = 0u; p < kPriorityCount; ++p) {
         if ((push.priorities & (1u << p)) == 0u) continue;
-        for (uint i = lane; i < push.runCount * kLodBinStride; i += gl_WorkGroupSize.x) {
-            uint run = i / kLodBinStride, bin = i - run * kLodBinStride;
-            uint at = kLodCounts + (run * kPriorityCount + p) * kLodBinStride + bin, count = lodWords[at];
-            if (count > 0u) {
-                atomicAdd(counts[run * kCapacityCount + solvedCapacity(bin, p, x, shortfall)], count);
-                lodWords[at] = 0u;
+        for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
+            uint c = 0u;
+            if (!shortfall) c = capacityOfBin(bin, push.elasticity[p] * x);
+            lodWords[kLodCapacities + p * kLodBinStride + bin] = c;
+            for (uint run = 0u; run < push.runCount; ++run) {
+                uint at = kLodCounts + (run * kPriorityCount + p) * kLodBinStride + bin, count = lodWords[at];
+                if (count > 0u) {
+                    atomicAdd(counts[run * kCapacityCount + c], count);
+                    lodWords[at] = 0u;
+                }
             }
         }
         for (uint i = lane; i < kLodForms * kLodBinStride; i += gl_WorkGroupSize.x)

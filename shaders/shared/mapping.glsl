@@ -10,6 +10,17 @@ layout(constant_id = 2) const bool kExactDivision = false; // the device rounds 
 
 const uint kMaxLanes = 128u; // of gl_WorkGroupSize.x: gpu/mapping.cpp
 
+// -0 as +0: sides of a border may come to different zeros. Vulkan lets a compiler drop x + 0.0, as the sign of a zero need not
+// be kept; lavapipe keeps it, and it is cheaper there.
+vec3 withPositiveZeros(vec3 v) {
+    if (!kWide) {
+        precise vec3 sum = v + 0.0;
+        return sum;
+    }
+    uvec3 bits = floatBitsToUint(v);
+    return uintBitsToFloat(mix(bits, uvec3(0u), equal(bits, uvec3(0x80000000u))));
+}
+
 // Linear invocation and workgroup indices of a dispatch that was split at the device's limit of groups in x.
 uint workgroupIndex() { return gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x; }
 uint invocationIndex() { return workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }

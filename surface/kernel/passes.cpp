@@ -1,6 +1,7 @@
 #include "surface/kernel/passes.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace supple::surface::kernel {
 
@@ -171,18 +172,19 @@ void Passes::record(VkCommandBuffer commandBuffer, const Tables& tables, const W
     if (stepwise == fragments.classes.size()) {
         return;
     }
-    // A barrier before each but the first: between steps one is needed; between kinds of work, which write other runs
-    // than they read, synchronization validation asks for it, as to it the scratch buffer is one resource.
-    bool first = true;
+    // Steps read what the one before wrote; kinds of work in a step write other runs of the scratch buffer than they
+    // read.
+    std::optional<size_t> recorded;
     const auto stepwiseWork = [&](const gpu::PipelineHandle& pipeline, size_t kind) {
         const Section blocks = blocksFrom(fragments, stepwise, kind);
         if (blocks.count == 0) {
             return;
         }
-        if (!first) {
-            gpu::computeBarrier(*device_, commandBuffer);
+        const size_t step = kind / shared::kWorkKinds;
+        if (recorded) {
+            (*recorded == step ? gpu::disjointBarrier : gpu::computeBarrier)(*device_, commandBuffer);
         }
-        first = false;
+        recorded = step;
         push.records = blocks.table;
         push.count = blocks.count;
         dispatch(commandBuffer, pipeline.get(), window, dispatched++, push,

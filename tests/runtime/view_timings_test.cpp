@@ -77,8 +77,9 @@ TEST_P(ViewTimings, EveryPassOfEveryGroupIsDelivered) {
         (void)crowds.back()->spawn();
         groups.push_back(crowds.back()->group());
     }
-    const std::vector<std::string> every = {"upload", "pose",  "deform", "bounds", "bounds",     "list",     "vertex",
-                                            "edge",   "level", "level",  "place",  "attributes", "evaluate", "motion"};
+    const std::vector<std::string> every = {"upload", "pose",  "pose",       "deform",   "bounds",
+                                            "bounds", "list",  "vertex",     "edge",     "level",
+                                            "level",  "place", "attributes", "evaluate", "motion"};
     for (const size_t count : {size_t{1}, groups.size()}) {
         const std::span<const SuppleGroup> some(groups.data(), count);
         for (int frame = 0; frame < 3; ++frame) {

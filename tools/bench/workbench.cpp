@@ -129,8 +129,12 @@ void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
     const runtime::Group& group = inside_->group(id);
     const auto barrier = [&] { host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite}); };
     if (group.plays()) {
-        group.recordPose(commands);
-        barrier();
+        for (const runtime::Playback::Part part : runtime::Playback::kParts) {
+            if (part != runtime::Playback::Part::roots || group.movesRoots()) {
+                group.recordPose(commands, part);
+                barrier();
+            }
+        }
     }
     group.recordDeform(commands);
     barrier();

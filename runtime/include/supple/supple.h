@@ -1021,10 +1021,11 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
-    const char* pass;  /**< static: upload, attributes, pose, deform, vertex, edge (P_m: its facets), patch, evaluate,
-                        * motion; groups of a view also bounds (twice with OCCLUSION), list, level (twice), solve (once a
-                        * view), place. `shortfall` is no pass: it follows solve in frames in which the view's budget was
-                        * not enough (SuppleViewStatistics.shortfall), takes no time, and is in no other */
+    const char* pass; /**< static: upload, attributes, pose (up to three times), deform, vertex, edge (P_m: its facets),
+                       * patch, evaluate, motion; groups of a view also bounds (twice with OCCLUSION), list, level
+                       * (twice), solve (once a view), place. `shortfall` is no pass: it follows solve in frames in
+                       * which the view's budget was not enough (SuppleViewStatistics.shortfall), takes no time, and is
+                       * in no other */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */
