@@ -422,7 +422,8 @@ void evaluateWideLod() {
             LodRecord r = sharedRecord(place);
             vec3 position = vec3(0.0), normal = vec3(0.0);
             if (r.patchIndex != kEmptyRecord) {
-                finish(sharedRow(3u * slot + (i == 0u ? 1u : i == r.capacity ? 2u : 0u)), lodU(place, r.capacity, i, j), position, normal);
+                finish(sharedRow(3u * slot + (i == 0u ? 1u : i == r.capacity ? 2u : 0u)), lodU(place, r.capacity, i, j),
+                       position, normal);
                 if (kPolar && j == r.capacity) position = sharedVector(place * kSharedStride + sharedSlot(12u));
                 if (kCornerNormals)
                     normal = cornerNormal(normal, i, j, r.capacity,
