@@ -104,7 +104,7 @@ public:
     void recordSizes(VkCommandBuffer commandBuffer) const { culling_.recordSizes(commandBuffer, visible_); }
     void recordReadback(VkCommandBuffer commandBuffer) const {
         view_->recordReadback(commandBuffer, culling_.list(), culling_.countOffset(),
-                              hasLevels() ? output_.patchCount : 0);
+                              {hasLevels() ? output_.patchCount : 0, isBudgeted() ? culling_.leastVertices() : 0});
     }
     PassCost recordSeen(VkCommandBuffer commandBuffer, uint32_t room) const;
 

@@ -320,7 +320,7 @@ Group::PassCost Group::recordPatchLevels(VkCommandBuffer commandBuffer) const {
 
 Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
     if (hasRates()) {
-        // All add to the view's count of vertices, each with one lane.
+        // Behind the solver; and all add to the view's count of vertices, each with one lane.
         gpu::computeBarrier(*shared_.device, commandBuffer);
         culling_.recordRates(commandBuffer, isBudgeted());
         return {0, 0, visible_ > 0};
@@ -329,7 +329,8 @@ Group::PassCost Group::recordPlaces(VkCommandBuffer commandBuffer) const {
         return {};
     }
     forSurfaceWindows([&](const Window& own, const surface::Window& window) {
-        // Places are taken with atomics; to synchronization validation the view's words are one resource.
+        // Behind the solver. Between windows places are taken with atomics, but to synchronization validation the
+        // view's words are one resource.
         gpu::computeBarrier(*shared_.device, commandBuffer);
         shared_.surface->lod().recordPlaces(commandBuffer, window, levelArguments(window), levelPush(own));
     });

@@ -294,11 +294,11 @@ void View::recordReadback(VkCommandBuffer commandBuffer) {
     device_->vk.CmdCopyBuffer(commandBuffer, buffers_.buffer(kWords), readback_.buffer(0), 1, &region);
 }
 
-void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, uint32_t patches) {
+void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, SolvedGroup group) {
     const uint64_t place = recordedFrame_ % framesInFlight_;
-    const uint32_t group = solved_[place].groups++;
-    solved_[place].patches[group] = patches;
-    const VkBufferCopy region{offset, place * kReadbackBytes + sizeof(LodSolution) + kCountBytes * group, kCountBytes};
+    const uint32_t index = solved_[place].groups++;
+    solved_[place].of[index] = group;
+    const VkBufferCopy region{offset, place * kReadbackBytes + sizeof(LodSolution) + kCountBytes * index, kCountBytes};
     device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
 }
 
@@ -312,7 +312,7 @@ SuppleViewStatistics View::read(size_t place) const {
     std::copy_n(solution.scale, kPriorityCount, read.levelScales);
     read.vertexCount = solution.vertices;
     read.patchCount = solution.patches;
-    read.wantedVertexCount = solution.wanted;
+    uint64_t wanted = solution.wanted;
     uint32_t patches = 0;
     for (uint32_t g = 0; g < solved.groups; ++g) {
         std::array<uint32_t, kListHeaderWords> counts{};
@@ -321,8 +321,10 @@ SuppleViewStatistics View::read(size_t place) const {
         read.instanceCount += counts[2];
         read.droppedInstanceCount += counts[3];
         read.occludedInstanceCount += counts[4];
-        patches += counts[0] * solved.patches[g];
+        patches += counts[0] * solved.of[g].patches;
+        wanted += uint64_t{counts[3]} * solved.of[g].leastVertices;
     }
+    read.wantedVertexCount = static_cast<uint32_t>(std::min<uint64_t>(wanted, UINT32_MAX));
     read.backFaceCount = patches - solution.counted;
     read.shortfall = solution.shortfall != 0 || read.droppedInstanceCount > 0 ? 1 : 0;
     return read;

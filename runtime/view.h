@@ -58,10 +58,14 @@ public:
     /// `priorities`: bits of those that instances have.
     void recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
                      uint32_t priorities) const;
+    /// What an instance of a group has: patches of the view's, and surface vertices of the budget at its coarsest.
+    struct SolvedGroup {
+        uint32_t patches = 0, leastVertices = 0;
+    };
     /// Copies what the solver found out to where the host reads it frames later; then, for each of its groups, how many
-    /// instances were seen (Culling::countOffset), which have `patches` patches of the view's each.
+    /// instances were seen (Culling::countOffset).
     void recordReadback(VkCommandBuffer commandBuffer);
-    void recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, uint32_t patches);
+    void recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, SolvedGroup group);
     void beginFrame(uint64_t completedFrame);
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
@@ -123,8 +127,7 @@ private:
     struct Solved {
         uint64_t frame = 0;
         uint32_t groups = 0;
-        std::array<uint32_t, 2 * shared::kMaxRuns>
-            patches{}; ///< by group, of an instance: those with runs, and without
+        std::array<SolvedGroup, 2 * shared::kMaxRuns> of{}; ///< groups, those with runs and without
     };
     [[nodiscard]] SuppleViewStatistics read(size_t place) const; ///< of solved_
 

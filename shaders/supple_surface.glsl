@@ -32,6 +32,8 @@
 //     layout(push_constant) uniform Push { SuppleDraw draw; };
 //
 // Its vertex is the same index everywhere, for attributes of a view are written with the vertices, every frame.
+// lodDraws never change: a host with multiDrawIndirect and shaderDrawParameters keeps their two numbers in a buffer, draws all
+// that share a pipeline by one vkCmdDrawIndexedIndirect, their commands follow each other, and makes SuppleDraw of gl_DrawID.
 #ifndef SUPPLE_SURFACE_GLSL
 #define SUPPLE_SURFACE_GLSL
 

@@ -8,13 +8,19 @@
 
 layout(set = 0, binding = kViewWordsBinding, std430) buffer Words { uint words[]; };
 
+// The demand pass does not tell levels above this apart.
+const float kMostOverRate = exp2(float(kRatedBins - 4u) / float(kBinsPerOctave));
+
 shared uint countsOf[kMaxRates * kMaxLanes];
 
 uint rateOf(uint entry) {
-    float level = bounds[2u * (entry & kInstanceSlotMask)].w;
+    float level = bounds[2u * (entry & kInstanceSlotMask)].w, scale = 1.0;
     uint priority = SUPPLE_INSTANCE_PRIORITY(entry), rate = 0u;
-    if (push.counted != 0u) level *= uintBitsToFloat(words[kLodSolution + 4u + priority]);
-    while (rate + 1u < push.rateCount && float(push.firstRate << rate) < level) ++rate;
+    if (push.counted != 0u) scale = uintBitsToFloat(words[kLodSolution + 4u + priority]);
+    for (; rate + 1u < push.rateCount; ++rate) {
+        float enough = float(push.firstRate << rate);
+        if (!(scale * min(level, kMostOverRate * enough) > enough)) break;
+    }
     return rate;
 }
 

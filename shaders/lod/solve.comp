@@ -43,17 +43,18 @@ uvec2 demand(float x) {
     uvec2 sum = uvec2(0u);
     for (uint p = 0u; p < kPriorityCount; ++p) {
         if ((push.priorities & (1u << p)) == 0u) continue;
+        float scaled = SUPPLE_LOD_SCALED(push.elasticity[p], x);
         for (uint f = 0u; f < kLodForms; ++f) {
             if ((push.forms & (1u << f)) == 0u) continue;
             for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
                 uint weight = lodWords[kLodSplit + (p * kLodForms + f) * kLodBinStride + bin];
                 if (weight > 0u)
-                    add(sum, weight, formSamples(f, capacityOf(capacityOfBin(bin, push.elasticity[p] * x))));
+                    add(sum, weight, formSamples(f, capacityOf(capacityOfBin(bin, scaled))));
             }
         }
         if (push.rated == 0u) continue;
         for (uint bin = lane; bin < kRatedBins; bin += gl_WorkGroupSize.x) {
-            if (float(bin) > push.elasticity[p] * x) add(sum, lodWords[kLodRatedMore + p * kRatedBins + bin], kSplitUnit);
+            if (float(bin) > scaled) add(sum, lodWords[kLodRatedMore + p * kRatedBins + bin], kSplitUnit);
         }
     }
     if (push.rated != 0u && lane == 0u) add(sum, lodWords[kLodRated], kSplitUnit);
@@ -93,7 +94,7 @@ void main() {
     // that the code of demand() is there once.
     int low = -1, high = int(kBudgetSteps), step = 0;
     uvec2 wanted = uvec2(0u), over = wanted, fits = wanted;
-    bool shortfall = false, searching = true;
+    bool tooMany = false, searching = true; // of patches, each at level 1
     for (uint turn = 0u; searching; ++turn) {
         uvec2 d = demand(float(step));
         bool tooMuch = above(d, limit);
@@ -108,13 +109,13 @@ void main() {
                 high = step;
                 fits = d;
             }
-            shortfall = turn == 2u && tooMuch;
+            tooMany = turn == 2u && tooMuch;
             searching = turn == 1u ? tooMuch : high - low > 1;
             step = turn == 1u ? high : (low + high) >> 1;
         }
     }
     float x = 0.0;
-    if (shortfall) x = float(kBudgetSteps);
+    if (tooMany) x = float(kBudgetSteps);
     else if (above(over, limit)) x = float(high) + toFloat(minus(over, limit)) / toFloat(minus(over, fits));
 
     uint buckets = push.runCount * kCapacityCount;
@@ -126,7 +127,7 @@ void main() {
         if ((push.priorities & (1u << p)) == 0u) continue;
         for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
             uint c = 0u;
-            if (!shortfall) c = capacityOfBin(bin, push.elasticity[p] * x);
+            if (!tooMany) c = capacityOfBin(bin, SUPPLE_LOD_SCALED(push.elasticity[p], x));
             lodWords[kLodCapacities + p * kLodBinStride + bin] = c;
             for (uint run = 0u; run < push.runCount; ++run) {
                 uint at = kLodCounts + (run * kPriorityCount + p) * kLodBinStride + bin, count = lodWords[at];
@@ -166,7 +167,7 @@ void main() {
                 lodWords[at + 3u] = group;
                 uint whole = padded(counts[b], samples), each = patchesPerGroup(samples);
                 counted += counts[b];
-                if (shortfall && whole * samples > room - vertex) {
+                if (tooMany && whole * samples > room - vertex) {
                     uint n = patchesPerDraw(samples);
                     whole = (room - vertex) / (n * samples) * n;
                     counts[b] = min(counts[b], whole);
@@ -181,10 +182,12 @@ void main() {
         lodWords[kLodSolution] = floatBitsToUint(x);
         lodWords[kLodSolution + 1u] = vertex;
         lodWords[kLodSolution + 2u] = patches;
-        lodWords[kLodSolution + 3u] = shortfall ? 1u : 0u;
-        for (uint p = 0u; p < kPriorityCount; ++p)
+        lodWords[kLodSolution + 3u] = x > float(kElasticSteps) ? 1u : 0u;
+        for (uint p = 0u; p < kPriorityCount; ++p) {
+            float scaled = SUPPLE_LOD_SCALED(push.elasticity[p], x);
             lodWords[kLodSolution + 4u + p] =
-                floatBitsToUint(shortfall ? 0.0 : x == 0.0 ? 1.0 : exp2(-push.elasticity[p] * x / float(kBinsPerOctave)));
+                floatBitsToUint(tooMany ? 0.0 : x == 0.0 ? 1.0 : exp2(-scaled / float(kBinsPerOctave)));
+        }
         lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
         lodWords[kLodSolution + 9u] = counted;
     }

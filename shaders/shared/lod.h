@@ -13,7 +13,7 @@
 //                 kSplitUnit is shared between two bins
 //   counts        by run, priority and bin: patches
 //   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their coarsest;
-//                 then by priority and bin what finer rates have more, which counts while the bin is above elasticity x
+//                 then by priority and bin what finer rates have more, which counts while levels are scaled by fewer bins
 //   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first run
 //                 on; one more behind them tells where the last one's records end
 //   dispatches    eight words each (LodDispatch)
@@ -60,7 +60,11 @@ SUPPLE_SHARED_CONST kOctavesBelow = 6u;
 SUPPLE_SHARED_CONST kLodBins = 898u;
 SUPPLE_SHARED_CONST kLodBinStride = 900u;
 SUPPLE_SHARED_CONST kSplitUnit = 256u;
-SUPPLE_SHARED_CONST kBudgetSteps = 512u; // the budget scales levels by 2^(-x / kBinsPerOctave), x = 0..kBudgetSteps
+// The budget scales levels by 2^(-scaled / kBinsPerOctave), scaled = SUPPLE_LOD_SCALED(elasticity, x), x = 0..kBudgetSteps:
+// by elasticities first, and where these are used up all priorities further down alike, until every level is 1.
+SUPPLE_SHARED_CONST kElasticSteps = 512u;
+#define SUPPLE_LOD_SCALED(elasticity, x) \
+    ((x) < float(kElasticSteps) ? (elasticity) * (x) : (elasticity) * float(kElasticSteps) + ((x) - float(kElasticSteps)))
 
 SUPPLE_SHARED_CONST kPatternWordCount = 108u;
 SUPPLE_SHARED_CONST kLodPatterns = 0u;
@@ -73,6 +77,7 @@ SUPPLE_SHARED_CONST kLodSplit = kLodCapacities + kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;
 SUPPLE_SHARED_CONST kLodRated = kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kRatedBins = 516u; // kBinsPerOctave an octave above the level a rate is enough for
+SUPPLE_SHARED_CONST kBudgetSteps = kElasticSteps + kRatedBins;
 SUPPLE_SHARED_CONST kLodRatedMore = kLodRated + 4u;
 // From here on hosts read. What they may bind lies on multiples of what descriptor offsets need at most, 256 bytes.
 SUPPLE_SHARED_CONST kLodAlignment = 64u; // words
@@ -89,10 +94,10 @@ SUPPLE_SHARED_CONST kEmptyRecord = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kNoBin = 0xFFFFFFFFu; // the patch is not drawn
 
 struct LodSolution {
-    float x;        // of the budget: levels are scaled by 2^(-elasticity x / kBinsPerOctave)
+    float x;        // of the budget
     uint vertices;  // written this frame, padding included, and those of rates where they count
     uint patches;   // drawn
-    uint shortfall; // 1 where scaling by elasticity is not enough: all levels are 1, and what has no room is left out
+    uint shortfall; // 1 where scaling by elasticity is not enough: x is above kElasticSteps
     float scale[4]; // of levels, by priority
     uint wanted;    // vertices that x = 0 would have written
     uint counted;   // patches, those too that have no room
@@ -139,8 +144,8 @@ struct LodPush {
 };
 struct LodSolvePush {
     uint runCount;          // in use, of the view
-    uint limit;    // vertices, without what fills up draw instances
-    uint room;     // with it
+    uint limit;             // vertices, without what fills up draw instances
+    uint room;              // with it
     uint priorities, forms; // bits of those in use
     uint maxGroups;         // of a dispatch in x
     uint rated;             // 1: rates count

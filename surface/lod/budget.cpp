@@ -77,8 +77,12 @@ void Rates::add(double level, uint32_t firstRate, std::span<const uint32_t> vert
     }
 }
 
+double scaledBy(double elasticity, double x) {
+    return SUPPLE_LOD_SCALED(elasticity, x);
+}
+
 uint32_t capacityOfBin(uint32_t bin, double elasticity, double x) {
-    const double octave = (bin + 1.0 + kGuard - elasticity * x) / kBinsPerOctave + kLowest;
+    const double octave = (bin + 1.0 + kGuard - scaledBy(elasticity, x)) / kBinsPerOctave + kLowest;
     const double level = std::exp2(octave);
     uint32_t index = 0;
     while (index + 1 < kCapacities.size() && kCapacities[index] < level) {
@@ -88,7 +92,7 @@ uint32_t capacityOfBin(uint32_t bin, double elasticity, double x) {
 }
 
 double scaledLevel(double level, double elasticity, double x) {
-    return std::clamp(level * std::exp2(-elasticity * x / kBinsPerOctave), 1.0, double(kMaxLevel));
+    return std::clamp(level * std::exp2(-scaledBy(elasticity, x) / kBinsPerOctave), 1.0, double(kMaxLevel));
 }
 
 uint64_t demand(std::span<const Priority> priorities, double x) {
@@ -97,7 +101,7 @@ uint64_t demand(std::span<const Priority> priorities, double x) {
     for (const Priority& priority : priorities) {
         sum += priority.rates.coarsest * kSplitUnit;
         for (uint32_t bin = 0; bin < kRatedBins; ++bin) {
-            sum += bin > priority.elasticity * x ? priority.rates.more[bin] * kSplitUnit : 0;
+            sum += bin > scaledBy(priority.elasticity, x) ? priority.rates.more[bin] * kSplitUnit : 0;
         }
     }
     return sum;

@@ -1,9 +1,10 @@
 // Levels and their budget on the CPU, in double: the reference that tests hold the device's passes against.
 //
 // Levels are scaled by beta^e so that the vertices of a frame fit a limit; e is the elasticity of a patch's priority
-// (1: the crowd, 0: never reduced), and beta = 2^(-x / kBinsPerOctave). Patches are counted in bins of log2 level, and
-// take their capacity from their bin, so that what is counted is what is written. x comes from a second histogram that
-// shares each patch between two bins: it is a continuous function of the levels, and an upper bound of the exact count.
+// (1: the crowd, 0: reduced last), and beta = 2^(-x / kBinsPerOctave) up to kElasticSteps. Beyond, all levels are
+// scaled alike, until they are 1. Patches are counted in bins of log2 level, and take their capacity from their bin, so
+// that what is counted is what is written. x comes from a second histogram that shares each patch between two bins: it
+// is a continuous function of the levels, and an upper bound of the exact count.
 #pragma once
 
 #include "surface/lod/grid.h"
@@ -44,7 +45,7 @@ struct Histogram {
 struct Rates {
     uint64_t coarsest = 0; ///< vertices of all at their coarsest
     /// What finer rates have more, by how far the level is above what a rate is enough for; counts where the bin is
-    /// above elasticity x.
+    /// above scaledBy().
     std::vector<uint64_t> more = std::vector<uint64_t>(shared::kRatedBins, 0);
     /// `vertices`: of an instance, by rate; rates are firstRate and twice the one before.
     void add(double level, uint32_t firstRate, std::span<const uint32_t> vertices);
@@ -55,6 +56,8 @@ struct Priority {
     Rates rates;
 };
 
+/// How many bins further down x scales levels.
+[[nodiscard]] double scaledBy(double elasticity, double x);
 /// Index of the capacity that patches of a bin take at x: enough for their scaled level.
 [[nodiscard]] uint32_t capacityOfBin(uint32_t bin, double elasticity, double x);
 /// A level as it is drawn at x, 1..kMaxLevel.

@@ -123,6 +123,56 @@ TEST_P(LodCrowds, ATenthOfTheBudgetStaysValidAndStable) {
     EXPECT_LE(worst, 4u);
 }
 
+// Ten that nothing scales at first come closer than their budget allows: they lose levels little by little, and what
+// there is is used.
+TEST_P(LodCrowds, TheUntouchableAreScaledLast) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    constexpr uint32_t kLimit = 30'000;
+    TestView view(context, kLimit);
+    Crowd crowd(context, groupOf(context.createAsset(bumpySphere(3)), 20, view));
+    ASSERT_TRUE(crowd.valid());
+    const std::vector<SuppleInstance> instances = spawnRows(crowd, 20, 10);
+    for (size_t i = 0; i < 10; ++i) { // the row before
+        EXPECT_EQ(suppleSetPriority(context.handle(), instances[i], 3), SUPPLE_OK);
+    }
+    float distance = 60.0f, last = 1.0f, fall = 1.0f;
+    uint32_t scaled = 0, free = 0, least = ~0u, most = 0;
+    for (uint32_t step = 0; distance > 12.0f; ++step, distance *= 0.99f) {
+        view.camera.smallestEdge = 6.0f;
+        view.look({0.0f, 3.0f, distance});
+        context.run(crowd.group());
+        if (step == 0) {
+            continue; // statistics are of the frame before
+        }
+        const SuppleViewStatistics now = view.statistics();
+        ASSERT_LE(now.vertexCount, kLimit) << step;
+        ASSERT_EQ(now.drawnInstanceCount, 20u) << step;
+        ASSERT_LE(now.levelScales[3], last) << step;
+        ASSERT_LE(now.levelScales[0], now.levelScales[3]) << step;
+        ASSERT_EQ(now.shortfall, now.levelScales[3] < 1.0f ? 1u : 0u) << step;
+        if (now.shortfall != 0) {
+            fall = std::max(fall, last / now.levelScales[3]);
+            least = std::min(least, now.vertexCount);
+            most = std::max(most, now.vertexCount);
+            ++scaled;
+        } else {
+            ++free;
+        }
+        if (step % 20 == 0) {
+            ASSERT_EQ(matchSides(readLodSurface(crowd)).unmatched, 0u) << step;
+        }
+        last = now.levelScales[3];
+    }
+    std::printf("%u steps without, %u scaled down to %.3f, at most %.2f %% a step; %u to %u of %u vertices\n", free,
+                scaled, static_cast<double>(last), 100.0 * (static_cast<double>(fall) - 1.0), least, most, kLimit);
+    EXPECT_GT(free, 10u);
+    EXPECT_GT(scaled, 20u);
+    EXPECT_LT(last, 0.8f);
+    EXPECT_LT(fall, 1.04f); // a bin is 1.1 %, and a step of the camera 1 %
+    EXPECT_GT(least, kLimit * 8 / 10);
+}
+
 TEST_P(LodCrowds, OneLevelAnInstance) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;

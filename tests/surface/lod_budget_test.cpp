@@ -314,8 +314,48 @@ TEST(LodBudget, saysWhenNothingHelps) {
     EXPECT_TRUE(solve(priorities, 4000).fits);
     EXPECT_EQ(solve(priorities, 1'000'000).x, 0.0);
     priorities[0].elasticity = 0.0;
-    EXPECT_FALSE(solve(priorities, 100'000).fits);
+    EXPECT_FALSE(solve(priorities, 3999).fits);
+    EXPECT_TRUE(solve(priorities, 4000).fits);
     EXPECT_TRUE(solve({}, 0).fits);
+}
+
+TEST(LodBudget, whereElasticitiesAreUsedUpAllLevelsGoDownAlikeAndWithoutJumps) {
+    // Heroes that nothing scales at first, and a crowd that is at its coarsest soon; the limit falls by a 200th a step.
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> octave(2.0, 6.0);
+    std::vector<Priority> priorities(3);
+    priorities[1].elasticity = 0.25;
+    priorities[2].elasticity = 0.0;
+    for (uint32_t n = 0; n < 6000; ++n) {
+        priorities[n % 3].forms[n / 3 % 4].add(std::exp2(octave(random)));
+    }
+    const uint64_t free = demand(priorities, -1.0) / kSplitUnit, coarsest = vertexCount(priorities, kBudgetSteps);
+    EXPECT_EQ(vertexCount(priorities, kBudgetSteps + 1.0), coarsest);
+    double last = 0.0;
+    uint32_t beyond = 0;
+    for (auto limit = static_cast<double>(free); limit > static_cast<double>(coarsest); limit *= 0.995) {
+        const Solution solution = solve(priorities, static_cast<uint64_t>(limit));
+        ASSERT_TRUE(solution.fits);
+        const auto used = static_cast<double>(vertexCount(priorities, solution.x));
+        ASSERT_LE(used, limit);
+        ASSERT_GE(solution.x, last);
+        if (solution.x > kElasticSteps + 1.0) {
+            if (last > kElasticSteps + 1.0) {
+                // Three bins cost half a per cent and more, until the limit is near the coarsest.
+                ASSERT_LT(solution.x - last, used > 1.5 * static_cast<double>(coarsest) ? 3.0 : 12.0) << limit;
+                ASSERT_NEAR(scaledLevel(40.0, 0.0, solution.x) / scaledLevel(40.0, 0.0, last),
+                            scaledLevel(40.0, 0.25, solution.x) / scaledLevel(40.0, 0.25, last),
+                            scaledLevel(40.0, 0.25, solution.x) > 1.0 ? 1e-12 : 1.0);
+                ASSERT_GT(used, 0.85 * limit) << "the limit is not used";
+            }
+            ++beyond;
+        }
+        last = solution.x;
+    }
+    EXPECT_GT(beyond, 100U);
+    EXPECT_GT(last, kElasticSteps + 64.0);
+    EXPECT_NEAR(scaledBy(0.0, kBudgetSteps), kRatedBins, 0.0);
+    EXPECT_NEAR(scaledBy(0.25, 600.0), 0.25 * 512 + 88.0, 0.0);
 }
 
 } // namespace

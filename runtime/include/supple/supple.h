@@ -80,7 +80,7 @@ extern "C" {
 #define SUPPLE_MAX_PLAYBACK_LAYERS 8u  /**< see suppleSetPlayback */
 #define SUPPLE_MAX_MASKS 16u           /**< a group's: see suppleSetMask */
 #define SUPPLE_MAX_TIME 1e9            /**< seconds: times of playback lie between minus this and this */
-#define SUPPLE_MAX_TIMINGS 512u        /**< entries a frame: passes x groups; what goes beyond is not timed */
+#define SUPPLE_MAX_TIMINGS 4096u       /**< entries a frame: passes x groups; what goes beyond is not timed */
 
 /** A context borrows the host's device; assets and groups belong to one context. */
 typedef struct SuppleContext_T* SuppleContext;
@@ -435,7 +435,8 @@ typedef struct SuppleViewDesc {
                            * groups, and suppleCreateGroup refuses where nothing is left */
     SuppleVertexFormat vertexFormat; /**< of all groups */
     /** By priority, 0..1: what part of the scaling down an instance takes, as the exponent of the factor. 1: all of it,
-     * 0: none. All zero: 1, 1/2, 1/4, 0. */
+     * 0: none, until the others have become 2^-8 of what they were by theirs; from there on all go down alike. All
+     * zero: 1, 1/2, 1/4, 0. */
     float elasticities[SUPPLE_PRIORITY_COUNT];
 } SuppleViewDesc;
 
@@ -511,13 +512,14 @@ SUPPLE_API SuppleResult suppleSetDepthPyramid(SuppleContext context, SuppleView 
 /** What a view drew. */
 typedef struct SuppleViewStatistics {
     uint32_t structSize;
-    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: everything is at its coarsest, and where even
-                         * so there is no room whole instances are missing, the smallest first */
+    uint32_t shortfall; /**< 1: scaling down by elasticity is not enough: all priorities are scaled further down alike,
+                         * and where even the coarsest have no room whole instances are missing, the smallest first */
     uint64_t frame;     /**< of suppleBeginFrame */
     float
         levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
     uint32_t vertexCount;           /**< surface vertices written; CATMULL_CLARK and LOOP: with a vertexBudget */
-    uint32_t wantedVertexCount;     /**< without a budget, up to a few per cent more */
+    uint32_t wantedVertexCount;     /**< without a budget, up to a few per cent more; instances that are missing count
+                                     * at their coarsest */
     uint32_t patchCount;            /**< drawn */
     uint32_t instanceCount;         /**< visible ones of its groups */
     uint32_t drawnInstanceCount;    /**< of these: seen, and not missing */
@@ -1033,7 +1035,7 @@ typedef struct SuppleTiming {
     double cpuRecord; /**< nanoseconds the host spent recording the pass */
     uint64_t points;  /**< elements the pass wrote, and bytes; both 0 where the device alone knows, as in groups of a */
     uint64_t bytes;   /**< view: SuppleViewStatistics has what the whole view wrote. `shortfall`: instances that are
-                       * missing, and of those that are drawn the surface vertices, in bytes, that they lack */
+                       * missing, and the surface vertices, in bytes, that lack; of missing ones the coarsest alone */
 } SuppleTiming;
 
 /** The passes of the newest completed frame recorded with SUPPLE_RECORD_TIMINGS. Never blocks: SUPPLE_NOT_READY when
