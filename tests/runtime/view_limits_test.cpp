@@ -71,12 +71,12 @@ TEST_P(ViewLimits, RunsOfAGroupLieSideBySide) {
     TestView view(context, 100'000), other(context, 100'000);
     SuppleGroupDesc desc{};
     desc.structSize = sizeof(desc);
-    desc.asset = context.createAsset(cage::makeCubeSphere(2)); // p-rep: two classes, a run each
+    desc.asset = context.createAsset(cage::makeCubeSphere(4)); // p-rep: two classes, a run each
     desc.capacity = 1;
     desc.scheme = SUPPLE_SCHEME_PREP;
     desc.view = view.handle();
-    SuppleGroupDesc wider = desc; // quads and pentagons, regular and not
-    wider.asset = context.createAsset(withMergedFaces(cage::makeCubeSphere(4), 3, 1));
+    SuppleGroupDesc wider = desc; // regular, triangles, other quads
+    wider.asset = context.createAsset(withCutQuads(cage::makeCubeSphere(8), 0.05, 1));
     wider.scheme = SUPPLE_SCHEME_PM;
     wider.view = other.handle();
     const uint32_t widerRuns = Crowd(context, wider).output().lodDrawCount / 10;
