@@ -67,6 +67,11 @@ surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View*
     return recipe;
 }
 
+skinning::SkinningMode skinningOf(const SuppleGroupDesc& desc) {
+    return desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION ? skinning::SkinningMode::dualQuaternion
+                                                            : skinning::SkinningMode::linear;
+}
+
 bool hasCoefficients(const surface::Tables& tables) {
     return std::all_of(tables.ranges.begin(), tables.ranges.end(), [](const surface::PatchRange& range) {
         return surface::coefficientCount(range.patchClass) > 0;
@@ -165,17 +170,13 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     }
     group->forSchemes(
         [&](const SchemeTables& scheme) { status = status ? shared.surface->prepare(scheme.tables, needs) : status; });
-    const skinning::SkinningMode mode = desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION
-                                            ? skinning::SkinningMode::dualQuaternion
-                                            : skinning::SkinningMode::linear;
+    const skinning::SkinningMode mode = skinningOf(desc);
     if (status && group->deforms()) {
         status = shared.deform->prepare(mode, group->asset_->firstInfluences != 0);
     }
     if (status && group->plays()) {
         status = shared.pose->prepare(mode);
-    }
-    if (status && group->plays()) {
-        status = group->asset_->makeClips(*shared.device);
+        status = status ? group->asset_->makeClips(*shared.device) : status;
     }
     if (status && group->hasRates()) {
         status = shared.bounds->prepareRates();
@@ -227,8 +228,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
 Status Group::layOutWindows(const SuppleGroupDesc& desc) {
     const gpu::Device& device = *shared_.device;
     const surface::Tables& tables = scheme_->tables;
-    const auto mode = desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION ? skinning::SkinningMode::dualQuaternion
-                                                                       : skinning::SkinningMode::linear;
+    const skinning::SkinningMode mode = skinningOf(desc);
     // Poses that the host writes on the device need no memory here.
     const uint32_t posed = poseSource_ == SUPPLE_POSES_SET ? capacity_ : 0;
     poses_ = InstancePoses(*asset_, posed, mode, 1);

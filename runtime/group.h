@@ -66,7 +66,8 @@ public:
     /// Its vertices count in the view's budget.
     [[nodiscard]] bool isBudgeted() const { return hasLevels() || (hasRates() && view_->countsRates()); }
 
-    // The passes of a frame, each recorded without barriers; runtime/frame.cpp puts them in order.
+    // The passes of a frame; runtime/frame.cpp puts them in order, with the barriers between them. What the dispatches
+    // of one pass need between them the pass records: facets of P_m, subdivision, levels of patches, places, motion.
     struct PassCost {
         uint64_t points = 0;
         uint64_t bytes = 0;    ///< 0: nothing was recorded,

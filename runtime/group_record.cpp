@@ -205,8 +205,7 @@ Group::PassCost Group::recordPose(VkCommandBuffer commandBuffer, Playback::Part 
         return {};
     }
     forWindows([&](const Window& own, uint32_t first, const InstanceSlots::Listed& listed) {
-        const auto window = static_cast<uint32_t>(&own - windows_.data());
-        playback_.record(commandBuffer, part, window, first, listed.count);
+        playback_.record(commandBuffer, part, own.index, first, listed.count);
     });
     if (part != Playback::Part::palette) { // whose poses are what is counted
         return {0, 0, visible_ > 0};

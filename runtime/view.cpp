@@ -27,7 +27,7 @@ constexpr uint32_t kPaddingOfRun = 3 * 64; ///< surface vertices that whole draw
 constexpr uint32_t kFreeRun = 0xFFFF0000u; ///< a run of no dispatch
 /// A patch counts kSplitUnit in 32 bits, and all that have room at their coarsest may fall into one bin.
 constexpr uint32_t kMostVertices = kMinSamples * (0xFFFFFFFFu / kSplitUnit + 1u);
-static_assert(kMostVertices == 50'331'648u);                                              // supple.h
+static_assert(kMostVertices == SUPPLE_MAX_VIEW_VERTICES);
 constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4;                  ///< of a group
 constexpr VkDeviceSize kReadbackBytes = sizeof(LodSolution) + 2 * kMaxRuns * kCountBytes; // with and without runs
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
@@ -141,8 +141,11 @@ Result<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector
         first = r + 1 - length;
     }
     if (length < wanted) {
-        return Error{ErrorCode::limit,
-                     "the view is full: its groups have more than " + std::to_string(kMaxRuns) + " runs of patches"};
+        const auto free = std::count(takenRuns_.begin(), takenRuns_.end(), false);
+        return Error{ErrorCode::limit, "the view is full: the group has " + std::to_string(wanted) +
+                                           " runs of patches, which must lie side by side; " + std::to_string(free) +
+                                           " of the view's " + std::to_string(kMaxRuns) + " are free" +
+                                           (free >= static_cast<int64_t>(wanted) ? ", but not side by side" : "")};
     }
     const uint32_t end = std::max(endOfRuns_, first + static_cast<uint32_t>(wanted));
     if (end * kPaddingOfRun >= desc_.maxVertices) {

@@ -314,9 +314,16 @@ Status Passes::prepare(const Tables& tables, const Needs& needs) {
 
 Status Passes::makeShared(const Tables& tables, const Needs& needs, std::span<const uint32_t> formats) {
     const uint32_t normals = tables.cornerNormals ? 1 : 0;
+    // The rate of such a group stays. At low ones patches may have no sample inside.
+    const auto isEmpty = [&](const PatchRange& range) {
+        return interiorCount(domainOf(range.patchClass), needs.rate) == 0;
+    };
     Status status = success();
     for (const uint32_t format : formats) {
         for (size_t r = 0; status && r < tables.ranges.size(); ++r) {
+            if (isEmpty(tables.ranges[r])) {
+                continue;
+            }
             const auto patchClass = static_cast<uint32_t>(tables.ranges[r].patchClass);
             status =
                 makeAtRate(inside_[patchClass][format][normals], isWorthOwn(needs.rate, patchClass) ? needs.rate : 0,
@@ -343,6 +350,9 @@ Status Passes::makeShared(const Tables& tables, const Needs& needs, std::span<co
     }
     const uint32_t outputs = outputsOf(tables, needs.attributeOutputs);
     for (size_t r = 0; status && r < tables.ranges.size(); ++r) {
+        if (isEmpty(tables.ranges[r])) {
+            continue;
+        }
         const auto domain = static_cast<uint32_t>(domainOf(tables.ranges[r].patchClass));
         status = make(insideAttributes_[domain][outputs], shaders_.attributes,
                       {{kKindConstant, domain}, {kInteriorConstant, VK_TRUE}, {kOutputsConstant, outputs}},
@@ -442,7 +452,7 @@ void Passes::recordEvaluate(VkCommandBuffer commandBuffer, const Tables& tables,
                                    : patchesPerGroup(push.samples, local);
         const uint64_t patches = uint64_t{push.count} * push.instanceCount;
         const uint64_t groups = wide ? (patches + push.patchesPerGroup - 1) / push.patchesPerGroup : groupsFor(patches);
-        const auto& pipelines = (shares ? inside_ : evaluate_)[static_cast<size_t>(range.patchClass)][vertexFormat];
+        const auto& pipelines = (shares ? inside_ : evaluate_)[patchClass][vertexFormat];
         record(commandBuffer, at(pipelines[normals], push.rate), window.set, push, groups);
     }
     for (const SharedTables::Edges& edges : tables.shared.edges) {

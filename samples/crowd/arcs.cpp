@@ -1,7 +1,5 @@
 #include "arcs.h"
 
-#include "common/device.h"
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -64,17 +62,18 @@ size_t addAccessor(Json& file, std::vector<char>& binary, const std::vector<floa
 
 } // namespace
 
-std::vector<char> withArcs(const std::vector<char>& glb, const std::string& walk, float stride,
-                           std::span<const Arc> arcs) {
-    if (glb.size() < kHeader + kChunkHeader || std::memcmp(glb.data(), "glTF", 4) != 0)
-        sample::fail("not a .glb");
+std::optional<std::vector<char>> withArcs(const std::vector<char>& glb, const std::string& walk, float stride,
+                                          std::span<const Arc> arcs) {
+    if (glb.size() < kHeader + kChunkHeader)
+        return std::nullopt;
     const size_t jsonBytes = word(glb, kHeader), binaryHeader = kHeader + kChunkHeader + jsonBytes;
     if (binaryHeader + kChunkHeader > glb.size() || word(glb, binaryHeader) > glb.size() - binaryHeader - kChunkHeader)
-        return glb;
+        return std::nullopt;
     const auto text = glb.begin() + kHeader + kChunkHeader;
     Json file = Json::parse(text, text + static_cast<ptrdiff_t>(jsonBytes), nullptr, false);
-    if (file.is_discarded() || !file.contains("skins") || !file.contains("animations"))
-        return glb;
+    if (!file.is_object() || file.value("skins", Json::array()).empty() ||
+        file.value("animations", Json::array()).empty())
+        return std::nullopt;
     const auto begin = glb.begin() + static_cast<ptrdiff_t>(binaryHeader + kChunkHeader);
     std::vector<char> binary(begin, begin + word(glb, binaryHeader));
 

@@ -1,6 +1,7 @@
 // The demo character walks on the spot. Clips of walks get there: the same walk with a root that moves along an arc.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +14,9 @@ struct Arc {
     float radius = 1.0f;
     float turn = 1.0f; ///< 1: to the left, -1: to the right
 };
-/// A GLB whose clip `walk`, or the first, has copies along arcs, `stride` metres a loop. Without a clip or a skin: as
-/// it is.
-std::vector<char> withArcs(const std::vector<char>& glb, const std::string& walk, float stride,
-                           std::span<const Arc> arcs);
+/// The GLB with copies of its clip `walk`, or of its first one, along arcs, `stride` metres a loop, as its last clips.
+/// Nothing where it has no clip or no skin.
+std::optional<std::vector<char>> withArcs(const std::vector<char>& glb, const std::string& walk, float stride,
+                                          std::span<const Arc> arcs);
 
 } // namespace crowd

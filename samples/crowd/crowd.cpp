@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <random>
 
 namespace crowd {
@@ -38,24 +39,24 @@ std::vector<Arc> arcs() {
     return all;
 }
 
-std::vector<char> readFile(const std::string& path) {
+std::vector<char> readGlb(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file)
         sample::fail(path + ": cannot be read");
-    return {std::istreambuf_iterator<char>(file), {}};
+    std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+    if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0)
+        sample::fail(path + ": is no GLB (.gltf is not read here)");
+    return bytes;
 }
 
+/// Arcs are the last clips.
 void findArcs(Kind& kind) {
     SuppleAssetInfo info{};
     sample::check(kind.asset.info(info), "suppleGetAssetInfo");
-    const auto wanted = static_cast<uint32_t>(arcs().size());
-    kind.walks = info.clipCount > wanted; // else the file has none to walk by
-    if (kind.walks) {
-        kind.firstArc = info.clipCount - wanted;
-        SuppleClipInfo clip{};
-        sample::check(kind.asset.clipInfo(kind.firstArc, clip), "suppleGetClipInfo");
-        kind.duration = std::max(clip.duration, 0.1);
-    }
+    kind.firstArc = info.clipCount - static_cast<uint32_t>(arcs().size());
+    SuppleClipInfo clip{};
+    sample::check(kind.asset.clipInfo(kind.firstArc, clip), "suppleGetClipInfo");
+    kind.duration = std::max(clip.duration, 0.1);
 }
 
 } // namespace
@@ -72,13 +73,17 @@ Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
 
     for (size_t k = 0; k < kKinds; ++k) {
         Kind& kind = kinds_[k];
-        const std::vector<char> bytes = withArcs(readFile(options.files[k]), "walk", kStride, arcs());
+        const std::vector<char> file = readGlb(options.files[k]);
+        const std::optional<std::vector<char>> walking = withArcs(file, "walk", kStride, arcs());
+        const std::vector<char>& bytes = walking ? *walking : file;
+        kind.walks = walking.has_value();
         auto assetDesc = supple::sized<SuppleAssetDesc>();
         assetDesc.name = options.files[k].c_str();
         assetDesc.bytes = bytes.data();
         assetDesc.byteCount = bytes.size();
         sample::check(supple::Asset::create(context_, assetDesc, kind.asset), "suppleCreateAsset");
-        findArcs(kind);
+        if (kind.walks)
+            findArcs(kind);
 
         auto desc = supple::sized<SuppleGroupDesc>();
         desc.asset = kind.asset.handle();

@@ -19,7 +19,7 @@ struct Kind {
     SuppleGroupOutput output{};
     uint32_t firstArc = 0; ///< clip of the first of its arcs
     double duration = 1.0;
-    bool walks = true;
+    bool walks = true; ///< else its file has no clip to walk by
 };
 
 struct Camera {
@@ -30,7 +30,7 @@ struct Camera {
 };
 
 struct CrowdOptions {
-    std::array<std::string, kKinds> files; ///< .glb
+    std::array<std::string, kKinds> files; ///< GLB
     uint32_t count = 1000;
     uint32_t budget = 5'500'000; ///< surface vertices a frame
     bool wall = false;           ///< nobody walks where it stands

@@ -36,9 +36,10 @@ Options readOptions(int argc, char** argv) {
     app.add_flag("--back-faces", options.crowd.backFaces, "leave out patches that face away");
     app.add_option("--count", options.crowd.count, "characters")->check(CLI::Range(3u, 100000u))->capture_default_str();
     app.add_option("--budget", options.crowd.budget, "surface vertices a frame")
-        ->check(CLI::Range(1024u, 200000000u))
+        ->check(CLI::Range(1024u, SUPPLE_MAX_VIEW_VERTICES))
         ->capture_default_str();
-    app.add_option("characters", options.crowd.files, "three .glb")->capture_default_str();
+    app.add_option("characters", options.crowd.files, "three GLB files, the second all of quads")
+        ->capture_default_str();
     app.callback([&] {
         if (options.frames == 0 && (options.offscreen || !options.screenshot.empty()))
             throw CLI::RequiredError("--frames");

@@ -65,6 +65,7 @@ vec3 ringWeights(vec2 along, float t) {
     precise vec3 w = vec3(along.y - t, along.x - t, 2.0 * t);
     return w;
 }
+
 // The record of a lane, in the narrow mapping. Idle lanes repeat the last.
 uint lodRecordOfLane() {
     uint at = kLodDispatches + 8u * push.dispatch;

@@ -65,12 +65,56 @@ TEST_P(ViewLimits, PaddingLeavesSomethingOrTheGroupIsRefused) {
     EXPECT_EQ(readLodSurface(first).patches.size(), first.output().patchCount);
 }
 
+TEST_P(ViewLimits, RunsOfAGroupLieSideBySide) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 100'000), other(context, 100'000);
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.asset = context.createAsset(cage::makeCubeSphere(4)); // p-rep: two classes, a run each
+    desc.capacity = 1;
+    desc.scheme = SUPPLE_SCHEME_PREP;
+    desc.view = view.handle();
+    SuppleGroupDesc wider = desc; // regular, triangles, other quads
+    wider.asset = context.createAsset(withCutQuads(cage::makeCubeSphere(8), 0.05, 1));
+    wider.scheme = SUPPLE_SCHEME_PM;
+    wider.view = other.handle();
+    const uint32_t widerRuns = Crowd(context, wider).output().lodDrawCount / 10;
+    ASSERT_GE(widerRuns, 3u);
+    ASSERT_LE(widerRuns, 4u);
+    wider.view = view.handle();
+    const auto refusal = [&](const SuppleGroupDesc& wanted) {
+        context.takeLines();
+        SuppleGroup refused{};
+        EXPECT_EQ(suppleCreateGroup(context.handle(), &wanted, &refused), SUPPLE_ERROR_LIMIT);
+        return errorText(context, SUPPLE_MESSAGE_LIMIT);
+    };
+
+    std::vector<std::unique_ptr<Crowd>> groups;
+    for (uint32_t i = 0; i < 128; ++i) {
+        groups.push_back(std::make_unique<Crowd>(context, desc));
+        ASSERT_TRUE(groups.back()->valid()) << i;
+    }
+    const std::string full = refusal(desc);
+    EXPECT_NE(full.find("the group has 2 runs"), std::string::npos) << full;
+    EXPECT_NE(full.find("0 of the view's 256 are free"), std::string::npos) << full;
+    groups[0]->end();
+    groups[2]->end();
+    view.look({0.0f, 0.0f, 100.0f});
+    context.run(groups[1]->group()); // frees them
+    context.run(groups[1]->group());
+    const std::string apart = refusal(wider);
+    EXPECT_NE(apart.find("the group has " + std::to_string(widerRuns) + " runs"), std::string::npos) << apart;
+    EXPECT_NE(apart.find("4 of the view's 256 are free, but not side by side"), std::string::npos) << apart;
+    EXPECT_TRUE(Crowd(context, desc).valid());
+}
+
 TEST_P(ViewLimits, MoreVerticesThanTheHistogramCountsAreRefused) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     context.takeLines();
     SuppleViewDesc desc{};
     desc.structSize = sizeof(desc);
-    desc.maxVertices = 50'331'649;
+    desc.maxVertices = SUPPLE_MAX_VIEW_VERTICES + 1;
     SuppleView view{};
     EXPECT_EQ(suppleCreateView(context.handle(), &desc, &view), SUPPLE_ERROR_LIMIT);
     EXPECT_NE(errorText(context, SUPPLE_MESSAGE_LIMIT).find("50331648"), std::string::npos);

@@ -90,6 +90,61 @@ TEST(BenchCheck, WhatIsGoneIsNamed) {
     EXPECT_EQ(lines[1], "sphere, rate 4: prep evaluate / plain C++ bi-3: not measured");
 }
 
+TEST(BenchCheck, ComparingNothingFails) {
+    const std::string nothing = "nothing was compared";
+    Json without = madeUp();
+    without["rows"] = Json::array();
+    const std::vector<std::string> empty = findRegressions(without, madeUp());
+    ASSERT_EQ(empty.size(), 1u);
+    EXPECT_EQ(empty[0].rfind(nothing, 0), 0u) << empty[0];
+    without = madeUp();
+    for (Json& row : without["rows"]) {
+        for (Json& ratio : row["ratios"]) {
+            ratio["yardstick"] = false;
+        }
+    }
+    const std::vector<std::string> none = findRegressions(without, madeUp());
+    ASSERT_EQ(none.size(), 1u);
+    EXPECT_EQ(none[0], empty[0]);
+    EXPECT_EQ(whyNoCheck(without, "d", "auto"), empty[0]);
+}
+
+TEST(BenchCheck, StoredResultsAreOfThisMachineAndComplete) {
+    EXPECT_EQ(whyNoCheck(madeUp(), "d", "auto"), "");
+    EXPECT_EQ(whyNoCheck(madeUp(), "e", "auto"), "it is of another device: d, not e");
+    EXPECT_EQ(whyNoCheck(madeUp(), "d", "wide"), "it is of another mapping: auto, not wide");
+    Json stored = madeUp();
+    stored["complete"] = false;
+    EXPECT_EQ(whyNoCheck(stored, "d", "auto"), "it is not complete: the run ended early");
+}
+
+TEST(BenchCheck, OtherSettingsAreSaid) {
+    Json now = madeUp();
+    now["quick"] = true;
+    EXPECT_TRUE(otherSettings(madeUp(), now).empty()) << "an earlier version did not say";
+    Json stored = madeUp();
+    stored["quick"] = false;
+    stored["rounds"] = 7;
+    const std::vector<std::string> lines = otherSettings(stored, now);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0], "rounds: 7 in the stored result, 3 in this one");
+    EXPECT_EQ(lines[1], "quick: false in the stored result, true in this one");
+}
+
+TEST(BenchCheck, StaticDataMayGrowByFifteenPercent) {
+    const auto with = [](double bytes) {
+        Json result = madeUp();
+        result["loading"].push_back({{"cage", "pip"}, {"scheme", "pm"}, {"staticBytesPerFace", bytes}});
+        return result;
+    };
+    EXPECT_TRUE(findRegressions(with(100.0), with(114.0)).empty());
+    EXPECT_TRUE(findRegressions(with(100.0), with(10.0)).empty());
+    EXPECT_TRUE(findRegressions(with(100.0), madeUp()).empty()) << "not measured";
+    const std::vector<std::string> lines = findRegressions(with(100.0), with(116.0));
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0], "pip, pm: static device data, bytes a face: 116, was 100 (+16 %)");
+}
+
 TEST(BenchTargets, LimitsFollowTheRate) {
     Json result = madeUp();
     for (Json& row : result["rows"]) {
@@ -219,6 +274,26 @@ TEST(BenchTargets, CrowdsAreJudgedOnGpus) {
     EXPECT_EQ(bad[2]["value"], 41.0);
     result["crowd"] = madeUpCrowd(400, 0.69, 0.1, 0.041);
     EXPECT_EQ(judge(result).size(), 2u) << "400 are not 1,000";
+}
+
+TEST(BenchCheck, SharesOfCrowdsCountOnGpus) {
+    const auto with = [](bool cpu, uint32_t characters, double share) {
+        Json result = madeUp();
+        result["cpuDevice"] = cpu;
+        result["crowd"] = madeUpCrowd(characters, share, 0.4, 0.03);
+        return result;
+    };
+    const Json stored = with(false, 1000, 0.8);
+    EXPECT_TRUE(findRegressions(stored, with(false, 1000, 0.69)).empty());
+    const std::vector<std::string> lines = findRegressions(stored, with(false, 1000, 0.67));
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0], "crowd, pm, rate 4, characters 1000: share of the write bandwidth: 0.67, was 0.8 (-16 %)");
+    EXPECT_TRUE(findRegressions(stored, with(false, 400, 0.1)).empty()) << "another crowd";
+    EXPECT_TRUE(findRegressions(with(true, 16, 0.8), with(true, 16, 0.1)).empty()) << "judged on GPUs alone";
+    Json crowdAlone = stored;
+    crowdAlone["rows"] = Json::array();
+    EXPECT_TRUE(findRegressions(crowdAlone, stored).empty());
+    EXPECT_EQ(findRegressions(crowdAlone, madeUp()).size(), 1u) << "nothing was compared";
 }
 
 TEST(BenchReport, CrowdAndWorstShareAreShown) {

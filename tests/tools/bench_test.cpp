@@ -239,6 +239,31 @@ TEST_F(Bench, CheckComparesWithAStoredResult) {
     EXPECT_NE(missing.err.find("not measured"), std::string::npos) << missing.err;
 }
 
+TEST_F(Bench, CheckRefusesWhatCannotBeCompared) {
+    const auto stored = [&](const char* name, const char* patch) {
+        writeText(file(name), Json::parse(resultWith(4.0)).patch(Json::parse(patch)).dump());
+    };
+    writeText(file("now.json"), resultWith(4.0));
+    stored("empty.json", R"([{"op": "replace", "path": "/rows", "value": []}])");
+    stored("early.json", R"([{"op": "add", "path": "/complete", "value": false}])");
+    stored("device.json", R"([{"op": "replace", "path": "/machine/device", "value": "e"}])");
+    stored("mapping.json", R"([{"op": "replace", "path": "/machine/mapping", "value": "wide"}])");
+    stored("rounds.json", R"([{"op": "replace", "path": "/rounds", "value": 7}])");
+    expectFailure(run("bench --from now.json --check empty.json"), 1, "nothing was compared");
+    expectFailure(run("bench --from now.json --check early.json"), 1,
+                  "early.json: cannot be checked against: it is not");
+    expectFailure(run("bench --from now.json --check device.json"), 1, "of another device: e, not d");
+    expectFailure(run("bench --from now.json --check mapping.json"), 1, "of another mapping: wide, not auto");
+    const Outcome rounds = run("bench --from now.json --check rounds.json");
+    EXPECT_EQ(rounds.exitCode, 0) << rounds.err;
+    EXPECT_NE(rounds.err.find("rounds: 7 in the stored result, 3 in this one"), std::string::npos) << rounds.err;
+    // Before anything is measured.
+    const Outcome measured = runOnDevice("bench --cages none --check now.json");
+    EXPECT_EQ(measured.exitCode, 1);
+    EXPECT_NE(measured.err.find("of another device: d"), std::string::npos) << measured.err;
+    EXPECT_EQ(measured.out, "");
+}
+
 TEST_F(Bench, RefusesWhatIsNoResult) {
     writeText(file("no.json"), "{");
     writeText(file("other.json"), "{}");

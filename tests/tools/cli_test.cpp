@@ -573,6 +573,7 @@ TEST_F(Cli, ProfileOfAViewShowsItsShortfall) {
         EXPECT_EQ(view["mostDroppedInstances"] > 0, budget == 1024) << view;
     }
     expectFailure(run("profile cube.gltf --budget 5000"), 2, "--view");
+    expectFailure(run("profile cube.gltf --view --budget 50331649"), 2, "--budget"); // SUPPLE_MAX_VIEW_VERTICES + 1
 }
 
 TEST_F(Cli, ProfileWritesTableJsonCsvAndTrace) {

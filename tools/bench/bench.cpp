@@ -126,6 +126,7 @@ void Run::describe(const tools::Machine& machine) {
         {"mapping", machine.mapping}, {"cpu", machine.cpu},       {"threads", std::thread::hardware_concurrency()}};
     result_["cpuDevice"] = device_.isCpu();
     result_["rounds"] = options_.rounds;
+    result_["quick"] = options_.quick;
     result_["peers"] = {{"plain C++", std::string("-O3 for ") + plainEvaluationTarget() + ", one thread"},
                         {"AVX2", hasAvx2Evaluation() ? "AVX2 and FMA by hand, one thread" : "not on this CPU"},
                         {"OpenSubdiv CPU", peers_.cpu()},

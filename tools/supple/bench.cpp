@@ -53,20 +53,26 @@ Status writePlots(const Json& result, const std::string& folder) {
     return success();
 }
 
+Status checkable(const BenchFlags& flags, const Json& stored, const std::string& device, const std::string& mapping) {
+    const std::string why = bench::whyNoCheck(stored, device, mapping);
+    return why.empty() ? success()
+                       : Status(Error{ErrorCode::asset, flags.check + ": cannot be checked against: " + why});
+}
+
 Status check(const Json& stored, const Json& result) {
-    if (stored["machine"].value("device", "") != result["machine"].value("device", "")) {
-        warn("the stored result is of another device");
+    for (const std::string& line : bench::otherSettings(stored, result)) {
+        warn(line);
     }
     const std::vector<std::string> regressions = bench::findRegressions(stored, result);
     for (const std::string& line : regressions) {
         std::printf("REGRESSION %s\n", line.c_str());
     }
     if (!regressions.empty()) {
-        return Error{ErrorCode::asset, std::to_string(regressions.size()) +
-                                           " contestants are dearer by more than 15 % or " +
-                                           "missing, the first: " + regressions.front()};
+        return Error{ErrorCode::asset,
+                     std::to_string(regressions.size()) +
+                         " values are worse by more than 15 % or missing, the first: " + regressions.front()};
     }
-    std::printf("Nothing is dearer by more than 15 %%.\n");
+    std::printf("Nothing is worse by more than 15 %%.\n");
     return success();
 }
 
@@ -101,7 +107,13 @@ int runBenchCommand(BenchFlags flags) {
         if (!result) {
             return fail(result.error());
         }
-        const Status status = report(flags, against, *result);
+        const Json& machine = (*result)["machine"];
+        Status status = against == nullptr
+                            ? success()
+                            : checkable(flags, stored, machine.value("device", ""), machine.value("mapping", ""));
+        if (status) {
+            status = report(flags, against, *result);
+        }
         return status ? kExitOk : fail(status.error());
     }
     if (!flags.driverCache) {
@@ -112,8 +124,13 @@ int runBenchCommand(BenchFlags flags) {
         flags.bench.keep = [&flags](const Json& soFar) { return writeTextFile(flags.json, soFar.dump(2) + "\n"); };
     }
     return withSession(flags.device, [&](Session& session) {
-        const Result<Json> result =
-            bench::runBench(*session.device, describeMachine(*session.device, flags.device.mapping), flags.bench);
+        const Machine machine = describeMachine(*session.device, flags.device.mapping);
+        const Status status =
+            against == nullptr ? success() : checkable(flags, stored, machine.device, machine.mapping);
+        if (!status) {
+            return status;
+        }
+        const Result<Json> result = bench::runBench(*session.device, machine, flags.bench);
         return result ? report(flags, against, *result) : Status(result.error());
     });
 }
@@ -169,7 +186,7 @@ void bindBench(CLI::App& app, int& exitCode) {
     command->add_option("--plots", flags->plots, "Write plots of the result to this folder")->type_name("FOLDER");
     command
         ->add_option("--check", flags->check,
-                     "Fail where something is dearer by more than 15 % than in this earlier result, or is missing")
+                     "Fail where something is worse by more than 15 % than in this earlier result, or is missing")
         ->type_name("RESULT.json");
     command->add_option("--from", flags->from, "Report on this earlier result instead of measuring")
         ->type_name("RESULT.json");

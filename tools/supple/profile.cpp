@@ -341,7 +341,7 @@ void bindProfile(CLI::App& app, int& exitCode) {
                           "camera, poses on the device");
     command->add_option("--budget", options->budget, "Surface vertices of the view's frame")
         ->needs(view)
-        ->check(CLI::Range(1024u, 200000000u))
+        ->check(CLI::Range(1024u, SUPPLE_MAX_VIEW_VERTICES))
         ->capture_default_str();
     command->add_option("--json", options->json, "Write the figures as JSON, anew after every run")
         ->type_name("OUT.json");

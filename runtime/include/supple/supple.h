@@ -74,13 +74,14 @@ extern "C" {
 #define SUPPLE_NO_IMAGE 0xFFFFFFFFu
 #define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu
 #define SUPPLE_MAX_TRIM_TILES 1024u
-#define SUPPLE_MAX_RATE 64u            /**< segments along a patch edge */
-#define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u /**< see suppleBeginFrame */
-#define SUPPLE_PRIORITY_COUNT 4u       /**< see suppleSetPriority */
-#define SUPPLE_MAX_PLAYBACK_LAYERS 8u  /**< see suppleSetPlayback */
-#define SUPPLE_MAX_MASKS 16u           /**< a group's: see suppleSetMask */
-#define SUPPLE_MAX_TIME 1e9            /**< seconds: times of playback lie between minus this and this */
-#define SUPPLE_MAX_TIMINGS 4096u       /**< entries a frame: passes x groups; what goes beyond is not timed */
+#define SUPPLE_MAX_RATE 64u                /**< segments along a patch edge */
+#define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u     /**< see suppleBeginFrame */
+#define SUPPLE_PRIORITY_COUNT 4u           /**< see suppleSetPriority */
+#define SUPPLE_MAX_PLAYBACK_LAYERS 8u      /**< see suppleSetPlayback */
+#define SUPPLE_MAX_MASKS 16u               /**< a group's: see suppleSetMask */
+#define SUPPLE_MAX_TIME 1e9                /**< seconds: times of playback lie between minus this and this */
+#define SUPPLE_MAX_VIEW_VERTICES 50331648u /**< see SuppleViewDesc.maxVertices */
+#define SUPPLE_MAX_TIMINGS 4096u           /**< entries a frame: passes x groups; what goes beyond is not timed */
 
 /** A context borrows the host's device; assets and groups belong to one context. */
 typedef struct SuppleContext_T* SuppleContext;
@@ -429,10 +430,11 @@ typedef enum SuppleViewFlags {
 /** How much a view may write. */
 typedef struct SuppleViewDesc {
     uint32_t structSize;
-    uint32_t flags;       /**< SuppleViewFlags */
-    uint32_t maxVertices; /**< surface vertices a frame, of all groups: what memory is kept for. 1024 to 50,331,648; of
-                           * them 192 go a run of patches (of one class, material and window of instances) of its
-                           * groups, and suppleCreateGroup refuses where nothing is left */
+    uint32_t flags; /**< SuppleViewFlags */
+    /** Surface vertices a frame, of all groups: what memory is kept for. 1024 to SUPPLE_MAX_VIEW_VERTICES; of them 192
+     * go a run of patches of its groups (see SuppleGroupDesc.view), and suppleCreateGroup refuses where nothing is
+     * left. */
+    uint32_t maxVertices;
     SuppleVertexFormat vertexFormat; /**< of all groups */
     /** By priority, 0..1: what part of the scaling down an instance takes, as the exponent of the factor. 1: all of it,
      * 0: none, until the others have become 2^-8 of what they were by theirs; from there on all go down alike. All
@@ -442,7 +444,8 @@ typedef struct SuppleViewDesc {
 
 /** A view without groups. */
 SUPPLE_API SuppleResult suppleCreateView(SuppleContext context, const SuppleViewDesc* desc, SuppleView* out);
-/** The handle is dead at once; its groups keep what they need, and nothing hides their instances any more. */
+/** The handle is dead at once. Its groups keep what they need and are drawn as before, from the camera that was set
+ * last, which still culls; the depth pyramid goes: from the next suppleRecord on nothing is occluded. */
 SUPPLE_API SuppleResult suppleDestroyView(SuppleContext context, SuppleView view);
 
 /** Options of a camera. */
@@ -603,7 +606,10 @@ typedef struct SuppleGroupDesc {
     /** Optional: the group is drawn at this view's levels of detail. vertexFormat and flags are then the view's. PREP,
      * PM and BLEND: rate, too; see SuppleGroupOutput.lodDraws. CATMULL_CLARK and LOOP: every instance has the rate its
      * level asks for, rate being the largest; see SuppleGroupOutput.rates. The vertices are the group's own: none of
-     * the view's maxVertices, but of SuppleCameraDesc.vertexBudget. */
+     * the view's maxVertices, but of SuppleCameraDesc.vertexBudget.
+     * A view has room for 256 runs of patches, in which those of a group lie side by side: one for each class of its
+     * patches, material and window of its instances, a window being as many as the device can bind of every buffer.
+     * CATMULL_CLARK and LOOP have none; a view has at most 256 groups of these. */
     SuppleView view;
 } SuppleGroupDesc;
 
@@ -931,10 +937,12 @@ typedef struct SuppleRate {
 typedef struct SuppleGroupOutput {
     uint32_t structSize;
     uint32_t capacity; /**< instances there is room for */
-    uint32_t rate;     /**< segments along a patch edge: R of SuppleDomain; of several rates the largest */
+    uint32_t rate;     /**< segments along a patch edge: R of SuppleDomain; of several rates the largest; 0 where
+                        * lodDraws are drawn, whose patches have levels */
     SuppleVertexFormat vertexFormat;
     uint32_t patchCount;              /**< per instance */
-    uint32_t vertexCount;             /**< surface vertices per instance */
+    uint32_t vertexCount;             /**< surface vertices per instance; 0 where lodDraws are drawn: as many as levels
+                                       * ask for, SuppleViewStatistics has their sum */
     uint32_t verticesPerInstance;     /**< >= vertexCount: slot k starts at vertex k * this */
     uint32_t cageVertexCount;         /**< per instance */
     uint32_t cageVerticesPerInstance; /**< >= cageVertexCount: the stride of deformedCage between slots */
