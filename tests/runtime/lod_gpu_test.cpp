@@ -171,7 +171,6 @@ TEST(LodRandom, LevelsAndCapacitiesLeaveNoCracks) {
         size_t samples = 0, triangles = 0, groups = 0;
         std::set<uint32_t> capacities;
         for (const LodCase& c : kCases) {
-            // Both mappings have the same bits (the test above): the repository's own characters do for the second.
             for (const std::string& path : c.characters(mapping)) {
                 Result<cage::Character> character = cage::readGltfFile(path);
                 ASSERT_TRUE(character.ok());

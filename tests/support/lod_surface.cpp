@@ -42,21 +42,58 @@ std::vector<std::array<uint32_t, 3>> side(const LodSurface& surface, const LodSu
     return samples;
 }
 
+std::vector<std::byte> readView(host::Device& device, const SuppleBufferView& view) {
+    if (view.buffer == VK_NULL_HANDLE) {
+        return {};
+    }
+    Result<std::vector<std::byte>> bytes = device.readBuffer(view);
+    EXPECT_TRUE(bytes.ok());
+    return bytes.ok() ? std::move(*bytes) : std::vector<std::byte>(view.size);
+}
+
+std::vector<LodSurface::Patch> readPatches(host::Device& device, const SuppleGroupOutput& output) {
+    const auto buckets = as<std::array<uint32_t, 4>>(readView(device, output.lodBuckets));
+    uint32_t end = 0; // what lies behind, of the buffer, is other groups' or no one's
+    for (const std::array<uint32_t, 4>& bucket : buckets) {
+        end = std::max(end, bucket[2] > 0 ? bucket[0] + bucket[2] : 0);
+    }
+    std::vector<LodSurface::Patch> patches;
+    if (end == 0) {
+        return patches;
+    }
+    SuppleBufferView used = output.lodPatches;
+    used.size = VkDeviceSize{end} * sizeof(std::array<uint32_t, 16>);
+    EXPECT_LE(used.size, output.lodPatches.size);
+    const auto records = as<std::array<uint32_t, 16>>(readView(device, used));
+    for (uint32_t d = 0; d < output.lodDrawCount; ++d) {
+        const SuppleLodDraw& draw = output.lodDraws[d];
+        for (uint32_t p = 0; p < buckets[d][2]; ++p) {
+            const std::array<uint32_t, 16>& record = records[buckets[d][0] + p];
+            LodSurface::Patch& patch = patches.emplace_back();
+            patch.patch = record[0];
+            patch.slot = record[1] & 0x0FFFFFFFu;
+            patch.firstVertex = record[2];
+            patch.capacity = draw.capacity;
+            patch.grid = draw.grid;
+            std::memcpy(patch.levels.data(), &record[4], sizeof(patch.levels));
+            EXPECT_EQ(patch.firstVertex, buckets[d][1] + p * draw.samplesPerPatch);
+        }
+    }
+    return patches;
+}
+
 } // namespace
+
+std::vector<LodSurface::Patch> readLodPatches(const Crowd& crowd) {
+    return readPatches(crowd.context().device(), crowd.output());
+}
 
 LodSurface readLodSurface(const Crowd& crowd) {
     return readLodSurface(crowd.context().device(), crowd.output());
 }
 
 LodSurface readLodSurface(host::Device& device, const SuppleGroupOutput& output) {
-    const auto read = [&](const SuppleBufferView& view) {
-        if (view.buffer == VK_NULL_HANDLE) {
-            return std::vector<std::byte>();
-        }
-        Result<std::vector<std::byte>> bytes = device.readBuffer(view);
-        EXPECT_TRUE(bytes.ok());
-        return bytes.ok() ? std::move(*bytes) : std::vector<std::byte>(view.size);
-    };
+    const auto read = [&](const SuppleBufferView& view) { return readView(device, view); };
     LodSurface surface;
     const std::vector<std::byte> vertices = read(output.surfaceVertices);
     surface.positions = positionsOf(vertices, output.surfaceVertices.stride);
@@ -69,8 +106,6 @@ LodSurface readLodSurface(host::Device& device, const SuppleGroupOutput& output)
     surface.previous = positionsOf(read(output.previousPositions), output.previousPositions.stride);
     const auto indices = as<uint16_t>(read(output.gridIndices));
     const auto commands = as<VkDrawIndexedIndirectCommand>(read(output.indirect));
-    const auto buckets = as<std::array<uint32_t, 4>>(read(output.lodBuckets));
-    const auto records = as<std::array<uint32_t, 16>>(read(output.lodPatches));
     EXPECT_EQ(commands.size(), output.lodDrawCount);
     for (size_t d = 0; d < commands.size(); ++d) {
         const VkDrawIndexedIndirectCommand& command = commands[d];
@@ -82,18 +117,8 @@ LodSurface readLodSurface(host::Device& device, const SuppleGroupOutput& output)
                 surface.triangles.push_back({base + index[0], base + index[1], base + index[2]});
             }
         }
-        for (uint32_t p = 0; p < buckets[d][2]; ++p) {
-            const std::array<uint32_t, 16>& record = records[buckets[d][0] + p];
-            LodSurface::Patch& patch = surface.patches.emplace_back();
-            patch.patch = record[0];
-            patch.slot = record[1] & 0x0FFFFFFFu;
-            patch.firstVertex = record[2];
-            patch.capacity = draw.capacity;
-            patch.grid = draw.grid;
-            std::memcpy(patch.levels.data(), &record[4], sizeof(patch.levels));
-            EXPECT_EQ(patch.firstVertex, buckets[d][1] + p * draw.samplesPerPatch);
-        }
     }
+    surface.patches = readPatches(device, output);
     return surface;
 }
 

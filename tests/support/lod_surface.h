@@ -24,6 +24,8 @@ struct LodSurface {
 };
 [[nodiscard]] LodSurface readLodSurface(host::Device& device, const SuppleGroupOutput& output);
 [[nodiscard]] LodSurface readLodSurface(const Crowd& crowd);
+/// The records alone: the vertices of many instances take long to read.
+[[nodiscard]] std::vector<LodSurface::Patch> readLodPatches(const Crowd& crowd);
 
 /// Directed sides of triangles of some area that no other triangle has the other way round, by position bits. 0 on a
 /// closed surface without cracks.
