@@ -129,7 +129,7 @@ TEST_P(LodCrowds, ATenthOfTheBudgetStaysValidAndStable) {
 TEST_P(LodCrowds, TheUntouchableAreScaledLast) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
-    constexpr uint32_t kLimit = 30'000;
+    constexpr uint32_t kLimit = 12'000;
     TestView view(context, kLimit);
     Crowd crowd(context, groupOf(context.createAsset(bumpySphere(3)), 20, view));
     ASSERT_TRUE(crowd.valid());
@@ -140,7 +140,7 @@ TEST_P(LodCrowds, TheUntouchableAreScaledLast) {
     float distance = 60.0f, last = 1.0f, fall = 1.0f;
     uint32_t scaled = 0, free = 0, least = ~0u, most = 0;
     for (uint32_t step = 0; distance > 12.0f; ++step, distance *= 0.99f) {
-        view.camera.smallestEdge = 6.0f;
+        view.camera.edgeLength = 8.0f;
         view.look({0.0f, 3.0f, distance});
         context.run(crowd.group());
         if (step == 0) {
