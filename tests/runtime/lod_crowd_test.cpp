@@ -46,8 +46,9 @@ SuppleGroupDesc groupOf(SuppleAsset asset, uint32_t capacity, const TestView& vi
 std::vector<SuppleInstance> spawnRows(Crowd& crowd, uint32_t count, uint32_t columns = 8) {
     std::vector<SuppleInstance> instances;
     for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t row = i / columns;
         const glm::vec3 place(3.0f * static_cast<float>(i % columns) - 1.5f * static_cast<float>(columns - 1), 0.0f,
-                              -3.0f * static_cast<float>(i / columns));
+                              -3.0f * static_cast<float>(row));
         instances.push_back(crowd.spawn());
         crowd.pose(instances.back(), SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), place));
     }
@@ -281,11 +282,11 @@ Drawn drawThrough(SuppleMapping mapping, uint32_t instances, uint32_t capacity,
         const uint32_t step = capacity / instances;
         for (uint32_t slot = 0; slot < capacity; ++slot) {
             const SuppleInstance instance = crowd.spawn();
-            const uint32_t i = slot / step;
+            const uint32_t i = slot / step, row = i / 24;
             crowd.setVisible(instance, slot % step == 0 && i < instances);
             crowd.pose(
                 instance, SUPPLE_BIND_POSE, 0.0,
-                glm::translate(glm::mat4(1.0f), 3.0f * glm::vec3(i % 24 - 11.5f, 0.0f, -static_cast<float>(i / 24))));
+                glm::translate(glm::mat4(1.0f), 3.0f * glm::vec3(i % 24 - 11.5f, 0.0f, -static_cast<float>(row))));
         }
         for (int frame = 0; frame < 3; ++frame) { // until nothing is new
             view.camera.smallestEdge = 8.0f;

@@ -364,7 +364,8 @@ void expectToMoveByItsMotion(CrowdContext& context, const Dolly& dolly) {
     const glm::vec3 center = 0.5f * (low + high), size = high - low;
     std::vector<glm::dvec3> places; // by slot: the first in the middle, others beside and behind it
     for (uint32_t i = 0; i < dolly.instances; ++i) {
-        const auto step = static_cast<float>((i + 1) / 2);
+        const uint32_t pair = (i + 1) / 2;
+        const auto step = static_cast<float>(pair);
         const glm::vec3 at((i % 2 == 0 ? 1.2f : -1.2f) * step * size.x, 0.0f, -1.5f * step * size.z);
         crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
         places.emplace_back(at);

@@ -125,8 +125,7 @@ int runBenchCommand(BenchFlags flags) {
     }
     return withSession(flags.device, [&](Session& session) {
         const Machine machine = describeMachine(*session.device, flags.device.mapping);
-        const Status status =
-            against == nullptr ? success() : checkable(flags, stored, machine.device, machine.mapping);
+        Status status = against == nullptr ? success() : checkable(flags, stored, machine.device, machine.mapping);
         if (!status) {
             return status;
         }
@@ -150,7 +149,7 @@ void bindBench(CLI::App& app, int& exitCode) {
     command->add_option("FILE", options.files, "Characters to measure as well");
     command->add_option("--cages", options.cages, "Built-in cages to measure, or none")
         ->delimiter(',')
-        ->transform([](std::string name) { return name == "none" ? std::string() : name; })
+        ->transform([](const std::string& name) { return name == "none" ? std::string() : name; })
         ->check([](const std::string& name) {
             const std::vector<std::string>& known = bench::builtInCages();
             return name.empty() || std::find(known.begin(), known.end(), name) != known.end()
