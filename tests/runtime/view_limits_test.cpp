@@ -24,16 +24,22 @@ std::string errorText(CrowdContext& context, SuppleMessage message) {
     return lines.empty() ? "" : lines[0].text;
 }
 
+/// Of p-rep: two classes, a run each.
+SuppleGroupDesc groupWithTwoRuns(CrowdContext& context, const TestView& view, uint32_t segments) {
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.asset = context.createAsset(cage::makeCubeSphere(segments));
+    desc.capacity = 1;
+    desc.scheme = SUPPLE_SCHEME_PREP;
+    desc.view = view.handle();
+    return desc;
+}
+
 TEST_P(ViewLimits, PaddingLeavesSomethingOrTheGroupIsRefused) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     TestView view(context, 1500);
-    SuppleGroupDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.asset = context.createAsset(cage::makeCubeSphere(2)); // p-rep: two classes, a run each
-    desc.capacity = 1;
-    desc.scheme = SUPPLE_SCHEME_PREP;
-    desc.view = view.handle();
+    SuppleGroupDesc desc = groupWithTwoRuns(context, view, 2);
     context.takeLines();
     Crowd first(context, desc);
     ASSERT_TRUE(first.valid());
@@ -69,12 +75,7 @@ TEST_P(ViewLimits, RunsOfAGroupLieSideBySide) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     TestView view(context, 100'000), other(context, 100'000);
-    SuppleGroupDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.asset = context.createAsset(cage::makeCubeSphere(4)); // p-rep: two classes, a run each
-    desc.capacity = 1;
-    desc.scheme = SUPPLE_SCHEME_PREP;
-    desc.view = view.handle();
+    SuppleGroupDesc desc = groupWithTwoRuns(context, view, 4);
     SuppleGroupDesc wider = desc; // regular, triangles, other quads
     wider.asset = context.createAsset(withCutQuads(cage::makeCubeSphere(8), 0.05, 1));
     wider.scheme = SUPPLE_SCHEME_PM;
