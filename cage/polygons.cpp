@@ -26,6 +26,94 @@ bool repeats(std::span<const uint32_t> corners, std::span<const uint32_t> welded
     return std::adjacent_find(scratch.begin(), scratch.end()) != scratch.end();
 }
 
+/// The half-edges of triangles over welded vertices: half-edge e runs from triangles[e] to the next corner of its
+/// triangle.
+struct TriangleEdges {
+    std::span<const uint32_t> triangles;
+    std::span<const uint32_t> welded;
+
+    [[nodiscard]] static size_t next(size_t e) { return e % 3 == 2 ? e - 2 : e + 1; }
+    [[nodiscard]] uint32_t from(size_t e) const { return welded[triangles[e]]; }
+    [[nodiscard]] uint32_t to(size_t e) const { return welded[triangles[next(e)]]; }
+    [[nodiscard]] std::pair<uint32_t, uint32_t> edge(size_t e) const { return std::minmax(from(e), to(e)); }
+};
+
+constexpr size_t kBoundary = ~size_t{0};
+
+/// Per half-edge the one that it is merged with, kBoundary where it is visible or the edge has not two triangles.
+std::vector<size_t> mergedEdges(const TriangleEdges& mesh, std::span<const uint8_t> hidden) {
+    const size_t count = mesh.triangles.size() / 3;
+    std::vector<size_t> byEdge;
+    for (size_t e = 0; e < 3 * count; ++e) {
+        if (!degenerate(&mesh.triangles[e - e % 3], mesh.welded)) {
+            byEdge.push_back(e);
+        }
+    }
+    std::sort(byEdge.begin(), byEdge.end(),
+              [&](size_t x, size_t y) { return std::pair(mesh.edge(x), x) < std::pair(mesh.edge(y), y); });
+    std::vector<size_t> across(3 * count, kBoundary);
+    for (size_t begin = 0; begin < byEdge.size();) {
+        size_t end = begin;
+        while (end < byEdge.size() && mesh.edge(byEdge[end]) == mesh.edge(byEdge[begin])) {
+            ++end;
+        }
+        const size_t x = byEdge[begin];
+        const size_t y = byEdge[end - 1];
+        if (end - begin == 2 && hidden[x] != 0 && hidden[y] != 0 && mesh.from(x) == mesh.to(y)) {
+            across[x] = y;
+            across[y] = x;
+        }
+        begin = end;
+    }
+    return across;
+}
+
+/// Triangles that are merged across hidden edges, and the half-edges round them.
+struct Region {
+    std::vector<size_t> triangles;
+    std::vector<size_t> boundary;
+};
+
+/// Fills the region of triangle `first`, and marks its triangles as seen.
+void gather(size_t first, std::span<const size_t> across, std::vector<uint8_t>& seen, Region& region) {
+    seen[first] = 1;
+    region.triangles.assign(1, first);
+    region.boundary.clear();
+    for (size_t i = 0; i < region.triangles.size(); ++i) {
+        const size_t triangle = region.triangles[i];
+        for (size_t e = 3 * triangle; e < 3 * triangle + 3; ++e) {
+            if (across[e] == kBoundary) {
+                region.boundary.push_back(e);
+            } else if (seen[across[e] / 3] == 0) {
+                seen[across[e] / 3] = 1;
+                region.triangles.push_back(across[e] / 3);
+            }
+        }
+    }
+}
+
+/// Fills the corners of the polygon that a region is; false where it is none.
+bool outline(const Region& region, std::span<const size_t> across, const TriangleEdges& mesh,
+             std::vector<uint32_t>& corners, std::vector<uint32_t>& scratch) {
+    corners.clear();
+    // n corners make n - 2 triangles; more of these are round a vertex within, or join what is joined already.
+    if (region.triangles.size() + 2 != region.boundary.size()) {
+        return false;
+    }
+    // Along the boundary, round each vertex from one boundary edge to the next.
+    for (size_t e = region.boundary[0]; corners.size() < region.boundary.size();) {
+        corners.push_back(mesh.triangles[e]);
+        e = TriangleEdges::next(e);
+        while (across[e] != kBoundary) {
+            e = TriangleEdges::next(across[e]);
+        }
+        if (e == region.boundary[0]) {
+            break;
+        }
+    }
+    return corners.size() == region.boundary.size() && !repeats(corners, mesh.welded, scratch);
+}
+
 } // namespace
 
 Polygons keepTriangles(std::span<const uint32_t> triangles, std::span<const uint32_t> welded) {
@@ -81,41 +169,12 @@ Polygons decodeNgons(std::span<const uint32_t> triangles, std::span<const uint32
 
 Polygons mergeAcrossHiddenEdges(std::span<const uint32_t> triangles, std::span<const uint32_t> welded,
                                 std::span<const uint8_t> hidden) {
-    // Half-edge e runs from triangles[e] to the next corner of its triangle.
-    const auto next = [](size_t e) { return e % 3 == 2 ? e - 2 : e + 1; };
-    const auto from = [&](size_t e) { return welded[triangles[e]]; };
-    const auto to = [&](size_t e) { return welded[triangles[next(e)]]; };
+    const TriangleEdges mesh{triangles, welded};
+    const std::vector<size_t> across = mergedEdges(mesh, hidden);
     const size_t count = triangles.size() / 3;
-
-    std::vector<size_t> byEdge;
-    for (size_t e = 0; e < 3 * count; ++e) {
-        if (!degenerate(&triangles[e - e % 3], welded)) {
-            byEdge.push_back(e);
-        }
-    }
-    const auto edge = [&](size_t e) { return std::pair<uint32_t, uint32_t>(std::minmax(from(e), to(e))); };
-    std::sort(byEdge.begin(), byEdge.end(),
-              [&](size_t x, size_t y) { return std::pair(edge(x), x) < std::pair(edge(y), y); });
-    constexpr size_t kBoundary = ~size_t{0};
-    std::vector<size_t> across(3 * count, kBoundary); ///< half-edge -> the one it is merged with
-    for (size_t begin = 0; begin < byEdge.size();) {
-        size_t end = begin;
-        while (end < byEdge.size() && edge(byEdge[end]) == edge(byEdge[begin])) {
-            ++end;
-        }
-        const size_t x = byEdge[begin];
-        const size_t y = byEdge[end - 1];
-        if (end - begin == 2 && hidden[x] != 0 && hidden[y] != 0 && from(x) == to(y)) {
-            across[x] = y;
-            across[y] = x;
-        }
-        begin = end;
-    }
-
     Polygons polygons;
     std::vector<uint8_t> seen(count, 0);
-    std::vector<size_t> region;
-    std::vector<size_t> boundary;
+    Region region;
     std::vector<uint32_t> corners;
     std::vector<uint32_t> scratch;
     for (size_t first = 0; first < count; ++first) {
@@ -126,43 +185,14 @@ Polygons mergeAcrossHiddenEdges(std::span<const uint32_t> triangles, std::span<c
         if (seen[first] != 0) {
             continue;
         }
-        seen[first] = 1;
-        region.assign(1, first);
-        boundary.clear();
-        for (size_t i = 0; i < region.size(); ++i) {
-            for (size_t e = 3 * region[i]; e < 3 * region[i] + 3; ++e) {
-                if (across[e] == kBoundary) {
-                    boundary.push_back(e);
-                } else if (seen[across[e] / 3] == 0) {
-                    seen[across[e] / 3] = 1;
-                    region.push_back(across[e] / 3);
-                }
-            }
-        }
-        // n corners make n - 2 triangles; more of these are round a vertex within, or join what is joined already.
-        bool simple = region.size() + 2 == boundary.size();
-        corners.clear();
-        if (simple) {
-            // Along the boundary, round each vertex from one boundary edge to the next.
-            for (size_t e = boundary[0]; corners.size() < boundary.size();) {
-                corners.push_back(triangles[e]);
-                e = next(e);
-                while (across[e] != kBoundary) {
-                    e = next(across[e]);
-                }
-                if (e == boundary[0]) {
-                    break;
-                }
-            }
-            simple = corners.size() == boundary.size() && !repeats(corners, welded, scratch);
-        }
-        if (simple) {
+        gather(first, across, seen, region);
+        if (outline(region, across, mesh, corners, scratch)) {
             addFace(polygons, corners);
             continue;
         }
         ++polygons.brokenRegions;
-        std::sort(region.begin(), region.end());
-        for (const size_t t : region) {
+        std::sort(region.triangles.begin(), region.triangles.end());
+        for (const size_t t : region.triangles) {
             addFace(polygons, triangles.subspan(3 * t, 3));
         }
     }

@@ -179,6 +179,30 @@ std::optional<Error> pairHalfEdges(const Cage& cage, Topology& topology) {
     return std::nullopt;
 }
 
+/// Fills the fan of a vertex whose first slot is `base`, from the corner `start` on; returns how many sectors it has.
+/// Counter-clockwise: across the edge to the previous vertex of the face. Twins are an involution, so the walk either
+/// meets the boundary or comes back to its start.
+uint32_t walkFan(const Cage& cage, uint32_t start, uint32_t base, Topology& topology) {
+    uint32_t walked = 0;
+    for (uint32_t c = start;;) {
+        const uint32_t f = topology.cornerFaces[c];
+        const uint32_t back = previousCorner(cage, f, c);
+        topology.spokeVertices[base + walked] = cage.faceVertices[nextCorner(cage, f, c)];
+        topology.sectorCorners[base + walked] = c;
+        topology.cornerSpokes[c] = base + walked;
+        ++walked;
+        const uint32_t next = topology.twins[back];
+        topology.cornerSpokesBack[c] = next == start ? base : base + walked;
+        if (next == kNone) {
+            topology.spokeVertices[base + walked] = cage.faceVertices[back];
+        }
+        if (next == kNone || next == start) {
+            return walked;
+        }
+        c = next;
+    }
+}
+
 std::optional<Error> buildFans(const Cage& cage, Topology& topology) {
     const uint32_t cornerCount = cage.cornerCount();
     const uint32_t vertexCount = cage.vertexCount();
@@ -187,14 +211,12 @@ std::optional<Error> buildFans(const Cage& cage, Topology& topology) {
     std::vector<uint32_t> counts(vertexCount, 0);
     std::vector<uint32_t> smallest(vertexCount, kNone);
     std::vector<uint32_t> fanStarts(vertexCount, kNone);
-    std::vector<uint32_t> fanCounts(vertexCount, 0);
     for (uint32_t c = cornerCount; c-- > 0;) {
         const uint32_t v = cage.faceVertices[c];
         ++counts[v];
         smallest[v] = c;
         if (topology.twins[c] == kNone) {
             fanStarts[v] = c;
-            ++fanCounts[v];
         }
     }
     topology.spokeStarts.assign(vertexCount + 1, 0);
@@ -214,28 +236,8 @@ std::optional<Error> buildFans(const Cage& cage, Topology& topology) {
             return fault("vertex " + std::to_string(v) + ": no face uses it");
         }
         const bool boundary = topology.boundary[v] != 0;
-        const uint32_t start = boundary ? fanStarts[v] : smallest[v];
         const uint32_t base = topology.spokeStarts[v];
-        uint32_t walked = 0;
-        // Counter-clockwise: across the edge to the previous vertex of the face. Twins are an involution, so the walk
-        // either meets the boundary or comes back to its start.
-        for (uint32_t c = start;;) {
-            const uint32_t f = topology.cornerFaces[c];
-            const uint32_t back = previousCorner(cage, f, c);
-            topology.spokeVertices[base + walked] = cage.faceVertices[nextCorner(cage, f, c)];
-            topology.sectorCorners[base + walked] = c;
-            topology.cornerSpokes[c] = base + walked;
-            ++walked;
-            const uint32_t next = topology.twins[back];
-            topology.cornerSpokesBack[c] = next == start ? base : base + walked;
-            if (next == kNone) {
-                topology.spokeVertices[base + walked] = cage.faceVertices[back];
-            }
-            if (next == kNone || next == start) {
-                break;
-            }
-            c = next;
-        }
+        const uint32_t walked = walkFan(cage, boundary ? fanStarts[v] : smallest[v], base, topology);
         if (walked != counts[v]) {
             std::string message = "vertex " + std::to_string(v) + ": several separate fans of faces meet here";
             message += " (" + countWord(counts[v]) + " faces, " + countWord(walked) + " in the first fan)";

@@ -119,6 +119,79 @@ bool sewGroup(std::span<const HalfEdge> group, Sets& sets, std::vector<HalfEdge>
     return false;
 }
 
+// What merges can do to faces. Each calls `blame` with the cage vertices that may have to be taken apart again.
+
+std::span<const uint32_t> faceOf(const Polygons& polygons, size_t f) {
+    return std::span(polygons.vertices).subspan(polygons.starts[f], polygons.starts[f + 1] - polygons.starts[f]);
+}
+
+/// A face that passes a cage vertex twice.
+template <class Blame>
+void blameRepeats(const Polygons& polygons, std::span<const uint32_t> roots, const Blame& blame) {
+    std::vector<uint32_t> sorted;
+    for (size_t f = 0; f < polygons.faceCount(); ++f) {
+        sorted.clear();
+        for (const uint32_t vertex : faceOf(polygons, f))
+            sorted.push_back(roots[vertex]);
+        std::sort(sorted.begin(), sorted.end());
+        for (size_t j = 1; j < sorted.size(); ++j)
+            if (sorted[j] == sorted[j - 1])
+                blame(sorted[j]);
+    }
+}
+
+/// An edge that runs twice in one direction, between vertices that were several.
+template <class Blame>
+void blameDoubledEdges(const Polygons& polygons, std::span<const uint32_t> roots, const Blame& blame) {
+    struct Edge {
+        uint32_t from, to;             ///< cage vertices
+        uint32_t fromVertex, toVertex; ///< the file's
+    };
+    std::vector<Edge> edges;
+    edges.reserve(polygons.vertices.size());
+    for (size_t f = 0; f < polygons.faceCount(); ++f) {
+        const std::span<const uint32_t> face = faceOf(polygons, f);
+        for (size_t j = 0; j < face.size(); ++j) {
+            const uint32_t next = face[(j + 1) % face.size()];
+            edges.push_back({roots[face[j]], roots[next], face[j], next});
+        }
+    }
+    std::sort(edges.begin(), edges.end(),
+              [](const Edge& x, const Edge& y) { return std::pair(x.from, x.to) < std::pair(y.from, y.to); });
+    for (size_t i = 1; i < edges.size(); ++i) {
+        const Edge& x = edges[i - 1];
+        const Edge& y = edges[i];
+        if (x.from == y.from && x.to == y.to) {
+            if (x.fromVertex != y.fromVertex)
+                blame(x.from);
+            if (x.toVertex != y.toVertex)
+                blame(x.to);
+        }
+    }
+}
+
+/// An interior vertex of valence two: its two faces lie on each other.
+template <class Blame>
+void blameFolds(const Polygons& polygons, std::span<const uint32_t> roots, const Blame& blame) {
+    // Per cage vertex: its corners, and for the first two of them the neighbors before and after.
+    std::vector<uint32_t> corners(roots.size(), 0);
+    std::vector<std::array<uint32_t, 4>> around(roots.size());
+    for (size_t f = 0; f < polygons.faceCount(); ++f) {
+        const std::span<const uint32_t> face = faceOf(polygons, f);
+        for (size_t j = 0; j < face.size(); ++j) {
+            const uint32_t root = roots[face[j]];
+            const uint32_t seen = corners[root]++;
+            if (seen < 2) {
+                around[root][2 * seen] = roots[face[(j + face.size() - 1) % face.size()]];
+                around[root][2 * seen + 1] = roots[face[(j + 1) % face.size()]];
+            }
+        }
+    }
+    for (uint32_t v = 0; v < roots.size(); ++v)
+        if (corners[v] == 2 && around[v][0] == around[v][3] && around[v][1] == around[v][2])
+            blame(v);
+}
+
 } // namespace
 
 Welding weld(std::span<const uint32_t> candidates, const Polygons& faces) {
@@ -167,17 +240,10 @@ uint32_t unweldDefects(const Polygons& polygons, Welding& welding) {
         if (roots[v] != v)
             merged[roots[v]] = 1;
 
-    struct Edge {
-        uint32_t from, to;             ///< cage vertices
-        uint32_t fromVertex, toVertex; ///< the file's
-    };
-    std::vector<Edge> edges;
     std::vector<uint8_t> bad(roots.size(), 0);
-    std::vector<uint32_t> scratch;
     uint32_t takenApart = 0;
     constexpr int kMaxRounds = 16; // each takes apart at least one cage vertex, in practice all of them at once
     for (int round = 0; round < kMaxRounds; ++round) {
-        edges.clear();
         std::fill(bad.begin(), bad.end(), uint8_t{0});
         bool any = false;
         const auto blame = [&](uint32_t vertex) {
@@ -186,46 +252,9 @@ uint32_t unweldDefects(const Polygons& polygons, Welding& welding) {
                 any = true;
             }
         };
-        // Per cage vertex: its corners, and for the first two of them the neighbors before and after.
-        std::vector<uint32_t> corners(roots.size(), 0);
-        std::vector<std::array<uint32_t, 4>> around(roots.size());
-        for (size_t f = 0; f < polygons.faceCount(); ++f) {
-            const auto face =
-                std::span(polygons.vertices).subspan(polygons.starts[f], polygons.starts[f + 1] - polygons.starts[f]);
-            for (size_t j = 0; j < face.size(); ++j) {
-                const uint32_t vertex = face[j];
-                const uint32_t next = face[(j + 1) % face.size()];
-                const uint32_t previous = face[(j + face.size() - 1) % face.size()];
-                edges.push_back({roots[vertex], roots[next], vertex, next});
-                const uint32_t seen = corners[roots[vertex]]++;
-                if (seen < 2) {
-                    around[roots[vertex]][2 * seen] = roots[previous];
-                    around[roots[vertex]][2 * seen + 1] = roots[next];
-                }
-            }
-            scratch.clear();
-            for (const uint32_t vertex : face)
-                scratch.push_back(roots[vertex]);
-            std::sort(scratch.begin(), scratch.end());
-            for (size_t j = 1; j < scratch.size(); ++j)
-                if (scratch[j] == scratch[j - 1])
-                    blame(scratch[j]);
-        }
-        std::sort(edges.begin(), edges.end(),
-                  [](const Edge& x, const Edge& y) { return std::pair(x.from, x.to) < std::pair(y.from, y.to); });
-        for (size_t i = 1; i < edges.size(); ++i) {
-            const Edge& x = edges[i - 1];
-            const Edge& y = edges[i];
-            if (x.from == y.from && x.to == y.to && (x.fromVertex != y.fromVertex || x.toVertex != y.toVertex)) {
-                if (x.fromVertex != y.fromVertex)
-                    blame(x.from);
-                if (x.toVertex != y.toVertex)
-                    blame(x.to);
-            }
-        }
-        for (uint32_t v = 0; v < roots.size(); ++v)
-            if (corners[v] == 2 && around[v][0] == around[v][3] && around[v][1] == around[v][2])
-                blame(v);
+        blameRepeats(polygons, roots, blame);
+        blameDoubledEdges(polygons, roots, blame);
+        blameFolds(polygons, roots, blame);
         if (!any)
             break;
         for (uint32_t v = 0; v < roots.size(); ++v) {

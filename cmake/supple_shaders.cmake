@@ -1,8 +1,10 @@
-# supple_embed_shaders(TARGET path...): compiles GLSL (paths below shaders/) to SPIR-V at build time and makes each available
-# to TARGET as a header "shaders/<path with / and . as _>.h" that defines `static const uint32_t <that name>[]`. A path may end
-# in +NAME: compiled with the macro NAME defined, and the name ends in _NAME; +NAME+OTHER: with both.
-# supple_embed_kernels(TARGET path...): the same for the library's own kernels, which are compiled for either mapping
-# (shaders/shared/mapping.glsl) and optimized: the name is a `gpu::Spirv`.
+# supple_embed_kernels(TARGET path...): compiles GLSL (paths below shaders/) to SPIR-V at build time, for either mapping
+# (shaders/shared/mapping.glsl) and optimized, and makes each available to TARGET as a header
+# "shaders/<path with / and . as _>.h" that defines a `gpu::Spirv` of that name. A path may end in +NAME: compiled with the macro
+# NAME defined, and the name ends in _NAME; +NAME+OTHER: with both.
+# supple_kernel_table(TARGET NAMESPACE path...): of kernels that TARGET embeds, makes "NAMESPACE/kernels.h" with
+# `enum class supple::NAMESPACE::Kernel`, an enumerator for each and `count`, and defines `Shaders::embedded()`, their table
+# (NAMESPACE/shaders.h). "evaluate/bicubic.comp+LEVELS" is the enumerator evaluateBicubicLevels.
 # As a script (-DNAME= -DSPIRV= -DOUT=) it writes a header of such an array from a file of SPIR-V.
 if(CMAKE_SCRIPT_MODE_FILE)
     file(READ "${SPIRV}" words HEX)
@@ -36,21 +38,6 @@ macro(supple_shader_entry entry)
     list(PREPEND shader_flags --quiet -V --target-env vulkan1.3 -I${supple_SOURCE_DIR})
 endmacro()
 
-function(supple_embed_shaders target)
-    set(directory ${supple_BINARY_DIR}/generated)
-    file(MAKE_DIRECTORY ${directory}/shaders)
-    foreach(entry IN LISTS ARGN)
-        supple_shader_entry(${entry})
-        set(header ${directory}/shaders/${shader_name}.h)
-        add_custom_command(OUTPUT ${header}
-            COMMAND ${SUPPLE_GLSLANG} ${shader_flags} --depfile ${header}.d --vn ${shader_name} -o ${header} ${shader_source}
-            DEPENDS ${shader_source} DEPFILE ${header}.d
-            COMMENT "GLSL ${entry}" VERBATIM)
-        target_sources(${target} PRIVATE ${header})
-    endforeach()
-    target_include_directories(${target} PRIVATE ${directory})
-endfunction()
-
 function(supple_embed_kernels target)
     set(directory ${supple_BINARY_DIR}/generated)
     file(MAKE_DIRECTORY ${directory}/shaders)
@@ -79,4 +66,55 @@ static const supple::gpu::Spirv ${name}{${name}_NARROW, ${name}_WIDE};
 " @ONLY)
     endforeach()
     target_include_directories(${target} PRIVATE ${directory})
+endfunction()
+
+function(supple_kernel_table target namespace)
+    set(directory ${supple_BINARY_DIR}/generated)
+    set(enumerators "")
+    set(includes "")
+    set(table "")
+    foreach(entry IN LISTS ARGN)
+        string(REGEX REPLACE "[./+_]" ";" words ${entry})
+        list(REMOVE_ITEM words comp)
+        list(POP_FRONT words enumerator)
+        foreach(word IN LISTS words)
+            string(SUBSTRING ${word} 0 1 initial)
+            string(SUBSTRING ${word} 1 -1 rest)
+            string(TOUPPER ${initial} initial)
+            string(TOLOWER ${rest} rest)
+            string(APPEND enumerator ${initial}${rest})
+        endforeach()
+        string(MAKE_C_IDENTIFIER ${entry} name)
+        string(APPEND enumerators "    ${enumerator},\n")
+        string(APPEND includes "#include \"shaders/${name}.h\"\n")
+        string(APPEND table "        ${name},\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${directory}/${namespace}/kernels.h CONTENT "// Made by cmake/supple_shaders.cmake.
+#pragma once
+
+#include <cstdint>
+
+namespace supple::${namespace} {
+
+enum class Kernel : uint32_t {
+${enumerators}    count
+};
+
+} // namespace supple::${namespace}
+" @ONLY)
+    file(CONFIGURE OUTPUT ${directory}/${namespace}/kernels.cpp CONTENT "// Made by cmake/supple_shaders.cmake.
+#include \"${namespace}/shaders.h\"
+
+${includes}
+namespace supple::${namespace} {
+
+Shaders Shaders::embedded() {
+    return {{{
+${table}    }}};
+}
+
+} // namespace supple::${namespace}
+" @ONLY)
+    target_sources(${target} PRIVATE ${directory}/${namespace}/kernels.cpp)
+    target_include_directories(${target} PUBLIC ${directory})
 endfunction()

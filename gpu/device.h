@@ -15,8 +15,8 @@ namespace supple::gpu {
 /// What a pass may push: as much as every Vulkan device takes.
 inline constexpr uint32_t kPushConstantBytes = 128;
 /// What a pass may bind; the requirements name it, and ComputeLayout::create holds the passes to it.
-inline constexpr uint32_t kMaxStorageBuffers = 12;
-inline constexpr uint32_t kMaxTexelBuffers = 7;
+inline constexpr uint32_t kMaxStorageBuffers = 8;
+inline constexpr uint32_t kMaxTexelBuffers = 6;
 
 /// A piece of device memory that the host allocated.
 struct HostMemory {

@@ -6,10 +6,6 @@
 
 namespace supple::gpu {
 
-/// Specialization constants every compute shader shares (shaders/shared/mapping.glsl); passes add their own from
-/// kFirstPassConstant on.
-enum MappingConstant : uint32_t { kLocalSizeConstant = 0, kExactDivisionConstant = 2, kFirstPassConstant = 3 };
-
 struct Mapping {
     bool wide = false;          ///< many lanes a patch and storage-buffer loads, else one lane a patch and texel loads
     bool exactDivision = false; ///< the device rounds float division correctly, so k / rate needs no table

@@ -22,6 +22,37 @@ VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
+Result<BufferHandle> createBuffer(const Device& device, const BufferRequest& request, const std::string& what) {
+    if (request.size > device.maxBufferSize) {
+        return Error{ErrorCode::limit,
+                     what + ": the device's largest has " + std::to_string(device.maxBufferSize) + " bytes"};
+    }
+    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    info.size = request.size;
+    info.usage = request.usage;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    const VkResult result = device.vk.CreateBuffer(device.handle, &info, device.allocator, &buffer);
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, what);
+    }
+    device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer), request.name);
+    return BufferHandle(device, buffer);
+}
+
+/// Refuses what no heap holds before the driver is asked.
+Status checkHeap(const Device& device, VkDeviceSize bytes, const char* name) {
+    VkDeviceSize heap = 0;
+    for (uint32_t i = 0; i < device.memory.memoryHeapCount; ++i) {
+        heap = std::max(heap, device.memory.memoryHeaps[i].size);
+    }
+    if (bytes > heap) {
+        return Error{ErrorCode::deviceMemory, std::string("memory for ") + name + " and its neighbours, " +
+                                                  std::to_string(bytes) + " bytes: more than the largest heap's " +
+                                                  std::to_string(heap)};
+    }
+    return success();
+}
+
 } // namespace
 
 DeviceMemory::~DeviceMemory() {
@@ -88,57 +119,41 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
     // Buffers share an allocation until it would exceed what the device allocates at once.
     std::vector<VkMemoryRequirements> pieces;
     for (const BufferRequest& request : requests) {
-        Entry entry;
-        if (request.size > 0) {
-            const std::string what =
-                std::string("buffer ") + request.name + " of " + std::to_string(request.size) + " bytes";
-            if (request.size > device.maxBufferSize) {
-                return Error{ErrorCode::limit,
-                             what + ": the device's largest has " + std::to_string(device.maxBufferSize) + " bytes"};
-            }
-            VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-            info.size = request.size;
-            info.usage = request.usage;
-            VkBuffer buffer = VK_NULL_HANDLE;
-            const VkResult result = device.vk.CreateBuffer(device.handle, &info, device.allocator, &buffer);
-            if (result != VK_SUCCESS) {
-                return vulkanError(result, what);
-            }
-            entry.handle = BufferHandle(device, buffer);
-            device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer), request.name);
-            VkMemoryRequirements needs;
-            device.vk.GetBufferMemoryRequirements(device.handle, buffer, &needs);
-            if (needs.size > device.maxAllocationSize) {
-                return Error{ErrorCode::limit, what + ": the device allocates at most " +
-                                                   std::to_string(device.maxAllocationSize) + " bytes at once"};
-            }
-            if (pieces.empty() ||
-                roundUp(pieces.back().size, needs.alignment) + needs.size > device.maxAllocationSize) {
-                pieces.push_back({0, 1, 0xFFFFFFFFu});
-            }
-            VkMemoryRequirements& piece = pieces.back();
-            entry.offset = roundUp(piece.size, needs.alignment);
-            entry.allocation = pieces.size() - 1;
-            piece.size = entry.offset + needs.size;
-            piece.alignment = std::max(piece.alignment, needs.alignment);
-            piece.memoryTypeBits &= needs.memoryTypeBits;
-        }
+        Entry& entry = set.buffers_.emplace_back();
         entry.size = request.size;
-        set.buffers_.push_back(std::move(entry));
+        if (request.size == 0) {
+            continue;
+        }
+        const std::string what =
+            std::string("buffer ") + request.name + " of " + std::to_string(request.size) + " bytes";
+        Result<BufferHandle> buffer = createBuffer(device, request, what);
+        if (!buffer) {
+            return buffer.error();
+        }
+        entry.handle = std::move(*buffer);
+        VkMemoryRequirements needs;
+        device.vk.GetBufferMemoryRequirements(device.handle, entry.handle.get(), &needs);
+        if (needs.size > device.maxAllocationSize) {
+            return Error{ErrorCode::limit, what + ": the device allocates at most " +
+                                               std::to_string(device.maxAllocationSize) + " bytes at once"};
+        }
+        if (pieces.empty() || roundUp(pieces.back().size, needs.alignment) + needs.size > device.maxAllocationSize) {
+            pieces.push_back({0, 1, 0xFFFFFFFFu});
+        }
+        VkMemoryRequirements& piece = pieces.back();
+        entry.offset = roundUp(piece.size, needs.alignment);
+        entry.allocation = pieces.size() - 1;
+        piece.size = entry.offset + needs.size;
+        piece.alignment = std::max(piece.alignment, needs.alignment);
+        piece.memoryTypeBits &= needs.memoryTypeBits;
     }
 
     const char* name = requests.empty() ? "" : requests.front().name;
     for (const VkMemoryRequirements& piece : pieces) {
         set.allocatedBytes_ += piece.size;
     }
-    VkDeviceSize heap = 0;
-    for (uint32_t i = 0; i < device.memory.memoryHeapCount; ++i) {
-        heap = std::max(heap, device.memory.memoryHeaps[i].size);
-    }
-    if (set.allocatedBytes_ > heap) {
-        return Error{ErrorCode::deviceMemory, std::string("memory for ") + name + " and its neighbours, " +
-                                                  std::to_string(set.allocatedBytes_) +
-                                                  " bytes: more than the largest heap's " + std::to_string(heap)};
+    if (Status fits = checkHeap(device, set.allocatedBytes_, name); !fits) {
+        return fits.error();
     }
     for (const VkMemoryRequirements& piece : pieces) {
         Result<DeviceMemory> memory = DeviceMemory::allocate(device, piece, kind, name);
@@ -147,18 +162,26 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
         }
         set.allocations_.push_back(std::move(*memory));
     }
-    for (const Entry& entry : set.buffers_) {
+    const VkResult result = set.bind(device);
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, std::string("binding memory of ") + name);
+    }
+    return set;
+}
+
+VkResult BufferSet::bind(const Device& device) const {
+    for (const Entry& entry : buffers_) {
         if (entry.size == 0) {
             continue;
         }
-        const HostMemory& piece = set.allocations_[entry.allocation].piece();
+        const HostMemory& piece = allocations_[entry.allocation].piece();
         const VkResult result =
             device.vk.BindBufferMemory(device.handle, entry.handle.get(), piece.memory, piece.offset + entry.offset);
         if (result != VK_SUCCESS) {
-            return vulkanError(result, std::string("binding memory of ") + name);
+            return result;
         }
     }
-    return set;
+    return VK_SUCCESS;
 }
 
 Result<BufferViewHandle> createTexelView(const Device& device, VkBuffer buffer, VkFormat format, VkDeviceSize offset,

@@ -71,6 +71,8 @@ private:
         VkDeviceSize offset = 0; ///< in its allocation
         size_t allocation = 0;
     };
+    [[nodiscard]] VkResult bind(const Device& device) const;
+
     std::vector<DeviceMemory> allocations_; // declared before the buffers: destroyed after them
     std::vector<Entry> buffers_;
     VkDeviceSize allocatedBytes_ = 0;

@@ -1,6 +1,9 @@
 #include "gpu/pipeline.h"
 
+#include "shaders/shared/specialization.h"
+
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace supple::gpu {
@@ -8,9 +11,11 @@ namespace supple::gpu {
 Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<const Binding> bindings, uint32_t pushBytes,
                                             const char* name) {
     ComputeLayout layout;
-    layout.bindings.assign(bindings.begin(), bindings.end());
+    std::copy_if(bindings.begin(), bindings.end(), std::back_inserter(layout.bindings),
+                 [&](const Binding& binding) { return binding.isIn(device.mapping.wide); });
     const auto countOf = [&](VkDescriptorType type) {
-        return std::count_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.type == type; });
+        return std::count_if(layout.bindings.begin(), layout.bindings.end(),
+                             [&](const Binding& binding) { return binding.type == type; });
     };
     if (countOf(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) > kMaxStorageBuffers ||
         countOf(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) > kMaxTexelBuffers) {
@@ -18,7 +23,7 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
     }
 
     std::vector<VkDescriptorSetLayoutBinding> entries;
-    for (const Binding& binding : bindings) {
+    for (const Binding& binding : layout.bindings) {
         entries.push_back({binding.binding, binding.type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
@@ -51,7 +56,7 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
 Result<PipelineHandle> createComputePipeline(const Device& device, const ComputeLayout& layout, const Spirv& spirv,
                                              std::span<const Constant> constants, const char* name) {
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    const std::span<const uint32_t> words = device.mapping.wide ? spirv.wide : spirv.narrow;
+    const std::span<const uint32_t> words = wordsOf(device, spirv);
     moduleInfo.codeSize = words.size_bytes();
     moduleInfo.pCode = words.data();
     VkShaderModule shader = VK_NULL_HANDLE;
@@ -61,8 +66,8 @@ Result<PipelineHandle> createComputePipeline(const Device& device, const Compute
     }
     const ShaderModuleHandle module(device, shader);
 
-    std::vector<Constant> all = {{kLocalSizeConstant, device.mapping.localSize},
-                                 {kExactDivisionConstant, device.mapping.exactDivision ? VK_TRUE : VK_FALSE}};
+    std::vector<Constant> all = {{shared::kLocalSizeConstant, device.mapping.localSize},
+                                 {shared::kExactDivisionConstant, device.mapping.exactDivision ? VK_TRUE : VK_FALSE}};
     all.insert(all.end(), constants.begin(), constants.end());
     std::vector<VkSpecializationMapEntry> entries;
     std::vector<uint32_t> values;
@@ -134,9 +139,14 @@ Result<VkDescriptorSet> allocateSet(const Device& device, const ComputeLayout& l
     return set;
 }
 
-void writeSet(const Device& device, VkDescriptorSet set, std::span<const BoundResource> resources) {
+void writeSet(const Device& device, const ComputeLayout& layout, VkDescriptorSet set,
+              std::span<const BoundResource> resources) {
     std::vector<VkWriteDescriptorSet> writes;
     for (const BoundResource& resource : resources) {
+        if (std::none_of(layout.bindings.begin(), layout.bindings.end(),
+                         [&](const Binding& binding) { return binding.binding == resource.binding; })) {
+            continue;
+        }
         VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         write.dstSet = set;
         write.dstBinding = resource.binding;
@@ -148,6 +158,15 @@ void writeSet(const Device& device, VkDescriptorSet set, std::span<const BoundRe
         writes.push_back(write);
     }
     device.vk.UpdateDescriptorSets(device.handle, static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+}
+
+void bind(const Device& device, VkCommandBuffer commandBuffer, const Kernel& kernel, VkDescriptorSet set,
+          std::span<const std::byte> push) {
+    device.vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline);
+    device.vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1, &set, 0,
+                                    nullptr);
+    device.vk.CmdPushConstants(commandBuffer, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                               static_cast<uint32_t>(push.size()), push.data());
 }
 
 uint32_t maxGroupsInX(const Device& device) {

@@ -5,19 +5,40 @@
 #include "gpu/handle.h"
 #include "gpu/spirv.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace supple::gpu {
 
+/// One binding of a layout. What a kernel only reads, it reads through a storage buffer in the wide mapping and through
+/// texels in the narrow one: such data has a binding for each, and a layout has those of its device's mapping.
 struct Binding {
+    enum class In : uint32_t { either, narrow, wide };
     uint32_t binding = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    In mapping = In::either;
+
+    [[nodiscard]] constexpr bool isIn(bool wide) const {
+        return mapping == In::either || (mapping == In::wide) == wide;
+    }
 };
+/// What kernels of both mappings bind as a storage buffer: what they write.
+[[nodiscard]] constexpr Binding storage(uint32_t binding) {
+    return {binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, Binding::In::either};
+}
+/// The two ways to read.
+[[nodiscard]] constexpr Binding wideStorage(uint32_t binding) {
+    return {binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, Binding::In::wide};
+}
+[[nodiscard]] constexpr Binding narrowTexels(uint32_t binding) {
+    return {binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, Binding::In::narrow};
+}
 
 /// One descriptor set (set 0) and one push-constant block, both for the compute stage.
 struct ComputeLayout {
-    std::vector<Binding> bindings;
+    std::vector<Binding> bindings; ///< of the device's mapping
     SetLayoutHandle setLayout;
     PipelineLayoutHandle pipelineLayout;
 
@@ -28,9 +49,16 @@ struct ComputeLayout {
 struct Constant {
     uint32_t id = 0;
     uint32_t value = 0; ///< bool constants: VK_TRUE or VK_FALSE
+
+    bool operator==(const Constant&) const = default;
 };
 
-/// Of the device's mapping, whose constants are added to `constants`.
+/// What the device's mapping runs.
+[[nodiscard]] inline std::span<const uint32_t> wordsOf(const Device& device, const Spirv& spirv) {
+    return device.mapping.wide ? spirv.wide : spirv.narrow;
+}
+
+/// The constants of the device's mapping are added to `constants`. gpu::Pipelines keeps what is made here.
 [[nodiscard]] Result<PipelineHandle> createComputePipeline(const Device& device, const ComputeLayout& layout,
                                                            const Spirv& spirv, std::span<const Constant> constants,
                                                            const char* name);
@@ -47,7 +75,23 @@ struct BoundResource {
     VkDescriptorBufferInfo buffer{};
     VkBufferView texels = VK_NULL_HANDLE; ///< set for texel bindings
 };
-void writeSet(const Device& device, VkDescriptorSet set, std::span<const BoundResource> resources);
+/// Resources whose binding the layout lacks are skipped: a caller hands over all it has, whatever the layout.
+void writeSet(const Device& device, const ComputeLayout& layout, VkDescriptorSet set,
+              std::span<const BoundResource> resources);
+
+/// A pipeline, ready to be bound. Owns nothing.
+struct Kernel {
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+};
+/// Records the pipeline, its set and its push constants: all that a dispatch needs before it.
+void bind(const Device& device, VkCommandBuffer commandBuffer, const Kernel& kernel, VkDescriptorSet set,
+          std::span<const std::byte> push);
+template <class Push>
+void bind(const Device& device, VkCommandBuffer commandBuffer, const Kernel& kernel, VkDescriptorSet set,
+          const Push& push) {
+    bind(device, commandBuffer, kernel, set, std::as_bytes(std::span(&push, 1)));
+}
 
 /// What a dispatch may have in x: the least that devices must take at most, so that splits are the same everywhere.
 [[nodiscard]] uint32_t maxGroupsInX(const Device& device);

@@ -15,7 +15,7 @@ Timings::Shortfall shortfallOf(const View& view, uint64_t frame) {
     }
     const uint32_t lacking =
         statistics->wantedVertexCount - std::min(statistics->wantedVertexCount, statistics->vertexCount);
-    return {true, statistics->droppedInstanceCount, uint64_t{lacking} * view.vertexBytes()};
+    return {true, statistics->droppedInstanceCount, uint64_t{lacking} * vertexBytes(view.desc().vertexFormat)};
 }
 
 gpu::MemorySource memorySourceOf(const SuppleMemoryCallbacks& callbacks) {
@@ -68,13 +68,14 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     }
     context->device_ = std::make_unique<gpu::Device>(std::move(*device));
     const gpu::Device& d = *context->device_;
+    context->pipelines_ = std::make_unique<gpu::Pipelines>(d);
 
-    Result<skinning::DeformPass> deform = skinning::DeformPass::create(d);
+    Result<skinning::DeformPass> deform = skinning::DeformPass::create(d, *context->pipelines_);
     if (!deform) {
         return deform.error();
     }
     context->deform_ = std::move(*deform);
-    Result<surface::Passes> passes = surface::Passes::create(d, shaders);
+    Result<surface::Passes> passes = surface::Passes::create(d, *context->pipelines_, shaders);
     if (!passes) {
         return passes.error();
     }
@@ -196,7 +197,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign asset handle"};
     }
     if (desc.poseSource == SUPPLE_POSES_PLAYBACK && pose_ == nullptr) {
-        Result<skinning::PosePass> pose = skinning::PosePass::create(*device_);
+        Result<skinning::PosePass> pose = skinning::PosePass::create(*device_, *pipelines_);
         if (!pose) {
             return pose.error();
         }
@@ -213,8 +214,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     shared.deform = &deform_;
     shared.pose = pose_.get();
     shared.surface = &surface_;
-    shared.pairs = pairs_.buffer(0);
-    shared.pairBytes = pairs_.size(0);
+    shared.pairs = &pairs_;
     shared.bounds = bounds_.get();
     shared.occlusion = occlusion_.get();
     shared.view = std::move(view);
@@ -228,28 +228,29 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     for (const std::string& note : (*group)->tables().notes) {
         log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_SCHEME_NOTE, asset->character.name + ": " + note);
     }
-    if (!(*group)->rateNote().empty()) {
-        log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_RATE_CHANGED, asset->character.name + ": " + (*group)->rateNote());
+    if (!(*group)->tessellation().rateNote().empty()) {
+        log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_RATE_CHANGED,
+            asset->character.name + ": " + (*group)->tessellation().rateNote());
     }
     return groups.insert(std::move(*group));
 }
 
 Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
     if (bounds_ == nullptr) {
-        Result<surface::BoundsPass> bounds = surface::BoundsPass::create(*device_);
+        Result<BoundsPass> bounds = BoundsPass::create(*device_, *pipelines_);
         if (!bounds) {
             return bounds.error();
         }
-        bounds_ = std::make_unique<surface::BoundsPass>(std::move(*bounds));
+        bounds_ = std::make_unique<BoundsPass>(std::move(*bounds));
     }
     if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0 && occlusion_ == nullptr) {
-        Result<surface::OcclusionPass> occlusion = surface::OcclusionPass::create(*device_);
+        Result<OcclusionPass> occlusion = OcclusionPass::create(*device_, *pipelines_);
         if (!occlusion) {
             return occlusion.error();
         }
-        occlusion_ = std::make_unique<surface::OcclusionPass>(std::move(*occlusion));
+        occlusion_ = std::make_unique<OcclusionPass>(std::move(*occlusion));
     }
-    Result<std::shared_ptr<View>> view = View::create(*device_, framesInFlight_, desc);
+    Result<std::shared_ptr<View>> view = View::create(*device_, surface_, framesInFlight_, desc);
     if (!view) {
         return view.error();
     }

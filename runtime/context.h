@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/device.h"
+#include "gpu/pipelines.h"
 #include "gpu/static_buffers.h"
 #include "runtime/asset.h"
 #include "runtime/group.h"
@@ -11,8 +12,6 @@
 #include "skinning/deform_pass.h"
 #include "skinning/pose_pass.h"
 #include "supple/supple.h"
-#include "surface/bounds_pass.h"
-#include "surface/occlusion_pass.h"
 #include "surface/passes.h"
 
 #include <atomic>
@@ -26,6 +25,7 @@ namespace supple::runtime {
 
 class Context {
     std::unique_ptr<gpu::Device> device_; ///< first, so that it goes last: everything below holds its address
+    std::unique_ptr<gpu::Pipelines> pipelines_;
 
 public:
     Context() = default;
@@ -43,6 +43,8 @@ public:
     [[nodiscard]] Status beginFrame(uint64_t frame, uint64_t completedFrame);
     [[nodiscard]] Status cancelFrame();
     [[nodiscard]] Status recordUploads(VkCommandBuffer commandBuffer);
+    /// Static tables of the group, if any are due; returns their bytes. Groups of other threads may share them.
+    VkDeviceSize recordPendingStatics(VkCommandBuffer commandBuffer, Group& group);
     /// The frame's passes in order; see frame.cpp.
     [[nodiscard]] Status record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc);
     [[nodiscard]] static SuppleSyncScope firstScope();
@@ -69,8 +71,11 @@ private:
     void retire(uint64_t completedFrame);
     template <class F>
     void forViews(F&& visit); ///< those too that only groups hold
-    [[nodiscard]] Status checkRecord(const SuppleRecordDesc& desc) const;
+    /// Resolves the handles and links the groups (Group::Link), or says what is wrong with one; null: there are none.
+    [[nodiscard]] Result<Group*> linkGroups(const SuppleRecordDesc& desc) const;
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, Group& group);
+    /// What the group hands to the queue family that draws, and with the first of its groups what the view does.
+    [[nodiscard]] Transfers transfersOf(const Group& group, bool withView) const;
 
     SuppleLogFunction log_ = nullptr;
     void* logUser_ = nullptr;
@@ -82,9 +87,9 @@ private:
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     skinning::DeformPass deform_;
-    std::unique_ptr<surface::BoundsPass> bounds_;       ///< made by the first view
-    std::unique_ptr<surface::OcclusionPass> occlusion_; ///< and by the first with occlusion
-    std::unique_ptr<skinning::PosePass> pose_;          ///< made for the first group that plays on the device
+    std::unique_ptr<BoundsPass> bounds_;       ///< made by the first view
+    std::unique_ptr<OcclusionPass> occlusion_; ///< and by the first with occlusion
+    std::unique_ptr<skinning::PosePass> pose_; ///< made for the first group that plays on the device
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;
     std::mutex uploads_; ///< static tables are shared by groups that may be recorded at the same time

@@ -1,8 +1,8 @@
-// One frame, as the data flows: upload, pose, deform, bounds, list, vertex, edge, patch, level, solve, place, evaluate,
-// motion.
+// One frame: the table of passes (kPasses), and what walks it.
 #include "runtime/context.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace supple::runtime {
 
@@ -14,8 +14,263 @@ constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BI
 constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
 constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+constexpr VkPipelineStageFlags2 kIndirect = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
+constexpr VkAccessFlags2 kIndirectRead = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
 constexpr gpu::SyncScope kFirst{kCompute | kTransfer, kRead | kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
 constexpr gpu::SyncScope kLast{kCompute | kTransfer, kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+
+/// What the passes of one suppleRecord work with.
+struct Frame {
+    const gpu::Device& device;
+    VkCommandBuffer commands;
+    uint64_t number = 0;
+    uint32_t framesInFlight = 2;
+    Group* groups = nullptr; ///< linked (Group::Link)
+    Context& context;
+
+    template <class F>
+    void forEach(F&& visit) const {
+        for (Group* group = groups; group != nullptr; group = group->link.next) {
+            visit(*group);
+        }
+    }
+    template <class F>
+    [[nodiscard]] bool any(F&& predicate) const {
+        for (Group* group = groups; group != nullptr; group = group->link.next) {
+            if (predicate(*group)) {
+                return true;
+            }
+        }
+        return false;
+    }
+    void computeBarrier() const { gpu::computeBarrier(device, commands); }
+    /// Vertices that a view has for all its groups; kRoomForAll if even all instances fit at their coarsest.
+    [[nodiscard]] uint32_t roomOf(const View& view) const {
+        uint64_t least = 0;
+        forEach([&](Group& group) { least += group.view() == &view ? group.leastVertices() : 0; });
+        return least <= view.room() ? shared::kRoomForAll : view.room();
+    }
+};
+
+// What passes record for one group. A cost of nothing: the group has no such pass.
+
+PassCost recordUpload(const Frame& frame, Group& group) {
+    const VkDeviceSize statics = frame.context.recordPendingStatics(frame.commands, group);
+    PassCost cost = group.recordUpload(frame.commands, frame.number);
+    cost.bytes += statics;
+    if (group.view() != nullptr && group.view()->lastRecordedFrame() != frame.number) {
+        cost.bytes += group.view()->recordUpload(frame.commands, frame.number);
+    }
+    return cost;
+}
+
+PassCost recordAttributes(const Frame& frame, Group& group) {
+    return group.tessellation().recordAttributes(frame.commands, frame.number);
+}
+
+template <Playback::Part part>
+PassCost recordPose(const Frame& frame, Group& group) {
+    return group.poses().recordPart(frame.commands, part, group.instances().windows());
+}
+
+PassCost recordDeform(const Frame& frame, Group& group) {
+    return group.instances().recordDeform(frame.commands);
+}
+
+PassCost recordBounds(const Frame& frame, Group& group) {
+    return group.culling() != nullptr ? group.culling()->recordBounds(frame.commands) : PassCost{};
+}
+
+PassCost recordOcclusion(const Frame& frame, Group& group) {
+    if (group.culling() == nullptr || !group.view()->depthPyramid()) {
+        return {};
+    }
+    return group.culling()->recordOcclusion(frame.commands, frame.number % frame.framesInFlight,
+                                            *group.view()->depthPyramid(), group.view()->pyramidGeneration());
+}
+
+/// If even the coarsest surfaces of all instances might not have room, those that are left out are found first.
+PassCost recordSizes(const Frame& frame, Group& group) {
+    if (group.leastVertices() > 0 && frame.roomOf(*group.view()) != shared::kRoomForAll) {
+        group.culling()->recordSizes(frame.commands);
+        frame.computeBarrier();
+    }
+    return {};
+}
+
+PassCost recordList(const Frame& frame, Group& group) {
+    if (group.culling() == nullptr) {
+        return {};
+    }
+    return group.culling()->recordList(frame.commands, group.tessellation().isBudgeted() ? frame.roomOf(*group.view())
+                                                                                         : shared::kRoomForAll);
+}
+
+template <Stage stage>
+PassCost recordStage(const Frame& frame, Group& group) {
+    return group.tessellation().recordStage(frame.commands, stage);
+}
+
+PassCost recordPatch(const Frame& frame, Group& group) {
+    return group.tessellation().recordPatch(frame.commands);
+}
+
+PassCost recordEdgeLevels(const Frame& frame, Group& group) {
+    return group.tessellation().recordEdgeLevels(frame.commands);
+}
+
+PassCost recordPatchLevels(const Frame& frame, Group& group) {
+    return group.tessellation().recordPatchLevels(frame.commands);
+}
+
+/// Once a view, with the first of its groups.
+PassCost recordSolve(const Frame& frame, Group& group) {
+    if (!group.link.leadsView) {
+        return {};
+    }
+    uint32_t priorities = 0;
+    frame.forEach([&](Group& other) { priorities |= other.view() == group.view() ? other.slots().priorities() : 0; });
+    group.view()->recordSolve(frame.commands, priorities);
+    return {0, 0, true, group.view()};
+}
+
+PassCost recordPlaces(const Frame& frame, Group& group) {
+    return group.tessellation().recordPlaces(frame.commands);
+}
+
+/// What the host reads frames later: what each view has solved, then how many instances of each group are seen.
+PassCost recordReadback(const Frame& frame, Group& group) {
+    if (group.link.leadsView) {
+        group.view()->recordReadback(frame.commands);
+        frame.forEach([&](Group& other) {
+            if (other.view() == group.view()) {
+                const Tessellation& surface = other.tessellation();
+                group.view()->recordReadback(
+                    frame.commands, other.culling()->list().buffer, other.culling()->countOffset(),
+                    {surface.patchesAtLevels(), surface.isBudgeted() ? other.culling()->leastVertices() : 0});
+            }
+        });
+    }
+    return {};
+}
+
+PassCost recordLevelAttributes(const Frame& frame, Group& group) {
+    return group.tessellation().recordLevelAttributes(frame.commands);
+}
+
+PassCost recordEvaluate(const Frame& frame, Group& group) {
+    return group.tessellation().recordEvaluate(frame.commands);
+}
+
+PassCost recordMotion(const Frame& frame, Group& group) {
+    return group.tessellation().recordMotion(frame.commands);
+}
+
+// Who wants a pass. It is left out, with its barrier, if no group does.
+
+bool always(Group&) {
+    return true;
+}
+bool isInView(Group& group) {
+    return group.view() != nullptr;
+}
+template <Playback::Part part>
+bool poses(Group& group) {
+    return group.poses().has(part);
+}
+template <Stage stage>
+bool constructs(Group& group) {
+    return group.tessellation().has(stage);
+}
+
+/// What stands behind a pass: who may read what it wrote.
+enum class Behind { nothing, compute, uploads, arguments, places, readback, scratch };
+
+struct Row {
+    Pass pass;
+    bool (*wants)(Group&);
+    PassCost (*record)(const Frame&, Group&);
+    Behind behind = Behind::compute;
+    bool timed = true; ///< false: part of the pass before, without label and timing
+};
+
+constexpr Row kPasses[] = {
+    {Pass::upload, always, recordUpload, Behind::uploads},
+    {Pass::attributes, [](Group& g) { return g.tessellation().attributesDue(); }, recordAttributes, Behind::nothing},
+    {Pass::pose, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
+    {Pass::pose, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
+    {Pass::pose, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
+    {Pass::deform, always, recordDeform},
+    {Pass::bounds, isInView, recordBounds},
+    {Pass::bounds,
+     [](Group& g) {
+         return g.view() != nullptr && g.view()->depthPyramid().has_value() && g.instances().windows().visible > 0;
+     },
+     recordOcclusion},
+    {Pass::bounds, isInView, recordSizes, Behind::nothing, false},
+    {Pass::list, isInView, recordList, Behind::arguments},
+    {Pass::vertex, constructs<Stage::vertex>, recordStage<Stage::vertex>},
+    {Pass::assemble, constructs<Stage::assemble>, recordStage<Stage::assemble>},
+    {Pass::patch, [](Group& g) { return g.tessellation().writesPatches(); }, recordPatch, Behind::nothing},
+    {Pass::level, isInView, recordEdgeLevels},
+    {Pass::level, isInView, recordPatchLevels},
+    {Pass::solve, isInView, recordSolve, Behind::nothing}, // places begin with a barrier
+    {Pass::place, isInView, recordPlaces, Behind::places},
+    {Pass::place, isInView, recordReadback, Behind::readback, false},
+    {Pass::attributes, [](Group& g) { return g.tessellation().writesLevelAttributes(); }, recordLevelAttributes,
+     Behind::nothing},
+    {Pass::evaluate, always, recordEvaluate, Behind::scratch},
+    {Pass::motion, [](Group& g) { return g.tessellation().writesMotion(); }, recordMotion, Behind::nothing},
+};
+
+void recordBarrier(const Frame& frame, Behind behind) {
+    const auto barrier = [&](gpu::SyncScope before, gpu::SyncScope after) {
+        gpu::memoryBarrier(frame.device, frame.commands, before, after);
+    };
+    switch (behind) {
+    case Behind::nothing:
+        break;
+    case Behind::compute:
+        frame.computeBarrier();
+        break;
+    case Behind::uploads:
+        barrier({kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {kCompute, kRead | kWrite});
+        break;
+    case Behind::arguments:
+        barrier({kCompute, kWrite}, {kCompute | kIndirect, kRead | kWrite | kIndirectRead});
+        break;
+    case Behind::places:
+        barrier({kCompute, kWrite}, {kCompute | kIndirect | VK_PIPELINE_STAGE_2_COPY_BIT,
+                                     kRead | kWrite | kIndirectRead | VK_ACCESS_2_TRANSFER_READ_BIT});
+        break;
+    case Behind::readback:
+        barrier({VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+        break;
+    case Behind::scratch: // evaluate and motion use the same memory
+        if (frame.any([](Group& g) { return g.tessellation().writesMotion() && g.tessellation().usesScratch(); })) {
+            frame.computeBarrier();
+        }
+        break;
+    }
+}
+
+void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) {
+    if (row.timed) {
+        frame.device.beginLabel(frame.commands, passName(row.pass));
+    }
+    frame.forEach([&](Group& group) {
+        timing.beginPass();
+        const PassCost cost = row.record(frame, group);
+        if (cost.bytes > 0 || cost.onDevice) {
+            timing.endPass(row.pass, group.link.handle, cost);
+        }
+    });
+    if (row.timed) {
+        frame.device.endLabel(frame.commands);
+    }
+    recordBarrier(frame, row.behind);
+}
 
 } // namespace
 
@@ -27,40 +282,50 @@ SuppleSyncScope Context::lastScope() {
     return {kLast.stages, kLast.access};
 }
 
-Status Context::checkRecord(const SuppleRecordDesc& desc) const {
-    if (!frameOpen_) {
-        return Error{ErrorCode::order, "suppleRecord: no frame has begun, or it is cancelled"};
-    }
+Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
+    Group* first = nullptr;
+    Group** last = &first;
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
         // The words are put together only where they are needed: recording allocates nothing.
         const auto refuse = [g](ErrorCode code, const std::string& reason) {
             return Error{code, "suppleRecord: group " + std::to_string(g) + ": " + reason};
         };
-        const std::shared_ptr<Group> group = groups.find(desc.groups[g].id);
+        Group* const group = groups.find(desc.groups[g].id).get();
         if (group == nullptr) {
             return refuse(ErrorCode::staleHandle, "stale or foreign handle");
         }
         if (group->passesFrame() == frame_) {
             return refuse(ErrorCode::order, "recorded twice in frame " + std::to_string(frame_));
         }
-        for (uint32_t h = 0; h < g; ++h) {
-            if (desc.groups[h].id == desc.groups[g].id) {
-                return refuse(ErrorCode::argument, "listed twice");
-            }
-        }
-        if (group->view() != nullptr && !group->view()->hasCamera()) {
+        View* const view = group->view();
+        if (view != nullptr && !view->hasCamera()) {
             return refuse(ErrorCode::order, "its view has no camera yet");
         }
-        if (group->view() != nullptr && group->view()->lastRecordedFrame() == frame_) {
+        if (view != nullptr && view->lastRecordedFrame() == frame_) {
             return refuse(ErrorCode::order, "other groups of its view are recorded already: one call takes them all");
         }
+        bool leads = view != nullptr;
+        for (const Group* other = first; other != nullptr; other = other->link.next) {
+            if (other == group) {
+                return refuse(ErrorCode::argument, "listed twice");
+            }
+            leads = leads && other->view() != view;
+        }
+        group->link = {nullptr, desc.groups[g], leads};
+        *last = group;
+        last = &group->link.next;
     }
-    return success();
+    return first;
 }
 
 VkDeviceSize Context::recordStatics(VkCommandBuffer commandBuffer, Group& group) {
     const VkDeviceSize ofView = group.view() != nullptr ? group.view()->recordStatics(commandBuffer, frame_) : 0;
     return pairs_.recordUpload(commandBuffer, frame_) + ofView + group.recordStatics(commandBuffer, frame_);
+}
+
+VkDeviceSize Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
+    const std::scoped_lock lock(uploads_);
+    return group.staticsPending() ? recordStatics(commandBuffer, group) : 0;
 }
 
 Status Context::recordUploads(VkCommandBuffer commandBuffer) {
@@ -82,199 +347,61 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
 }
 
 Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc) {
-    Status valid = checkRecord(desc);
-    if (!valid) {
-        return valid;
+    if (!frameOpen_) {
+        return Error{ErrorCode::order, "suppleRecord: no frame has begun, or it is cancelled"};
+    }
+    const Result<Group*> linked = linkGroups(desc);
+    if (!linked) {
+        return linked.error();
     }
     const gpu::Device& device = *device_;
-    const auto groupAt = [&](uint32_t g) -> Group& { return *groups.find(desc.groups[g].id); };
-    Timings::Recording timing;
-    // One pass over all groups: labelled, timed per group.
-    const auto pass = [&](Pass kind, auto&& recordGroup) {
-        device.beginLabel(commandBuffer, passName(kind));
-        for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            Group& group = groupAt(g);
-            timing.beginPass();
-            const Group::PassCost cost = recordGroup(group);
-            if (cost.bytes > 0 || cost.onDevice) {
-                timing.endPass(kind, desc.groups[g], cost.points, cost.bytes);
-            }
-        }
-        device.endLabel(commandBuffer);
-    };
-    const auto any = [&](auto&& predicate) {
-        for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            if (predicate(groupAt(g))) {
-                return true;
-            }
-        }
-        return false;
-    };
-    const auto computeBarrier = [&] { gpu::computeBarrier(device, commandBuffer); };
-    // Each view once, with the first of its groups.
-    const auto firstOfView = [&](uint32_t g) {
-        const View* view = groupAt(g).view();
-        for (uint32_t h = 0; view != nullptr && h < g; ++h) {
-            if (groupAt(h).view() == view) {
-                return false;
-            }
-        }
-        return view != nullptr;
-    };
-    const bool views = any([](Group& group) { return group.view() != nullptr; });
-
+    const Frame frame{device, commandBuffer, frame_, framesInFlight_, *linked, *this};
     device.beginLabel(commandBuffer, "supple");
     if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {
         // Earlier frames' passes and the host's uses end before this frame overwrites anything.
         gpu::memoryBarrier(device, commandBuffer,
                            {desc.before.stages | kLast.stages, desc.before.access | kLast.access}, kFirst);
     }
+    Timings::Recording timing;
     if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {
         timing = timings.open(commandBuffer, desc.groupCount);
     }
-
-    pass(Pass::upload, [&](Group& group) {
-        VkDeviceSize statics = 0;
-        {
-            const std::scoped_lock lock(uploads_);
-            if (group.staticsPending()) {
-                statics = recordStatics(commandBuffer, group);
-            }
-        }
-        Group::PassCost cost = group.recordUpload(commandBuffer, frame_);
-        cost.bytes += statics;
-        if (group.view() != nullptr && group.view()->lastRecordedFrame() != frame_) {
-            cost.bytes += group.view()->recordUpload(commandBuffer, frame_);
-        }
-        return cost;
-    });
-    gpu::memoryBarrier(device, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {kCompute, kRead | kWrite});
-
-    if (any([](Group& group) { return group.attributesPending(); })) {
-        pass(Pass::attributes, [&](Group& group) { return group.recordAttributes(commandBuffer); });
-    }
-    if (any([](Group& group) { return group.plays(); })) {
-        for (const Playback::Part part : Playback::kParts) {
-            if (part != Playback::Part::roots || any([](Group& group) { return group.movesRoots(); })) {
-                pass(Pass::pose, [&](Group& group) { return group.recordPose(commandBuffer, part); });
-                computeBarrier();
-            }
+    for (const Row& row : kPasses) {
+        if (row.wants == always || frame.any(row.wants)) {
+            recordPass(frame, row, timing);
         }
     }
-    pass(Pass::deform, [&](Group& group) { return group.recordDeform(commandBuffer); });
-    computeBarrier();
-    if (views) {
-        pass(Pass::bounds, [&](Group& group) { return group.recordBounds(commandBuffer); });
-        computeBarrier();
-        if (any([](Group& group) { return group.occludes(); })) {
-            pass(Pass::bounds, [&](Group& group) { return group.recordOcclusion(commandBuffer); });
-            computeBarrier();
-        }
-        // Where even the coarsest surfaces of all might not have room, those that go are found first.
-        const auto roomOf = [&](const View* view) {
-            uint64_t least = 0;
-            for (uint32_t g = 0; g < desc.groupCount; ++g) {
-                least += groupAt(g).view() == view ? groupAt(g).leastVertices() : 0;
-            }
-            return least <= view->room() ? shared::kRoomForAll : view->room();
-        };
-        for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            if (groupAt(g).isBudgeted() && roomOf(groupAt(g).view()) != shared::kRoomForAll) {
-                groupAt(g).recordSizes(commandBuffer);
-                computeBarrier();
-            }
-        }
-        pass(Pass::list, [&](Group& group) {
-            return group.view() != nullptr ? group.recordSeen(commandBuffer, roomOf(group.view())) : Group::PassCost{};
-        });
-        gpu::memoryBarrier(
-            device, commandBuffer, {kCompute, kWrite},
-            {kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, kRead | kWrite | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
-    }
-    const auto construct = [&](Stage stage, Pass kind) {
-        if (any([&](Group& group) { return group.tables().has(stage); })) {
-            pass(kind, [&](Group& group) { return group.recordStage(commandBuffer, stage); });
-            computeBarrier();
-        }
-    };
-    construct(Stage::vertex, Pass::vertex);
-    construct(Stage::edge, Pass::edge);
-    if (any([](Group& group) { return group.writesPatches(); })) {
-        pass(Pass::patch, [&](Group& group) { return group.recordPatch(commandBuffer); });
-    }
-    if (views) {
-        pass(Pass::level, [&](Group& group) { return group.recordEdgeLevels(commandBuffer); });
-        computeBarrier();
-        pass(Pass::level, [&](Group& group) { return group.recordPatchLevels(commandBuffer); });
-        computeBarrier();
-        device.beginLabel(commandBuffer, passName(Pass::solve));
-        for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            if (firstOfView(g)) {
-                timing.beginPass();
-                uint32_t priorities = 0;
-                for (uint32_t h = g; h < desc.groupCount; ++h) {
-                    priorities |= groupAt(h).view() == groupAt(g).view() ? groupAt(h).priorities() : 0;
-                }
-                groupAt(g).view()->recordSolve(commandBuffer, surface_.lod(), groupAt(g).anySet(), priorities);
-                timing.endPass(Pass::solve, desc.groups[g], 0, 0, groupAt(g).view());
-            }
-        }
-        device.endLabel(commandBuffer);
-        pass(Pass::place, [&](Group& group) { return group.recordPlaces(commandBuffer); });
-        gpu::memoryBarrier(device, commandBuffer, {kCompute, kWrite},
-                           {kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
-                            kRead | kWrite | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT});
-        for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            if (firstOfView(g)) {
-                groupAt(g).view()->recordReadback(commandBuffer);
-            }
-        }
-        for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            if (groupAt(g).view() != nullptr) {
-                groupAt(g).recordReadback(commandBuffer);
-            }
-        }
-        gpu::memoryBarrier(device, commandBuffer, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
-                           {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
-        if (any([](Group& group) { return group.writesLodAttributes(); })) {
-            pass(Pass::attributes, [&](Group& group) { return group.recordLodAttributes(commandBuffer); });
-        }
-    }
-    pass(Pass::evaluate, [&](Group& group) { return group.recordEvaluate(commandBuffer); });
-    if (any([](Group& group) { return group.writesMotion(); })) {
-        if (any([](Group& group) { return group.writesMotion() && group.usesScratch(); })) {
-            computeBarrier();
-        }
-        pass(Pass::motion, [&](Group& group) { return group.recordMotion(commandBuffer); });
-    }
-
     if (asyncCompute_) {
-        const auto release = [&](std::span<VkBufferMemoryBarrier2> transfers) {
-            for (VkBufferMemoryBarrier2& barrier : transfers) {
+        frame.forEach([&](Group& group) {
+            Transfers transfers = transfersOf(group, group.link.leadsView);
+            for (VkBufferMemoryBarrier2& barrier : transfers.barriers()) {
                 barrier.srcStageMask = kLast.stages;
                 barrier.srcAccessMask = kLast.access;
-                barrier.srcQueueFamilyIndex = queueFamily_;
-                barrier.dstQueueFamilyIndex = drawQueueFamily_;
             }
             VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-            info.bufferMemoryBarrierCount = static_cast<uint32_t>(transfers.size());
-            info.pBufferMemoryBarriers = transfers.data();
+            info.bufferMemoryBarrierCount = static_cast<uint32_t>(transfers.barriers().size());
+            info.pBufferMemoryBarriers = transfers.barriers().data();
             device.vk.CmdPipelineBarrier2(commandBuffer, &info);
-        };
-        for (uint32_t g = 0; g < desc.groupCount; ++g) {
-            Group::Transfers ofGroup;
-            release({ofGroup.data(), groupAt(g).transfers(ofGroup)});
-            if (firstOfView(g)) {
-                View::Transfers ofView;
-                release({ofView.data(), groupAt(g).view()->transfers(ofView)});
-            }
-        }
+        });
     }
     if (desc.after.stages != 0) {
         gpu::memoryBarrier(device, commandBuffer, kLast, {desc.after.stages, desc.after.access});
     }
     device.endLabel(commandBuffer);
     return success();
+}
+
+Transfers Context::transfersOf(const Group& group, bool withView) const {
+    Transfers transfers;
+    group.addTransfers(transfers);
+    if (withView) {
+        group.view()->addTransfers(transfers);
+    }
+    for (VkBufferMemoryBarrier2& barrier : transfers.barriers()) {
+        barrier.srcQueueFamilyIndex = queueFamily_;
+        barrier.dstQueueFamilyIndex = drawQueueFamily_;
+    }
+    return transfers;
 }
 
 Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, SuppleSyncScope use,
@@ -296,28 +423,20 @@ Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, S
         }
     }
     uint32_t total = 0;
-    const auto acquire = [&](std::span<const VkBufferMemoryBarrier2> transfers) {
-        for (const VkBufferMemoryBarrier2& barrier : transfers) {
+    for (size_t g = 0; g < wanted.size(); ++g) {
+        const std::shared_ptr<Group> group = groups.find(wanted[g].id);
+        const bool leadsView =
+            group->view() != nullptr &&
+            std::none_of(wanted.begin(), wanted.begin() + static_cast<ptrdiff_t>(g),
+                         [&](const SuppleGroup& h) { return groups.find(h.id)->view() == group->view(); });
+        Transfers transfers = transfersOf(*group, leadsView);
+        for (const VkBufferMemoryBarrier2& barrier : transfers.barriers()) {
             if (total < out.size()) {
                 out[total] = barrier;
                 out[total].dstStageMask = use.stages;
                 out[total].dstAccessMask = use.access;
-                out[total].srcQueueFamilyIndex = queueFamily_;
-                out[total].dstQueueFamilyIndex = drawQueueFamily_;
             }
             ++total;
-        }
-    };
-    for (size_t g = 0; g < wanted.size(); ++g) {
-        const std::shared_ptr<Group> group = groups.find(wanted[g].id);
-        Group::Transfers ofGroup;
-        acquire({ofGroup.data(), group->transfers(ofGroup)});
-        const bool first =
-            std::none_of(wanted.begin(), wanted.begin() + static_cast<ptrdiff_t>(g),
-                         [&](const SuppleGroup& h) { return groups.find(h.id)->view() == group->view(); });
-        if (group->view() != nullptr && first) {
-            View::Transfers ofView;
-            acquire({ofView.data(), group->view()->transfers(ofView)});
         }
     }
     return total;

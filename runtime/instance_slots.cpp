@@ -91,7 +91,10 @@ uint32_t InstanceSlots::list(std::span<uint32_t> all, std::span<uint32_t> byWind
     for (uint32_t s = 0; s < end_; ++s) {
         slots_[s].evaluated = slots_[s].live && slots_[s].visible;
         if (slots_[s].evaluated) {
-            all[visible++] = s;
+            if (!all.empty()) {
+                all[visible] = s;
+            }
+            ++visible;
         }
     }
     return visible;

@@ -51,10 +51,11 @@ public:
     /// Whether list() would give anything else than the last time: in the frame after a change too, when what was new
     /// has come to have a past.
     [[nodiscard]] bool changed() const { return changed_; }
-    /// Lists the frame's instances and notes them as evaluated. `all`: the visible slots, rising. `byWindow`: as
+    /// Lists the frame's instances and notes them as evaluated. `all`: the visible slots, rising; it may be empty if
+    /// nobody wants them. `byWindow`: as
     /// shaders/shared/instances.h has them, slot numbers from their window's first on, the entries of window w from
     /// w * windowSize on; `windows` is filled in.
-    /// Both hold capacity() entries. Returns the visible.
+    /// The spans hold capacity() entries. Returns the visible.
     uint32_t list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,
                   std::span<Listed> windows);
     /// `all` with flags, as culling takes it (shaders/shared/bounds.h); to be called before list().

@@ -150,7 +150,7 @@ Status Playback::createSets(const Desc& desc) {
             {kInstanceTexelBinding, {}, instanceView},
         };
         if (status) {
-            gpu::writeSet(device, *set, resources);
+            gpu::writeSet(device, pass_->layout(), *set, resources);
         }
     }
     return status;

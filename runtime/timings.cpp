@@ -8,7 +8,7 @@ namespace supple::runtime {
 
 const char* passName(Pass pass) {
     constexpr const char* kNames[kPassCount] = {"upload", "attributes", "pose",     "deform", "bounds",
-                                                "list",   "vertex",     "edge",     "patch",  "level",
+                                                "list",   "vertex",     "assemble", "patch",  "level",
                                                 "solve",  "place",      "evaluate", "motion"};
     return kNames[static_cast<size_t>(pass)];
 }
@@ -133,7 +133,7 @@ void Timings::Recording::beginPass() {
     }
 }
 
-void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint64_t points, uint64_t bytes, const View* solved) {
+void Timings::Recording::endPass(Pass pass, SuppleGroup group, const PassCost& cost) {
     if (timings_ == nullptr) {
         return;
     }
@@ -147,9 +147,9 @@ void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint64_t points, 
     if (timings_->timestamps_) {
         slot.timers.mark(commandBuffer_, ++mark_);
     }
-    slot.entries[entry] = {passName(pass), group, slot.frame, 0.0, 0.0, cpu, points, bytes};
+    slot.entries[entry] = {passName(pass), group, slot.frame, 0.0, 0.0, cpu, cost.points, cost.bytes};
     slot.marks[entry] = mark_;
-    slot.solved[entry] = solved;
+    slot.solved[entry] = cost.solved;
 }
 
 size_t Timings::budgetIndex(const char* pass) {

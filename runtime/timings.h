@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/timers.h"
+#include "runtime/pass_cost.h"
 #include "supple/supple.h"
 
 #include <array>
@@ -26,7 +27,7 @@ enum class Pass : uint32_t {
     bounds,
     list,
     vertex,
-    edge,
+    assemble,
     patch,
     level,
     solve,
@@ -39,8 +40,6 @@ inline constexpr size_t kPassCount = static_cast<size_t>(Pass::count);
 [[nodiscard]] const char* passName(Pass pass);
 /// That a group can have in a frame: pose is up to three, bounds comes again for occlusion, and level for patches.
 inline constexpr size_t kMostEntries = kPassCount + 4;
-
-class View;
 
 class Timings {
 public:
@@ -63,8 +62,7 @@ public:
     class Recording {
     public:
         void beginPass();
-        /// `solved`: the view whose budget the pass has solved.
-        void endPass(Pass pass, SuppleGroup group, uint64_t points, uint64_t bytes, const View* solved = nullptr);
+        void endPass(Pass pass, SuppleGroup group, const PassCost& cost);
 
     private:
         friend class Timings;

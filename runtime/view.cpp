@@ -1,6 +1,6 @@
 #include "runtime/view.h"
 
-#include "surface/bounds_pass.h"
+#include "runtime/culling/bounds_pass.h"
 #include "surface/lod/grid.h"
 #include "surface/lod/tables.h"
 
@@ -34,7 +34,7 @@ constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
 
 } // namespace
 
-Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t framesInFlight,
+Result<std::shared_ptr<View>> View::create(const gpu::Device& device, surface::Passes& passes, uint32_t framesInFlight,
                                            const SuppleViewDesc& desc) {
     if (desc.maxVertices > kMostVertices) {
         return Error{ErrorCode::limit, "maxVertices is " + std::to_string(desc.maxVertices) + ": a view has at most " +
@@ -47,79 +47,101 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, uint32_t f
     if (std::all_of(std::begin(desc.elasticities), std::end(desc.elasticities), [](float e) { return e == 0.0f; })) {
         std::copy_n(std::array{1.0f, 0.5f, 0.25f, 0.0f}.begin(), kPriorityCount, view->desc_.elasticities);
     }
+    view->hostWords_.resize(kLodSolution);
+    const std::vector<uint32_t> patterns = surface::lod::patternWords();
+    std::copy(patterns.begin(), patterns.end(), view->hostWords_.begin() + kLodPatterns);
+    view->takenRuns_.resize(kMaxRuns);
+    view->giveRuns(0, kMaxRuns);
+    view->solved_.resize(framesInFlight);
+    Status status = view->createBuffers();
+    status = status ? view->createSolver(passes) : status;
+    if (!status) {
+        return status.error();
+    }
+    return view;
+}
 
+Status View::createBuffers() {
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     constexpr VkBufferUsageFlags kOutput =
         kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-    constexpr VkBufferUsageFlags kVertices = kOutput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-    const VkDeviceSize vertices = desc.maxVertices;
-    const auto when = [&](uint32_t flag, VkDeviceSize bytes) {
-        return (desc.flags & flag) != 0 ? vertices * bytes : 0;
-    };
-    std::array<gpu::BufferRequest, kBufferCount> requests;
-    requests[kWords] = {"supple view", kLodRecords * VkDeviceSize{4} + vertices / kMinSamples * kRecordBytes,
-                        kOutput | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
-    requests[kCull] = {"supple view, frustum", sizeof(CullView), kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    requests[kSizes] = {"supple view, sizes", kSizeRanks * VkDeviceSize{4},
-                        kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    requests[kSurface] = {"supple view, surface vertices", vertices * view->vertexBytes(), kVertices};
-    requests[kPreviousPositions] = {"supple view, previous positions", when(SUPPLE_VIEW_MOTION, 12), kVertices};
-    requests[kAttributes] = {"supple view, surface attributes", when(SUPPLE_VIEW_ATTRIBUTES, 16), kVertices};
-    requests[kUvs1] = {"supple view, second UV set", when(SUPPLE_VIEW_UVS1, 8), kVertices};
-    requests[kFaceUvs] = {"supple view, face UVs", when(SUPPLE_VIEW_FACE_UVS, 8), kVertices};
-    const bool texelsFit = device.mapping.wide || requests[kWords].size <= device.bufferWindow(16);
-    const bool storageFits = std::all_of(requests.begin(), requests.end(), [&](const gpu::BufferRequest& request) {
-        return request.size <= device.limits.maxStorageBufferRange;
-    });
-    if (!texelsFit || !storageFits) {
-        return Error{ErrorCode::limit, std::to_string(desc.maxVertices) +
+    const gpu::Device& device = *device_;
+    const VkDeviceSize vertices = desc_.maxVertices;
+    const VkDeviceSize wordBytes = kLodRecords * VkDeviceSize{4} + vertices / kMinSamples * kRecordBytes;
+    const VkDeviceSize most = std::max(wordBytes, vertices * vertexBytes(desc_.vertexFormat));
+    if (most > device.limits.maxStorageBufferRange || (!device.mapping.wide && wordBytes > device.bufferWindow(16))) {
+        return Error{ErrorCode::limit, std::to_string(desc_.maxVertices) +
                                            " surface vertices exceed the device's storage-buffer range or texel-buffer "
                                            "elements"};
     }
-    Result<gpu::BufferSet> buffers = gpu::BufferSet::create(device, requests, gpu::MemoryKind::deviceLocal);
-    if (!buffers) {
-        return buffers.error();
+    gpu::BufferPlan plan(buffers_);
+    words_ = plan.add(
+        {"supple view", wordBytes, kOutput | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+    cull_ = plan.add({"supple view, frustum", sizeof(CullView), kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    sizes_ =
+        plan.add({"supple view, sizes", kSizeRanks * VkDeviceSize{4}, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    streams_.plan(plan, StreamSet::ofView(desc_.flags), desc_.vertexFormat, vertices, vertices, 1);
+    Status status = plan.create(device, gpu::MemoryKind::deviceLocal);
+    if (!status) {
+        return status;
     }
-    view->buffers_ = std::move(*buffers);
-
-    view->hostWords_.resize(kLodSolution);
-    // The indices of all grids, one after the other.
-    std::vector<uint16_t> indices;
-    for (uint32_t form = 0; form < kLodForms; ++form) {
-        for (uint32_t c = 0; c < kCapacityCount; ++c) {
-            const std::vector<uint16_t> own =
-                surface::lod::gridIndices(static_cast<Form>(form), surface::lod::kCapacities[c]);
-            uint32_t* const entry = &view->hostWords_[kLodGrids + 2 * (form * kCapacityCount + c)];
-            entry[0] = static_cast<uint32_t>(indices.size());
-            entry[1] = static_cast<uint32_t>(own.size());
-            indices.insert(indices.end(), own.begin(), own.end());
-        }
-    }
+    const std::vector<uint16_t> indices = layOutGrids();
     const gpu::StaticRequest request{"supple view, grid indices", kOutput | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
                                      std::as_bytes(std::span(indices))};
     Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(device, {&request, 1});
     if (!statics) {
         return statics.error();
     }
-    view->static_ = std::move(*statics);
-
-    const std::vector<uint32_t> patterns = surface::lod::patternWords();
-    std::copy(patterns.begin(), patterns.end(), view->hostWords_.begin() + kLodPatterns);
-    view->takenRuns_.resize(kMaxRuns);
-    view->giveRuns(0, kMaxRuns);
-    const gpu::BufferRequest staging{"supple view staging", view->uploadBytes() * framesInFlight,
+    static_ = std::move(*statics);
+    const gpu::BufferRequest staging{"supple view staging", uploadBytes() * framesInFlight_,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
-    const gpu::BufferRequest readback{"supple view statistics", kReadbackBytes * framesInFlight,
+    const gpu::BufferRequest readback{"supple view statistics", kReadbackBytes * framesInFlight_,
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    for (const auto& [target, wanted] : {std::pair(&view->staging_, staging), std::pair(&view->readback_, readback)}) {
+    for (const auto& [target, wanted] : {std::pair(&staging_, staging), std::pair(&readback_, readback)}) {
         Result<gpu::BufferSet> set = gpu::BufferSet::create(device, {&wanted, 1}, gpu::MemoryKind::upload);
         if (!set) {
             return set.error();
         }
         *target = std::move(*set);
     }
-    view->solved_.resize(framesInFlight);
-    return view;
+    return success();
+}
+
+std::vector<uint16_t> View::layOutGrids() {
+    std::vector<uint16_t> indices;
+    for (uint32_t form = 0; form < kLodForms; ++form) {
+        for (uint32_t c = 0; c < kCapacityCount; ++c) {
+            const std::vector<uint16_t> own =
+                surface::lod::gridIndices(static_cast<Form>(form), surface::lod::kCapacities[c]);
+            uint32_t* const entry = &hostWords_[kLodGrids + 2 * (form * kCapacityCount + c)];
+            entry[0] = static_cast<uint32_t>(indices.size());
+            entry[1] = static_cast<uint32_t>(own.size());
+            indices.insert(indices.end(), own.begin(), own.end());
+        }
+    }
+    return indices;
+}
+
+Status View::createSolver(surface::Passes& passes) {
+    const Result<gpu::Kernel> kernel = passes.prepareSolve();
+    if (!kernel) {
+        return kernel.error();
+    }
+    solver_ = *kernel;
+    const gpu::ComputeLayout& layout = passes.layout(surface::SetKind::levels);
+    Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(*device_, layout, 1, "supple view");
+    if (!pool) {
+        return pool.error();
+    }
+    pool_ = std::move(*pool);
+    const Result<VkDescriptorSet> set = gpu::allocateSet(*device_, layout, pool_.get(), "supple view");
+    if (!set) {
+        return set.error();
+    }
+    solverSet_ = *set;
+    const gpu::BoundResource words{kLodBinding, {words_.buffer(), 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE};
+    gpu::writeSet(*device_, layout, solverSet_, {&words, 1});
+    return success();
 }
 
 void View::setCamera(const SuppleCameraDesc& camera) {
@@ -157,7 +179,7 @@ Result<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector
         uint32_t range = 0;
         for (uint32_t r = 0; r < each; ++r) {
             range += r > 0 && lod.runs[r].patchClass != lod.runs[r - 1].patchClass ? 1 : 0;
-            const auto form = static_cast<uint32_t>(surface::lod::formOf(lod.runs[r].patchClass));
+            const auto form = static_cast<uint32_t>(surface::rowOf(lod.runs[r].patchClass).form);
             const uint32_t run = first + w * each + r;
             takenRuns_[run] = true;
             hostWords_[kLodRuns + run] = form | first << 8 | (first + w * each + range) << 16;
@@ -210,6 +232,14 @@ LodCamera View::lodCamera() const {
     return camera;
 }
 
+LodCamera View::levelCamera() const {
+    LodCamera camera = lodCamera();
+    if (leavesBackFaces() && camera.orthographic != 0) {
+        std::copy_n(camera_.direction, 3, camera.position);
+    }
+    return camera;
+}
+
 uint32_t View::budget() const {
     return camera_.vertexBudget > 0 ? std::min(camera_.vertexBudget, desc_.maxVertices) : desc_.maxVertices;
 }
@@ -220,38 +250,34 @@ uint32_t View::room() const {
 }
 
 VkDeviceSize View::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
-    const VkDeviceSize bytes = static_.recordUpload(commandBuffer, frame);
-    indicesToRelease_ = indicesToRelease_ || bytes > 0;
-    if (!cleared_) {
+    if (clear_.due()) {
+        clear_.record(frame);
         // Histograms, which the solver clears from then on.
-        device_->vk.CmdFillBuffer(commandBuffer, buffers_.buffer(kWords), kLodSolution * VkDeviceSize{4},
+        device_->vk.CmdFillBuffer(commandBuffer, words_.buffer(), kLodSolution * VkDeviceSize{4},
                                   (kLodRecords - kLodSolution) * VkDeviceSize{4}, 0);
-        cleared_ = true;
-        clearedFrame_ = frame;
     }
-    return bytes;
+    return static_.recordUpload(commandBuffer, frame);
 }
 
 VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     recordedFrame_ = frame;
-    if (indicesToRelease_) {
-        indicesToRelease_ = false;
-        indicesReleaseFrame_ = frame;
+    if (indicesRelease_.due()) { // they are on the device by now
+        indicesRelease_.record(frame);
     }
     const VkDeviceSize bytes = kLodSolution * VkDeviceSize{4}, run = frame % framesInFlight_ * uploadBytes();
     std::memcpy(staging_.mapped(0) + run, hostWords_.data(), bytes);
     const VkBufferCopy region{run, 0, bytes};
-    device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kWords), 1, &region);
+    device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), words_.buffer(), 1, &region);
     const CullView cull = cullView();
     std::memcpy(staging_.mapped(0) + run + bytes, &cull, sizeof(cull));
     const VkBufferCopy own{run + bytes, 0, sizeof(cull)};
-    device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), buffers_.buffer(kCull), 1, &own);
-    device_->vk.CmdFillBuffer(commandBuffer, buffers_.buffer(kSizes), 0, VK_WHOLE_SIZE, 0);
+    device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), cull_.buffer(), 1, &own);
+    device_->vk.CmdFillBuffer(commandBuffer, sizes_.buffer(), 0, VK_WHOLE_SIZE, 0);
     return uploadBytes();
 }
 
 VkDeviceSize View::uploadBytes() const {
-    return kLodSolution * VkDeviceSize{4} + buffers_.size(kCull);
+    return kLodSolution * VkDeviceSize{4} + cull_.size();
 }
 
 CullView View::cullView() const {
@@ -259,7 +285,7 @@ CullView View::cullView() const {
     if ((desc_.flags & SUPPLE_VIEW_CULL) != 0) {
         std::array<float, 16> columns{};
         std::copy_n(camera_.viewProjection, 16, columns.begin());
-        const std::array<float, 24> planes = surface::frustumPlanes(columns);
+        const std::array<float, 24> planes = frustumPlanes(columns);
         std::copy(planes.begin(), planes.end(), view.planes);
         view.farthest = camera_.farthest;
         view.smallest = camera_.smallestRadius;
@@ -275,8 +301,7 @@ CullView View::cullView() const {
     return view;
 }
 
-void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
-                       uint32_t priorities) const {
+void View::recordSolve(VkCommandBuffer commandBuffer, uint32_t priorities) const {
     LodSolvePush push{};
     push.runCount = endOfRuns_;
     push.limit = room();
@@ -286,7 +311,8 @@ void View::recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes
     push.maxGroups = gpu::maxGroupsInX(*device_);
     push.rated = countsRates() ? 1 : 0;
     std::copy_n(desc_.elasticities, kPriorityCount, push.elasticity);
-    passes.recordSolve(commandBuffer, set, push);
+    gpu::bind(*device_, commandBuffer, solver_, solverSet_, push);
+    device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
 }
 
 void View::recordReadback(VkCommandBuffer commandBuffer) {
@@ -294,7 +320,7 @@ void View::recordReadback(VkCommandBuffer commandBuffer) {
     solved_[place].frame = recordedFrame_;
     solved_[place].groups = 0;
     const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, place * kReadbackBytes, sizeof(LodSolution)};
-    device_->vk.CmdCopyBuffer(commandBuffer, buffers_.buffer(kWords), readback_.buffer(0), 1, &region);
+    device_->vk.CmdCopyBuffer(commandBuffer, words_.buffer(), readback_.buffer(0), 1, &region);
 }
 
 void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, SolvedGroup group) {
@@ -352,36 +378,30 @@ void View::beginFrame(uint64_t completedFrame) {
 
 void View::cancelFrame(uint64_t frame) {
     static_.cancelUpload(frame);
-    if (clearedFrame_ == frame) {
-        cleared_ = false;
-    }
-    if (indicesReleaseFrame_ == frame) {
-        indicesToRelease_ = true;
-    }
+    clear_.cancel(frame);
+    indicesRelease_.cancel(frame);
     for (Solved& solved : solved_) {
         solved.frame = solved.frame == frame ? 0 : solved.frame;
     }
 }
 
-uint32_t View::transfers(Transfers& out) const {
-    uint32_t count = 0;
-    const auto add = [&](VkBuffer buffer) {
-        if (buffer != VK_NULL_HANDLE) {
-            out[count++] = gpu::bufferBarrier(buffer);
-        }
+void View::addTransfers(Transfers& transfers) const {
+    transfers.add(words_.buffer(), kLodBuckets * VkDeviceSize{4});
+    streams_.addTransfers(transfers, true);
+    if (indicesRelease_.recordedIn(recordedFrame_)) {
+        transfers.add(static_.buffer(0));
+    }
+}
+
+void View::fillGroup(SuppleGroupOutput& output, uint32_t firstRun, uint32_t drawCount) const {
+    const auto words = [&](VkDeviceSize first, VkDeviceSize count, uint32_t stride) {
+        return SuppleBufferView{words_.buffer(), first * 4, count * stride, stride};
     };
-    for (size_t i = 0; i < kBufferCount; ++i) {
-        if (i != kCull && i != kSizes) { // the passes' alone
-            add(buffers_.buffer(i));
-        }
-    }
-    if (indicesReleaseFrame_ == recordedFrame_) {
-        add(static_.buffer(0));
-    }
-    static_assert(kWords == 0);
-    out[0].offset = kLodBuckets * VkDeviceSize{4};
-    out[0].size = VK_WHOLE_SIZE;
-    return count;
+    const VkDeviceSize firstDraw = VkDeviceSize{firstRun} * kCapacityCount;
+    output.gridIndices = {static_.buffer(0), 0, static_.size(0), 2};
+    output.indirect = words(kLodDraws + 5 * firstDraw, drawCount, sizeof(VkDrawIndexedIndirectCommand));
+    output.lodBuckets = words(kLodBuckets + 4 * VkDeviceSize{firstRun} * kLodBucketStride, drawCount, 16);
+    output.lodPatches = words(kLodRecords, (words_.size() / 4 - kLodRecords) / kLodRecordWords, kLodRecordWords * 4);
 }
 
 } // namespace supple::runtime

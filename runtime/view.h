@@ -1,13 +1,14 @@
 // A camera's level of detail: its budget and the buffers that the groups it sees share (shaders/shared/lod.h).
 #pragma once
 
-#include "gpu/memory.h"
+#include "gpu/buffer_plan.h"
 #include "gpu/static_buffers.h"
+#include "runtime/recorded_once.h"
+#include "runtime/vertex_streams.h"
 #include "shaders/shared/bounds.h"
 #include "shaders/shared/lod.h"
 #include "supple/supple.h"
-#include "surface/lod/passes.h"
-#include "surface/scheme.h"
+#include "surface/passes.h"
 
 #include <array>
 #include <memory>
@@ -19,8 +20,9 @@ namespace supple::runtime {
 
 class View {
 public:
-    [[nodiscard]] static Result<std::shared_ptr<View>> create(const gpu::Device& device, uint32_t framesInFlight,
-                                                              const SuppleViewDesc& desc);
+    /// `passes` must outlive the view.
+    [[nodiscard]] static Result<std::shared_ptr<View>> create(const gpu::Device& device, surface::Passes& passes,
+                                                              uint32_t framesInFlight, const SuppleViewDesc& desc);
 
     [[nodiscard]] const SuppleViewDesc& desc() const { return desc_; }
     [[nodiscard]] bool leavesBackFaces() const { return (desc_.flags & SUPPLE_VIEW_BACK_FACES) != 0; }
@@ -33,8 +35,9 @@ public:
     [[nodiscard]] shared::CullView cullView() const;
     /// In the coordinates surfaces come out in.
     [[nodiscard]] shared::LodCamera lodCamera() const;
-    /// Where the camera looks: of one that is orthographic.
-    [[nodiscard]] std::span<const float, 3> direction() const { return camera_.direction; }
+    /// The same for the passes that choose levels: if back faces are left out, an orthographic camera's position is the
+    /// direction it looks in.
+    [[nodiscard]] shared::LodCamera levelCamera() const;
     /// Vertices of the budget that patches can have; the rest is for what fills up draw instances.
     [[nodiscard]] uint32_t room() const;
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
@@ -52,12 +55,11 @@ public:
     /// Whether vertices of such groups count in the budget.
     [[nodiscard]] bool countsRates() const { return groupsWithoutRuns_ > 0 && camera_.vertexBudget > 0; }
 
-    [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || !cleared_; }
+    [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || clear_.due(); }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
     /// `priorities`: bits of those that instances have.
-    void recordSolve(VkCommandBuffer commandBuffer, const surface::lod::Passes& passes, VkDescriptorSet set,
-                     uint32_t priorities) const;
+    void recordSolve(VkCommandBuffer commandBuffer, uint32_t priorities) const;
     /// What an instance of a group has: patches of the view's, and surface vertices of the budget at its coarsest.
     struct SolvedGroup {
         uint32_t patches = 0, leastVertices = 0;
@@ -69,38 +71,30 @@ public:
     void beginFrame(uint64_t completedFrame);
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
-    /// As Group::transfers, with the first of its groups. Of the words those that hosts read: the others must keep what
-    /// is in them from frame to frame.
-    using Transfers = std::array<VkBufferMemoryBarrier2, 8>;
-    [[nodiscard]] uint32_t transfers(Transfers& out) const;
+    /// What the frame hands over with the first of its groups. Of the words only those that hosts read: the others must
+    /// keep what is in them from frame to frame.
+    void addTransfers(Transfers& transfers) const;
     /// Of the newest completed frame; frame 0: none has.
     [[nodiscard]] const SuppleViewStatistics& statistics() const { return newest_; }
     /// Of a frame that is completed and whose place no other has taken yet, as from beginFrame on until the next
     /// recording; nothing where the view was not recorded in it.
     [[nodiscard]] std::optional<SuppleViewStatistics> statisticsOf(uint64_t completedFrame) const;
-    [[nodiscard]] uint32_t vertexBytes() const { return desc_.vertexFormat == SUPPLE_VERTEX_24 ? 24 : 16; }
-
     [[nodiscard]] uint64_t lastRecordedFrame() const { return recordedFrame_; }
 
-    enum BufferIndex : size_t {
-        kWords,
-        kCull,
-        kSizes,
-        kSurface,
-        kPreviousPositions,
-        kAttributes,
-        kUvs1,
-        kFaceUvs,
-        kBufferCount
-    };
-    [[nodiscard]] VkBuffer buffer(BufferIndex index) const { return buffers_.buffer(index); }
-    [[nodiscard]] VkDeviceSize size(BufferIndex index) const { return buffers_.size(index); }
-    [[nodiscard]] VkBuffer indices() const { return static_.buffer(0); }
-    [[nodiscard]] VkDeviceSize indexBytes() const { return static_.size(0); }
-    [[nodiscard]] VkDeviceSize uploadBytes() const;
+    [[nodiscard]] const VertexStreams& streams() const { return streams_; }
+    [[nodiscard]] VkBuffer words() const { return words_.buffer(); } ///< shaders/shared/lod.h
+    [[nodiscard]] VkDeviceSize wordBytes() const { return words_.size(); }
+    [[nodiscard]] VkBuffer cull() const { return cull_.buffer(); }   ///< shared::CullView
+    [[nodiscard]] VkBuffer sizes() const { return sizes_.buffer(); } ///< of instances (shaders/shared/bounds.h)
+    /// Fills in where the draws of a group are, whose runs begin at `firstRun`.
+    void fillGroup(SuppleGroupOutput& output, uint32_t firstRun, uint32_t drawCount) const;
 
 private:
+    [[nodiscard]] Status createBuffers();
+    [[nodiscard]] std::vector<uint16_t> layOutGrids(); ///< their indices; the host's words say where each grid is
+    [[nodiscard]] Status createSolver(surface::Passes& passes);
     [[nodiscard]] uint32_t budget() const;
+    [[nodiscard]] VkDeviceSize uploadBytes() const;
 
     const gpu::Device* device_ = nullptr;
     uint32_t framesInFlight_ = 2;
@@ -111,6 +105,12 @@ private:
     uint64_t pyramidGeneration_ = 0;
 
     gpu::BufferSet buffers_;
+    gpu::PlannedBuffer words_, cull_, sizes_;
+    VertexStreams streams_;
+    gpu::Kernel solver_;
+    gpu::DescriptorPoolHandle pool_;
+    gpu::TexelViews views_;
+    VkDescriptorSet solverSet_ = VK_NULL_HANDLE;
     gpu::BufferSet staging_;  ///< the host's part of the words, and the view to cull by, a run a frame in flight
     gpu::BufferSet readback_; ///< solutions, one a frame in flight
     gpu::StaticBuffers static_;
@@ -120,10 +120,8 @@ private:
     uint32_t groupsWithoutRuns_ = 0;
     uint64_t verticesWithoutRuns_ = 0;
     uint32_t forms_ = 0; ///< bits of those that runs have
-    bool cleared_ = false;
-    bool indicesToRelease_ = false;
-    uint64_t indicesReleaseFrame_ = 0;
-    uint64_t clearedFrame_ = 0, recordedFrame_ = 0;
+    RecordedOnce clear_, indicesRelease_;
+    uint64_t recordedFrame_ = 0;
     struct Solved {
         uint64_t frame = 0;
         uint32_t groups = 0;

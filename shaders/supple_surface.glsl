@@ -24,7 +24,7 @@
 //
 // A buffer that a shader does not read needs no descriptor: a shadow pass binds the first two.
 //
-// Groups with SUPPLE_GROUP_SHARED_SAMPLES: the same shader; bind the indices as uint32.
+// Groups with SUPPLE_GROUP_INDEXED_MESH: the same shader; bind the indices as uint32.
 //
 // Groups of a view (level of detail): one draw a SuppleLodDraw, bound and drawn alike. With SUPPLE_SURFACE_LOD defined there
 // is suppleLodVertex(draw, gl_InstanceIndex, gl_VertexIndex) instead, and the buffer of instances is not needed:

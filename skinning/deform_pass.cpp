@@ -1,6 +1,7 @@
 #include "skinning/deform_pass.h"
 
 #include "shaders/deform_deform_comp.h"
+#include "shaders/shared/specialization.h"
 
 #include <algorithm>
 #include <bit>
@@ -13,10 +14,6 @@ using namespace shared;
 
 static_assert(sizeof(DeformPush) <= gpu::kPushConstantBytes);
 static_assert(sizeof(Affine) == 48);
-
-// Specialization constants of the pass (shaders/deform/deform.comp).
-constexpr uint32_t kMorphsConstant = gpu::kFirstPassConstant;
-constexpr uint32_t kDualQuaternionsConstant = kMorphsConstant + 1;
 
 constexpr size_t kElementBytes = 16;
 
@@ -142,18 +139,16 @@ void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* ta
     std::memset(target, 0, (layout.stride - layout.morphWeights) * kElementBytes - layout.morphCount * sizeof(float));
 }
 
-Result<DeformPass> DeformPass::create(const gpu::Device& device) {
+Result<DeformPass> DeformPass::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
     const gpu::Binding bindings[] = {
-        {kDeformTableBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-        {kDeformTableTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
-        {kPoseBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-        {kPoseTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
-        {kDeformedCageBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-        {kInstanceBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-        {kInstanceTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
+        gpu::wideStorage(kDeformTableBinding),    gpu::narrowTexels(kDeformTableTexelBinding),
+        gpu::wideStorage(kPoseBinding),           gpu::narrowTexels(kPoseTexelBinding),
+        gpu::storage(kDeformedCageBinding),       gpu::wideStorage(kInstanceBinding),
+        gpu::narrowTexels(kInstanceTexelBinding),
     };
     DeformPass pass;
     pass.device_ = &device;
+    pass.pipelines_ = &pipelines;
     Result<gpu::ComputeLayout> layout =
         gpu::ComputeLayout::create(device, bindings, sizeof(DeformPush), "supple deform");
     if (!layout) {
@@ -168,26 +163,19 @@ Status DeformPass::prepare(SkinningMode mode, bool morphs) {
         {"supple deform", "supple deform, morphs"},
         {"supple deform, dual quaternions", "supple deform, dual quaternions, morphs"}};
     const auto m = static_cast<uint32_t>(mode), t = uint32_t{morphs};
-    if (pipelines_[m][t].get() != VK_NULL_HANDLE) {
-        return success();
-    }
     const gpu::Constant constants[] = {{kMorphsConstant, t}, {kDualQuaternionsConstant, m}};
-    Result<gpu::PipelineHandle> pipeline =
-        gpu::createComputePipeline(*device_, layout_, deform_deform_comp, constants, kNames[m][t]);
-    if (!pipeline) {
-        return pipeline.error();
+    const Result<gpu::Kernel> kernel = pipelines_->get(layout_, deform_deform_comp, constants, kNames[m][t]);
+    if (!kernel) {
+        return kernel.error();
     }
-    pipelines_[m][t] = std::move(*pipeline);
+    kernels_[m][t] = *kernel;
     return success();
 }
 
 void DeformPass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
                         const shared::DeformPush& push) const {
-    const gpu::PipelineHandle& pipeline = pipelines_[static_cast<size_t>(mode)][push.firstInfluences != 0 ? 1 : 0];
-    const VkPipelineLayout layout = layout_.pipelineLayout.get();
-    device_->vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-    device_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
-    device_->vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
+    gpu::bind(*device_, commandBuffer, kernels_[static_cast<size_t>(mode)][push.firstInfluences != 0 ? 1 : 0], set,
+              push);
     const uint64_t lanes = uint64_t{push.vertexCount} * push.instanceCount;
     const uint64_t local = device_->mapping.localSize;
     gpu::dispatchLinear(*device_, commandBuffer, (lanes + local - 1) / local);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cage/character.h"
-#include "gpu/pipeline.h"
+#include "gpu/pipelines.h"
 #include "shaders/shared/deform.h"
 #include "skinning/pose.h"
 
@@ -49,7 +49,8 @@ void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* ta
 /// `cageStride` vertices an instance.
 class DeformPass {
 public:
-    [[nodiscard]] static Result<DeformPass> create(const gpu::Device& device);
+    /// Both must outlive the pass.
+    [[nodiscard]] static Result<DeformPass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
 
     /// Creates the pipeline of a mode, with or without morph targets, if it is not there.
     [[nodiscard]] Status prepare(SkinningMode mode, bool morphs);
@@ -62,8 +63,9 @@ public:
 
 private:
     const gpu::Device* device_ = nullptr;
+    gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::PipelineHandle pipelines_[2][2]; ///< by mode, and whether there are morph targets
+    gpu::Kernel kernels_[2][2]; ///< by mode, and whether there are morph targets
 };
 
 } // namespace supple::skinning

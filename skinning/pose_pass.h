@@ -2,7 +2,7 @@
 // pass reads.
 #pragma once
 
-#include "gpu/pipeline.h"
+#include "gpu/pipelines.h"
 #include "shaders/shared/pose.h"
 #include "skinning/deform_pass.h"
 
@@ -10,7 +10,8 @@ namespace supple::skinning {
 
 class PosePass {
 public:
-    [[nodiscard]] static Result<PosePass> create(const gpu::Device& device);
+    /// Both must outlive the pass.
+    [[nodiscard]] static Result<PosePass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
     /// Makes the palettes of a mode, which the first group with it calls for.
     [[nodiscard]] Status prepare(SkinningMode mode);
 
@@ -24,14 +25,15 @@ public:
                        const shared::PosePush& push) const;
 
 private:
-    void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push, VkPipeline pipeline,
-                uint64_t groups) const;
+    void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push,
+                const gpu::Kernel& kernel, uint64_t groups) const;
 
     const gpu::Device* device_ = nullptr;
+    gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::PipelineHandle locals_[2]; ///< by whether layers may be additive
-    gpu::PipelineHandle roots_;
-    gpu::PipelineHandle palette_[2]; ///< by SkinningMode
+    gpu::Kernel locals_[2]; ///< by whether layers may be additive
+    gpu::Kernel roots_;
+    gpu::Kernel palette_[2]; ///< by SkinningMode
 };
 
 } // namespace supple::skinning

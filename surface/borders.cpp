@@ -49,23 +49,11 @@ std::array<uint32_t, 16> netIndices(const Tables& tables, const uint32_t* record
 }
 
 uint32_t recordElements(const Tables& tables, PatchClass patchClass) {
-    switch (patchClass) {
-    case PatchClass::regular:
-    case PatchClass::polar:
-        return tables.cornerNormals ? 3 : 2;
-    case PatchClass::perturbed:
-        return tables.cornerNormals ? 4 : 3;
-    case PatchClass::p3:
-    case PatchClass::p4:
-    case PatchClass::p5:
-        return SUPPLE_PM_RECORD_ELEMENTS(cornerCount(domainOf(patchClass)));
-    default:
-        return cornerCount(domainOf(patchClass));
-    }
+    return rowOf(patchClass).recordElements + (tables.cornerNormals ? 1 : 0);
 }
 
 std::vector<BorderCurve> borderCurves(const Tables& tables, const uint32_t* record, PatchClass patchClass) {
-    if (patchClass <= PatchClass::polar) {
+    if (rowOf(patchClass).isBicubic()) {
         const std::array<uint32_t, 16> net = netIndices(tables, record, patchClass);
         const auto g = [&](uint32_t i, uint32_t j) { return net[4 * j + i]; };
         return {{g(0, 0), g(1, 0), g(2, 0), g(3, 0)},

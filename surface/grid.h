@@ -1,4 +1,5 @@
-// Tessellation grids: how the samples of a patch are numbered, the triangles between them, and parameter pairs.
+// Tessellation grids at an integer rate: how the samples of a patch are numbered, which triangles lie between them, and
+// the parameters of samples.
 #pragma once
 
 #include "shaders/shared/surface.h"
@@ -17,10 +18,9 @@ inline constexpr uint32_t kMaxSides = 5; ///< of a patch
 ///   polar     the same samples; the side v = 1 is one point, corner 2. Corners (0,0) (R,0) (.,R).
 ///   triangle  (R+1)(R+2)/2 samples, rows j = 0..R parallel to edge 0, each i = 0..R-j: barycentric weights
 ///             (R-i-j, i, j)/R of corners 0, 1, 2.
-///   pentagon  5 R(R+1)/2 + 1 samples. Sector s (between the centre and edge s) by sector, rows j = 0..R-1 parallel to
-///   the edge,
-///             each i = 0..R-j-1: weights (R-i-j, i, j)/R of corner s, corner s+1 and the centre. The row's last point
-///             belongs to sector s+1; the last sample of all is the centre.
+///   pentagon  5 R(R+1)/2 + 1 samples. Sector after sector; sector s lies between edge s and the centre. It has rows
+///             j = 0..R-1 parallel to the edge, each i = 0..R-j-1: weights (R-i-j, i, j)/R of corner s, corner s+1 and
+///             the centre. The last point of a row belongs to sector s+1. The last sample is the centre.
 enum class Domain : uint32_t {
     quad = shared::kQuadDomain,
     polar = shared::kPolarDomain,
@@ -57,13 +57,13 @@ struct GridSample {
 /// outer one, 1 and 2 are radial.
 [[nodiscard]] uint32_t edgeSample(Domain domain, uint32_t rate, uint32_t edge, uint32_t k);
 
-/// Triangles between the samples, counter-clockwise seen from outside, none of zero area. Shared by all patches of a
-/// domain and rate.
+/// Triangles between the samples, counter-clockwise seen from outside, none of zero area. They serve all patches of the
+/// domain at this rate.
 [[nodiscard]] std::vector<uint16_t> gridIndices(Domain domain, uint32_t rate);
 
-/// Pairs (k / rate, (rate - k) / rate), k = 0..rate, for every rate 1..kMaxRate one after the other, correctly rounded.
+/// The pairs (k / rate, (rate - k) / rate), k = 0..rate, correctly rounded, for rates 1..kMaxRate one after the other.
 [[nodiscard]] std::vector<float> parameterPairs();
-/// Where the pairs of a rate begin, in pairs.
+/// The index of the first pair of a rate.
 [[nodiscard]] constexpr uint32_t firstPair(uint32_t rate) {
     return rate * (rate + 1) / 2 - 1;
 }

@@ -12,14 +12,15 @@ namespace supple::surface {
 
 class RingWriter {
 public:
-    /// `facets`: of the cage. `pointVertices`: for limit points that are numbered as vertices are, or cage::kNone.
+    /// `facets`: how many the cage has.
     RingWriter(TableWriter& writer, uint32_t facets) : writer_(writer), elements_(facets, cage::kNone) {}
-    /// The element that begins the record of a facet's patch.
+    /// Tells where the record of a facet's patch begins.
     void setRecord(uint32_t facet, uint32_t element) { elements_[facet] = element; }
-    /// The next slot of the ring: vertex, far end of its spoke, two far corners of the facet behind it. `points`: of
-    /// the facet's record, cage::kNone for limit points of other numbers than their vertices have.
+    /// Adds the next slot. `vertices`: the vertex, the far end of its spoke, and the two far corners of the facet
+    /// behind the spoke. `points`: the limit points in the record of that facet, with cage::kNone for a limit point
+    /// whose number is not that of its vertex.
     void add(const std::array<uint32_t, 4>& vertices, uint32_t facet, std::span<const uint32_t> points);
-    /// The ring, for Tables::ring. Nothing may be added after it.
+    /// Writes the ring and returns Tables::ring. Nothing may be added afterwards.
     [[nodiscard]] uint32_t write();
 
 private:

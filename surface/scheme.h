@@ -1,9 +1,9 @@
-// What the surface schemes have in common: classes of patches, and the static tables a scheme makes of a cage.
+// What the surface schemes have in common: the static tables that a scheme makes of a cage.
 #pragma once
 
 #include "cage/character.h"
 #include "shaders/shared/surface.h"
-#include "surface/grid.h"
+#include "surface/patch_class.h"
 
 #include <array>
 #include <cstdint>
@@ -11,47 +11,6 @@
 #include <vector>
 
 namespace supple::surface {
-
-enum class PatchClass : uint32_t {
-    regular = shared::kRegularPatch,     ///< bicubic
-    perturbed = shared::kPerturbedPatch, ///< p-rep: bicubic and a sparse perturbation of degree 5
-    polar = shared::kPolarPatch,         ///< P_m: a triangle of a polar fan, bicubic with a collapsed side
-    p3 = shared::kP3Patch,               ///< P_m: three, four, five triangular sectors of degree 4
-    p4 = shared::kP4Patch,
-    p5 = shared::kP5Patch,
-    catmullClark = shared::kCatmullClarkPatch, ///< subdivision kernel: a face of the isolated level
-    loop = shared::kLoopPatch,
-    blend = shared::kBlendPatch,          ///< blending surface: smooth all over
-    blendSharp = shared::kBlendSharpPatch ///< with creases, or without derivatives somewhere on its border
-};
-inline constexpr size_t kPatchClassCount = 10;
-
-/// "regular", "perturbed", "polar", "p3", "p4", "p5", "catmull-clark", "loop", "blend", "blend-sharp".
-[[nodiscard]] constexpr const char* className(PatchClass patchClass) {
-    constexpr const char* kNames[] = {"regular", "perturbed",     "polar", "p3",    "p4",
-                                      "p5",      "catmull-clark", "loop",  "blend", "blend-sharp"};
-    return kNames[static_cast<uint32_t>(patchClass)];
-}
-
-[[nodiscard]] constexpr Domain domainOf(PatchClass patchClass) {
-    switch (patchClass) {
-    case PatchClass::polar:
-        return Domain::polar;
-    case PatchClass::p3:
-    case PatchClass::loop:
-        return Domain::triangle;
-    case PatchClass::p5:
-        return Domain::pentagon;
-    default:
-        return Domain::quad;
-    }
-}
-
-/// Coefficients a patch of a class has, as the patch pass writes them; others have none.
-[[nodiscard]] constexpr uint32_t coefficientCount(PatchClass patchClass) {
-    constexpr uint32_t kCounts[] = {16, 32, 13, 19, 25, 31, 0, 0, 0, 0};
-    return kCounts[static_cast<uint32_t>(patchClass)];
-}
 
 /// One patch in device order. Patch corner i lies at corner i of its domain.
 struct PatchInfo {
@@ -62,50 +21,34 @@ struct PatchInfo {
     uint32_t material = cage::kNone;
 };
 
-/// A run of records in the tables.
+/// Consecutive records in the tables.
 struct Section {
     uint32_t table = 0; ///< first element (four words)
     uint32_t count = 0; ///< records
 };
 
-/// The kernels of all passes; surface/passes.cpp lists what each is made of.
-enum class Kernel : uint32_t {
-    // p-rep
-    prepVertexRegular,
-    prepVertex,
-    prepVertexMany,
-    prepEdge,
-    // P_m
-    pmVertexRegular,
-    pmVertex,
-    pmVertexMany,
-    pmVertexCreased,
-    pmPolar,
-    pmFacet3,
-    pmFacet4,
-    pmFacet5,
-    // subdivision kernel, and the blending surface where it subdivides first
-    isolate,
-    isolateFromPool, ///< a second step
-    // blending surface
-    blendChart,
-    blendChartFromPool,
-    count
-};
-
-/// The passes between deformed cage and coefficients, in order; a barrier stands between them.
+/// The two passes that make coefficients from the deformed cage. A barrier separates them.
 enum class Stage : uint32_t {
-    vertex, ///< one invocation a cage vertex or sector; subdivision kernel: a vertex of the first step
-    edge ///< p-rep: a perturbed edge; P_m: a facet; subdivision kernel: a vertex of a second step; blending surface on
-         ///< a subdivided cage: a chart
+    vertex,  ///< one lane per cage vertex or sector. Subdivision: per vertex of the first step
+    assemble ///< needs the output of `vertex`. One lane per perturbed edge (p-rep), facet (P_m), vertex of the second
+             ///< step (subdivision) or chart (blending surface on a subdivided cage)
 };
-inline constexpr uint32_t kStageCount = 2;
 
+/// A kernel and what it is specialized to. Only schemes know which kinds a construction kernel has.
+struct KindOfKernel {
+    Kernel kernel = Kernel::count;
+    uint32_t kind = 0;     ///< the value of its kKindConstant
+    const char* name = ""; ///< for debuggers
+
+    bool operator==(const KindOfKernel& other) const { return kernel == other.kernel && kind == other.kind; }
+};
+
+/// One dispatch of a construction pass.
 struct Construction {
     Stage stage = Stage::vertex;
-    Kernel kernel = Kernel::prepVertex;
+    KindOfKernel kernel;
     Section section;
-    uint32_t coefficients = 0; ///< pool elements an instance it writes, for the cost report
+    uint32_t coefficients = 0; ///< how many it writes per instance, for the cost report
 };
 
 /// Consecutive patches of one class in device order.
@@ -113,7 +56,7 @@ struct PatchRange {
     PatchClass patchClass = PatchClass::regular;
     Section section;
     uint32_t firstPatch = 0;
-    uint32_t attributes = 0; ///< first word of the corners' attribute numbers
+    uint32_t attributes = 0; ///< word at which the attribute numbers of its corners begin
 };
 
 /// Consecutive patches of one domain and material.
@@ -124,47 +67,47 @@ struct DrawRange {
     uint32_t material = cage::kNone;
 };
 
-/// What the subdivision kernel evaluates instead of patches (shaders/shared/kernel.h).
+/// The subdivision evaluates fragments instead of patches (shaders/shared/subdivision.h).
 struct Fragments {
-    uint32_t steps = 0;         ///< after the isolated level
+    uint32_t steps = 0;         ///< of refinement beyond the isolated level
     bool loop = false;          ///< else Catmull-Clark
-    uint32_t scratchStride = 0; ///< points an instance in the scratch buffer
+    uint32_t scratchStride = 0; ///< points per instance in the scratch buffer
     struct Class {
-        uint32_t sharedPoints = 0; ///< what a workgroup holds of a fragment at a time
-        Section fragments;         ///< one record a fragment
-        /// By step, the limit last, and kind of work (kWorkKinds each); those of one kind follow each other, class by
-        /// class.
+        uint32_t sharedPoints = 0; ///< points that a workgroup holds at a time
+        Section fragments;         ///< one record per fragment
+        /// Blocks of work, kWorkKinds sections per step, the limit being the last step. In the tables, blocks of the
+        /// same step and kind lie one class after the other.
         std::vector<Section> blocks;
     };
-    std::vector<Class> classes; ///< sharedPoints rise
+    std::vector<Class> classes; ///< in order of sharedPoints
 };
 
-/// What level of detail adds (surface/lod/tables.h); empty where it is not asked for.
+/// What level of detail adds to the tables (surface/lod/tables.h). Empty unless the recipe asks for it.
 struct LodTables {
-    bool charts = false; ///< borders are of charts (blending surface) instead of cubics
-    Section edges;       ///< one element each, of charts two
-    Section patches;     ///< two elements each, all classes, in device order
+    bool charts = false; ///< a border is the blend of two charts (blending surface), else a cubic
+    Section edges;       ///< one element per edge, two if it lies between charts
+    Section patches;     ///< two elements per patch, all classes, in device order
     struct Run {
         PatchClass patchClass = PatchClass::regular;
         uint32_t material = cage::kNone;
         uint32_t patchCount = 0;
     };
-    std::vector<Run> runs; ///< of one class and material, in device order
+    std::vector<Run> runs; ///< patches of the same class and material, in device order
 };
 
-/// What shared samples add (surface/shared_samples.h); empty where they are not asked for.
-struct SharedTables {
-    /// Records of edges (shaders/shared/surface.h), by the kernel that evaluates them.
+/// What an indexed mesh adds to the tables (surface/indexed_mesh.h). Empty unless the recipe asks for it.
+struct MeshTables {
+    /// Records of edges that the same kernel evaluates (shaders/shared/surface.h).
     struct Edges {
         uint32_t kind = shared::kPlainEdges;
         Section section;
     };
     std::vector<Edges> edges;
-    Section attributes; ///< an element a record, where the tables have corner attributes
+    Section attributes; ///< one element per edge record, if the tables have corner attributes
     uint32_t edgeCount = 0;
     uint32_t cornerCount = 0;
-    /// Where a patch's borders are: for side i its edge, and whether that runs against the patch; for corner i its
-    /// number among the corners.
+    /// The borders of a patch: side i is an edge, which runs along the side or, if reversed, against it; corner i is
+    /// one of the cornerCount corners.
     struct Patch {
         std::array<uint32_t, kMaxSides> edges{}, corners{};
         std::array<bool, kMaxSides> reversed{};
@@ -172,35 +115,35 @@ struct SharedTables {
     std::vector<Patch> patches;
 };
 
-/// What depends on connectivity alone: the tables of shaders/shared/{surface,prep,pm,kernel}.h, and where everything
-/// lies in them. Patches are ordered by class, then by material, then by face.
+/// The tables of a cage (shaders/shared/{surface,prep,pm,subdivision,blend}.h) and where everything lies in them. They
+/// depend on connectivity alone. Patches are ordered by class, then by material, then by face.
 struct Tables {
     std::vector<uint32_t> words; ///< a multiple of four
     uint32_t ring = 0;           ///< first word of the ring
-    uint32_t poolStride = 0;     ///< coefficients an instance, padded so that instances start on 256 bytes
+    uint32_t poolStride = 0;     ///< coefficients per instance; a multiple of 256 bytes
     uint32_t tangents = 0;       ///< first tangent in the pool
     uint32_t faces = 0;          ///< first face coefficient in the pool
     uint32_t inner = 0;          ///< p-rep: first coefficient of the perturbed edges in the pool
-    uint32_t edgeClasses = 0;    ///< p-rep, P_m: first element of the weights that edges have in common
+    uint32_t edgeClasses = 0;    ///< p-rep, P_m: first element of the edge classes
     uint32_t uvSets = 1;
-    bool faceUvs = false;         ///< corners have a place in their face's trim tile (cage::Cage::cornerFaceUvs)
-    uint32_t attributes = 0;      ///< first element of the corner attributes, all from there on
-    bool attributeHalves = false; ///< two attribute numbers a word
-    uint32_t isolationSteps = 0;  ///< patches are this many halvings smaller than the cage's faces
-    uint32_t rate = 0;            ///< segments along a patch edge that the tables are made for; 0: any
-    Fragments fragments;          ///< subdivision kernel only
-    bool cornerNormals = false;   ///< p-rep: some corner needs its stored normal (CornerRule::smooth)
+    bool faceUvs = false;    ///< corners have coordinates in the trim tile of their face (cage::Cage::cornerFaceUvs)
+    uint32_t attributes = 0; ///< first element of the corner attributes, which come last
+    bool attributeHalves = false; ///< a word holds two attribute numbers
+    uint32_t isolationSteps = 0;  ///< the cage is subdivided so often before patches are made of its faces
+    uint32_t rate = 0;            ///< the only tessellation rate that the tables serve, along a patch edge; 0: all
+    Fragments fragments;          ///< subdivision only
+    bool cornerNormals = false;   ///< p-rep with CornerRule::smooth: records have an element of corner normals
     std::vector<Construction> constructions;
     std::vector<PatchRange> ranges;
     std::vector<PatchInfo> patches;
     std::vector<DrawRange> drawRanges;
     LodTables lod;
-    SharedTables shared;
-    std::vector<std::string> notes; ///< what was changed about the cage, one line each
+    MeshTables mesh;
+    std::vector<std::string> notes; ///< what the scheme changed about the cage, one line each
 
     [[nodiscard]] bool has(Stage stage) const;
-    /// Whether samples that patches share are stored once.
-    [[nodiscard]] bool sharesSamples() const { return !shared.edges.empty(); }
+    /// Whether samples on borders are stored once for all patches that meet there.
+    [[nodiscard]] bool hasIndexedMesh() const { return !mesh.edges.empty(); }
 };
 
 } // namespace supple::surface

@@ -1,48 +1,46 @@
-// The list of surface schemes. A new one is a folder beside prep/ and pm/, kernels in surface/passes.cpp, and a line
-// here.
+// The surface schemes, one row each. A new one is a folder beside prep/ and pm/, one in shaders/, its kernels in
+// CMakeLists.txt, and a row here.
 #pragma once
 
 #include "base/result.h"
-#include "surface/blend/mesh.h"
-#include "surface/prep/weights.h"
+#include "cage/character.h"
+#include "surface/recipe.h"
 #include "surface/scheme.h"
+
+#include <span>
 
 namespace supple::surface {
 
-enum class SchemeId : uint32_t { prep = 1, pm = 2, catmullClark = 3, loop = 4, blend = 5 }; ///< values of SuppleScheme
-
-/// What tables depend on besides the cage.
-struct Recipe {
-    SchemeId scheme = SchemeId::pm;
-    prep::Options prep;
-    blend::Options blend;
-    uint32_t rate = 0;      ///< segments along an edge of the cage; 0 for schemes whose tables serve all rates
-    bool attributes = true; ///< with the corner attributes
-    bool lod = false;       ///< with what level of detail needs
-    bool shared = false;    ///< samples that patches share are stored once
-
-    bool operator==(const Recipe&) const = default;
+/// Which rates one set of tables serves.
+enum class RateRule : uint32_t {
+    any,     ///< all rates
+    one,     ///< one rate. It is even if the scheme subdivides the cage first
+    doubling ///< one rate, which is a power of two
 };
 
-/// "p-rep", "P_m", "Catmull-Clark", "Loop", "blend".
-[[nodiscard]] const char* schemeName(SchemeId scheme);
+struct Scheme {
+    SchemeId id = SchemeId::pm;
+    const char* name = "";
+    /// Builds the tables, or says why the scheme cannot take the cage. Recipe::attributes, lod and indexedMesh are not
+    /// its business, except that tables for lod need no rate.
+    Result<Tables> (*build)(const Recipe& recipe, const cage::Cage& cage) = nullptr;
+    RateRule rates = RateRule::any;
+    const char* ratesInWords = ""; ///< for messages: how many segments an edge of the cage can have
+    bool hasLevels = false;        ///< a view can draw its patches at real-valued levels. Otherwise each instance in a
+                                   ///< view has one of several rates
+    bool hasIndexedMesh = false;   ///< patches can share the samples on their borders
+    /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
+    /// sum of the negative weights of a sample.
+    float (*boundsMargin)(const cage::Cage& cage) = nullptr;
 
-/// Whether it is one of the subdivision kernel's: rates are then rounded up to powers of two.
-[[nodiscard]] constexpr bool subdivides(SchemeId scheme) {
-    return scheme == SchemeId::catmullClark || scheme == SchemeId::loop;
-}
+    /// Recipe::rate for a group that asks for `rate` segments along an edge of the cage.
+    [[nodiscard]] uint32_t tableRate(uint32_t rate, bool lod) const;
+};
 
-/// Whether its tables are made for one rate, but for those with levels.
-[[nodiscard]] constexpr bool hasRate(SchemeId scheme) {
-    return subdivides(scheme) || scheme == SchemeId::blend;
-}
+[[nodiscard]] std::span<const Scheme> schemes();
+[[nodiscard]] const Scheme& schemeOf(SchemeId id);
 
-/// Whether its patches can be drawn at real-valued levels, and whether they can share their samples.
-[[nodiscard]] constexpr bool hasLevels(SchemeId scheme) {
-    return !subdivides(scheme);
-}
-
-/// Builds the scheme's tables, or says why it cannot take the cage: "face 12 has 5 sides: p-rep takes quads only".
+/// Builds the tables, or says why it cannot: "face 12 has 5 sides: p-rep takes quads only".
 [[nodiscard]] Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage);
 
 } // namespace supple::surface

@@ -1,8 +1,8 @@
-// Stencils on the CPU, in float or double, with the sums of the device in their order: for tests and comparisons, not
-// part of the runtime.
+// Stencils on the CPU, in float or double. Sums have the order that they have on the device. For tests and comparisons;
+// not part of the runtime.
 #pragma once
 
-#include "surface/subdivision.h"
+#include "surface/refinement.h"
 
 #include <glm/glm.hpp>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace supple::surface {
 
-/// p_first + sum of w_i (p_i - p_first) over a row's other entries.
+/// Every row is p_first + sum of w_i (p_i - p_first), over all its entries but the first.
 template <class T>
 [[nodiscard]] std::vector<glm::vec<3, T>> applyStencils(const Stencils& stencils,
                                                         std::span<const glm::vec<3, T>> positions) {

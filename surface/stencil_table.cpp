@@ -30,7 +30,11 @@ void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWri
     for (uint32_t row = 0; row < rows; ++row) {
         order[starts[entries(row)]++] = row;
     }
-    tables.constructions.push_back({place.stage, place.kernel, {writer.element(), rows}, rows});
+    constexpr KindOfKernel kKernels[] = {
+        {Kernel::subdivisionIsolate, 0, "supple subdivision, isolate"},
+        {Kernel::subdivisionIsolate, 1, "supple subdivision, isolate once more"},
+    };
+    tables.constructions.push_back({place.stage, kKernels[place.fromPool ? 1 : 0], {writer.element(), rows}, rows});
     for (const uint32_t row : order) {
         writer.put({place.from + stencils.vertices[stencils.starts[row]], first[row], entries(row), place.to + row});
     }

@@ -1,21 +1,21 @@
-// Stencils as the device reads them: the vertices of a step of subdivision, into the coefficient pool. Private to
-// surface/.
+// Stencils as the device reads them. They compute the vertices of a subdivision step into the coefficient pool. Private
+// to surface/.
 #pragma once
 
-#include "surface/subdivision.h"
+#include "surface/refinement.h"
 #include "surface/table_writer.h"
 
 namespace supple::surface {
 
-/// Which vertices stencils read and where their own go.
+/// Which vertices a step of stencils reads, and where it writes.
 struct StencilPlace {
     Stage stage = Stage::vertex;
-    Kernel kernel = Kernel::isolate; ///< or isolateFromPool
-    uint32_t from = 0;               ///< first vertex: of the cage, or in the pool
-    uint32_t to = 0;                 ///< in the pool
+    bool fromPool = false; ///< reads the pool, else the deformed cage
+    uint32_t from = 0;     ///< first vertex that it may read
+    uint32_t to = 0;       ///< pool index of its first vertex
 };
 
-/// Adds the records of kernel/isolate.comp and their construction.
+/// Adds the records that shaders/subdivision/isolate.comp reads, and their construction.
 void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWriter& writer, Tables& tables);
 
 } // namespace supple::surface

@@ -124,6 +124,21 @@ void sortPatches(std::vector<DraftPatch>& patches) {
     }
 }
 
+void countPatch(PatchClass patchClass, uint32_t patch, TableWriter& writer, Tables& tables) {
+    if (tables.ranges.empty() || tables.ranges.back().patchClass != patchClass) {
+        tables.ranges.push_back({patchClass, {writer.element(), 0}, patch, 0});
+    }
+    ++tables.ranges.back().section.count;
+}
+
+void countVertex(const KindOfKernel& kernel, uint32_t coefficients, TableWriter& writer, Tables& tables) {
+    if (tables.constructions.empty() || !(tables.constructions.back().kernel == kernel)) {
+        tables.constructions.push_back({Stage::vertex, kernel, {writer.element(), 0}, 0});
+    }
+    ++tables.constructions.back().section.count;
+    tables.constructions.back().coefficients += coefficients;
+}
+
 void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables) {
     writeAttributes(cage, patches, writer, tables);
     tables.patches.reserve(patches.size());

@@ -1,4 +1,4 @@
-// Writing the tables of a scheme, word by word, and the parts of them all schemes share. Private to surface/.
+// Writes the tables of a scheme word by word, and the parts that all schemes have. Private to surface/.
 #pragma once
 
 #include "surface/scheme.h"
@@ -9,18 +9,18 @@
 
 namespace supple::surface {
 
-/// Appends table sections and keeps them on element boundaries.
+/// Appends words to the tables. Sections begin on element boundaries.
 class TableWriter {
 public:
     explicit TableWriter(std::vector<uint32_t>& words) : words_(words) {}
-    /// Fills up to an element boundary and returns the element there.
+    /// Fills up with zeros to the next element boundary and returns that element.
     uint32_t element() {
         while (words_.size() % 4 != 0) {
             words_.push_back(0);
         }
         return static_cast<uint32_t>(words_.size() / 4);
     }
-    /// Room for so many words more.
+    /// Makes room for so many more words.
     void reserve(size_t words) {
         if (words_.size() + words > words_.capacity()) {
             words_.reserve(std::max(words_.size() + words, 2 * words_.capacity()));
@@ -32,21 +32,21 @@ private:
     std::vector<uint32_t>& words_;
 };
 
-/// A weight computed in double, as the device reads it.
+/// A weight, which was computed in double, as the device reads it.
 [[nodiscard]] inline uint32_t floatBits(double value) {
     return std::bit_cast<uint32_t>(static_cast<float>(value));
 }
 
-/// A patch on its way into the tables: what the device order depends on, and which corners of the cage are its corners.
+/// A patch that is not in the tables yet: what decides its place there, and which corners of the cage are its corners.
 struct DraftPatch {
     PatchInfo info;
-    uint32_t facet = 0; ///< of the cage the scheme works on
+    uint32_t facet = 0; ///< face of the cage that the scheme works on
     uint32_t material = cage::kNone;
-    std::array<uint32_t, kMaxSides> cageCorners{}; ///< of that cage
+    std::array<uint32_t, kMaxSides> cageCorners{}; ///< corners of that cage
 };
 
-/// The faces of a refined cage as patches, but for their classes: all that are no holes, in their order.
-/// `mesh`: has `cage`, `sourceFaces`, `holes` and `cornerSources`, as surface::Level and its schemes say.
+/// One patch, still without a class, for every face of a refined cage that is no hole. `mesh` has `cage`,
+/// `sourceFaces`, `holes` and `cornerSources` (see subdivision::Mesh).
 template <class Mesh>
 [[nodiscard]] std::vector<DraftPatch> draftPatches(const Mesh& mesh) {
     std::vector<DraftPatch> patches;
@@ -71,8 +71,13 @@ template <class Mesh>
 /// Puts patches into device order: by class, then material, then facet.
 void sortPatches(std::vector<DraftPatch>& patches);
 
-/// Corner attributes, draw ranges and patch list of patches in device order. tables.ranges must have been filled with
-/// the patches' classes; their `attributes` are set here.
+/// Counts a patch, whose record comes next, among those of its class. `patch`: its index in device order.
+void countPatch(PatchClass patchClass, uint32_t patch, TableWriter& writer, Tables& tables);
+/// Counts a vertex, whose record comes next, among those of its kernel in the vertex pass.
+void countVertex(const KindOfKernel& kernel, uint32_t coefficients, TableWriter& writer, Tables& tables);
+
+/// Writes what every scheme's tables end with: corner attributes, draw ranges and the list of patches. `patches` are in
+/// device order, and tables.ranges has their classes; this fills in PatchRange::attributes.
 void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables);
 
 } // namespace supple::surface

@@ -19,9 +19,9 @@ fi
 # No paths, and ids that do not depend on the order in which types are met.
 abidw --headers-dir "$root/runtime/include/supple" --drop-private-types --exported-interfaces-only --type-id-style hash \
     --no-corpus-path --no-comp-dir-path --no-show-locs --out-file "$2" "$1"
-sed -i -E "s/ (path|filepath|comp-dir-path|architecture-path)='[^']*'//g" "$2"
-# Translation units are named by where they lay.
-sed -i -E "s|='/[^']*/([^/']+)'|='\1'|g" "$2"
+sed -i -E "s/ (filepath|comp-dir-path|architecture-path)='[^']*'//g" "$2"
+# Translation units keep the names of their files, which tell them apart, and lose the folders that they lay in.
+sed -i -E "s@ path='[^']*/([^/']+)'@ path='\1'@g; s@='/[^']*/([^/']+)'@='\1'@g" "$2"
 if grep -n "='/" "$2"; then
     echo "$2 names folders of this machine" >&2
     exit 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a fresh clone to a picture: installs what is missing, builds the supple command, sends the demo character through
-# the pipeline, writes out/demo.png and, where there is a display, opens the viewer.
+# From a fresh clone to a picture: installs what is missing, builds the supple command, sends Pip, the demo character,
+# walking through the pipeline, writes out/demo.png and, where there is a display, opens the viewer.
 # Usage: tools/demo.sh [--no-view]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -24,24 +24,19 @@ step 2 "Building the supple command"
 cmake --build --preset release --target supple_command -j "$(nproc)"
 supple=build/release/bin/supple
 
-shopt -s nullglob
-characters=(samples/assets/*.glb)
-if [ ${#characters[@]} -eq 0 ]; then
-    echo "samples/assets holds no character" >&2
-    exit 1
-fi
-
+pip=samples/assets/pip.glb
 step 3 "The demo character through the pipeline"
-"$supple" inspect "${characters[0]}"
+"$supple" inspect "$pip"
 echo
-"$supple" profile "${characters[0]}" --rate 8 --frames 60
+"$supple" profile "$pip" --clip walk --rate 8 --frames 60
 
-step 4 "Pictures"
+step 4 "The picture"
 mkdir -p out
-"$supple" sheet "${characters[0]}" -o out/demo.png
+# docs/images/demo.png is this picture.
+"$supple" sheet "$pip" --clip walk --columns 2 --cell 400x440 --yaw 50 --pitch 8 --no-labels -o out/demo.png
 echo "Wrote $PWD/out/demo.png after ${SECONDS}s"
 
 if [ "$view" = yes ] && [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
     echo "Opening the viewer; close its window to end."
-    exec "$supple" view "${characters[@]}"
+    exec "$supple" view "$pip" samples/assets/pip_quads.glb samples/assets/helmet.glb --clip walk
 fi

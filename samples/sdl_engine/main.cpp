@@ -1,6 +1,6 @@
 // A small engine with Supple in it. See README.md for what it shows; this file is the loop.
-#include "taa.h"
 #include "common/window.h"
+#include "taa.h"
 
 #include "common/options.h"
 #include "common/picture.h"

@@ -8,7 +8,7 @@
 #include "shaders/surface/cage.glsl"
 #include "shaders/shared/blend.h"
 
-layout(constant_id = 3) const uint kFromPool = 0u; // the cage was subdivided
+layout(constant_id = kKindConstant) const uint kFromPool = 0u; // the cage was subdivided
 
 vec3 vertexAt(uint instance, uint i) {
     if (kFromPool != 0u) return poolVector(instance * push.poolStride + i);

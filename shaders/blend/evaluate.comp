@@ -12,7 +12,7 @@
 #include "shaders/surface/cage.glsl"
 #include "shaders/lod/record.glsl"
 
-layout(constant_id = 3) const uint kClass = kBlendPatch;
+layout(constant_id = kKindConstant) const uint kClass = kBlendPatch;
 const bool kSharp = kClass == kBlendSharpPatch; // some chart is creased, or the surface lies still somewhere
 #include "shaders/blend/blend.glsl"
 

@@ -5,8 +5,8 @@
 #include "shaders/shared/deform.h"
 #include "shaders/shared/mapping.glsl"
 
-layout(constant_id = 3) const bool kMorphs = false;
-layout(constant_id = 4) const bool kDualQuaternions = false; // else linear blending
+layout(constant_id = kMorphsConstant) const bool kMorphs = false;
+layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // else linear blending
 
 layout(set = 0, binding = kDeformTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
 layout(set = 0, binding = kDeformTableTexelBinding) uniform usamplerBuffer tableTexels;
@@ -15,6 +15,7 @@ layout(set = 0, binding = kPoseTexelBinding) uniform samplerBuffer poseTexels;
 layout(set = 0, binding = kDeformedCageBinding, std430) writeonly buffer DeformedCage { vec4 deformedCage[]; };
 
 layout(push_constant) uniform Push { DeformPush push; };
+#define INSTANCE_PUSH push
 #include "shaders/shared/instances.glsl"
 
 uvec4 table(uint i) {

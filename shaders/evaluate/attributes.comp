@@ -9,13 +9,13 @@
 #include "shaders/evaluate/domain.glsl"
 #include "shaders/lod/record.glsl"
 
-layout(constant_id = 3) const uint kDomain = kQuadDomain;
+layout(constant_id = kKindConstant) const uint kDomain = kQuadDomain;
 #ifdef RINGS
 const bool kRings = true; // with level of detail: samples lie in rings round a centre
 #else
 const bool kRings = false;
 #endif
-layout(constant_id = 10) const uint kOutputs = 0u; // kOutputUvs1, kOutputFaceUvs where they are written
+layout(constant_id = kOutputsConstant) const uint kOutputs = 0u; // kOutputUvs1, kOutputFaceUvs where they are written
 
 layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes { uvec4 attributes[]; };
 layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1[]; };
@@ -198,7 +198,7 @@ void evaluateNarrowLod() {
 // A sample along an edge, or at the corner where it begins: see evaluate/edge.comp.
 void storeOnEdge(uint id) {
     uint edge = id / push.rate, k = id - edge * push.rate;
-    uvec4 own = tableElement(push.ring + kSharedEdgeElements * edge + 2u);
+    uvec4 own = tableElement(push.ring + kEdgeElements * edge + 2u);
     if (k == 0u && own.x == kNoEdgeSample) return;
     uvec4 ends = tableElement(push.table + edge);
     Corners c;

@@ -7,7 +7,7 @@ layout(set = 0, binding = kPairBinding, std430) readonly buffer Pairs { vec2 pai
 
 // A rate that is known when the pipeline is made. In the narrow mapping loops over samples are unrolled and weights are
 // constants; in the wide one lanes divide by a constant to find their patch and row, which is cheap.
-layout(constant_id = 9) const uint kRate = 0u;
+layout(constant_id = kRateConstant) const uint kRate = 0u;
 uint fixedRate() { return kRate != 0u ? kRate : push.rate; }
 
 // (t, s) = (k / rate, (rate - k) / rate), never 1 - t of a rounded t. `rate` is kRate where that is set.

@@ -5,9 +5,9 @@
 #ifdef REGULAR
 const uint kClass = kRegularPatch;
 #else
-layout(constant_id = 3) const uint kClass = kRegularPatch;
+layout(constant_id = kKindConstant) const uint kClass = kRegularPatch;
 #endif
-layout(constant_id = 5) const bool kCornerNormals = false; // smooth one-face corners of p-rep: Du x Dv vanishes there
+layout(constant_id = kCornerNormalsConstant) const bool kCornerNormals = false; // smooth one-face corners of p-rep: Du x Dv vanishes there
 
 // The corner that a bicubic coefficient is an offset from: itself where it is one, as is the apex all along row 3.
 uint cornerOf(uint k) {

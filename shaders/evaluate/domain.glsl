@@ -1,6 +1,6 @@
 // Samples of triangles and pentagons by number (surface/grid.h). Quads and polar domains count row by row. Where samples are
 // shared, a patch has only those on none of its edges, and counts these.
-layout(constant_id = 8) const bool kInterior = false;
+layout(constant_id = kInteriorConstant) const bool kInterior = false;
 
 /// Samples before row j of a triangle whose rows have n, n - 1, ... samples.
 uint rowStart(uint n, uint j) { return j * n - (j * (j + 1u) - 2u * j) / 2u; }

@@ -1,4 +1,4 @@
-// Shared samples: those along edges, each once, and at corners, each with one of the edges that begin there. An edge comes
+// Indexed mesh: the samples along edges, each once, and at corners, each with one of the edges that begin there. An edge comes
 // from one of its patches, which it has on its left: positions from the border cubic, by the operations of the patches'
 // own evaluation and thus the same bits; normals from the border and what lies one step inside. Narrow mapping: one lane an
 // edge. Wide mapping: one lane a sample.
@@ -14,8 +14,8 @@
 #include "shaders/pm/border.glsl"
 #include "shaders/shared/pm.h"
 
-layout(constant_id = 3) const uint kEdges = kPlainEdges;
-layout(constant_id = 5) const bool kCornerNormals = false;
+layout(constant_id = kKindConstant) const uint kEdges = kPlainEdges;
+layout(constant_id = kCornerNormalsConstant) const bool kCornerNormals = false;
 
 const bool kPerturbed = kEdges == kPerturbedEdges;
 const bool kMixed = kEdges == kMixedEdges;
@@ -89,7 +89,7 @@ void finish(Edge e, uint k, uint rate, out vec3 position, out vec3 normal) {
 void evaluateNarrow() {
     uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
     uint entry = id / push.count, instance = instanceSlot(entry);
-    uint record = push.table + (id - entry * push.count) * kSharedEdgeElements;
+    uint record = push.table + (id - entry * push.count) * kEdgeElements;
     uvec4 own = tableElement(record + 2u);
     Edge e = loadEdge(record, own, instance * push.poolStride);
     uint first = instance * push.verticesPerInstance;
@@ -110,7 +110,7 @@ void evaluateWide() {
     if (id >= lanes * instanceCount()) return;
     uint entry = id / lanes, instance = instanceSlot(entry), lane = id - entry * lanes;
     uint edge = lane / rate, k = lane - edge * rate;
-    uint record = push.table + edge * kSharedEdgeElements;
+    uint record = push.table + edge * kEdgeElements;
     uvec4 own = tableElement(record + 2u);
     if (k == 0u && own.x == kNoEdgeSample) return;
     Edge e = loadEdge(record, own, instance * push.poolStride);

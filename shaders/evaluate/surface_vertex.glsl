@@ -1,5 +1,5 @@
 // The surface vertex: 16 bytes (position, octahedral normal in 2 x snorm16), 24 (position, normal) or 12 (position).
-layout(constant_id = 4) const uint kVertexFormat = kVertex16;
+layout(constant_id = kVertexFormatConstant) const uint kVertexFormat = kVertex16;
 
 layout(set = 0, binding = kSurfaceBinding, std430) writeonly buffer Surface16 { uvec4 surface16[]; };
 layout(set = 0, binding = kSurfaceBinding, scalar) writeonly buffer SurfaceVectors { vec3 surfaceVectors[]; };

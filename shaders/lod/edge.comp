@@ -10,7 +10,7 @@
 #include "shaders/surface/pool.glsl"
 #include "shaders/lod/levels.glsl"
 
-layout(constant_id = 3) const bool kCharts = false; // the border is the blend of two charts, else a cubic
+layout(constant_id = kChartsConstant) const bool kCharts = false; // the border is the blend of two charts, else a cubic
 const bool kSharp = true;
 #include "shaders/blend/blend.glsl"
 

@@ -10,7 +10,7 @@
 // and the first inner row are not: either has samples of its own. The corner that lies across is the end of a difference b
 // over the row's distance 1 / Li, from a point that lies off the line through the two corners by |q| e, e being second
 // differences along the border and |q| the product of the point's distances from them. With the border's level Le patterns
-// keep |q| Li below max(1, Li / (3.4 max(Le, 1))) (tests/surface/lod_pattern_test.cpp). So it is enough that d x b exceeds
+// keep |q| Li below max(1, Li / (3.4 max(Le, 1))) (tests/surface/lod/pattern_test.cpp). So it is enough that d x b exceeds
 // that many d x e for all differences d along the border; with its chord c and what leads inwards from it, n: d = x c + y n,
 // that c x b less y/x b x n exceeds so many c x e plus y/x e x n.
 

@@ -13,4 +13,4 @@ uint levelWord(uint i) {
 }
 
 // The one level of an instance, where it has one.
-float levelOfEntry(uint entry) { return uintBitsToFloat(instanceWord(push.firstInstance + entry + push.levels)); }
+float levelOfEntry(uint entry) { return uintBitsToFloat(instanceWord(push.window.firstInstance + entry + push.levels)); }

@@ -299,7 +299,7 @@ void main() {
     uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), base = instance * push.poolStride;
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
-    uint run = push.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
+    uint run = push.window.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
     uint sides = formSides(form);
     uint target = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
     vec3 g[16];

@@ -40,14 +40,14 @@ void main() {
     if (drawn) capacity = lodWord(kLodCapacities + priority * kLodBinStride + bin);
 
     // A place in the bucket. On GPUs a workgroup takes its places together.
-    uint local = more.y * kCapacityCount + capacity, bucket = kLodBuckets + 4u * (push.firstBucket + local);
+    uint local = more.y * kCapacityCount + capacity, bucket = kLodBuckets + 4u * (push.window.firstBucket + local);
     uint place = 0u;
     if (kWide) {
         if (drawn) place = atomicAdd(taken[local], 1u);
         barrier();
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) {
             uint n = taken[i];
-            if (n > 0u) taken[i] = atomicAdd(lodWords[kLodBuckets + 4u * (push.firstBucket + i) + 2u], n);
+            if (n > 0u) taken[i] = atomicAdd(lodWords[kLodBuckets + 4u * (push.window.firstBucket + i) + 2u], n);
         }
         barrier();
         place += taken[local];
@@ -56,7 +56,7 @@ void main() {
     }
     if (!drawn || place >= lodWord(bucket + 4u) - lodWord(bucket)) return;
 
-    uint form = lodWord(kLodRuns + push.firstRun + more.y) & 255u, sides = formSides(form);
+    uint form = lodWord(kLodRuns + push.window.firstRun + more.y) & 255u, sides = formSides(form);
     float scale = uintBitsToFloat(lodWord(kLodSolution + 4u + priority));
     precise float level[5];
     float largest = 1.0;
@@ -86,7 +86,7 @@ void main() {
     }
     uint samples = formSamples(form, capacityOf(capacity));
     uint to = kLodRecords / 4u + kLodRecordWords / 4u * (lodWord(bucket) + place);
-    lodTargets[to] = uvec4(patchIndex, (push.firstSlot + instance) | (listed & kInstanceIsNew),
+    lodTargets[to] = uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
                            lodWord(bucket + 1u) + place * samples, capacity);
     lodTargets[to + 1u] = uvec4(pairs[0], pairs[1]);
     lodTargets[to + 2u] = uvec4(pairs[2], pairs[3]);

@@ -25,7 +25,7 @@ uint lodRecordElement(uint index) { return (kLodRecords + kLodRecordWords * inde
 LodRecord lodRecordOf(uvec4 head) {
     LodRecord r;
     r.patchIndex = head.x;
-    r.slot = (head.y & kInstanceSlotMask) - push.firstSlot;
+    r.slot = (head.y & kInstanceSlotMask) - push.window.firstSlot;
     r.isNew = (head.y & kInstanceIsNew) != 0u;
     r.firstVertex = head.z;
     r.capacityIndex = head.w;
@@ -68,7 +68,7 @@ vec3 ringWeights(vec2 along, float t) {
 
 // The record of a lane, in the narrow mapping. Idle lanes repeat the last.
 uint lodRecordOfLane() {
-    uint at = kLodDispatches + 8u * push.dispatch;
+    uint at = kLodDispatches + 8u * (push.window.firstRun + push.run);
     return lodWord(at + 3u) + min(invocationIndex(), lodWord(at + 4u) - 1u);
 }
 
@@ -77,7 +77,7 @@ struct LodShare {
     uint firstRecord, recordCount, samples, side;
 };
 LodShare lodShareOfGroup(uint form) {
-    uint at = kLodDispatches + 8u * push.dispatch;
+    uint at = kLodDispatches + 8u * (push.window.firstRun + push.run);
     uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = lodWord(at + 6u);
     LodShare share = LodShare(0u, 0u, 1u, 1u);
     if (workgroupIndex() >= lodWord(at + 7u)) return share;

@@ -2,7 +2,7 @@
 // k1 = 1 - 2 k0 of (3), the centre weight w_m of (20).
 #include "shaders/shared/pm.h"
 
-layout(constant_id = 3) const uint kClass = kP3Patch;
+layout(constant_id = kKindConstant) const uint kClass = kP3Patch;
 
 const uint kSides = kClass == kP5Patch ? 5u : kClass == kP4Patch ? 4u : 3u;
 const float kMu = kClass == kP5Patch ? 0.6909830056250526 : kClass == kP4Patch ? 1.0 : 1.5;

@@ -11,7 +11,7 @@
 #include "shaders/surface/cage.glsl"
 #include "shaders/shared/pm.h"
 
-layout(constant_id = 3) const uint kFan = kManyFan;
+layout(constant_id = kKindConstant) const uint kFan = kManyFan;
 
 #include "shaders/surface/ring.glsl"
 // Q_j = (p_3j+1 + p_3j+2) / 2; exact where the two are one vertex.

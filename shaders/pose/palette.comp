@@ -6,8 +6,8 @@
 #include "shaders/pose/rotation.glsl"
 #include "shaders/pose/affine.glsl"
 
-layout(constant_id = 4) const bool kDualQuaternions = false; // the pose has their layout
-layout(constant_id = 3) const uint kSharedRows = 1u; // 3 * kSharedNodes with the wide mapping
+layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // the pose has their layout
+layout(constant_id = kWorkgroupRowsConstant) const uint kSharedRows = 1u; // 3 * kSharedNodes with the wide mapping
 
 layout(set = 0, binding = kScratchPoseBinding, std430) coherent buffer Scratch { vec4 scratch[]; };
 layout(set = 0, binding = kScratchPoseTexelBinding) uniform samplerBuffer scratchTexels;

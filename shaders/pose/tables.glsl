@@ -4,6 +4,7 @@
 #include "shaders/shared/pose.h"
 
 layout(push_constant) uniform Push { PosePush push; };
+#define INSTANCE_PUSH push
 #include "shaders/shared/instances.glsl"
 
 layout(set = 0, binding = kClipTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };

@@ -11,7 +11,7 @@
 #include "shaders/surface/cage.glsl"
 #include "shaders/shared/prep.h"
 
-layout(constant_id = 3) const uint kFan = kManyFan;
+layout(constant_id = kKindConstant) const uint kFan = kManyFan;
 
 #include "shaders/surface/ring.glsl"
 vec3 ringDiagonal(uint word, uint cageBase, vec3 p0) {

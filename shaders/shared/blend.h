@@ -1,20 +1,24 @@
 // The tables of the blending surface (what all schemes share: shared/surface.h; the formulas: docs/blend.md). They are
-// made for one rate, or for none where patches are drawn at levels of detail: then there are neither coordinates nor samples.
+// made for one rate, or for none where patches are drawn at levels of detail: then there are neither coordinates nor
+// samples.
 //
-// Coefficient pool: where the cage takes a step of subdivision first, its vertices; then kChartCoefficients a chart: c_ab at
-// 3 a + b, the first a position and the others vectors.
+// Coefficient pool: where the cage takes a step of subdivision first, its vertices; then kChartCoefficients a chart:
+// c_ab at 3 a + b, the first a position and the others vectors.
 //
 // Tables
 //   chart records    (vertex, first ring word, element of the fit, pool index of c_00), by number of ring points
 //   ring             words: vertices of the cage, or, where it is subdivided, of the pool
 //   fits             (ring points, 0, 0, 0), then three elements a ring point: its weights in c_00..c_22; one a class
-//   coordinates      one element a coordinate of samples: (t, eta(t), eta'(t), 0); t = i / rate, i = 0..rate, then half a step
+//   coordinates      one element a coordinate of samples: (t, eta(t), eta'(t), 0); t = i / rate, i = 0..rate, then half
+//   a step
 //                    inside either end
 //   directions       one element h: (e^(2 pi i h / k), e^(2 pi i (h + 1) / k)); one run a k
-//   chart samples    one element a pair of coordinates, x fastest: (zeta, d zeta / dz) of sector 0; where x = 0 and y > 0 zeta is
+//   chart samples    one element a pair of coordinates, x fastest: (zeta, d zeta / dz) of sector 0; where x = 0 and y >
+//   0 zeta is
 //                    told from the next direction, so that both faces at a spoke multiply the same numbers; one run a k
 //   crease samples   two elements likewise: the parameter of the crease, its slopes by x and by y; one run a k
-//   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples), or, at
+//   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples), or,
+//   at
 //                    levels, (.., .., 4 / k, 0)
 #ifndef SUPPLE_SHARED_BLEND_H
 #define SUPPLE_SHARED_BLEND_H

@@ -1,35 +1,36 @@
-// Bounds and culling: which instances a view sees, found from their deformed cages, and the list of them that later passes
-// and draws work from.
+// Bounds and culling: which instances a view sees, found from their deformed cages, and the list of them that later
+// passes and draws work from.
 //
 //   bounds   one pass a window of instances: the box of every listed instance's deformed cage, made larger by what the
 //            surface may lie outside, and whether it is seen
-//   size     only where not all may have room even at their coarsest: how many vertices those that are seen need, by size
-//   list     one workgroup a group, after the bounds of all its windows: those that are seen, in order, and the arguments of
+//   size     only where not all may have room even at their coarsest: how many vertices those that are seen need, by
+//   size list     one workgroup a group, after the bounds of all its windows: those that are seen, in order, and the
+//   arguments of
 //            the indirect dispatches and draws
-//   demand   where instances have one of several rates and count in the budget: the vertices they need, by how far their
+//   demand   where instances have one of several rates and count in the budget: the vertices they need, by how far
+//   their
 //            levels are above what a rate is enough for (shaders/shared/lod.h)
 //   rates    one workgroup a group, when the budget is solved: as list, once more for every rate
 //
-// Host list: an entry an instance, slots of the group rising: slot | priority << kInstancePriorityShift | kInstanceIsNew
-// where the frame before did not list it.
-// State: two words a slot: 0 where it is not seen, else 1 + its rank, the smaller the sooner it is left out where there is no
-// room: rank of its priority * kSizeBins + bin of its size; and kDrawn or kDrawnWithPast where it was when it was listed last, which
-// counts as a past only where the host list does not say kInstanceIsNew; between `occlude` and `list` kOccluded where it is the
-// pyramid alone that hides it.
-// List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has them,
-// those with a past first, either kind rising; `levels` entries further on each of these has its instance's level.
-// Where instances have one of several rates (subdivision): the same once more a rate, without levels, `rateStride` words from
-// each other, in the order of slots alone. An instance has the smallest rate that is not below its level as the budget
-// scales it, or the last.
-// Between the two, `occlude` may take more instances out of sight, by a depth pyramid.
-// Table (uvec4 elements): windows, then arguments, then draws.
+// Host list: an entry an instance, slots of the group rising: slot | priority << kInstancePriorityShift |
+// kInstanceIsNew where the frame before did not list it. State: two words a slot: 0 where it is not seen, else 1 + its
+// rank, the smaller the sooner it is left out where there is no room: rank of its priority * kSizeBins + bin of its
+// size; and kDrawn or kDrawnWithPast where it was when it was listed last, which counts as a past only where the host
+// list does not say kInstanceIsNew; between `occlude` and `list` kOccluded where it is the pyramid alone that hides it.
+// List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has
+// them, those with a past first, either kind rising; `levels` entries further on each of these has its instance's
+// level. Where instances have one of several rates (subdivision): the same once more a rate, without levels,
+// `rateStride` words from each other, in the order of slots alone. An instance has the smallest rate that is not below
+// its level as the budget scales it, or the last. Between the two, `occlude` may take more instances out of sight, by a
+// depth pyramid. Table (uvec4 elements): windows, then arguments, then draws.
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
-//   argument   of a dispatch (x, y, 1): (elements an instance, elements a workgroup, which instances it counts, word in the
+//   argument   of a dispatch (x, y, 1): (elements an instance, elements a workgroup, which instances it counts, word in
+//   the
 //              argument buffer); those of window w stand argumentStride * w words further
 //   draw       (indices, first index, patches an instance, rate): a whole VkDrawIndexedIndirectCommand for all windows
-// Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded; the same
-// of every window; then as the table says.
-// Then, from rateCounts on, how many instances a rate and window has, [rate][window]; from firstDraw on the draws.
+// Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded;
+// the same of every window; then as the table says. Then, from rateCounts on, how many instances a rate and window has,
+// [rate][window]; from firstDraw on the draws.
 #ifndef SUPPLE_SHARED_BOUNDS_H
 #define SUPPLE_SHARED_BOUNDS_H
 
@@ -68,16 +69,16 @@ struct CullView {
     uint reserved;
 };
 
-// Sizes are radii in pixels: kSizeBinsPerOctave bins an octave from 2^-kSizeOctavesBelow on. The buffer has the vertices that
-// instances of a rank need at least.
+// Sizes are radii in pixels: kSizeBinsPerOctave bins an octave from 2^-kSizeOctavesBelow on. The buffer has the
+// vertices that instances of a rank need at least.
 SUPPLE_SHARED_CONST kSizeBins = 1024u;
 SUPPLE_SHARED_CONST kSizeBinsPerOctave = 64u;
 SUPPLE_SHARED_CONST kSizeOctavesBelow = 4u;
 SUPPLE_SHARED_CONST kSizeRanks = 4u * kSizeBins;
 
-// Bounds of an instance, two vec4: the least corner and the level that the instance asks for as a whole; the greatest corner
-// and 1 where a vertex is not finite. Such vertices are left out of the box, which says little then: the instance counts as
-// seen. No finite vertex: a box from kFloatMax to -kFloatMax.
+// Bounds of an instance, two vec4: the least corner and the level that the instance asks for as a whole; the greatest
+// corner and 1 where a vertex is not finite. Such vertices are left out of the box, which says little then: the
+// instance counts as seen. No finite vertex: a box from kFloatMax to -kFloatMax.
 struct BoundsPush {
     uint vertexCount;
     uint cageStride; // vertices an instance in the deformed cage
@@ -135,8 +136,8 @@ SUPPLE_SHARED_CONST kRoomForAll = 0xFFFFFFFFu;
 // Occlusion has a layout of its own: bounds, states and the host's list as above, and the pyramid.
 SUPPLE_SHARED_CONST kPyramidBinding = 11u;
 
-// Texel (x, y) of level l holds the farthest depth of all that its rectangle, (x..x+1, y..y+1) / size of the level, touches
-// in the picture; levels halve in size, rounded down.
+// Texel (x, y) of level l holds the farthest depth of all that its rectangle, (x..x+1, y..y+1) / size of the level,
+// touches in the picture; levels halve in size, rounded down.
 struct OcclusionPush {
     float columns[16]; // to clip space, of the picture that the pyramid was made of
     uint firstEntry;   // of the host list

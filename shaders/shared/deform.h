@@ -1,7 +1,7 @@
 // The deform pass: push constants, the layout of its static table and of an instance's pose.
 //
-// Table (uvec4 elements): one record a cage vertex and one more, then every vertex's run of elements; where the cage has
-// morph targets, four words an element with the first influence of every vertex follow.
+// Table (uvec4 elements): one record a cage vertex and one more, then every vertex's run of elements; where the cage
+// has morph targets, four words an element with the first influence of every vertex follow.
 //   vertex     (x, y, z as float bits; first element of its run); a run ends where the next vertex's begins
 //   run        displacements, one an element: (morph target, x, y, z as float bits); then
 //              influences, two an element: (joint, weight bits, joint, weight bits), the heaviest first; an odd list is

@@ -1,4 +1,8 @@
-// Which instance an invocation works on. Needs mapping.glsl and push constants with `firstInstance`.
+// Which instance an invocation works on. Needs mapping.glsl and push constants with a `window`; INSTANCE_PUSH names where
+// else `firstInstance` and `instanceCount` stand.
+#ifndef INSTANCE_PUSH
+#define INSTANCE_PUSH push.window
+#endif
 layout(set = 0, binding = kInstanceBinding, std430) readonly buffer Instances { uint instanceEntries[]; };
 layout(set = 0, binding = kInstanceTexelBinding) uniform usamplerBuffer instanceTexels;
 
@@ -7,9 +11,9 @@ uint instanceWord(uint i) {
     return texelFetch(instanceTexels, int(i)).x;
 }
 // The dispatch's n-th entry of the list, and how many there are.
-uint instanceEntry(uint n) { return instanceWord(push.firstInstance + n); }
+uint instanceEntry(uint n) { return instanceWord(INSTANCE_PUSH.firstInstance + n); }
 uint instanceCount() {
-    return (push.instanceCount & kCountOnDevice) != 0u ? instanceWord(push.instanceCount & ~kCountOnDevice)
-                                                       : push.instanceCount;
+    return (INSTANCE_PUSH.instanceCount & kCountOnDevice) != 0u ? instanceWord(INSTANCE_PUSH.instanceCount & ~kCountOnDevice)
+                                                       : INSTANCE_PUSH.instanceCount;
 }
 uint instanceSlot(uint n) { return instanceEntry(n) & kInstanceSlotMask; }

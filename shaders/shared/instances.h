@@ -1,6 +1,6 @@
-// The list of instances a dispatch works on: entries of a buffer that both the deform pass and the surface passes bind, each
-// the slot of an instance within the window of slots that the other buffers are bound by, and what the passes must know of
-// it.
+// The list of instances a dispatch works on: entries of a buffer that both the deform pass and the surface passes bind,
+// each the slot of an instance within the window of slots that the other buffers are bound by, and what the passes must
+// know of it.
 #ifndef SUPPLE_SHARED_INSTANCES_H
 #define SUPPLE_SHARED_INSTANCES_H
 

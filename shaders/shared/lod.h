@@ -3,7 +3,8 @@
 // A view has one buffer, of words; what lies where is a constant, so that no pass is told:
 //   patterns      the words of all capacities (surface/lod/pattern.h)
 //   grids         by form and capacity: (first index, index count) of a draw instance
-//   runs          one word a run: form | the group's first run << 8 | dispatch << 16, dispatch from kMaxRuns on where no
+//   runs          one word a run: form | the group's first run << 8 | dispatch << 16, dispatch from kMaxRuns on where
+//   no
 //                 group has the run. A run is the patches of one class and material of a window of instances of a
 //                 group; a dispatch evaluates the runs of one class, which follow each other
 //   doubleSided   a bit a run: its patches show their backs too
@@ -12,9 +13,12 @@
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
 //                 kSplitUnit is shared between two bins
 //   counts        by run, priority and bin: patches
-//   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their coarsest;
-//                 then by priority and bin what finer rates have more, which counts while levels are scaled by fewer bins
-//   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first run
+//   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their
+//   coarsest;
+//                 then by priority and bin what finer rates have more, which counts while levels are scaled by fewer
+//                 bins
+//   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first
+//   run
 //                 on; one more behind them tells where the last one's records end
 //   dispatches    eight words each (LodDispatch)
 //   draws         by run and capacity: VkDrawIndexedIndirectCommand
@@ -29,6 +33,7 @@
 
 #include "shaders/shared/camera.h"
 #include "shaders/shared/portable.h"
+#include "shaders/shared/window.h"
 
 SUPPLE_SHARED_BEGIN
 
@@ -42,8 +47,8 @@ SUPPLE_SHARED_CONST kCapacityCount = 10u;
 #define SUPPLE_LOD_FIRST_WORDS 0u, 1u, 3u, 6u, 10u, 16u, 24u, 36u, 52u, 76u
 // The same in six and in eight bits each: GPUs keep arrays that lanes index differently in memory.
 #define SUPPLE_LOD_CAPACITY(i) (((i) < 5u ? 0x0B1C50C1u : 0x3FBDF5CFu) >> 6u * ((i) < 5u ? (i) : (i)-5u) & 63u)
-#define SUPPLE_LOD_FIRST_WORD(i) \
-    (((i) < 4u ? 0x06030100u : (i) < 8u ? 0x2418100Au : 0x00004C34u) >> 8u * ((i) & 3u) & 255u)
+#define SUPPLE_LOD_FIRST_WORD(i)                                                                                       \
+    (((i) < 4u ? 0x06030100u : (i) < 8u ? 0x2418100Au : 0x00004C34u) >> 8u * ((i)&3u) & 255u)
 SUPPLE_SHARED_CONST kPriorityCount = 4u;
 SUPPLE_SHARED_CONST kMaxRuns = 256u; // of a view, and dispatches
 
@@ -60,11 +65,13 @@ SUPPLE_SHARED_CONST kOctavesBelow = 6u;
 SUPPLE_SHARED_CONST kLodBins = 898u;
 SUPPLE_SHARED_CONST kLodBinStride = 900u;
 SUPPLE_SHARED_CONST kSplitUnit = 256u;
-// The budget scales levels by 2^(-scaled / kBinsPerOctave), scaled = SUPPLE_LOD_SCALED(elasticity, x), x = 0..kBudgetSteps:
-// by elasticities first, and where these are used up all priorities further down alike, until every level is 1.
+// The budget scales levels by 2^(-scaled / kBinsPerOctave), scaled = SUPPLE_LOD_SCALED(elasticity, x), x =
+// 0..kBudgetSteps: by elasticities first, and where these are used up all priorities further down alike, until every
+// level is 1.
 SUPPLE_SHARED_CONST kElasticSteps = 512u;
-#define SUPPLE_LOD_SCALED(elasticity, x) \
-    ((x) < float(kElasticSteps) ? (elasticity) * (x) : (elasticity) * float(kElasticSteps) + ((x) - float(kElasticSteps)))
+#define SUPPLE_LOD_SCALED(elasticity, x)                                                                               \
+    ((x) < float(kElasticSteps) ? (elasticity) * (x)                                                                   \
+                                : (elasticity) * float(kElasticSteps) + ((x) - float(kElasticSteps)))
 
 SUPPLE_SHARED_CONST kPatternWordCount = 108u;
 SUPPLE_SHARED_CONST kLodPatterns = 0u;
@@ -125,22 +132,19 @@ SUPPLE_SHARED_CONST kLodPatchLevelWords = 3u; // bin, levels the inside asks for
 
 // What the passes before evaluation are told.
 struct LodPush {
+    WindowPush window;
     uint count; // edges or patches an instance
-    uint instanceCount;
-    uint firstInstance; // of the list
-    uint firstSlot;     // of the window
-    uint edges;         // first table element of the edges
+    uint edges; // first table element of the edges
     uint patches;       // and of the patches
     uint edgeCount;
     uint poolStride;
     uint tangents;      // first in the pool
     uint faces;         // and face coefficients
     uint scratchStride; // elements an instance
-    uint firstRun;      // of the window, in the view
     uint runCount;      // of the window
-    uint firstBucket;   // of the window, in the view
     uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
-    LodCamera camera;   // where back faces are left out, of an orthographic one: the direction it looks in for its position
+    LodCamera
+        camera; // where back faces are left out, of an orthographic one: the direction it looks in for its position
 };
 struct LodSolvePush {
     uint runCount;          // in use, of the view

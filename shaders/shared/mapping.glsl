@@ -1,12 +1,14 @@
-// The constants that lay the same code on a CPU device or a GPU; chosen in gpu/mapping.cpp, ids in gpu/mapping.h.
-layout(local_size_x_id = 0) in;
+// The constants that lay the same code on a CPU device or a GPU; chosen in gpu/mapping.cpp.
+#include "shaders/shared/specialization.h"
+
+layout(local_size_x_id = kLocalSizeConstant) in;
 // Many lanes a patch, storage-buffer loads. A macro: what one mapping does without need not be compiled for it.
 #ifdef WIDE
 const bool kWide = true;
 #else
 const bool kWide = false;
 #endif
-layout(constant_id = 2) const bool kExactDivision = false; // the device rounds k / rate correctly
+layout(constant_id = kExactDivisionConstant) const bool kExactDivision = false; // the device rounds k / rate correctly
 
 const uint kMaxLanes = 128u; // of gl_WorkGroupSize.x: gpu/mapping.cpp
 

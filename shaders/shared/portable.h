@@ -4,8 +4,8 @@
 
 #ifdef __cplusplus
 #include <cstdint>
-#define SUPPLE_SHARED_BEGIN                                                                                                \
-    namespace supple::shared {                                                                                             \
+#define SUPPLE_SHARED_BEGIN                                                                                            \
+    namespace supple::shared {                                                                                         \
     using uint = uint32_t;
 #define SUPPLE_SHARED_END }
 #define SUPPLE_SHARED_CONST inline constexpr uint

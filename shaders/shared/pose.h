@@ -1,8 +1,10 @@
 // The pose pass: push constants, the layout of the clip table, of an instance's playback and of the scratch memory.
 //
-// Clip table (uvec4 elements, floats as bits), static, one an asset. Nodes are those that move a joint, sorted by depth,
-// so that parents stand before children and a level's nodes side by side; kNodeElements each, from the first element on:
-//   node       (parent or kNoNode, 1 where the local matrix is fixed, 0, 0); then the three rows of the fixed matrix, or
+// Clip table (uvec4 elements, floats as bits), static, one an asset. Nodes are those that move a joint, sorted by
+// depth, so that parents stand before children and a level's nodes side by side; kNodeElements each, from the first
+// element on:
+//   node       (parent or kNoNode, 1 where the local matrix is fixed, 0, 0); then the three rows of the fixed matrix,
+//   or
 //              translation, rotation (x, y, z, w), scale of the rest pose
 //   joint      kJointElements each, from `joints` on: the three rows of the inverse bind matrix; (node, 0, 0, 0)
 //   level      one element each, from `levels` on: (first node, end, 0, 0)
@@ -10,7 +12,8 @@
 //   clip       one element each, from `clips` on: (first of its nodes' elements, channel of the morph weights or 0,
 //              duration as a high and a low float)
 //   clip node  one element a node: channels of its translation, rotation and scale, or 0
-//   channel    (4 * keys + interpolation, keys a second as a float, element of the key times, of the values); times four
+//   channel    (4 * keys + interpolation, keys a second as a float, element of the key times, of the values); times
+//   four
 //              an element; a value is one element, morph weights are packed; a cubic spline has in-tangent, value,
 //              out-tangent a key
 //
@@ -19,16 +22,16 @@
 //              three rows of the instance's transform;
 //              travel: (translation of the first layer's root from the clip's time at the layer's start to the clip's
 //              beginning; 0); (sine and cosine of half that turn; a loop's turn in double
-//              turns, high and low); (what a loop moves by; 1) where it does not turn, else (x, height a loop, z; 0) with
-//              the point (x, z) that the loop turns about
+//              turns, high and low); (what a loop moves by; 1) where it does not turn, else (x, height a loop, z; 0)
+//              with the point (x, z) that the loop turns about
 //   layer      kLayerElements each, kMaxPlaybackLayers of them, of which only the first `layers` are read:
 //              (clip, flags, mask or 0, 0); (start, clip offset, of a loop within it: high and low floats each);
 //              (speed, weight, fade weight, fade duration); (fade start, reference time: high and low each);
 //              the root's position at the clip's beginning; its rotation
 //   weights    the host's morph weights, four an element
 //
-// Masks (floats, four an element), kMaxMasks runs of `maskStride` elements: one value a node, from the next whole element
-// on one a morph target.
+// Masks (floats, four an element), kMaxMasks runs of `maskStride` elements: one value a node, from the next whole
+// element on one a morph target.
 //
 // Scratch (vec4 elements, one run of `scratchStride` an instance): three rows a node, its local matrix, then in its
 // place the global one; three rows of the instance's transform with what it has travelled.
@@ -78,8 +81,8 @@ SUPPLE_SHARED_CONST kStepKeys = 0u;
 SUPPLE_SHARED_CONST kLinearKeys = 1u;
 SUPPLE_SHARED_CONST kCubicKeys = 2u;
 
-// Wide mapping: nodes whose matrices fit into the 16 KiB of shared memory that every device has. Larger skeletons stay in
-// the scratch memory.
+// Wide mapping: nodes whose matrices fit into the 16 KiB of shared memory that every device has. Larger skeletons stay
+// in the scratch memory.
 SUPPLE_SHARED_CONST kSharedNodes = 320u;
 
 struct PosePush {

@@ -1,20 +1,23 @@
 // The tables and the pool of p-rep (what all schemes share: shared/surface.h).
 //
-// Coefficient pool: limit points X (one a cage vertex), tangents TG and face coefficients FC (one a spoke slot each), edge
-// coefficients H (four a perturbed edge: h20, h30, h21, h31 in the edge's own direction), four zeros. The FC slot of a
-// boundary fan's last spoke carries no sector; it holds the vertex normal e1 x e2.
+// Coefficient pool: limit points X (one a cage vertex), tangents TG and face coefficients FC (one a spoke slot each),
+// edge coefficients H (four a perturbed edge: h20, h30, h21, h31 in the edge's own direction), four zeros. The FC slot
+// of a boundary fan's last spoke carries no sector; it holds the vertex normal e1 x e2.
 //
 // Tables
 //   ring             see shared/surface.h; regular interior vertices come first and have nothing else
 //   vertex records   of all others two words, one behind the other: first spoke slot, class element
 //   classes          (sectors | kBoundaryClass, 0, 0, 0), then two elements a spoke:
 //                    (limitEdge, limitFace, e1Edge, e1Face), (e2Edge, e2Face, cosine, sine)
-//   edge records     one element: for A, then for B, the vertex and in the bits above half of the edge class's number; then
-//                    the edge's spoke there, and the step to the one before it, whose sector is on the edge's other side
+//   edge records     one element: for A, then for B, the vertex and in the bits above half of the edge class's number;
+//   then
+//                    the edge's spoke there, and the step to the one before it, whose sector is on the edge's other
+//                    side
 //   edge classes     six elements, for A, tA, tB, B, SA, SB: their weights in (h20, h30, h21, h31)
-//   perturbed patch  behind the corners a word an edge: the pool index of its H, or of the zeros with kStillEdgeOfPatch;
-//                    kReversedEdgeOfPatch where the patch runs against the edge's own direction, which swaps h20 with h30 and
-//                    h21 with h31
+//   perturbed patch  behind the corners a word an edge: the pool index of its H, or of the zeros with
+//   kStillEdgeOfPatch;
+//                    kReversedEdgeOfPatch where the patch runs against the edge's own direction, which swaps h20 with
+//                    h30 and h21 with h31
 #ifndef SUPPLE_SHARED_PREP_H
 #define SUPPLE_SHARED_PREP_H
 
@@ -36,11 +39,11 @@ SUPPLE_SHARED_END
 #define SUPPLE_PREP_EDGE_CLASS(wordA, wordB) ((wordA) >> kPointBits | (wordB) >> kPointBits << (32u - kPointBits))
 
 // The pool index of the s-th coefficient of an edge, as the patch has them.
-#define SUPPLE_PREP_EDGE_INDEX(word, s) (((word) & kEdgeOfPatchMask) + ((s) ^ ((word) >> 31)))
+#define SUPPLE_PREP_EDGE_INDEX(word, s) (((word)&kEdgeOfPatchMask) + ((s) ^ ((word) >> 31)))
 
-// Evaluation order of the 16 perturbation coefficients (h_2j, h_3j for j = 0, 1, 4, 5; h_i2, h_i3 for i = 0, 1, 4, 5) to
-// face edge order h[4 e + s], s = local (2,0), (3,0), (2,1), (3,1) of face edge e.
-// 0, 2, 11, 9, 1, 3, 10, 8, 13, 12, 15, 14, 6, 7, 4, 5: four bits a coefficient, as in shared/surface.h.
-#define SUPPLE_PREP_FACE_EDGE(k) (((k) < 8u ? 0x8A319B20u : 0x5476EFCDu) >> 4u * ((k) & 7u) & 15u)
+// Evaluation order of the 16 perturbation coefficients (h_2j, h_3j for j = 0, 1, 4, 5; h_i2, h_i3 for i = 0, 1, 4, 5)
+// to face edge order h[4 e + s], s = local (2,0), (3,0), (2,1), (3,1) of face edge e. 0, 2, 11, 9, 1, 3, 10, 8, 13, 12,
+// 15, 14, 6, 7, 4, 5: four bits a coefficient, as in shared/surface.h.
+#define SUPPLE_PREP_FACE_EDGE(k) (((k) < 8u ? 0x8A319B20u : 0x5476EFCDu) >> 4u * ((k)&7u) & 15u)
 
 #endif

@@ -7,35 +7,42 @@
 // limit point + offset, so that both sides of a border see the same bits.
 //
 // Tables (one buffer, read as uvec4 or as uint) begin with what the scheme's construction needs and end with
-//   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 the pool indices of the limit points,
-//                    then the spokes; a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge to the
-//                    next corner among tangents and face coefficients, and the step from it to that of the edge to the last
-//                    corner. A polar patch has three corners, then the pool index of its first inner coefficient; and see
-//                    shared/pm.h
-//                    perturbed: one element more, see shared/prep.h;  P_m: see shared/pm.h
-//                    where the group keeps corner normals (kCornerNormals): one more element, for each corner the pool
-//                    index of its normal, or kNoNormal
-//   ring             p-rep, P_m: what a vertex's fan is made of, one word a spoke: the element that holds the corners of the
-//                    facet behind the spoke, and where in it stand (SUPPLE_RING_PLACE) the vertex itself, the spoke's far
-//                    end and the facet's two other far corners, a quad's twice. The element is the first of a patch's record,
-//                    whose limit points are numbered as the cage's vertices are, or one of its own: of holes, and where a crease
-//                    gives a vertex several limit points. A fan's last spoke without a facet has the vertex for far corners
-//   attributes       one element for all corners that have the same: (u, v, color as RG and BA in 16-bit unorm); with a second
-//                    UV set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
-//   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every class
+//   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 the pool indices of the limit
+//   points,
+//                    then the spokes; a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge
+//                    to the next corner among tangents and face coefficients, and the step from it to that of the edge
+//                    to the last corner. A polar patch has three corners, then the pool index of its first inner
+//                    coefficient; and see shared/pm.h perturbed: one element more, see shared/prep.h;  P_m: see
+//                    shared/pm.h where the group keeps corner normals (kCornerNormals): one more element, for each
+//                    corner the pool index of its normal, or kNoNormal
+//   ring             p-rep, P_m: what a vertex's fan is made of, one word a spoke: the element that holds the corners
+//   of the
+//                    facet behind the spoke, and where in it stand (SUPPLE_RING_PLACE) the vertex itself, the spoke's
+//                    far end and the facet's two other far corners, a quad's twice. The element is the first of a
+//                    patch's record, whose limit points are numbered as the cage's vertices are, or one of its own: of
+//                    holes, and where a crease gives a vertex several limit points. A fan's last spoke without a facet
+//                    has the vertex for far corners
+//   attributes       one element for all corners that have the same: (u, v, color as RG and BA in 16-bit unorm); with a
+//   second
+//                    UV set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are
+//                    none
+//   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every
+//   class
 //                    of patches begins an element
-//   shared edges     shared samples: three elements an edge, as one of its patches has it on its left: pool indices of the
-//                    border cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative
-//                    across is made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the
-//                    edge; flags; extra). Extra: perturbed edges: h20, the others of the four follow, or by
-//                    kSwappedEdge stand as h30 h20 h31 h21; kStoredNormalEdge: the normal of the beginning; kSingularEdge:
-//                    b121 of the sector before
+//   mesh edges       indexed mesh: three elements an edge, as one of its patches has it on its left: pool indices of
+//   the
+//                    border cubic (end, its tangent, the other end's tangent, other end); of four offsets that the
+//                    derivative across is made of; (corner sample at its beginning, or kNoEdgeSample where another edge
+//                    stores it; the edge; flags; extra). Extra: perturbed edges: h20, the others of the four follow, or
+//                    by kSwappedEdge stand as h30 h20 h31 h21; kStoredNormalEdge: the normal of the beginning;
+//                    kSingularEdge: b121 of the sector before
 //   edge attributes  one element a record: (attribute element of the beginning, of the end, -, -)
 #ifndef SUPPLE_SHARED_SURFACE_H
 #define SUPPLE_SHARED_SURFACE_H
 
 #include "shaders/shared/instances.h"
 #include "shaders/shared/portable.h"
+#include "shaders/shared/window.h"
 
 SUPPLE_SHARED_BEGIN
 
@@ -72,7 +79,7 @@ SUPPLE_SHARED_CONST kQuadDomain = 0u;
 SUPPLE_SHARED_CONST kPolarDomain = 1u;
 SUPPLE_SHARED_CONST kTriangleDomain = 2u;
 SUPPLE_SHARED_CONST kPentagonDomain = 3u;
-SUPPLE_SHARED_CONST kEdgeDomain = 4u; // none of a patch: attributes of shared samples along edges
+SUPPLE_SHARED_CONST kEdgeDomain = 4u; // none of a patch: attributes of an indexed mesh along edges
 
 // What evaluation writes a sample.
 SUPPLE_SHARED_CONST kVertex16 = 0u;       // position, octahedral normal in 2 x snorm16
@@ -110,7 +117,7 @@ SUPPLE_SHARED_CONST kRingFarEnd = 1u;
 SUPPLE_SHARED_CONST kRingFarCorner = 2u;
 SUPPLE_SHARED_CONST kRingOtherCorner = 3u;
 #define SUPPLE_RING_ELEMENT(word) ((word) >> kRingPlaceBits)
-#define SUPPLE_RING_PLACE(word, which) ((word) >> 2u * (which) & 3u)
+#define SUPPLE_RING_PLACE(word, which) ((word) >> 2u * (which)&3u)
 
 // The 16 coefficients of a bicubic patch, row by row in v: the corner, and what of it. Polar patches repeat the apex.
 SUPPLE_SHARED_CONST kNetPoint = 0u;
@@ -119,18 +126,18 @@ SUPPLE_SHARED_CONST kNetNextTangent = 2u; // of the next spoke
 SUPPLE_SHARED_CONST kNetFace = 3u;        // of the spoke
 SUPPLE_SHARED_CONST kNetBehind = 4u;      // behind the point
 // Two bits a coefficient, from the lowest on: GPUs keep arrays that lanes index differently in memory.
-#define SUPPLE_NET_CORNER(k) (0xAFAF5050u >> 2u * (k) & 3u)       // 0011 0011 3322 3322
-#define SUPPLE_NET_KIND(k) (0x18BD7E24u >> 2u * (k) & 3u)         // 0120 2331 1332 0210
-#define SUPPLE_POLAR_NET_CORNER(k) (0xAABE5050u >> 2u * (k) & 3u) // 0011 0011 2332 2222
-#define SUPPLE_POLAR_NET_KIND(k) ((k) == 10u ? kNetBehind : 0x00817E24u >> 2u * (k) & 3u) // 0120 2331 1042 0000
+#define SUPPLE_NET_CORNER(k) (0xAFAF5050u >> 2u * (k)&3u)                               // 0011 0011 3322 3322
+#define SUPPLE_NET_KIND(k) (0x18BD7E24u >> 2u * (k)&3u)                                 // 0120 2331 1332 0210
+#define SUPPLE_POLAR_NET_CORNER(k) (0xAABE5050u >> 2u * (k)&3u)                         // 0011 0011 2332 2222
+#define SUPPLE_POLAR_NET_KIND(k) ((k) == 10u ? kNetBehind : 0x00817E24u >> 2u * (k)&3u) // 0120 2331 1042 0000
 
-// Shared samples: kinds of edges, each a kernel.
+// Indexed mesh: kinds of edges, each a kernel.
 SUPPLE_SHARED_CONST kPlainEdges = 0u;     // of bicubic patches
 SUPPLE_SHARED_CONST kPerturbedEdges = 1u; // of p-rep's perturbed patches, where the perturbation is
 SUPPLE_SHARED_CONST kMixedEdges = 2u;     // of all of P_m's patches
 SUPPLE_SHARED_CONST kEdgeKinds = 3u;
 
-SUPPLE_SHARED_CONST kSharedEdgeElements = 3u;
+SUPPLE_SHARED_CONST kEdgeElements = 3u;
 SUPPLE_SHARED_CONST kNoEdgeSample = 0xFFFFFFFFu;
 // Flags; the low bits are the sides of a P_m patch, 0 for bicubic ones.
 SUPPLE_SHARED_CONST kEdgeSidesMask = 7u;
@@ -140,9 +147,10 @@ SUPPLE_SHARED_CONST kSwappedEdge = 32u;
 SUPPLE_SHARED_CONST kStoredNormalEdge = 64u;
 SUPPLE_SHARED_CONST kSingularEdge = 128u; // no normal at its beginning but as a limit
 
-SUPPLE_SHARED_CONST kPatchStride = 32u;       // elements a patch of any class in the patch-coefficient buffer
-// Wide mapping: what the shared memory of the evaluation passes holds, patches of any class, and of bicubic ones at a rate
-// elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes, or three of 12.
+SUPPLE_SHARED_CONST kPatchStride = 32u; // elements a patch of any class in the patch-coefficient buffer
+// Wide mapping: what the shared memory of the evaluation passes holds, patches of any class, and of bicubic ones at a
+// rate elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes,
+// or three of 12.
 SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u;
 SUPPLE_SHARED_CONST kWideNetElements = 17u; // of a patch
 SUPPLE_SHARED_CONST kWidePerturbedNetElements = 33u;
@@ -150,12 +158,12 @@ SUPPLE_SHARED_CONST kWidePerturbedNetElements = 33u;
 
 // Where the sections of the tables and of the pool lie, and what a dispatch covers.
 struct SurfacePush {
+    WindowPush window;
     uint count;         // elements an instance: vertices, edges, facets, patches or patch samples
-    uint instanceCount; // of this window
     uint table;         // first table element of the pass's records; attributes: first word of the numbers
-    uint ring;          // first table word of the ring; blending surface: first element of the coordinates; attributes of
-                        // shared samples: first element of the edge records
-    uint cageStride;    // cage vertices an instance in the deformed cage
+    uint ring;       // first table word of the ring; blending surface: first element of the coordinates; attributes of an
+                     // indexed mesh: first element of the edge records
+    uint cageStride; // cage vertices an instance in the deformed cage
     uint poolStride;
     uint tangents; // first tangent in the pool
     uint faces;    // first face coefficient in the pool
@@ -169,10 +177,8 @@ struct SurfacePush {
     uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
     uint uvSets;          // 1 or 2
     uint faceUvs;         // 1 where corners have a place in their face's trim tile
-    uint firstInstance;   // of the list
-    uint firstSlot;       // level of detail: of the window, and
-    uint dispatch;        // the view's dispatch (shared/lod.h)
-    uint firstCorner;     // shared samples: the first at a corner, in the instance's surface vertices
+    uint run;             // level of detail: the range's number; with the window's first run, the view's dispatch
+    uint firstCorner;     // indexed mesh: the first at a corner, in the instance's surface vertices
     uint edgeClasses;     // construction: first table element of the edges' weights
     uint attributes;      // first element of the corner attributes,
     uint attributeHalves; // and 1 where a word holds the numbers of two

@@ -1,5 +1,5 @@
-// Where a sample lies in a chart, from its parameters alone: what tables have for one rate, at any. In float with the
-// device's operations (shaders/blend/blend.glsl), in double with the library's.
+// Where a sample lies in a chart, computed from its parameters. The tables of a rate store this; here it is for any
+// parameters. Float uses the device's operations (shaders/blend/blend.glsl), double those of the standard library.
 #pragma once
 
 #include "shaders/shared/elementary.h"
@@ -15,7 +15,7 @@ template <class T>
 struct ChartPoint {
     glm::vec<2, T> zeta{};   ///< U + iV
     glm::vec<2, T> slope{};  ///< d zeta / dz
-    T t = 0, tx = 0, ty = 0; ///< T, which takes U's place where V has no part, and its slopes
+    T t = 0, tx = 0, ty = 0; ///< T and its slopes. T takes the place of U in terms without V
 };
 
 template <class T>
@@ -23,8 +23,9 @@ template <class T>
     return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
 }
 
-/// Of z = x + iy, both from 0 to 1, in the sector between two spokes of these directions; power = 4 / k. Beyond the
-/// diagonal it is told from the next spoke backwards, so that both sectors at a spoke multiply the same two numbers.
+/// The chart point of z = x + iy, with x and y from 0 to 1, in the sector between two spokes with these directions;
+/// power = 4 / k. Beyond the diagonal it is computed from the next spoke backwards, so that both sectors at a spoke
+/// multiply the same two numbers.
 template <class T>
 [[nodiscard]] ChartPoint<T> chartPoint(const glm::vec<2, T>& z, T power, bool creased, const glm::vec<2, T>& direction,
                                        const glm::vec<2, T>& next) {

@@ -1,5 +1,5 @@
-// The blending surface on the CPU, in float or double, with the sums of docs/blend.md in their order: for tests and
-// comparisons, not part of the runtime. In float it gives the device's bits.
+// The blending surface on the CPU, in float or double. Sums have the order of docs/blend.md, so that float gives the
+// bits of the device. For tests and comparisons; not part of the runtime.
 #pragma once
 
 #include "surface/blend/chart_point.h"
@@ -14,11 +14,11 @@
 
 namespace supple::surface::blend {
 
-/// Of one chart: c_ab at 3 a + b.
+/// The coefficients of one chart: c_ab at 3 a + b.
 template <class T>
 using ChartCoefficients = std::array<glm::vec<3, T>, kCoefficients>;
 
-/// Of all charts, from positions of Mesh::cage's vertices (the host's, put through Mesh::stencils).
+/// The coefficients of all charts. `positions`: of the vertices of Mesh::cage, which Mesh::stencils make of the host's.
 template <class T>
 [[nodiscard]] std::vector<ChartCoefficients<T>> construct(const Mesh& mesh, std::span<const glm::vec<3, T>> positions);
 
@@ -27,10 +27,10 @@ struct Sample {
     using Vec = glm::vec<3, T>;
     Vec position;
     Vec du, dv; ///< along the face's first edge, and across it
-    Vec normal; ///< outwards, of unit length; zero where even the face has none
+    Vec normal; ///< outwards, of unit length; zero if even the face has none
 };
 
-/// Samples of the faces at one rate, and at any parameters. Keeps references to the mesh and the coefficients.
+/// Evaluates faces at one rate or at any parameters. Mesh and coefficients must outlive it.
 template <class T>
 class Evaluator {
 public:
@@ -42,7 +42,7 @@ public:
     [[nodiscard]] Sample<T> at(uint32_t face, uint32_t i, uint32_t j) const;
 
     using Pair = glm::vec<2, T>;
-    /// At (u, 1 - u) and (v, 1 - v), as level of detail has them: whatever the rate.
+    /// At (u, 1 - u) and (v, 1 - v), for level of detail. The rate plays no part.
     [[nodiscard]] Sample<T> at(uint32_t face, const Pair& u, const Pair& v) const;
 
 private:
@@ -50,16 +50,16 @@ private:
         std::vector<Pair> directions;
         std::vector<T> radii;
         std::vector<Pair> points, slopes;
-        std::vector<Pair> creasePoints, creaseSlopesX, creaseSlopesY; ///< empty where no chart needs them
+        std::vector<Pair> creasePoints, creaseSlopesX, creaseSlopesY; ///< empty if no chart needs them
     };
-    /// Of a local geometry: its offset from c_00, and derivatives by the corner's coordinates.
+    /// A point of a chart's local surface: its offset from c_00, and the derivatives by the coordinates of the corner.
     struct Local {
         Vec offset, dx, dy;
     };
     struct Blend {
         Vec position, du, dv;
     };
-    /// A sample as a corner sees it: its place in the chart, and eta and its slope at x and y.
+    /// A sample in the coordinates of a corner: its place in the chart, and eta and its slope at x and at y.
     struct View {
         ChartPoint<T> point;
         Pair x, y;
@@ -81,7 +81,7 @@ private:
     uint32_t rate_;
     std::vector<T> parameters_;          ///< per coordinate: t
     std::vector<Pair> weights_;          ///< eta(t), eta'(t)
-    std::vector<Table> tables_;          ///< one a k
+    std::vector<Table> tables_;          ///< one per k
     std::vector<uint32_t> tableOfClass_; ///< per chart class, into tables_
 };
 

@@ -98,8 +98,10 @@ private:
             return mesh_.classOf(a).ringPoints() < mesh_.classOf(b).ringPoints();
         });
         const auto count = static_cast<uint32_t>(order.size());
-        tables_.constructions.push_back({mesh_.refined ? Stage::edge : Stage::vertex,
-                                         mesh_.refined ? Kernel::blendChartFromPool : Kernel::blendChart,
+        constexpr KindOfKernel kKernels[] = {{Kernel::blendChart, 0, "supple blend, chart"},
+                                             {Kernel::blendChart, 1, "supple blend, chart of a subdivided cage"}};
+        tables_.constructions.push_back({mesh_.refined ? Stage::assemble : Stage::vertex,
+                                         kKernels[mesh_.refined ? 1 : 0],
                                          {writer_.element(), count},
                                          kCoefficients * count});
         for (const uint32_t i : order) {
@@ -158,11 +160,7 @@ private:
 
     void writePatches() {
         for (uint32_t p = 0; p < patches_.size(); ++p) {
-            const PatchClass patchClass = patches_[p].info.patchClass;
-            if (tables_.ranges.empty() || tables_.ranges.back().patchClass != patchClass) {
-                tables_.ranges.push_back({patchClass, {writer_.element(), 0}, p, 0});
-            }
-            ++tables_.ranges.back().section.count;
+            countPatch(patches_[p].info.patchClass, p, writer_, tables_);
             for (uint32_t i = 0; i < 4; ++i) {
                 const uint32_t c = patches_[p].cageCorners[i];
                 const Corner& corner = mesh_.corners[c];
@@ -190,6 +188,27 @@ private:
 
 Tables buildTables(const Mesh& mesh, uint32_t rate) {
     return Builder(mesh, rate).build();
+}
+
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+    const Result<Mesh> mesh = buildMesh(cage, recipe.blend);
+    if (!mesh) {
+        return mesh.error();
+    }
+    if (recipe.lod) {
+        return buildTables(*mesh, 0);
+    }
+    const uint32_t rate = std::max(recipe.rate, 1u);
+    return buildTables(*mesh, mesh->refined ? (rate + 1) / 2 : rate);
+}
+
+float boundsMargin(const cage::Cage& cage) {
+    // A chart that is not open has smaller weights.
+    const Result<cage::Topology> topology = cage::buildTopology(cage);
+    const bool open =
+        !cage.creases.empty() || !cage.sharpVertices.empty() || !topology.ok() ||
+        std::any_of(topology->boundary.begin(), topology->boundary.end(), [](uint8_t b) { return b != 0; });
+    return open ? 1.05f : 0.3f; // found: 1.0126, 0.2812
 }
 
 } // namespace supple::surface::blend

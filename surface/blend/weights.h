@@ -1,5 +1,5 @@
-// Weights and tables of the blending surface, in double: from a chart's class and the rate alone. Formulas:
-// docs/blend.md.
+// Weights and tables of the blending surface, in double. They depend on the class of a chart and on the rate alone.
+// Formulas: docs/blend.md.
 #pragma once
 
 #include "surface/blend/mesh.h"
@@ -10,14 +10,15 @@
 
 namespace supple::surface::blend {
 
-/// c_ab, the coefficient of U^a V^b, a and b from 0 to 2, stands at 3 a + b.
+/// The coefficient c_ab of U^a V^b, with a and b from 0 to 2, has the index 3 a + b.
 inline constexpr uint32_t kCoefficients = 9;
 
-/// c = (v in row 0, else 0) + sum of weight(row, i) * (ring point i - v): constrained least squares, multiplied out.
-/// Row 0 is zero but for curves. Rows 5 and 8 (U V^2, U^2 V^2) are zero but for closed charts of four sectors.
+/// The matrix of the constrained least-squares fit. With v the vertex, coefficient `row` is the sum of weight(row, i) *
+/// (ring point i - v), plus v in row 0. Only curves have weights in row 0. Only closed charts of four sectors have
+/// weights in rows 5 and 8 (U V^2, U^2 V^2).
 struct FitMatrix {
     uint32_t ringPoints = 0;
-    std::vector<double> weights; ///< kCoefficients rows of ringPoints
+    std::vector<double> weights; ///< kCoefficients rows of ringPoints weights
 
     [[nodiscard]] double weight(uint32_t row, uint32_t ringPoint) const {
         return weights[row * ringPoints + ringPoint];
@@ -25,8 +26,8 @@ struct FitMatrix {
 };
 [[nodiscard]] FitMatrix makeFitMatrix(const ChartClass& chartClass);
 
-/// The coordinates of samples, along either axis of a face: i / rate for i = 0..rate, and then half a step inside
-/// either border, where normals are taken that the border itself has not.
+/// The coordinates of samples along an axis of a face: i / rate for i = 0..rate, then two coordinates half a step
+/// inside the borders. The latter give the normals of borders that have none themselves.
 [[nodiscard]] constexpr uint32_t coordinateCount(uint32_t rate) {
     return rate + 3;
 }
@@ -36,7 +37,7 @@ struct FitMatrix {
 [[nodiscard]] constexpr uint32_t lastHalfStep(uint32_t rate) {
     return rate + 2;
 }
-/// The coordinate 1 - t of t.
+/// The index of the coordinate 1 - t.
 [[nodiscard]] constexpr uint32_t mirrored(uint32_t rate, uint32_t coordinate) {
     return coordinate <= rate ? rate - coordinate : 2 * rate + 3 - coordinate;
 }
@@ -46,25 +47,26 @@ struct Coordinate {
 };
 [[nodiscard]] Coordinate coordinateAt(uint32_t rate, uint32_t coordinate);
 
-/// e^(2 pi i h / k), h = 0..k, exact at quarter turns; the last is the first.
+/// e^(2 pi i h / k) for h = 0..k, exact at quarter turns. The last entry equals the first.
 [[nodiscard]] std::vector<glm::dvec2> chartDirections(uint32_t turns);
 
-/// Where the samples of a sector lie in a chart, for all charts of the same k. Sector h is sector 0 turned by
-/// directions[h], as complex numbers. Samples (i, j) at j * coordinateCount + i, z = x + iy of coordinates i and j.
+/// Where the samples of sector 0 lie in a chart, for all charts with the same k. For sector h they are multiplied by
+/// directions[h] as complex numbers. Sample (i, j) has the index j * coordinateCount + i; its z = x + iy has the
+/// coordinates i and j.
 struct ChartTable {
     uint32_t turns = 4; ///< k
     uint32_t rate = 1;
     std::vector<glm::dvec2> directions; ///< chartDirections()
     std::vector<double> radii;          ///< per coordinate t: t^(4/k)
     std::vector<glm::dvec2> points;     ///< zeta = z^(4/k)
-    std::vector<glm::dvec2> slopes;     ///< d zeta / dz; 0 at z = 0, where there may be none
+    std::vector<glm::dvec2> slopes;     ///< d zeta / dz; 0 at z = 0, where it may not exist
 };
 [[nodiscard]] ChartTable makeChartTable(uint32_t turns, uint32_t rate);
 
-/// The parameter T along a crease likewise: the real part of these, turned. Of the same k = 2 q as the chart.
+/// The same for the parameter T along a crease. T is the real part of the turned numbers. k = 2 q is that of the chart.
 struct CreaseTable {
     std::vector<glm::dvec2> points;           ///< |z| e^(4 i arg z / k)
-    std::vector<glm::dvec2> slopesX, slopesY; ///< d/dx and d/dy of that; at z = 0 those along the first spoke
+    std::vector<glm::dvec2> slopesX, slopesY; ///< its derivatives by x and y; at z = 0 those along the first spoke
 };
 [[nodiscard]] CreaseTable makeCreaseTable(uint32_t turns, uint32_t rate);
 

@@ -1,9 +1,10 @@
-// The pattern of a level of detail: where the samples of an edge, a row or a column lie for a real-valued level.
+// Patterns of level of detail: where the samples of an edge, a row or a column lie at a real-valued level.
 //
-// A level L in [1, 63] is a number of segments: an odd integer has L equal ones; in between, one pair of segments grows
-// from nothing. Samples are counted by a capacity R >= L, odd: segments that L does not have are of zero width.
-// Distinct parameters depend on L alone, not on R. After Moreton, "Watertight tessellation using forward differencing"
-// (2001) and the fractional odd spacing of D3D11 and Vulkan, with a fixed order of birth so that patterns are nested.
+// A level L in [1, 63] is a number of segments. An odd integer gives L equal segments; between two odd integers, one
+// pair of segments grows from nothing. A grid has an odd capacity R >= L; segments that L does not have are of zero
+// width. The distinct parameters depend on L alone, not on R. This follows Moreton, "Watertight tessellation using
+// forward differencing" (2001), and the fractional odd spacing of D3D11 and Vulkan. Segments are born in a fixed order,
+// so that patterns are nested.
 #pragma once
 
 #include "shaders/shared/lod.h"
@@ -16,10 +17,10 @@ namespace supple::surface::lod {
 
 inline constexpr float kMaxLevel = 63.0f;
 
-/// Capacities that grids come in, rising.
+/// The capacities of grids, in rising order.
 inline constexpr std::array<uint32_t, shared::kCapacityCount> kCapacities{SUPPLE_LOD_CAPACITIES};
 
-/// Index of the smallest capacity that is not below `level` (1..63).
+/// The index of the smallest capacity that is not below `level` (1..63).
 [[nodiscard]] uint32_t capacityIndexFor(float level);
 
 /// A level as the device stores it: a = (L - 1) / 2 and 1 / L.
@@ -29,16 +30,16 @@ struct LevelPair {
 };
 [[nodiscard]] LevelPair levelPair(float level);
 
-/// A parameter and its complement; sample capacity - i has them swapped, bit for bit.
+/// A parameter and its complement. Sample capacity - i has the two swapped, bit for bit.
 struct Parameter {
     float t = 0.0f;
     float s = 1.0f;
 };
-/// Sample i of 0..capacity, in the device's float32 operations.
+/// The parameter of sample i, 0..capacity, computed with the device's float32 operations.
 [[nodiscard]] Parameter parameter(uint32_t capacity, uint32_t i, LevelPair level);
 
-/// Words of all capacities, one run after the other: for h = (capacity - 1) / 2 the words n = 0..h, whose bit j is set
-/// where the j-th segment from the corner is among the n born first.
+/// The words of all capacities, one capacity after the other. With h = (capacity - 1) / 2, a capacity has the words
+/// n = 0..h. Bit j of word n is set if the j-th segment from the corner is among the first n that are born.
 [[nodiscard]] std::vector<uint32_t> patternWords();
 /// Where the words of each capacity begin.
 inline constexpr std::array<uint32_t, shared::kCapacityCount> kFirstPatternWords{SUPPLE_LOD_FIRST_WORDS};

@@ -18,10 +18,6 @@ struct Border {
     std::vector<uint32_t> words, reversed;
 };
 
-bool hasCharts(PatchClass patchClass) {
-    return patchClass == PatchClass::blend || patchClass == PatchClass::blendSharp;
-}
-
 Border chartBorder(const std::vector<uint32_t>& words, const uint32_t* corner, const uint32_t* next) {
     std::vector<uint32_t> ends[2];
     for (uint32_t e = 0; e < 2; ++e) {
@@ -39,7 +35,7 @@ Border chartBorder(const std::vector<uint32_t>& words, const uint32_t* corner, c
 std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass patchClass) {
     const uint32_t* record = &tables.words[size_t{4} * element];
     std::vector<Border> all;
-    if (hasCharts(patchClass)) {
+    if (rowOf(patchClass).charts) {
         for (uint32_t i = 0; i < 4; ++i) {
             all.push_back(chartBorder(tables.words, record + size_t{4} * i, record + size_t{4} * ((i + 1) % 4)));
         }
@@ -53,25 +49,12 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
 
 } // namespace
 
-Form formOf(PatchClass patchClass) {
-    switch (patchClass) {
-    case PatchClass::p3:
-        return Form::triangleRings;
-    case PatchClass::p4:
-        return Form::quadRings;
-    case PatchClass::p5:
-        return Form::pentagonRings;
-    default:
-        return Form::quad;
-    }
-}
-
 void appendTables(Tables& tables) {
     std::map<std::vector<uint32_t>, uint32_t> edges;
     std::vector<uint32_t> edgeWords, patches;
     for (const PatchRange& range : tables.ranges) {
         const uint32_t elements = recordElements(tables, range.patchClass);
-        tables.lod.charts = hasCharts(range.patchClass);
+        tables.lod.charts = rowOf(range.patchClass).charts;
         for (uint32_t p = 0; p < range.section.count; ++p) {
             const uint32_t patch = range.firstPatch + p, element = range.section.table + p * elements;
             const uint32_t material = tables.patches[patch].material;

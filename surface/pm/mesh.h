@@ -1,5 +1,5 @@
-// The cage as P_m sees it: facets of three to five sides, sectors between sharp edges, facet classes.
-// Connectivity, sharpness and (only for the choice of diagonals) rest positions; built once per asset.
+// The cage as P_m sees it: facets of three to five sides, sectors between sharp edges, facet classes. Depends on
+// connectivity and sharpness; rest positions only decide which diagonals cut large faces. Built once per asset.
 // Paper: A. Myles, T. Ni, J. Peters, "Fast Parallel Construction of Smooth Surfaces from Meshes with Tri/Quad/Pent
 // Facets", SGP 2008; numbers in parentheses are its equations, in the corrected form of docs/pm.md.
 #pragma once
@@ -18,30 +18,31 @@ namespace supple::surface::pm {
 
 inline constexpr double kSmoothAlpha = 2.0 / 3.0;
 
-/// alpha = (2/3) 2^-s for 0 <= s < cage::kHardSharpness; harder edges are cut and have no alpha.
+/// alpha = (2/3) 2^-s for 0 <= s < cage::kHardSharpness. Harder edges are cut and have no alpha.
 [[nodiscard]] double alphaOfSharpness(double sharpness);
 
 enum class SectorKind : uint8_t {
-    interior, ///< closed: the whole ring of an interior vertex with none or one sharp edge (a dart's tip)
-    crease,   ///< open, part of a smooth boundary or crease curve: two sharp edges meet at the vertex
-    corner    ///< open, interpolates the vertex
+    interior, ///< closed: the whole ring of an interior vertex with no sharp edge, or with one (the tip of a dart)
+    crease,   ///< open: two sharp edges meet at the vertex and form a smooth boundary or crease
+    corner    ///< open: the surface interpolates the vertex
 };
 
-/// One fan of facets around a vertex. Facet j (0 <= j < facets) lies between edges j and j + 1, counter-clockwise.
-/// Edges and facets of all sectors are packed into slots: slot firstSlot + j holds edge j and, for j < facets, facet j.
+/// A fan of facets around a vertex. Facet j (0 <= j < facets) lies between edges j and j + 1, counter-clockwise. The
+/// edges and facets of all sectors are numbered by slots: slot firstSlot + j stands for edge j and, if j < facets, for
+/// facet j.
 struct Sector {
     uint32_t vertex = 0;
     uint32_t firstSlot = 0;
     uint32_t facets = 0; ///< q
     SectorKind kind = SectorKind::interior;
-    bool creased = false; ///< some edge inside the sector has an alpha other than 2/3
-    /// Closed, and the vertex is sharp (cage::SharpVertex): the sector's v, t and f are moved by p - v, so that the
-    /// surface passes through the vertex. Open sectors become corners instead.
+    bool creased = false; ///< an edge inside the sector has an alpha other than 2/3
+    /// The sector is closed and its vertex p is sharp (cage::SharpVertex). Its v, t and f are moved by p - v, so that
+    /// the surface passes through the vertex. An open sector becomes a corner instead.
     bool pinned = false;
 
     [[nodiscard]] bool closed() const { return kind == SectorKind::interior; }
     [[nodiscard]] uint32_t edges() const { return closed() ? facets : facets + 1; }
-    /// The valence N of cos(2 pi / N): q closed, 2 q on creases, 4 q at corners.
+    /// N in cos(2 pi / N): q if closed, 2 q at creases, 4 q at corners.
     [[nodiscard]] uint32_t valence() const {
         return kind == SectorKind::interior ? facets : kind == SectorKind::crease ? 2 * facets : 4 * facets;
     }
@@ -49,33 +50,32 @@ struct Sector {
 
 enum class FacetClass : uint8_t { ordinary, polar, p3, p4, p5 };
 
-/// Per corner of Mesh::cage (corner c of facet f at vertex v; half-edge c runs to the next vertex of f).
+/// Corner c of facet f at vertex v. Half-edge c runs from v to the next vertex of f.
 struct FacetCorner {
     uint32_t sector = 0;
-    uint32_t slot = 0;     ///< facet slot of f in the sector = edge slot of edge j, the half-edge c
-    uint32_t slotBack = 0; ///< edge slot of edge j + 1, towards the previous vertex of f
-    /// Facet slot across edge j (facet j - 1) and across edge j + 1 (facet j + 1) in the same sector; kNone where that
-    /// edge ends the sector.
+    uint32_t slot = 0;     ///< slot of f in the sector, and of edge j, which is half-edge c
+    uint32_t slotBack = 0; ///< slot of edge j + 1, which leads to the previous vertex of f
+    /// Slots of the facets across edge j (facet j - 1) and across edge j + 1 (facet j + 1) in the same sector. kNone if
+    /// the sector ends at that edge.
     uint32_t across = cage::kNone;
     uint32_t acrossBack = cage::kNone;
 };
 
 struct Mesh {
-    cage::Cage cage; ///< what was given, with facets of six and more sides split; vertices are the same
+    cage::Cage cage; ///< the given cage with faces of six and more sides split; its vertices are unchanged
     cage::Topology topology;
     cage::Features features;
     std::vector<uint32_t> sourceFaces; ///< per facet: the face it came from
     std::vector<Sector> sectors;       ///< grouped by vertex, in vertex order
-    std::vector<uint32_t> slotSpokes;  ///< per slot: spoke slot of the topology (spokeVertices: far end of edge j)
-    std::vector<double> slotAlphas;    ///< per slot: alpha of edge j at this vertex; 2/3 at the ends of open sectors
-    std::vector<FacetCorner> corners;  ///< per corner
-    std::vector<uint8_t> edgeCut;      ///< per edge of the topology: 1 on boundaries and hard edges
+    std::vector<uint32_t> slotSpokes;  ///< per slot: the spoke of `topology` that is edge j
+    std::vector<double> slotAlphas;    ///< per slot: alpha of edge j at this vertex; 2/3 where an open sector ends
+    std::vector<FacetCorner> corners;  ///< per corner of `cage`
+    std::vector<uint8_t> edgeCut;      ///< per edge of `topology`: 1 for boundaries and hard edges
     std::vector<FacetClass> classes;   ///< per facet
-    /// Per facet: the corner (0..sides-1) its patch begins at. 0 but for polar facets, whose last corner must be the
-    /// apex: patch corner i is facet corner (first + i) % sides.
+    /// Per facet: the corner (0..sides-1) that is corner 0 of its patch; patch corner i is facet corner (first + i) %
+    /// sides. It is 0 except for polar facets, because the last corner of a polar patch must be the apex.
     std::vector<uint8_t> firstCorners;
-    /// What was changed or left out on the way in, one line each ("face 12 has 7 sides: split into a quad and a
-    /// pentagon").
+    /// What was changed or left out, one line each: "face 12 has 7 sides: split into a quad and a pentagon".
     std::vector<std::string> notes;
 
     [[nodiscard]] uint32_t corner(uint32_t facet, uint32_t patchCorner) const {
@@ -83,9 +83,9 @@ struct Mesh {
     }
 };
 
-/// Splits, builds topology and features, and sorts out sectors and classes. Refuses what P_m cannot take, by name: what
-/// cage::buildTopology refuses, and a face of six or more sides none of whose zig-zag splits is free ("face 12 has 6
-/// sides: ..."). O(corners) but for the sorting of neighbours and the choice of splits.
+/// Splits large faces, builds topology and features, and finds sectors and classes. Refuses what cage::buildTopology
+/// refuses, and a face of six or more sides that no zig-zag split fits ("face 12 has 6 sides: ..."). O(corners), apart
+/// from sorting neighbours and choosing splits.
 [[nodiscard]] Result<Mesh> buildMesh(const cage::Cage& cage);
 
 } // namespace supple::surface::pm

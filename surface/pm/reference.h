@@ -1,5 +1,5 @@
-// P_m on the CPU, in float or double, straight from the formulas: for tests and comparisons, not part of the runtime.
-// Paper: A. Myles, T. Ni, J. Peters, SGP 2008 (see mesh.h); formulas in the corrected form of docs/pm.md.
+// P_m on the CPU, in float or double, as the formulas have it. For tests and comparisons; not part of the runtime.
+// Paper: see surface/pm/mesh.h. Formulas: docs/pm.md, where errors of the paper are corrected.
 #pragma once
 
 #include "surface/grid.h"
@@ -12,8 +12,8 @@
 
 namespace supple::surface::pm {
 
-/// Output of the vertex stage, (13)-(16): limitPoints, tau1, tau2 one a sector; tangents (t_j) and faceCoefficients
-/// (f_j) one a slot (the last slot of an open sector carries no f).
+/// The output of the vertex stage, (13)-(16). There is one limit point, tau1 and tau2 per sector, and one tangent t_j
+/// and face coefficient f_j per slot. The last slot of an open sector has no f.
 template <class T>
 struct Coefficients {
     using Vec = glm::vec<3, T>;
@@ -23,8 +23,9 @@ struct Coefficients {
     std::vector<Vec> faceCoefficients;
 };
 
-/// One patch. Coefficients in the order of docs/pm.md: ordinary 16 (4 row + col), polar 13, P_m 6 m + 1
-/// (b004, then b300 b210 b120 b211 b121 b112 a sector). Patch corner i is facet corner (firstCorners + i) % sides.
+/// One patch. Its coefficients have the order of docs/pm.md: 16 (4 row + column) for ordinary patches, 13 for polar
+/// ones, 6 m + 1 for P_m: b004, then b300 b210 b120 b211 b121 b112 per sector. Patch corner i is facet corner
+/// (firstCorners + i) % sides.
 template <class T>
 struct Patch {
     using Vec = glm::vec<3, T>;
@@ -33,7 +34,8 @@ struct Patch {
     uint32_t count = 16;
     std::array<Vec, 31> c{};
     T apexCosine = 0; ///< polar: cos(2 pi / n) of the apex
-    /// Patch corners at which the derivatives are parallel: crease sectors of one facet. P_m patches alone have them.
+    /// Patch corners where the derivatives are parallel: crease sectors with a single facet. Only P_m patches have
+    /// them.
     std::array<bool, kMaxSides> singularCorner{};
 };
 
@@ -41,7 +43,7 @@ template <class T>
 struct Sample {
     using Vec = glm::vec<3, T>;
     Vec position;
-    Vec normal; ///< outwards, of unit length; zero where the surface has none
+    Vec normal; ///< outwards, of unit length; zero if the surface has none
 };
 
 template <class T>
@@ -52,27 +54,27 @@ template <class T>
 
 [[nodiscard]] Domain domainOf(FacetClass facetClass);
 
-/// A point of the domain: the pairs (u, 1 - u) and (v, 1 - v) on ordinary and polar patches; on P_m patches a sector
-/// and the weights of its first corner, its second corner and the centre.
+/// A point of the domain. Ordinary and polar patches: the pairs (u, 1 - u) and (v, 1 - v). P_m patches: a sector, and
+/// the weights of its first corner, its second corner and the centre.
 template <class T>
 struct DomainPoint {
     glm::vec<2, T> u{}, v{};
     uint32_t sector = 0;
     glm::vec<3, T> weights{};
 };
-/// Of a grid sample, from integer counts, every parameter correctly rounded: triangles by their smallest weight, P_4 by
-/// the square's diagonals.
+/// The domain point of a grid sample, computed from integers and correctly rounded. In triangles the smallest weight
+/// decides the sector, in P_4 the diagonals of the square.
 template <class T>
 [[nodiscard]] DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample);
 
-/// Position and exact normal. Points on a border (v or u in {0, 1}; centre weight 0) are evaluated by the border cubic
-/// alone, (w^3 b0 + u^3 b3) + (3 w^2 u b1 + 3 u^2 w b2), so that both sides give the same bits. At a singular corner
-/// the normal is that of a point kNormalStep further in.
+/// Position and exact normal. A point on a border (u or v is 0 or 1, or the weight of the centre is 0) is evaluated
+/// with the border cubic alone, (w^3 b0 + u^3 b3) + (3 w^2 u b1 + 3 u^2 w b2), so that both sides give the same bits.
+/// The normal at a singular corner is that of a point kNormalStep further inside.
 inline constexpr double kNormalStep = 1e-3;
 template <class T>
 [[nodiscard]] Sample<T> evaluate(const Patch<T>& patch, const DomainPoint<T>& at);
 
-/// First derivatives at a point of one sector of a P_m patch, along corner -> next corner and corner -> centre; for the
+/// The first derivatives at a point in a sector of a P_m patch, along corner -> next corner and corner -> centre. For
 /// tests of smoothness.
 template <class T>
 struct Derivatives {

@@ -25,14 +25,29 @@ PatchClass patchClassOf(FacetClass facetClass) {
     return kClasses[static_cast<size_t>(facetClass)];
 }
 
-Kernel sectorKernel(const Sector& sector) {
+/// By kind of fan.
+constexpr KindOfKernel kVertexKernels[] = {
+    {Kernel::pmVertex, shared::kRegularFan, "supple P_m vertex, regular"},
+    {Kernel::pmVertex, shared::kFewFan, "supple P_m vertex"},
+    {Kernel::pmVertex, shared::kManyFan, "supple P_m vertex, many spokes"},
+    {Kernel::pmVertex, shared::kCreasedFan, "supple P_m vertex, creased"},
+};
+/// By class of patches, from polar on.
+constexpr KindOfKernel kFacetKernels[] = {
+    {Kernel::pmFacet, shared::kPolarPatch, "supple P_m facet, polar"},
+    {Kernel::pmFacet, shared::kP3Patch, "supple P_m facet, triangle"},
+    {Kernel::pmFacet, shared::kP4Patch, "supple P_m facet, quad"},
+    {Kernel::pmFacet, shared::kP5Patch, "supple P_m facet, pentagon"},
+};
+
+uint32_t fanKind(const Sector& sector) {
     if (sector.creased || sector.pinned) {
-        return Kernel::pmVertexCreased;
+        return shared::kCreasedFan;
     }
     if (sector.closed() && sector.facets == 4) {
-        return Kernel::pmVertexRegular;
+        return shared::kRegularFan;
     }
-    return sector.edges() <= shared::kFewSpokes ? Kernel::pmVertex : Kernel::pmVertexMany;
+    return sector.edges() <= shared::kFewSpokes ? shared::kFewFan : shared::kManyFan;
 }
 
 class Builder {
@@ -80,7 +95,7 @@ private:
         sortPatches(patches_);
     }
 
-    /// By kernel, regular ones first, then by size, so that neighbouring lanes loop equally long. Slots lie in this
+    /// By kind, regular ones first, then by size, so that neighbouring lanes loop equally long. Slots lie in this
     /// order.
     void sortSectors() {
         const auto count = static_cast<uint32_t>(mesh_.sectors.size());
@@ -88,7 +103,7 @@ private:
             order_.push_back(s);
         }
         const auto rank = [&](uint32_t s) {
-            return std::tuple(sectorKernel(mesh_.sectors[s]), mesh_.sectors[s].edges(), mesh_.sectors[s].kind, s);
+            return std::tuple(fanKind(mesh_.sectors[s]), mesh_.sectors[s].edges(), mesh_.sectors[s].kind, s);
         };
         std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
         slots_.resize(mesh_.slotSpokes.size());
@@ -184,9 +199,9 @@ private:
         std::map<std::pair<SectorKind, uint32_t>, uint32_t> smooth;
         for (uint32_t s = 0; s < weights.size(); ++s) {
             const Sector& sector = mesh_.sectors[s];
-            if (sectorKernel(sector) == Kernel::pmVertexCreased) {
+            if (fanKind(sector) == shared::kCreasedFan) {
                 weights[s] = writeCreasedWeights(sector);
-            } else if (sectorKernel(sector) != Kernel::pmVertexRegular) {
+            } else if (fanKind(sector) != shared::kRegularFan) {
                 const auto [known, isNew] = smooth.try_emplace({sector.kind, sector.facets}, 0u);
                 if (isNew) {
                     known->second = writeSmoothWeights(sector);
@@ -196,13 +211,9 @@ private:
         }
         for (const uint32_t s : order_) {
             const Sector& sector = mesh_.sectors[s];
-            const Kernel kernel = sectorKernel(sector);
-            if (tables_.constructions.empty() || tables_.constructions.back().kernel != kernel) {
-                tables_.constructions.push_back({Stage::vertex, kernel, {writer_.element(), 0}, 0});
-            }
-            ++tables_.constructions.back().section.count;
-            tables_.constructions.back().coefficients += 1 + sector.edges() + sector.facets;
-            if (kernel != Kernel::pmVertexRegular) {
+            const KindOfKernel& kernel = kVertexKernels[fanKind(sector)];
+            countVertex(kernel, 1 + sector.edges() + sector.facets, writer_, tables_);
+            if (kernel.kind != shared::kRegularFan) {
                 writer_.put({slots_[sector.firstSlot], weights[s], points_[s]});
             }
         }
@@ -247,7 +258,6 @@ private:
     /// The facet stage reads the records of the patches.
     void addFacets() {
         for (const PatchRange& range : tables_.ranges) {
-            constexpr Kernel kKernels[] = {Kernel::pmPolar, Kernel::pmFacet3, Kernel::pmFacet4, Kernel::pmFacet5};
             if (range.patchClass == PatchClass::regular) {
                 continue;
             }
@@ -255,7 +265,7 @@ private:
             const uint32_t sides = cornerCount(domainOf(range.patchClass));
             const uint32_t coefficients = range.patchClass == PatchClass::polar ? 2 : 1 + 3 * sides;
             tables_.constructions.push_back(
-                {Stage::edge, kKernels[kernel], range.section, coefficients * range.section.count});
+                {Stage::assemble, kFacetKernels[kernel], range.section, coefficients * range.section.count});
         }
     }
 
@@ -278,10 +288,7 @@ private:
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             const DraftPatch& patch = patches_[p];
             const PatchClass patchClass = patch.info.patchClass;
-            if (tables_.ranges.empty() || tables_.ranges.back().patchClass != patchClass) {
-                tables_.ranges.push_back({patchClass, {writer_.element(), 0}, p, 0});
-            }
-            ++tables_.ranges.back().section.count;
+            countPatch(patchClass, p, writer_, tables_);
             records_.push_back(writer_.element());
             if (patchClass > PatchClass::polar) {
                 writeFacet(patch, inner_[p]);
@@ -347,6 +354,22 @@ private:
 
 Result<Tables> buildTables(const Mesh& mesh) {
     return Builder(mesh).build();
+}
+
+Result<Tables> build(const Recipe&, const cage::Cage& cage) {
+    const Result<Mesh> mesh = buildMesh(cage);
+    if (!mesh) {
+        return mesh.error();
+    }
+    SpokeLimits spokes;
+    for (const Sector& sector : mesh->sectors) {
+        spokes.add(sector.vertex, sector.edges());
+    }
+    const Status fits = spokes.check();
+    if (!fits) {
+        return fits.error();
+    }
+    return buildTables(*mesh);
 }
 
 } // namespace supple::surface::pm

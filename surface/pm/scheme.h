@@ -1,13 +1,18 @@
 // P_m as a scheme: the static tables it makes of a cage.
 #pragma once
 
+#include "base/result.h"
 #include "surface/pm/mesh.h"
+#include "surface/recipe.h"
 #include "surface/scheme.h"
 
 namespace supple::surface::pm {
 
-/// The tables of shaders/shared/{surface,pm}.h. O(corners). Refuses cages whose edges are of too many kinds (valences
-/// of the ends, sides of the face) with ErrorCode::limit.
+/// The tables of shaders/shared/{surface,pm}.h. O(corners). Refuses a cage with too many edge classes with
+/// ErrorCode::limit.
 [[nodiscard]] Result<Tables> buildTables(const Mesh& mesh);
+
+/// See surface::Scheme.
+[[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 
 } // namespace supple::surface::pm

@@ -1,4 +1,4 @@
-// P_m weights per kind of sector, computed once in double. They depend on connectivity only.
+// The weights of P_m, per kind of sector, in double. They depend on connectivity only.
 #pragma once
 
 #include "surface/pm/mesh.h"
@@ -10,16 +10,16 @@
 
 namespace supple::surface::pm {
 
-/// The factors of a sector's sums in (13) and (15): v = p + limit * sum (f_j - p) in closed sectors, tau = tangent *
-/// sum of cosines or sines times e_j (in open sectors times e_j - v, over the edges inside).
+/// The factors of a sector's sums in (13) and (15). In a closed sector v = p + limit * sum (f_j - p) and tau = tangent
+/// * sum of cosines or sines times e_j. In an open sector the sum has e_j - v instead of e_j, for the edges inside.
 struct SectorScales {
     double limit = 0.0;
     double tangent = 0.0;
 };
 [[nodiscard]] SectorScales sectorScales(SectorKind kind, uint32_t facets);
 
-/// A sector without creased edges, multiplied out: v, tau1, tau2 as sums over the edges' far ends X_j and the facets'
-/// Q_j, all relative to the vertex. `edge` has one entry an edge, `face` one a facet.
+/// The weights of a sector without creased edges. v, tau1 and tau2 are sums over the far ends X_j of the edges and the
+/// Q_j of the facets, all relative to the vertex. The vectors have one entry per edge or per facet.
 struct SectorWeights {
     std::vector<double> limitEdge, limitFace;
     std::vector<double> tau1Edge, tau1Face;
@@ -27,20 +27,19 @@ struct SectorWeights {
 };
 [[nodiscard]] SectorWeights makeSectorWeights(SectorKind kind, uint32_t facets);
 
-/// An edge of a P_m facet, v0 -> v1, in (20). Valences are those of the sectors at its ends; `cut` where the edge is a
-/// boundary or hard; `ends[k]` where it is the first or last of the sector at v_k.
+/// The class of an edge v0 -> v1 of a P_m facet, for (20).
 struct EdgeClass {
     uint32_t sides = 4;
-    std::array<uint32_t, 2> valences{};
-    bool cut = false;
-    std::array<bool, 2> ends{};
+    std::array<uint32_t, 2> valences{}; ///< Sector::valence() at v0 and v1
+    bool cut = false;                   ///< a boundary or a hard edge
+    std::array<bool, 2> ends{};         ///< it is the first or the last edge of the sector at v0, at v1
 
     bool operator<(const EdgeClass& other) const {
         return std::tie(sides, valences, cut, ends) < std::tie(other.sides, other.valences, other.cut, other.ends);
     }
 };
-/// Factors of T1 - t0, of the end's own t - v, and of f - f_across (f - t where the edge ends the sector), for b211 (at
-/// v0) and b121 (at v1).
+/// The factors of T1 - t0 (`along`), of t - v at the end itself (`own`), and of f - f_across (`across`; f - t if the
+/// sector ends at the edge). Entry 0 is for b211 at v0, entry 1 for b121 at v1.
 struct EdgeFactors {
     std::array<double, 2> along{}, own{}, across{};
 };

@@ -107,6 +107,31 @@ Vec3<T> sum4(const std::array<T, 4>& w, const Vec3<T>& a, const Vec3<T>& b, cons
     return (w[0] * a + w[3] * d) + (w[1] * b + w[2] * c);
 }
 
+/// The edge A -> B: `corner` is the corner at A of the face on its left, `twin` the corner at B of the other face.
+template <class T>
+void edgeStage(const Cage& cage, const Topology& topology, uint32_t e, const EdgeWeights& weights,
+               Coefficients<T>& out) {
+    const auto [corner, twin] = topology.edges[e];
+    const uint32_t a = cage.faceVertices[corner];
+    const uint32_t b = cage.faceVertices[twin];
+    const uint32_t cornerAtB = nextCorner(cage, topology.cornerFaces[corner], corner);
+    const uint32_t twinAtA = nextCorner(cage, topology.cornerFaces[twin], twin);
+    // All relative to A, as every row of the weights allows.
+    const Vec3<T>& origin = out.limitPoints[a];
+    const auto faceCoefficient = [&](uint32_t c) { return out.faceCoefficients[topology.cornerSpokes[c]] - origin; };
+    const Vec3<T> points[5] = {out.tangents[topology.cornerSpokes[corner]] - origin,
+                               out.tangents[topology.cornerSpokes[twin]] - origin, out.limitPoints[b] - origin,
+                               faceCoefficient(corner) + faceCoefficient(twinAtA),
+                               faceCoefficient(cornerAtB) + faceCoefficient(twin)};
+    for (size_t row = 0; row < 4; ++row) {
+        Vec3<T> h = T(weights[row][1]) * points[0];
+        for (size_t i = 1; i < 5; ++i) {
+            h += T(weights[row][i + 1]) * points[i];
+        }
+        out.edgeCoefficients[e][row] = h;
+    }
+}
+
 } // namespace
 
 template <class T>
@@ -155,34 +180,13 @@ Coefficients<T> construct(const Cage& cage, const Topology& topology, std::span<
         if (!isPerturbed(cage, topology, e)) {
             continue;
         }
-        // The edge A -> B: `corner` is the corner at A of the face on its left, `twin` the corner at B of the other
-        // face.
         const auto [corner, twin] = topology.edges[e];
-        const uint32_t a = cage.faceVertices[corner];
-        const uint32_t b = cage.faceVertices[twin];
-        const uint32_t cornerAtB = nextCorner(cage, topology.cornerFaces[corner], corner);
-        const uint32_t twinAtA = nextCorner(cage, topology.cornerFaces[twin], twin);
-        // All relative to A, as every row of the weights allows.
-        const Vec3<T>& origin = out.limitPoints[a];
-        const auto faceCoefficient = [&](uint32_t c) {
-            return out.faceCoefficients[topology.cornerSpokes[c]] - origin;
-        };
-        const Vec3<T> points[5] = {out.tangents[topology.cornerSpokes[corner]] - origin,
-                                   out.tangents[topology.cornerSpokes[twin]] - origin, out.limitPoints[b] - origin,
-                                   faceCoefficient(corner) + faceCoefficient(twinAtA),
-                                   faceCoefficient(cornerAtB) + faceCoefficient(twin)};
-        const std::pair ends{classes.at(classKey(a)).c, classes.at(classKey(b)).c};
+        const std::pair ends{classes.at(classKey(cage.faceVertices[corner])).c,
+                             classes.at(classKey(cage.faceVertices[twin])).c};
         if (!edgeWeights.contains(ends)) {
             edgeWeights[ends] = makeEdgeWeights(ends.first, ends.second);
         }
-        const EdgeWeights& weights = edgeWeights[ends];
-        for (size_t row = 0; row < 4; ++row) {
-            Vec3<T> h = T(weights[row][1]) * points[0];
-            for (size_t i = 1; i < 5; ++i) {
-                h += T(weights[row][i + 1]) * points[i];
-            }
-            out.edgeCoefficients[e][row] = h;
-        }
+        edgeStage(cage, topology, e, edgeWeights[ends], out);
     }
     return out;
 }
@@ -250,9 +254,7 @@ Sample<T> evaluate(const Patch<T>& patch, glm::vec<2, T> u, glm::vec<2, T> v) {
     sample.du = sum4(wu.cubicSlope, relativeColumn[0], relativeColumn[1], relativeColumn[2], relativeColumn[3]);
     sample.dv = sum4(wu.cubic, columnSlope[0], columnSlope[1], columnSlope[2], columnSlope[3]);
 
-    Vec h(T(0));
-    Vec hu(T(0));
-    Vec hv(T(0));
+    Vec h(T(0)), hu(T(0)), hv(T(0));
     if (patch.perturbed) {
         const Weights<T> mu({u.y, u.x}); // the pairs run backwards: edge e's own (a, b) of (u, v)
         const Weights<T> mv({v.y, v.x});

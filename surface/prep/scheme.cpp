@@ -18,6 +18,14 @@ namespace supple::surface::prep {
 
 namespace {
 
+/// By kind of fan.
+constexpr KindOfKernel kVertexKernels[] = {
+    {Kernel::prepVertex, shared::kRegularFan, "supple p-rep vertex, regular"},
+    {Kernel::prepVertex, shared::kFewFan, "supple p-rep vertex"},
+    {Kernel::prepVertex, shared::kManyFan, "supple p-rep vertex, many spokes"},
+};
+constexpr KindOfKernel kEdgeKernel = {Kernel::prepEdge, 0, "supple p-rep edge"};
+
 bool regular(const cage::Topology& topology, uint32_t vertex) {
     return topology.effectiveValence(vertex) == 4;
 }
@@ -60,6 +68,204 @@ private:
     std::map<std::pair<uint32_t, bool>, double> cosines_;
 };
 
+class Builder {
+public:
+    Builder(const cage::Cage& cage, const cage::Topology& topology, const Options& options)
+        : cage_(cage), topology_(topology), options_(options), writer_(tables_.words), classes_(topology, options) {}
+
+    Tables build() {
+        sortVertices();
+        layOutPool();
+        classes_.write(writer_, cage_.vertexCount());
+        writeVertices();
+        writeEdgeClasses();
+        writeEdges();
+        sortedPatches();
+        RingWriter ring(writer_, cage_.faceCount());
+        writePatches(ring);
+        writeRing(ring);
+        finishTables(cage_, patches_, writer_, tables_);
+        return std::move(tables_);
+    }
+
+private:
+    [[nodiscard]] bool hasRegularFan(uint32_t v) const {
+        return topology_.boundary[v] == 0 && topology_.sectorCount(v) == 4;
+    }
+    [[nodiscard]] bool isSmoothCorner(uint32_t v) const {
+        return options_.cornerRule == CornerRule::smooth && topology_.boundary[v] != 0 && topology_.sectorCount(v) == 1;
+    }
+    [[nodiscard]] uint32_t cornerSlot(uint32_t c) const { return slots_[topology_.cornerSpokes[c]]; }
+    /// The corner of the same face, so many steps on.
+    [[nodiscard]] uint32_t corner(uint32_t c, uint32_t steps) const {
+        const uint32_t first = cage_.faceStarts[topology_.cornerFaces[c]];
+        return first + (c - first + steps) % 4;
+    }
+    /// What the edges of a class have in common: the weights of both ends.
+    [[nodiscard]] std::pair<double, double> edgeKey(uint32_t edge) const {
+        const cage::Topology::Edge& e = topology_.edges[edge];
+        return {classes_.c(cage_.faceVertices[e.corner]), classes_.c(cage_.faceVertices[e.twin])};
+    }
+
+    /// Spokes lie vertex by vertex: regular interior ones first; the others by class, so that neighbouring lanes loop
+    /// equally long.
+    void sortVertices() {
+        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
+            order_.push_back(v);
+        }
+        const auto rank = [&](uint32_t v) {
+            return std::tuple(!hasRegularFan(v), topology_.spokeCount(v), topology_.boundary[v]);
+        };
+        std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
+        slots_.resize(topology_.spokeVertices.size());
+        uint32_t nextSlot = 0;
+        for (const uint32_t v : order_) {
+            for (uint32_t s = topology_.spokeStarts[v]; s < topology_.spokeStarts[v + 1]; ++s) {
+                slots_[s] = nextSlot++;
+            }
+        }
+    }
+
+    /// X, TG, FC, H of the perturbed edges, four zeros.
+    void layOutPool() {
+        const auto spokeCount = static_cast<uint32_t>(topology_.spokeVertices.size());
+        tables_.tangents = cage_.vertexCount();
+        tables_.faces = tables_.tangents + spokeCount;
+        tables_.inner = tables_.faces + spokeCount;
+        edgeSlots_.assign(topology_.edges.size(), cage::kNone);
+        zero_ = tables_.inner;
+        for (uint32_t e = 0; e < topology_.edges.size(); ++e) {
+            if (isPerturbed(cage_, topology_, e)) {
+                edgeSlots_[e] = zero_;
+                zero_ += 4;
+                perturbedEdges_.push_back(e);
+            }
+        }
+        tables_.poolStride = (zero_ + 4 + 15) / 16 * 16;
+    }
+
+    void writeVertices() {
+        for (const uint32_t v : order_) {
+            const uint32_t spokes = topology_.spokeCount(v);
+            const uint32_t kind = hasRegularFan(v)               ? shared::kRegularFan
+                                  : spokes <= shared::kFewSpokes ? shared::kFewFan
+                                                                 : shared::kManyFan;
+            countVertex(kVertexKernels[kind], 1 + 2 * spokes, writer_, tables_);
+            if (kind != shared::kRegularFan) {
+                writer_.put({slots_[topology_.spokeStarts[v]], classes_.element(v)});
+            }
+        }
+    }
+
+    void writeEdgeClasses() {
+        tables_.edgeClasses = writer_.element();
+        for (const uint32_t e : perturbedEdges_) {
+            const auto [known, isNew] =
+                edgeClasses_.try_emplace(edgeKey(e), static_cast<uint32_t>(edgeClasses_.size()));
+            if (!isNew) {
+                continue;
+            }
+            const EdgeWeights weights = makeEdgeWeights(known->first.first, known->first.second);
+            for (size_t vector = 0; vector < 6; ++vector) {
+                writer_.put({floatBits(weights[0][vector]), floatBits(weights[1][vector]),
+                             floatBits(weights[2][vector]), floatBits(weights[3][vector])});
+            }
+        }
+    }
+
+    void writeEdges() {
+        const auto edgeCount = static_cast<uint32_t>(perturbedEdges_.size());
+        tables_.constructions.push_back({Stage::assemble, kEdgeKernel, {writer_.element(), edgeCount}, 4 * edgeCount});
+        for (const uint32_t e : perturbedEdges_) {
+            // Faces left and right of A -> B.
+            const uint32_t f = topology_.edges[e].corner, o = topology_.edges[e].twin;
+            const uint32_t a = cage_.faceVertices[f], b = cage_.faceVertices[o];
+            const uint32_t edgeClass = edgeClasses_.at(edgeKey(e));
+            writer_.put({a | edgeClass << shared::kPointBits, spokeWord(cornerSlot(f), cornerSlot(corner(o, 1))),
+                         b | edgeClass >> (32 - shared::kPointBits) << shared::kPointBits,
+                         spokeWord(cornerSlot(o), cornerSlot(corner(f, 1)))});
+        }
+    }
+
+    void sortedPatches() {
+        for (uint32_t face = 0; face < cage_.faceCount(); ++face) {
+            if (std::binary_search(cage_.holes.begin(), cage_.holes.end(), face)) {
+                continue;
+            }
+            DraftPatch& patch = patches_.emplace_back();
+            patch.facet = patch.info.face = face;
+            patch.material = cage_.faceMaterials.empty() ? cage::kNone : cage_.faceMaterials[face];
+            for (uint32_t j = 0; j < 4; ++j) {
+                const uint32_t c = cage_.faceStarts[face] + j;
+                patch.cageCorners[j] = c;
+                patch.info.corners[j] = cage_.faceVertices[c];
+                if (edgeSlots_[topology_.cornerEdges[c]] != cage::kNone) {
+                    patch.info.patchClass = PatchClass::perturbed;
+                }
+                tables_.cornerNormals = tables_.cornerNormals || isSmoothCorner(cage_.faceVertices[c]);
+            }
+        }
+        sortPatches(patches_);
+    }
+
+    void writePatches(RingWriter& ring) {
+        for (uint32_t p = 0; p < patches_.size(); ++p) {
+            const DraftPatch& patch = patches_[p];
+            const PatchClass patchClass = patch.info.patchClass;
+            countPatch(patchClass, p, writer_, tables_);
+            ring.setRecord(patch.facet, writer_.element());
+            std::array<uint32_t, 4> spokes{}, edges{}, normals{};
+            for (uint32_t j = 0; j < 4; ++j) {
+                const uint32_t c = patch.cageCorners[j];
+                const uint32_t v = patch.info.corners[j];
+                spokes[j] = spokeWord(cornerSlot(c), slots_[topology_.cornerSpokesBack[c]]);
+                const uint32_t edge = topology_.cornerEdges[c];
+                edges[j] = edgeSlots_[edge] == cage::kNone ? zero_ | shared::kStillEdgeOfPatch : edgeSlots_[edge];
+                edges[j] |= topology_.edges[edge].corner == c ? 0u : shared::kReversedEdgeOfPatch;
+                normals[j] =
+                    isSmoothCorner(v) ? tables_.faces + slots_[topology_.spokeStarts[v]] + 1 : shared::kNoNormal;
+            }
+            const std::array<uint32_t, kMaxSides>& points = patch.info.corners;
+            writer_.put({points[0], points[1], points[2], points[3], spokes[0], spokes[1], spokes[2], spokes[3]});
+            if (patchClass == PatchClass::perturbed) {
+                writer_.put({edges[0], edges[1], edges[2], edges[3]});
+            }
+            if (tables_.cornerNormals) {
+                writer_.put({normals[0], normals[1], normals[2], normals[3]});
+            }
+        }
+    }
+
+    void writeRing(RingWriter& ring) {
+        for (const uint32_t v : order_) {
+            for (uint32_t s = topology_.spokeStarts[v]; s < topology_.spokeStarts[v + 1]; ++s) {
+                // The last spoke of a boundary fan has no face behind it: its far end is in the one before.
+                const uint32_t own = topology_.sectorCorners[s];
+                const uint32_t c = own == cage::kNone ? topology_.sectorCorners[s - 1] : own;
+                const uint32_t face = topology_.cornerFaces[c];
+                const uint32_t diagonal = own == cage::kNone ? v : cage_.faceVertices[corner(c, 2)];
+                ring.add({v, topology_.spokeVertices[s], diagonal, diagonal}, face,
+                         std::span(cage_.faceVertices).subspan(cage_.faceStarts[face], 4));
+            }
+        }
+        tables_.ring = ring.write();
+    }
+
+    const cage::Cage& cage_;
+    const cage::Topology& topology_;
+    Options options_;
+    Tables tables_;
+    TableWriter writer_;
+    ClassTable classes_;
+    std::vector<uint32_t> order_; ///< vertices
+    std::vector<uint32_t> slots_; ///< by spoke: its place among tangents and face coefficients
+    std::vector<uint32_t> perturbedEdges_;
+    std::vector<uint32_t> edgeSlots_; ///< by edge: the pool index of its H, or kNone
+    uint32_t zero_ = 0;               ///< pool index of the zeros
+    std::map<std::pair<double, double>, uint32_t> edgeClasses_;
+    std::vector<DraftPatch> patches_;
+};
+
 } // namespace
 
 bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge) {
@@ -81,163 +287,27 @@ Status accepts(const cage::Cage& cage) {
 }
 
 Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const Options& options) {
-    Tables t;
-    TableWriter writer(t.words);
-    const uint32_t vertexCount = cage.vertexCount(), faceCount = cage.faceCount();
-    const auto spokeCount = static_cast<uint32_t>(topology.spokeVertices.size());
+    return Builder(cage, topology, options).build();
+}
 
-    // Spokes lie vertex by vertex: regular interior ones first; the others by class, so that neighbouring lanes loop
-    // equally long.
-    std::vector<uint32_t> order(vertexCount);
-    for (uint32_t v = 0; v < vertexCount; ++v) {
-        order[v] = v;
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+    const Result<cage::Topology> topology = cage::buildTopology(cage);
+    if (!topology) {
+        return topology.error();
     }
-    const auto rank = [&](uint32_t v) {
-        const bool interiorRegular = topology.boundary[v] == 0 && topology.sectorCount(v) == 4;
-        return std::tuple(!interiorRegular, topology.spokeCount(v), topology.boundary[v]);
-    };
-    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
-    std::vector<uint32_t> slots(spokeCount);
-    uint32_t nextSlot = 0;
-    for (const uint32_t v : order) {
-        for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
-            slots[s] = nextSlot++;
-        }
+    const Status accepted = accepts(cage);
+    if (!accepted) {
+        return accepted.error();
     }
-    const auto cornerSlot = [&](uint32_t c) { return slots[topology.cornerSpokes[c]]; };
-
-    // Pool: X, TG, FC, H of the perturbed edges, four zeros.
-    t.tangents = vertexCount;
-    t.faces = t.tangents + spokeCount;
-    t.inner = t.faces + spokeCount;
-    std::vector<uint32_t> perturbedEdges, edgeSlots(topology.edges.size(), cage::kNone);
-    for (uint32_t e = 0; e < topology.edges.size(); ++e) {
-        if (isPerturbed(cage, topology, e)) {
-            edgeSlots[e] = t.inner + 4 * static_cast<uint32_t>(perturbedEdges.size());
-            perturbedEdges.push_back(e);
-        }
+    SpokeLimits spokes;
+    for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
+        spokes.add(v, topology->spokeCount(v));
     }
-    const uint32_t zero = t.inner + 4 * static_cast<uint32_t>(perturbedEdges.size());
-    t.poolStride = (zero + 4 + 15) / 16 * 16;
-
-    ClassTable classes(topology, options);
-    classes.write(writer, vertexCount);
-
-    for (uint32_t v : order) {
-        const uint32_t spokes = topology.spokeCount(v);
-        const bool regularFan = !std::get<0>(rank(v));
-        const Kernel kernel = regularFan                     ? Kernel::prepVertexRegular
-                              : spokes <= shared::kFewSpokes ? Kernel::prepVertex
-                                                             : Kernel::prepVertexMany;
-        if (t.constructions.empty() || t.constructions.back().kernel != kernel) {
-            t.constructions.push_back({Stage::vertex, kernel, {writer.element(), 0}, 0});
-        }
-        ++t.constructions.back().section.count;
-        t.constructions.back().coefficients += 1 + 2 * spokes;
-        if (!regularFan) {
-            writer.put({slots[topology.spokeStarts[v]], classes.element(v)});
-        }
+    const Status fits = spokes.check();
+    if (!fits) {
+        return fits.error();
     }
-
-    // Edge classes, then edges.
-    t.edgeClasses = writer.element();
-    std::map<std::pair<double, double>, uint32_t> edgeClasses;
-    for (uint32_t e : perturbedEdges) {
-        const cage::Topology::Edge& edge = topology.edges[e];
-        const std::pair key(classes.c(cage.faceVertices[edge.corner]), classes.c(cage.faceVertices[edge.twin]));
-        if (edgeClasses.contains(key)) {
-            continue;
-        }
-        edgeClasses.emplace(key, static_cast<uint32_t>(edgeClasses.size()));
-        const EdgeWeights weights = makeEdgeWeights(key.first, key.second);
-        for (size_t vector = 0; vector < 6; ++vector) {
-            writer.put({floatBits(weights[0][vector]), floatBits(weights[1][vector]), floatBits(weights[2][vector]),
-                        floatBits(weights[3][vector])});
-        }
-    }
-    const auto corner = [&](uint32_t c, uint32_t steps) {
-        const uint32_t first = cage.faceStarts[topology.cornerFaces[c]];
-        return first + (c - first + steps) % 4;
-    };
-    const auto edgeCount = static_cast<uint32_t>(perturbedEdges.size());
-    t.constructions.push_back({Stage::edge, Kernel::prepEdge, {writer.element(), edgeCount}, 4 * edgeCount});
-    for (uint32_t e : perturbedEdges) {
-        const uint32_t f = topology.edges[e].corner, o = topology.edges[e].twin; // faces left and right of A -> B
-        const uint32_t a = cage.faceVertices[f], b = cage.faceVertices[o];
-        const uint32_t edgeClass = edgeClasses.at({classes.c(a), classes.c(b)});
-        writer.put({a | edgeClass << shared::kPointBits, spokeWord(cornerSlot(f), cornerSlot(corner(o, 1))),
-                    b | edgeClass >> (32 - shared::kPointBits) << shared::kPointBits,
-                    spokeWord(cornerSlot(o), cornerSlot(corner(f, 1)))});
-    }
-
-    const auto smoothCorner = [&](uint32_t v) {
-        return options.cornerRule == CornerRule::smooth && topology.boundary[v] != 0 && topology.sectorCount(v) == 1;
-    };
-
-    // Patches.
-    std::vector<DraftPatch> patches;
-    for (uint32_t face = 0; face < faceCount; ++face) {
-        if (std::binary_search(cage.holes.begin(), cage.holes.end(), face)) {
-            continue;
-        }
-        DraftPatch& patch = patches.emplace_back();
-        patch.facet = patch.info.face = face;
-        patch.material = cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[face];
-        for (uint32_t j = 0; j < 4; ++j) {
-            const uint32_t c = cage.faceStarts[face] + j;
-            patch.cageCorners[j] = c;
-            patch.info.corners[j] = cage.faceVertices[c];
-            if (edgeSlots[topology.cornerEdges[c]] != cage::kNone) {
-                patch.info.patchClass = PatchClass::perturbed;
-            }
-            t.cornerNormals = t.cornerNormals || smoothCorner(cage.faceVertices[c]);
-        }
-    }
-    sortPatches(patches);
-
-    RingWriter ring(writer, faceCount);
-    for (uint32_t p = 0; p < patches.size(); ++p) {
-        const DraftPatch& patch = patches[p];
-        const PatchClass patchClass = patch.info.patchClass;
-        if (t.ranges.empty() || t.ranges.back().patchClass != patchClass) {
-            t.ranges.push_back({patchClass, {writer.element(), 0}, p, 0});
-        }
-        ++t.ranges.back().section.count;
-        ring.setRecord(patch.facet, writer.element());
-        std::array<uint32_t, 4> spokes{}, edges{}, normals{};
-        for (uint32_t j = 0; j < 4; ++j) {
-            const uint32_t c = patch.cageCorners[j];
-            const uint32_t v = patch.info.corners[j];
-            spokes[j] = spokeWord(cornerSlot(c), slots[topology.cornerSpokesBack[c]]);
-            const uint32_t edge = topology.cornerEdges[c];
-            edges[j] = edgeSlots[edge] == cage::kNone ? zero | shared::kStillEdgeOfPatch : edgeSlots[edge];
-            edges[j] |= topology.edges[edge].corner == c ? 0u : shared::kReversedEdgeOfPatch;
-            normals[j] = smoothCorner(v) ? t.faces + slots[topology.spokeStarts[v]] + 1 : shared::kNoNormal;
-        }
-        const std::array<uint32_t, kMaxSides>& points = patch.info.corners;
-        writer.put({points[0], points[1], points[2], points[3], spokes[0], spokes[1], spokes[2], spokes[3]});
-        if (patchClass == PatchClass::perturbed) {
-            writer.put({edges[0], edges[1], edges[2], edges[3]});
-        }
-        if (t.cornerNormals) {
-            writer.put({normals[0], normals[1], normals[2], normals[3]});
-        }
-    }
-
-    for (const uint32_t v : order) {
-        for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
-            // The last spoke of a boundary fan has no face behind it: its far end is in the one before.
-            const uint32_t own = topology.sectorCorners[s],
-                           c = own == cage::kNone ? topology.sectorCorners[s - 1] : own;
-            const uint32_t face = topology.cornerFaces[c];
-            const uint32_t diagonal = own == cage::kNone ? v : cage.faceVertices[corner(c, 2)];
-            ring.add({v, topology.spokeVertices[s], diagonal, diagonal}, face,
-                     std::span(cage.faceVertices).subspan(cage.faceStarts[face], 4));
-        }
-    }
-    t.ring = ring.write();
-    finishTables(cage, patches, writer, t);
-    return t;
+    return buildTables(cage, *topology, recipe.prep);
 }
 
 } // namespace supple::surface::prep

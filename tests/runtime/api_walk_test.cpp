@@ -835,7 +835,7 @@ void views(Rows& r) {
     group("of a view, the cage alone", kBad, SUPPLE_MESSAGE_CONFLICT,
           [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CAGE; });
     group("of a view, with shared samples", kBad, SUPPLE_MESSAGE_CONFLICT,
-          [](World&, SuppleGroupDesc& d) { d.flags = SUPPLE_GROUP_SHARED_SAMPLES; });
+          [](World&, SuppleGroupDesc& d) { d.flags = SUPPLE_GROUP_INDEXED_MESH; });
     r.refuse("suppleSetRate", "of a group of a view", SUPPLE_MESSAGE_CONFLICT,
              [](World& w) { return suppleSetRate(w.handle(), w.seen.group, 1); });
     r.refuse("suppleRecord", "a view without a camera", SUPPLE_MESSAGE_OUT_OF_ORDER, [](World& w) {
@@ -915,7 +915,7 @@ void groups(Rows& r) {
         spoiled("shared samples of scheme " + std::to_string(scheme), SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
                 [=](Desc& d) {
                     d.scheme = scheme;
-                    d.flags = SUPPLE_GROUP_SHARED_SAMPLES;
+                    d.flags = SUPPLE_GROUP_INDEXED_MESH;
                 });
     }
     spoiled("too many vertices", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT, [](Desc& d) {

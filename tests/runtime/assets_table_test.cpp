@@ -2,7 +2,7 @@
 // words; and what is taken, evaluated on the device.
 #include "tests/support/pm_gpu.h"
 #include "tests/support/shared_assets.h"
-#include "tools/host/character_file.h"
+#include "tools/common/character_file.h"
 
 #include <array>
 #include <cmath>
@@ -148,9 +148,14 @@ TEST(AssetsTable, TakenOrRefusedByName) {
     uint32_t shapes = 0;
     uint32_t accepted = 0;
     Totals totals;
+    uint32_t leftAside = 0;
     for (const std::string& path : paths) {
         const std::string name = fs::relative(path, assets).generic_string();
         SCOPED_TRACE(name);
+        if (name.starts_with("whole/")) { // of several parts, of which the reader takes one
+            ++leftAside;
+            continue;
+        }
         shapes += name.starts_with("meshes/opensubdiv/") ? 1 : 0;
         const Result<host::CharacterFile> file = host::readCharacterFile(path);
         ASSERT_TRUE(file.ok()) << file.error().message;
@@ -184,7 +189,8 @@ TEST(AssetsTable, TakenOrRefusedByName) {
     EXPECT_EQ(degenerate, degenerateFaces());
     EXPECT_GE(shapes, 115u);
 
-    std::printf("%zu files (%u of OpenSubdiv's shapes), %u taken\n", paths.size(), shapes, accepted);
+    std::printf("%zu files (%u of OpenSubdiv's shapes), %u taken, %u of several parts left out\n", paths.size(), shapes,
+                accepted, leftAside);
     for (const auto& [reason, files] : refusals()) {
         std::printf("%u refused: %s\n", refused[reason], reason);
     }

@@ -1,5 +1,5 @@
 // Patches that show their backs: what a view with SUPPLE_VIEW_BACK_FACES leaves out against one without.
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "cage/procedural.h"
 #include "surface/lod/grid.h"
 #include "surface/schemes.h"

@@ -2,9 +2,9 @@
 // share.
 #include "tests/support/blend_surface.h"
 #include "tests/support/gpu_comparison.h"
-#include "tests/support/kernel_zoo.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/subdivision_zoo.h"
 
 #include <cstdio>
 
@@ -41,7 +41,7 @@ TEST_P(BlendOnGpu, SurfaceMatchesTheReference) {
         double worstPosition = 0.0;
         uint64_t steep = 0;
         ComparedBits bits;
-        const std::vector<KernelCage>& zoo = kernelZoo();
+        const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
         for (size_t z = 0; z < zoo.size(); z += rate < 8 ? 1 : 4) {
             SCOPED_TRACE(zoo[z].name);
             const cage::Cage& cage = zoo[z].cage;
@@ -87,7 +87,7 @@ TEST_P(BlendOnGpu, BordersAgreeBitForBit) {
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
     ComparedBits bits;
-    for (const KernelCage& entry : kernelZoo()) {
+    for (const SubdivisionCage& entry : subdivisionZoo()) {
         const Mesh mesh = meshOf(entry.cage);
         for (const uint32_t rate : {1u, 2u, 3u, 8u, 17u}) {
             GpuSurface gpu(*device, entry.cage, GetParam().at(rate));

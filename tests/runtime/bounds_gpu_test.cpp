@@ -1,6 +1,6 @@
 // Bounds, culling and the list of what is seen, on hand-made cages: what the device wrote against the same on the CPU.
-#include "surface/bounds_pass.h"
-#include "surface/occlusion_pass.h"
+#include "runtime/culling/bounds_pass.h"
+#include "runtime/culling/occlusion_pass.h"
 
 #include "gpu/memory.h"
 #include "tests/support/gpu_comparison.h"
@@ -15,10 +15,10 @@
 #include <limits>
 #include <random>
 
-namespace supple::surface {
+namespace supple::runtime {
 namespace {
 
-using namespace shared;
+using namespace supple::shared;
 using test::mappingName;
 using test::testDevice;
 
@@ -139,13 +139,13 @@ public:
             return nullptr;
         }
         auto rig = std::unique_ptr<Rig>(new Rig(host, std::move(*device)));
-        Result<BoundsPass> pass = BoundsPass::create(rig->device_);
+        Result<BoundsPass> pass = BoundsPass::create(rig->device_, rig->pipelines_);
         if (!pass) {
             ADD_FAILURE() << pass.error().message;
             return nullptr;
         }
         rig->pass_ = std::move(*pass);
-        Result<OcclusionPass> occlusion = OcclusionPass::create(rig->device_);
+        Result<OcclusionPass> occlusion = OcclusionPass::create(rig->device_, rig->pipelines_);
         if (!occlusion) {
             ADD_FAILURE() << occlusion.error().message;
             return nullptr;
@@ -193,13 +193,16 @@ public:
             return views.back().get();
         };
         const auto count = static_cast<uint32_t>(windows.size());
-        Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(device_, pass_.layout(), count, "test");
-        EXPECT_TRUE(pool.ok());
+        Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(device_, pass_.boundsLayout(), count, "test");
+        Result<gpu::DescriptorPoolHandle> listPool = gpu::createDescriptorPool(device_, pass_.listLayout(), 1, "test");
+        EXPECT_TRUE(pool.ok() && listPool.ok());
+        Result<VkDescriptorSet> listSet = gpu::allocateSet(device_, pass_.listLayout(), listPool->get(), "test");
+        EXPECT_TRUE(listSet.ok());
         const VkBufferView stateTexels = texels(states_, VK_FORMAT_R32G32_UINT, 0, states_.size());
         const VkBufferView hostTexels = texels(hostList, VK_FORMAT_R32_UINT, 0, hostList.size());
         std::vector<VkDescriptorSet> sets;
         for (const ListWindow& window : windows) {
-            Result<VkDescriptorSet> set = gpu::allocateSet(device_, pass_.layout(), pool->get(), "test");
+            Result<VkDescriptorSet> set = gpu::allocateSet(device_, pass_.boundsLayout(), pool->get(), "test");
             EXPECT_TRUE(set.ok());
             const VkDeviceSize cageBytes = VkDeviceSize{scene.cageStride} * 16;
             const VkDeviceSize offset = window.firstSlot * cageBytes;
@@ -221,7 +224,10 @@ public:
                 {kCullViewBinding, whole(view)},
                 {kSizeBinding, whole(sizes)},
             };
-            gpu::writeSet(device_, *set, resources);
+            gpu::writeSet(device_, pass_.boundsLayout(), *set, resources);
+            if (sets.empty()) {
+                gpu::writeSet(device_, pass_.listLayout(), *listSet, resources);
+            }
             sets.push_back(*set);
         }
         const Pyramid& pyramid = scene.pyramid;
@@ -240,7 +246,7 @@ public:
                 {kHostListBinding, {hostList.handle(), 0, VK_WHOLE_SIZE}},
                 {kHostListTexelBinding, {}, hostTexels},
             };
-            gpu::writeSet(device_, occlusionSet, resources);
+            gpu::writeSet(device_, occlusion_.layout(), occlusionSet, resources);
             occlusion_.writePyramid(occlusionSet, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
         EXPECT_TRUE(host_
@@ -265,7 +271,7 @@ public:
                                 gpu::computeBarrier(device_, commands);
                             }
                             if (scene.room != kRoomForAll) {
-                                pass_.recordSizes(commands, sets[0],
+                                pass_.recordSizes(commands, *listSet,
                                                   {0, static_cast<uint32_t>(scene.host.size()), scene.leastVertices});
                                 gpu::computeBarrier(device_, commands);
                             }
@@ -276,7 +282,7 @@ public:
                                                 scene.slots,
                                                 scene.room,
                                                 0};
-                            pass_.recordList(commands, sets[0], push);
+                            pass_.recordList(commands, *listSet, push);
                             gpu::memoryBarrier(device_, commands,
                                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT},
                                                {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT});
@@ -332,9 +338,10 @@ private:
         return std::move(*image);
     }
 
-    Rig(host::Device& host, gpu::Device device) : host_(host), device_(std::move(device)) {}
+    Rig(host::Device& host, gpu::Device device) : host_(host), device_(std::move(device)), pipelines_(device_) {}
     host::Device& host_;
     gpu::Device device_;
+    gpu::Pipelines pipelines_;
     BoundsPass pass_;
     OcclusionPass occlusion_;
     host::Buffer states_;
@@ -886,4 +893,4 @@ TEST(BoundsPlanes, AreThoseOfTheMatrix) {
 }
 
 } // namespace
-} // namespace supple::surface
+} // namespace supple::runtime

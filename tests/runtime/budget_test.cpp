@@ -178,7 +178,8 @@ TEST_F(Budget, UnknownPassesAreRefused) {
     out.structSize = sizeof(out);
     EXPECT_EQ(suppleGetBudget(context->handle(), "", &out), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(context->takeCount(SUPPLE_MESSAGE_OUT_OF_RANGE), 2u);
-    for (const char* pass : {"upload", "attributes", "pose", "deform", "vertex", "edge", "patch", "evaluate", "motion"}) {
+    for (const char* pass :
+         {"upload", "attributes", "pose", "deform", "vertex", "assemble", "patch", "evaluate", "motion"}) {
         EXPECT_EQ(suppleSetBudget(context->handle(), pass, 1e9), SUPPLE_OK) << pass;
         EXPECT_EQ(budget(pass).limit, 1e9);
         EXPECT_EQ(suppleSetBudget(context->handle(), pass, 0.0), SUPPLE_OK);

@@ -3,9 +3,9 @@
 #include "cage/procedural.h"
 #include "tests/support/depth_pyramid.h"
 #include "tests/support/gpu_comparison.h"
-#include "tests/support/kernel_zoo.h"
 #include "tests/support/meshes.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/subdivision_zoo.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
 
@@ -35,9 +35,9 @@ constexpr uint32_t kLevelOutputs = SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES;
 const CommandCase kFixedRates[] = {
     {"the cage alone", SUPPLE_SCHEME_CAGE},
     {"p-rep", SUPPLE_SCHEME_PREP, kAllOutputs},
-    {"p-rep, shared samples", SUPPLE_SCHEME_PREP, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_SHARED_SAMPLES},
+    {"p-rep, shared samples", SUPPLE_SCHEME_PREP, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH},
     {"P_m", SUPPLE_SCHEME_PM, kAllOutputs, false, true},
-    {"P_m, shared samples", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_SHARED_SAMPLES, false, true},
+    {"P_m, shared samples", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH, false, true},
     {"Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES},
     {"Loop", SUPPLE_SCHEME_LOOP, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
     {"blend", SUPPLE_SCHEME_BLEND, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},

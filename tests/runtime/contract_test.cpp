@@ -1,11 +1,11 @@
 // The contract with the host: what crosses per frame, barriers, failures that leave everything usable, refusals.
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "cage/procedural.h"
 #include "skinning/pose.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/wrapped_vulkan.h"
-#include "tools/host/cage_arrays.h"
+#include "tools/common/cage_arrays.h"
 
 #include <cmath>
 #include <cstring>
@@ -699,7 +699,7 @@ TEST(Contract, TimingsNameEveryPassAndNeverBlock) {
         end = t.gpuEnd;
         EXPECT_GT(t.bytes, 0u);
     }
-    EXPECT_EQ(passes, (std::vector<std::string>{"upload", "deform", "vertex", "edge", "patch", "evaluate"}));
+    EXPECT_EQ(passes, (std::vector<std::string>{"upload", "deform", "vertex", "assemble", "patch", "evaluate"}));
 }
 
 } // namespace

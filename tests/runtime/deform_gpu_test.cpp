@@ -1,5 +1,5 @@
 // Morph targets and both ways of skinning on the device, against double precision on the CPU.
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "skinning/rotation.h"
 #include "tests/support/dual_quaternion_reference.h"
 #include "tests/support/meshes.h"

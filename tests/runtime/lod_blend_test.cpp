@@ -2,10 +2,10 @@
 #include "surface/lod/grid.h"
 #include "tests/support/blend_surface.h"
 #include "tests/support/gpu_comparison.h"
-#include "tests/support/kernel_zoo.h"
 #include "tests/support/lod_random.h"
 #include "tests/support/prep_surface.h"
-#include "tools/host/cage_arrays.h"
+#include "tests/support/subdivision_zoo.h"
+#include "tools/common/cage_arrays.h"
 
 #include <cstdio>
 #include <set>
@@ -25,13 +25,13 @@ INSTANTIATE_TEST_SUITE_P(Mappings, LodBlend,
                          });
 
 /// A part of the zoo, another one for each case: all of it takes minutes a case.
-std::vector<KernelCage> cagesOf(const std::tuple<SuppleMapping, CreaseMode>& which) {
+std::vector<SubdivisionCage> cagesOf(const std::tuple<SuppleMapping, CreaseMode>& which) {
     constexpr size_t kStep = 19; // every cage has five variants: not a multiple of that
     const auto [mapping, mode] = which;
-    std::vector<KernelCage> cages;
+    std::vector<SubdivisionCage> cages;
     for (size_t z = (mapping == SUPPLE_MAPPING_WIDE ? 10 : 0) + (mode == CreaseMode::curve ? 5 : 0);
-         z < kernelZoo().size(); z += kStep) {
-        cages.push_back(kernelZoo()[z]);
+         z < subdivisionZoo().size(); z += kStep) {
+        cages.push_back(subdivisionZoo()[z]);
     }
     return cages;
 }
@@ -59,7 +59,7 @@ TEST_P(LodBlend, RandomLevelsAreTheReferences) {
     Borders all;
     double worst = 0.0;
     uint64_t steep = 0, notUnit = 0, triangles = 0, sharp = 0;
-    for (const KernelCage& entry : cagesOf(GetParam())) {
+    for (const SubdivisionCage& entry : cagesOf(GetParam())) {
         SCOPED_TRACE(entry.name);
         const surface::blend::Mesh mesh = blendMesh(entry.cage, {mode, 1.0f});
         const host::CageArrays arrays(entry.cage);
@@ -127,7 +127,7 @@ TEST_P(LodBlend, BothSidesOfAnEdgeAskForTheSame) {
     ASSERT_TRUE(random.valid());
     Borders all;
     std::set<float> levels;
-    for (const KernelCage& entry : cagesOf(GetParam())) {
+    for (const SubdivisionCage& entry : cagesOf(GetParam())) {
         SCOPED_TRACE(entry.name);
         const host::CageArrays arrays(entry.cage);
         Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, entry.name);

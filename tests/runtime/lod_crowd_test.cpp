@@ -5,9 +5,9 @@
 #include "surface/lod/budget.h"
 #include "surface/lod/grid.h"
 #include "tests/support/gpu_comparison.h"
-#include "tests/support/kernel_zoo.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
+#include "tests/support/subdivision_zoo.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
 

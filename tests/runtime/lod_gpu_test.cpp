@@ -1,6 +1,6 @@
 // Level of detail on every character: what two patches share is the same, bit for bit, however far apart their levels
 // and capacities are. Cameras stand in and round the character, so that levels run from 1 to 63 over one surface.
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "surface/schemes.h"
 #include "tests/support/blend_surface.h"
 #include "tests/support/gpu_comparison.h"

@@ -1,13 +1,13 @@
 // Subdivision in views: which rate instances take, what is evaluated, listed and drawn of each, against groups of that
 // rate alone.
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "cage/procedural.h"
 #include "surface/lod/budget.h"
 #include "surface/lod/instance.h"
 #include "tests/support/gpu_comparison.h"
-#include "tests/support/kernel_zoo.h"
 #include "tests/support/meshes.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/subdivision_zoo.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
 
@@ -242,9 +242,9 @@ cage::Cage creased(cage::Cage cage) {
 
 std::vector<RateCase> rateCases() {
     const cage::Cage quads = withUvs(perturbed(cage::makeCubeSphere(2), 0.05f, 3));
-    const std::vector<KernelCage>& zoo = kernelZoo();
+    const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
     const auto named =
-        std::find_if(zoo.begin(), zoo.end(), [](const KernelCage& z) { return z.name == "mixed, valence 5"; });
+        std::find_if(zoo.begin(), zoo.end(), [](const SubdivisionCage& z) { return z.name == "mixed, valence 5"; });
     const cage::Cage mixed = withUvs(named->cage);
     const cage::Cage triangles = withUvs(inTriangles(perturbed(cage::makeCubeSphere(2), 0.05f, 4)));
     std::vector<RateCase> cases{

@@ -1,5 +1,5 @@
 // Views: groups drawn at levels of detail, as the device wrote them.
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "cage/procedural.h"
 #include "surface/lod/grid.h"
 #include "tests/support/blend_surface.h"

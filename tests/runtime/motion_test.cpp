@@ -118,7 +118,7 @@ struct MotionCase {
 
     [[nodiscard]] SuppleGroupDesc desc(CrowdContext& context, uint32_t capacity, uint32_t flags) const {
         SuppleGroupDesc desc{};
-        // A small character where the kernel subdivides: its wide mapping is slow without a GPU.
+        // A small character where it subdivides: its wide mapping is slow without a GPU.
         const bool subdivides = scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
         desc.asset = context.asset(scheme == SUPPLE_SCHEME_PREP ? kPipQuads : subdivides ? kHelmet : kPip);
         desc.capacity = capacity;
@@ -139,16 +139,16 @@ std::vector<MotionCase> motionCases() {
             const std::string suffix = format == SUPPLE_VERTEX_16 ? "16" : "24";
             bool taken = (mapping == SUPPLE_MAPPING_NARROW) == (format == SUPPLE_VERTEX_16);
             // At rate 8 the narrow mapping subdivides through scratch memory.
-            const uint32_t kernelRate = mapping == SUPPLE_MAPPING_NARROW ? 8 : 4;
+            const uint32_t subdivisionRate = mapping == SUPPLE_MAPPING_NARROW ? 8 : 4;
             const MotionCase own[] = {{"Prep", SUPPLE_SCHEME_PREP, 3},
                                       {"Pm", SUPPLE_SCHEME_PM, 3},
-                                      {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, kernelRate},
-                                      {"Loop", SUPPLE_SCHEME_LOOP, kernelRate},
+                                      {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, subdivisionRate},
+                                      {"Loop", SUPPLE_SCHEME_LOOP, subdivisionRate},
                                       {"Blend", SUPPLE_SCHEME_BLEND, 4},
                                       {"PrepShared", SUPPLE_SCHEME_PREP, 3},
                                       {"PmShared", SUPPLE_SCHEME_PM, 3}};
             for (MotionCase c : own) {
-                c.flags = c.name.find("Shared") != std::string::npos ? SUPPLE_GROUP_SHARED_SAMPLES : 0;
+                c.flags = c.name.find("Shared") != std::string::npos ? SUPPLE_GROUP_INDEXED_MESH : 0;
                 c.name = mappingName(mapping) + c.name + suffix;
                 c.mapping = mapping;
                 c.format = format;

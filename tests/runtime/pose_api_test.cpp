@@ -1,7 +1,7 @@
 // Posing through the public interface: layers, masks, root motion, morph weights; what it refuses, what it allocates
 // and what crosses to the device.
-#include "cage/gltf_reader.h"
-#include "cage/gltf_writer.h"
+#include "cage/gltf/reader.h"
+#include "cage/gltf/writer.h"
 #include "skinning/layers.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/gpu_surface.h"

@@ -1,5 +1,5 @@
 // Groups whose poses or cages the host writes into their buffers, against groups that are posed by calls.
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/rigged_tube.h"

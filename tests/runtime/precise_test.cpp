@@ -7,7 +7,7 @@
 #include "tests/support/gpu_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/spirv_precise.h"
-#include "tools/host/cage_arrays.h"
+#include "tools/common/cage_arrays.h"
 
 #include <cstring>
 #include <gtest/gtest.h>
@@ -21,12 +21,15 @@ struct Checked {
     bool roots = false;   ///< a joint's matrix is computed once: its square roots need not agree with another's
 };
 constexpr Checked kShaders[] = {
-    {"evaluate/bicubic.comp", "position"}, {"evaluate/edge.comp", "position"},    {"prep/vertex.comp", "canonical"},
-    {"prep/edge.comp", "canonical"},       {"pm/vertex.comp", "canonical"},       {"pm/facet.comp", "canonical"},
-    {"pm/evaluate.comp", "position"},      {"deform/deform.comp", "p"},           {"kernel/isolate.comp", "canonical"},
-    {"kernel/refine.comp", "p"},           {"blend/chart.comp", "canonical"},     {"blend/evaluate.comp", "position"},
-    {"kernel/limit.comp", "position"},     {"kernel/fragment.comp", "position"},  {"pose/locals.comp", "local", true},
-    {"pose/roots.comp", "local", true},    {"pose/palette.comp", "placed", true},
+    {"evaluate/bicubic.comp", "position"},     {"evaluate/edge.comp", "position"},
+    {"prep/vertex.comp", "canonical"},         {"prep/edge.comp", "canonical"},
+    {"pm/vertex.comp", "canonical"},           {"pm/facet.comp", "canonical"},
+    {"pm/evaluate.comp", "position"},          {"deform/deform.comp", "p"},
+    {"subdivision/isolate.comp", "canonical"}, {"subdivision/refine.comp", "p"},
+    {"blend/chart.comp", "canonical"},         {"blend/evaluate.comp", "position"},
+    {"subdivision/limit.comp", "position"},    {"subdivision/fragment.comp", "position"},
+    {"pose/locals.comp", "local", true},       {"pose/roots.comp", "local", true},
+    {"pose/palette.comp", "placed", true},
 };
 
 TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
@@ -52,7 +55,7 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
     SuppleContextDesc desc = host::contextDesc(device);
     desc.mapping = SUPPLE_MAPPING_NARROW;
     surface::Shaders shaders = surface::Shaders::embedded();
-    shaders.bicubic = {evaluate, {}};
+    shaders[surface::Kernel::evaluateBicubic] = {evaluate, {}};
     Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(desc, shaders);
     if (!context) {
         ADD_FAILURE() << context.error().message;

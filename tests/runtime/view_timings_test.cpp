@@ -78,7 +78,7 @@ TEST_P(ViewTimings, EveryPassOfEveryGroupIsDelivered) {
         groups.push_back(crowds.back()->group());
     }
     const std::vector<std::string> every = {"upload", "pose",  "pose",       "deform",   "bounds",
-                                            "bounds", "list",  "vertex",     "edge",     "level",
+                                            "bounds", "list",  "vertex",     "assemble", "level",
                                             "level",  "place", "attributes", "evaluate", "motion"};
     for (const size_t count : {size_t{1}, groups.size()}) {
         const std::span<const SuppleGroup> some(groups.data(), count);

@@ -1,5 +1,5 @@
 // Animation sampling and skinning against vertex positions that Blender's own armature modifier evaluated.
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "skinning/pose.h"
 #include "tests/support/shared_assets.h"
 

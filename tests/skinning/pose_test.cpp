@@ -1,6 +1,6 @@
 #include "skinning/pose.h"
 
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "tests/support/shared_assets.h"
 
 #include <cmath>

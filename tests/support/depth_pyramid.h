@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gpu/pipeline.h"
-#include "tools/host/device.h"
+#include "host/device.h"
 
 #include <array>
 #include <cstdint>

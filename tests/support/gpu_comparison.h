@@ -1,7 +1,7 @@
 // What the suites on the device have in common: their cases, the bits they compare, and the faces that patches are.
 #pragma once
 
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "cage/topology.h"
 #include "surface/grid.h"
 #include "tests/support/gpu_surface.h"

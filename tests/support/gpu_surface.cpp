@@ -1,6 +1,6 @@
 #include "tests/support/gpu_surface.h"
 
-#include "tools/host/cage_arrays.h"
+#include "tools/common/cage_arrays.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
-#include "tools/host/context.h"
+#include "host/context.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -68,7 +68,7 @@ public:
     [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t sample) const {
         return vertices_[size_t{instance} * output_.verticesPerInstance + vertexIndex(patch, sample)];
     }
-    /// With SUPPLE_GROUP_SHARED_SAMPLES: of the mesh; what has patches below is then not to be asked.
+    /// With SUPPLE_GROUP_INDEXED_MESH: of the mesh; what has patches below is then not to be asked.
     [[nodiscard]] const Vertex& sharedVertex(uint32_t instance, uint32_t vertex) const {
         return vertices_[size_t{instance} * output_.verticesPerInstance + vertex];
     }

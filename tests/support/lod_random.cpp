@@ -32,12 +32,14 @@ constexpr const char* kRandomCapacity = R"(
 
 RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
     const std::string macros = mapping == SUPPLE_MAPPING_WIDE ? "-DWIDE" : "";
-    edge_ = compileEdited("lod/edge.comp", "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
-                          kRandomEdge, macros);
+    // Optimized, as the layouts have the bindings of their mapping alone.
+    edge_ = optimized(compileEdited("lod/edge.comp",
+                                    "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
+                                    kRandomEdge, macros));
     const auto patches = [&](const std::string& form) {
-        return compileEdited("lod/patch.comp",
-                             "    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));",
-                             kRandomCapacity, macros + form);
+        return optimized(compileEdited("lod/patch.comp",
+                                       "    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));",
+                                       kRandomCapacity, macros + form));
     };
     patch_ = patches("");
     chartPatch_ = patches(" -DCHARTS");
@@ -47,10 +49,10 @@ RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
     }
     surface::Shaders shaders = surface::Shaders::embedded();
     if (edges == Edges::random) {
-        shaders.lod.edge = {edge_, edge_}; // of this mapping
+        shaders[surface::Kernel::lodEdge] = {edge_, edge_}; // of this mapping
     }
-    shaders.lod.patch = {patch_, patch_};
-    shaders.lod.chartPatch = {chartPatch_, chartPatch_};
+    shaders[surface::Kernel::lodPatch] = {patch_, patch_};
+    shaders[surface::Kernel::lodPatchCharts] = {chartPatch_, chartPatch_};
     SuppleContextDesc contextDesc = host::contextDesc(*testDevice());
     contextDesc.mapping = mapping;
     Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(contextDesc, shaders);

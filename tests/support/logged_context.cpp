@@ -1,6 +1,6 @@
 #include "tests/support/logged_context.h"
 
-#include "cage/gltf_writer.h"
+#include "cage/gltf/writer.h"
 #include "tests/support/rigged_tube.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // surface came out as, to the bit.
 #pragma once
 
-#include "tools/host/context.h"
+#include "host/context.h"
 
 #include <functional>
 #include <memory>

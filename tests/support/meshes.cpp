@@ -1,6 +1,6 @@
 #include "tests/support/meshes.h"
 
-#include "cage/obj_reader.h"
+#include "cage/obj/reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -35,7 +35,7 @@ public:
 
     [[nodiscard]] bool valid() const { return group_ != nullptr; }
     [[nodiscard]] const cage::Character& character() const { return group_->asset().character; }
-    [[nodiscard]] runtime::InstancePoses& poses() { return group_->poses(); }
+    [[nodiscard]] runtime::HostPoses& poses() { return *group_->poses().host(); }
 
     /// Runs a frame and reads the cages back.
     void deform();

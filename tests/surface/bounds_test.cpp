@@ -1,17 +1,17 @@
 // How far surfaces leave the boxes of their cages. Every scheme is linear in the cage's vertices, with weights that sum
 // to one: where the negative ones sum to -n, the surface stays within the box made larger by n times its size on every
 // side, whatever the positions. n is found by moving one vertex at a time, on cages that have every rule and valence.
-#include "surface/bounds_pass.h"
+#include "surface/schemes.h"
 
-#include "cage/gltf_reader.h"
+#include "cage/gltf/reader.h"
 #include "tests/support/blend_surface.h"
-#include "tests/support/kernel_surface.h"
-#include "tests/support/kernel_zoo.h"
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_zoo.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/subdivision_surface.h"
+#include "tests/support/subdivision_zoo.h"
 
-#include "surface/kernel/reference.h"
+#include "surface/subdivision/reference.h"
 
 #include <cmath>
 #include <cstdio>
@@ -66,13 +66,13 @@ Evaluate evaluator(SchemeId scheme, const cage::Cage& cage, uint32_t rate = kRat
             return samples;
         };
     default:
-        return [mesh = test::kernelMesh(cage, scheme == SchemeId::loop
-                                                  ? kernel::Subdivision::loop
-                                                  : kernel::Subdivision::catmullClark)](const Points& positions) {
+        return [mesh = test::subdivisionMesh(cage, scheme == SchemeId::loop ? subdivision::Subdivision::loop
+                                                                            : subdivision::Subdivision::catmullClark)](
+                   const Points& positions) {
             Points samples;
-            const Points isolated = kernel::isolate<double>(mesh, positions);
-            kernel::forEachSector<double>(mesh, isolated, 2, [&](const kernel::SectorGrid<double>& sector) {
-                for (const kernel::Sample<double>& sample : sector.samples) {
+            const Points isolated = subdivision::isolate<double>(mesh, positions);
+            subdivision::forEachSector<double>(mesh, isolated, 2, [&](const subdivision::SectorGrid<double>& sector) {
+                for (const subdivision::Sample<double>& sample : sector.samples) {
                     samples.push_back(sample.position);
                 }
             });
@@ -151,7 +151,7 @@ std::vector<std::pair<std::string, cage::Cage>> zoo(SchemeId scheme) {
             add(c.name + ", " + test::pmVariantName(c.variant), c.cage);
         }
     } else if (scheme != SchemeId::prep) {
-        for (const test::KernelCage& c : test::kernelZoo()) {
+        for (const test::SubdivisionCage& c : test::subdivisionZoo()) {
             add(c.name, c.cage);
         }
     }
@@ -167,7 +167,7 @@ TEST_P(BoundsMargin, holdsWhateverThePositions) {
     std::map<float, std::pair<double, std::string>> worst; // by margin
     for (const auto& [name, cage] : zoo(GetParam())) {
         const double n = negativeWeights(cage, evaluator(GetParam(), cage), name);
-        auto& [most, where] = worst[boundsMargin(GetParam(), cage)];
+        auto& [most, where] = worst[schemeOf(GetParam()).boundsMargin(cage)];
         if (where.empty() || n > most) {
             most = n;
             where = name;
@@ -175,7 +175,7 @@ TEST_P(BoundsMargin, holdsWhateverThePositions) {
     }
     EXPECT_EQ(worst.size(), GetParam() == SchemeId::blend ? 2U : 1U);
     for (const auto& [margin, most] : worst) {
-        std::printf("%s: negative weights sum to %.4f (%s), margin %.3f\n", schemeName(GetParam()), most.first,
+        std::printf("%s: negative weights sum to %.4f (%s), margin %.3f\n", schemeOf(GetParam()).name, most.first,
                     most.second.c_str(), static_cast<double>(margin));
         EXPECT_LT(most.first, margin) << most.second;
     }
@@ -188,16 +188,18 @@ TEST_P(BoundsMargin, isNotReachedByCharacters) {
         const Result<cage::Character> character = cage::readGltfFile(path);
         ASSERT_TRUE(character.ok()) << character.error().message;
         if ((GetParam() == SchemeId::prep && !test::allQuads(character->cage)) ||
-            !buildTables({.scheme = GetParam(), .rate = hasRate(GetParam()) ? 4u : 0u}, character->cage).ok()) {
+            !buildTables({.scheme = GetParam(), .rate = schemeOf(GetParam()).rates == RateRule::any ? 0u : 4u},
+                         character->cage)
+                 .ok()) {
             continue; // the scheme does not take it
         }
         const Points positions = test::doublePositions(character->cage);
         const double n = outside(positions, evaluator(GetParam(), character->cage, 4)(positions));
-        EXPECT_LT(n, boundsMargin(GetParam(), character->cage)) << path;
+        EXPECT_LT(n, schemeOf(GetParam()).boundsMargin(character->cage)) << path;
         largest = std::max(largest, n);
         ++tested;
     }
-    std::printf("%s: outside the box by %.5f of its size at most, %u characters\n", schemeName(GetParam()), largest,
+    std::printf("%s: outside the box by %.5f of its size at most, %u characters\n", schemeOf(GetParam()).name, largest,
                 tested);
     EXPECT_GT(tested, 0u);
 }

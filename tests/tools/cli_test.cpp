@@ -152,7 +152,6 @@ TEST_F(Cli, BadUsageIsTwo) {
     expectFailure(run("bake cube.gltf -o out.obj --rate -3"), 2, "--rate");
     expectFailure(run("bake cube.gltf -o out.obj --time nan"), 2, "--time");
     expectFailure(run("bake cube.gltf -o out.obj --mapping sideways"), 2, "--mapping");
-    expectFailure(run("bake cube.gltf -o out.obj --scheme cage --patches p.json"), 2, "--patches");
     expectFailure(run("inspect cube.gltf --rate 4"), 2, "--compare");
     expectFailure(run("inspect cube.gltf --clip Rise"), 2, "--compare");
     expectFailure(run("profile cube.gltf --frames 0"), 2, "--frames");
@@ -438,9 +437,38 @@ TEST_F(Cli, BakeOfSubdivisionHasAGroupAPatch) {
             EXPECT_GT(glm::dot(normal, obj->v[face[0]]), 0.0f);
         }
     }
-    for (const char* scheme : {"catmull-clark", "loop"}) {
-        expectFailure(run(std::string("bake cube.gltf -o x.obj --patches p.json --scheme ") + scheme), 2, scheme);
+}
+
+TEST_F(Cli, BakeWritesPatchesOfSchemesThatHaveCoefficients) {
+    const std::vector<std::pair<std::string, bool>> schemes{{"auto", true},  {"pm", true},     {"prep", true},
+                                                            {"loop", false}, {"blend", false}, {"catmull-clark", false},
+                                                            {"cage", false}};
+    const std::string help = run("bake --help").out;
+    const size_t list = help.find('{', help.find("--scheme"));
+    ASSERT_NE(list, std::string::npos) << help;
+    std::set<std::string> named, known;
+    std::istringstream names(help.substr(list + 1, help.find('}', list) - list - 1));
+    for (std::string name; std::getline(names, name, ',');) {
+        named.insert(name);
     }
+    for (const auto& [scheme, coefficients] : schemes) {
+        known.insert(scheme);
+        const std::string command = "bake cube.gltf -o out.obj --rate 2 --patches p.json --scheme " + scheme;
+        if (!coefficients) {
+            expectFailure(run(command), 2, "--patches: " + scheme + " has no patch coefficients");
+            EXPECT_FALSE(fs::exists(file("out.obj"))) << scheme;
+            continue;
+        }
+        const Outcome outcome = runOnDevice(command);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const Json patches = Json::parse(readText(file("p.json")))["patches"];
+        ASSERT_EQ(patches.size(), 6u) << scheme;
+        for (const Json& patch : patches) {
+            EXPECT_GT(patch["coefficients"].size(), 0u) << scheme;
+        }
+        fs::remove(file("out.obj"));
+    }
+    EXPECT_EQ(named, known) << "every scheme that --scheme takes";
 }
 
 TEST_F(Cli, InspectKnowsSubdivision) {
@@ -543,6 +571,30 @@ TEST_F(Cli, ProfilePlaysOnTheDeviceWhenAsked) {
     }
 }
 
+TEST_F(Cli, ProfilePlaysTheFirstClipOrTheOneItIsTold) {
+    Json gltf = Json::parse(cubeGltf("cube.bin", true));
+    gltf["animations"].push_back(gltf["animations"][0]);
+    gltf["animations"][1]["name"] = "Leap";
+    writeText(file("two.gltf"), gltf.dump());
+    gltf.erase("animations");
+    writeText(file("still.gltf"), gltf.dump());
+    const std::tuple<const char*, const char*, std::string> kCases[] = {
+        {"two.gltf", "", "Rise"}, {"two.gltf", " --clip Leap", "Leap"}, {"still.gltf", "", "bind pose"}};
+    for (const auto& [name, flags, clip] : kCases) {
+        const Outcome outcome =
+            runOnDevice(std::string("profile --scheme cage --frames 1 --json p.json ") + name + flags);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(Json::parse(readText(file("p.json")))["runs"][0]["clip"], clip);
+        EXPECT_NE(outcome.out.find("clip " + clip), std::string::npos) << outcome.out;
+    }
+    for (const char* scheme : {"pm", "all"}) {
+        const Outcome outcome = run(std::string("profile two.gltf --clip Fall --scheme ") + scheme);
+        EXPECT_EQ(outcome.exitCode, 1) << scheme;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find("Leap"), std::string::npos) << outcome.err;
+    }
+}
+
 TEST_F(Cli, ProfileOfAViewShowsItsShortfall) {
     for (const uint32_t budget : {200000u, 1024u}) {
         const Outcome outcome = runOnDevice("profile cube.gltf triangles.gltf --view --instances 40 --frames 3 "
@@ -574,6 +626,28 @@ TEST_F(Cli, ProfileOfAViewShowsItsShortfall) {
     }
     expectFailure(run("profile cube.gltf --budget 5000"), 2, "--view");
     expectFailure(run("profile cube.gltf --view --budget 50331649"), 2, "--budget"); // SUPPLE_MAX_VIEW_VERTICES + 1
+}
+
+TEST_F(Cli, ProfileHashesWhatAViewDrewLast) {
+    for (const char* scheme : {"pm", "loop"}) {
+        std::vector<std::string> hashes;
+        for (const char* frames : {"1", "1", "4"}) {
+            const Outcome outcome =
+                runOnDevice(std::string("profile cube.gltf --view --instances 6 --motion --json p.json "
+                                        "--hashes hashes.txt --scheme ") +
+                            scheme + " --frames " + frames);
+            ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+            hashes.push_back(readText(file("hashes.txt")));
+            const Json view = Json::parse(readText(file("p.json")))["runs"][0]["view"];
+            const uint64_t drawn = scheme == std::string("pm") ? view["patches"] : view["drawnInstances"];
+            EXPECT_GT(drawn, 0u);
+            EXPECT_EQ(static_cast<uint64_t>(std::count(hashes.back().begin(), hashes.back().end(), '\n')), drawn + 1)
+                << "a line for the scheme, and a line for each: " << hashes.back();
+        }
+        EXPECT_EQ(hashes[0], hashes[1]) << scheme;
+        EXPECT_NE(hashes[0], hashes[2]) << "other times have other poses";
+    }
+    expectFailure(run("profile cube.gltf --hashes hashes.txt"), 2, "--view");
 }
 
 TEST_F(Cli, ProfileWritesTableJsonCsvAndTrace) {

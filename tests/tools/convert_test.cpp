@@ -1,5 +1,5 @@
 // supple convert as a user runs it: what it writes reads back, poses alike and satisfies Khronos' validator.
-#include "cage/character_reader.h"
+#include "cage/formats/reader.h"
 #include "tests/support/characters.h"
 #include "tests/tools/command_runner.h"
 

@@ -1,7 +1,7 @@
 // What supple inspect --compare measures against: points of the limit lie on it, other points as far as they are off.
 #include "tools/supple/limit_surface.h"
 
-#include "surface/kernel/reference.h"
+#include "surface/subdivision/reference.h"
 #include "tests/support/meshes.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace supple::tools {
 namespace {
 
-namespace kernel = surface::kernel;
+namespace subdivision = surface::subdivision;
 
 cage::Cage withCrease(cage::Cage cage, const std::vector<std::pair<uint32_t, uint32_t>>& edges, float sharpness) {
     for (const auto& [a, b] : edges) {
@@ -46,11 +46,11 @@ LimitSurface limitOf(const cage::Cage& cage) {
 /// Calls visit(face, sample) for points of the limit, most of which LimitSurface has not kept.
 template <class Visit>
 void forEachLimitPoint(const cage::Cage& cage, Visit&& visit) {
-    const Result<kernel::Mesh> mesh = kernel::buildMesh(cage, kernel::Subdivision::catmullClark);
+    const Result<subdivision::Mesh> mesh = subdivision::buildMesh(cage, subdivision::Subdivision::catmullClark);
     ASSERT_TRUE(mesh.ok()) << mesh.error().message;
     const std::vector<glm::dvec3> positions = test::doublePositions(cage);
-    const auto isolated = kernel::isolate<double>(*mesh, positions);
-    kernel::forEachSector<double>(*mesh, isolated, 6, [&](const kernel::SectorGrid<double>& grid) {
+    const auto isolated = subdivision::isolate<double>(*mesh, positions);
+    subdivision::forEachSector<double>(*mesh, isolated, 6, [&](const subdivision::SectorGrid<double>& grid) {
         for (size_t i = 0; i < grid.samples.size(); i += 7) {
             visit(mesh->sourceFaces[grid.face], grid.samples[i]);
         }
@@ -74,7 +74,7 @@ TEST(LimitSurface, pointsOfTheLimitLieOnIt) {
         LimitSurface::Probe probe(limit);
         const double extent = test::extent(test::doublePositions(cage));
         double farthest = 0.0, steepest = 0.0, doubt = 0.0;
-        forEachLimitPoint(cage, [&](uint32_t face, const kernel::Sample<double>& sample) {
+        forEachLimitPoint(cage, [&](uint32_t face, const subdivision::Sample<double>& sample) {
             const LimitSurface::Deviation deviation = probe.measure(face, sample.position, sample.normal, true);
             doubt = std::max(doubt, deviation.doubt);
             farthest = std::max(farthest, deviation.distance);
@@ -94,7 +94,7 @@ TEST(LimitSurface, pointsOffTheLimitAreAsFarAsTheyAre) {
     LimitSurface::Probe probe(limit);
     for (const double offset : {1e-6, 1e-3, -1e-2, 5e-2}) {
         double farthest = 0.0;
-        forEachLimitPoint(torus, [&](uint32_t face, const kernel::Sample<double>& sample) {
+        forEachLimitPoint(torus, [&](uint32_t face, const subdivision::Sample<double>& sample) {
             const auto deviation = probe.measure(face, sample.position + offset * sample.normal, sample.normal);
             farthest = std::max(farthest, std::abs(deviation.distance - std::abs(offset)));
             EXPECT_LT(deviation.degrees, 1e-3);
@@ -109,7 +109,7 @@ TEST(LimitSurface, normalsOfHardCreasesAreThoseOfTheFacesSide) {
     const LimitSurface limit = limitOf(cube);
     LimitSurface::Probe probe(limit);
     uint32_t onCrease = 0;
-    forEachLimitPoint(cube, [&](uint32_t face, const kernel::Sample<double>& sample) {
+    forEachLimitPoint(cube, [&](uint32_t face, const subdivision::Sample<double>& sample) {
         bool top = true;
         for (uint32_t i = 0; i < 4; ++i) {
             top = top && cube.positions[cube.faceVertices[4 * face + i]].z > 0.0f;

@@ -1,7 +1,7 @@
 // Pictures: what is drawn stands where it should, is the same from run to run, and draws without a word from the
 // validation layer. Judging beauty stays with people.
+#include "host/surface_renderer.h"
 #include "tests/tools/validated_device.h"
-#include "tools/host/surface_renderer.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -234,6 +234,31 @@ TEST_F(RenderTest, InstancesStandWhereTheirTransformsPutThem) {
     }
     EXPECT_GT(halves[0], 500.0);
     EXPECT_NEAR(halves[0] / halves[1], 1.0, 0.1);
+}
+
+/// Both buffers have room between their instances that nothing writes, and what is read back must not show it.
+TEST_F(RenderTest, PositionsReadBackAreThoseOfVerticesAlone) {
+    Result<std::unique_ptr<Figure>> helmet = Figure::open(*context_, std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb");
+    ASSERT_TRUE(helmet.ok()) << helmet.error().message;
+    constexpr uint32_t kInstances = 2;
+    Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(**helmet, {.instances = kInstances, .rate = 2});
+    ASSERT_TRUE(group.ok()) << group.error().message;
+    const glm::vec3 aside(100.0f, 0.0f, 0.0f);
+    const glm::mat4 transform = glm::translate(glm::mat4(1.0f), aside);
+    ASSERT_EQ(suppleSetTransform(context_->handle(), (*group)->instance(1), &transform[0][0]), SUPPLE_OK);
+    evaluate(**group);
+    const std::vector<glm::vec3>& rest = (*helmet)->character().cage.positions;
+    ASSERT_GT((*group)->output().cageVerticesPerInstance, rest.size()) << "a cage that leaves room";
+    const Result<std::vector<glm::vec3>> cage = (*group)->readCage();
+    ASSERT_TRUE(cage.ok());
+    ASSERT_EQ(cage->size(), kInstances * rest.size());
+    for (size_t i = 0; i < rest.size(); ++i) {
+        EXPECT_LT(glm::distance((*cage)[i], rest[i]), 1e-4f) << i;
+        EXPECT_LT(glm::distance((*cage)[rest.size() + i], rest[i] + aside), 1e-4f) << i;
+    }
+    const Result<std::vector<glm::vec3>> surface = (*group)->readSurface();
+    ASSERT_TRUE(surface.ok());
+    EXPECT_EQ(surface->size(), kInstances * (*group)->output().vertexCount);
 }
 
 std::string base64(const std::vector<uint8_t>& bytes) {

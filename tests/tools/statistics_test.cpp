@@ -1,4 +1,4 @@
-#include "tools/supple/statistics.h"
+#include "tools/common/statistics.h"
 
 #include <gtest/gtest.h>
 #include <vector>

@@ -1,11 +1,11 @@
 // Trimmed surfaces: the contour is where the image says, to the pixel, for every scheme and at every rate; light falls
 // through the holes; multisampling covers what the contour leaves. Drawn under the validation layer.
-#include "cage/gltf_writer.h"
+#include "cage/gltf/writer.h"
 #include "cage/single_joint.h"
+#include "host/surface_renderer.h"
 #include "tests/tools/validated_device.h"
-#include "tools/host/cage_arrays.h"
-#include "tools/host/character_file.h"
-#include "tools/host/surface_renderer.h"
+#include "tools/common/cage_arrays.h"
+#include "tools/common/character_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // A device for tests that count what the validation layer says.
 #pragma once
 
-#include "tools/host/device.h"
+#include "host/device.h"
 
 #include <memory>
 #include <utility>

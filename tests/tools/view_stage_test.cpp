@@ -2,8 +2,8 @@
 // validation layer.
 #include "tools/supple/view_stage.h"
 
+#include "host/vk_struct.h"
 #include "tests/tools/validated_device.h"
-#include "tools/host/vk_struct.h"
 
 #include <gtest/gtest.h>
 

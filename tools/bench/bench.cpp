@@ -1,5 +1,6 @@
 #include "tools/bench/bench.h"
 
+#include "host/context.h"
 #include "tools/bench/agreement.h"
 #include "tools/bench/avx2_evaluation.h"
 #include "tools/bench/crowd.h"
@@ -8,7 +9,6 @@
 #include "tools/bench/plain_evaluation.h"
 #include "tools/bench/scheme_names.h"
 #include "tools/bench/targets.h"
-#include "tools/host/context.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -3,7 +3,7 @@
 
 #include "base/result.h"
 #include "tools/bench/cages.h"
-#include "tools/supple/machine.h"
+#include "tools/common/machine.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,11 +1,11 @@
 #include "tools/bench/cages.h"
 
 #include "bench_characters.h"
-#include "cage/character_reader.h"
+#include "cage/formats/reader.h"
 #include "cage/procedural.h"
 #include "runtime/asset.h"
-#include "tools/host/cage_arrays.h"
-#include "tools/host/character_file.h"
+#include "tools/common/cage_arrays.h"
+#include "tools/common/character_file.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -4,7 +4,7 @@
 #include "tools/bench/device_write.h"
 #include "tools/bench/replay.h"
 #include "tools/bench/scheme_names.h"
-#include "tools/supple/statistics.h"
+#include "tools/common/statistics.h"
 
 #include <algorithm>
 #include <cstring>

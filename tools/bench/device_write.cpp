@@ -1,9 +1,9 @@
 #include "tools/bench/device_write.h"
 
-#include "tools/host/vk_struct.h"
+#include "host/vk_struct.h"
 
 #include <algorithm>
-#include <shaders/bench_store_comp.h>
+#include <shaders/store_comp.h>
 
 namespace supple::bench {
 
@@ -11,7 +11,7 @@ namespace {
 
 using host::vkStruct;
 
-constexpr VkDeviceSize kGroupBytes = 256 * 16; ///< of a workgroup of bench/store.comp
+constexpr VkDeviceSize kGroupBytes = 256 * 16; ///< of a workgroup of store.comp
 constexpr uint32_t kGroupsAcross = 4096;
 constexpr uint32_t kValue = 0x3F800000; // some float: nothing that a driver might know better
 
@@ -65,8 +65,8 @@ VkResult DeviceWrite::createPipeline() {
         return result;
     }
     auto moduleInfo = vkStruct<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
-    moduleInfo.codeSize = sizeof bench_store_comp;
-    moduleInfo.pCode = bench_store_comp;
+    moduleInfo.codeSize = sizeof store_comp;
+    moduleInfo.pCode = store_comp;
     VkShaderModule module = VK_NULL_HANDLE;
     result = vkCreateShaderModule(device_.handle(), &moduleInfo, nullptr, &module);
     if (result != VK_SUCCESS) {

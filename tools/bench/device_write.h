@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/result.h"
-#include "tools/host/device.h"
+#include "host/device.h"
 
 #include <memory>
 

@@ -5,7 +5,7 @@
 #include "tools/bench/replay.h"
 #include "tools/bench/scheme_names.h"
 #include "tools/bench/write_bandwidth.h"
-#include "tools/supple/statistics.h"
+#include "tools/common/statistics.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -34,7 +34,7 @@ struct Variant {
 };
 constexpr Variant kPlainVariant{};
 constexpr Variant kVertex24Variant{"", " 24 B", SUPPLE_VERTEX_24, 0};
-constexpr Variant kSharedVariant{" shared", "", SUPPLE_VERTEX_16, SUPPLE_GROUP_SHARED_SAMPLES};
+constexpr Variant kSharedVariant{" shared", "", SUPPLE_VERTEX_16, SUPPLE_GROUP_INDEXED_MESH};
 
 class Heat {
 public:

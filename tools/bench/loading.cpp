@@ -1,11 +1,11 @@
 #include "tools/bench/loading.h"
 
+#include "host/context.h"
+#include "host/vk_struct.h"
 #include "tools/bench/clocks.h"
 #include "tools/bench/pipeline_watch.h"
 #include "tools/bench/scheme_names.h"
-#include "tools/host/context.h"
-#include "tools/host/vk_struct.h"
-#include "tools/supple/statistics.h"
+#include "tools/common/statistics.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "tools/bench/replay.h"
 
-#include "tools/host/vk_struct.h"
+#include "host/vk_struct.h"
 
 #include <vector>
 

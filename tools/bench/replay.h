@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/result.h"
+#include "host/device.h"
 #include "tools/bench/rounds.h"
-#include "tools/host/device.h"
 
 #include <functional>
 #include <memory>

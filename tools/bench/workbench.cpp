@@ -55,12 +55,11 @@ Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc) {
     runtime::Group& group = inside_->group({*id});
     for (uint32_t i = 0; i < desc.capacity; ++i) { // slots come in order
         (void)group.slots().create();
-        if (group.plays()) {
-            group.playback().reset(i);
-        }
+        group.poses().reset(i);
     }
+    runtime::Playback* const played = group.poses().playback();
     const std::vector<cage::Clip>& clips = group.asset().character.clips;
-    for (uint32_t i = 0; group.plays() && !clips.empty() && i < desc.capacity; ++i) {
+    for (uint32_t i = 0; played != nullptr && !clips.empty() && i < desc.capacity; ++i) {
         SupplePlaybackLayer layer{};
         layer.flags = SUPPLE_LAYER_LOOP;
         layer.weight = layer.speed = 1.0f;
@@ -70,7 +69,7 @@ Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc) {
         playback.layers = &layer;
         playback.layerCount = 1;
         runtime::PlaybackLayers layers;
-        group.playback().set(i, runtime::playbackOf(group.asset(), playback, layers));
+        played->set(i, runtime::playbackOf(group.asset(), playback, layers));
     }
     return SuppleGroup{*id};
 }
@@ -122,29 +121,27 @@ Status Workbench::recordFrame(SuppleGroup group, VkCommandBuffer commands) {
 }
 
 void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const {
-    inside_->group(group).recordEvaluate(commands);
+    inside_->group(group).tessellation().recordEvaluate(commands);
 }
 
 void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
-    const runtime::Group& group = inside_->group(id);
+    runtime::Group& group = inside_->group(id);
     const auto barrier = [&] { host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite}); };
-    if (group.plays()) {
-        for (const runtime::Playback::Part part : runtime::Playback::kParts) {
-            if (part != runtime::Playback::Part::roots || group.movesRoots()) {
-                group.recordPose(commands, part);
-                barrier();
-            }
-        }
-    }
-    group.recordDeform(commands);
-    barrier();
-    for (const surface::Stage stage : {surface::Stage::vertex, surface::Stage::edge}) {
-        if (group.tables().has(stage)) {
-            group.recordStage(commands, stage);
+    for (const runtime::Playback::Part part : runtime::Playback::kParts) {
+        if (group.poses().has(part)) {
+            group.poses().recordPart(commands, part, group.instances().windows());
             barrier();
         }
     }
-    group.recordEvaluate(commands);
+    group.instances().recordDeform(commands);
+    barrier();
+    for (const surface::Stage stage : {surface::Stage::vertex, surface::Stage::assemble}) {
+        if (group.tessellation().has(stage)) {
+            group.tessellation().recordStage(commands, stage);
+            barrier();
+        }
+    }
+    group.tessellation().recordEvaluate(commands);
 }
 
 const SuppleGroupOutput& Workbench::output(SuppleGroup group) const {
@@ -178,7 +175,7 @@ Workbench::StaticBytes Workbench::staticBytes(SuppleGroup id) const {
             bytes.tables = scheme->buffers.size(0);
         }
     }
-    bytes.indices = group.hasLevels() ? 0 : group.output().gridIndices.size; // a view has them for all its groups
+    bytes.indices = group.output().lodDraws != nullptr ? 0 : group.output().gridIndices.size; // a view has them for all
     bytes.group = group.output().deviceBytes;
     return bytes;
 }

@@ -4,7 +4,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
-#include "tools/host/device.h"
+#include "host/device.h"
 
 #include <cstdint>
 #include <memory>

@@ -5,7 +5,7 @@
 #include "pip_model.h"
 #include "skeleton.h"
 
-#include "cage/gltf_writer.h"
+#include "cage/gltf/writer.h"
 #include "surface/pm/mesh.h"
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 // supple bake: the evaluated surface exactly as the device wrote it, as an OBJ; the patches behind it as JSON.
 #include "surface/scheme.h"
-#include "tools/host/character_file.h"
+#include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/evaluation.h"
 #include "tools/supple/text_file.h"
@@ -203,10 +203,7 @@ void bindBake(CLI::App& app, int& exitCode) {
     bindPose(*command, options->clip, options->time);
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] {
-        if (options->surface.scheme == kCageScheme && !options->patches.empty()) {
-            throw CLI::ValidationError("--patches", "a cage has no patches");
-        }
-        if (subdivides(schemeOf(options->surface.scheme)) && !options->patches.empty()) {
+        if (!options->patches.empty() && !hasCoefficients(options->surface.scheme)) {
             throw CLI::ValidationError("--patches", options->surface.scheme + " has no patch coefficients");
         }
         exitCode = runBake(*options);

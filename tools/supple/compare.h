@@ -2,7 +2,7 @@
 // the Catmull-Clark limit surface.
 #pragma once
 
-#include "tools/host/character_file.h"
+#include "tools/common/character_file.h"
 #include "tools/supple/evaluation.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // supple convert: any character file to a GLB that keeps its polygons, creases and seams. Needs no device.
-#include "cage/gltf_writer.h"
-#include "tools/host/character_file.h"
+#include "cage/gltf/writer.h"
+#include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,7 @@
 #include "cage/topology.h"
 #include "cage/trim.h"
 #include "surface/schemes.h"
-#include "tools/host/character_file.h"
+#include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/compare.h"
 #include "tools/supple/folds.h"

@@ -1,7 +1,7 @@
 #include "tools/supple/limit_surface.h"
 
 #include "cage/features.h"
-#include "surface/kernel/reference.h"
+#include "surface/subdivision/reference.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 namespace supple::tools {
 namespace {
 
-namespace kernel = surface::kernel;
+namespace subdivision = surface::subdivision;
 
 /// Points computed, of which few are kept; and points kept, 36 bytes each.
 constexpr uint64_t kWantedSamples = 120'000'000;
@@ -113,9 +113,9 @@ Cubic cubicAt(double at, uint32_t segments) {
 }
 
 /// Per face of the isolated level.
-std::vector<Kind> kindsOf(const kernel::Mesh& mesh) {
+std::vector<Kind> kindsOf(const subdivision::Mesh& mesh) {
     std::vector<Kind> kinds(mesh.cage.faceCount(), Kind::regular);
-    for (const kernel::Fragment& fragment : mesh.fragments) {
+    for (const subdivision::Fragment& fragment : mesh.fragments) {
         const auto spokes = std::span(mesh.spokeSharpness).subspan(fragment.firstSpoke, fragment.spokes());
         const auto semiSharp = [](float s) { return s > 0.0f && s < surface::kInfiniteSharpness; };
         const auto smooth = [](float s) { return s == 0.0f; };
@@ -245,7 +245,7 @@ struct LimitSurface::Data {
         return normal;
     }
 
-    void add(const kernel::SectorGrid<double>& grid, uint32_t face, uint32_t steps, Kind kind) {
+    void add(const subdivision::SectorGrid<double>& grid, uint32_t face, uint32_t steps, Kind kind) {
         const uint32_t all = 1u << steps;
         Sector sector;
         sector.face = face;
@@ -259,7 +259,8 @@ struct LimitSurface::Data {
             const uint32_t stride = all / sector.segments >> level;
             for (uint32_t j = 0; j <= sector.segments; ++j) {
                 for (uint32_t i = 0; i <= sector.segments; ++i) {
-                    const kernel::Sample<double>& sample = grid.samples[size_t{j} * stride * row + size_t{i} * stride];
+                    const subdivision::Sample<double>& sample =
+                        grid.samples[size_t{j} * stride * row + size_t{i} * stride];
                     positions.push_back(sample.position);
                     normals.emplace_back(sample.normal);
                 }
@@ -328,7 +329,7 @@ Result<LimitSurface> LimitSurface::build(const cage::Cage& cage, std::span<const
     if (!topology) {
         return topology.error();
     }
-    const Result<kernel::Mesh> mesh = kernel::buildMesh(cage, kernel::Subdivision::catmullClark);
+    const Result<subdivision::Mesh> mesh = subdivision::buildMesh(cage, subdivision::Subdivision::catmullClark);
     if (!mesh) {
         return mesh.error();
     }
@@ -343,8 +344,8 @@ Result<LimitSurface> LimitSurface::build(const cage::Cage& cage, std::span<const
         return Error{ErrorCode::limit, std::to_string(cage.faceCount()) + " faces are too many to compare"};
     }
     const std::vector<Kind> kinds = kindsOf(*mesh);
-    const std::vector<glm::dvec3> isolated = kernel::isolate<double>(*mesh, positions);
-    kernel::forEachSector<double>(*mesh, isolated, steps, [&](const kernel::SectorGrid<double>& grid) {
+    const std::vector<glm::dvec3> isolated = subdivision::isolate<double>(*mesh, positions);
+    subdivision::forEachSector<double>(*mesh, isolated, steps, [&](const subdivision::SectorGrid<double>& grid) {
         if (mesh->holes[grid.face] == 0) {
             data->add(grid, mesh->sourceFaces[grid.face], steps, kinds[grid.face]);
         }

@@ -12,7 +12,7 @@
 
 namespace supple::tools {
 
-/// Points on the limit, from the subdivision kernel on the CPU, with bicubic interpolation between them: where the
+/// Points on the limit, from the subdivision on the CPU, with bicubic interpolation between them: where the
 /// limit is bicubic it is met to double's precision, elsewhere nearly so (Deviation::doubt). Creases, sharp vertices
 /// and holes are the cage's.
 class LimitSurface {

@@ -1,6 +1,7 @@
 #include "tools/supple/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 
 namespace supple::tools {
@@ -99,11 +100,11 @@ void bindPose(CLI::App& command, std::string& clip, double& time) {
 }
 
 std::span<const Scheme> schemes() {
-    static constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM},
-                                          {"prep", SUPPLE_SCHEME_PREP},
-                                          {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK},
-                                          {"loop", SUPPLE_SCHEME_LOOP},
-                                          {"blend", SUPPLE_SCHEME_BLEND}};
+    static constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM, true},
+                                          {"prep", SUPPLE_SCHEME_PREP, true},
+                                          {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK, false},
+                                          {"loop", SUPPLE_SCHEME_LOOP, false},
+                                          {"blend", SUPPLE_SCHEME_BLEND, false}};
     return kSchemes;
 }
 
@@ -118,6 +119,13 @@ SuppleScheme schemeOf(const std::string& name) {
 
 std::string resolvedScheme(const std::string& name) {
     return name == "auto" ? schemes().front().name : name;
+}
+
+bool hasCoefficients(const std::string& name) {
+    const std::string resolved = resolvedScheme(name);
+    const auto all = schemes();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Scheme& scheme) { return resolved == scheme.name && scheme.coefficients; });
 }
 
 } // namespace supple::tools

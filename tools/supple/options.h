@@ -60,15 +60,18 @@ void bindPose(CLI::App& command, std::string& clip, double& time);
 struct Scheme {
     const char* name;
     SuppleScheme scheme;
+    bool coefficients; ///< its patches have coefficients to read (SUPPLE_GROUP_PATCHES)
 };
 [[nodiscard]] std::span<const Scheme> schemes();
 /// "auto", "cage" (no surface) and the names above; anything else is auto.
 [[nodiscard]] SuppleScheme schemeOf(const std::string& name);
-/// Whether the rate counts segments along an edge of the cage, in powers of two, and patches have no coefficients.
+/// Whether the rate counts segments along an edge of the cage, in powers of two.
 [[nodiscard]] constexpr bool subdivides(SuppleScheme scheme) {
     return scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
 }
 /// The scheme behind a name: "auto" becomes the one it chooses.
 [[nodiscard]] std::string resolvedScheme(const std::string& name);
+/// Of a name that schemeOf knows; a cage has no patches, and so none.
+[[nodiscard]] bool hasCoefficients(const std::string& name);
 
 } // namespace supple::tools

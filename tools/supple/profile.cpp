@@ -1,11 +1,12 @@
 // supple profile: runs the frame loop of a host without a window and reports what every pass took.
-#include "tools/host/character_file.h"
+#include "tools/common/character_file.h"
+#include "tools/common/machine.h"
 #include "tools/supple/command.h"
-#include "tools/supple/machine.h"
 #include "tools/supple/profile_report.h"
 #include "tools/supple/profile_stage.h"
 #include "tools/supple/session.h"
 #include "tools/supple/text_file.h"
+#include "tools/supple/view_hashes.h"
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -121,6 +122,11 @@ public:
         Status status = stage.create(files, scheme, result);
         if (status) {
             status = frames(stage, result);
+        }
+        if (status && !options_.hashes.empty()) {
+            Result<std::string> hashes = hashView(*session_.context, stage.groups());
+            status = hashes ? success() : Status(hashes.error());
+            result.hashes = hashes ? std::move(*hashes) : std::string();
         }
         const Status ended = stage.destroy();
         status = status ? ended : status;
@@ -306,6 +312,13 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
     if (status && !options.trace.empty()) {
         status = writeTextFile(options.trace, dump(toTrace(machine, runs), -1));
     }
+    if (status && !options.hashes.empty()) {
+        std::string text;
+        for (const ProfileRun& run : runs) {
+            text += "scheme " + run.scheme + "\n" + run.hashes;
+        }
+        status = writeTextFile(options.hashes, text);
+    }
     return status;
 }
 
@@ -333,6 +346,8 @@ void bindProfile(CLI::App& app, int& exitCode) {
     command->add_option("--frames", options->frames, "Frames to measure, after a few to warm up")
         ->check(CLI::Range(1u, 1000000u))
         ->capture_default_str();
+    command->add_option("--clip", options->clip, "Clip by name or index; without it the first")
+        ->type_name("NAME|INDEX");
     command->add_flag("--motion", options->motion, "Previous positions as well, for motion vectors");
     command->add_flag("--playback", options->playback, "Poses on the device, from the group's time alone");
     CLI::Option* view =
@@ -343,6 +358,9 @@ void bindProfile(CLI::App& app, int& exitCode) {
         ->needs(view)
         ->check(CLI::Range(1024u, SUPPLE_MAX_VIEW_VERTICES))
         ->capture_default_str();
+    command->add_option("--hashes", options->hashes, "Write hashes of the patches that the view drew last")
+        ->needs(view)
+        ->type_name("OUT.txt");
     command->add_option("--json", options->json, "Write the figures as JSON, anew after every run")
         ->type_name("OUT.json");
     command->add_option("--csv", options->csv, "Write the figures as CSV, a row a pass")->type_name("OUT.csv");

@@ -183,10 +183,10 @@ std::string toTable(const ProfileRun& run, const RunSummary& summary) {
     const std::string patchRate = run.patchRate == run.rate ? "" : format(" (%u a patch)", run.patchRate);
     const std::string fineness = run.budget > 0 ? format("in a view of %u vertices", run.budget)
                                                 : format("rate %u%s", run.rate, patchRate.c_str());
-    std::string table = run.file + format(": scheme %s, %s, %u instance%s of %s%u patches, %zu frames, %.1f MiB\n",
-                                          run.scheme.c_str(), fineness.c_str(), run.instances,
-                                          run.instances == 1 ? "" : "s", run.budget > 0 ? "up to " : "", run.patches,
-                                          run.frames.size(), static_cast<double>(run.deviceBytes) / (1024.0 * 1024.0));
+    std::string table = run.file + format(": scheme %s, %s, clip ", run.scheme.c_str(), fineness.c_str()) + run.clip +
+                        format(", %u instance%s of %s%u patches, %zu frames, %.1f MiB\n", run.instances,
+                               run.instances == 1 ? "" : "s", run.budget > 0 ? "up to " : "", run.patches,
+                               run.frames.size(), static_cast<double>(run.deviceBytes) / (1024.0 * 1024.0));
     table += format("  %-12s %10s %10s %10s %10s %12s %13s %10s\n", "pass", "GPU ms", "p95", "max", "CPU ms", "points",
                     "bytes", "Mpoints/s");
     for (const PassSummary& pass : summary.passes) {
@@ -215,9 +215,16 @@ nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun
     json["runs"] = Json::array();
     for (const ProfileRun& run : runs) {
         const RunSummary summary = summarizeRun(run);
-        Json entry = {{"file", run.file},           {"scheme", run.scheme},        {"rate", run.rate},
-                      {"patchRate", run.patchRate}, {"instances", run.instances},  {"playback", run.playback},
-                      {"patches", run.patches},     {"frames", run.frames.size()}, {"deviceBytes", run.deviceBytes},
+        Json entry = {{"file", run.file},
+                      {"scheme", run.scheme},
+                      {"clip", run.clip},
+                      {"rate", run.rate},
+                      {"patchRate", run.patchRate},
+                      {"instances", run.instances},
+                      {"playback", run.playback},
+                      {"patches", run.patches},
+                      {"frames", run.frames.size()},
+                      {"deviceBytes", run.deviceBytes},
                       {"passes", Json::array()}};
         for (const PassSummary& pass : summary.passes) {
             entry["passes"].push_back(toJson(pass));

@@ -1,8 +1,8 @@
 // What supple profile measured, and its four forms: table, JSON, CSV, Chrome trace.
 #pragma once
 
-#include "tools/supple/machine.h"
-#include "tools/supple/statistics.h"
+#include "tools/common/machine.h"
+#include "tools/common/statistics.h"
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -44,6 +44,7 @@ struct FrameSample {
 struct ProfileRun {
     std::string file; ///< or all of them
     std::string scheme;
+    std::string clip; ///< that instances play: its name, or "bind pose"; in a view one for each file
     uint32_t rate = 0;
     uint32_t patchRate = 0; ///< segments along a patch edge: less than the rate where an edge of the cage has several
     uint32_t instances = 0;
@@ -52,6 +53,7 @@ struct ProfileRun {
     uint32_t patches = 0;     ///< an instance; of several kinds the most
     uint64_t deviceBytes = 0; ///< of the groups
     std::vector<FrameSample> frames;
+    std::string hashes; ///< where they were asked for: hashView
 };
 
 /// One pass over all frames of a run, all groups and parts of it together; times in milliseconds.

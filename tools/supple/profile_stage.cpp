@@ -1,6 +1,7 @@
 #include "tools/supple/profile_stage.h"
 
-#include "tools/host/camera.h"
+#include "host/camera.h"
+#include "tools/supple/command.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,13 @@ constexpr float kFieldOfView = 0.7f, kNear = 0.1f, kFar = 1000.0f;
 /// A square of so many instances a side.
 uint32_t sideOf(size_t instances) {
     return static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<double>(instances))));
+}
+
+Result<uint32_t> playedClip(const cage::Character& character, const std::string& asked) {
+    if (asked.empty() && !character.clips.empty()) {
+        return 0u;
+    }
+    return host::findClip(character, asked);
 }
 
 } // namespace
@@ -93,10 +101,14 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     Subject& subject = subjects_.emplace_back();
     subject.asset = *asset;
     const std::vector<cage::Clip>& clips = file.character.clips;
-    if (!clips.empty()) {
-        subject.clip = 0;
-        subject.clipDuration = clips[0].duration;
+    const Result<uint32_t> clip = playedClip(file.character, options_.clip);
+    if (!clip) {
+        return clip.error();
     }
+    subject.clip = *clip;
+    const bool bindPose = subject.clip == SUPPLE_BIND_POSE;
+    subject.clipDuration = bindPose ? 0.0 : clips[subject.clip].duration;
+    run.clip += (run.clip.empty() ? "" : " + ") + (bindPose ? "bind pose" : printable(clips[subject.clip].name));
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
     desc.flags = options_.motion && !options_.view ? uint32_t{SUPPLE_GROUP_MOTION} : 0;

@@ -1,7 +1,7 @@
 // What supple profile runs frames of: a group, or a crowd of several in a view; made, posed and destroyed.
 #pragma once
 
-#include "tools/host/character_file.h"
+#include "tools/common/character_file.h"
 #include "tools/supple/options.h"
 #include "tools/supple/profile_report.h"
 
@@ -14,6 +14,7 @@ namespace supple::tools {
 
 struct ProfileOptions {
     std::vector<std::string> files;
+    std::string clip; ///< name or index; empty: the first, or the bind pose of a file without clips
     SurfaceFlags surface;
     DeviceFlags device;
     uint32_t instances = 1;
@@ -23,6 +24,7 @@ struct ProfileOptions {
     bool view = false;
     uint32_t budget = 1000000; ///< of the view
     std::string json, csv, trace;
+    std::string hashes; ///< of what the view drew last
 
     [[nodiscard]] bool plays() const { return playback || view; }
 };
@@ -37,8 +39,8 @@ public:
     [[nodiscard]] Status destroy();
 
     [[nodiscard]] std::span<const SuppleGroup> groups() const { return groups_; }
-    /// Of a frame a sixtieth of a second after the one before: all instances play clip 0 in a loop, spread evenly over
-    /// its length.
+    /// Of a frame a sixtieth of a second after the one before: all instances play their file's clip in a loop, spread
+    /// evenly over its length.
     [[nodiscard]] Status setPoses(uint32_t frame);
     /// Of the newest completed frame, if there is one and a view.
     [[nodiscard]] std::optional<SuppleViewStatistics> statistics() const;

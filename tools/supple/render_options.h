@@ -13,7 +13,7 @@ struct DrawOptions {
     std::string creases = "cut";     ///< cut | curve
     float sharpThreshold = 1.0f;     ///< see SuppleGroupDesc
     uint32_t rate = 8;               ///< 1..64: see SuppleGroupDesc
-    bool sharedSamples = false;      ///< SUPPLE_GROUP_SHARED_SAMPLES; patches then show no borders and classes
+    bool sharedSamples = false;      ///< SUPPLE_GROUP_INDEXED_MESH; patches then show no borders and classes
     std::string view = "shaded";     ///< shaded | wire | patches | normals | zebra
     bool cageOverlay = false;        ///< the cage's edges drawn over the surface
     bool ground = true;              ///< a floor that takes shadows

@@ -17,8 +17,9 @@ Result<VkExtent2D> parseSize(const std::string& text) {
 
 Result<uint32_t> parseView(const std::string& name) {
     constexpr std::pair<const char*, uint32_t> kViews[] = {
-        {"shaded", shared::kViewShaded},   {"wire", shared::kViewWire},   {"patches", shared::kViewPatches},
-        {"normals", shared::kViewNormals}, {"zebra", shared::kViewZebra},
+        {"shaded", host::shared::kViewShaded},   {"wire", host::shared::kViewWire},
+        {"patches", host::shared::kViewPatches}, {"normals", host::shared::kViewNormals},
+        {"zebra", host::shared::kViewZebra},
     };
     for (const auto& [known, view] : kViews) {
         if (name == known)

@@ -1,7 +1,7 @@
 // One character on the studio's floor, ready to be drawn at any clip and time: what render and the contact sheet share.
 #pragma once
 
-#include "tools/host/surface_renderer.h"
+#include "host/surface_renderer.h"
 #include "tools/supple/render_options.h"
 #include "tools/supple/session.h"
 
@@ -15,7 +15,7 @@ namespace supple::tools {
 
 /// "WxH".
 [[nodiscard]] Result<VkExtent2D> parseSize(const std::string& text);
-/// shared::kView... of a view's name.
+/// host::shared::kView... of a view's name.
 [[nodiscard]] Result<uint32_t> parseView(const std::string& name);
 [[nodiscard]] DeviceFlags deviceFlags(const DrawOptions& options);
 [[nodiscard]] float radians(double degrees);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/result.h"
-#include "tools/host/context.h"
-#include "tools/host/device.h"
+#include "host/context.h"
+#include "host/device.h"
 #include "tools/supple/options.h"
 
 #include <functional>

@@ -1,7 +1,7 @@
 // How sheets of several pictures look.
 #pragma once
 
-#include "tools/host/picture.h"
+#include "host/picture.h"
 
 #include <algorithm>
 #include <cstdint>

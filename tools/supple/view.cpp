@@ -14,8 +14,8 @@ int runView(const ViewOptions&) {
 
 #else
 
-#include "tools/host/overlay.h"
-#include "tools/host/window.h"
+#include "host/overlay.h"
+#include "host/window.h"
 #include "tools/supple/view_panel.h"
 #include "tools/supple/view_stage.h"
 
@@ -27,7 +27,7 @@ namespace supple::tools {
 
 namespace {
 
-/// With --frames every frame is a fixed step, so that the same frame is always the same picture.
+/// With --frames every frame is a fixed step and the panel shows no timings: the same frame is always the same picture.
 constexpr double kFixedStep = 1.0 / 30.0;
 
 constexpr VkImageSubresourceRange kWholeImage{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
@@ -109,7 +109,7 @@ Status Viewer::open(VkExtent2D size) {
         return status.error();
     if (const Status status = keep(ViewStage::create(*context_, *renderer_, options_.draw), stage_); !status)
         return status.error();
-    panel_.emplace(PanelState{options_.files, 0, {}, device_->name(), 0.0});
+    panel_.emplace(PanelState{options_.files, 0, {}, device_->name(), 0.0, options_.frames == 0});
     const float shape = static_cast<float>(size.width) / static_cast<float>(size.height);
     if (const Status status = stage_->open(options_.files.front(), options_.clip, shape); !status)
         return status.error();

@@ -136,7 +136,7 @@ void buildTimings(const PanelState& state, const ViewStage& stage) {
         longest = std::max(longest, time.gpuMilliseconds);
     }
     ImGui::TextDisabled("%s", state.device.c_str());
-    for (const char* pass : {"upload", "deform", "vertex", "edge", "patch", "evaluate", "attributes"}) {
+    for (const char* pass : {"upload", "deform", "vertex", "assemble", "patch", "evaluate", "attributes"}) {
         const auto found = stage.passTimes().find(pass);
         if (found == stage.passTimes().end())
             continue;
@@ -160,8 +160,10 @@ PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect) 
         buildPlayback(stage);
         ImGui::Separator();
         buildSurface(stage, wishes);
-        ImGui::Separator();
-        buildTimings(state, stage);
+        if (state.timings) {
+            ImGui::Separator();
+            buildTimings(state, stage);
+        }
         if (!state.message.empty()) {
             ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
             ImGui::TextWrapped("%s", printable(state.message).c_str());

@@ -15,6 +15,7 @@ struct PanelState {
     std::string message; ///< the last failure
     std::string device;  ///< its name
     double frameMilliseconds = 0.0;
+    bool timings = true; ///< shown; they differ from run to run
 };
 
 /// What the user asked for that cannot be done while the panel is built.

@@ -1,7 +1,7 @@
 // What the viewer shows: one figure of a list of files, playing, seen by an orbiting camera.
 #pragma once
 
-#include "tools/host/surface_renderer.h"
+#include "host/surface_renderer.h"
 #include "tools/supple/render_stage.h"
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct ViewSettings {
     bool playing = true;
     float speed = 1.0f;
     int rate = 8;
-    uint32_t view = 0;      ///< shared::kView...
+    uint32_t view = 0;      ///< host::shared::kView...
     bool cageFaces = false; ///< the cage instead of the surface
     bool cageOverlay = false;
     bool ground = true;

@@ -580,7 +580,7 @@ typedef enum SuppleGroupFlags {
     /** Samples that patches share are surface vertices once, and an instance is one indexed mesh. PREP and PM, without
      * a view. Positions are those of other groups to the bit; along creases, boundaries and, with ATTRIBUTES, seams of
      * these, each side has vertices of its own. See SuppleDrawRange. */
-    SUPPLE_GROUP_SHARED_SAMPLES = 8,
+    SUPPLE_GROUP_INDEXED_MESH = 8,
     SUPPLE_GROUP_ONE_LEVEL = 32 /**< groups of a view: a level an instance, from its bounds and the longest edge and
                                  * sharpest bend of the cage's bind pose, instead of one an edge */
 } SuppleGroupFlags;
@@ -620,7 +620,7 @@ SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGro
  * completed (suppleBeginFrame). */
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
 /** Changes the rate from the next suppleRecord on; outputs must be queried anew. At most the rate the group was created
- * with; CATMULL_CLARK, LOOP and BLEND have tables for that rate alone, SUPPLE_GROUP_SHARED_SAMPLES has indices for it
+ * with; CATMULL_CLARK, LOOP and BLEND have tables for that rate alone, SUPPLE_GROUP_INDEXED_MESH has indices for it
  * alone. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
@@ -873,7 +873,7 @@ typedef struct SuppleBufferView {
  * TRIANGLE  (R+1)(R+2)/2: rows j = 0..R from the edge 0-1 towards corner 2, each i = 0..R-j
  * PENTAGON  5 R(R+1)/2 + 1: for each edge s-(s+1) rows j = 0..R-1 from the edge towards the centre, each i = 0..R-j-1
  * (the row's last point is the next edge's first); then the centre
- * MESH      not one patch's: SUPPLE_GROUP_SHARED_SAMPLES */
+ * MESH      not one patch's: SUPPLE_GROUP_INDEXED_MESH */
 typedef enum SuppleDomain {
     SUPPLE_DOMAIN_QUAD = 0,
     SUPPLE_DOMAIN_POLAR = 1,
@@ -885,7 +885,7 @@ typedef enum SuppleDomain {
 /** A run of patches of one domain and material; ranges follow each other without gaps. Draw instance i is patch
  * firstPatch + i % patchCount of the instance in slot SuppleGroupOutput.instances[i / patchCount].
  *
- * SUPPLE_GROUP_SHARED_SAMPLES: all triangles of one material. Draw instance i is the instance in slot instances[i], and
+ * SUPPLE_GROUP_INDEXED_MESH: all triangles of one material. Draw instance i is the instance in slot instances[i], and
  * an index is a surface vertex within the instance. To shaders that pull vertices it looks like one big patch:
  * patchCount is 1, firstVertex 0, samplesPerPatch the group's vertexCount; firstPatch is 0. Indices are uint32, in the
  * order of the patches of that material (suppleGetPatches), each in the order of its domain's grid in other groups. */
@@ -947,7 +947,7 @@ typedef struct SuppleGroupOutput {
     uint32_t cageVertexCount;         /**< per instance */
     uint32_t cageVerticesPerInstance; /**< >= cageVertexCount: the stride of deformedCage between slots */
     /** Vertex of (slot, patch, sample) with the patch's range r: slot * verticesPerInstance + r.firstVertex +
-     * (patch - r.firstPatch) * r.samplesPerPatch + sample. SUPPLE_GROUP_SHARED_SAMPLES: slot * verticesPerInstance +
+     * (patch - r.firstPatch) * r.samplesPerPatch + sample. SUPPLE_GROUP_INDEXED_MESH: slot * verticesPerInstance +
      * index. */
     SuppleBufferView surfaceVertices;
     /** With SUPPLE_GROUP_ATTRIBUTES: per surface vertex of one instance, shared by all: float2 uv, linear RGBA in 4 x
@@ -958,7 +958,7 @@ typedef struct SuppleGroupOutput {
     SuppleBufferView deformedCage;
     /** With SUPPLE_GROUP_PATCHES: float4 per coefficient, SUPPLE_PATCH_STRIDE per patch, see SupplePatchInfo. */
     SuppleBufferView patchCoefficients;
-    SuppleBufferView gridIndices; /**< uint16, SUPPLE_GROUP_SHARED_SAMPLES: uint32; see SuppleDrawRange */
+    SuppleBufferView gridIndices; /**< uint16, SUPPLE_GROUP_INDEXED_MESH: uint32; see SuppleDrawRange */
     SuppleBufferView indirect;    /**< VkDrawIndexedIndirectCommand per draw range, for the visible instances */
     const SuppleDrawRange* drawRanges;
     uint32_t drawRangeCount;
@@ -1031,11 +1031,11 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
-    const char* pass; /**< static: upload, attributes, pose (up to three times), deform, vertex, edge (P_m: its facets),
-                       * patch, evaluate, motion; groups of a view also bounds (twice with OCCLUSION), list, level
-                       * (twice), solve (once a view), place. `shortfall` is no pass: it follows solve in frames in
-                       * which the view's budget was not enough (SuppleViewStatistics.shortfall), takes no time, and is
-                       * in no other */
+    const char* pass;  /**< static: upload, attributes, pose (up to three times), deform, vertex, assemble,
+                        * patch, evaluate, motion; groups of a view also bounds (twice with OCCLUSION), list, level
+                        * (twice), solve (once a view), place. `shortfall` is no pass: it follows solve in frames in
+                        * which the view's budget was not enough (SuppleViewStatistics.shortfall), takes no time, and is
+                        * in no other */
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 where the queue has none */

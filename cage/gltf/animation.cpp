@@ -1,0 +1,166 @@
+#include "cage/gltf/animation.h"
+
+#include "cage/gltf/accessors.h"
+#include "cage/refusal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace supple::cage::gltf {
+namespace {
+
+// Accessors may be shared, so a small file can ask for long clips.
+constexpr uint64_t kMaxKeyFloats = 1u << 26;
+
+/// Key rotations are unit quaternions but for rounding, which 8-bit outputs make coarse. Tangents are left alone.
+void checkRotations(Channel& channel, size_t perKey, const std::string& output) {
+    for (size_t k = perKey / 2; 4 * k < channel.values.size(); k += perKey) {
+        float* q = &channel.values[4 * k];
+        const double length = std::sqrt(static_cast<double>(q[0]) * q[0] + static_cast<double>(q[1]) * q[1] +
+                                        static_cast<double>(q[2]) * q[2] + static_cast<double>(q[3]) * q[3]);
+        if (!(length > 1e-6)) {
+            refuse(item(output, k), "zero quaternion");
+        }
+        if (std::abs(length - 1.0) > 1e-5 && channel.interpolation != Interpolation::cubicSpline) {
+            for (int c = 0; c < 4; ++c) {
+                q[c] = static_cast<float>(q[c] / length);
+            }
+        }
+    }
+}
+
+/// What a path's output looks like.
+struct Output {
+    ChannelPath path;
+    int type;
+    uint32_t components;
+    size_t width; ///< elements a value
+};
+
+std::optional<Output> outputOf(const std::string& path, size_t targetCount) {
+    constexpr uint32_t kAny = kFloat | kNormalizedU8 | kNormalizedU16 | kNormalizedS8 | kNormalizedS16;
+    if (path == "translation") {
+        return Output{ChannelPath::translation, TINYGLTF_TYPE_VEC3, kFloat, 1};
+    }
+    if (path == "rotation") {
+        return Output{ChannelPath::rotation, TINYGLTF_TYPE_VEC4, kAny, 1};
+    }
+    if (path == "scale") {
+        return Output{ChannelPath::scale, TINYGLTF_TYPE_VEC3, kFloat, 1};
+    }
+    if (path == "weights" && targetCount > 0) {
+        return Output{ChannelPath::weights, TINYGLTF_TYPE_SCALAR, kAny, targetCount};
+    }
+    return std::nullopt;
+}
+
+Channel readChannel(const Document& document, const supple_tinygltf::Animation& animation,
+                    const supple_tinygltf::AnimationChannel& from, const Output& kind, const std::string& element) {
+    Channel channel;
+    channel.node = static_cast<uint32_t>(from.target_node);
+    channel.path = kind.path;
+    const auto& sampler = animation.samplers[static_cast<size_t>(from.sampler)];
+    channel.interpolation = sampler.interpolation == "STEP"          ? Interpolation::step
+                            : sampler.interpolation == "CUBICSPLINE" ? Interpolation::cubicSpline
+                                                                     : Interpolation::linear;
+
+    const std::string input = element + " input";
+    channel.times = readFloats(document, sampler.input, TINYGLTF_TYPE_SCALAR, kFloat, input);
+    for (size_t k = 0; k < channel.times.size(); ++k) {
+        if (!std::isfinite(channel.times[k])) {
+            refuse(item(input, k), "not finite");
+        }
+        if (channel.times[k] < 0.0f) {
+            refuse(item(input, k), "negative time");
+        }
+        if (k > 0 && !(channel.times[k] > channel.times[k - 1])) {
+            refuse(item(input, k), "not later than the key before it");
+        }
+    }
+    const bool cubic = channel.interpolation == Interpolation::cubicSpline;
+    if (cubic && channel.times.size() < 2) {
+        refuse(input, "CUBICSPLINE needs at least two keys");
+    }
+
+    const std::string output = element + " output";
+    channel.values = readFloats(document, sampler.output, kind.type, kind.components, output);
+    const size_t elements = accessorCount(document, sampler.output);
+    const size_t perKey = cubic ? 3 : 1;
+    // The quotient is formed instead of the product, which might overflow.
+    if (elements % (perKey * kind.width) != 0 || elements / (perKey * kind.width) != channel.times.size()) {
+        refuse(output,
+               counted(elements, "element", "elements") + " for " + counted(channel.times.size(), "key", "keys") +
+                   (channel.path == ChannelPath::weights ? " of " + counted(kind.width, "morph target", "morph targets")
+                                                         : "") +
+                   (cubic ? " of CUBICSPLINE" : ""));
+    }
+    for (size_t k = 0; k < channel.values.size(); ++k) {
+        if (!std::isfinite(channel.values[k])) {
+            refuse(item(output, k / (channel.values.size() / elements)), "not finite");
+        }
+    }
+    if (channel.path == ChannelPath::rotation) {
+        checkRotations(channel, perKey, output);
+    }
+    return channel;
+}
+
+} // namespace
+
+std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, uint32_t meshNode, size_t targetCount,
+                            Warnings& warnings) {
+    const auto& animations = document.model.animations;
+    std::vector<Clip> clips;
+    uint64_t floats = 0;
+
+    for (size_t i = 0; i < animations.size(); ++i) {
+        const auto& animation = animations[i];
+        Clip clip;
+        clip.name = animation.name.empty() ? "clip_" + std::to_string(i) : animation.name;
+        std::map<std::string, size_t> ignored;
+        std::set<std::pair<int, std::string>> targets;
+        for (size_t k = 0; k < animation.channels.size(); ++k) {
+            const auto& channel = animation.channels[k];
+            const std::string& path = channel.target_path;
+            const bool ofMesh = channel.target_node == static_cast<int>(meshNode);
+            const std::optional<Output> kind = outputOf(path, ofMesh ? targetCount : 0);
+            if (!kind) {
+                ++ignored[path];
+                continue;
+            }
+            const std::string element = at("animation", i) + " " + at("channel", k);
+            if (!targets.emplace(channel.target_node, path).second) {
+                refuse(element, "a second channel for " + path + " of node " + std::to_string(channel.target_node));
+            }
+            if (kind->path != ChannelPath::weights &&
+                skeleton.nodes[static_cast<size_t>(channel.target_node)].hasMatrix) {
+                refuse(element, "animates node " + std::to_string(channel.target_node) + ", which has a matrix");
+            }
+            clip.channels.push_back(readChannel(document, animation, channel, *kind, element));
+            floats += clip.channels.back().times.size() + clip.channels.back().values.size();
+            if (floats > kMaxKeyFloats) {
+                refuse(element, "the clips hold more than " + std::to_string(kMaxKeyFloats) + " numbers",
+                       ErrorCode::limit);
+            }
+            clip.duration = std::max(clip.duration, static_cast<double>(clip.channels.back().times.back()));
+        }
+        for (const auto& [path, count] : ignored) {
+            warn(warnings, at("animation", i),
+                 counted(count, "channel", "channels") + " of " +
+                     (path == "pointer"   ? "KHR_animation_pointer or no node"
+                      : path == "weights" ? "weights of nodes without the mesh's morph targets"
+                                          : path) +
+                     " ignored");
+        }
+        clips.push_back(std::move(clip));
+    }
+    return clips;
+}
+
+} // namespace supple::cage::gltf

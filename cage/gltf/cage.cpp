@@ -1,0 +1,277 @@
+#include "cage/gltf/cage.h"
+
+#include "cage/gltf/creases.h"
+#include "cage/gltf/weld.h"
+#include "cage/polygons.h"
+#include "cage/refusal.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace supple::cage::gltf {
+namespace {
+
+/// What a part's edges are sewn along: its own polygons where it lists them, else its triangles.
+void addSewingFaces(const MeshPart& part, Polygons& faces) {
+    const auto add = [&](std::span<const uint32_t> vertices) {
+        faces.vertices.insert(faces.vertices.end(), vertices.begin(), vertices.end());
+        faces.close();
+    };
+    const Polygons& own = part.faces.polygons;
+    for (size_t f = 0; f < own.faceCount(); ++f) {
+        add(std::span(own.vertices).subspan(own.starts[f], own.starts[f + 1] - own.starts[f]));
+    }
+    for (size_t t = 0; own.faceCount() == 0 && t < part.triangles.size(); t += 3) {
+        add(std::span(part.triangles).subspan(t, 3));
+    }
+}
+
+Polygons pairPart(const Mesh& mesh, const MeshPart& part, std::span<const uint32_t> welded) {
+    const auto same = [](const auto& values, size_t width, size_t a, size_t b) {
+        for (size_t k = 0; k < width && !values.empty(); ++k) {
+            if (values[width * a + k] != values[width * b + k]) {
+                return false;
+            }
+        }
+        return true;
+    };
+    const auto sameCorner = [&](uint32_t a, uint32_t b) {
+        return same(part.uvs, 2, a - part.firstVertex, b - part.firstVertex) &&
+               same(part.uvs1, 2, a - part.firstVertex, b - part.firstVertex) &&
+               same(part.colors, 4, a - part.firstVertex, b - part.firstVertex) &&
+               same(part.trimTiles, 1, a - part.firstVertex, b - part.firstVertex);
+    };
+    const auto normal = [&](const uint32_t* t) {
+        const glm::dvec3 a(mesh.positions[t[0]]);
+        return glm::cross(glm::dvec3(mesh.positions[t[1]]) - a, glm::dvec3(mesh.positions[t[2]]) - a);
+    };
+    const auto normalsAgree = [&](const uint32_t* a, const uint32_t* b) {
+        return glm::dot(normal(a), normal(b)) > 0.0;
+    };
+    return pairTriangles(part.triangles, welded, sameCorner, normalsAgree);
+}
+
+PolygonSource sourceOf(const MeshPart& part, bool pairQuads) {
+    return part.faces.source == PolygonSource::triangles && pairQuads ? PolygonSource::pairedTriangles
+                                                                      : part.faces.source;
+}
+
+Polygons recoverPolygons(const Mesh& mesh, const MeshPart& part, std::span<const uint32_t> welded, bool pairQuads) {
+    switch (sourceOf(part, pairQuads)) {
+    case PolygonSource::cageExtension:
+    case PolygonSource::meshPolygon:
+        return part.faces.polygons;
+    case PolygonSource::ngonEncoding:
+        return decodeNgons(part.triangles, welded);
+    case PolygonSource::hiddenEdges:
+        return mergeAcrossHiddenEdges(part.triangles, welded, part.faces.hidden);
+    case PolygonSource::pairedTriangles:
+        return pairPart(mesh, part, welded);
+    default:
+        return keepTriangles(part.triangles, welded);
+    }
+}
+
+/// The polygons of all parts, and the part each is of.
+struct Faces {
+    Polygons polygons;
+    std::vector<size_t> parts;
+    std::vector<uint32_t> holes;
+};
+
+Faces recoverFaces(const Mesh& mesh, const Welding& welding, bool pairQuads, Warnings& warnings) {
+    Faces faces;
+    for (size_t p = 0; p < mesh.parts.size(); ++p) {
+        const MeshPart& part = mesh.parts[p];
+        const Polygons own = recoverPolygons(mesh, part, welding.roots, pairQuads);
+        if (own.degenerateTriangles > 0) {
+            warn(warnings, part.element,
+                 counted(own.degenerateTriangles, "triangle", "triangles") + " with a repeated vertex left out");
+        }
+        if (own.recutRuns > 0) {
+            warn(warnings, part.element,
+                 "FB_ngon_encoding: " + counted(own.recutRuns, "polygon closes", "polygons close") +
+                     " on itself; cut into quads and triangles again");
+        }
+        if (own.brokenRegions > 0) {
+            warn(warnings, part.element,
+                 "EXT_mesh_primitive_edge_visibility: " +
+                     counted(own.brokenRegions, "region of hidden edges is", "regions of hidden edges are") +
+                     " no simple polygon; left in triangles");
+        }
+        for (const uint32_t hole : part.faces.holes) {
+            faces.holes.push_back(static_cast<uint32_t>(faces.parts.size()) + hole);
+        }
+        for (size_t f = 0; f < own.faceCount(); ++f) {
+            faces.polygons.vertices.insert(faces.polygons.vertices.end(), own.vertices.begin() + own.starts[f],
+                                           own.vertices.begin() + own.starts[f + 1]);
+            faces.polygons.close();
+            faces.parts.push_back(p);
+        }
+    }
+    return faces;
+}
+
+/// UVs and colours; parts without them count as 0 and white where others have them.
+void fillCorners(const Mesh& mesh, const Faces& faces, Cage& cage) {
+    const auto any = [&](auto member) {
+        return std::any_of(mesh.parts.begin(), mesh.parts.end(),
+                           [&](const MeshPart& part) { return !(part.*member).empty(); });
+    };
+    if (any(&MeshPart::uvs)) {
+        cage.cornerUvs.assign(faces.polygons.vertices.size(), glm::vec2(0.0f));
+    }
+    if (any(&MeshPart::uvs1)) {
+        cage.cornerUvs1.assign(faces.polygons.vertices.size(), glm::vec2(0.0f));
+    }
+    if (any(&MeshPart::colors)) {
+        cage.cornerColors.assign(faces.polygons.vertices.size(), glm::vec4(1.0f));
+    }
+    for (size_t f = 0; f < faces.parts.size(); ++f) {
+        const MeshPart& part = mesh.parts[faces.parts[f]];
+        for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1]; ++c) {
+            const size_t v = faces.polygons.vertices[c] - part.firstVertex;
+            if (!part.uvs.empty()) {
+                cage.cornerUvs[c] = {part.uvs[2 * v], part.uvs[2 * v + 1]};
+            }
+            if (!part.uvs1.empty()) {
+                cage.cornerUvs1[c] = {part.uvs1[2 * v], part.uvs1[2 * v + 1]};
+            }
+            if (!part.colors.empty()) {
+                cage.cornerColors[c] = {part.colors[4 * v], part.colors[4 * v + 1], part.colors[4 * v + 2],
+                                        part.colors[4 * v + 3]};
+            }
+        }
+    }
+}
+
+/// A face's corners name one tile.
+void fillTrimTiles(const Mesh& mesh, const Faces& faces, Cage& cage) {
+    if (std::all_of(mesh.parts.begin(), mesh.parts.end(), [](const MeshPart& p) { return p.trimTiles.empty(); })) {
+        return;
+    }
+    cage.faceTrimTiles.assign(faces.parts.size(), kNone);
+    for (size_t f = 0; f < faces.parts.size(); ++f) {
+        const MeshPart& part = mesh.parts[faces.parts[f]];
+        if (part.trimTiles.empty()) {
+            continue;
+        }
+        const auto tileAt = [&](uint32_t corner) {
+            return part.trimTiles[faces.polygons.vertices[corner] - part.firstVertex];
+        };
+        const uint32_t first = faces.polygons.starts[f];
+        for (uint32_t c = first + 1; c < faces.polygons.starts[f + 1]; ++c) {
+            if (tileAt(c) != tileAt(first)) {
+                const auto name = [](uint32_t tile) { return tile == kNone ? "-1" : std::to_string(tile); };
+                refuse(part.element + " _TRIM_TILE", "the vertices of face " + std::to_string(f) + " name tiles " +
+                                                         name(tileAt(first)) + " and " + name(tileAt(c)));
+            }
+        }
+        cage.faceTrimTiles[f] = tileAt(first);
+    }
+}
+
+/// Returns the cage vertex of each of the mesh's vertices, kNone for those without a face.
+std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Welding& welding, Character& out) {
+    Cage& cage = out.cage;
+    std::vector<uint8_t> used(mesh.positions.size(), 0);
+    for (const uint32_t v : faces.polygons.vertices) {
+        used[v] = 1;
+    }
+    // A root is the smallest vertex of its set, but may itself have lost its faces to degenerate triangles.
+    std::vector<uint32_t> ofRoot(mesh.positions.size(), kNone);
+    uint32_t usedCount = 0;
+    for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        usedCount += used[v];
+        if (used[v] != 0 && ofRoot[welding.roots[v]] == kNone) {
+            ofRoot[welding.roots[v]] = v;
+            cage.sourceVertices.push_back(v);
+        }
+    }
+    // The file's own numbers keep their order.
+    if (!mesh.cageNumbers.empty()) {
+        std::sort(cage.sourceVertices.begin(), cage.sourceVertices.end(),
+                  [&](uint32_t a, uint32_t b) { return mesh.cageNumbers[a] < mesh.cageNumbers[b]; });
+    }
+    for (const uint32_t v : cage.sourceVertices) {
+        ofRoot[welding.roots[v]] = cage.vertexCount();
+        cage.positions.push_back(mesh.positions[v]);
+    }
+    out.seamVertexCount = usedCount - cage.vertexCount();
+
+    cage.faceStarts = faces.polygons.starts;
+    cage.faceVertices.reserve(faces.polygons.vertices.size());
+    for (const uint32_t v : faces.polygons.vertices) {
+        cage.faceVertices.push_back(ofRoot[welding.roots[v]]);
+    }
+    for (const size_t part : faces.parts) {
+        cage.faceMaterials.push_back(mesh.parts[part].material < 0 ? kNone
+                                                                   : static_cast<uint32_t>(mesh.parts[part].material));
+    }
+    cage.holes = faces.holes;
+    fillCorners(mesh, faces, cage);
+    fillTrimTiles(mesh, faces, cage);
+
+    out.weights.starts.push_back(0);
+    for (uint32_t i = 0; i < cage.vertexCount(); ++i) {
+        const auto own = mesh.weights.of(cage.sourceVertices[i]);
+        out.weights.influences.insert(out.weights.influences.end(), own.begin(), own.end());
+        out.weights.starts.push_back(static_cast<uint32_t>(out.weights.influences.size()));
+        for (const MorphDelta& displacement : mesh.morphs.of(cage.sourceVertices[i])) {
+            MorphTarget& target = out.morphs.targets[displacement.target];
+            target.vertices.push_back(i);
+            target.deltas.push_back(displacement.delta);
+        }
+    }
+
+    std::vector<uint32_t> cageVertices(mesh.positions.size());
+    for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        cageVertices[v] = ofRoot[welding.roots[v]];
+    }
+    return cageVertices;
+}
+
+} // namespace
+
+void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& options, Character& out) {
+    Polygons sewn;
+    for (const MeshPart& part : mesh.parts) {
+        addSewingFaces(part, sewn);
+    }
+    std::vector<uint8_t> used(mesh.positions.size(), 0);
+    for (const uint32_t v : sewn.vertices) {
+        used[v] = 1;
+    }
+    const auto unused = static_cast<size_t>(std::count(used.begin(), used.end(), uint8_t{0}));
+    if (unused > 0) {
+        warn(out.warnings, mesh.element, counted(unused, "vertex has", "vertices have") + " no face; left out");
+    }
+
+    auto [welding, weldSource] = weldMesh(document, mesh, sewn, out.warnings);
+    const Faces faces = recoverFaces(mesh, welding, options.pairQuads, out.warnings);
+    if (faces.polygons.faceCount() == 0) {
+        refuse(mesh.element, "no triangle is left");
+    }
+    // What the file merges itself is the file's business.
+    const uint32_t apart = weldSource == WeldSource::equality ? unweldDefects(faces.polygons, welding) : 0;
+    if (apart > 0) {
+        warn(out.warnings, mesh.element,
+             counted(apart, "welded vertex is", "welded vertices are") +
+                 " taken apart again: faces do not fit together there");
+    }
+
+    // One part with polygons of its own names the source of all.
+    out.polygonSource = PolygonSource::triangles;
+    for (const MeshPart& part : mesh.parts) {
+        out.polygonSource = std::min(out.polygonSource, sourceOf(part, options.pairQuads));
+    }
+    out.weldSource = weldSource;
+    out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
+    readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, out.warnings);
+}
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,108 @@
+#include "cage/gltf/cage_extension.h"
+
+#include "cage/gltf/accessors.h"
+#include "cage/refusal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+
+namespace supple::cage::gltf {
+namespace {
+
+constexpr uint32_t kIntegers = kU8 | kU16 | kU32;
+
+void checkTogether(const CageExtension& extension, const char* a, int accessorA, const char* b, int accessorB) {
+    if ((accessorA < 0) != (accessorB < 0)) {
+        refuse(extension.element, std::string(accessorA < 0 ? b : a) + " without " + (accessorA < 0 ? a : b));
+    }
+}
+
+/// A rule by OpenSubdiv's names. The scheme and its rules are the host's choice; what none here can follow is reported.
+void checkRule(const json& object, const char* key, std::initializer_list<std::string_view> followed,
+               std::initializer_list<std::string_view> others, const std::string& element, Warnings& warnings) {
+    const std::string value = stringMember(object, key, element);
+    if (value.empty() || std::find(followed.begin(), followed.end(), value) != followed.end()) {
+        return;
+    }
+    if (std::find(others.begin(), others.end(), value) == others.end()) {
+        refuse(element + " " + key, quoted(value) + " is not allowed");
+    }
+    warn(warnings, element + " " + key, quoted(value) + " is not followed");
+}
+
+SharpList readSharpList(const Document& document, const CageExtension& extension, const char* indicesKey, int indices,
+                        const char* sharpnessesKey, int sharpnesses, size_t width) {
+    SharpList list;
+    list.element = extension.element + " " + indicesKey;
+    const std::string place = extension.element + " " + sharpnessesKey;
+    list.vertices = readIntegers(document, indices, TINYGLTF_TYPE_SCALAR, kIntegers, list.element);
+    list.sharpnesses = readFloats(document, sharpnesses, TINYGLTF_TYPE_SCALAR, kFloat, place);
+    if (list.vertices.size() % width != 0 || list.vertices.size() / width != list.sharpnesses.size()) {
+        refuse(place, counted(list.sharpnesses.size(), "sharpness", "sharpnesses") + " for " +
+                          counted(list.vertices.size(), "index", "indices"));
+    }
+    for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
+        if (!std::isfinite(list.sharpnesses[i]) || list.sharpnesses[i] < 0.0f) {
+            refuse(item(place, i), "not a number of at least 0");
+        }
+    }
+    return list;
+}
+
+} // namespace
+
+std::optional<CageExtension> findCageExtension(const Document& document, const json& primitive,
+                                               const std::string& element, Warnings& warnings) {
+    if (!hasExtension(primitive, "SUPPLE_mesh_cage")) {
+        return std::nullopt;
+    }
+    CageExtension extension;
+    extension.element = element + " SUPPLE_mesh_cage";
+    const json* object = objectMember(primitive.at("extensions"), "SUPPLE_mesh_cage", element);
+    if (object == nullptr) {
+        return std::nullopt;
+    }
+    const auto accessor = [&](const char* key) {
+        checkIndexMember(*object, key, extension.element, "accessor", document.model.accessors.size());
+        return member(*object, key) == nullptr ? -1 : object->at(key).get<int>();
+    };
+    extension.faceVertexCounts = accessor("faceVertexCounts");
+    extension.faceVertexIndices = accessor("faceVertexIndices");
+    extension.cageVertices = accessor("cageVertices");
+    extension.creaseIndices = accessor("creaseIndices");
+    extension.creaseSharpnesses = accessor("creaseSharpnesses");
+    extension.cornerIndices = accessor("cornerIndices");
+    extension.cornerSharpnesses = accessor("cornerSharpnesses");
+    extension.holeIndices = accessor("holeIndices");
+    checkTogether(extension, "faceVertexCounts", extension.faceVertexCounts, "faceVertexIndices",
+                  extension.faceVertexIndices);
+    checkTogether(extension, "creaseIndices", extension.creaseIndices, "creaseSharpnesses",
+                  extension.creaseSharpnesses);
+    checkTogether(extension, "cornerIndices", extension.cornerIndices, "cornerSharpnesses",
+                  extension.cornerSharpnesses);
+    if (extension.holeIndices >= 0 && extension.faceVertexCounts < 0) {
+        refuse(extension.element, "holeIndices without faceVertexCounts");
+    }
+
+    checkRule(*object, "scheme", {"catmullClark", "loop", "bilinear", "none"}, {}, extension.element, warnings);
+    checkRule(*object, "interpolateBoundary", {"edgeAndCorner", "edgeOnly"}, {"none"}, extension.element, warnings);
+    checkRule(*object, "faceVaryingLinearInterpolation",
+              {"none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"}, {}, extension.element,
+              warnings);
+    checkRule(*object, "triangleSubdivisionRule", {"catmullClark"}, {"smooth"}, extension.element, warnings);
+    return extension;
+}
+
+SharpList readCreaseList(const Document& document, const CageExtension& extension) {
+    return readSharpList(document, extension, "creaseIndices", extension.creaseIndices, "creaseSharpnesses",
+                         extension.creaseSharpnesses, 2);
+}
+
+SharpList readCornerList(const Document& document, const CageExtension& extension) {
+    return readSharpList(document, extension, "cornerIndices", extension.cornerIndices, "cornerSharpnesses",
+                         extension.cornerSharpnesses, 1);
+}
+
+} // namespace supple::cage::gltf

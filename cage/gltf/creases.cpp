@@ -1,0 +1,239 @@
+#include "cage/gltf/creases.h"
+
+#include "cage/gltf/cage_extension.h"
+#include "cage/refusal.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace supple::cage::gltf {
+namespace {
+
+/// The faults of a list's entries: the first by name, the others counted, so that no file can fill the log.
+class EntryFaults {
+public:
+    explicit EntryFaults(std::string list) : list_(std::move(list)) {}
+
+    void add(size_t entry, const std::string& reason) {
+        if (count_++ == 0) {
+            first_ = item(list_, entry);
+            reason_ = reason;
+        }
+    }
+    void report(Warnings& warnings) const {
+        if (count_ > 0) {
+            warn(warnings, first_,
+                 reason_ + "; left out" + (count_ > 1 ? ", as are " + std::to_string(count_ - 1) + " more" : ""));
+        }
+    }
+
+private:
+    std::string list_;
+    std::string first_;
+    std::string reason_;
+    size_t count_ = 0;
+};
+
+/// Edges and vertices in the order of the file, each once, with the sharpest of what it says of them.
+class SharpFeatures {
+public:
+    void addCrease(uint32_t a, uint32_t b, float sharpness, Cage& cage) {
+        const auto [known, isNew] = edges_.try_emplace(std::minmax(a, b), cage.creases.size());
+        if (isNew) {
+            cage.creases.push_back({a, b, sharpness});
+        } else {
+            float& kept = cage.creases[known->second].sharpness;
+            kept = std::max(kept, sharpness);
+        }
+    }
+    void addCorner(uint32_t vertex, float sharpness, Cage& cage) {
+        const auto [known, isNew] = vertices_.try_emplace(vertex, cage.sharpVertices.size());
+        if (isNew) {
+            cage.sharpVertices.push_back({vertex, sharpness});
+        } else {
+            float& kept = cage.sharpVertices[known->second].sharpness;
+            kept = std::max(kept, sharpness);
+        }
+    }
+
+private:
+    std::map<std::pair<uint32_t, uint32_t>, size_t> edges_;
+    std::map<uint32_t, size_t> vertices_;
+};
+
+/// Creases and corners of SUPPLE_mesh_cage. What they name is a cage vertex by its number where the mesh numbers them,
+/// else a vertex of the primitive.
+class ExtensionReader {
+public:
+    ExtensionReader(const Document& document, const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage,
+                    Warnings& warnings)
+        : document_(document), mesh_(mesh), cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {
+        for (uint32_t v = 0; v < mesh.cageNumbers.size(); ++v) {
+            // Of several vertices of one number any will do, but one without a face only where none has.
+            uint32_t& vertex = ofNumber_.try_emplace(mesh.cageNumbers[v], cageVertices[v]).first->second;
+            vertex = vertex == kNone ? cageVertices[v] : vertex;
+        }
+    }
+
+    void readCreases(const MeshPart& part) {
+        const SharpList list = readCreaseList(document_, *part.extension);
+        EntryFaults faults(list.element);
+        for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
+            const uint32_t a = vertexOf(part, list, 2 * i);
+            const uint32_t b = vertexOf(part, list, 2 * i + 1);
+            if (a == kNone || b == kNone) {
+                faults.add(2 * i, "a crease at a vertex without a face");
+            } else if (a == b) {
+                refuse(item(list.element, 2 * i), "both ends are one vertex of the cage");
+            } else {
+                features_.addCrease(a, b, list.sharpnesses[i], cage_);
+            }
+        }
+        faults.report(warnings_);
+    }
+
+    void readCorners(const MeshPart& part) {
+        const SharpList list = readCornerList(document_, *part.extension);
+        EntryFaults faults(list.element);
+        for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
+            const uint32_t vertex = vertexOf(part, list, i);
+            if (vertex == kNone) {
+                faults.add(i, "a vertex without a face");
+            } else {
+                features_.addCorner(vertex, list.sharpnesses[i], cage_);
+            }
+        }
+        faults.report(warnings_);
+    }
+
+private:
+    /// kNone for a vertex without a face.
+    uint32_t vertexOf(const MeshPart& part, const SharpList& list, size_t index) const {
+        const uint32_t number = list.vertices[index];
+        if (part.extension->cageVertices >= 0) {
+            const auto found = ofNumber_.find(number);
+            if (found == ofNumber_.end()) {
+                refuse(item(list.element, index), "the mesh has no cage vertex " + std::to_string(number));
+            }
+            return found->second;
+        }
+        if (number >= part.vertexCount) {
+            refuse(item(list.element, index), "vertex " + std::to_string(number) +
+                                                  " is out of range: the primitive has " +
+                                                  std::to_string(part.vertexCount));
+        }
+        return cageVertices_[part.firstVertex + number];
+    }
+
+    const Document& document_;
+    const Mesh& mesh_;
+    std::span<const uint32_t> cageVertices_;
+    Cage& cage_;
+    Warnings& warnings_;
+    SharpFeatures features_;
+    std::map<uint32_t, uint32_t>
+        ofNumber_; ///< number of a cage vertex in the file -> cage vertex, kNone without a face
+};
+
+/// extras may hold anything: nothing in them is an error.
+class ExtrasReader {
+public:
+    ExtrasReader(std::span<const uint32_t> cageVertices, Cage& cage, Warnings& warnings)
+        : cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {}
+
+    /// Of `vertexCount` vertices and a sharpness each.
+    void readList(const json& extras, const char* key, const std::string& name, size_t vertexCount) {
+        const json* entries = extras.is_object() ? member(extras, key) : nullptr;
+        if (entries == nullptr) {
+            return;
+        }
+        if (!entries->is_array()) {
+            warn(warnings_, name, "not an array; ignored");
+            return;
+        }
+        EntryFaults faults(name);
+        for (size_t i = 0; i < entries->size(); ++i) {
+            const std::optional<std::string> fault = readEntry((*entries)[i], vertexCount);
+            if (fault) {
+                faults.add(i, *fault);
+            }
+        }
+        faults.report(warnings_);
+    }
+
+private:
+    std::optional<std::string> readEntry(const json& entry, size_t vertexCount) {
+        if (!entry.is_array() || entry.size() != vertexCount + 1) {
+            return vertexCount == 2 ? "not [vertex, vertex, sharpness]" : "not [vertex, sharpness]";
+        }
+        uint32_t vertices[2] = {0, 0};
+        for (size_t k = 0; k < vertexCount; ++k) {
+            if (!entry[k].is_number_unsigned()) {
+                return "not a vertex number: " +
+                       entry[k].dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40);
+            }
+            const auto number = entry[k].get<uint64_t>();
+            if (number >= cageVertices_.size()) {
+                return "vertex " + std::to_string(number) + " is out of range: the mesh has " +
+                       std::to_string(cageVertices_.size());
+            }
+            vertices[k] = cageVertices_[static_cast<size_t>(number)];
+            if (vertices[k] == kNone) {
+                return "vertex " + std::to_string(number) + " has no face";
+            }
+        }
+        const json& sharpness = entry[vertexCount];
+        if (!sharpness.is_number() || !isFiniteFloat(sharpness) || sharpness.get<float>() < 0.0f) {
+            return "sharpness is not a number of at least 0";
+        }
+        if (vertexCount == 1) {
+            features_.addCorner(vertices[0], sharpness.get<float>(), cage_);
+        } else if (vertices[0] == vertices[1]) {
+            return "both ends are one vertex of the cage";
+        } else {
+            features_.addCrease(vertices[0], vertices[1], sharpness.get<float>(), cage_);
+        }
+        return std::nullopt;
+    }
+
+    std::span<const uint32_t> cageVertices_;
+    Cage& cage_;
+    Warnings& warnings_;
+    SharpFeatures features_;
+};
+
+} // namespace
+
+void readCreases(const Document& document, const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage,
+                 Warnings& warnings) {
+    bool creases = false;
+    bool corners = false;
+    ExtensionReader ofExtension(document, mesh, cageVertices, cage, warnings);
+    for (const MeshPart& part : mesh.parts) {
+        if (part.extension && part.extension->creaseIndices >= 0) {
+            ofExtension.readCreases(part);
+            creases = true;
+        }
+        if (part.extension && part.extension->cornerIndices >= 0) {
+            ofExtension.readCorners(part);
+            corners = true;
+        }
+    }
+    const json* extras = member(document.meshes[mesh.index], "extras");
+    if (extras == nullptr) {
+        return;
+    }
+    // extras.creases: [vertex, vertex, sharpness]; extras.corners: [vertex, sharpness].
+    ExtrasReader ofExtras(cageVertices, cage, warnings);
+    if (!creases) {
+        ofExtras.readList(*extras, "creases", mesh.element + " extras creases", 2);
+    }
+    if (!corners) {
+        ofExtras.readList(*extras, "corners", mesh.element + " extras corners", 1);
+    }
+}
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,38 @@
+// A glTF or GLB in memory: container, JSON, buffers and images, checked before anything is built from them. Private to
+// cage/gltf/.
+#pragma once
+
+#include "cage/character.h"
+#include "cage/gltf/json.h"
+#include "cage/gltf/reader.h"
+#include "cage/gltf/tinygltf.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace supple::cage::gltf {
+
+struct Document {
+    /// Everything but buffers, images, cameras, bounds of accessors and top-level extensions: these tinygltf never
+    /// sees. Every index is in range, and every array of numbers has its right length and finite members.
+    supple_tinygltf::Model model;
+    json meshes;    ///< as the file has them: with the extensions and extras that the model lacks, unchecked
+    json materials; ///< likewise
+    std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each, or none
+    std::vector<Image> images;                       ///< same indices as the file's; bytes empty where missing
+    std::vector<std::string> warnings;
+
+    std::vector<std::vector<std::byte>> owned; ///< behind the buffers that are not in the caller's bytes
+};
+
+/// Whether the file names an extension among those it uses or requires.
+[[nodiscard]] bool isUsed(const Document& document, const char* extension);
+/// Whether the file names an extension among those it requires.
+[[nodiscard]] bool isRequired(const Document& document, const char* extension);
+
+/// Throws Refusal. The document refers to `bytes`.
+[[nodiscard]] Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile);
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,22 @@
+// What the first bytes of an encoded image say; nothing is decoded. Private to cage/gltf/.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace supple::cage::gltf {
+
+/// "image/png" or "image/jpeg" by the signature, or null.
+[[nodiscard]] const char* imageType(std::span<const std::byte> bytes);
+
+struct ImageSize {
+    uint32_t width = 0;
+    uint32_t height = 0;
+};
+
+/// In pixels; nothing where the headers end before they tell it.
+[[nodiscard]] std::optional<ImageSize> imageSize(std::span<const std::byte> bytes);
+
+} // namespace supple::cage::gltf

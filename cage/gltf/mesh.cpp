@@ -1,0 +1,303 @@
+#include "cage/gltf/mesh.h"
+
+#include "cage/gltf/accessors.h"
+#include "cage/gltf/trim.h"
+#include "cage/refusal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace supple::cage::gltf {
+namespace {
+
+using supple_tinygltf::Model;
+using supple_tinygltf::Primitive;
+
+// Accessors may be shared, so a small file can ask for a large mesh; these bound what is built from it.
+constexpr uint64_t kMaxVertices = 1u << 24;
+constexpr uint64_t kMaxCorners = 3u << 24;
+constexpr uint64_t kMaxAttributeFloats = 1u << 27;
+
+class MeshReader {
+public:
+    MeshReader(const Document& document, size_t jointCount, std::span<const Material> materials, Warnings& warnings)
+        : document_(document), model_(document.model), jointCount_(jointCount), materials_(materials),
+          quantized_(isUsed(document, "KHR_mesh_quantization")), warnings_(warnings) {}
+
+    Mesh read(uint32_t meshNode) && {
+        const auto meshIndex = static_cast<size_t>(model_.nodes[meshNode].mesh);
+        const auto& mesh = model_.meshes[meshIndex];
+        out_.index = meshIndex;
+        out_.element = at("mesh", meshIndex);
+        skinned_ = model_.nodes[meshNode].skin >= 0;
+        std::vector<size_t> numbers;
+        for (size_t k = 0; k < mesh.primitives.size(); ++k) {
+            const Primitive& primitive = mesh.primitives[k];
+            const std::string element = out_.element + " " + at("primitive", k);
+            if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
+                MeshPart& part = out_.parts.emplace_back();
+                part.element = element;
+                part.extension = findCageExtension(document_, primitiveJson(k), element, warnings_);
+                numbers.push_back(k);
+            } else {
+                static constexpr const char* kModes[] = {"POINTS", "LINES",          "LINE_LOOP",   "LINE_STRIP",
+                                                         "",       "TRIANGLE_STRIP", "TRIANGLE_FAN"};
+                const bool polygons = primitive.extensions.count("EXT_mesh_polygon") != 0;
+                const std::string reason =
+                    std::string(kModes[primitive.mode]) + " instead of TRIANGLES" +
+                    (polygons ? ", with EXT_mesh_polygon in a form of the draft that is not understood" : "");
+                if (polygons && isRequired(document_, "EXT_mesh_polygon")) {
+                    refuse(element, reason);
+                }
+                warn(warnings_, element, reason + "; left out");
+            }
+        }
+        if (out_.parts.empty()) {
+            refuse(out_.element, "no primitive of TRIANGLES");
+        }
+        findCageNumbers(mesh, numbers);
+        for (size_t i = 0; i < numbers.size(); ++i) {
+            readPrimitive(mesh.primitives[numbers[i]], primitiveJson(numbers[i]), out_.parts[i]);
+        }
+        out_.weights.report(out_.element, warnings_);
+        return std::move(out_);
+    }
+
+private:
+    /// Accessors of position, cage numbers, joints, weights and morph targets: what makes a vertex.
+    using Stream = std::tuple<int, int, std::vector<int>, std::vector<int>, std::vector<int>>;
+
+    [[nodiscard]] const json& primitiveJson(size_t k) const { return document_.meshes[out_.index].at("primitives")[k]; }
+
+    /// Which accessors number the cage's vertices: all primitives' or none.
+    void findCageNumbers(const supple_tinygltf::Mesh& mesh, const std::vector<size_t>& numbers) {
+        const auto find = [&](WeldSource source, auto accessorOf) {
+            cageNumbers_.clear();
+            out_.numberSource = source;
+            for (size_t i = 0; i < out_.parts.size(); ++i) {
+                cageNumbers_.push_back(accessorOf(i));
+            }
+            return static_cast<size_t>(std::count(cageNumbers_.begin(), cageNumbers_.end(), -1));
+        };
+        size_t missing = find(WeldSource::cageExtension, [&](size_t i) {
+            return out_.parts[i].extension ? out_.parts[i].extension->cageVertices : -1;
+        });
+        if (missing == 0) {
+            return;
+        }
+        if (missing < out_.parts.size()) {
+            const auto first = std::find(cageNumbers_.begin(), cageNumbers_.end(), -1) - cageNumbers_.begin();
+            refuse(out_.parts[static_cast<size_t>(first)].element,
+                   "no cageVertices of SUPPLE_mesh_cage, which other primitives of the mesh have");
+        }
+        missing = find(WeldSource::vertexAttribute, [&](size_t i) {
+            const auto& attributes = mesh.primitives[numbers[i]].attributes;
+            const auto found = attributes.find("_CAGE_VERTEX");
+            return found == attributes.end() ? -1 : found->second;
+        });
+        if (missing > 0) {
+            if (missing < out_.parts.size()) {
+                warn(warnings_, out_.element, "_CAGE_VERTEX is not on all primitives; not used");
+            }
+            cageNumbers_.assign(out_.parts.size(), -1);
+        }
+    }
+
+    void readPrimitive(const Primitive& primitive, const json& primitiveJson, MeshPart& part) {
+        const std::string& element = part.element;
+        part.material = primitive.material;
+
+        const auto position = primitive.attributes.find("POSITION");
+        if (position == primitive.attributes.end()) {
+            refuse(element, "no POSITION");
+        }
+        if (primitive.extensions.count("KHR_draco_mesh_compression") != 0 &&
+            model_.accessors[static_cast<size_t>(position->second)].bufferView < 0) {
+            refuse(element, "compressed with KHR_draco_mesh_compression; export the mesh uncompressed");
+        }
+
+        // Primitives over the same accessors share their vertices.
+        SkinSets sets;
+        if (skinned_) {
+            sets = findSkinSets(primitive, element);
+        }
+        const std::vector<int> targets = findMorphTargets(primitive);
+        const int cageNumbers = cageNumbers_[static_cast<size_t>(&part - out_.parts.data())];
+        const Stream stream{position->second, cageNumbers, sets.joints, sets.weights, targets};
+        const auto [known, isNew] = streams_.try_emplace(stream, static_cast<uint32_t>(out_.positions.size()));
+        part.firstVertex = known->second;
+        const size_t count = accessorCount(document_, position->second);
+        if (isNew) {
+            readVertices(position->second, sets, count, element);
+            out_.morphs.append(document_, targets, count, element);
+            if (cageNumbers >= 0) {
+                readCageNumbers(cageNumbers, count, element);
+            }
+        }
+        part.positionAccessor = position->second;
+        part.vertexCount = static_cast<uint32_t>(count);
+
+        readIndices(primitive, element, part);
+        part.faces = readPolygons(document_, primitiveJson, part.extension, part.triangles, part.vertexCount, element,
+                                  warnings_);
+        for (std::vector<uint32_t>* vertices : {&part.triangles, &part.faces.polygons.vertices}) {
+            for (uint32_t& vertex : *vertices) {
+                vertex += part.firstVertex;
+            }
+        }
+        cornerCount_ += part.triangles.size() + part.faces.polygons.vertices.size();
+        if (cornerCount_ > kMaxCorners) {
+            refuse(element, "more than " + std::to_string(kMaxCorners) + " corners", ErrorCode::limit);
+        }
+        readCornerAttributes(primitive, element, part);
+        readTrimTiles(document_, primitive, materials_, part);
+    }
+
+    /// Blender's exporter has no integer attributes: its numbers are floats.
+    void readCageNumbers(int accessor, size_t count, const std::string& element) {
+        const bool ofExtension = out_.numberSource == WeldSource::cageExtension;
+        const std::string name = element + (ofExtension ? " SUPPLE_mesh_cage cageVertices" : " _CAGE_VERTEX");
+        checkVertexCount(document_, accessor, count, name);
+        const bool isFloat =
+            model_.accessors[static_cast<size_t>(accessor)].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+        if (ofExtension || !isFloat) {
+            const auto values = readIntegers(document_, accessor, TINYGLTF_TYPE_SCALAR, kU8 | kU16 | kU32, name);
+            out_.cageNumbers.insert(out_.cageNumbers.end(), values.begin(), values.end());
+            return;
+        }
+        const auto values = readFloats(document_, accessor, TINYGLTF_TYPE_SCALAR, kFloat, name);
+        for (size_t v = 0; v < values.size(); ++v) {
+            // Beyond 2^24 not every number is a float; written so that a NaN is refused too.
+            if (!(values[v] >= 0.0f && values[v] <= 16777216.0f) || std::floor(values[v]) != values[v]) {
+                refuse(item(name, v), "not a number of a vertex");
+            }
+            out_.cageNumbers.push_back(static_cast<uint32_t>(values[v]));
+        }
+    }
+
+    /// Without sets, a mesh without a skin.
+    void readVertices(int position, const SkinSets& sets, size_t count, const std::string& element) {
+        if (out_.positions.size() + count > kMaxVertices) {
+            refuse(element, "more than " + std::to_string(kMaxVertices) + " vertices", ErrorCode::limit);
+        }
+        const auto values = readFloats(document_, position, TINYGLTF_TYPE_VEC3,
+                                       quantized_ ? kFloat | kQuantized : kFloat, element + " POSITION");
+        for (size_t v = 0; v < count; ++v) {
+            const glm::vec3 p(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+                refuse(item(element + " POSITION", v), "not finite");
+            }
+            out_.positions.push_back(p);
+        }
+        if (sets.joints.empty()) {
+            out_.weights.appendUnskinned(count);
+        } else {
+            out_.weights.append(document_, sets, count, jointCount_, element);
+        }
+    }
+
+    void readIndices(const Primitive& primitive, const std::string& element, MeshPart& part) {
+        if (primitive.indices < 0) {
+            if (part.vertexCount % 3 != 0) {
+                refuse(element,
+                       counted(part.vertexCount, "vertex", "vertices") + " without indices, not a multiple of 3");
+            }
+            part.triangles.resize(part.vertexCount);
+            std::iota(part.triangles.begin(), part.triangles.end(), 0u);
+        } else {
+            const std::string name = element + " indices";
+            part.triangles = readIntegers(document_, primitive.indices, TINYGLTF_TYPE_SCALAR, kU8 | kU16 | kU32, name);
+            if (part.triangles.size() % 3 != 0) {
+                refuse(name, std::to_string(part.triangles.size()) + ", not a multiple of 3");
+            }
+            const uint32_t restart = restartIndex(document_, primitive.indices);
+            for (size_t i = 0; i < part.triangles.size(); ++i) {
+                const uint32_t index = part.triangles[i];
+                if (index == restart) {
+                    refuse(item(name, i), std::to_string(index) + " is the restart value, which glTF 2.0 forbids");
+                }
+                if (index >= part.vertexCount) {
+                    refuse(item(name, i), std::to_string(index) + " is out of range: the primitive has " +
+                                              counted(part.vertexCount, "vertex", "vertices"));
+                }
+            }
+        }
+    }
+
+    /// Reads TEXCOORD_0, TEXCOORD_1 and COLOR_0. What is not finite becomes 0: it spoils a texture, not the shape.
+    void readCornerAttributes(const Primitive& primitive, const std::string& element, MeshPart& part) {
+        const auto read = [&](const char* attribute, int type, uint32_t allowed) {
+            std::vector<float> values;
+            const auto found = primitive.attributes.find(attribute);
+            if (found == primitive.attributes.end()) {
+                return values;
+            }
+            const std::string name = element + " " + attribute;
+            values = readFloats(document_, found->second, type, allowed, name);
+            checkVertexCount(document_, found->second, part.vertexCount, name);
+            attributeFloats_ += values.size();
+            if (attributeFloats_ > kMaxAttributeFloats) {
+                refuse(name,
+                       "the primitives' attributes hold more than " + std::to_string(kMaxAttributeFloats) + " numbers",
+                       ErrorCode::limit);
+            }
+            size_t repaired = 0;
+            for (float& value : values) {
+                if (!std::isfinite(value)) {
+                    value = 0.0f;
+                    ++repaired;
+                }
+            }
+            if (repaired > 0) {
+                warn(warnings_, name, counted(repaired, "value is", "values are") + " not finite; 0 instead");
+            }
+            return values;
+        };
+        constexpr uint32_t kCore = kFloat | kNormalizedU8 | kNormalizedU16;
+        part.uvs = read("TEXCOORD_0", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
+        part.uvs1 = read("TEXCOORD_1", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
+        if (primitive.attributes.count("TEXCOORD_2") != 0) {
+            warn(warnings_, element, "only TEXCOORD_0 and TEXCOORD_1 are read");
+        }
+        const auto color = primitive.attributes.find("COLOR_0");
+        if (color == primitive.attributes.end()) {
+            return;
+        }
+        if (model_.accessors[static_cast<size_t>(color->second)].type != TINYGLTF_TYPE_VEC3) {
+            part.colors = read("COLOR_0", TINYGLTF_TYPE_VEC4, kCore);
+            return;
+        }
+        const auto rgb = read("COLOR_0", TINYGLTF_TYPE_VEC3, kCore);
+        part.colors.resize(rgb.size() / 3 * 4, 1.0f);
+        for (size_t i = 0; i < rgb.size(); ++i) {
+            part.colors[i / 3 * 4 + i % 3] = rgb[i];
+        }
+    }
+
+    const Document& document_;
+    const Model& model_;
+    const size_t jointCount_;
+    const std::span<const Material> materials_;
+    const bool quantized_;
+    Warnings& warnings_;
+
+    Mesh out_;
+    bool skinned_ = false;
+    std::vector<int> cageNumbers_;       ///< per part: the accessor that numbers its cage vertices, or -1
+    std::map<Stream, uint32_t> streams_; ///< -> first vertex
+    uint64_t cornerCount_ = 0;
+    uint64_t attributeFloats_ = 0;
+};
+
+} // namespace
+
+Mesh readMesh(const Document& document, uint32_t meshNode, size_t jointCount, std::span<const Material> materials,
+              Warnings& warnings) {
+    return MeshReader(document, jointCount, materials, warnings).read(meshNode);
+}
+
+} // namespace supple::cage::gltf

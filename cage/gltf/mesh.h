@@ -1,0 +1,52 @@
+// A mesh of a glTF file as the file has it: vertices, triangles, attributes; nothing welded. Private to cage/gltf/.
+#pragma once
+
+#include "cage/character.h"
+#include "cage/gltf/document.h"
+#include "cage/gltf/morphs.h"
+#include "cage/gltf/polygons.h"
+#include "cage/gltf/skin.h"
+#include "cage/message.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace supple::cage::gltf {
+
+/// One primitive's share of a mesh.
+struct MeshPart {
+    std::string element;
+    int material = -1;
+    int positionAccessor = -1;
+    std::optional<CageExtension> extension;
+    PolygonData faces;        ///< vertices counted as in `triangles`
+    uint32_t firstVertex = 0; ///< of its POSITION elements among all vertices read
+    uint32_t vertexCount = 0;
+    std::vector<uint32_t> triangles; ///< three vertices each, counted over all parts
+    std::vector<float> uvs;          ///< two per POSITION element, or empty
+    std::vector<float> uvs1;         ///< two per POSITION element, or empty
+    std::vector<float> colors;       ///< four per POSITION element, or empty
+    std::vector<uint32_t> trimTiles; ///< per POSITION element: kNone for no tile; or empty
+};
+
+/// Primitives over the same accessors share their vertices.
+struct Mesh {
+    size_t index = 0; ///< among the file's meshes
+    std::string element;
+    std::vector<glm::vec3> positions;
+    VertexWeights weights;
+    VertexMorphs morphs;
+    std::vector<uint32_t> cageNumbers; ///< per vertex, where the file numbers cage vertices; else empty
+    WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers
+    std::vector<MeshPart> parts;                         ///< at least one
+};
+
+/// Primitives that are not triangles are left out with a warning. Throws Refusal.
+[[nodiscard]] Mesh readMesh(const Document& document, uint32_t meshNode, size_t jointCount,
+                            std::span<const Material> materials, Warnings& warnings);
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,14 @@
+// The mesh of a GLB that is being written. Private to cage/gltf/.
+#pragma once
+
+#include "cage/gltf/packer.h"
+#include "cage/gltf/writer.h"
+
+namespace supple::cage::gltf {
+
+/// One primitive a material. Its vertices are the distinct corners of its faces, in the cage's order; its triangles
+/// follow FB_ngon_encoding; the polygons themselves, with creases, sharp vertices and holes, go into SUPPLE_mesh_cage
+/// (docs/SUPPLE_mesh_cage.md). Skinned: with JOINTS_n and WEIGHTS_n. Counts its vertices and warns in `file`.
+[[nodiscard]] json writeMesh(const Character& character, bool skinned, Packer& packer, GlbFile& file);
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,140 @@
+#include "cage/gltf/morphs.h"
+
+#include "cage/gltf/accessors.h"
+#include "cage/refusal.h"
+
+#include <cmath>
+#include <utility>
+
+namespace supple::cage::gltf {
+namespace {
+
+// Accessors may be shared, and need no bytes where they are sparse, so a small file can ask for many.
+constexpr uint64_t kMaxMorphElements = 1u << 26;
+
+/// A target's name is a courtesy to people: one that is no string is reported, not refused.
+void nameTargets(const json& mesh, const std::string& element, Morphs& morphs, Warnings& warnings) {
+    const json* extras = member(mesh, "extras");
+    const json* names = extras != nullptr && extras->is_object() ? member(*extras, "targetNames") : nullptr;
+    if (names == nullptr) {
+        return;
+    }
+    const std::string place = element + " extras targetNames";
+    if (!names->is_array()) {
+        warn(warnings, place, "not an array; ignored");
+        return;
+    }
+    if (names->size() != morphs.targets.size()) {
+        warn(warnings, place,
+             counted(names->size(), "name", "names") + " for " +
+                 counted(morphs.targets.size(), "morph target", "morph targets"));
+    }
+    for (size_t i = 0; i < std::min(names->size(), morphs.targets.size()); ++i) {
+        if ((*names)[i].is_string()) {
+            morphs.targets[i].name = (*names)[i].get<std::string>();
+        } else {
+            warn(warnings, item(place, i), "not a string; ignored");
+        }
+    }
+}
+
+} // namespace
+
+std::vector<int> findMorphTargets(const supple_tinygltf::Primitive& primitive) {
+    std::vector<int> accessors;
+    for (const auto& target : primitive.targets) {
+        const auto position = target.find("POSITION");
+        accessors.push_back(position == target.end() ? -1 : position->second);
+    }
+    return accessors;
+}
+
+void VertexMorphs::append(const Document& document, const std::vector<int>& targets, size_t count,
+                          const std::string& element) {
+    if (starts_.size() == 1) {
+        targetCount_ = targets.size();
+    } else if (targets.size() != targetCount_) {
+        refuse(element, counted(targets.size(), "morph target", "morph targets") + ", but primitives before it have " +
+                            std::to_string(targetCount_));
+    }
+
+    for (const int target : targets) {
+        elementsRead_ += target < 0 ? 0 : count;
+    }
+    if (elementsRead_ > kMaxMorphElements) {
+        refuse(element, "the morph targets hold more than " + std::to_string(kMaxMorphElements) + " displacements",
+               ErrorCode::limit);
+    }
+
+    const uint32_t allowed = isUsed(document, "KHR_mesh_quantization") ? kFloat | kQuantizedSigned : kFloat;
+    // Target by target as the file has them, then by vertex.
+    std::vector<std::pair<uint32_t, MorphDelta>> read;
+    std::vector<uint32_t> counts(count, 0);
+    for (size_t t = 0; t < targets.size(); ++t) {
+        if (targets[t] < 0) {
+            continue;
+        }
+        const std::string name = element + " " + at("target", t) + " POSITION";
+        checkVertexCount(document, targets[t], count, name);
+        const auto values = readFloats(document, targets[t], TINYGLTF_TYPE_VEC3, allowed, name);
+        for (uint32_t v = 0; v < count; ++v) {
+            const glm::vec3 delta(values[3 * size_t{v}], values[3 * size_t{v} + 1], values[3 * size_t{v} + 2]);
+            if (!std::isfinite(delta.x) || !std::isfinite(delta.y) || !std::isfinite(delta.z)) {
+                refuse(item(name, v), "not finite");
+            }
+            if (delta != glm::vec3(0.0f)) {
+                read.push_back({v, {static_cast<uint32_t>(t), delta}});
+                ++counts[v];
+            }
+        }
+    }
+
+    std::vector<uint32_t> next(count);
+    for (size_t v = 0; v < count; ++v) {
+        next[v] = starts_.back();
+        starts_.push_back(starts_.back() + counts[v]);
+    }
+    deltas_.resize(starts_.back());
+    for (const auto& [vertex, delta] : read) {
+        deltas_[next[vertex]++] = delta;
+    }
+}
+
+std::span<const MorphDelta> VertexMorphs::of(uint32_t vertex) const {
+    return std::span(deltas_).subspan(starts_[vertex], starts_[vertex + 1] - starts_[vertex]);
+}
+
+Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCount, Warnings& warnings) {
+    const auto& node = document.model.nodes[meshNode];
+    const auto meshIndex = static_cast<size_t>(node.mesh);
+    Morphs morphs;
+    morphs.targets.resize(targetCount);
+    morphs.weights.assign(targetCount, 0.0f);
+
+    const auto& meshWeights = document.model.meshes[meshIndex].weights;
+    const bool ofNode = !node.weights.empty();
+    for (const bool isNode : {false, true}) {
+        const auto& weights = isNode ? node.weights : meshWeights;
+        const std::string element = isNode ? at("node", meshNode) : at("mesh", meshIndex);
+        if (weights.empty() || weights.size() == targetCount) {
+            continue;
+        }
+        const std::string reason = counted(weights.size(), "weight", "weights") + " for " +
+                                   counted(targetCount, "morph target", "morph targets");
+        if (targetCount > 0) {
+            refuse(element + " weights", reason);
+        }
+        warn(warnings, element + " weights", reason + "; ignored");
+    }
+    if (targetCount == 0) {
+        return morphs;
+    }
+    const auto& weights = ofNode ? node.weights : meshWeights;
+    for (size_t i = 0; i < weights.size(); ++i) {
+        morphs.weights[i] = static_cast<float>(weights[i]);
+    }
+    nameTargets(document.meshes[meshIndex], at("mesh", meshIndex), morphs, warnings);
+    return morphs;
+}
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,156 @@
+#include "cage/gltf/nodes.h"
+
+#include "cage/gltf/reader.h"
+#include "cage/refusal.h"
+
+#include <cmath>
+
+namespace supple::cage::gltf {
+namespace {
+
+using supple_tinygltf::Model;
+
+void orderParentsFirst(const Model& model, Skeleton& skeleton) {
+    // Breadth-first from the roots, no recursion; the document has made sure that this is a forest.
+    const auto& nodes = skeleton.nodes;
+    auto& order = skeleton.parentsFirst;
+    order.reserve(nodes.size());
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].parent == kNone) {
+            order.push_back(i);
+        }
+    }
+    uint32_t depth = 1;
+    for (size_t begin = 0, end = order.size(); begin < end; ++depth) {
+        if (depth > kMaxNodeDepth) {
+            refuse(at("node", order[begin]), "nested deeper than " + std::to_string(kMaxNodeDepth) + " levels",
+                   ErrorCode::limit);
+        }
+        for (size_t k = begin; k < end; ++k) {
+            for (const int child : model.nodes[order[k]].children) {
+                order.push_back(static_cast<uint32_t>(child));
+            }
+        }
+        begin = end;
+        end = order.size();
+    }
+}
+
+std::vector<uint32_t> nodesInSceneOrder(const Model& model) {
+    std::vector<uint32_t> order;
+    std::vector<uint8_t> seen(model.nodes.size(), 0);
+    std::vector<uint32_t> stack;
+    if (!model.scenes.empty()) {
+        const size_t scene = model.defaultScene >= 0 ? static_cast<size_t>(model.defaultScene) : 0;
+        const auto& roots = model.scenes[scene].nodes;
+        stack.assign(roots.rbegin(), roots.rend()); // the first on top
+    }
+    while (!stack.empty()) {
+        const uint32_t node = stack.back();
+        stack.pop_back();
+        if (seen[node] != 0) {
+            continue;
+        }
+        seen[node] = 1;
+        order.push_back(node);
+        const auto& children = model.nodes[node].children;
+        stack.insert(stack.end(), children.rbegin(), children.rend());
+    }
+    for (uint32_t i = 0; i < seen.size(); ++i) {
+        if (seen[i] == 0) {
+            order.push_back(i);
+        }
+    }
+    return order;
+}
+
+} // namespace
+
+void makeAffine(glm::mat4& matrix, const std::string& element) {
+    const glm::vec4 last(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
+    const glm::vec4 wanted(0.0f, 0.0f, 0.0f, 1.0f);
+    for (int k = 0; k < 4; ++k) {
+        if (!(std::abs(last[k] - wanted[k]) <= 1e-4f)) {
+            refuse(element, "last row is not 0 0 0 1");
+        }
+        matrix[k][3] = wanted[k];
+    }
+}
+
+Skeleton readSkeleton(const Document& document) {
+    const Model& model = document.model;
+    Skeleton skeleton;
+    const size_t count = model.nodes.size();
+    skeleton.nodes.resize(count);
+    for (size_t i = 0; i < count; ++i) {
+        const auto& from = model.nodes[i];
+        Node& node = skeleton.nodes[i];
+        node.name = from.name;
+        for (const int child : from.children) {
+            skeleton.nodes[static_cast<size_t>(child)].parent = static_cast<uint32_t>(i);
+        }
+        if (!from.matrix.empty()) {
+            node.hasMatrix = true;
+            for (int k = 0; k < 16; ++k) {
+                node.matrix[k / 4][k % 4] = static_cast<float>(from.matrix[static_cast<size_t>(k)]);
+            }
+            makeAffine(node.matrix, at("node", i) + " matrix");
+            continue;
+        }
+        for (int k = 0; k < 3; ++k) {
+            if (!from.translation.empty()) {
+                node.translation[k] = static_cast<float>(from.translation[static_cast<size_t>(k)]);
+            }
+            if (!from.scale.empty()) {
+                node.scale[k] = static_cast<float>(from.scale[static_cast<size_t>(k)]);
+            }
+        }
+        if (!from.rotation.empty()) {
+            const auto& q = from.rotation;
+            const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+            if (!(length > 1e-6)) {
+                refuse(at("node", i) + " rotation", "zero quaternion");
+            }
+            // A unit quaternion is kept bit by bit.
+            const double scale = std::abs(length - 1.0) > 1e-5 ? 1.0 / length : 1.0;
+            node.rotation = glm::quat(static_cast<float>(q[3] * scale), static_cast<float>(q[0] * scale),
+                                      static_cast<float>(q[1] * scale), static_cast<float>(q[2] * scale));
+        }
+    }
+    orderParentsFirst(model, skeleton);
+    return skeleton;
+}
+
+uint32_t chooseMeshNode(const Document& document, Warnings& warnings) {
+    const Model& model = document.model;
+    if (model.meshes.empty()) {
+        refuse("meshes", "none");
+    }
+    uint32_t chosen = kNone;
+    size_t others = 0;
+    for (const uint32_t i : nodesInSceneOrder(model)) {
+        const auto& node = model.nodes[i];
+        if (node.mesh < 0) {
+            continue;
+        }
+        if (chosen == kNone) {
+            chosen = i;
+        } else if (node.skin >= 0 && model.nodes[chosen].skin < 0) {
+            chosen = i;
+            ++others;
+        } else {
+            ++others;
+        }
+    }
+    if (chosen == kNone) {
+        refuse("nodes", "none has a mesh");
+    }
+    if (others > 0) {
+        warn(warnings, at("node", chosen),
+             "the mesh of this node is read; " +
+                 counted(others, "other node with a mesh is", "other nodes with meshes are") + " left out");
+    }
+    return chosen;
+}
+
+} // namespace supple::cage::gltf

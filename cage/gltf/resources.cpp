@@ -1,0 +1,118 @@
+#include "cage/gltf/resources.h"
+
+#include "cage/gltf/uri.h"
+#include "cage/message.h"
+#include "cage/refusal.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace supple::cage::gltf {
+namespace {
+
+/// A problem is told with the URI it is about; data: URIs are too long for that.
+Result<DataUri> fetch(const std::string& uri, const FileReader& readFile) {
+    if (isDataUri(uri)) {
+        return decodeDataUri(uri);
+    }
+    const auto about = [&](const Error& error) {
+        return Error{error.code, quoted(uri.substr(0, 100)) + ": " + error.message};
+    };
+    const Result<std::string> path = relativePath(uri);
+    if (!path) {
+        return about(path.error());
+    }
+    Result<std::vector<std::byte>> bytes = readFile(*path);
+    if (!bytes) {
+        return about(bytes.error());
+    }
+    return DataUri{std::move(*bytes), ""};
+}
+
+} // namespace
+
+void loadBuffers(const json& buffers, std::span<const uint8_t> placeholder, const Container& container,
+                 const FileReader& readFile, Document& document) {
+    document.owned.resize(buffers.size());
+    for (size_t i = 0; i < buffers.size(); ++i) {
+        if (placeholder[i] != 0) {
+            document.buffers.emplace_back();
+            continue;
+        }
+        const std::string element = at("buffer", i);
+        const uint64_t length = unsignedMember(buffers[i], "byteLength", element, std::nullopt);
+        if (length == 0) {
+            refuse(element + " byteLength", "zero");
+        }
+        std::span<const std::byte> bytes;
+        const json* uri = member(buffers[i], "uri");
+        if (uri == nullptr) {
+            if (i != 0 || !container.isBinary) {
+                refuse(element, "no uri");
+            }
+            if (container.binary.empty()) {
+                refuse(element, "the GLB has no binary chunk or an empty one");
+            }
+            bytes = container.binary;
+        } else {
+            const std::string text = stringMember(buffers[i], "uri", element);
+            Result<DataUri> read = fetch(text, readFile);
+            if (!read) {
+                refuse(element + " uri", read.error().message, read.error().code);
+            }
+            document.owned[i] = std::move(read->bytes);
+            bytes = document.owned[i];
+        }
+        if (bytes.size() < length) {
+            refuse(element, "truncated: byteLength is " + std::to_string(length) + ", " + std::to_string(bytes.size()) +
+                                " bytes present");
+        }
+        document.buffers.push_back(bytes.first(static_cast<size_t>(length)));
+    }
+}
+
+/// A character without its texture is still a character: whatever is wrong with an image is a warning.
+void loadImages(const json& images, const json& views, const FileReader& readFile, Document& document) {
+    for (size_t i = 0; i < images.size(); ++i) {
+        const std::string element = at("image", i);
+        Image image;
+        image.name = stringMember(images[i], "name", element);
+        image.mimeType = stringMember(images[i], "mimeType", element);
+        if (member(images[i], "bufferView") != nullptr) {
+            checkIndexMember(images[i], "bufferView", element, "bufferView", views.size());
+            const json& view = views[images[i].at("bufferView").get<size_t>()];
+            const size_t offset = unsignedMember(view, "byteOffset", element, 0);
+            const auto bytes =
+                document.buffers[view.at("buffer").get<size_t>()].subspan(offset, view.at("byteLength").get<size_t>());
+            image.bytes.assign(bytes.begin(), bytes.end());
+        } else {
+            const std::string uri = stringMember(images[i], "uri", element);
+            Result<DataUri> read = fetch(uri, readFile);
+            if (!read) {
+                warn(document.warnings, within(element, "uri"), read.error().message + "; left out");
+            } else {
+                image.bytes = std::move(read->bytes);
+                if (image.mimeType.empty()) {
+                    image.mimeType = read->mimeType;
+                }
+                if (image.name.empty() && !isDataUri(uri)) {
+                    image.name = uri;
+                }
+            }
+        }
+        if (image.mimeType.empty() && image.bytes.size() >= 4) {
+            const uint32_t magic = readU32(image.bytes, 0);
+            if (magic == 0x474E5089u) {
+                image.mimeType = "image/png";
+            } else if ((magic & 0xFFFFFFu) == 0xFFD8FFu) {
+                image.mimeType = "image/jpeg";
+            }
+        }
+        document.images.push_back(std::move(image));
+    }
+}
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,391 @@
+#include "cage/gltf/structure.h"
+
+#include "cage/message.h"
+#include "cage/refusal.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace supple::cage::gltf {
+namespace {
+
+void checkAsset(const json& root) {
+    const json* asset = objectMember(root, "asset", "JSON");
+    if (asset == nullptr) {
+        refuse("asset", "missing: not a glTF 2.0 file");
+    }
+    const std::string version = stringMember(*asset, "version", "asset");
+    if (version != "2" && !version.starts_with("2.")) {
+        refuse("asset version", quoted(version) + ", only 2.x is supported");
+    }
+    const std::string minVersion = stringMember(*asset, "minVersion", "asset");
+    if (!minVersion.empty() && minVersion != "2.0") {
+        refuse("asset minVersion", quoted(minVersion) + ", only 2.0 is supported");
+    }
+}
+
+/// Extensions a file may require. (Of the two that allow restart values, lines and strips alone make use.)
+constexpr std::array<std::string_view, 10> kUnderstood{
+    "SUPPLE_mesh_cage",           "EXT_mesh_polygon",
+    "FB_ngon_encoding",           "EXT_mesh_primitive_edge_visibility",
+    "EXT_mesh_manifold",          "KHR_mesh_quantization",
+    "EXT_meshopt_compression",    "KHR_meshopt_compression",
+    "KHR_mesh_primitive_restart", "EXT_mesh_primitive_restart",
+};
+
+void checkExtensions(const json& root) {
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        const json* names = arrayMember(root, key, "");
+        if (names == nullptr) {
+            continue;
+        }
+        for (const json& name : *names) {
+            if (!name.is_string()) {
+                refuse(key, "not all strings");
+            }
+        }
+    }
+    const json* required = member(root, "extensionsRequired");
+    if (required == nullptr) {
+        return;
+    }
+    for (const json& entry : *required) {
+        const std::string name = entry.get<std::string>();
+        if (std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end()) {
+            continue;
+        }
+        if (name == "KHR_draco_mesh_compression") {
+            refuse("extensionsRequired", name + " is not supported: it may reorder or drop polygons; export the mesh "
+                                                "uncompressed");
+        }
+        refuse("extensionsRequired", name + " is not supported");
+    }
+}
+
+/// Child lists make the node tree; it must be a forest before anybody walks it. Recursion-free.
+void checkNodeTree(const json& nodes) {
+    const size_t count = nodes.size();
+    std::vector<size_t> parents(count, count);
+    for (size_t parent = 0; parent < count; ++parent) {
+        const json* children = member(nodes[parent], "children");
+        if (children == nullptr) {
+            continue;
+        }
+        for (const json& entry : *children) {
+            const auto child = entry.get<size_t>();
+            if (child == parent) {
+                refuse(at("node", child), "is its own child");
+            }
+            if (parents[child] == parent) {
+                refuse(at("node", child), "listed twice by its parent, node " + std::to_string(parent));
+            }
+            if (parents[child] != count) {
+                refuse(at("node", child),
+                       "has two parents, nodes " + std::to_string(parents[child]) + " and " + std::to_string(parent));
+            }
+            parents[child] = parent;
+        }
+    }
+    // With one parent at most, following parents either ends at a root or runs round a cycle.
+    enum : uint8_t { unseen, onPath, done };
+    std::vector<uint8_t> state(count, unseen);
+    std::vector<size_t> path;
+    for (size_t start = 0; start < count; ++start) {
+        path.clear();
+        size_t node = start;
+        while (node != count && state[node] == unseen) {
+            state[node] = onPath;
+            path.push_back(node);
+            node = parents[node];
+        }
+        if (node != count && state[node] == onPath) {
+            refuse(at("node", node), "is its own ancestor");
+        }
+        for (const size_t passed : path) {
+            state[passed] = done;
+        }
+    }
+}
+
+void checkBufferViews(const json& views, std::span<const std::span<const std::byte>> buffers) {
+    for (size_t i = 0; i < views.size(); ++i) {
+        const std::string element = at("bufferView", i);
+        checkIndexMember(views[i], "buffer", element, "buffer", buffers.size(), true);
+        const size_t available = buffers[views[i].at("buffer").get<size_t>()].size();
+        const uint64_t offset = unsignedMember(views[i], "byteOffset", element, 0);
+        const uint64_t length = unsignedMember(views[i], "byteLength", element, std::nullopt);
+        if (length == 0) {
+            refuse(element + " byteLength", "zero");
+        }
+        if (offset > available || length > available - offset) {
+            refuse(element, "bytes " + std::to_string(offset) + " + " + std::to_string(length) +
+                                " are out of range: the buffer has " + std::to_string(available));
+        }
+        const json* stride = member(views[i], "byteStride");
+        if (stride != nullptr) {
+            const uint64_t value = toUnsigned(*stride, element + " byteStride");
+            if (value < 4 || value > 252 || value % 4 != 0) {
+                refuse(element + " byteStride", std::to_string(value) + " is not a multiple of 4 in 4..252");
+            }
+        }
+        checkString(views[i], "name", element);
+    }
+}
+
+void checkComponentType(const json& object, const std::string& element, bool indicesOnly) {
+    const uint64_t type = unsignedMember(object, "componentType", element, std::nullopt);
+    const bool isIndex = type == 5121 || type == 5123 || type == 5125;
+    if (!isIndex && (indicesOnly || (type != 5120 && type != 5122 && type != 5126))) {
+        refuse(element + " componentType", std::to_string(type) + " is not allowed");
+    }
+}
+
+void checkAccessors(const json& accessors, size_t viewCount) {
+    constexpr std::array<const char*, 7> types{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    for (size_t i = 0; i < accessors.size(); ++i) {
+        const std::string element = at("accessor", i);
+        const json& accessor = accessors[i];
+        checkIndexMember(accessor, "bufferView", element, "bufferView", viewCount);
+        unsignedMember(accessor, "byteOffset", element, 0);
+        checkComponentType(accessor, element, false);
+        if (unsignedMember(accessor, "count", element, std::nullopt) == 0) {
+            refuse(element + " count", "zero");
+        }
+        const std::string type = stringMember(accessor, "type", element);
+        if (std::none_of(types.begin(), types.end(), [&](const char* known) { return type == known; })) {
+            refuse(element + " type", quoted(type) + " is not allowed");
+        }
+        const json* normalized = member(accessor, "normalized");
+        if (normalized != nullptr && !normalized->is_boolean()) {
+            refuse(element + " normalized", "not a boolean");
+        }
+        const json* sparse = objectMember(accessor, "sparse", element);
+        if (sparse == nullptr) {
+            continue;
+        }
+        const std::string place = element + " sparse";
+        const uint64_t count = unsignedMember(*sparse, "count", place, std::nullopt);
+        if (count == 0 || count > accessor.at("count").get<uint64_t>()) {
+            refuse(place + " count",
+                   std::to_string(count) + " is not in 1.." + std::to_string(accessor.at("count").get<uint64_t>()));
+        }
+        for (const char* part : {"indices", "values"}) {
+            const json* object = objectMember(*sparse, part, place);
+            const std::string partPlace = place + " " + part;
+            if (object == nullptr) {
+                refuse(partPlace, "missing");
+            }
+            checkIndexMember(*object, "bufferView", partPlace, "bufferView", viewCount, true);
+            // tinygltf keeps sparse offsets as int.
+            if (unsignedMember(*object, "byteOffset", partPlace, 0) > std::numeric_limits<int>::max()) {
+                refuse(partPlace + " byteOffset", "out of range");
+            }
+        }
+        if (count > static_cast<uint64_t>(std::numeric_limits<int>::max())) {
+            refuse(place + " count", "out of range");
+        }
+        checkComponentType(sparse->at("indices"), place + " indices", true);
+    }
+}
+
+void checkTargets(const json& primitive, const std::string& element, size_t accessorCount) {
+    const json* targets = arrayMember(primitive, "targets", element);
+    for (size_t i = 0; targets != nullptr && i < targets->size(); ++i) {
+        const std::string place = element + " " + at("target", i);
+        if (!(*targets)[i].is_object()) {
+            refuse(place, "not an object");
+        }
+        for (const auto& [name, value] : (*targets)[i].items()) {
+            checkIndex(value, within(place, name), "accessor", accessorCount);
+        }
+    }
+}
+
+void checkMeshes(const json& root) {
+    const json& meshes = table(root, "meshes");
+    const json& accessors = table(root, "accessors");
+    const size_t accessorCount = accessors.size();
+    const size_t materialCount = table(root, "materials").size();
+    for (size_t i = 0; i < meshes.size(); ++i) {
+        checkString(meshes[i], "name", at("mesh", i));
+        checkNumbers(meshes[i], "weights", at("mesh", i), std::nullopt);
+        const json* primitives = arrayMember(meshes[i], "primitives", at("mesh", i));
+        if (primitives == nullptr || primitives->empty()) {
+            refuse(at("mesh", i), "no primitives");
+        }
+        for (size_t k = 0; k < primitives->size(); ++k) {
+            const json& primitive = (*primitives)[k];
+            const std::string element = at("mesh", i) + " " + at("primitive", k);
+            if (!primitive.is_object()) {
+                refuse(element, "not an object");
+            }
+            const json* attributes = objectMember(primitive, "attributes", element);
+            if (attributes == nullptr) {
+                refuse(element, "no attributes");
+            }
+            for (const auto& [name, value] : attributes->items()) {
+                checkIndex(value, within(element, name), "accessor", accessorCount);
+            }
+            checkIndexMember(primitive, "indices", element, "accessor", accessorCount);
+            const json* indices = member(primitive, "indices");
+            if (indices != nullptr && member(accessors[indices->get<size_t>()], "bufferView") == nullptr) {
+                refuse(element + " indices", hasExtension(primitive, "KHR_draco_mesh_compression")
+                                                 ? "compressed with KHR_draco_mesh_compression; export the mesh "
+                                                   "uncompressed"
+                                                 : at("accessor", indices->get<size_t>()) + " has no bufferView");
+            }
+            checkIndexMember(primitive, "material", element, "material", materialCount);
+            if (unsignedMember(primitive, "mode", element, 4) > 6) {
+                refuse(element + " mode", "not in 0..6");
+            }
+            objectMember(primitive, "extensions", element);
+            checkTargets(primitive, element, accessorCount);
+        }
+    }
+}
+
+void checkNodes(const json& root) {
+    const json& nodes = table(root, "nodes");
+    const json& skins = table(root, "skins");
+    const size_t meshCount = table(root, "meshes").size();
+    const size_t accessorCount = table(root, "accessors").size();
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const std::string element = at("node", i);
+        checkString(nodes[i], "name", element);
+        checkIndexMember(nodes[i], "mesh", element, "mesh", meshCount);
+        checkIndexMember(nodes[i], "skin", element, "skin", skins.size());
+        checkIndexArray(nodes[i], "children", element, "node", nodes.size());
+        checkNumbers(nodes[i], "matrix", element, 16);
+        checkNumbers(nodes[i], "translation", element, 3);
+        checkNumbers(nodes[i], "rotation", element, 4);
+        checkNumbers(nodes[i], "scale", element, 3);
+        checkNumbers(nodes[i], "weights", element, std::nullopt);
+    }
+    checkNodeTree(nodes);
+
+    const json& scenes = table(root, "scenes");
+    for (size_t i = 0; i < scenes.size(); ++i) {
+        checkIndexArray(scenes[i], "nodes", at("scene", i), "node", nodes.size());
+    }
+    checkIndexMember(root, "scene", "JSON", "scene", scenes.size());
+
+    for (size_t i = 0; i < skins.size(); ++i) {
+        const std::string element = at("skin", i);
+        const json* joints = arrayMember(skins[i], "joints", element);
+        if (joints == nullptr || joints->empty()) {
+            refuse(element, "no joints");
+        }
+        checkIndexArray(skins[i], "joints", element, "node", nodes.size());
+        checkIndexMember(skins[i], "skeleton", element, "node", nodes.size());
+        checkIndexMember(skins[i], "inverseBindMatrices", element, "accessor", accessorCount);
+    }
+}
+
+/// A channel without a target node (an extension may define its target) would be dropped by tinygltf and shift the
+/// numbers of those after it; it is given a path of its own, which the reader reports and ignores.
+void checkAnimations(json& root) {
+    const size_t accessorCount = table(root, "accessors").size();
+    const size_t nodeCount = table(root, "nodes").size();
+    const size_t count = table(root, "animations").size();
+    for (size_t i = 0; i < count; ++i) {
+        const std::string element = at("animation", i);
+        json& animation = root["animations"][i];
+        checkString(animation, "name", element);
+        const json* samplers = arrayMember(animation, "samplers", element);
+        const size_t samplerCount = samplers == nullptr ? 0 : samplers->size();
+        for (size_t k = 0; k < samplerCount; ++k) {
+            const std::string place = element + " " + at("sampler", k);
+            const json& sampler = (*samplers)[k];
+            if (!sampler.is_object()) {
+                refuse(place, "not an object");
+            }
+            checkIndexMember(sampler, "input", place, "accessor", accessorCount, true);
+            checkIndexMember(sampler, "output", place, "accessor", accessorCount, true);
+            const std::string interpolation = stringMember(sampler, "interpolation", place);
+            if (!interpolation.empty() && interpolation != "STEP" && interpolation != "LINEAR" &&
+                interpolation != "CUBICSPLINE") {
+                refuse(place + " interpolation", quoted(interpolation) + " is not allowed");
+            }
+        }
+        const json* channels = arrayMember(animation, "channels", element);
+        for (size_t k = 0; channels != nullptr && k < channels->size(); ++k) {
+            const std::string place = element + " " + at("channel", k);
+            json& channel = animation["channels"][k];
+            if (!channel.is_object()) {
+                refuse(place, "not an object");
+            }
+            checkIndexMember(channel, "sampler", place, "sampler", samplerCount, true);
+            const json* target = objectMember(channel, "target", place);
+            if (target == nullptr || member(*target, "node") == nullptr) {
+                channel["target"] = {{"node", 0}, {"path", "pointer"}};
+                continue;
+            }
+            checkIndexMember(*target, "node", place + " target", "node", nodeCount, true);
+            if (stringMember(*target, "path", place).empty()) {
+                refuse(place, "path is missing");
+            }
+        }
+    }
+}
+
+void checkMaterials(const json& root) {
+    const json& materials = table(root, "materials");
+    const json& textures = table(root, "textures");
+    const json& samplers = table(root, "samplers");
+    const size_t imageCount = table(root, "images").size();
+    for (size_t i = 0; i < materials.size(); ++i) {
+        const std::string element = at("material", i);
+        checkString(materials[i], "name", element);
+        checkString(materials[i], "alphaMode", element);
+        checkNumbers(materials[i], "emissiveFactor", element, 3);
+        const json* cutoff = member(materials[i], "alphaCutoff");
+        if (cutoff != nullptr && (!cutoff->is_number() || !isFiniteFloat(*cutoff))) {
+            refuse(element + " alphaCutoff", "not a finite number");
+        }
+        const json* pbr = objectMember(materials[i], "pbrMetallicRoughness", element);
+        if (pbr == nullptr) {
+            continue;
+        }
+        checkNumbers(*pbr, "baseColorFactor", element, 4);
+        if (const json* texture = objectMember(*pbr, "baseColorTexture", element)) {
+            checkIndexMember(*texture, "index", element + " baseColorTexture", "texture", textures.size(), true);
+            if (unsignedMember(*texture, "texCoord", element + " baseColorTexture", 0) >
+                std::numeric_limits<int>::max()) {
+                refuse(element + " baseColorTexture texCoord", "out of range");
+            }
+        }
+    }
+    for (size_t i = 0; i < textures.size(); ++i) {
+        checkIndexMember(textures[i], "source", at("texture", i), "image", imageCount);
+        checkIndexMember(textures[i], "sampler", at("texture", i), "sampler", samplers.size());
+    }
+    for (size_t i = 0; i < samplers.size(); ++i) {
+        for (const char* key : {"wrapS", "wrapT"}) {
+            unsignedMember(samplers[i], key, at("sampler", i), 10497);
+        }
+    }
+}
+
+} // namespace
+
+void checkHeader(const json& root) {
+    checkAsset(root);
+    checkExtensions(root);
+}
+
+void checkStructure(json& root, std::span<const std::span<const std::byte>> buffers) {
+    checkBufferViews(table(root, "bufferViews"), buffers);
+    checkAccessors(table(root, "accessors"), table(root, "bufferViews").size());
+    checkNodes(root);
+    checkMeshes(root);
+    checkAnimations(root);
+    checkMaterials(root);
+}
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,160 @@
+#include "cage/gltf/trim.h"
+
+#include "cage/gltf/accessors.h"
+#include "cage/gltf/image_header.h"
+#include "cage/gltf/material.h"
+#include "cage/refusal.h"
+#include "cage/trim.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace supple::cage::gltf {
+namespace {
+
+/// The image behind the trim's texture: one that a host can decode.
+uint32_t imageOf(const Document& document, const json& texture, const std::string& element) {
+    const auto index = texture.at("index").get<size_t>();
+    const int source = document.model.textures[index].source;
+    if (source < 0) {
+        refuse(element, at("texture", index) + " has no image in a core format");
+    }
+    const auto image = static_cast<size_t>(source);
+    if (document.images[image].bytes.empty()) {
+        refuse(element, at("image", image) + " is missing");
+    }
+    if (imageType(document.images[image].bytes) == nullptr) {
+        refuse(element, at("image", image) + " is neither PNG nor JPEG");
+    }
+    return static_cast<uint32_t>(image);
+}
+
+float cutoffOf(const json& trim, const std::string& element) {
+    const json* cutoff = member(trim, "cutoff");
+    if (cutoff == nullptr) {
+        return Trim{}.cutoff;
+    }
+    if (!cutoff->is_number() || !(cutoff->get<double>() >= 0.0 && cutoff->get<double>() <= 1.0)) {
+        refuse(element + " cutoff", "not a number from 0 to 1");
+    }
+    return cutoff->get<float>();
+}
+
+uint32_t channelOf(const json& trim, const std::string& element) {
+    const std::string name = stringMember(trim, "channel", element);
+    constexpr std::array kNames{"r", "g", "b", "a"};
+    for (uint32_t channel = 0; channel < kNames.size(); ++channel) {
+        if (name == kNames[channel]) {
+            return channel;
+        }
+    }
+    if (!name.empty()) {
+        refuse(element + " channel", quoted(name) + " is none of r, g, b, a");
+    }
+    return Trim{}.channel;
+}
+
+TrimDomain domainOf(const json& trim, const std::string& element) {
+    const std::string name = stringMember(trim, "domain", element);
+    if (!name.empty() && name != "uv" && name != "face") {
+        refuse(element + " domain", quoted(name) + " is neither uv nor face");
+    }
+    return name == "face" ? TrimDomain::face : TrimDomain::uv;
+}
+
+/// As the trim says, else as many square tiles as the image is wide.
+uint32_t tilesOf(const Document& document, const json& trim, uint32_t image, const std::string& element) {
+    if (const uint64_t given = unsignedMember(trim, "tiles", element, 0); given > 0) {
+        if (given > kMaxTrimTiles) {
+            refuse(element + " tiles", std::to_string(given) + ", more than " + std::to_string(kMaxTrimTiles));
+        }
+        return static_cast<uint32_t>(given);
+    }
+    const std::optional<ImageSize> size = imageSize(document.images[image].bytes);
+    if (!size || size->width == 0 || size->height == 0) {
+        refuse(element + " texture", at("image", image) + " has no size: cut off in its header");
+    }
+    if (size->width % size->height != 0 || size->width / size->height > kMaxTrimTiles) {
+        refuse(element + " texture", at("image", image) + " is " + std::to_string(size->width) + " x " +
+                                         std::to_string(size->height) +
+                                         " pixels, no strip of square tiles, and tiles does not say how many");
+    }
+    return size->width / size->height;
+}
+
+} // namespace
+
+std::optional<Trim> readTrim(const Document& document, size_t material, Warnings& warnings) {
+    const json* extras = member(document.materials[material], "extras");
+    const json* trim = extras != nullptr && extras->is_object() ? member(*extras, "trim") : nullptr;
+    if (trim == nullptr) {
+        return std::nullopt;
+    }
+    const std::string element = at("material", material) + " extras.trim";
+    if (!trim->is_object()) {
+        warn(warnings, element, "not an object; left out");
+        return std::nullopt;
+    }
+    const json* texture = objectMember(*trim, "texture", element);
+    if (texture == nullptr) {
+        refuse(element, "no texture");
+    }
+    const std::string textureElement = element + " texture";
+    checkIndexMember(*texture, "index", textureElement, "texture", document.model.textures.size(), true);
+    Trim read;
+    read.domain = domainOf(*trim, element);
+    const uint64_t uvSet = unsignedMember(*texture, "texCoord", textureElement, 0);
+    if (uvSet > 1) {
+        refuse(textureElement, "texCoord " + std::to_string(uvSet) + ": only TEXCOORD_0 and TEXCOORD_1 are read");
+    }
+    read.image = imageOf(document, *texture, textureElement);
+    const WrapModes wrap = wrapModesOf(document, texture->at("index").get<size_t>());
+    read.wrapU = wrap.u;
+    read.wrapV = wrap.v;
+    read.channel = channelOf(*trim, element);
+    read.cutoff = cutoffOf(*trim, element);
+    if (read.domain == TrimDomain::face) {
+        read.tiles = tilesOf(document, *trim, read.image, element);
+    } else {
+        read.uvSet = static_cast<uint32_t>(uvSet);
+    }
+    return read;
+}
+
+void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& primitive,
+                   std::span<const Material> materials, MeshPart& part) {
+    if (part.material < 0 || !materials[static_cast<size_t>(part.material)].trim) {
+        return;
+    }
+    const auto material = static_cast<size_t>(part.material);
+    const Trim& trim = *materials[material].trim;
+    const std::string whose = "the trim of " + at("material", material);
+    if (trim.domain == TrimDomain::uv) {
+        if ((trim.uvSet == 0 ? part.uvs : part.uvs1).empty()) {
+            refuse(part.element, "no TEXCOORD_" + std::to_string(trim.uvSet) + ", on which " + whose + " lies");
+        }
+        return;
+    }
+    const auto attribute = primitive.attributes.find("_TRIM_TILE");
+    if (attribute == primitive.attributes.end()) {
+        refuse(part.element, "no _TRIM_TILE, which names the tiles of " + whose);
+    }
+    const std::string name = part.element + " _TRIM_TILE";
+    checkVertexCount(document, attribute->second, part.vertexCount, name);
+    const std::vector<float> values =
+        readFloats(document, attribute->second, TINYGLTF_TYPE_SCALAR, kFloat | kU8 | kU16 | kU32 | kS8 | kS16, name);
+    for (size_t v = 0; v < values.size(); ++v) {
+        // Written so that a NaN is refused too.
+        if (!(values[v] >= -1.0f) || std::floor(values[v]) != values[v]) {
+            refuse(item(name, v), "neither the number of a tile nor -1");
+        }
+        if (values[v] >= static_cast<float>(trim.tiles)) {
+            refuse(item(name, v), "tile " + std::to_string(static_cast<uint64_t>(values[v])) +
+                                      " is out of range: " + whose + " has " + counted(trim.tiles, "tile", "tiles"));
+        }
+        part.trimTiles.push_back(values[v] < 0.0f ? kNone : static_cast<uint32_t>(values[v]));
+    }
+}
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,280 @@
+#include "cage/gltf/weld.h"
+
+#include "cage/gltf/accessors.h"
+#include "cage/refusal.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace supple::cage::gltf {
+namespace {
+
+using VertexPairs = std::vector<std::pair<uint32_t, uint32_t>>;
+
+// All three compare two vertices as -1, 0, 1. Positions are finite: comparing values is comparing bits, but for -0 = 0.
+
+int comparePositions(const Mesh& mesh, uint32_t a, uint32_t b) {
+    for (int k = 0; k < 3; ++k) {
+        if (mesh.positions[a][k] != mesh.positions[b][k]) {
+            return mesh.positions[a][k] < mesh.positions[b][k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+int compareSkins(const Mesh& mesh, uint32_t a, uint32_t b) {
+    const auto x = mesh.weights.of(a);
+    const auto y = mesh.weights.of(b);
+    if (x.size() != y.size()) {
+        return x.size() < y.size() ? -1 : 1;
+    }
+    for (size_t i = 0; i < x.size(); ++i) {
+        if (x[i].joint != y[i].joint) {
+            return x[i].joint < y[i].joint ? -1 : 1;
+        }
+        if (x[i].weight != y[i].weight) {
+            return x[i].weight < y[i].weight ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+int compareMorphs(const Mesh& mesh, uint32_t a, uint32_t b) {
+    const auto x = mesh.morphs.of(a);
+    const auto y = mesh.morphs.of(b);
+    if (x.size() != y.size()) {
+        return x.size() < y.size() ? -1 : 1;
+    }
+    for (size_t i = 0; i < x.size(); ++i) {
+        if (x[i].target != y[i].target) {
+            return x[i].target < y[i].target ? -1 : 1;
+        }
+        for (int k = 0; k < 3; ++k) {
+            if (x[i].delta[k] != y[i].delta[k]) {
+                return x[i].delta[k] < y[i].delta[k] ? -1 : 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/// Pairs of vertices that disagree in something: counted, the first by name.
+struct Disagreements {
+    size_t count = 0;
+    uint32_t first[2] = {0, 0};
+
+    void add(uint32_t a, uint32_t b) {
+        if (count++ == 0) {
+            first[0] = std::min(a, b);
+            first[1] = std::max(a, b);
+        }
+    }
+    [[nodiscard]] std::string firstNamed() const {
+        return " (first: vertices " + std::to_string(first[0]) + " and " + std::to_string(first[1]) + ")";
+    }
+};
+
+/// Numbers the sets of vertices with equal position, skin and morphs; warns where only the position is equal.
+std::vector<uint32_t> candidateSets(const Mesh& mesh, const Polygons& faces, Warnings& warnings) {
+    std::vector<uint32_t> order = faces.vertices;
+    std::sort(order.begin(), order.end());
+    order.erase(std::unique(order.begin(), order.end()), order.end());
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+        int by = comparePositions(mesh, a, b);
+        by = by != 0 ? by : compareSkins(mesh, a, b);
+        by = by != 0 ? by : compareMorphs(mesh, a, b);
+        return by != 0 ? by < 0 : a < b;
+    });
+    std::vector<uint32_t> sets(mesh.positions.size(), 0);
+    uint32_t set = 0;
+    Disagreements skins;
+    Disagreements morphs;
+    for (size_t i = 0; i < order.size(); ++i) {
+        if (i > 0) {
+            const uint32_t a = order[i - 1];
+            const uint32_t b = order[i];
+            const bool samePosition = comparePositions(mesh, a, b) == 0;
+            const bool sameSkin = samePosition && compareSkins(mesh, a, b) == 0;
+            const bool same = sameSkin && compareMorphs(mesh, a, b) == 0;
+            set += same ? 0 : 1;
+            if (samePosition && !same) {
+                (sameSkin ? morphs : skins).add(a, b);
+            }
+        }
+        sets[order[i]] = set;
+    }
+    const auto report = [&](const Disagreements& found, const std::string& what) {
+        if (found.count > 0) {
+            warn(warnings, mesh.element,
+                 counted(found.count, "vertex agrees", "vertices agree") + " with another in position but not in " +
+                     what + found.firstNamed() + "; kept apart");
+        }
+    };
+    report(skins, "skin");
+    report(morphs, "morph targets");
+    return sets;
+}
+
+VertexPairs pairsOfNumbers(const std::vector<uint32_t>& cageNumbers) {
+    VertexPairs pairs;
+    std::map<uint32_t, uint32_t> firstOf;
+    for (uint32_t v = 0; v < cageNumbers.size(); ++v) {
+        const auto [first, isNew] = firstOf.try_emplace(cageNumbers[v], v);
+        if (!isNew) {
+            pairs.emplace_back(first->second, v);
+        }
+    }
+    return pairs;
+}
+
+/// The JSON of a mesh's EXT_mesh_manifold, checked.
+struct Manifold {
+    std::string element;
+    const json* object = nullptr;
+    const json* primitive = nullptr; ///< manifoldPrimitive
+    bool merges = false;             ///< has mergeIndices and mergeValues
+};
+
+Manifold checkManifold(const Document& document, const Mesh& mesh) {
+    Manifold manifold;
+    manifold.element = mesh.element + " EXT_mesh_manifold";
+    const std::string& element = manifold.element;
+    manifold.object = objectMember(document.meshes[mesh.index].at("extensions"), "EXT_mesh_manifold", mesh.element);
+    const json* object = manifold.object;
+    manifold.primitive = object == nullptr ? nullptr : objectMember(*object, "manifoldPrimitive", element);
+    const json* primitive = manifold.primitive;
+    const json* attributes = primitive == nullptr ? nullptr : objectMember(*primitive, "attributes", element);
+    if (attributes == nullptr) {
+        refuse(element, "no manifoldPrimitive with attributes");
+    }
+    const size_t accessorCount = document.model.accessors.size();
+    const std::string place = element + " manifoldPrimitive";
+    checkIndexMember(*attributes, "POSITION", place, "accessor", accessorCount, true);
+    checkIndexMember(*primitive, "indices", place, "accessor", accessorCount, true);
+    checkIndexMember(*object, "mergeIndices", element, "accessor", accessorCount);
+    checkIndexMember(*object, "mergeValues", element, "accessor", accessorCount);
+    manifold.merges = member(*object, "mergeIndices") != nullptr;
+    if (manifold.merges != (member(*object, "mergeValues") != nullptr)) {
+        refuse(element, manifold.merges ? "mergeIndices without mergeValues" : "mergeValues without mergeIndices");
+    }
+    for (const MeshPart& part : mesh.parts) {
+        if (part.positionAccessor != attributes->at("POSITION").get<int>()) {
+            refuse(place, "its POSITION is not that of " + part.element);
+        }
+    }
+    return manifold;
+}
+
+/// The manifold's indices are those of the primitives but for the positions mergeIndices, which hold mergeValues
+/// instead; so the vertices found there are one with these. Vertices count within one primitive.
+VertexPairs readMerges(const Document& document, const Manifold& manifold, size_t vertexCount) {
+    const std::string& element = manifold.element;
+    constexpr uint32_t kIntegers = kU8 | kU16 | kU32;
+    const auto read = [&](const json& number, const char* name, Sparse sparse) {
+        return readIntegers(document, number.get<int>(), TINYGLTF_TYPE_SCALAR, kIntegers, element + " " + name, sparse);
+    };
+    const auto before = read(manifold.primitive->at("indices"), "manifoldPrimitive indices", Sparse::ignored);
+    const auto positions = read(manifold.object->at("mergeIndices"), "mergeIndices", Sparse::applied);
+    const auto values = read(manifold.object->at("mergeValues"), "mergeValues", Sparse::applied);
+    if (positions.size() != values.size()) {
+        refuse(element + " mergeValues",
+               counted(values.size(), "value", "values") + " for " + counted(positions.size(), "index", "indices"));
+    }
+    VertexPairs pairs;
+    for (size_t i = 0; i < positions.size(); ++i) {
+        if (positions[i] >= before.size()) {
+            refuse(item(element + " mergeIndices", i), std::to_string(positions[i]) +
+                                                           " is out of range: the manifoldPrimitive has " +
+                                                           counted(before.size(), "index", "indices"));
+        }
+        const uint32_t vertices[2] = {before[positions[i]], values[i]};
+        for (const uint32_t vertex : vertices) {
+            if (vertex >= vertexCount) {
+                refuse(item(element + " mergeValues", i), "vertex " + std::to_string(vertex) +
+                                                              " is out of range: the mesh has " +
+                                                              std::to_string(vertexCount));
+            }
+        }
+        pairs.emplace_back(vertices[0], vertices[1]);
+    }
+    return pairs;
+}
+
+/// The pairs that EXT_mesh_manifold merges; nothing where the mesh has none that can be used.
+std::optional<VertexPairs> pairsOfManifold(const Document& document, const Mesh& mesh, Warnings& warnings) {
+    if (!hasExtension(document.meshes[mesh.index], "EXT_mesh_manifold")) {
+        return std::nullopt;
+    }
+    const Manifold manifold = checkManifold(document, mesh);
+    const uint32_t vertexCount = mesh.parts[0].vertexCount;
+    VertexPairs pairs;
+    if (manifold.merges) {
+        const auto indices = manifold.primitive->at("indices").get<size_t>();
+        if (!document.model.accessors[indices].sparse.isSparse) {
+            warn(warnings, manifold.element,
+                 "its indices are not sparse, so what they were before merging is lost; not used");
+            return std::nullopt;
+        }
+        pairs = readMerges(document, manifold, vertexCount);
+    }
+    for (auto& [first, second] : pairs) {
+        first += mesh.parts[0].firstVertex;
+        second += mesh.parts[0].firstVertex;
+    }
+    // Primitives may have vertices of their own over the one POSITION accessor: other joints, other numbers.
+    for (const MeshPart& part : mesh.parts) {
+        if (part.firstVertex == mesh.parts[0].firstVertex) {
+            continue;
+        }
+        for (uint32_t v = 0; v < vertexCount; ++v) {
+            pairs.emplace_back(mesh.parts[0].firstVertex + v, part.firstVertex + v);
+        }
+    }
+    return pairs;
+}
+
+Welding weldAsGiven(const Mesh& mesh, const VertexPairs& pairs, WeldSource source, Warnings& warnings) {
+    const std::string element = mesh.element + " " + weldSourceName(source);
+    Disagreements skins;
+    Disagreements morphs;
+    for (const auto& [a, b] : pairs) {
+        if (comparePositions(mesh, a, b) != 0) {
+            refuse(element,
+                   "merges vertices " + std::to_string(a) + " and " + std::to_string(b) + ", which differ in position");
+        }
+        if (compareSkins(mesh, a, b) != 0) {
+            skins.add(a, b);
+        }
+        if (compareMorphs(mesh, a, b) != 0) {
+            morphs.add(a, b);
+        }
+    }
+    const auto report = [&](const Disagreements& found, const std::string& what) {
+        if (found.count > 0) {
+            warn(warnings, element,
+                 "merges " + counted(found.count, "pair", "pairs") + " of vertices that differ in " + what +
+                     found.firstNamed() + "; the first one's is taken");
+        }
+    };
+    report(skins, "skin");
+    report(morphs, "morph targets");
+    return weldPairs(mesh.positions.size(), pairs);
+}
+
+} // namespace
+
+MeshWelding weldMesh(const Document& document, const Mesh& mesh, const Polygons& faces, Warnings& warnings) {
+    if (!mesh.cageNumbers.empty()) {
+        return {weldAsGiven(mesh, pairsOfNumbers(mesh.cageNumbers), mesh.numberSource, warnings), mesh.numberSource};
+    }
+    if (const auto pairs = pairsOfManifold(document, mesh, warnings)) {
+        return {weldAsGiven(mesh, *pairs, WeldSource::meshManifold, warnings), WeldSource::meshManifold};
+    }
+    return {weld(candidateSets(mesh, faces, warnings), faces), WeldSource::equality};
+}
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,28 @@
+// How the readers and writers of cage/ word their messages: they name the element, count and quote in one way.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace supple::cage {
+
+/// "node 3"
+[[nodiscard]] std::string at(const char* what, size_t index);
+/// "mesh 0 primitive 1 POSITION[7]"
+[[nodiscard]] std::string item(const std::string& element, size_t index);
+/// "mesh 0 primitive 1 NORMAL"
+[[nodiscard]] std::string within(const std::string& element, const std::string& part);
+/// "1 vertex", "2 vertices"
+[[nodiscard]] std::string counted(size_t count, const char* one, const char* many);
+[[nodiscard]] std::string quoted(const std::string& text);
+/// Three significant digits.
+[[nodiscard]] std::string shortNumber(double value);
+/// Messages are one line, whatever a file calls its parts.
+[[nodiscard]] std::string oneLine(std::string text);
+
+/// What was repaired or left out, as "element: reason"; who shows it puts the character's name in front.
+using Warnings = std::vector<std::string>;
+void warn(Warnings& warnings, const std::string& element, const std::string& reason);
+
+} // namespace supple::cage

@@ -1,0 +1,126 @@
+// A character file opened for drawing: Supple's asset, the tables that draw its cage, its materials' pictures; and a
+// group made of it.
+#pragma once
+
+#include "cage/character.h"
+#include "host/camera.h"
+#include "host/context.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace supple::host {
+
+class Figure {
+public:
+    /// A run of cage triangles of one material.
+    struct CageRange {
+        uint32_t firstCorner = 0; ///< three corners a triangle
+        uint32_t cornerCount = 0;
+        uint32_t material = cage::kNone;
+    };
+
+    /// The context must outlive the figure.
+    [[nodiscard]] static Result<std::unique_ptr<Figure>> open(Context& context, const std::string& path,
+                                                              bool pairQuads = false);
+    ~Figure();
+    Figure(const Figure&) = delete;
+    Figure& operator=(const Figure&) = delete;
+
+    [[nodiscard]] Context& context() const { return context_; }
+    [[nodiscard]] SuppleAsset asset() const { return asset_; }
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] const cage::Character& character() const { return character_; }
+    /// By name or index; SUPPLE_BIND_POSE for an empty text. The error lists what there is.
+    [[nodiscard]] Result<uint32_t> findClip(const std::string& nameOrIndex) const;
+    [[nodiscard]] double clipDuration(uint32_t clip) const;
+
+    /// Luminance of the base color over the cage's faces: linear, 0..1.
+    [[nodiscard]] float averageAlbedo() const { return averageAlbedo_; }
+    /// One a material, and one white one at the end for what has none.
+    [[nodiscard]] const std::vector<Image>& baseColors() const { return baseColors_; }
+    /// As the base colors; without an image where a material has no trim of its own (cage::Material::trim).
+    [[nodiscard]] const std::vector<Image>& trims() const { return trims_; }
+    [[nodiscard]] const std::vector<CageRange>& cageRanges() const { return cageRanges_; }
+    [[nodiscard]] const Buffer& cageCorners() const { return cageCorners_; }
+    [[nodiscard]] const Buffer& cageEdges() const { return cageEdges_; }
+    [[nodiscard]] uint32_t cageEdgeCount() const { return cageEdgeCount_; }
+
+private:
+    explicit Figure(Context& context) : context_(context) {}
+    [[nodiscard]] Status uploadCage();
+    [[nodiscard]] Status uploadBaseColors();
+    [[nodiscard]] Status uploadTrims();
+
+    Context& context_;
+    std::string path_;
+    cage::Character character_;
+    SuppleAsset asset_{};
+    std::vector<Image> baseColors_;
+    std::vector<Image> trims_;
+    std::vector<CageRange> cageRanges_;
+    Buffer cageCorners_;
+    Buffer cageEdges_;
+    uint32_t cageEdgeCount_ = 0;
+    float averageAlbedo_ = 0.5f;
+};
+
+struct GroupOptions {
+    uint32_t instances = 1;
+    SuppleScheme scheme = SUPPLE_SCHEME_AUTO;
+    uint32_t rate = 8;
+    SuppleVertexFormat vertexFormat = SUPPLE_VERTEX_16;
+    SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR;
+    SuppleCreaseMode creaseMode = SUPPLE_CREASES_CUT;
+    float sharpThreshold = 1.0f;
+    bool sharedSamples = false; ///< SUPPLE_GROUP_INDEXED_MESH
+};
+
+/// A Supple group with what drawing it needs besides Supple's buffers. May be destroyed only when no pending frame uses
+/// it.
+class FigureGroup {
+public:
+    [[nodiscard]] static Result<std::unique_ptr<FigureGroup>> create(Figure& figure, const GroupOptions& options);
+    ~FigureGroup();
+    FigureGroup(const FigureGroup&) = delete;
+    FigureGroup& operator=(const FigureGroup&) = delete;
+
+    [[nodiscard]] Figure& figure() const { return figure_; }
+    [[nodiscard]] SuppleGroup handle() const { return group_; }
+    /// All of them are there and visible from first to last: the instance's number is its slot.
+    [[nodiscard]] SuppleInstance instance(uint32_t index) const { return instances_[index]; }
+    [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
+    /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
+    /// more than one patch to (SuppleGroupOutput::rate counts along a patch).
+    [[nodiscard]] uint32_t edgeRate() const { return edgeRate_; }
+    /// Per patch: which of the colors of the view of patch classes it has.
+    [[nodiscard]] const Buffer& patchClasses() const { return patchClasses_; }
+    /// A coarser grid over the same samples: shadows need no more.
+    [[nodiscard]] const Buffer& shadowIndices() const { return shadowIndices_; }
+    [[nodiscard]] uint32_t shadowIndexCount() const { return shadowIndexCount_; }
+
+    /// Destroys Supple's group at once; its memory goes when the frames that used it are completed. The tables stay.
+    void release();
+
+    [[nodiscard]] Status pose(uint32_t instance, uint32_t clip, double time);
+    /// Positions of the surface vertices, or of the deformed cage, as last evaluated, instance after instance; waits
+    /// for the device.
+    [[nodiscard]] Result<std::vector<glm::vec3>> readSurface() const;
+    [[nodiscard]] Result<std::vector<glm::vec3>> readCage() const;
+
+private:
+    explicit FigureGroup(Figure& figure) : figure_(figure) {}
+    [[nodiscard]] Status uploadTables();
+
+    Figure& figure_;
+    SuppleGroup group_{};
+    std::vector<SuppleInstance> instances_;
+    SuppleGroupOutput output_{};
+    uint32_t edgeRate_ = 0;
+    Buffer patchClasses_;
+    Buffer shadowIndices_;
+    uint32_t shadowIndexCount_ = 0;
+};
+
+} // namespace supple::host

@@ -1,0 +1,170 @@
+#include "host/figure.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace supple::host {
+
+namespace {
+
+/// Triangles a shadow map may cost before its grid is made coarser.
+constexpr uint64_t kShadowTrianglesCpu = 16'000;
+constexpr uint64_t kShadowTrianglesGpu = 1'500'000;
+
+/// For quads and polar patches: two triangles a cell of a grid of `segments` a side, laid over a patch of `rate`
+/// segments.
+std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
+    const auto sample = [&](uint32_t i, uint32_t j) {
+        const uint32_t column = (i * rate + segments / 2) / segments;
+        const uint32_t row = (j * rate + segments / 2) / segments;
+        return static_cast<uint16_t>(row * (rate + 1) + column);
+    };
+    std::vector<uint16_t> indices;
+    indices.reserve(size_t{6} * segments * segments);
+    for (uint32_t j = 0; j < segments; ++j) {
+        for (uint32_t i = 0; i < segments; ++i) {
+            const uint16_t corners[] = {sample(i, j), sample(i + 1, j), sample(i + 1, j + 1), sample(i, j + 1)};
+            for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
+                indices.push_back(corners[corner]);
+        }
+    }
+    return indices;
+}
+
+/// How often an edge of the cage is halved before patches begin.
+uint32_t halvings(SuppleScheme scheme, const cage::Cage& cage) {
+    if (scheme != SUPPLE_SCHEME_CATMULL_CLARK && scheme != SUPPLE_SCHEME_BLEND) {
+        return scheme == SUPPLE_SCHEME_LOOP ? 1 : 0;
+    }
+    uint32_t steps = scheme == SUPPLE_SCHEME_BLEND ? 0 : 1;
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        if (cage.sides(face) != 4) {
+            return steps + 1;
+        }
+    }
+    return steps;
+}
+
+/// The first `used` positions of each instance. What fills its stride up to the next instance is never written.
+std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t stride, uint32_t capacity,
+                                   size_t perInstance, size_t used) {
+    std::vector<glm::vec3> positions;
+    positions.reserve(used * capacity);
+    for (size_t instance = 0; instance < capacity; ++instance) {
+        for (size_t i = 0; i < used; ++i)
+            std::memcpy(&positions.emplace_back(), bytes.data() + (instance * perInstance + i) * stride,
+                        sizeof(glm::vec3));
+    }
+    return positions;
+}
+
+} // namespace
+
+Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const GroupOptions& options) {
+    Context& context = figure.context();
+    std::unique_ptr<FigureGroup> group(new FigureGroup(figure));
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.flags = SUPPLE_GROUP_ATTRIBUTES;
+    if (options.sharedSamples) {
+        desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
+    }
+    desc.asset = figure.asset();
+    desc.capacity = options.instances;
+    desc.scheme = options.scheme;
+    desc.rate = options.rate;
+    desc.vertexFormat = options.vertexFormat;
+    desc.skinning = options.skinning;
+    desc.creaseMode = options.creaseMode;
+    desc.sharpThreshold = options.sharpThreshold;
+    if (const Status status =
+            context.check(suppleCreateGroup(context.handle(), &desc, &group->group_), "suppleCreateGroup");
+        !status)
+        return status.error();
+    if (const Status status = context.createInstances(group->group_, options.instances, group->instances_); !status)
+        return status.error();
+    group->output_.structSize = sizeof group->output_;
+    if (const Status status = context.check(suppleGetGroupOutput(context.handle(), group->group_, &group->output_),
+                                            "suppleGetGroupOutput");
+        !status)
+        return status.error();
+    group->edgeRate_ = group->output_.rate << halvings(options.scheme, figure.character().cage);
+    // The renderer binds each output whole; a crowd larger than that would be drawn in windows of instances.
+    const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;
+    for (const SuppleBufferView& view : {group->output_.surfaceVertices, group->output_.deformedCage}) {
+        if (view.size > limit)
+            return Error{ErrorCode::limit, figure.path() + ": " + std::to_string(view.size) +
+                                               " bytes to draw at once; a storage buffer of this device holds " +
+                                               std::to_string(limit) + ": lower the rate or the instances"};
+    }
+    if (const Status status = group->uploadTables(); !status)
+        return status.error();
+    return group;
+}
+
+FigureGroup::~FigureGroup() {
+    release();
+}
+
+void FigureGroup::release() {
+    if (group_.id != 0)
+        suppleDestroyGroup(figure_.context().handle(), group_);
+    group_ = {};
+}
+
+Status FigureGroup::uploadTables() {
+    Context& context = figure_.context();
+    Device& device = context.device();
+    std::vector<SupplePatchInfo> patches(output_.patchCount);
+    uint32_t count = output_.patchCount;
+    if (const Status status =
+            context.check(suppleGetPatches(context.handle(), group_, patches.data(), &count), "suppleGetPatches");
+        !status)
+        return status.error();
+    std::vector<uint32_t> classes(std::max<size_t>(count, 1));
+    for (uint32_t i = 0; i < count; ++i)
+        classes[i] = static_cast<uint32_t>(patches[i].patchClass);
+    Result<Buffer> classBuffer =
+        device.uploadBuffer(classes.data(), classes.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    if (!classBuffer)
+        return classBuffer.error();
+    patchClasses_ = std::move(*classBuffer);
+
+    const uint64_t budget = device.isCpu() ? kShadowTrianglesCpu : kShadowTrianglesGpu;
+    const uint64_t shown = uint64_t{output_.patchCount} * output_.capacity;
+    uint32_t segments = output_.rate;
+    const uint32_t fewest = output_.rate < edgeRate_ ? 1 : 2; // two to an edge of the cage
+    while (segments > fewest && shown * 2 * segments * segments > budget)
+        segments = (segments + 1) / 2;
+    const std::vector<uint16_t> indices = coarseGrid(output_.rate, segments);
+    shadowIndexCount_ = static_cast<uint32_t>(indices.size());
+    Result<Buffer> indexBuffer =
+        device.uploadBuffer(indices.data(), indices.size() * sizeof(uint16_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    if (!indexBuffer)
+        return indexBuffer.error();
+    shadowIndices_ = std::move(*indexBuffer);
+    return success();
+}
+
+Status FigureGroup::pose(uint32_t instance, uint32_t clip, double time) {
+    Context& context = figure_.context();
+    return context.check(suppleSetClipPose(context.handle(), instances_[instance], clip, time), "suppleSetClipPose");
+}
+
+Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {
+    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.surfaceVertices);
+    if (!bytes)
+        return bytes.error();
+    return positionsOf(*bytes, output_.surfaceVertices.stride, output_.capacity, output_.verticesPerInstance,
+                       output_.vertexCount);
+}
+
+Result<std::vector<glm::vec3>> FigureGroup::readCage() const {
+    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.deformedCage);
+    if (!bytes)
+        return bytes.error();
+    return positionsOf(*bytes, output_.deformedCage.stride, output_.capacity, output_.cageVerticesPerInstance,
+                       output_.cageVertexCount);
+}
+
+} // namespace supple::host

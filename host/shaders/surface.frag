@@ -1,0 +1,122 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+#include "studio.glsl"
+#include "lines.glsl"
+#include "surface_trim.glsl"
+
+layout(set = 1, binding = kPatchClassBinding, std430) readonly buffer PatchClasses { uint patchClasses[]; };
+layout(set = 2, binding = kBaseColorBinding) uniform sampler2D baseColorTexture;
+
+layout(location = 0) in vec3 inPosition;
+layout(location = 1) in vec3 inNormal;
+layout(location = 2) in vec2 inUv;
+layout(location = 3) in vec4 inColor;
+layout(location = 4) in vec3 inGrid; // see surface.vert
+layout(location = 5) flat in uint inPatch;
+
+layout(location = 6) in vec3 inSky;
+layout(location = 7) in vec3 inKeyRimOpen;
+layout(location = 8) in vec3 inTrim;
+
+layout(location = 0) out vec4 outColor;
+
+layout(constant_id = 0) const bool kLightPerVertex = false; // see surface.vert
+
+const vec3 kClay = vec3(0.50, 0.47, 0.44);
+
+// A color a class of patches, as sRGB bytes. Chosen so that classes of one scheme keep apart for eyes of every kind, those
+// of different schemes as well as ten colors can: under simulated protanopia, deuteranopia and tritanopia the former are
+// 0.12 and more apart in OKLab, the latter 0.08, with differences of lightness, which shading changes, counted half.
+const vec3 kClassColors[10] = vec3[10](vec3(0x8E, 0x9B, 0xA8),  // regular: slate
+                                       vec3(0x50, 0x20, 0x80),  // perturbed: violet
+                                       vec3(0x80, 0x20, 0x50),  // polar: wine
+                                       vec3(0xF0, 0xE4, 0x42),  // P_3: yellow
+                                       vec3(0xD5, 0x5E, 0x00),  // P_4: vermilion
+                                       vec3(0x20, 0x20, 0xC8),  // P_5: blue
+                                       vec3(0x98, 0x50, 0x98),  // Catmull-Clark: purple
+                                       vec3(0x80, 0xE0, 0xE0),  // Loop: cyan
+                                       vec3(0xB0, 0xE0, 0x98),  // blend: light green
+                                       vec3(0x50, 0x80, 0xE0)); // blend, sharp: sky blue
+
+/// Distances from the patch's border, in segments.
+vec3 insideBorder() {
+    const float kFar = 1e9;
+    float rate = float(push.rate);
+    if (push.domain == kDrawQuad) return vec3(min(inGrid.xy, rate - inGrid.xy), kFar);
+    if (push.domain == kDrawPolar) return vec3(min(inGrid.x, rate - inGrid.x), inGrid.y, kFar);
+    return push.domain == kDrawTriangle ? inGrid : vec3(kFar, kFar, inGrid.z);
+}
+
+float patchHash(uint x) {
+    x = (x ^ 61u) ^ (x >> 16);
+    x *= 9u;
+    x ^= x >> 4;
+    x *= 0x27d4eb2du;
+    return float((x ^ (x >> 15)) & 0xffffu) / 65535.0;
+}
+
+/// Light tubes all round the viewer: a kink in a stripe is a kink in the surface's normals.
+vec3 zebra(vec3 n, vec3 v) {
+    vec3 r = mat3(frame.view) * reflect(-v, n);
+    float at = acos(clamp(dot(r, normalize(vec3(0.35, 0.93, 0.1))), -1.0, 1.0)) * (10.0 / kPi);
+    float width = max(fwidth(at), 1e-4);
+    float stripe = smoothstep(-width, width, abs(fract(at) - 0.5) - 0.25);
+    stripe = mix(stripe, 0.5, smoothstep(0.35, 0.9, width));
+    float form = 0.72 + 0.28 * clamp(dot(n, v), 0.0, 1.0);
+    return mix(vec3(0.012, 0.014, 0.02), vec3(0.82, 0.83, 0.84), stripe) * form;
+}
+
+void main() {
+    vec3 v = normalize(frame.eye.xyz - inPosition);
+    // A vanishing normal (a collapsed pole) takes the triangle's own.
+    vec3 n = dot(inNormal, inNormal) > 1e-6 ? normalize(inNormal) : normalize(cross(dFdx(inPosition), dFdy(inPosition)));
+    bool back = !gl_FrontFacing;
+    if (back)
+        n = -n;
+
+    vec4 base = push.baseColor * inColor * texture(baseColorTexture, inUv);
+    float alpha = (push.flags & kDrawTranslucent) != 0u ? base.a : 1.0;
+    vec3 segments = fwidth(inGrid);
+    if ((push.flags & kDrawTrim) != 0u) {
+        float value = trimValue(inTrim);
+        if ((push.flags & kDrawCoverage) != 0u)
+            alpha *= suppleTrimCoverage(value, push.alphaCutoff);
+        else if (suppleTrimmed(value, push.alphaCutoff))
+            discard;
+    }
+
+    vec3 color;
+    if (push.view == kViewNormals) {
+        color = fromSrgb((back ? -n : n) * 0.5 + 0.5);
+    } else if (push.view == kViewZebra) {
+        color = zebra(n, v);
+    } else {
+        Material material = Material(base.rgb, 0.42);
+        if (push.view == kViewWire || (push.view == kViewPatches && push.domain == kDrawMesh)) {
+            material = Material(kClay, 0.55);
+        } else if (push.view == kViewPatches) {
+            float vary = patchHash(inPatch) - 0.5;
+            material.albedo = fromSrgb(kClassColors[patchClasses[inPatch]] / 255.0) * (1.0 + 0.34 * vary);
+            material.roughness = 0.5;
+        }
+        // The inside of a skin that is not meant to be seen: still there, but plainly inside.
+        if (back && (push.flags & kDrawDoubleSided) == 0u)
+            material.albedo *= 0.35;
+        Incident light;
+        if (kLightPerVertex)
+            light = Incident(inSky, inKeyRimOpen.x, inKeyRimOpen.y, inKeyRimOpen.z);
+        else
+            light = gatherLight(inPosition, n);
+        color = toneMap(studioShade(material, light, n, v));
+    }
+
+    bool lines = push.domain != kDrawMesh;
+    if (push.view == kViewWire && lines)
+        color = mix(color, vec3(0.012, 0.016, 0.025), 0.72 * gridLines(inGrid, segments, 0.9 * frame.pixelScale));
+    if (push.view == kViewWire && lines)
+        color = mix(color, vec3(0.78, 0.22, 0.035), borderLine(insideBorder(), segments, float(push.rate), 1.1 * frame.pixelScale));
+    else if (push.view == kViewPatches && lines)
+        color = mix(color, vec3(0.01, 0.012, 0.018), 0.85 * borderLine(insideBorder(), segments, float(push.rate), 0.9 * frame.pixelScale));
+    outColor = vec4(color, alpha);
+}

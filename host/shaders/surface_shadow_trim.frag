@@ -1,0 +1,11 @@
+// Light falls through what is trimmed away.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+#include "surface_trim.glsl"
+
+layout(location = 0) in vec3 inTrim;
+
+void main() {
+    if (suppleTrimmed(trimValue(inTrim), push.alphaCutoff)) discard;
+}

@@ -1,0 +1,577 @@
+#include "host/surface_renderer.h"
+
+#include "cage/trim.h"
+#include "host/vk_struct.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace supple::host {
+
+namespace {
+
+constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
+
+/// The cage's lines over shaded faces, and over the smooth surface.
+constexpr glm::vec4 kCageEdgeColor(0.010f, 0.014f, 0.022f, 0.85f);
+constexpr glm::vec4 kOverlayEdgeColor(0.95f, 0.42f, 0.06f, 0.9f);
+
+/// From here on a CPU device looks the light up once a vertex: it shades blocks of pixels, however small the triangle.
+constexpr uint32_t kVertexLitRate = 4;
+
+/// Below so many directions the steps of single shadow maps show.
+constexpr uint32_t kFewLights = 12;
+
+void applyRange(const SuppleDrawRange& range, shared::DrawPush& push) {
+    push.firstPatch = range.firstPatch;
+    push.patchCount = range.patchCount;
+    push.domain = static_cast<uint32_t>(range.domain);
+    push.samplesPerPatch = range.samplesPerPatch;
+    push.firstVertex = range.firstVertex;
+}
+
+void bindGridIndices(VkCommandBuffer commands, const SuppleGroupOutput& output) {
+    const SuppleBufferView& indices = output.gridIndices;
+    vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset,
+                         indices.stride == 4 ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_UINT16);
+}
+
+/// What the group and the picture say, not the material.
+constexpr uint32_t kLastingFlags = shared::kDrawVertex24 | shared::kDrawAttributes | shared::kDrawCoverage;
+
+void applyTrim(const cage::Character& character, const cage::Material& material, shared::DrawPush& push) {
+    const bool mask = !material.trim && material.alphaMode == cage::AlphaMode::mask;
+    if (!material.trim && !mask)
+        return;
+    // A mask without a texture is one too: of the alphas that multiply a white one.
+    const cage::Trim trim = cage::trimOf(material).value_or(cage::Trim{.channel = 3, .cutoff = material.alphaCutoff});
+    push.flags |= shared::kDrawTrim;
+    if (mask)
+        push.flags |= shared::kDrawTrimAlpha;
+    if (trim.domain == cage::TrimDomain::face)
+        push.flags |= shared::kDrawTrimFace;
+    if (trim.uvSet == 1 && !character.cage.cornerUvs1.empty())
+        push.flags |= shared::kDrawTrimUv1;
+    push.alphaCutoff = trim.cutoff;
+    push.trimChannel = trim.channel;
+    push.trimTiles = static_cast<float>(std::max(trim.tiles, 1u));
+}
+
+void applyMaterial(const cage::Character& character, uint32_t index, shared::DrawPush& push) {
+    push.flags &= kLastingFlags;
+    push.baseColor = glm::vec4(1.0f);
+    if (index >= character.materials.size())
+        return;
+    const cage::Material& material = character.materials[index];
+    push.baseColor = material.baseColorFactor;
+    push.alphaCutoff = material.alphaCutoff;
+    if (material.baseColorUvSet == 1 && !character.cage.cornerUvs1.empty())
+        push.flags |= shared::kDrawUv1;
+    if (material.doubleSided)
+        push.flags |= shared::kDrawDoubleSided;
+    if (material.alphaMode == cage::AlphaMode::mask && !material.trim)
+        push.flags |= shared::kDrawMask;
+    if (material.alphaMode == cage::AlphaMode::blend)
+        push.flags |= shared::kDrawTranslucent;
+    applyTrim(character, material, push);
+}
+
+/// How a material stands in the light's way.
+enum class Shadow { none, solid, trimmed };
+
+Shadow shadowOf(const cage::Character& character, uint32_t index) {
+    if (index >= character.materials.size())
+        return Shadow::solid;
+    const cage::Material& material = character.materials[index];
+    if (material.alphaMode == cage::AlphaMode::blend)
+        return Shadow::none;
+    return material.trim || material.alphaMode == cage::AlphaMode::mask ? Shadow::trimmed : Shadow::solid;
+}
+
+/// The cage casts its shadow without holes, or none.
+bool isSolid(const cage::Character& character, uint32_t material) {
+    return material >= character.materials.size() || character.materials[material].alphaMode == cage::AlphaMode::opaque;
+}
+
+size_t materialSet(const cage::Character& character, uint32_t material) {
+    return std::min<size_t>(material, character.materials.size());
+}
+
+void setViewport(VkCommandBuffer commands, VkExtent2D extent, bool flipped) {
+    const auto width = static_cast<float>(extent.width);
+    const auto height = static_cast<float>(extent.height);
+    const VkViewport viewport = flipped ? VkViewport{0.0f, height, width, -height, 0.0f, 1.0f}
+                                        : VkViewport{0.0f, 0.0f, width, height, 0.0f, 1.0f};
+    const VkRect2D scissor{{0, 0}, extent};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout) {
+    auto info = vkStruct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+    info.imageView = view;
+    info.imageLayout = layout;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    return info;
+}
+
+VkSamplerAddressMode addressMode(cage::Wrap wrap) {
+    switch (wrap) {
+    case cage::Wrap::clampToEdge:
+        return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    case cage::Wrap::mirroredRepeat:
+        return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    default:
+        return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    }
+}
+
+} // namespace
+
+FigureBinding& FigureBinding::operator=(FigureBinding&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(pool_, other.pool_);
+    std::swap(figure_, other.figure_);
+    std::swap(materials_, other.materials_);
+    std::swap(samplers_, other.samplers_);
+    return *this;
+}
+
+FigureBinding::~FigureBinding() {
+    if (device_ == VK_NULL_HANDLE)
+        return;
+    vkDestroyDescriptorPool(device_, pool_, nullptr);
+    for (const VkSampler sampler : samplers_)
+        vkDestroySampler(device_, sampler, nullptr);
+}
+
+Result<std::unique_ptr<SurfaceRenderer>> SurfaceRenderer::create(Device& device, const RendererOptions& options) {
+    std::unique_ptr<SurfaceRenderer> renderer(new SurfaceRenderer(device));
+    renderer->quality_ = options.quality;
+    Result<std::unique_ptr<DrawPipelines>> pipelines =
+        DrawPipelines::create(device, {options.colorFormat, kDepthFormat, kShadowFormat, renderer->samples()});
+    if (!pipelines)
+        return pipelines.error();
+    renderer->pipelines_ = std::move(*pipelines);
+    if (const Status status = renderer->createShadowMaps(); !status)
+        return status.error();
+    if (const Status status = renderer->createSlots(options.framesInFlight); !status)
+        return status.error();
+    return renderer;
+}
+
+SurfaceRenderer::~SurfaceRenderer() {
+    for (const VkImageView view : shadowLayers_)
+        vkDestroyImageView(device_.handle(), view, nullptr);
+    vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
+}
+
+Status SurfaceRenderer::createShadowMaps() {
+    const uint32_t count = quality_.lightCount();
+    if (count == 0 || count > shared::kMaxLights)
+        return Error{ErrorCode::argument, "the studio takes 1 to " + std::to_string(shared::kMaxLights) + " lights"};
+    Result<Image> maps =
+        device_.createImage({.format = kShadowFormat,
+                             .extent = {quality_.shadowSize, quality_.shadowSize},
+                             .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                             .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                             .layers = std::max(count, 2u)}); // two at least: the shaders read an array
+    if (!maps)
+        return maps.error();
+    shadowMaps_ = std::move(*maps);
+    for (uint32_t layer = 0; layer < count; ++layer) {
+        auto info = vkStruct<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+        info.image = shadowMaps_.handle();
+        info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+        info.format = kShadowFormat;
+        info.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, layer, 1};
+        VkImageView view = VK_NULL_HANDLE;
+        if (const VkResult result = vkCreateImageView(device_.handle(), &info, nullptr, &view); result != VK_SUCCESS)
+            return vulkanError(result, "vkCreateImageView");
+        shadowLayers_.push_back(view);
+    }
+    return success();
+}
+
+Status SurfaceRenderer::createSlots(uint32_t count) {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count}};
+    auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    poolInfo.maxSets = count;
+    poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
+    poolInfo.pPoolSizes = sizes;
+    if (const VkResult result = vkCreateDescriptorPool(device_.handle(), &poolInfo, nullptr, &pool_);
+        result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateDescriptorPool");
+    for (uint32_t i = 0; i < count; ++i) {
+        Slot slot;
+        Result<Buffer> uniforms =
+            device_.createBuffer(sizeof(shared::FrameUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryKind::upload);
+        if (!uniforms)
+            return uniforms.error();
+        slot.uniforms = std::move(*uniforms);
+        auto info = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+        info.descriptorPool = pool_;
+        info.descriptorSetCount = 1;
+        info.pSetLayouts = &pipelines_->frameSet;
+        if (const VkResult result = vkAllocateDescriptorSets(device_.handle(), &info, &slot.set); result != VK_SUCCESS)
+            return vulkanError(result, "vkAllocateDescriptorSets");
+        const VkDescriptorBufferInfo buffer{slot.uniforms.handle(), 0, VK_WHOLE_SIZE};
+        const VkDescriptorImageInfo image{pipelines_->shadowSampler, shadowMaps_.view(),
+                                          VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
+        VkWriteDescriptorSet writes[2];
+        writes[0] = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        writes[0].dstSet = slot.set;
+        writes[0].dstBinding = shared::kFrameBinding;
+        writes[0].descriptorCount = 1;
+        writes[0].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        writes[0].pBufferInfo = &buffer;
+        writes[1] = writes[0];
+        writes[1].dstBinding = shared::kShadowBinding;
+        writes[1].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[1].pBufferInfo = nullptr;
+        writes[1].pImageInfo = &image;
+        vkUpdateDescriptorSets(device_.handle(), 2, writes, 0, nullptr);
+        slots_.push_back(std::move(slot));
+    }
+    return success();
+}
+
+Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
+    const Figure& figure = group.figure();
+    const auto materialCount = static_cast<uint32_t>(figure.baseColors().size());
+    constexpr uint32_t kFigureBuffers = 8;
+    FigureBinding binding;
+    binding.device_ = device_.handle();
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * materialCount}};
+    auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    poolInfo.maxSets = 1 + materialCount;
+    poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
+    poolInfo.pPoolSizes = sizes;
+    if (const VkResult result = vkCreateDescriptorPool(device_.handle(), &poolInfo, nullptr, &binding.pool_);
+        result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateDescriptorPool");
+    std::vector<VkDescriptorSetLayout> layouts(1 + materialCount, pipelines_->materialSet);
+    layouts[0] = pipelines_->figureSet;
+    std::vector<VkDescriptorSet> sets(layouts.size());
+    auto setInfo = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+    setInfo.descriptorPool = binding.pool_;
+    setInfo.descriptorSetCount = static_cast<uint32_t>(layouts.size());
+    setInfo.pSetLayouts = layouts.data();
+    if (const VkResult result = vkAllocateDescriptorSets(device_.handle(), &setInfo, sets.data()); result != VK_SUCCESS)
+        return vulkanError(result, "vkAllocateDescriptorSets");
+    binding.figure_ = sets[0];
+    binding.materials_.assign(sets.begin() + 1, sets.end());
+
+    const SuppleGroupOutput& output = group.output();
+    const auto viewInfo = [](const SuppleBufferView& view) {
+        return VkDescriptorBufferInfo{view.buffer, view.offset, view.size};
+    };
+    const auto wholeInfo = [](const Buffer& buffer) {
+        return VkDescriptorBufferInfo{buffer.handle(), 0, VK_WHOLE_SIZE};
+    };
+    // What the group is without the shaders do not look at; something valid has to be bound all the same.
+    const auto orCage = [&](const SuppleBufferView& view) {
+        return viewInfo(view.buffer != VK_NULL_HANDLE ? view : output.deformedCage);
+    };
+    const std::pair<uint32_t, VkDescriptorBufferInfo> buffers[kFigureBuffers] = {
+        {shared::kSurfaceVertexBinding, orCage(output.surfaceVertices)},
+        {shared::kSurfaceAttributeBinding, orCage(output.attributes)},
+        {shared::kSurfaceUv1Binding, orCage(output.uvs1)},
+        {shared::kSurfaceFaceUvBinding, orCage(output.faceUvs)},
+        {shared::kPatchClassBinding, wholeInfo(group.patchClasses())},
+        {shared::kDeformedCageBinding, viewInfo(output.deformedCage)},
+        {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
+        {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
+    };
+    std::vector<VkDescriptorImageInfo> images(2 * size_t{materialCount});
+    std::vector<VkWriteDescriptorSet> writes;
+    for (const auto& [slot, info] : buffers) {
+        auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.dstSet = binding.figure_;
+        write.dstBinding = slot;
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        write.pBufferInfo = &info;
+        writes.push_back(write);
+    }
+    const cage::Character& character = figure.character();
+    const auto sample = [&](uint32_t material, uint32_t slot, const Image& image, cage::Wrap wrapU,
+                            cage::Wrap wrapV) -> Status {
+        auto info = vkStruct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+        info.magFilter = VK_FILTER_LINEAR;
+        info.minFilter = VK_FILTER_LINEAR;
+        info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+        info.maxLod = VK_LOD_CLAMP_NONE;
+        info.anisotropyEnable = device_.hasAnisotropy() ? VK_TRUE : VK_FALSE;
+        info.maxAnisotropy = std::min(8.0f, device_.properties().limits.maxSamplerAnisotropy);
+        info.addressModeU = addressMode(wrapU);
+        info.addressModeV = addressMode(wrapV);
+        VkSampler sampler = VK_NULL_HANDLE;
+        if (const VkResult result = vkCreateSampler(device_.handle(), &info, nullptr, &sampler); result != VK_SUCCESS)
+            return vulkanError(result, "vkCreateSampler");
+        binding.samplers_.push_back(sampler);
+        VkDescriptorImageInfo& described = images[2 * size_t{material} + slot];
+        described = {sampler, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.dstSet = binding.materials_[material];
+        write.dstBinding = slot;
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        write.pImageInfo = &described;
+        writes.push_back(write);
+        return success();
+    };
+    static_assert(shared::kBaseColorBinding == 0 && shared::kTrimBinding == 1);
+    for (uint32_t i = 0; i < materialCount; ++i) {
+        const cage::Material material = i < character.materials.size() ? character.materials[i] : cage::Material{};
+        if (const Status status =
+                sample(i, shared::kBaseColorBinding, figure.baseColors()[i], material.wrapU, material.wrapV);
+            !status)
+            return status.error();
+        // A mask's trim is its base color; of what has none, nothing is looked up.
+        const cage::Trim trim = cage::trimOf(material).value_or(cage::Trim{});
+        const Image& image = material.trim ? figure.trims()[i] : figure.baseColors()[i];
+        if (const Status status = sample(i, shared::kTrimBinding, image, trim.wrapU, trim.wrapV); !status)
+            return status.error();
+    }
+    vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+    return binding;
+}
+
+void SurfaceRenderer::record(VkCommandBuffer commands, uint32_t slot, const DrawTarget& target, const Scene& scene) {
+    writeUniforms(slots_[slot], target.extent(), scene);
+    const VkDescriptorSet sets[] = {slots_[slot].set, scene.binding->figure_};
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 0, 2, sets, 0, nullptr);
+    recordShadows(commands, scene);
+    recordPicture(commands, target, scene);
+}
+
+void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const {
+    const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+    const glm::vec3 center = scene.bounds.center();
+    const float radius = scene.bounds.radius() * 1.02f;
+    const auto width = static_cast<float>(extent.width);
+    const auto height = static_cast<float>(extent.height);
+    shared::FrameUniforms frame{};
+    frame.view = scene.camera.view();
+    const float reach = radius + glm::length(scene.camera.target - center);
+    glm::mat4 projection = scene.camera.projection(aspect, reach);
+    const glm::vec2 jitter = studioJitter(quality_, scene.pass) * 2.0f / glm::vec2(width, height);
+    projection[2][0] += jitter.x; // times -w: a shift of the whole picture
+    projection[2][1] += jitter.y;
+    frame.viewProjection = projection * frame.view;
+    const glm::vec3 eye = scene.camera.eye();
+    frame.eye = glm::vec4(eye, 1.0f);
+    frame.target = glm::vec4(center, radius);
+    const bool groundSeen = scene.ground.has_value() && eye.y > *scene.ground;
+    frame.ground = glm::vec4(scene.ground.value_or(0.0f), groundSeen ? 1.0f : 0.0f, 0.0f, 0.0f);
+    frame.viewport = glm::vec4(width, height, 1.0f / width, 1.0f / height);
+    frame.bounce = glm::vec4(0.20f, 0.19f, 0.18f, 0.0f);
+    frame.lightCount = quality_.lightCount();
+    // The other views paint every figure in the same colors.
+    frame.exposure = scene.view == shared::kViewShaded ? studioExposure(scene.group->figure().averageAlbedo())
+                                                       : studioExposure(0.4f);
+    frame.shadowTexel = 2.0f * radius / static_cast<float>(quality_.shadowSize);
+    frame.pixelScale = scene.pixelScale;
+    if (quality_.lightCount() * quality_.passes < kFewLights)
+        frame.softShadows = 0.8f / static_cast<float>(quality_.shadowSize);
+    const StudioMiddle middle = studioMiddle(scene.lightYaw);
+    frame.keyDirection = glm::vec4(middle.keyDirection, 0.0f);
+    frame.keyColor = glm::vec4(middle.keyColor, 0.0f);
+    frame.rimDirection = glm::vec4(middle.rimDirection, 0.0f);
+    frame.rimColor = glm::vec4(middle.rimColor, 0.0f);
+    const std::vector<shared::Light> lights = studioLights(quality_, scene.pass, scene.lightYaw, center, radius);
+    std::copy(lights.begin(), lights.end(), frame.lights);
+    std::memcpy(slot.uniforms.mapped(), &frame, sizeof frame);
+}
+
+void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene) const {
+    constexpr VkPipelineStageFlags2 kDepthStages =
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+    const ImageUse drawn{
+        VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+        {kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT}};
+    const SuppleSyncScope read{VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                               VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+    imageBarrier(commands, shadowMaps_, {VK_IMAGE_LAYOUT_UNDEFINED, read}, drawn);
+    const VkExtent2D extent{quality_.shadowSize, quality_.shadowSize};
+    for (uint32_t light = 0; light < quality_.lightCount(); ++light) {
+        VkRenderingAttachmentInfo depth = attachment(shadowLayers_[light], VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+        depth.clearValue.depthStencil = {1.0f, 0};
+        auto info = vkStruct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+        info.renderArea = {{0, 0}, extent};
+        info.layerCount = 1;
+        info.pDepthAttachment = &depth;
+        vkCmdBeginRendering(commands, &info);
+        setViewport(commands, extent, false);
+        if (scene.cageFaces)
+            drawCageFaces(commands, scene, light);
+        else
+            drawSurfaceShadow(commands, scene, light);
+        vkCmdEndRendering(commands);
+    }
+    imageBarrier(commands, shadowMaps_, drawn, {VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, read});
+}
+
+void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const {
+    constexpr SuppleSyncScope kColor{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+    constexpr SuppleSyncScope kDepth{
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+    constexpr SuppleSyncScope kCopy{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+    const bool multisampled = target.samples() != VK_SAMPLE_COUNT_1_BIT;
+    const ImageUse colorUse{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColor};
+    // The last picture may still be in the copy that fetches it, and its depth in use.
+    imageBarrier(commands, target.color(), {VK_IMAGE_LAYOUT_UNDEFINED, kCopy}, colorUse);
+    imageBarrier(commands, target.depth(), {VK_IMAGE_LAYOUT_UNDEFINED, kDepth},
+                 {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepth});
+    if (multisampled)
+        imageBarrier(commands, target.multisampled(), {VK_IMAGE_LAYOUT_UNDEFINED, kColor}, colorUse);
+
+    const Image& drawn = multisampled ? target.multisampled() : target.color();
+    VkRenderingAttachmentInfo color = attachment(drawn.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    if (multisampled) {
+        color.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+        color.resolveImageView = target.color().view();
+        color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    }
+    color.clearValue.color = {{0.0f, 0.0f, 0.0f, 1.0f}};
+    VkRenderingAttachmentInfo depth = attachment(target.depth().view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    depth.clearValue.depthStencil = {1.0f, 0};
+    auto info = vkStruct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+    info.renderArea = {{0, 0}, target.extent()};
+    info.layerCount = 1;
+    info.colorAttachmentCount = 1;
+    info.pColorAttachments = &color;
+    info.pDepthAttachment = &depth;
+    vkCmdBeginRendering(commands, &info);
+    setViewport(commands, target.extent(), true);
+    if (scene.cageFaces)
+        drawCageFaces(commands, scene, std::nullopt);
+    else
+        drawSurface(commands, scene);
+    if (scene.ground.has_value() && scene.camera.eye().y > *scene.ground) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->ground);
+        vkCmdDraw(commands, 4, 1, 0, 0);
+    }
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->backdrop);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+    if (scene.cageEdges)
+        drawCageEdges(commands, scene);
+    vkCmdEndRendering(commands);
+    imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
+}
+
+/// Push constants that fit any draw of the group; ranges and materials are filled in draw by draw.
+shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, uint32_t light) const {
+    const SuppleGroupOutput& output = scene.group->output();
+    shared::DrawPush push{};
+    push.baseColor = glm::vec4(1.0f);
+    push.rate = output.rate;
+    push.verticesPerInstance = output.verticesPerInstance;
+    push.cageVerticesPerInstance = output.cageVerticesPerInstance;
+    push.view = scene.view;
+    push.light = light;
+    if (output.vertexFormat == SUPPLE_VERTEX_24)
+        push.flags |= shared::kDrawVertex24;
+    if (output.attributes.buffer != VK_NULL_HANDLE)
+        push.flags |= shared::kDrawAttributes;
+    if (samples() != VK_SAMPLE_COUNT_1_BIT)
+        push.flags |= shared::kDrawCoverage;
+    return push;
+}
+
+void SurfaceRenderer::bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const {
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
+                            &scene.binding->materials_[materialSet(scene.group->figure().character(), material)], 0,
+                            nullptr);
+}
+
+void SurfaceRenderer::pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const {
+    vkCmdPushConstants(commands, pipelines_->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                       sizeof push, &push);
+}
+
+void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
+    const SuppleGroupOutput& output = scene.group->output();
+    const cage::Character& character = scene.group->figure().character();
+    shared::DrawPush push = basePush(scene, light);
+    VkPipeline bound = VK_NULL_HANDLE;
+    for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
+        const SuppleDrawRange& range = output.drawRanges[i];
+        const Shadow shadow = shadowOf(character, range.material);
+        if (shadow == Shadow::none)
+            continue;
+        const VkPipeline wanted = shadow == Shadow::solid ? pipelines_->surfaceShadow : pipelines_->surfaceShadowTrim;
+        if (bound != wanted)
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
+        bound = wanted;
+        if (shadow == Shadow::trimmed) {
+            applyMaterial(character, range.material, push);
+            bindMaterial(commands, scene, range.material);
+        }
+        applyRange(range, push);
+        pushConstants(commands, push);
+        const uint32_t patches = range.patchCount * output.capacity;
+        if (range.domain == SUPPLE_DOMAIN_QUAD || range.domain == SUPPLE_DOMAIN_POLAR) {
+            vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
+            vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), patches, 0, 0, 0);
+        } else {
+            bindGridIndices(commands, output);
+            vkCmdDrawIndexed(commands, range.indexCount, patches, range.firstIndex, 0, 0);
+        }
+    }
+}
+
+void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) const {
+    const SuppleGroupOutput& output = scene.group->output();
+    const cage::Character& character = scene.group->figure().character();
+    shared::DrawPush push = basePush(scene, 0);
+    const bool vertexLit = device_.isCpu() && scene.group->edgeRate() >= kVertexLitRate;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                      vertexLit ? pipelines_->surfaceVertexLit : pipelines_->surface);
+    bindGridIndices(commands, output);
+    for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
+        const SuppleDrawRange& range = output.drawRanges[i];
+        applyMaterial(character, range.material, push);
+        applyRange(range, push);
+        pushConstants(commands, push);
+        bindMaterial(commands, scene, range.material);
+        vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
+                                 output.indirect.offset + VkDeviceSize{i} * output.indirect.stride, 1,
+                                 output.indirect.stride);
+    }
+}
+
+void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const {
+    const cage::Character& character = scene.group->figure().character();
+    shared::DrawPush push = basePush(scene, light.value_or(0));
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, light ? pipelines_->cageShadow : pipelines_->cageFace);
+    for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
+        if (light && !isSolid(character, range.material))
+            continue;
+        applyMaterial(character, range.material, push);
+        push.primitive = range.firstCorner;
+        pushConstants(commands, push);
+        if (!light)
+            bindMaterial(commands, scene, range.material);
+        vkCmdDraw(commands, range.cornerCount, scene.group->output().capacity, 0, 0);
+    }
+}
+
+void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene) const {
+    shared::DrawPush push = basePush(scene, 0);
+    push.baseColor = scene.cageFaces ? kCageEdgeColor : kOverlayEdgeColor;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
+    pushConstants(commands, push);
+    vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->output().capacity, 0, 0);
+}
+
+} // namespace supple::host

@@ -1,0 +1,106 @@
+// Draws a figure's group: its surface in one of several views, or its deformed cage, in the studio's light.
+#pragma once
+
+#include "host/camera.h"
+#include "host/draw_pipelines.h"
+#include "host/draw_target.h"
+#include "host/figure.h"
+#include "host/studio.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace supple::host {
+
+/// What the renderer does with a group's outputs: SuppleRecordDesc::after, and ::before of the next frame.
+inline constexpr SuppleSyncScope kRendererReads = {
+    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
+
+struct RendererOptions {
+    VkFormat colorFormat = kPictureFormat;
+    StudioQuality quality;
+    uint32_t framesInFlight = 1; ///< pictures that may be pending at once
+};
+
+/// The descriptor sets of one group and its figure's materials. Like the group it may go only when no pending frame
+/// uses it.
+class FigureBinding {
+public:
+    FigureBinding() = default;
+    FigureBinding(FigureBinding&& other) noexcept { *this = std::move(other); }
+    FigureBinding& operator=(FigureBinding&& other) noexcept;
+    ~FigureBinding();
+
+private:
+    friend class SurfaceRenderer;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet figure_ = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> materials_; ///< as Figure::baseColors
+    std::vector<VkSampler> samplers_;
+};
+
+struct Scene {
+    const FigureGroup* group = nullptr;
+    const FigureBinding* binding = nullptr;
+    Camera camera;
+    Bounds bounds;               ///< of the figure over all the time it is shown
+    std::optional<float> ground; ///< height of the floor
+    float lightYaw = 0.0f;       ///< the studio is set up for a viewer who stands here (Camera::yaw)
+    uint32_t view = 0;           ///< shared::kView...
+    bool cageFaces = false;      ///< the cage instead of the surface
+    bool cageEdges = false;
+    uint32_t pass = 0;       ///< of StudioQuality::passes
+    float pixelScale = 1.0f; ///< line widths are multiplied by it
+};
+
+class SurfaceRenderer {
+public:
+    [[nodiscard]] static Result<std::unique_ptr<SurfaceRenderer>> create(Device& device,
+                                                                         const RendererOptions& options = {});
+    ~SurfaceRenderer();
+    SurfaceRenderer(const SurfaceRenderer&) = delete;
+    SurfaceRenderer& operator=(const SurfaceRenderer&) = delete;
+
+    [[nodiscard]] Result<FigureBinding> bind(const FigureGroup& group);
+
+    [[nodiscard]] const StudioQuality& quality() const { return quality_; }
+
+    /// What the targets of this renderer must have.
+    [[nodiscard]] VkSampleCountFlagBits samples() const { return pictureSamples(device_, quality_.multisample); }
+    /// Records the whole picture, outside of rendering. `slot` (below framesInFlight) must not be in use by a pending
+    /// picture; the target is left in TRANSFER_SRC_OPTIMAL, visible to copies.
+    void record(VkCommandBuffer commands, uint32_t slot, const DrawTarget& target, const Scene& scene);
+
+private:
+    struct Slot {
+        Buffer uniforms;
+        VkDescriptorSet set = VK_NULL_HANDLE;
+    };
+
+    explicit SurfaceRenderer(Device& device) : device_(device) {}
+    [[nodiscard]] Status createShadowMaps();
+    [[nodiscard]] Status createSlots(uint32_t count);
+    void writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const;
+    void recordShadows(VkCommandBuffer commands, const Scene& scene) const;
+    void recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const;
+    [[nodiscard]] shared::DrawPush basePush(const Scene& scene, uint32_t light) const;
+    void bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const;
+    void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
+    void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
+    void drawSurface(VkCommandBuffer commands, const Scene& scene) const;
+    void drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const;
+    void drawCageEdges(VkCommandBuffer commands, const Scene& scene) const;
+
+    Device& device_;
+    StudioQuality quality_;
+    std::unique_ptr<DrawPipelines> pipelines_;
+    Image shadowMaps_;
+    std::vector<VkImageView> shadowLayers_;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::vector<Slot> slots_;
+};
+
+} // namespace supple::host

@@ -1,0 +1,213 @@
+// supple.h, asset.
+#include "cage/formats/reader.h"
+#include "cage/trim.h"
+#include "runtime/api/entry.h"
+
+#include <cstring>
+
+using namespace supple;      // NOLINT
+using namespace supple::api; // NOLINT
+
+namespace {
+
+static_assert(SUPPLE_WRAP_REPEAT == static_cast<int>(cage::Wrap::repeat) &&
+              SUPPLE_WRAP_CLAMP == static_cast<int>(cage::Wrap::clampToEdge) &&
+              SUPPLE_WRAP_MIRROR == static_cast<int>(cage::Wrap::mirroredRepeat));
+static_assert(SUPPLE_MAX_TRIM_TILES == cage::kMaxTrimTiles);
+
+Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::string& path) {
+    SuppleFileBytes found{};
+    if (files.read(path.c_str(), &found, files.user) == 0) {
+        return Error{ErrorCode::io, "the host has no such file"};
+    }
+    const auto* first = static_cast<const std::byte*>(found.bytes);
+    std::vector<std::byte> bytes(first, first + (first != nullptr ? found.byteCount : 0));
+    if (files.release != nullptr) {
+        files.release(&found, files.user);
+    }
+    return bytes;
+}
+
+/// A file in memory or arrays, as a character.
+Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
+    const std::string name = desc.name != nullptr ? desc.name : "asset";
+    if (desc.cage != nullptr) {
+        SuppleCageDesc cage{};
+        if (!runtime::readSized(*desc.cage, cage)) {
+            return Error{ErrorCode::structSize, "suppleCreateAsset: cage->structSize is wrong"};
+        }
+        return runtime::characterFromArrays(cage, name);
+    }
+    cage::GltfOptions options;
+    options.pairQuads = (desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0;
+    if (desc.files != nullptr) {
+        options.readFile = [files = *desc.files](const std::string& path) { return readThrough(files, path); };
+    }
+    return cage::readCharacter({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name,
+                               desc.baseDirectory != nullptr ? desc.baseDirectory : "", options);
+}
+
+} // namespace
+
+SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* given, SuppleAsset* out) {
+    constexpr const char* kHere = "suppleCreateAsset";
+    return onDevice(handle, kHere, [&](Context& context) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        out->id = 0;
+        SuppleAssetDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
+            return *fault;
+        }
+        if ((desc.bytes == nullptr) == (desc.cage == nullptr)) {
+            return refuse(context, ErrorCode::argument, kHere,
+                          std::string(desc.name != nullptr ? desc.name : "asset") +
+                              (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
+        }
+        if ((desc.flags & ~uint32_t{SUPPLE_ASSET_PAIR_QUADS}) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        }
+        if (desc.files != nullptr && desc.files->read == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "files->read is null");
+        }
+        Result<cage::Character> character = characterOf(desc);
+        if (!character) {
+            return report(context, character.error());
+        }
+        Result<uint64_t> id = context.createAsset(std::move(*character));
+        if (!id) {
+            return report(context, id.error());
+        }
+        out->id = *id;
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleDestroyAsset(SuppleContext handle, SuppleAsset asset) {
+    return guarded(handle, "suppleDestroyAsset", [&](Context& context) {
+        if (context.assets.remove(asset.id) == nullptr) {
+            return refuse(context, ErrorCode::staleHandle, "suppleDestroyAsset", "stale or foreign asset handle");
+        }
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleAssetInfo* out) {
+    return withAsset(handle, asset, "suppleGetAssetInfo", [&](Context& context, const Asset& found) {
+        return describe(context, "suppleGetAssetInfo", out, [&](SuppleAssetInfo& info) {
+            const cage::Character& character = found.character;
+            info.cageVertexCount = character.cage.vertexCount();
+            info.faceCount = character.cage.faceCount();
+            info.jointCount = static_cast<uint32_t>(character.skin.joints.size());
+            info.clipCount = static_cast<uint32_t>(character.clips.size());
+            info.materialCount = static_cast<uint32_t>(character.materials.size());
+            info.morphTargetCount = static_cast<uint32_t>(character.morphs.targets.size());
+            info.imageCount = static_cast<uint32_t>(character.images.size());
+            glm::vec3 low = character.cage.positions.front(), high = low;
+            for (const glm::vec3& p : character.cage.positions) {
+                low = glm::min(low, p);
+                high = glm::max(high, p);
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                info.boundsMin[axis] = low[axis];
+                info.boundsMax[axis] = high[axis];
+            }
+        });
+    });
+}
+
+SuppleResult suppleGetClipInfo(SuppleContext handle, SuppleAsset asset, uint32_t clip, SuppleClipInfo* out) {
+    return withAsset(handle, asset, "suppleGetClipInfo", [&](Context& context, const Asset& found) {
+        const auto& clips = found.character.clips;
+        return describePart(context, "suppleGetClipInfo", "clip", clip, clips.size(), out, [&](SuppleClipInfo& info) {
+            info.name = clips[clip].name.c_str();
+            info.duration = clips[clip].duration;
+        });
+    });
+}
+
+SuppleResult suppleGetJointInfo(SuppleContext handle, SuppleAsset asset, uint32_t joint, SuppleJointInfo* out) {
+    return withAsset(handle, asset, "suppleGetJointInfo", [&](Context& context, const Asset& found) {
+        const auto& joints = found.character.skin.joints;
+        return describePart(context, "suppleGetJointInfo", "joint", joint, joints.size(), out,
+                            [&](SuppleJointInfo& info) {
+                                info.name = found.character.skeleton.nodes[joints[joint]].name.c_str();
+                                info.parent = found.rig.jointParents[joint];
+                            });
+    });
+}
+
+SuppleResult suppleGetMorphTargetInfo(SuppleContext handle, SuppleAsset asset, uint32_t target,
+                                      SuppleMorphTargetInfo* out) {
+    return withAsset(handle, asset, "suppleGetMorphTargetInfo", [&](Context& context, const Asset& found) {
+        const cage::Morphs& morphs = found.character.morphs;
+        return describePart(context, "suppleGetMorphTargetInfo", "morph target", target, morphs.targets.size(), out,
+                            [&](SuppleMorphTargetInfo& info) {
+                                info.name = morphs.targets[target].name.c_str();
+                                info.weight = morphs.weights[target];
+                                info.vertexCount = static_cast<uint32_t>(morphs.targets[target].vertices.size());
+                            });
+    });
+}
+
+SuppleResult suppleGetMaterialInfo(SuppleContext handle, SuppleAsset asset, uint32_t material,
+                                   SuppleMaterialInfo* out) {
+    return withAsset(handle, asset, "suppleGetMaterialInfo", [&](Context& context, const Asset& found) {
+        const auto& materials = found.character.materials;
+        return describePart(context, "suppleGetMaterialInfo", "material", material, materials.size(), out,
+                            [&](SuppleMaterialInfo& info) {
+                                const cage::Material& from = materials[material];
+                                info.name = from.name.c_str();
+                                info.doubleSided = from.doubleSided ? 1 : 0;
+                                info.trimImage = SUPPLE_NO_IMAGE;
+                                if (const auto trim = cage::trimOf(from)) {
+                                    const bool face = trim->domain == cage::TrimDomain::face;
+                                    info.trimDomain = face ? SUPPLE_TRIM_FACE : SUPPLE_TRIM_UV;
+                                    info.trimImage = trim->image;
+                                    info.trimUvSet = trim->uvSet;
+                                    info.trimChannel = trim->channel;
+                                    info.trimCutoff = trim->cutoff;
+                                    info.trimFactor = from.trim ? 1.0f : from.baseColorFactor.a;
+                                    info.trimTiles = trim->tiles;
+                                    info.trimWrap[0] = static_cast<SuppleWrap>(trim->wrapU);
+                                    info.trimWrap[1] = static_cast<SuppleWrap>(trim->wrapV);
+                                }
+                            });
+    });
+}
+
+SuppleResult suppleGetImageInfo(SuppleContext handle, SuppleAsset asset, uint32_t image, SuppleImageInfo* out) {
+    return withAsset(handle, asset, "suppleGetImageInfo", [&](Context& context, const Asset& found) {
+        const auto& images = found.character.images;
+        return describePart(context, "suppleGetImageInfo", "image", image, images.size(), out,
+                            [&](SuppleImageInfo& info) {
+                                const cage::Image& from = images[image];
+                                info.name = from.name.c_str();
+                                info.mimeType = from.mimeType.c_str();
+                                info.bytes = from.bytes.empty() ? nullptr : from.bytes.data();
+                                info.byteCount = from.bytes.size();
+                            });
+    });
+}
+
+SuppleResult suppleFillJointMask(SuppleContext handle, SuppleAsset asset, uint32_t joint, float value, float* mask,
+                                 uint32_t jointCount) {
+    constexpr const char* kHere = "suppleFillJointMask";
+    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
+        if (mask == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "mask is null");
+        }
+        const size_t joints = found.character.skin.joints.size();
+        if (jointCount != joints || joint >= jointCount) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "joint " + std::to_string(joint) + ", jointCount " + std::to_string(jointCount) +
+                              ": the skin has " + std::to_string(joints));
+        }
+        if (!(value >= 0.0f && value <= 1.0f)) {
+            return refuse(context, ErrorCode::range, kHere, "value leaves 0..1");
+        }
+        skinning::fillJointMask(found.rig, joint, value, {mask, jointCount});
+        return SUPPLE_OK;
+    });
+}

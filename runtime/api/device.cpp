@@ -1,0 +1,114 @@
+// supple.h, device: version, requirements, context.
+#include "runtime/api/entry.h"
+
+#include <cstdio>
+#include <cstring>
+
+using namespace supple;      // NOLINT
+using namespace supple::api; // NOLINT
+
+uint32_t suppleGetVersion(void) {
+    return SUPPLE_VERSION;
+}
+
+const char* suppleResultString(SuppleResult result) {
+    switch (result) {
+    case SUPPLE_OK:
+        return "SUPPLE_OK";
+    case SUPPLE_NOT_READY:
+        return "SUPPLE_NOT_READY";
+    case SUPPLE_INCOMPLETE:
+        return "SUPPLE_INCOMPLETE";
+    case SUPPLE_ERROR_ARGUMENT:
+        return "SUPPLE_ERROR_ARGUMENT";
+    case SUPPLE_ERROR_ASSET:
+        return "SUPPLE_ERROR_ASSET";
+    case SUPPLE_ERROR_UNSUPPORTED:
+        return "SUPPLE_ERROR_UNSUPPORTED";
+    case SUPPLE_ERROR_LIMIT:
+        return "SUPPLE_ERROR_LIMIT";
+    case SUPPLE_ERROR_HOST_MEMORY:
+        return "SUPPLE_ERROR_HOST_MEMORY";
+    case SUPPLE_ERROR_DEVICE_MEMORY:
+        return "SUPPLE_ERROR_DEVICE_MEMORY";
+    case SUPPLE_ERROR_DEVICE_LOST:
+        return "SUPPLE_ERROR_DEVICE_LOST";
+    case SUPPLE_ERROR_VULKAN:
+        return "SUPPLE_ERROR_VULKAN";
+    }
+    return "unknown SuppleResult";
+}
+
+SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physicalDevice,
+                                     PFN_vkGetInstanceProcAddr getInstanceProcAddr, SuppleRequirements* out) {
+    if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr ||
+        out == nullptr || out->structSize < runtime::kFirstSize<SuppleRequirements>) {
+        return SUPPLE_ERROR_ARGUMENT;
+    }
+    try {
+        const gpu::Requirements requirements = gpu::requirements();
+        SuppleRequirements filled{};
+        filled.apiVersion = requirements.apiVersion;
+        filled.features12 = requirements.features12;
+        filled.features13 = requirements.features13;
+        const std::string missing = gpu::missingRequirement(instance, physicalDevice, getInstanceProcAddr);
+        std::snprintf(filled.reason, sizeof(filled.reason), "%s", missing.c_str());
+        runtime::writeSized(filled, *out);
+        return missing.empty() ? SUPPLE_OK : SUPPLE_ERROR_UNSUPPORTED;
+    } catch (const std::exception&) {
+        return SUPPLE_ERROR_HOST_MEMORY;
+    }
+}
+
+SuppleResult suppleCreateContext(const SuppleContextDesc* given, SuppleContext* out) {
+    if (out != nullptr) {
+        *out = nullptr;
+    }
+    // Without a description of a known size there is no callback to tell.
+    SuppleContextDesc desc{};
+    if (given == nullptr || given->structSize < runtime::kFirstSize<SuppleContextDesc>) {
+        return SUPPLE_ERROR_ARGUMENT;
+    }
+    try {
+        const auto refused = [&](ErrorCode code, const std::string& text) {
+            const Verdict verdict = verdictOf(code);
+            if (given->log != nullptr) {
+                given->log(SUPPLE_SEVERITY_ERROR, verdict.message, text.c_str(), given->logUser);
+            }
+            return verdict.result;
+        };
+        const auto refusedHere = [&](ErrorCode code, const char* reason) {
+            return refused(code, std::string("suppleCreateContext: ") + reason);
+        };
+        if (!runtime::readSized(*given, desc)) {
+            return refusedHere(ErrorCode::structSize, "desc has fields in use that this library lacks");
+        }
+        if (out == nullptr || desc.instance == VK_NULL_HANDLE || desc.physicalDevice == VK_NULL_HANDLE ||
+            desc.device == VK_NULL_HANDLE || desc.getInstanceProcAddr == nullptr) {
+            return refusedHere(ErrorCode::nullPointer,
+                               "out, instance, physicalDevice, device or getInstanceProcAddr is null");
+        }
+        constexpr uint32_t kFlags = SUPPLE_CONTEXT_DEBUG_UTILS | SUPPLE_CONTEXT_ASYNC_COMPUTE;
+        if (desc.framesInFlight > SUPPLE_MAX_FRAMES_IN_FLIGHT || !within(desc.mapping, SUPPLE_MAPPING_WIDE) ||
+            (desc.flags & ~kFlags) != 0) {
+            return refusedHere(
+                ErrorCode::range,
+                "framesInFlight must be 0..4, mapping one of SuppleMapping, flags of SuppleContextFlags");
+        }
+        if (desc.memory != nullptr && (desc.memory->allocate == nullptr || desc.memory->free == nullptr)) {
+            return refusedHere(ErrorCode::nullPointer, "memory->allocate or memory->free is null");
+        }
+        Result<std::unique_ptr<Context>> context = Context::create(desc);
+        if (!context) {
+            return refused(context.error().code, context.error().message);
+        }
+        *out = new SuppleContext_T{std::move(*context)};
+        return SUPPLE_OK;
+    } catch (const std::exception&) {
+        return SUPPLE_ERROR_HOST_MEMORY;
+    }
+}
+
+void suppleDestroyContext(SuppleContext context) {
+    delete context;
+}

@@ -1,0 +1,71 @@
+// supple.h, frame.
+#include "runtime/api/entry.h"
+
+using namespace supple;      // NOLINT
+using namespace supple::api; // NOLINT
+
+SuppleResult suppleBeginFrame(SuppleContext handle, uint64_t frame, uint64_t completedFrame) {
+    return onDevice(handle, "suppleBeginFrame",
+                    [&](Context& context) { return reportStatus(context, context.beginFrame(frame, completedFrame)); });
+}
+
+SuppleResult suppleCancelFrame(SuppleContext handle) {
+    return guarded(handle, "suppleCancelFrame",
+                   [&](Context& context) { return reportStatus(context, context.cancelFrame()); });
+}
+
+SuppleResult suppleRecordUploads(SuppleContext handle, VkCommandBuffer commandBuffer) {
+    return onDevice(handle, "suppleRecordUploads", [&](Context& context) {
+        if (commandBuffer == VK_NULL_HANDLE) {
+            return refuse(context, ErrorCode::nullPointer, "suppleRecordUploads", "commandBuffer is null");
+        }
+        return reportStatus(context, context.recordUploads(commandBuffer));
+    });
+}
+
+SuppleResult suppleRecord(SuppleContext handle, VkCommandBuffer commandBuffer, const SuppleRecordDesc* given) {
+    constexpr const char* kHere = "suppleRecord";
+    return onDevice(handle, kHere, [&](Context& context) {
+        if (commandBuffer == VK_NULL_HANDLE) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "commandBuffer is null");
+        }
+        SuppleRecordDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
+            return *fault;
+        }
+        if (desc.groupCount > 0 && desc.groups == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "groups is null");
+        }
+        if ((desc.flags & ~uint32_t{SUPPLE_RECORD_TIMINGS | SUPPLE_RECORD_NO_ENTRY_BARRIER}) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        }
+        return reportStatus(context, context.record(commandBuffer, desc));
+    });
+}
+
+SuppleResult suppleGetRecordScopes(SuppleSyncScope* first, SuppleSyncScope* last) {
+    if (first != nullptr) {
+        *first = Context::firstScope();
+    }
+    if (last != nullptr) {
+        *last = Context::lastScope();
+    }
+    return SUPPLE_OK;
+}
+
+SuppleResult suppleGetAcquireBarriers(SuppleContext handle, const SuppleGroup* groups, uint32_t groupCount,
+                                      SuppleSyncScope use, VkBufferMemoryBarrier2* out, uint32_t* count) {
+    constexpr const char* kHere = "suppleGetAcquireBarriers";
+    return guarded(handle, kHere, [&](Context& context) {
+        if (count == nullptr || (groups == nullptr && groupCount > 0)) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "count or groups is null");
+        }
+        const uint32_t room = out == nullptr ? 0 : *count;
+        const Result<uint32_t> total = context.acquireBarriers({groups, groupCount}, use, {out, room});
+        if (!total) {
+            return report(context, total.error());
+        }
+        *count = *total;
+        return out != nullptr && room < *total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
+    });
+}

@@ -1,0 +1,80 @@
+// supple.h, group.
+#include "runtime/api/entry.h"
+
+using namespace supple;      // NOLINT
+using namespace supple::api; // NOLINT
+
+SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* given, SuppleGroup* out) {
+    constexpr const char* kHere = "suppleCreateGroup";
+    return onDevice(handle, kHere, [&](Context& context) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        out->id = 0;
+        SuppleGroupDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
+            return *fault;
+        }
+        if (desc.capacity == 0) {
+            return refuse(context, ErrorCode::range, kHere, "capacity is 0");
+        }
+        if (desc.rate > SUPPLE_MAX_RATE) {
+            return refuse(context, ErrorCode::range, kHere, "rate must be 1..64");
+        }
+        if (!within(desc.scheme, SUPPLE_SCHEME_BLEND) && runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
+            return refuse(context, ErrorCode::range, kHere, "no such scheme");
+        }
+        constexpr uint32_t kFlags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION |
+                                    SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL;
+        if ((desc.flags & ~kFlags) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        }
+        if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.tangentMode, SUPPLE_TANGENTS_PRINTED) ||
+            !within(desc.cornerRule, SUPPLE_CORNERS_SMOOTH) || !within(desc.creaseMode, SUPPLE_CREASES_CURVE) ||
+            !within(desc.skinning, SUPPLE_SKINNING_DUAL_QUATERNION) ||
+            !within(desc.poseSource, SUPPLE_POSES_PLAYBACK)) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "no such vertexFormat, tangentMode, cornerRule, creaseMode, skinning or poseSource");
+        }
+        if (std::isnan(desc.sharpThreshold)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "sharpThreshold is NaN");
+        }
+        if (desc.sharpThreshold < 0.0f) {
+            return refuse(context, ErrorCode::range, kHere, "sharpThreshold is negative");
+        }
+        if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
+            return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");
+        }
+        if (desc.view.id != 0 && (desc.flags & ~uint32_t{SUPPLE_GROUP_ONE_LEVEL}) != 0) {
+            return refuse(context, ErrorCode::argument, kHere, "a group of a view has the view's flags");
+        }
+        if ((desc.flags & SUPPLE_GROUP_INDEXED_MESH) != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
+            return refuse(context, ErrorCode::argument, kHere, "a cage has no samples to share");
+        }
+        if (desc.view.id == 0 && (desc.flags & SUPPLE_GROUP_ONE_LEVEL) != 0) {
+            return refuse(context, ErrorCode::argument, kHere, "SUPPLE_GROUP_ONE_LEVEL without a view");
+        }
+        if (desc.view.id != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
+            return refuse(context, ErrorCode::argument, kHere, "a cage has no levels of detail");
+        }
+        Result<uint64_t> id = context.createGroup(desc);
+        if (!id) {
+            return report(context, id.error());
+        }
+        out->id = *id;
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleDestroyGroup(SuppleContext handle, SuppleGroup group) {
+    return guarded(handle, "suppleDestroyGroup", [&](Context& context) {
+        return context.destroyGroup(group.id)
+                   ? SUPPLE_OK
+                   : refuse(context, ErrorCode::staleHandle, "suppleDestroyGroup", "stale or foreign group handle");
+    });
+}
+
+SuppleResult suppleSetRate(SuppleContext handle, SuppleGroup group, uint32_t rate) {
+    return withGroup(handle, group, "suppleSetRate",
+                     [&](Context& context, Group& found) { return reportStatus(context, found.setRate(rate)); });
+}

@@ -1,0 +1,47 @@
+// supple.h, instance.
+#include "runtime/api/entry.h"
+
+using namespace supple;      // NOLINT
+using namespace supple::api; // NOLINT
+
+SuppleResult suppleCreateInstance(SuppleContext handle, SuppleGroup group, SuppleInstance* out) {
+    constexpr const char* kHere = "suppleCreateInstance";
+    return withGroup(handle, group, kHere, [&](Context& context, Group& found) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        *out = {};
+        const std::optional<uint32_t> slot = found.slots().create();
+        if (!slot) {
+            return refuse(context, ErrorCode::limit, kHere,
+                          "the group is full: its capacity is " + std::to_string(found.slots().capacity()));
+        }
+        found.poses().reset(*slot);
+        *out = {group, *slot, found.slots().generation(*slot)};
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleDestroyInstance(SuppleContext handle, SuppleInstance instance) {
+    return withInstance(handle, instance, "suppleDestroyInstance", [&](Context&, Group& found) {
+        found.slots().destroy(instance.slot);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetVisible(SuppleContext handle, SuppleInstance instance, uint32_t visible) {
+    return withInstance(handle, instance, "suppleSetVisible", [&](Context& context, Group& found) {
+        if (visible > 1) {
+            return refuse(context, ErrorCode::range, "suppleSetVisible", "visible must be 0 or 1");
+        }
+        found.slots().setVisible(instance.slot, visible == 1);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleTeleport(SuppleContext handle, SuppleInstance instance) {
+    return withInstance(handle, instance, "suppleTeleport", [&](Context&, Group& found) {
+        found.slots().forget(instance.slot);
+        return SUPPLE_OK;
+    });
+}

@@ -1,0 +1,134 @@
+// supple.h, pose.
+#include "runtime/api/poses.h"
+#include "runtime/pose_desc.h"
+
+#include <cstring>
+#include <glm/gtc/type_ptr.hpp>
+
+using namespace supple;      // NOLINT
+using namespace supple::api; // NOLINT
+
+SuppleResult suppleSetClipPose(SuppleContext handle, SuppleInstance instance, uint32_t clip, double time) {
+    constexpr const char* kHere = "suppleSetClipPose";
+    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (clip == SUPPLE_BIND_POSE) {
+            found.poses().host()->setBindPose(instance.slot);
+            return SUPPLE_OK;
+        }
+        if (clip == SUPPLE_REST_POSE) {
+            found.poses().host()->setRestPose(instance.slot);
+            return SUPPLE_OK;
+        }
+        const size_t clips = found.asset().character.clips.size();
+        if (clip >= clips) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "clip " + std::to_string(clip) + " of " + std::to_string(clips));
+        }
+        if (!std::isfinite(time)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "time is not finite");
+        }
+        found.poses().host()->setClipPose(instance.slot, clip, time);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetPose(SuppleContext handle, SuppleInstance instance, const SupplePoseDesc* given) {
+    constexpr const char* kHere = "suppleSetPose";
+    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        SupplePoseDesc pose{};
+        if (const auto fault = takeIn(context, kHere, "pose", given, pose)) {
+            return *fault;
+        }
+        const Status valid = runtime::checkPose(found.asset(), pose);
+        if (!valid) {
+            return refuse(context, valid.error().code, kHere, valid.error().message);
+        }
+        found.poses().host()->setLayers(instance.slot, pose);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetRootMotion(SuppleContext handle, SuppleAsset asset, const SupplePoseDesc* given,
+                                 SuppleRootMotion* out) {
+    constexpr const char* kHere = "suppleGetRootMotion";
+    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
+        if (const auto fault = checkOut(context, kHere, out)) {
+            return *fault;
+        }
+        SupplePoseDesc pose{};
+        if (const auto fault = takeIn(context, kHere, "pose", given, pose)) {
+            return *fault;
+        }
+        const Status valid = runtime::checkPose(found, pose);
+        if (!valid) {
+            return refuse(context, valid.error().code, kHere, valid.error().message);
+        }
+        const skinning::RootMotion motion = runtime::rootMotionOf(found, pose);
+        const glm::mat4 transform(skinning::toMatrix(motion));
+        SuppleRootMotion filled{};
+        for (int axis = 0; axis < 3; ++axis) {
+            filled.translation[axis] = transform[3][axis];
+        }
+        filled.yaw = static_cast<float>(motion.yaw);
+        std::memcpy(filled.transform, glm::value_ptr(transform), sizeof(filled.transform));
+        runtime::writeSized(filled, *out);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetMorphWeights(SuppleContext handle, SuppleInstance instance, const float* weights,
+                                   uint32_t morphTargetCount) {
+    constexpr const char* kHere = "suppleSetMorphWeights";
+    return withAnyPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (weights != nullptr) {
+            const size_t targets = found.asset().character.morphs.targets.size();
+            if (morphTargetCount != targets) {
+                return refuse(context, ErrorCode::range, kHere,
+                              "morphTargetCount " + std::to_string(morphTargetCount) + ": the asset has " +
+                                  std::to_string(targets));
+            }
+            if (!finite(weights, morphTargetCount)) {
+                return refuse(context, ErrorCode::notFinite, kHere, "a weight is not finite");
+            }
+        }
+        found.poses().setMorphWeights(instance.slot, weights);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleInstance instance, const float* jointMatrices,
+                                 uint32_t jointCount) {
+    constexpr const char* kHere = "suppleSetMatrixPose";
+    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (jointMatrices == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "jointMatrices is null");
+        }
+        const size_t joints = found.asset().character.skin.joints.size();
+        if (jointCount != joints) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "jointCount " + std::to_string(jointCount) + ": the skin has " + std::to_string(joints));
+        }
+        if (!finite(jointMatrices, 16 * size_t{jointCount})) {
+            return refuse(context, ErrorCode::notFinite, kHere, "a joint matrix is not finite");
+        }
+        found.poses().host()->setMatrixPose(instance.slot, jointMatrices);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetTransform(SuppleContext handle, SuppleInstance instance, const float* transform) {
+    constexpr const char* kHere = "suppleSetTransform";
+    return withAnyPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (transform == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "transform is null");
+        }
+        if (!finite(transform, 16)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "transform is not finite");
+        }
+        if (transform[3] != 0.0f || transform[7] != 0.0f || transform[11] != 0.0f || transform[15] != 1.0f) {
+            return refuse(context, ErrorCode::range, kHere, "the last row is not 0, 0, 0, 1");
+        }
+        found.poses().setTransform(instance.slot, glm::make_mat4(transform));
+        return SUPPLE_OK;
+    });
+}

@@ -1,0 +1,160 @@
+// supple_view.h.
+#include "runtime/api/entry.h"
+
+#include <bit>
+
+using namespace supple;      // NOLINT
+using namespace supple::api; // NOLINT
+
+SuppleResult suppleCreateView(SuppleContext handle, const SuppleViewDesc* given, SuppleView* out) {
+    constexpr const char* kHere = "suppleCreateView";
+    return onDevice(handle, kHere, [&](Context& context) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        out->id = 0;
+        SuppleViewDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
+            return *fault;
+        }
+        constexpr uint32_t kFlags = SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1 |
+                                    SUPPLE_VIEW_FACE_UVS | SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION |
+                                    SUPPLE_VIEW_BACK_FACES;
+        if ((desc.flags & ~kFlags) != 0 || !within(desc.vertexFormat, SUPPLE_VERTEX_24)) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags, or no such vertexFormat");
+        }
+        if ((desc.flags & (SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_FACE_UVS)) != 0 &&
+            (desc.flags & SUPPLE_VIEW_ATTRIBUTES) == 0) {
+            return refuse(context, ErrorCode::argument, kHere, "UVS1 and FACE_UVS go with ATTRIBUTES");
+        }
+        if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0 && (desc.flags & SUPPLE_VIEW_CULL) == 0) {
+            return refuse(context, ErrorCode::argument, kHere, "OCCLUSION goes with CULL");
+        }
+        if (desc.maxVertices < 1024) {
+            return refuse(context, ErrorCode::range, kHere, "maxVertices is below 1024");
+        }
+        if (!std::all_of(std::begin(desc.elasticities), std::end(desc.elasticities),
+                         [](float e) { return e >= 0.0f && e <= 1.0f; })) {
+            return refuse(context, ErrorCode::range, kHere, "an elasticity leaves 0..1");
+        }
+        Result<uint64_t> id = context.createView(desc);
+        if (!id) {
+            return report(context, id.error());
+        }
+        out->id = *id;
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleDestroyView(SuppleContext handle, SuppleView view) {
+    return guarded(handle, "suppleDestroyView", [&](Context& context) {
+        return context.destroyView(view.id)
+                   ? SUPPLE_OK
+                   : refuse(context, ErrorCode::staleHandle, "suppleDestroyView", "stale or foreign view handle");
+    });
+}
+
+SuppleResult suppleSetPriority(SuppleContext handle, SuppleInstance instance, uint32_t priority) {
+    constexpr const char* kHere = "suppleSetPriority";
+    return withInstance(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (found.view() == nullptr) {
+            return refuse(context, ErrorCode::argument, kHere, "the group belongs to no view");
+        }
+        if (priority >= SUPPLE_PRIORITY_COUNT) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "priority " + std::to_string(priority) + " of " + std::to_string(SUPPLE_PRIORITY_COUNT));
+        }
+        found.slots().setPriority(instance.slot, priority);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetCamera(SuppleContext handle, SuppleView view, const SuppleCameraDesc* given) {
+    constexpr const char* kHere = "suppleSetCamera";
+    return withView(handle, view, kHere, [&](Context& context, View& found) {
+        SuppleCameraDesc camera{};
+        if (const auto fault = takeIn(context, kHere, "camera", given, camera)) {
+            return *fault;
+        }
+        if ((camera.flags & ~uint32_t{SUPPLE_CAMERA_ORTHOGRAPHIC}) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        }
+        const float values[] = {camera.position[0], camera.position[1],   camera.position[2],  camera.pixelsPerUnit,
+                                camera.nearest,     camera.chordError,    camera.smallestEdge, camera.edgeLength,
+                                camera.farthest,    camera.smallestRadius};
+        if (!finite(values, std::size(values)) || !finite(camera.viewProjection, 16) || !finite(camera.direction, 3)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "the camera is not finite");
+        }
+        if (camera.pixelsPerUnit <= 0.0f ||
+            std::any_of(std::begin(values) + 4, std::end(values), [](float x) { return x < 0.0f; })) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "pixelsPerUnit must be positive; all other lengths not negative");
+        }
+        const bool needsDirection =
+            (camera.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0 && (found.desc().flags & SUPPLE_VIEW_BACK_FACES) != 0;
+        if (needsDirection &&
+            std::all_of(std::begin(camera.direction), std::end(camera.direction), [](float x) { return x == 0.0f; })) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "the view has BACK_FACES and the camera is orthographic: direction is zero");
+        }
+        found.setCamera(camera);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetDepthPyramid(SuppleContext handle, SuppleView view, const SuppleDepthPyramidDesc* given) {
+    constexpr const char* kHere = "suppleSetDepthPyramid";
+    return withView(handle, view, kHere, [&](Context& context, View& found) {
+        if ((found.desc().flags & SUPPLE_VIEW_OCCLUSION) == 0) {
+            return refuse(context, ErrorCode::argument, kHere, "the view was created without SUPPLE_VIEW_OCCLUSION");
+        }
+        if (given == nullptr) {
+            found.setDepthPyramid(std::nullopt);
+            return SUPPLE_OK;
+        }
+        SuppleDepthPyramidDesc pyramid{};
+        if (const auto fault = takeIn(context, kHere, "pyramid", given, pyramid)) {
+            return *fault;
+        }
+        if ((pyramid.flags & ~uint32_t{SUPPLE_DEPTH_REVERSED}) != 0) {
+            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        }
+        if (pyramid.view == VK_NULL_HANDLE) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "view is null");
+        }
+        if (pyramid.layout != VK_IMAGE_LAYOUT_GENERAL && pyramid.layout != VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL &&
+            pyramid.layout != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "layout is not GENERAL, SHADER_READ_ONLY_OPTIMAL or READ_ONLY_OPTIMAL");
+        }
+        const uint32_t side = std::max(pyramid.width, pyramid.height), limit = context.maxImageSide();
+        if (pyramid.width == 0 || pyramid.height == 0 || side > limit) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "width and height must be 1.." + std::to_string(limit) + ", as the device's images");
+        }
+        const auto most = static_cast<uint32_t>(std::bit_width(side));
+        if (pyramid.levels == 0 || pyramid.levels > most) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "levels must be 1.." + std::to_string(most) + " for " + std::to_string(pyramid.width) +
+                              " x " + std::to_string(pyramid.height));
+        }
+        if (!finite(pyramid.viewProjection, 16)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "viewProjection is not finite");
+        }
+        found.setDepthPyramid(pyramid);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetViewStatistics(SuppleContext handle, SuppleView view, SuppleViewStatistics* out) {
+    constexpr const char* kHere = "suppleGetViewStatistics";
+    return withView(handle, view, kHere, [&](Context& context, View& found) {
+        if (const auto fault = checkOut(context, kHere, out)) {
+            return *fault;
+        }
+        SuppleViewStatistics statistics = found.statistics();
+        statistics.structSize = sizeof(statistics);
+        runtime::writeSized(statistics, *out);
+        return statistics.frame > 0 ? SUPPLE_OK : SUPPLE_NOT_READY;
+    });
+}

@@ -1,0 +1,140 @@
+#include "runtime/culling/bounds_pass.h"
+
+#include "shaders/bounds_bounds_comp.h"
+#include "shaders/bounds_demand_comp.h"
+#include "shaders/bounds_list_comp.h"
+#include "shaders/bounds_rates_comp.h"
+#include "shaders/bounds_size_comp.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+
+static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16 && sizeof(ListDraw) == 16);
+
+namespace {
+
+constexpr uint32_t kPushBytes = std::max({sizeof(BoundsPush), sizeof(ListPush), sizeof(DemandPush), sizeof(RatesPush)});
+static_assert(kPushBytes <= gpu::kPushConstantBytes);
+
+} // namespace
+
+size_t listTableBytes(size_t windows, size_t arguments, size_t draws) {
+    return windows * sizeof(ListWindow) + arguments * sizeof(ListArgument) + draws * sizeof(ListDraw);
+}
+
+void writeListTable(std::span<const ListWindow> windows, std::span<const ListArgument> arguments,
+                    std::span<const ListDraw> draws, std::byte* target) {
+    const auto put = [&](std::span<const std::byte> bytes) { target = std::copy(bytes.begin(), bytes.end(), target); };
+    put(std::as_bytes(windows));
+    put(std::as_bytes(arguments));
+    put(std::as_bytes(draws));
+}
+
+std::array<float, 24> frustumPlanes(const std::array<float, 16>& columns) {
+    const auto row = [&](size_t r) {
+        return std::array<float, 4>{columns[r], columns[4 + r], columns[8 + r], columns[12 + r]};
+    };
+    const std::array<float, 4> x = row(0), y = row(1), z = row(2), w = row(3);
+    std::array<float, 24> planes{};
+    for (size_t c = 0; c < 4; ++c) { // -w <= x <= w, -w <= y <= w, 0 <= z <= w
+        const float sides[6] = {w[c] + x[c], w[c] - x[c], w[c] + y[c], w[c] - y[c], z[c], w[c] - z[c]};
+        for (size_t k = 0; k < 6; ++k) {
+            planes[4 * k + c] = sides[k];
+        }
+    }
+    return planes;
+}
+
+Result<BoundsPass> BoundsPass::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
+    using gpu::narrowTexels, gpu::storage, gpu::wideStorage;
+    const gpu::Binding bounds[] = {
+        wideStorage(kBoundsCageBinding), narrowTexels(kBoundsCageTexelBinding), storage(kBoundsBinding),
+        storage(kBoundsStateBinding),    wideStorage(kHostListBinding),         narrowTexels(kHostListTexelBinding),
+        storage(kCullViewBinding),
+    };
+    const gpu::Binding list[] = {
+        storage(kBoundsBinding),       storage(kBoundsStateBinding),        narrowTexels(kBoundsStateTexelBinding),
+        wideStorage(kHostListBinding), narrowTexels(kHostListTexelBinding), storage(kListBinding),
+        storage(kListArgumentBinding), storage(kListTableBinding),          storage(kSizeBinding),
+        storage(kViewWordsBinding),
+    };
+    BoundsPass pass;
+    pass.device_ = &device;
+    pass.pipelines_ = &pipelines;
+    Status status = success();
+    const auto makeLayout = [&](gpu::ComputeLayout& target, std::span<const gpu::Binding> bindings, const char* name) {
+        Result<gpu::ComputeLayout> made = gpu::ComputeLayout::create(device, bindings, kPushBytes, name);
+        status = made ? success() : made.error();
+        if (made) {
+            target = std::move(*made);
+        }
+    };
+    makeLayout(pass.boundsLayout_, bounds, "supple bounds");
+    if (status) {
+        makeLayout(pass.listLayout_, list, "supple list");
+    }
+    status = status ? pass.make(pass.bounds_, pass.boundsLayout_, bounds_bounds_comp, "supple bounds") : status;
+    status = status ? pass.make(pass.sizes_, pass.listLayout_, bounds_size_comp, "supple sizes of instances") : status;
+    status = status ? pass.make(pass.list_, pass.listLayout_, bounds_list_comp, "supple list of instances") : status;
+    if (!status) {
+        return status.error();
+    }
+    return pass;
+}
+
+Status BoundsPass::make(gpu::Kernel& target, const gpu::ComputeLayout& layout, const gpu::Spirv& spirv,
+                        const char* name) {
+    const Result<gpu::Kernel> made = pipelines_->get(layout, spirv, {}, name);
+    if (!made) {
+        return made.error();
+    }
+    target = *made;
+    return success();
+}
+
+Status BoundsPass::prepareRates() {
+    const Status made = make(demand_, listLayout_, bounds_demand_comp, "supple demand of rates");
+    return made ? make(rates_, listLayout_, bounds_rates_comp, "supple lists of rates") : made;
+}
+
+template <class Push>
+void BoundsPass::record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set, const Push& push,
+                        uint64_t groups) const {
+    if (groups > 0) {
+        gpu::bind(*device_, commandBuffer, kernel, set, push);
+        gpu::dispatchLinear(*device_, commandBuffer, groups);
+    }
+}
+
+uint64_t BoundsPass::groupsFor(uint32_t lanes) const {
+    return (uint64_t{lanes} + device_->mapping.localSize - 1) / device_->mapping.localSize;
+}
+
+void BoundsPass::recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const BoundsPush& push) const {
+    record(commandBuffer, bounds_, set, push,
+           device_->mapping.wide ? push.instanceCount : groupsFor(push.instanceCount));
+}
+
+void BoundsPass::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set, const SizePush& push) const {
+    record(commandBuffer, sizes_, set, push, groupsFor(push.instanceCount));
+}
+
+void BoundsPass::recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const DemandPush& push) const {
+    record(commandBuffer, demand_, set, push, groupsFor(push.instanceCount));
+}
+
+void BoundsPass::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {
+    push.maxGroups = gpu::maxGroupsInX(*device_);
+    record(commandBuffer, list_, set, push, 1);
+}
+
+void BoundsPass::recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, RatesPush push) const {
+    push.maxGroups = gpu::maxGroupsInX(*device_);
+    record(commandBuffer, rates_, set, push, 1);
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,292 @@
+#include "runtime/culling/culling.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+
+namespace {
+
+constexpr VkDeviceSize kBoundsBytes = 32, kStateBytes = 8, kWordBytes = 4, kElementBytes = 16;
+constexpr uint32_t kDrawWords = 5;    ///< VkDrawIndexedIndirectCommand
+constexpr uint32_t kOffsetWords = 64; ///< descriptor offsets need at most 256-byte alignment
+
+VkDescriptorBufferInfo whole(VkBuffer buffer) {
+    return {buffer, 0, VK_WHOLE_SIZE};
+}
+
+/// Makes a pool and allocates as many sets of it as there are entries in `sets`.
+Status allocateSets(const gpu::Device& device, const gpu::ComputeLayout& layout, const char* name,
+                    gpu::DescriptorPoolHandle& pool, std::span<VkDescriptorSet> sets) {
+    Result<gpu::DescriptorPoolHandle> made =
+        gpu::createDescriptorPool(device, layout, static_cast<uint32_t>(sets.size()), name);
+    if (!made) {
+        return made.error();
+    }
+    pool = std::move(*made);
+    for (VkDescriptorSet& set : sets) {
+        const Result<VkDescriptorSet> own = gpu::allocateSet(device, layout, pool.get(), name);
+        if (!own) {
+            return own.error();
+        }
+        set = *own;
+    }
+    return success();
+}
+
+} // namespace
+
+uint32_t Culling::firstRateList() const {
+    return (3 * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+}
+
+uint32_t Culling::rateStride() const {
+    return (2 * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+}
+
+void Culling::addDispatches(const Needs& needs) {
+    const auto add = [&](const surface::DispatchSize& size, uint32_t count) {
+        const auto target = headerWords() + 3 * static_cast<uint32_t>(arguments_.size());
+        arguments_.push_back({size.elements, size.perGroup, count, target});
+    };
+    for (const surface::DispatchSize& size : needs.sizes) {
+        add(size, kCountWindow);
+    }
+    for (uint32_t r = 0; r < needs.rates.size(); ++r) {
+        const Rate& rate = needs.rates[r];
+        rateVertices_[r] = rate.vertices;
+        firstDispatches_.push_back(static_cast<uint32_t>(arguments_.size()));
+        for (const surface::DispatchSize& size : rate.sizes) {
+            add(size, kCountRate + r);
+        }
+        for (const SuppleDrawRange& draw : rate.draws) {
+            draws_.push_back({draw.indexCount, draw.firstIndex, draw.patchCount, r});
+        }
+    }
+}
+
+std::unique_ptr<Culling> Culling::create(const Desc& desc, const Needs& needs) {
+    auto culling = std::make_unique<Culling>();
+    culling->device_ = desc.device;
+    culling->pass_ = desc.pass;
+    culling->occlusion_ = desc.occlusion;
+    culling->windows_ = desc.windows;
+    culling->framesInFlight_ = desc.framesInFlight;
+    culling->listed_.resize(desc.windows->count());
+    culling->firstRate_ = needs.firstRate;
+    culling->leastVertices_ = needs.leastVertices;
+    BoundsPush& push = culling->push_;
+    push.vertexCount = desc.cageVertices;
+    push.cageStride = desc.cageStride;
+    push.margin = needs.margin;
+    push.longest = needs.measure.longest;
+    push.bend = needs.measure.bend;
+    culling->addDispatches(needs);
+    return culling;
+}
+
+void Culling::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
+    constexpr VkBufferUsageFlags kStorage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkDeviceSize n = windows_->capacity;
+    const VkDeviceSize words = firstArgument() + firstDraw() + kDrawWords * VkDeviceSize{draws_.size()};
+    const VkDeviceSize tableBytes = listTableBytes(windows_->count(), arguments_.size(), draws_.size());
+    bounds_ = device.add({"supple bounds", n * kBoundsBytes, kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+    states_ = device.add({"supple visibility", n * kStateBytes, kStorage | kCopied});
+    list_ = device.add({"supple instances seen", words * kWordBytes,
+                        kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+    table_ = device.add({"supple list table", tableBytes, kStorage | kCopied});
+    tables_.plan(staging, "supple list table staging", tableBytes, framesInFlight_);
+}
+
+Status Culling::createSets(const Buffers& buffers) {
+    boundsSets_.resize(windows_->count());
+    Status status = allocateSets(*device_, pass_->boundsLayout(), "supple bounds", boundsPool_, boundsSets_);
+    status = status ? allocateSets(*device_, pass_->listLayout(), "supple list", listPool_, {&listSet_, 1}) : status;
+    const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
+        return views_.make(*device_, buffer, format, offset, size, name, status);
+    };
+    const VkDeviceSize hostListBytes = VkDeviceSize{windows_->capacity} * kWordBytes;
+    const VkDeviceSize arguments = VkDeviceSize{firstArgument()} * kWordBytes;
+    const VkDeviceSize cageBytes = VkDeviceSize{push_.cageStride} * kElementBytes;
+    std::vector<gpu::BoundResource> resources = {
+        {kBoundsBinding, whole(bounds_.buffer()), VK_NULL_HANDLE},
+        {kBoundsStateBinding, whole(states_.buffer()), VK_NULL_HANDLE},
+        {kBoundsStateTexelBinding,
+         {},
+         view(states_.buffer(), VK_FORMAT_R32G32_UINT, 0, states_.size(), "supple visibility")},
+        {kHostListBinding, {buffers.hostList, 0, hostListBytes}, VK_NULL_HANDLE},
+        {kHostListTexelBinding, {}, view(buffers.hostList, VK_FORMAT_R32_UINT, 0, hostListBytes, "supple instances")},
+        {kListBinding, {list_.buffer(), 0, arguments}, VK_NULL_HANDLE},
+        {kListArgumentBinding, {list_.buffer(), arguments, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
+        {kListTableBinding, whole(table_.buffer()), VK_NULL_HANDLE},
+        {kCullViewBinding, whole(buffers.view), VK_NULL_HANDLE},
+        {kSizeBinding, whole(buffers.sizes), VK_NULL_HANDLE},
+        {kViewWordsBinding, whole(buffers.words), VK_NULL_HANDLE},
+    };
+    if (!status) {
+        return status;
+    }
+    gpu::writeSet(*device_, pass_->listLayout(), listSet_, resources);
+    const size_t own = resources.size();
+    for (uint32_t w = 0; w < windows_->count() && status; ++w) {
+        const VkDeviceSize first = windows_->firstSlot(w) * cageBytes, bytes = windows_->slots(w) * cageBytes;
+        resources.resize(own);
+        resources.push_back({kBoundsCageBinding, {buffers.cages, first, bytes}, VK_NULL_HANDLE});
+        resources.push_back({kBoundsCageTexelBinding,
+                             {},
+                             view(buffers.cages, VK_FORMAT_R32G32B32A32_SFLOAT, first, bytes, "supple deformed cage")});
+        if (status) {
+            gpu::writeSet(*device_, pass_->boundsLayout(), boundsSets_[w], resources);
+        }
+    }
+    if (status && occlusion_ != nullptr) {
+        std::vector<VkDescriptorSet> sets(framesInFlight_);
+        status = allocateSets(*device_, occlusion_->layout(), "supple occlusion", occlusionPool_, sets);
+        for (size_t f = 0; f < sets.size() && status; ++f) {
+            gpu::writeSet(*device_, occlusion_->layout(), sets[f], std::span(resources).first(own));
+            occlusionSets_.push_back({sets[f], 0});
+        }
+    }
+    return status;
+}
+
+void Culling::list(InstanceSlots& slots, std::span<uint32_t> all, std::span<uint32_t> byWindow,
+                   InstanceWindows& windows) {
+    slots.listForCulling(all);
+    windows.visible = slots.list({}, byWindow, windows.size, windows.listed);
+    uint32_t first = 0;
+    for (uint32_t w = 0; w < windows.count(); ++w) {
+        listed_[w] = {first, windows.listed[w].count, windows.firstSlot(w), windows.firstEntry(w)};
+        first += windows.listed[w].count;
+    }
+    writeListTable(listed_, arguments_, draws_, tables_.next());
+}
+
+VkDeviceSize Culling::recordUpload(VkCommandBuffer commandBuffer) {
+    return tables_.recordCopy(*device_, commandBuffer, 0, table_.buffer(), 0, table_.size());
+}
+
+PassCost Culling::cost(uint64_t points, uint64_t) const {
+    return {0, 0, points > 0 && windows_->visible > 0};
+}
+
+void Culling::fill(SuppleGroupOutput& output) const {
+    output.instances = {list_.buffer(), 0, VkDeviceSize{windows_->capacity} * kWordBytes, sizeof(uint32_t)};
+    output.bounds = {bounds_.buffer(), 0, bounds_.size(), static_cast<uint32_t>(kBoundsBytes)};
+}
+
+void Culling::addTransfers(Transfers& transfers) const {
+    transfers.add(list_.buffer());
+    transfers.add(bounds_.buffer());
+}
+
+void Culling::recordClear(VkCommandBuffer commandBuffer) const {
+    device_->vk.CmdFillBuffer(commandBuffer, states_.buffer(), 0, VK_WHOLE_SIZE, 0);
+}
+
+PassCost Culling::recordBounds(VkCommandBuffer commandBuffer) const {
+    BoundsPush push = push_;
+    for (uint32_t w = 0; w < windows_->count(); ++w) {
+        push.instanceCount = windows_->listed[w].count;
+        push.firstSlot = windows_->firstSlot(w);
+        pass_->recordBounds(commandBuffer, boundsSets_[w], push);
+        push.firstEntry += push.instanceCount;
+    }
+    return {windows_->visible, windows_->visible * kBoundsBytes};
+}
+
+PassCost Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
+                                  uint64_t generation) {
+    if (windows_->visible == 0) {
+        return {};
+    }
+    OcclusionSet& own = occlusionSets_[place];
+    if (own.generation != generation) {
+        occlusion_->writePyramid(own.set, pyramid.view, pyramid.layout);
+        own.generation = generation;
+    }
+    OcclusionPush push{};
+    std::copy_n(pyramid.viewProjection, 16, push.columns);
+    push.instanceCount = windows_->visible;
+    push.width = pyramid.width;
+    push.height = pyramid.height;
+    push.levels = pyramid.levels;
+    push.reversed = (pyramid.flags & SUPPLE_DEPTH_REVERSED) != 0 ? 1 : 0;
+    occlusion_->record(commandBuffer, own.set, push);
+    return {0, 0, true};
+}
+
+void Culling::recordSizes(VkCommandBuffer commandBuffer) const {
+    pass_->recordSizes(commandBuffer, listSet_, {0, windows_->visible, leastVertices_});
+}
+
+PassCost Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
+    ListPush push{};
+    push.room = room;
+    push.levels = windows_->capacity;
+    push.windowCount = windows_->count();
+    push.argumentCount = static_cast<uint32_t>(arguments_.size());
+    push.argumentStride = argumentStride();
+    pass_->recordList(commandBuffer, listSet_, push);
+    return {0, 0, true};
+}
+
+PassCost Culling::recordDemand(VkCommandBuffer commandBuffer) const {
+    DemandPush push{};
+    push.instanceCount = windows_->visible;
+    push.rateCount = rateCount();
+    push.firstRate = firstRate_;
+    std::ranges::copy(rateVertices_, push.vertices);
+    pass_->recordDemand(commandBuffer, listSet_, push);
+    return {0, 0, windows_->visible > 0};
+}
+
+PassCost Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const {
+    RatesPush push{};
+    push.windowCount = windows_->count();
+    push.argumentCount = static_cast<uint32_t>(arguments_.size());
+    push.argumentStride = argumentStride();
+    push.rateCount = rateCount();
+    push.firstRate = firstRate_;
+    push.rateLists = firstRateList();
+    push.rateStride = rateStride();
+    push.rateCounts = firstRateCount();
+    push.firstDraw = firstDraw();
+    push.drawCount = static_cast<uint32_t>(draws_.size());
+    push.counted = counted ? 1 : 0;
+    std::ranges::copy(rateVertices_, push.vertices);
+    pass_->recordRates(commandBuffer, listSet_, push);
+    return {0, 0, windows_->visible > 0};
+}
+
+surface::Window Culling::window(uint32_t window) const {
+    surface::Window result;
+    result.push.firstInstance = windows_->firstEntry(window);
+    result.push.instanceCount = (firstArgument() + kListHeaderWords * (1 + window)) | kCountOnDevice;
+    result.push.firstSlot = windows_->firstSlot(window);
+    result.arguments = list_.buffer();
+    result.firstArgument = VkDeviceSize{firstArgument() + headerWords() + argumentStride() * window} * kWordBytes;
+    return result;
+}
+
+surface::Window Culling::window(uint32_t window, uint32_t rate) const {
+    surface::Window result = this->window(window);
+    result.push.firstInstance = firstRateList() + rate * rateStride() + windows_->firstEntry(window);
+    result.push.instanceCount =
+        (firstArgument() + firstRateCount() + rate * windows_->count() + window) | kCountOnDevice;
+    result.firstArgument += 3 * firstDispatches_[rate] * kWordBytes;
+    return result;
+}
+
+VkDeviceSize Culling::rateListOffset(uint32_t rate) const {
+    return VkDeviceSize{firstRateList() + rate * rateStride()} * kWordBytes;
+}
+
+VkDeviceSize Culling::drawOffset() const {
+    return VkDeviceSize{firstArgument() + firstDraw()} * kWordBytes;
+}
+
+} // namespace supple::runtime

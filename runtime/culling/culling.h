@@ -1,0 +1,138 @@
+// Which instances of a group its view sees: bounds of their deformed cages, the list of those that are left, and the
+// arguments of what is dispatched and drawn for them (shaders/shared/bounds.h).
+#pragma once
+
+#include "base/result.h"
+#include "gpu/buffer_plan.h"
+#include "runtime/change_staging.h"
+#include "runtime/culling/bounds_pass.h"
+#include "runtime/culling/occlusion_pass.h"
+#include "runtime/culling/visibility.h"
+#include "surface/lod/instance.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace supple::runtime {
+
+/// Recording allocates nothing.
+class Culling final : public Visibility {
+public:
+    /// What is dispatched and drawn for the instances of one rate.
+    struct Rate {
+        uint32_t vertices = 0; ///< of an instance
+        std::vector<surface::DispatchSize> sizes;
+        std::span<const SuppleDrawRange> draws; ///< of all windows
+    };
+    /// What the group's tessellation asks for.
+    struct Needs {
+        std::vector<surface::DispatchSize> sizes; ///< dispatched for what is seen, by argument number
+        surface::lod::InstanceMeasure measure;
+        float margin = 0.0f;        ///< how far the surface may lie outside the box of its cage, as a part of its size
+        uint32_t leastVertices = 0; ///< of an instance at its coarsest
+        uint32_t firstRate = 0;     ///< segments along an edge of the cage; each further rate has twice as many
+        std::vector<Rate> rates;    ///< none if levels are real numbers
+    };
+    struct Desc {
+        const gpu::Device* device = nullptr;
+        const BoundsPass* pass = nullptr;
+        const OcclusionPass* occlusion = nullptr; ///< null: nothing hides
+        uint32_t framesInFlight = 2;
+        const InstanceWindows* windows = nullptr; ///< must outlive this, as all here
+        uint32_t cageVertices = 0, cageStride = 0;
+    };
+    [[nodiscard]] static std::unique_ptr<Culling> create(const Desc& desc, const Needs& needs);
+    void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
+    /// What the passes read and write beside the group's own, once the plans are carried out.
+    struct Buffers {
+        VkBuffer cages = VK_NULL_HANDLE;
+        VkBuffer hostList = VK_NULL_HANDLE; ///< capacity entries, as shaders/shared/bounds.h has them
+        VkBuffer view = VK_NULL_HANDLE;     ///< shared::CullView
+        VkBuffer sizes = VK_NULL_HANDLE;    ///< of all groups of the view
+        VkBuffer words = VK_NULL_HANDLE;    ///< of the view (shaders/shared/lod.h)
+    };
+    [[nodiscard]] Status createSets(const Buffers& buffers);
+
+    // Visibility
+    void list(InstanceSlots& slots, std::span<uint32_t> all, std::span<uint32_t> byWindow,
+              InstanceWindows& windows) override;
+    VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) override;
+    [[nodiscard]] InstanceList list() const override { return {list_.buffer(), list_.size()}; }
+    [[nodiscard]] surface::Window window(uint32_t window) const override;
+    [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override;
+    void fill(SuppleGroupOutput& output) const override;
+    void addTransfers(Transfers& transfers) const override;
+
+    /// Once, before anything else.
+    void recordClear(VkCommandBuffer commandBuffer) const;
+    PassCost recordBounds(VkCommandBuffer commandBuffer) const;
+    /// Behind the bounds, before sizes and list. `place`: of the frame among those in flight, whose descriptor set no
+    /// frame uses any more; `generation` tells whether that set has this pyramid.
+    PassCost recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
+                             uint64_t generation);
+    /// What the listed instances need at least. Only if that may be more than there is.
+    void recordSizes(VkCommandBuffer commandBuffer) const;
+    /// `room`: vertices, or shared::kRoomForAll.
+    PassCost recordList(VkCommandBuffer commandBuffer, uint32_t room) const;
+    /// With rates, behind the list: what the listed instances need in the budget.
+    PassCost recordDemand(VkCommandBuffer commandBuffer) const;
+    /// With rates, behind the view's solution: the lists of all rates. `counted`: the budget scales levels.
+    PassCost recordRates(VkCommandBuffer commandBuffer, bool counted) const;
+
+    [[nodiscard]] uint32_t leastVertices() const { return leastVertices_; }
+    /// Of all instances that the host shows.
+    [[nodiscard]] uint64_t leastVerticesOfAll() const { return uint64_t{leastVertices_} * windows_->visible; }
+
+    /// The instances of a rate in a window. Argument 0 is that of the rate's first step.
+    [[nodiscard]] surface::Window window(uint32_t window, uint32_t rate) const;
+    /// In list(): the first of all slots at a rate, and the draws of all rates.
+    [[nodiscard]] VkDeviceSize rateListOffset(uint32_t rate) const;
+    [[nodiscard]] VkDeviceSize drawOffset() const;
+    /// In list(): what the list pass has found out of all windows, kListHeaderWords words (shaders/shared/bounds.h).
+    [[nodiscard]] VkDeviceSize countOffset() const { return VkDeviceSize{firstArgument()} * sizeof(uint32_t); }
+
+private:
+    void addDispatches(const Needs& needs);
+    [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(arguments_.size()); }
+    [[nodiscard]] uint32_t rateCount() const { return static_cast<uint32_t>(firstDispatches_.size()); }
+    // Words of the list: all that are seen, those of every window, their levels; the same without levels for every
+    // rate; then the arguments, the counts of rates and their draws.
+    [[nodiscard]] uint32_t firstRateList() const;
+    [[nodiscard]] uint32_t rateStride() const;
+    [[nodiscard]] uint32_t firstArgument() const { return firstRateList() + rateCount() * rateStride(); }
+    // Words from firstArgument() on.
+    [[nodiscard]] uint32_t headerWords() const { return shared::kListHeaderWords * (1 + windows_->count()); }
+    [[nodiscard]] uint32_t firstRateCount() const { return headerWords() + argumentStride() * windows_->count(); }
+    [[nodiscard]] uint32_t firstDraw() const { return firstRateCount() + rateCount() * windows_->count(); }
+
+    const gpu::Device* device_ = nullptr;
+    const BoundsPass* pass_ = nullptr;
+    const OcclusionPass* occlusion_ = nullptr;
+    const InstanceWindows* windows_ = nullptr;
+    uint32_t framesInFlight_ = 2;
+    uint32_t leastVertices_ = 0;
+    shared::BoundsPush push_{};
+    std::vector<ListWindow> listed_; ///< of the table written last
+    std::vector<ListArgument> arguments_;
+    uint32_t firstRate_ = 0;
+    std::array<uint32_t, shared::kMaxRates> rateVertices_{};
+    std::vector<uint32_t> firstDispatches_; ///< by rate, in arguments_
+    std::vector<ListDraw> draws_;
+
+    gpu::PlannedBuffer bounds_, states_, list_, table_;
+    ChangeStaging tables_;
+    gpu::DescriptorPoolHandle boundsPool_, listPool_, occlusionPool_;
+    gpu::TexelViews views_;
+    std::vector<VkDescriptorSet> boundsSets_; ///< by window
+    VkDescriptorSet listSet_ = VK_NULL_HANDLE;
+    struct OcclusionSet {
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        uint64_t generation = 0; ///< of the pyramid that it was written with
+    };
+    std::vector<OcclusionSet> occlusionSets_; ///< by frame in flight
+};
+
+} // namespace supple::runtime

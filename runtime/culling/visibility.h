@@ -1,0 +1,76 @@
+// Which instances the passes behind `deform` work on: all that the host shows, or those that a view sees.
+#pragma once
+
+#include "runtime/instance_windows.h"
+#include "runtime/pass_cost.h"
+#include "runtime/transfers.h"
+#include "supple/supple.h"
+#include "surface/program.h"
+
+#include <cstdint>
+#include <span>
+
+namespace supple::runtime {
+
+/// The list of instances that surface passes bind.
+struct InstanceList {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize bytes = 0;
+};
+
+class Visibility {
+public:
+    Visibility() = default;
+    virtual ~Visibility() = default;
+    Visibility(const Visibility&) = delete;
+    Visibility& operator=(const Visibility&) = delete;
+
+    /// Lists this frame's instances, for the device and in `windows`. Both spans have room for all instances.
+    virtual void list(InstanceSlots& slots, std::span<uint32_t> all, std::span<uint32_t> byWindow,
+                      InstanceWindows& windows) = 0;
+    /// What it uploads itself when the list has changed; returns the bytes.
+    virtual VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) = 0;
+
+    [[nodiscard]] virtual InstanceList list() const = 0;
+    /// The instances of a window, for surface passes. The sets are the caller's.
+    [[nodiscard]] virtual surface::Window window(uint32_t window) const = 0;
+    /// The cost of a pass, given what it writes per instance.
+    [[nodiscard]] virtual PassCost cost(uint64_t points, uint64_t bytes) const = 0;
+
+    virtual void fill(SuppleGroupOutput& output) const = 0;
+    virtual void addTransfers(Transfers& transfers) const = 0;
+};
+
+/// All instances that the host shows.
+class ListedByHost final : public Visibility {
+public:
+    /// Both must outlive this. `list`: the list of instances on the device (runtime/instance_windows.h).
+    ListedByHost(const InstanceWindows& windows, InstanceList list) : windows_(&windows), list_(list) {}
+
+    void list(InstanceSlots& slots, std::span<uint32_t> all, std::span<uint32_t> byWindow,
+              InstanceWindows& windows) override {
+        windows.visible = slots.list(all, byWindow, windows.size, windows.listed);
+    }
+    VkDeviceSize recordUpload(VkCommandBuffer) override { return 0; }
+    [[nodiscard]] InstanceList list() const override { return list_; }
+    [[nodiscard]] surface::Window window(uint32_t window) const override {
+        surface::Window result;
+        result.push.firstInstance = windows_->firstEntry(window);
+        result.push.instanceCount = windows_->listed[window].count;
+        result.push.firstSlot = windows_->firstSlot(window);
+        return result;
+    }
+    [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override {
+        return {points * windows_->visible, bytes * windows_->visible};
+    }
+    void fill(SuppleGroupOutput& output) const override {
+        output.instances = {list_.buffer, 0, VkDeviceSize{windows_->capacity} * sizeof(uint32_t), sizeof(uint32_t)};
+    }
+    void addTransfers(Transfers&) const override {}
+
+private:
+    const InstanceWindows* windows_;
+    InstanceList list_;
+};
+
+} // namespace supple::runtime

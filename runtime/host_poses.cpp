@@ -1,0 +1,126 @@
+#include "runtime/host_poses.h"
+
+#include "runtime/pose_desc.h"
+
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace supple::runtime {
+
+skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mode, uint32_t strideMultiple) {
+    const cage::Character& character = asset.character;
+    // Weights of targets that move nothing stay on the CPU.
+    const size_t morphs = asset.firstInfluences != 0 ? character.morphs.targets.size() : 0;
+    skinning::PoseLayout layout = skinning::PoseLayout::of(mode, static_cast<uint32_t>(character.skin.joints.size()),
+                                                           static_cast<uint32_t>(morphs));
+    layout.stride = (layout.stride + strideMultiple - 1) / strideMultiple * strideMultiple;
+    return layout;
+}
+
+HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout)
+    : asset_(&asset), layout_(layout) {
+    const cage::Character& character = asset.character;
+    targetCount_ = character.morphs.targets.size();
+    palettes_.resize(size_t{instanceCount} * layout.jointCount);
+    if (layout.mode == skinning::SkinningMode::dualQuaternion) {
+        rotations_.resize(palettes_.size());
+    }
+    poseWeights_.resize(instanceCount * targetCount_);
+    hostWeights_.resize(instanceCount * targetCount_);
+    hostWeighted_.resize(instanceCount, false);
+    transforms_.assign(instanceCount, glm::mat4(1.0f));
+    nodes_.resize(character.skeleton.nodes.size());
+    for (skinning::Pose* pose : {&pose_, &scratch_.sample, &scratch_.reference}) {
+        skinning::restPose(character, *pose);
+    }
+    for (uint32_t instance = 0; instance < instanceCount; ++instance) {
+        setBindPose(instance);
+    }
+}
+
+void HostPoses::reset(uint32_t instance) {
+    setBindPose(instance);
+    setMorphWeights(instance, nullptr);
+    setTransform(instance, glm::mat4(1.0f));
+}
+
+std::span<skinning::Affine> HostPoses::palette(uint32_t instance) {
+    return std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
+}
+
+void HostPoses::finishPalette(uint32_t instance) {
+    if (!rotations_.empty()) {
+        skinning::jointRotations(
+            palette(instance),
+            std::span(rotations_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount));
+    }
+}
+
+void HostPoses::setPose(uint32_t instance) {
+    skinning::posePalette(asset_->character, pose_, nodes_, palette(instance));
+    std::transform(pose_.morphWeights.begin(), pose_.morphWeights.end(),
+                   poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_),
+                   [](double weight) { return static_cast<float>(weight); });
+    finishPalette(instance);
+}
+
+void HostPoses::setBindPose(uint32_t instance) {
+    std::ranges::fill(palette(instance), skinning::toAffine(glm::mat4(1.0f)));
+    std::fill_n(poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_), targetCount_, 0.0f);
+    finishPalette(instance);
+}
+
+void HostPoses::setRestPose(uint32_t instance) {
+    skinning::restPose(asset_->character, pose_);
+    setPose(instance);
+}
+
+void HostPoses::setClipPose(uint32_t instance, uint32_t clip, double time) {
+    skinning::sampleClip(asset_->character, asset_->character.clips[clip], time, pose_);
+    setPose(instance);
+}
+
+void HostPoses::setLayers(uint32_t instance, const SupplePoseDesc& desc) {
+    const skinning::RootSelection root = rootSelection(*asset_, desc);
+    skinning::restPose(asset_->character, pose_);
+    for (uint32_t i = 0; i < desc.layerCount; ++i) {
+        skinning::applyLayer(asset_->character, asset_->rig, layerOf(*asset_, desc.layers[i]), root, scratch_, pose_);
+    }
+    setPose(instance);
+}
+
+void HostPoses::setMatrixPose(uint32_t instance, const float* jointMatrices) {
+    const cage::Character& character = asset_->character;
+    const std::span<skinning::Affine> target = palette(instance);
+    for (size_t j = 0; j < target.size(); ++j) {
+        target[j] = skinning::toAffine(glm::make_mat4(jointMatrices + 16 * j) * character.skin.inverseBinds[j]);
+    }
+    std::copy(character.morphs.weights.begin(), character.morphs.weights.end(),
+              poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_));
+    finishPalette(instance);
+}
+
+void HostPoses::setMorphWeights(uint32_t instance, const float* weights) {
+    hostWeighted_[instance] = weights != nullptr;
+    if (weights != nullptr) {
+        std::copy_n(weights, targetCount_, hostWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_));
+    }
+}
+
+void HostPoses::write(uint32_t count, std::byte* target) const {
+    const size_t joints = layout_.jointCount;
+    for (uint32_t instance = 0; instance < count; ++instance) {
+        const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
+        skinning::InstancePose pose;
+        pose.palette = std::span(palettes_).subspan(instance * joints, joints);
+        if (!rotations_.empty()) {
+            pose.rotations = std::span(rotations_).subspan(instance * joints, joints);
+        }
+        pose.morphWeights = std::span(weights).subspan(instance * targetCount_, targetCount_);
+        pose.transform = transforms_[instance];
+        skinning::writePose(layout_, pose, target);
+        target += instanceBytes();
+    }
+}
+
+} // namespace supple::runtime

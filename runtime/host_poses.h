@@ -1,0 +1,67 @@
+// The poses of a group's instances on the CPU: what the host set, and how it goes to the device each frame.
+#pragma once
+
+#include "runtime/asset.h"
+#include "skinning/deform_pass.h"
+#include "skinning/layers.h"
+#include "supple/supple.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace supple::runtime {
+
+/// The layout of an instance's pose for this asset. Its stride is a multiple of `strideMultiple` elements.
+[[nodiscard]] skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mode,
+                                                uint32_t strideMultiple);
+
+/// Setting a pose allocates nothing. Every setter of a pose sets the clip's morph weights too; those of setMorphWeights
+/// stand before them until they are given back.
+class HostPoses {
+public:
+    HostPoses() = default;
+    /// All instances in the bind pose, placed by the identity. The asset must outlive this.
+    HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout);
+
+    [[nodiscard]] const skinning::PoseLayout& layout() const { return layout_; }
+    /// What an instance takes of the buffer of poses.
+    [[nodiscard]] size_t instanceBytes() const { return size_t{layout_.stride} * 16; }
+
+    /// As at first: bind pose, no morph weights of the host's, identity transform.
+    void reset(uint32_t instance);
+    void setBindPose(uint32_t instance); ///< identity palette, morph weights 0
+    void setRestPose(uint32_t instance);
+    void setClipPose(uint32_t instance, uint32_t clip, double time);
+    void setLayers(uint32_t instance, const SupplePoseDesc& desc); ///< desc as checkPose (runtime/pose_desc.h) takes it
+    /// One column-major model-space matrix a joint; morph weights as in the rest pose.
+    void setMatrixPose(uint32_t instance, const float* jointMatrices);
+    void setMorphWeights(uint32_t instance, const float* weights); ///< null: the pose's own again
+    void setTransform(uint32_t instance, const glm::mat4& transform) { transforms_[instance] = transform; }
+
+    /// Writes the first `count` instances, instanceBytes() each, in the layout of shaders/shared/deform.h.
+    void write(uint32_t count, std::byte* target) const;
+
+private:
+    void setPose(uint32_t instance); ///< from pose_
+    void finishPalette(uint32_t instance);
+    [[nodiscard]] std::span<skinning::Affine> palette(uint32_t instance);
+
+    const Asset* asset_ = nullptr;
+    skinning::PoseLayout layout_;
+    size_t targetCount_ = 0;
+    // One run an instance.
+    std::vector<skinning::Affine> palettes_;
+    std::vector<glm::vec4> rotations_; ///< dual quaternions only
+    std::vector<float> poseWeights_;   ///< morph weights of the pose
+    std::vector<float> hostWeights_;   ///< and what the host set instead
+    std::vector<bool> hostWeighted_;
+    std::vector<glm::mat4> transforms_;
+    // Memory for putting one pose together.
+    skinning::Pose pose_;
+    skinning::LayerScratch scratch_;
+    std::vector<glm::mat4> nodes_;
+};
+
+} // namespace supple::runtime

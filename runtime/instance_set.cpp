@@ -1,0 +1,187 @@
+#include "runtime/instance_set.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+
+namespace {
+
+// Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits). Deformed cages start on such multiples,
+// and so do poses if there is more than one window.
+constexpr uint32_t kCagePadding = 16;
+constexpr uint32_t kPosePadding = 16;
+constexpr VkDeviceSize kVec4Bytes = 16;
+constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kUint4 = VK_FORMAT_R32G32B32A32_UINT;
+
+} // namespace
+
+Result<std::unique_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
+    auto set = std::make_unique<InstanceSet>();
+    set->desc_ = desc;
+    set->cageStride_ = cageStrideOf(desc.asset->character.cage.vertexCount());
+    Status status = success();
+    if (desc.source != SUPPLE_POSES_CAGE_BUFFER) {
+        status = desc.deform->prepare(desc.mode, desc.asset->firstInfluences != 0);
+    }
+    if (status && desc.source == SUPPLE_POSES_PLAYBACK) {
+        status = desc.pose->prepare(desc.mode);
+        status = status ? desc.asset->makeClips(*desc.device) : status;
+    }
+    status = status ? set->layOutWindows() : status;
+    if (!status) {
+        return status.error();
+    }
+    set->slots_ = InstanceSlots(desc.capacity, desc.firstGeneration);
+    set->poses_ = makePoseSource(
+        desc.source, {desc.device, desc.pose, desc.asset, set->layout_, desc.capacity, desc.framesInFlight});
+    return set;
+}
+
+uint32_t InstanceSet::cageStrideOf(uint32_t cageVertices) {
+    return (cageVertices + kCagePadding - 1) / kCagePadding * kCagePadding;
+}
+
+Status InstanceSet::layOutWindows() {
+    const gpu::Device& device = *desc_.device;
+    const uint32_t capacity = desc_.capacity;
+    layout_ = poseLayoutOf(*desc_.asset, desc_.mode, 1);
+    const VkDeviceSize texelLimit = device.bufferWindow(16), storageLimit = device.limits.maxStorageBufferRange;
+    const VkDeviceSize largest = std::max(VkDeviceSize{cageStride_} * kVec4Bytes, desc_.surface.texels);
+    VkDeviceSize fit = texelLimit / std::max(largest, poseWindowBytes(desc_.source, *desc_.asset, layout_));
+    if (desc_.surface.storage > 0) {
+        fit = std::min(fit, storageLimit / desc_.surface.storage);
+    }
+    if (fit < capacity) {
+        layout_ = poseLayoutOf(*desc_.asset, desc_.mode, kPosePadding);
+        fit = std::min<VkDeviceSize>(fit, texelLimit / (layout_.stride * kVec4Bytes));
+    }
+    if (!device.mapping.wide && uint64_t{desc_.lists} * capacity > device.limits.maxTexelBufferElements) {
+        return Error{ErrorCode::limit,
+                     std::to_string(capacity) + " instances exceed the device's texel-buffer elements"};
+    }
+    if (fit == 0) {
+        return Error{ErrorCode::limit, "one instance exceeds the device's storage-buffer range of " +
+                                           std::to_string(storageLimit) + " bytes"};
+    }
+    windows_.capacity = capacity;
+    windows_.size = static_cast<uint32_t>(std::min<VkDeviceSize>(fit, capacity));
+    windows_.listed.resize((capacity + windows_.size - 1) / windows_.size);
+    return success();
+}
+
+void InstanceSet::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
+    constexpr VkBufferUsageFlags kInput = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                          VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkDeviceSize n = desc_.capacity;
+    const bool deforms = desc_.source != SUPPLE_POSES_CAGE_BUFFER;
+    palettes_ = device.add({"supple poses", deforms ? n * layout_.stride * kVec4Bytes : 0, kInput});
+    cages_ =
+        device.add({"supple deformed cage", n * cageStride_ * kVec4Bytes, kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+    list_ = device.add({"supple instances", 2 * n * sizeof(uint32_t), kInput});
+    lists_.plan(staging, "supple list staging", 2 * n * sizeof(uint32_t), desc_.framesInFlight);
+    poses_->plan(staging);
+}
+
+Status InstanceSet::createSets() {
+    Status status = poses_->create({palettes_.buffer(), list_.buffer(), list_.size(), windows_.size});
+    if (!status || palettes_.buffer() == VK_NULL_HANDLE) {
+        return status;
+    }
+    const gpu::Device& device = *desc_.device;
+    const gpu::ComputeLayout& layout = desc_.deform->layout();
+    Result<gpu::DescriptorPoolHandle> pool =
+        gpu::createDescriptorPool(device, layout, windows_.count(), "supple deform");
+    if (!pool) {
+        return pool.error();
+    }
+    pool_ = std::move(*pool);
+    const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
+        return views_.make(device, buffer, format, offset, size, name, status);
+    };
+    const VkBuffer table = desc_.asset->buffers.buffer(0);
+    const VkDeviceSize tableBytes = desc_.asset->buffers.size(0);
+    const VkBufferView tableView = view(table, kUint4, 0, tableBytes, "supple deform table");
+    const VkBufferView listView = view(list_.buffer(), VK_FORMAT_R32_UINT, 0, list_.size(), "supple instances");
+    for (uint32_t w = 0; w < windows_.count() && status; ++w) {
+        const Result<VkDescriptorSet> set = gpu::allocateSet(device, layout, pool_.get(), "supple deform");
+        if (!set) {
+            return set.error();
+        }
+        const auto range = [&](const gpu::PlannedBuffer& buffer, uint32_t stride) {
+            const VkDeviceSize bytes = stride * kVec4Bytes;
+            return VkDescriptorBufferInfo{buffer.buffer(), windows_.firstSlot(w) * bytes, windows_.slots(w) * bytes};
+        };
+        const VkDescriptorBufferInfo poses = range(palettes_, layout_.stride);
+        const gpu::BoundResource resources[] = {
+            {kDeformTableBinding, {table, 0, tableBytes}, VK_NULL_HANDLE},
+            {kDeformTableTexelBinding, {}, tableView},
+            {kPoseBinding, poses, VK_NULL_HANDLE},
+            {kPoseTexelBinding, {}, view(poses.buffer, kFloat4, poses.offset, poses.range, "supple poses")},
+            {kDeformedCageBinding, range(cages_, cageStride_), VK_NULL_HANDLE},
+            {kInstanceBinding, {list_.buffer(), 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
+            {kInstanceTexelBinding, {}, listView},
+        };
+        if (status) {
+            gpu::writeSet(device, layout, *set, resources);
+            deformSets_.push_back(*set);
+        }
+    }
+    return status;
+}
+
+void InstanceSet::fill(SuppleGroupOutput& output) const {
+    const auto whole = [](const gpu::PlannedBuffer& buffer, uint32_t stride) {
+        return SuppleBufferView{buffer.buffer(), 0, buffer.size(), stride};
+    };
+    output.capacity = desc_.capacity;
+    output.cageVertexCount = desc_.asset->character.cage.vertexCount();
+    output.cageVerticesPerInstance = cageStride_;
+    output.deformedCage = whole(cages_, 16);
+    output.poses = whole(palettes_, layout_.stride * 16);
+}
+
+void InstanceSet::addTransfers(Transfers& transfers) const {
+    if (!deformSets_.empty()) {
+        transfers.add(cages_.buffer());
+    }
+    transfers.add(list_.buffer());
+}
+
+PassCost InstanceSet::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, Visibility& visibility) {
+    const gpu::Device& device = *desc_.device;
+    PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_.end());
+    const bool listed = slots_.changed();
+    if (listed) {
+        auto* const all = reinterpret_cast<uint32_t*>(lists_.next());
+        visibility.list(slots_, {all, windows_.capacity}, {all + windows_.capacity, windows_.capacity}, windows_);
+    }
+    if (listed || desc_.handsOver) {
+        const auto copy = [&](VkDeviceSize first, VkDeviceSize count) {
+            const VkDeviceSize at = first * sizeof(uint32_t);
+            cost.bytes += lists_.recordCopy(device, commandBuffer, at, list_.buffer(), at, count * sizeof(uint32_t));
+        };
+        copy(0, windows_.visible);
+        windows_.forEach([&](uint32_t w) { copy(windows_.firstEntry(w), windows_.listed[w].count); });
+        cost.bytes += visibility.recordUpload(commandBuffer);
+    }
+    return cost;
+}
+
+PassCost InstanceSet::recordDeform(VkCommandBuffer commandBuffer) const {
+    if (deformSets_.empty()) {
+        return {};
+    }
+    const uint32_t vertices = desc_.asset->character.cage.vertexCount();
+    windows_.forEach([&](uint32_t w) {
+        desc_.deform->record(commandBuffer, deformSets_[w], layout_.mode,
+                             {vertices, windows_.firstEntry(w), windows_.listed[w].count, layout_.stride, cageStride_,
+                              layout_.morphWeights, desc_.asset->firstInfluences});
+    });
+    const uint64_t points = uint64_t{vertices} * windows_.visible;
+    return {points, points * kVec4Bytes};
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,114 @@
+#include "runtime/pose_source.h"
+
+namespace supple::runtime {
+
+namespace {
+
+/// SUPPLE_POSES_SET: the host sets poses on the CPU; all go to the device in every frame.
+class SetPoses final : public PoseSource {
+public:
+    explicit SetPoses(const PoseSourceDesc& desc)
+        : device_(desc.device), framesInFlight_(desc.framesInFlight), capacity_(desc.capacity),
+          poses_(*desc.asset, desc.capacity, desc.layout) {}
+
+    void reset(uint32_t slot) override { poses_.reset(slot); }
+    void setTransform(uint32_t slot, const glm::mat4& transform) override { poses_.setTransform(slot, transform); }
+    void setMorphWeights(uint32_t slot, const float* weights) override { poses_.setMorphWeights(slot, weights); }
+    [[nodiscard]] HostPoses* host() override { return &poses_; }
+
+    void plan(gpu::BufferPlan& staging) override {
+        staging_ =
+            staging.add({"supple pose staging", frameBytes() * framesInFlight_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+    }
+    [[nodiscard]] Status create(const Buffers& buffers) override {
+        target_ = buffers.poses;
+        return success();
+    }
+    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t end) override {
+        const VkDeviceSize from = frame % framesInFlight_ * frameBytes(), bytes = end * poses_.instanceBytes();
+        poses_.write(end, staging_.mapped() + from);
+        if (bytes > 0) {
+            const VkBufferCopy region{from, 0, bytes};
+            device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(), target_, 1, &region);
+        }
+        return {uint64_t{poses_.layout().jointCount} * end, bytes};
+    }
+
+private:
+    [[nodiscard]] VkDeviceSize frameBytes() const { return capacity_ * poses_.instanceBytes(); }
+
+    const gpu::Device* device_;
+    uint32_t framesInFlight_, capacity_;
+    HostPoses poses_;
+    gpu::PlannedBuffer staging_;
+    VkBuffer target_ = VK_NULL_HANDLE;
+};
+
+/// SUPPLE_POSES_PLAYBACK: the host says what instances play; the pose pass samples it.
+class PlayedPoses final : public PoseSource {
+public:
+    explicit PlayedPoses(const PoseSourceDesc& desc) : desc_(desc) {}
+
+    void reset(uint32_t slot) override { playback_.reset(slot); }
+    void setTransform(uint32_t slot, const glm::mat4& transform) override { playback_.setTransform(slot, transform); }
+    void setMorphWeights(uint32_t slot, const float* weights) override { playback_.setMorphWeights(slot, weights); }
+    [[nodiscard]] Playback* playback() override { return &playback_; }
+
+    [[nodiscard]] Status create(const Buffers& buffers) override {
+        Result<Playback> playback = Playback::create({desc_.device, desc_.posePass, desc_.asset, desc_.layout,
+                                                      desc_.capacity, buffers.windowSize, desc_.framesInFlight,
+                                                      buffers.poses, buffers.instances, buffers.instanceBytes});
+        if (!playback) {
+            return playback.error();
+        }
+        playback_ = std::move(*playback);
+        return success();
+    }
+    [[nodiscard]] VkDeviceSize deviceBytes() const override { return playback_.deviceBytes(); }
+
+    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t) override {
+        return {0, playback_.recordUpload(commandBuffer, frame)};
+    }
+    void cancelUpload(uint64_t frame) override { playback_.cancelUpload(frame); }
+    [[nodiscard]] bool has(Playback::Part part) const override {
+        return part != Playback::Part::roots || playback_.hasRoots();
+    }
+    PassCost recordPart(VkCommandBuffer commandBuffer, Playback::Part part,
+                        const InstanceWindows& windows) const override {
+        if (!has(part)) {
+            return {};
+        }
+        windows.forEach([&](uint32_t w) {
+            playback_.record(commandBuffer, part, w, windows.firstEntry(w), windows.listed[w].count);
+        });
+        if (part != Playback::Part::palette) { // whose poses are what is counted
+            return {0, 0, windows.visible > 0};
+        }
+        const skinning::PoseLayout& layout = desc_.layout;
+        return {uint64_t{layout.jointCount} * windows.visible, uint64_t{layout.stride} * 16 * windows.visible};
+    }
+
+private:
+    PoseSourceDesc desc_;
+    Playback playback_;
+};
+
+} // namespace
+
+VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset, const skinning::PoseLayout& layout) {
+    const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? Playback::windowBytes(asset, layout) : 0;
+    return std::max(played, VkDeviceSize{layout.stride} * 16);
+}
+
+std::unique_ptr<PoseSource> makePoseSource(SupplePoseSource source, const PoseSourceDesc& desc) {
+    switch (source) {
+    case SUPPLE_POSES_SET:
+        return std::make_unique<SetPoses>(desc);
+    case SUPPLE_POSES_PLAYBACK:
+        return std::make_unique<PlayedPoses>(desc);
+    default: // the host fills a buffer
+        return std::make_unique<PoseSource>();
+    }
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,68 @@
+// Where the poses of a group's instances come from: one implementation per SupplePoseSource.
+#pragma once
+
+#include "gpu/buffer_plan.h"
+#include "runtime/asset.h"
+#include "runtime/host_poses.h"
+#include "runtime/instance_windows.h"
+#include "runtime/pass_cost.h"
+#include "runtime/playback.h"
+#include "skinning/pose_pass.h"
+
+#include <memory>
+
+namespace supple::runtime {
+
+/// The base class is a source that the host fills on the device by itself: nothing is set, uploaded or computed.
+class PoseSource {
+public:
+    PoseSource() = default;
+    virtual ~PoseSource() = default;
+    PoseSource(const PoseSource&) = delete;
+    PoseSource& operator=(const PoseSource&) = delete;
+
+    // Setting, on the CPU. Only sources of which the host sets something are asked.
+    virtual void reset(uint32_t /*slot*/) {} ///< a new instance: bind pose, identity transform
+    virtual void setTransform(uint32_t /*slot*/, const glm::mat4& /*transform*/) {}
+    virtual void setMorphWeights(uint32_t /*slot*/, const float* /*weights*/) {} ///< null: the pose's own again
+    [[nodiscard]] virtual HostPoses* host() { return nullptr; }
+    [[nodiscard]] virtual Playback* playback() { return nullptr; }
+
+    // Creation, in this order.
+    virtual void plan(gpu::BufferPlan& /*staging*/) {}
+    struct Buffers {
+        VkBuffer poses = VK_NULL_HANDLE;
+        VkBuffer instances = VK_NULL_HANDLE; ///< the lists of instances
+        VkDeviceSize instanceBytes = 0;
+        uint32_t windowSize = 0;
+    };
+    [[nodiscard]] virtual Status create(const Buffers& /*buffers*/) { return success(); }
+    [[nodiscard]] virtual VkDeviceSize deviceBytes() const { return 0; }
+
+    // Recording.
+    /// `end`: slots below it may be in use.
+    virtual PassCost recordUpload(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/, uint32_t /*end*/) {
+        return {};
+    }
+    virtual void cancelUpload(uint64_t /*frame*/) {}
+    /// The pose pass has three parts with a barrier between each two. Whether the source has this one.
+    [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
+    virtual PassCost recordPart(VkCommandBuffer /*commandBuffer*/, Playback::Part /*part*/,
+                                const InstanceWindows& /*windows*/) const {
+        return {};
+    }
+};
+
+struct PoseSourceDesc {
+    const gpu::Device* device = nullptr;
+    const skinning::PosePass* posePass = nullptr; ///< null unless instances play on the device
+    Asset* asset = nullptr;
+    skinning::PoseLayout layout;
+    uint32_t capacity = 0, framesInFlight = 2;
+};
+[[nodiscard]] std::unique_ptr<PoseSource> makePoseSource(SupplePoseSource source, const PoseSourceDesc& desc);
+/// Bytes per instance of what the source binds by windows.
+[[nodiscard]] VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset,
+                                           const skinning::PoseLayout& layout);
+
+} // namespace supple::runtime

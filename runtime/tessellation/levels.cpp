@@ -1,0 +1,221 @@
+// Groups of a view, p-rep, P_m and the blending surface: patches at real-valued levels. Their vertices are the view's,
+// and which patches are drawn at which capacity is found anew in every frame (docs/lod.md).
+#include "runtime/tessellation/tessellation.h"
+#include "surface/lod/grid.h"
+#include "surface/lod/tables.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+
+namespace {
+
+class Levels final : public Tessellation {
+public:
+    explicit Levels(const TessellationDesc& desc) : Tessellation(desc) {}
+    ~Levels() override;
+    [[nodiscard]] Status begin();
+
+    [[nodiscard]] uint32_t lists() const override { return 3; }
+    [[nodiscard]] Status join(const InstanceWindows& windows) override;
+    [[nodiscard]] Culling::Needs cullingNeeds() const override;
+    void fill(SuppleGroupOutput& output) override;
+    [[nodiscard]] Status setRate(uint32_t rate) override;
+
+    VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
+    PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const override;
+    PassCost recordPatchLevels(VkCommandBuffer commandBuffer) const override;
+    PassCost recordPlaces(VkCommandBuffer commandBuffer) const override;
+    [[nodiscard]] bool writesLevelAttributes() const override { return wanted_.has(Stream::attributes); }
+    PassCost recordLevelAttributes(VkCommandBuffer commandBuffer) const override;
+    PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
+    [[nodiscard]] bool usesScratch() const override { return false; } // it holds levels
+    PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
+    [[nodiscard]] bool isBudgeted() const override { return true; }
+    [[nodiscard]] uint32_t patchesAtLevels() const override { return static_cast<uint32_t>(tables().patches.size()); }
+
+protected:
+    void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
+
+private:
+    [[nodiscard]] uint32_t runs() const { return static_cast<uint32_t>(tables().lod.runs.size()); }
+    void layOutDraws(uint32_t windowCount);
+    [[nodiscard]] surface::Needs levelNeeds() const;
+    /// The instances of a window with what the level passes are told of the view.
+    [[nodiscard]] surface::Window levelWindow(uint32_t window) const;
+    /// The patches that the view has placed for a window.
+    [[nodiscard]] surface::Window placed(uint32_t window, const surface::Sets& sets) const;
+
+    uint32_t firstRun_ = 0; ///< in the view; all windows one after the other
+    uint32_t takenRuns_ = 0;
+    std::vector<SuppleLodDraw> draws_;
+};
+
+Levels::~Levels() {
+    if (takenRuns_ > 0) {
+        view()->giveRuns(firstRun_, takenRuns_);
+    }
+}
+
+Status Levels::begin() {
+    const Status built = buildTables();
+    if (!built) {
+        return built;
+    }
+    Result<surface::Program> program = desc_.passes->prepare(tables(), levelNeeds(), evaluation_);
+    if (!program) {
+        return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
+    }
+    program_ = std::move(*program);
+    return success();
+}
+
+surface::Needs Levels::levelNeeds() const {
+    surface::Needs needs = this->needs();
+    needs.view = true;
+    needs.lod = true;
+    needs.backFaces = view()->leavesBackFaces();
+    // With one level an instance, that lies behind the list's entries (Culling::recordList).
+    needs.levelOffset = (desc_.group.flags & SUPPLE_GROUP_ONE_LEVEL) != 0 ? desc_.group.capacity : 0;
+    return needs;
+}
+
+Status Levels::join(const InstanceWindows& windows) {
+    std::vector<bool> doubleSided;
+    const std::vector<cage::Material>& materials = desc_.asset->character.materials;
+    for (const surface::LodTables::Run& run : tables().lod.runs) {
+        doubleSided.push_back(run.material < materials.size() && materials[run.material].doubleSided);
+    }
+    const Result<uint32_t> first = view()->takeRuns(tables().lod, doubleSided, windows.count());
+    if (!first) {
+        return first.error();
+    }
+    firstRun_ = *first;
+    takenRuns_ = runs() * windows.count();
+    layOutDraws(windows.count());
+    return success();
+}
+
+void Levels::layOutDraws(uint32_t windowCount) {
+    for (uint32_t w = 0; w < windowCount; ++w) {
+        for (const surface::LodTables::Run& run : tables().lod.runs) {
+            const surface::lod::Form form = surface::rowOf(run.patchClass).form;
+            for (const uint32_t capacity : surface::lod::kCapacities) {
+                const uint32_t samples = surface::lod::sampleCount(form, capacity);
+                draws_.push_back({run.material, static_cast<SuppleGrid>(form), capacity, samples,
+                                  samples * surface::lod::patchesPerDraw(form, capacity)});
+            }
+        }
+    }
+}
+
+Culling::Needs Levels::cullingNeeds() const {
+    Culling::Needs needs;
+    needs.sizes = program_.constructionSizes();
+    needs.measure =
+        surface::lod::measureInstance(desc_.asset->character.cage, tables().isolationSteps, tables().lod.charts);
+    needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(desc_.asset->character.cage);
+    for (const surface::LodTables::Run& run : tables().lod.runs) {
+        needs.leastVertices += run.patchCount * surface::lod::sampleCount(surface::rowOf(run.patchClass).form, 1);
+    }
+    return needs;
+}
+
+void Levels::bindOutput(const SurfaceSets::Which& which, SetContents& contents) const {
+    const VertexStreams& streams = view()->streams();
+    const VkBuffer vertices = streams.buffer(Stream::vertices);
+    contents.buffer(kSurfaceBinding, which.previous ? streams.buffer(Stream::previousPositions) : vertices, 0,
+                    VK_WHOLE_SIZE);
+    for (const StreamRow& row : kStreams) {
+        if (row.written == Written::static_) {
+            const VkBuffer buffer = streams.buffer(static_cast<Stream>(&row - kStreams));
+            // Without the stream the kernel still names it, but does not write it.
+            contents.buffer(row.binding, buffer != VK_NULL_HANDLE ? buffer : vertices, 0, VK_WHOLE_SIZE);
+        }
+    }
+    const VkBuffer words = view()->words();
+    contents.buffer(kLodBinding, words, 0, VK_WHOLE_SIZE);
+    contents.texels(kLodTexelBinding, VK_FORMAT_R32G32B32A32_UINT, words, 0, view()->wordBytes(), "supple view");
+}
+
+void Levels::fill(SuppleGroupOutput& output) {
+    Tessellation::fill(output);
+    view()->streams().fill(output);
+    view()->fillGroup(output, firstRun_, static_cast<uint32_t>(draws_.size()));
+    output.lodDraws = draws_.data();
+    output.lodDrawCount = static_cast<uint32_t>(draws_.size());
+}
+
+Status Levels::setRate(uint32_t) {
+    return Error{ErrorCode::argument, desc_.asset->character.name + ": the group has its view's levels, not a rate"};
+}
+
+VkDeviceSize Levels::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {
+    program_.setCamera(view()->levelCamera());
+    return Tessellation::recordUpload(commandBuffer, frame, changed);
+}
+
+surface::Window Levels::levelWindow(uint32_t window) const {
+    surface::Window result = seen(window);
+    result.push.firstRun = firstRun_ + window * runs();
+    result.push.firstBucket = firstRun_ * kLodBucketStride + window * runs() * kCapacityCount;
+    return result;
+}
+
+surface::Window Levels::placed(uint32_t window, const surface::Sets& sets) const {
+    surface::Window result;
+    result.sets = sets;
+    result.push.firstSlot = windows().firstSlot(window);
+    result.push.firstRun = firstRun_ + window * runs();
+    result.arguments = view()->words();
+    result.firstArgument = sizeof(uint32_t) * (kLodDispatches + VkDeviceSize{8} * result.push.firstRun);
+    result.argumentStride = sizeof(LodDispatch);
+    return result;
+}
+
+PassCost Levels::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.edgeLevels, levelWindow(w)); });
+    return visibility_->cost(program_.edgeLevels.size(), 0);
+}
+
+PassCost Levels::recordPatchLevels(VkCommandBuffer commandBuffer) const {
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.patchLevels, levelWindow(w)); });
+    return visibility_->cost(patchesAtLevels(), 0);
+}
+
+PassCost Levels::recordPlaces(VkCommandBuffer commandBuffer) const {
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.places, levelWindow(w)); });
+    return visibility_->cost(patchesAtLevels(), 0);
+}
+
+PassCost Levels::recordLevelAttributes(VkCommandBuffer commandBuffer) const {
+    if (!writesLevelAttributes()) {
+        return {};
+    }
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.attributes, placed(w, sets(w))); });
+    return {0, 0, windows().visible > 0};
+}
+
+PassCost Levels::recordEvaluate(VkCommandBuffer commandBuffer) const {
+    // The device alone knows how many vertices: SuppleViewStatistics.
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.evaluate, placed(w, sets(w))); });
+    return {0, 0, windows().visible > 0};
+}
+
+PassCost Levels::recordMotion(VkCommandBuffer commandBuffer) const {
+    if (!writesMotion()) {
+        return {};
+    }
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.motion, placed(w, pastSets(w))); });
+    return {0, 0, windows().visible > 0};
+}
+
+} // namespace
+
+Result<std::unique_ptr<Tessellation>> makeLevels(const TessellationDesc& desc) {
+    return begun(std::make_unique<Levels>(desc));
+}
+
+} // namespace supple::runtime

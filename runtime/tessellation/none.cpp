@@ -1,0 +1,43 @@
+// The deformed cage alone: no patches, and every surface pass is empty.
+#include "runtime/tessellation/tessellation.h"
+
+namespace supple::runtime {
+
+namespace {
+
+class NoTessellation final : public Tessellation {
+public:
+    explicit NoTessellation(const TessellationDesc& desc) : Tessellation(desc) {
+        wanted_.remove(Stream::previousPositions);
+        evaluation_.rate = askedRate_;
+    }
+
+    void fill(SuppleGroupOutput& output) override {
+        Tessellation::fill(output);
+        output.rate = evaluation_.rate;
+        rate_ = {evaluation_.rate, 0, 0, output.instances};
+        output.rates = &rate_;
+        output.rateCount = 1;
+    }
+    [[nodiscard]] Status setRate(uint32_t rate) override {
+        const Status valid = checkRate(rate, askedRate_);
+        evaluation_.rate = valid ? rate : evaluation_.rate; // nothing is evaluated
+        return valid;
+    }
+    PassCost recordEvaluate(VkCommandBuffer) const override { return {}; }
+    PassCost recordMotion(VkCommandBuffer) const override { return {}; }
+
+protected:
+    void bindOutput(const SurfaceSets::Which&, SetContents&) const override {}
+
+private:
+    SuppleRate rate_{};
+};
+
+} // namespace
+
+std::unique_ptr<Tessellation> makeNoTessellation(const TessellationDesc& desc) {
+    return std::make_unique<NoTessellation>(desc);
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,105 @@
+#include "runtime/tessellation/one_rate.h"
+
+#include <cstring>
+
+namespace supple::runtime {
+
+void HostDraws::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, size_t count, uint32_t framesInFlight) {
+    const VkDeviceSize bytes = count * sizeof(VkDrawIndexedIndirectCommand);
+    buffer_ = device.add({"supple indirect arguments", bytes,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                              VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+    staging_.plan(staging, "supple indirect staging", bytes, framesInFlight);
+}
+
+VkDeviceSize HostDraws::recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, bool listed, bool always,
+                                     std::span<const SuppleDrawRange> draws, uint32_t visible) {
+    if (listed || changed_) {
+        std::byte* target = staging_.next();
+        for (const SuppleDrawRange& range : draws) {
+            const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * visible, range.firstIndex,
+                                                       0, 0};
+            std::memcpy(target, &command, sizeof(command));
+            target += sizeof(command);
+        }
+    } else if (!always) {
+        return 0;
+    }
+    changed_ = false;
+    return staging_.recordCopy(device, commandBuffer, 0, buffer_.buffer(), 0, buffer_.size());
+}
+
+SuppleBufferView HostDraws::output() const {
+    return {buffer_.buffer(), 0, buffer_.size(), sizeof(VkDrawIndexedIndirectCommand)};
+}
+
+void OneRate::setDraws(std::vector<SuppleDrawRange> draws) {
+    draws_ = std::move(draws);
+    rates_ = {{evaluation_.rate, 0, static_cast<uint32_t>(draws_.size()), {}}};
+    hostDraws_.setChanged();
+}
+
+void OneRate::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
+    OwnVertices::plan(device, staging);
+    hostDraws_.plan(device, staging, draws_.size(), desc_.framesInFlight);
+}
+
+Status OneRate::createSets(const InstanceSet& instances, const Visibility& visibility) {
+    const Status made = createIndices(indexData_);
+    indexData_ = {};
+    return made ? OwnVertices::createSets(instances, visibility) : made;
+}
+
+void OneRate::fill(SuppleGroupOutput& output) {
+    rates_.front().instances = output.instances;
+    OwnVertices::fill(output);
+    output.indirect = hostDraws_.output();
+}
+
+void OneRate::addTransfers(Transfers& transfers, uint64_t frame) const {
+    OwnVertices::addTransfers(transfers, frame);
+    transfers.add(hostDraws_.buffer());
+}
+
+VkDeviceSize OneRate::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {
+    return OwnVertices::recordUpload(commandBuffer, frame, changed) +
+           hostDraws_.recordUpload(*desc_.device, commandBuffer, changed, desc_.handsOver, draws_, windows().visible);
+}
+
+PassCost OneRate::recordEvaluate(VkCommandBuffer commandBuffer) const {
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.evaluate, seen(w)); });
+    const uint64_t points = uint64_t{vertexCount_} * windows().visible;
+    return {points, points * streams_.bytes(Stream::vertices)};
+}
+
+PassCost OneRate::recordMotion(VkCommandBuffer commandBuffer) const {
+    if (!writesMotion()) {
+        return {};
+    }
+    bool first = true;
+    const auto evaluate = [&](const surface::Sets& sets, uint32_t from, uint32_t count) {
+        if (count == 0) {
+            return;
+        }
+        if (!first) {
+            gpu::disjointBarrier(*desc_.device, commandBuffer); // other instances
+        }
+        first = false;
+        surface::Window window;
+        window.sets = sets;
+        window.push.firstInstance = from;
+        window.push.instanceCount = count;
+        record(commandBuffer, program_.motion, window);
+    };
+    // Instances with a past from the coefficients of the frame before, new ones from today's.
+    windows().forEach([&](uint32_t w) {
+        const InstanceSlots::Listed& listed = windows().listed[w];
+        evaluate(pastSets(w), windows().firstEntry(w), listed.withPast);
+        evaluate(todaysSets(w), windows().firstEntry(w) + listed.withPast, listed.count - listed.withPast);
+    });
+    const uint64_t points = uint64_t{vertexCount_} * windows().visible;
+    return {points, points * streams_.bytes(Stream::previousPositions)};
+}
+
+} // namespace supple::runtime

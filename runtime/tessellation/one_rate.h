@@ -1,0 +1,45 @@
+// What tessellations have in common whose instances all have one rate: the host counts their draws.
+#pragma once
+
+#include "runtime/change_staging.h"
+#include "runtime/tessellation/own_vertices.h"
+
+namespace supple::runtime {
+
+/// Indirect draws that the host counts: one command a draw range, for all visible instances.
+class HostDraws {
+public:
+    void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, size_t count, uint32_t framesInFlight);
+    void setChanged() { changed_ = true; }
+    /// `listed`: the list of instances has changed. `always`: upload though nothing has. Returns the bytes.
+    VkDeviceSize recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, bool listed, bool always,
+                              std::span<const SuppleDrawRange> draws, uint32_t visible);
+    [[nodiscard]] SuppleBufferView output() const;
+    [[nodiscard]] VkBuffer buffer() const { return buffer_.buffer(); }
+
+private:
+    gpu::PlannedBuffer buffer_;
+    ChangeStaging staging_;
+    bool changed_ = true;
+};
+
+class OneRate : public OwnVertices {
+public:
+    void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
+    [[nodiscard]] Status createSets(const InstanceSet& instances, const Visibility& visibility) override;
+    void fill(SuppleGroupOutput& output) override;
+    void addTransfers(Transfers& transfers, uint64_t frame) const override;
+    VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
+    PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
+    PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
+
+protected:
+    using OwnVertices::OwnVertices;
+
+    void setDraws(std::vector<SuppleDrawRange> draws);
+
+    std::vector<std::byte> indexData_; ///< of the index buffer, until that is made
+    HostDraws hostDraws_;
+};
+
+} // namespace supple::runtime

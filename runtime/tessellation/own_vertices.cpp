@@ -1,0 +1,174 @@
+#include "runtime/tessellation/own_vertices.h"
+
+#include "surface/grid.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+
+Status OwnVertices::setVertexCount(uint64_t vertices) {
+    const Status fits = checkVertices(vertices);
+    if (!fits) {
+        return fits;
+    }
+    constexpr uint32_t kAttributeBytes = kStreams[static_cast<size_t>(Stream::attributes)].bytes;
+    if (wanted_.has(Stream::attributes) && vertices * kAttributeBytes > desc_.device->limits.maxStorageBufferRange) {
+        return Error{ErrorCode::limit,
+                     desc_.asset->character.name + ": surface attributes exceed the device's storage-buffer range"};
+    }
+    vertexCount_ = static_cast<uint32_t>(vertices);
+    evaluation_.verticesPerInstance = (vertexCount_ + kVertexPadding - 1) / kVertexPadding * kVertexPadding;
+    return success();
+}
+
+BoundBytes OwnVertices::boundBytes() const {
+    BoundBytes bytes = Tessellation::boundBytes();
+    const SuppleVertexFormat format = static_cast<SuppleVertexFormat>(needs().vertexFormat);
+    bytes.storage = std::max(bytes.storage, VkDeviceSize{evaluation_.verticesPerInstance} * vertexBytes(format));
+    return bytes;
+}
+
+void OwnVertices::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
+    Tessellation::plan(device, staging);
+    streams_.plan(device, wanted_, static_cast<SuppleVertexFormat>(needs().vertexFormat), vertexCount_,
+                  evaluation_.verticesPerInstance, desc_.group.capacity);
+    attributes_.renew(wanted_.has(Stream::attributes));
+}
+
+Status OwnVertices::createIndices(std::span<const std::byte> indices) {
+    const gpu::StaticRequest request{"supple grid indices",
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                     indices};
+    Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(*desc_.device, {&request, 1});
+    if (!statics) {
+        return statics.error();
+    }
+    indices_ = std::move(*statics);
+    return success();
+}
+
+void OwnVertices::bindOutput(const SurfaceSets::Which& which, SetContents& contents) const {
+    const Stream target = which.previous ? Stream::previousPositions : Stream::vertices;
+    const VkDeviceSize bytes = VkDeviceSize{evaluation_.verticesPerInstance} * streams_.bytes(target);
+    contents.buffer(kSurfaceBinding, streams_.buffer(target), windows().firstSlot(which.window) * bytes,
+                    windows().slots(which.window) * bytes);
+    for (const StreamRow& row : kStreams) {
+        if (row.written == Written::static_) {
+            const auto stream = static_cast<Stream>(&row - kStreams);
+            // Without the stream the kernel still names it, but does not write it.
+            const bool there = streams_.size(stream) > 0;
+            contents.buffer(row.binding, there ? streams_.buffer(stream) : pools_[which.pool].buffer(), 0,
+                            there ? VK_WHOLE_SIZE : VkDeviceSize{16});
+        }
+    }
+}
+
+void OwnVertices::fill(SuppleGroupOutput& output) {
+    Tessellation::fill(output);
+    streams_.fill(output);
+    output.rate = evaluation_.rate;
+    output.vertexCount = vertexCount_;
+    output.gridIndices = {indices_.buffer(0), 0, indices_.size(0), indexBytes_};
+    output.drawRanges = draws_.data();
+    output.drawRangeCount = static_cast<uint32_t>(draws_.size());
+    output.rates = rates_.data();
+    output.rateCount = static_cast<uint32_t>(rates_.size());
+}
+
+void OwnVertices::addTransfers(Transfers& transfers, uint64_t frame) const {
+    streams_.addTransfers(transfers, attributes_.recordedIn(frame));
+    if (indicesRelease_.recordedIn(frame)) {
+        transfers.add(indices_.buffer(0));
+    }
+}
+
+bool OwnVertices::staticsPending() const {
+    return Tessellation::staticsPending() || indices_.uploadPending();
+}
+
+VkDeviceSize OwnVertices::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
+    return Tessellation::recordStatics(commandBuffer, frame) + indices_.recordUpload(commandBuffer, frame);
+}
+
+void OwnVertices::cancelFrame(uint64_t frame) {
+    Tessellation::cancelFrame(frame);
+    indices_.cancelUpload(frame);
+    indicesRelease_.cancel(frame);
+    attributes_.cancel(frame);
+}
+
+void OwnVertices::releaseStaging(uint64_t completedFrame) {
+    Tessellation::releaseStaging(completedFrame);
+    indices_.releaseStaging(completedFrame);
+}
+
+VkDeviceSize OwnVertices::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {
+    if (indicesRelease_.due()) { // the indices are on the device by now
+        indicesRelease_.record(frame);
+    }
+    return Tessellation::recordUpload(commandBuffer, frame, changed);
+}
+
+surface::Window OwnVertices::oneInstance(const surface::Sets& sets) const {
+    surface::Window window;
+    window.sets = sets;
+    window.push.instanceCount = 1;
+    return window;
+}
+
+void OwnVertices::recordAttributeSteps(VkCommandBuffer commandBuffer) const {
+    record(commandBuffer, program_.attributes, oneInstance(sets(0)));
+}
+
+PassCost OwnVertices::recordAttributes(VkCommandBuffer commandBuffer, uint64_t frame) {
+    if (!attributes_.due()) {
+        return {};
+    }
+    attributes_.record(frame);
+    recordAttributeSteps(commandBuffer);
+    return {vertexCount_, streams_.staticBytes()};
+}
+
+void GridDraws::addRate(const surface::Tables& tables, uint32_t rate) {
+    Rate& own = rates_.emplace_back();
+    own.rate = rate;
+    for (const surface::DrawRange& range : tables.drawRanges) {
+        Grid& grid = own.grids[static_cast<size_t>(range.domain)];
+        if (grid.indexCount == 0) {
+            const std::vector<uint16_t> indices = surface::gridIndices(range.domain, rate);
+            grid = {static_cast<uint32_t>(indices_.size()), static_cast<uint32_t>(indices.size())};
+            indices_.insert(indices_.end(), indices.begin(), indices.end());
+        }
+    }
+}
+
+std::vector<std::byte> GridDraws::takeIndices() {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(indices_));
+    std::vector<std::byte> taken(bytes.begin(), bytes.end());
+    indices_ = {};
+    return taken;
+}
+
+void GridDraws::append(const surface::Tables& tables, size_t index, uint32_t& firstVertex,
+                       std::vector<SuppleDrawRange>& draws) const {
+    const Rate& own = rates_[index];
+    for (const surface::DrawRange& from : tables.drawRanges) {
+        const Grid& grid = own.grids[static_cast<size_t>(from.domain)];
+        SuppleDrawRange range{};
+        range.domain = static_cast<SuppleDomain>(from.domain);
+        range.firstPatch = from.firstPatch;
+        range.patchCount = from.patchCount;
+        range.material = from.material;
+        range.samplesPerPatch = surface::sampleCount(from.domain, own.rate);
+        range.firstVertex = firstVertex;
+        range.firstIndex = grid.firstIndex;
+        range.indexCount = grid.indexCount;
+        firstVertex += range.patchCount * range.samplesPerPatch;
+        draws.push_back(range);
+    }
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,71 @@
+// What tessellations have in common whose vertices are the group's own: streams, static attributes, index buffer, draw
+// ranges.
+#pragma once
+
+#include "runtime/tessellation/tessellation.h"
+
+#include <span>
+#include <vector>
+
+namespace supple::runtime {
+
+class OwnVertices : public Tessellation {
+public:
+    [[nodiscard]] BoundBytes boundBytes() const override;
+    void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
+    [[nodiscard]] VkDeviceSize deviceBytes() const override { return indices_.deviceBytes(); }
+    void fill(SuppleGroupOutput& output) override;
+    void addTransfers(Transfers& transfers, uint64_t frame) const override;
+
+    [[nodiscard]] bool staticsPending() const override;
+    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
+    void cancelFrame(uint64_t frame) override;
+    void releaseStaging(uint64_t completedFrame) override;
+    VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
+    [[nodiscard]] bool attributesDue() const override { return attributes_.due(); }
+    PassCost recordAttributes(VkCommandBuffer commandBuffer, uint64_t frame) override;
+
+protected:
+    using Tessellation::Tessellation;
+
+    /// Takes the vertices that layOut() has counted, without padding.
+    [[nodiscard]] Status setVertexCount(uint64_t vertices);
+    [[nodiscard]] Status createIndices(std::span<const std::byte> indices);
+    void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
+    /// Attributes are the same for all instances: a window of one.
+    virtual void recordAttributeSteps(VkCommandBuffer commandBuffer) const;
+    [[nodiscard]] surface::Window oneInstance(const surface::Sets& sets) const;
+
+    uint32_t vertexCount_ = 0; ///< of an instance
+    VertexStreams streams_;
+    gpu::StaticBuffers indices_; ///< 0: grid indices
+    uint32_t indexBytes_ = 2;
+    RecordedOnce indicesRelease_, attributes_;
+    std::vector<SuppleDrawRange> draws_;
+    std::vector<SuppleRate> rates_; ///< what is drawn at each rate
+};
+
+/// One index buffer for the grids of several rates, and the draw ranges over them.
+class GridDraws {
+public:
+    /// Adds the grids of a rate, one for every domain in use.
+    void addRate(const surface::Tables& tables, uint32_t rate);
+    /// The index buffer of all rates that were added, 16 bits an index.
+    [[nodiscard]] std::vector<std::byte> takeIndices();
+    /// Appends the draw ranges of the index-th rate to `draws`. `firstVertex` goes on behind them.
+    void append(const surface::Tables& tables, size_t index, uint32_t& firstVertex,
+                std::vector<SuppleDrawRange>& draws) const;
+
+private:
+    struct Grid {
+        uint32_t firstIndex = 0, indexCount = 0;
+    };
+    struct Rate {
+        uint32_t rate = 0;
+        std::array<Grid, surface::kDomainCount> grids{};
+    };
+    std::vector<Rate> rates_;
+    std::vector<uint16_t> indices_;
+};
+
+} // namespace supple::runtime

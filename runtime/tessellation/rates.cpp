@@ -1,0 +1,262 @@
+// Groups of a view whose scheme subdivides: each instance has one of several rates, by the level that its bounds ask
+// for.
+//
+// All rates share the isolated mesh, and with it the coefficient pools and all that comes before evaluation. Each has
+// its own tables, program, draw ranges and list of instances, and a place in every instance's vertices. So the
+// attributes of all rates are made once, and a host draws a rate as it draws a group of that rate alone.
+#include "runtime/tessellation/own_vertices.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+
+namespace {
+
+class Rates final : public OwnVertices {
+public:
+    explicit Rates(const TessellationDesc& desc) : OwnVertices(desc) {}
+    ~Rates() override;
+    [[nodiscard]] Status begin();
+
+    [[nodiscard]] uint32_t lists() const override { return 3 + 2 * static_cast<uint32_t>(own_.size()); }
+    [[nodiscard]] Status join(const InstanceWindows& windows) override;
+    [[nodiscard]] Culling::Needs cullingNeeds() const override;
+    [[nodiscard]] Status createSets(const InstanceSet& instances, const Visibility& visibility) override;
+    void fill(SuppleGroupOutput& output) override;
+    [[nodiscard]] Status setRate(uint32_t rate) override;
+
+    [[nodiscard]] bool staticsPending() const override;
+    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
+    void cancelFrame(uint64_t frame) override;
+    void releaseStaging(uint64_t completedFrame) override;
+    PassCost recordPatchLevels(VkCommandBuffer commandBuffer) const override;
+    PassCost recordPlaces(VkCommandBuffer commandBuffer) const override;
+    PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
+    PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
+    [[nodiscard]] bool isBudgeted() const override { return view()->countsRates(); }
+
+protected:
+    [[nodiscard]] uint32_t scratchStride() const override;
+    void recordAttributeSteps(VkCommandBuffer commandBuffer) const override;
+
+private:
+    /// A rate that instances may have. Its vertices lie in the instance's behind those of the coarser rates.
+    struct Rate {
+        std::shared_ptr<SchemeTables> scheme;
+        surface::Evaluation evaluation;
+        surface::Program program;
+        SurfaceSets sets;
+        uint32_t vertices = 0; ///< of an instance
+    };
+    [[nodiscard]] Status buildRates();
+    [[nodiscard]] const Culling& culling() const { return static_cast<const Culling&>(*visibility_); }
+    void recordRates(VkCommandBuffer commandBuffer, bool previous) const;
+
+    std::vector<Rate> own_; ///< rising; the last one's tables are scheme_
+    GridDraws grids_;
+    bool joined_ = false;
+};
+
+Rates::~Rates() {
+    if (joined_) {
+        view()->giveGroup(uint64_t{vertexCount_} * desc_.group.capacity);
+    }
+}
+
+Status Rates::begin() {
+    Status status = buildTables();
+    status = status ? buildRates() : status;
+    if (!status) {
+        return status;
+    }
+    surface::Needs needs = this->needs();
+    needs.view = true;
+    for (size_t r = 0; r < own_.size(); ++r) {
+        Rate& rate = own_[r];
+        rate.evaluation.verticesPerInstance = evaluation_.verticesPerInstance;
+        rate.evaluation.cageStride = evaluation_.cageStride;
+        Result<surface::Program> program = desc_.passes->prepare(rate.scheme->tables, needs, rate.evaluation);
+        if (!program) {
+            return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
+        }
+        rate.program = std::move(*program);
+        grids_.addRate(tables(), rate.evaluation.rate);
+    }
+    // Construction is that of the finest rate, and the same for all.
+    program_.vertex = own_.back().program.vertex;
+    program_.assemble = own_.back().program.assemble;
+    uint32_t firstVertex = 0;
+    for (size_t r = 0; r < own_.size(); ++r) {
+        const auto first = static_cast<uint32_t>(draws_.size());
+        grids_.append(tables(), r, firstVertex, draws_);
+        rates_.push_back({own_[r].evaluation.rate, first, static_cast<uint32_t>(draws_.size()) - first, {}});
+    }
+    return desc_.bounds->prepareRates();
+}
+
+Status Rates::buildRates() {
+    surface::Recipe recipe = scheme_->recipe;
+    uint64_t vertices = 0;
+    for (uint32_t segments = 1; segments <= tables().rate; segments *= 2) {
+        recipe.rate = segments << tables().isolationSteps;
+        Result<std::shared_ptr<SchemeTables>> scheme = desc_.asset->tablesFor(*desc_.device, recipe);
+        if (!scheme) {
+            return scheme.error();
+        }
+        Rate& rate = own_.emplace_back();
+        rate.scheme = std::move(*scheme);
+        rate.evaluation.rate = segments;
+        const uint64_t first = vertices;
+        vertices = rate.evaluation.layOut(rate.scheme->tables, vertices);
+        rate.vertices = static_cast<uint32_t>(vertices - first);
+    }
+    scheme_ = own_.back().scheme;
+    return setVertexCount(vertices);
+}
+
+Status Rates::join(const InstanceWindows&) {
+    joined_ = view()->takeGroup(uint64_t{vertexCount_} * desc_.group.capacity);
+    if (!joined_) {
+        return Error{ErrorCode::limit, "the view is full: it has " + std::to_string(kMaxRuns) +
+                                           " groups of subdivision, or they have 2^32 vertices"};
+    }
+    return success();
+}
+
+Culling::Needs Rates::cullingNeeds() const {
+    const cage::Cage& cage = desc_.asset->character.cage;
+    Culling::Needs needs;
+    needs.sizes = program_.constructionSizes();
+    needs.measure = surface::lod::measureInstance(cage); // rates count along edges of the cage
+    needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage);
+    needs.leastVertices = own_.front().vertices;
+    needs.firstRate = 1u << tables().isolationSteps;
+    for (size_t r = 0; r < own_.size(); ++r) {
+        needs.rates.push_back({own_[r].vertices, own_[r].program.evaluationSizes(),
+                               std::span(draws_).subspan(rates_[r].firstDrawRange, rates_[r].drawRangeCount)});
+    }
+    return needs;
+}
+
+Status Rates::createSets(const InstanceSet& instances, const Visibility& visibility) {
+    Status status = createIndices(grids_.takeIndices());
+    status = status ? OwnVertices::createSets(instances, visibility) : status;
+    for (Rate& rate : own_) {
+        status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;
+    }
+    return status;
+}
+
+void Rates::fill(SuppleGroupOutput& output) {
+    for (uint32_t r = 0; r < rates_.size(); ++r) {
+        rates_[r].instances = output.instances;
+        rates_[r].instances.offset = culling().rateListOffset(r);
+    }
+    OwnVertices::fill(output);
+    output.rate = evaluation_.rate;
+    output.indirect = {culling().list().buffer, culling().drawOffset(),
+                       draws_.size() * sizeof(VkDrawIndexedIndirectCommand), sizeof(VkDrawIndexedIndirectCommand)};
+}
+
+Status Rates::setRate(uint32_t rate) {
+    if (rate == askedRate_) {
+        return success();
+    }
+    return Error{ErrorCode::argument, desc_.asset->character.name + ": the tables of " +
+                                          surface::schemeOf(scheme_->recipe.scheme).name + " are made for rate " +
+                                          std::to_string(askedRate_) + " alone"};
+}
+
+uint32_t Rates::scratchStride() const {
+    uint32_t most = 0; // rates take turns
+    for (const Rate& rate : own_) {
+        most = std::max(most, rate.program.scratchStride);
+    }
+    return most;
+}
+
+bool Rates::staticsPending() const {
+    return OwnVertices::staticsPending() ||
+           std::any_of(own_.begin(), own_.end(), [](const Rate& rate) { return rate.scheme->buffers.uploadPending(); });
+}
+
+VkDeviceSize Rates::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
+    VkDeviceSize bytes = OwnVertices::recordStatics(commandBuffer, frame);
+    for (const Rate& rate : own_) {
+        bytes += rate.scheme->buffers.recordUpload(commandBuffer, frame); // nothing the second time
+    }
+    return bytes;
+}
+
+void Rates::cancelFrame(uint64_t frame) {
+    OwnVertices::cancelFrame(frame);
+    for (const Rate& rate : own_) {
+        rate.scheme->buffers.cancelUpload(frame);
+    }
+}
+
+void Rates::releaseStaging(uint64_t completedFrame) {
+    OwnVertices::releaseStaging(completedFrame);
+    for (const Rate& rate : own_) {
+        rate.scheme->buffers.releaseStaging(completedFrame);
+    }
+}
+
+void Rates::recordAttributeSteps(VkCommandBuffer commandBuffer) const {
+    for (const Rate& rate : own_) {
+        record(commandBuffer, rate.program.attributes, oneInstance(rate.sets.at({0, pool_, false})));
+    }
+}
+
+PassCost Rates::recordPatchLevels(VkCommandBuffer commandBuffer) const {
+    if (!isBudgeted()) {
+        return {};
+    }
+    gpu::disjointBarrier(*desc_.device, commandBuffer);
+    return culling().recordDemand(commandBuffer);
+}
+
+PassCost Rates::recordPlaces(VkCommandBuffer commandBuffer) const {
+    // Behind the solver; and all add to the view's count of vertices, each with one lane.
+    gpu::computeBarrier(*desc_.device, commandBuffer);
+    return culling().recordRates(commandBuffer, isBudgeted());
+}
+
+void Rates::recordRates(VkCommandBuffer commandBuffer, bool previous) const {
+    bool first = true;
+    for (uint32_t r = 0; r < own_.size(); ++r) {
+        const Rate& rate = own_[r];
+        windows().forEach([&](uint32_t w) {
+            if (!first && usesScratch()) {
+                gpu::computeBarrier(*desc_.device, commandBuffer);
+            }
+            first = false;
+            surface::Window window = culling().window(w, r);
+            window.sets = rate.sets.at({w, previous ? 1 - pool_ : pool_, previous});
+            record(commandBuffer, previous ? rate.program.motion : rate.program.evaluate, window);
+        });
+    }
+}
+
+PassCost Rates::recordEvaluate(VkCommandBuffer commandBuffer) const {
+    recordRates(commandBuffer, false);
+    return {0, 0, windows().visible > 0};
+}
+
+PassCost Rates::recordMotion(VkCommandBuffer commandBuffer) const {
+    if (!writesMotion()) {
+        return {};
+    }
+    recordRates(commandBuffer, true);
+    return {0, 0, windows().visible > 0};
+}
+
+} // namespace
+
+Result<std::unique_ptr<Tessellation>> makeRates(const TessellationDesc& desc) {
+    return begun(std::make_unique<Rates>(desc));
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,291 @@
+#include "runtime/tessellation/tessellation.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+using surface::SetKind;
+
+namespace {
+
+constexpr VkDeviceSize kVec4Bytes = 16;
+constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kUint4 = VK_FORMAT_R32G32B32A32_UINT;
+constexpr VkFormat kUint1 = VK_FORMAT_R32_UINT;
+
+surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View* view) {
+    surface::Recipe recipe;
+    recipe.indexedMesh = (desc.flags & SUPPLE_GROUP_INDEXED_MESH) != 0;
+    recipe.attributes = view != nullptr ? (view->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
+                                        : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
+    if (desc.scheme != SUPPLE_SCHEME_AUTO) {
+        recipe.scheme = static_cast<surface::SchemeId>(desc.scheme);
+    }
+    const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
+    recipe.lod = view != nullptr && scheme.hasLevels;
+    recipe.rate = scheme.tableRate(rate, recipe.lod);
+    recipe.blend.creases =
+        desc.creaseMode == SUPPLE_CREASES_CURVE ? surface::blend::CreaseMode::curve : surface::blend::CreaseMode::cut;
+    recipe.blend.sharpThreshold = desc.sharpThreshold > 0.0f ? desc.sharpThreshold : 1.0f;
+    recipe.prep.tangentMode = desc.tangentMode == SUPPLE_TANGENTS_PRINTED ? surface::prep::TangentMode::printed
+                                                                          : surface::prep::TangentMode::standard;
+    recipe.prep.cornerRule =
+        desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth : surface::prep::CornerRule::sharp;
+    return recipe;
+}
+
+/// The kinds of sets that a program binds.
+std::vector<SetKind> setKindsOf(const surface::Program& program) {
+    std::vector<SetKind> kinds;
+    for (const surface::Steps* steps :
+         {&program.vertex, &program.assemble, &program.patch, &program.attributes, &program.edgeLevels,
+          &program.patchLevels, &program.places, &program.evaluate, &program.motion}) {
+        for (const surface::Step& step : *steps) {
+            if (std::find(kinds.begin(), kinds.end(), step.sets) == kinds.end()) {
+                kinds.push_back(step.sets);
+            }
+        }
+    }
+    return kinds;
+}
+
+} // namespace
+
+Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDesc& desc) {
+    if (desc.group.scheme == SUPPLE_SCHEME_CAGE) {
+        return makeNoTessellation(desc);
+    }
+    const surface::SchemeId scheme = desc.group.scheme == SUPPLE_SCHEME_AUTO
+                                         ? surface::Recipe().scheme
+                                         : static_cast<surface::SchemeId>(desc.group.scheme);
+    if (desc.view != nullptr) {
+        return surface::schemeOf(scheme).hasLevels ? makeLevels(desc) : makeRates(desc);
+    }
+    return (desc.group.flags & SUPPLE_GROUP_INDEXED_MESH) != 0 ? makeIndexedMesh(desc) : makeFixedRate(desc);
+}
+
+Tessellation::Tessellation(TessellationDesc desc)
+    : desc_(std::move(desc)), askedRate_(desc_.group.rate == 0 ? 8 : desc_.group.rate),
+      scheme_(std::make_shared<SchemeTables>()) {
+    wanted_ = view() != nullptr ? StreamSet::ofView(view()->desc().flags) : StreamSet::ofGroup(desc_.group.flags);
+    const uint32_t vertices = desc_.asset->character.cage.vertexCount();
+    evaluation_.cageStride = InstanceSet::cageStrideOf(vertices);
+}
+
+Status Tessellation::buildTables() {
+    Result<std::shared_ptr<SchemeTables>> built =
+        desc_.asset->tablesFor(*desc_.device, recipeOf(desc_.group, askedRate_, view()));
+    if (!built) {
+        return built.error();
+    }
+    scheme_ = std::move(*built);
+    const surface::Tables& own = tables();
+    const surface::Scheme& scheme = surface::schemeOf(scheme_->recipe.scheme);
+    const bool hasCoefficients =
+        std::all_of(own.ranges.begin(), own.ranges.end(),
+                    [](const surface::PatchRange& range) { return surface::rowOf(range.patchClass).coefficients > 0; });
+    if ((desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0 && !hasCoefficients) {
+        return Error{ErrorCode::argument,
+                     desc_.asset->character.name + ": " + scheme.name + " has no patch coefficients"};
+    }
+    const uint32_t taken = own.rate << own.isolationSteps;
+    if (own.rate != 0 && taken != askedRate_) {
+        rateNote_ = "rate " + std::to_string(askedRate_) + ": " + scheme.name + " has " + scheme.ratesInWords +
+                    " segments an edge of the cage, here " + std::to_string(taken);
+    }
+    wanted_.keepAttributes((own.uvSets == 2 ? kOutputUvs1 : 0) | (own.faceUvs ? kOutputFaceUvs : 0));
+    if (own.patches.empty()) {
+        wanted_.remove(Stream::previousPositions);
+    }
+    evaluation_.rate = own.rate == 0 ? askedRate_ : own.rate;
+    return success();
+}
+
+surface::Needs Tessellation::needs() const {
+    surface::Needs needs;
+    needs.vertexFormat =
+        static_cast<uint32_t>(view() != nullptr ? view()->desc().vertexFormat : desc_.group.vertexFormat);
+    needs.motion = wanted_.has(Stream::previousPositions);
+    needs.patches = (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0;
+    needs.attributes = wanted_.has(Stream::attributes);
+    needs.attributeOutputs = wanted_.attributeOutputs();
+    needs.rate = tables().rate == 0 ? askedRate_ : tables().rate; // though another may be set later
+    return needs;
+}
+
+Status Tessellation::prepare() {
+    Result<surface::Program> program = desc_.passes->prepare(tables(), needs(), evaluation_);
+    if (!program) {
+        return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
+    }
+    program_ = std::move(*program);
+    return success();
+}
+
+Status Tessellation::checkVertices(uint64_t vertices) const {
+    // Vertex indices are 32 bits on the device.
+    if ((vertices + kVertexPadding) * desc_.group.capacity > 0xFFFFFFFFull) {
+        return Error{ErrorCode::limit, desc_.asset->character.name + ": " + std::to_string(desc_.group.capacity) +
+                                           " instances at rate " + std::to_string(askedRate_) +
+                                           " need more than 2^32 surface vertices"};
+    }
+    return success();
+}
+
+Status Tessellation::checkRate(uint32_t rate, uint32_t most) const {
+    if (rate == 0 || rate > most) {
+        return Error{ErrorCode::range, desc_.asset->character.name + ": rate " + std::to_string(rate) + " of at most " +
+                                           std::to_string(most) + ", with which the group was created"};
+    }
+    return success();
+}
+
+BoundBytes Tessellation::boundBytes() const {
+    const VkDeviceSize patchBytes =
+        (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0 ? tables().patches.size() * kPatchStride * kVec4Bytes : 0;
+    return {std::max(tables().poolStride, scratchStride()) * kVec4Bytes, patchBytes};
+}
+
+void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
+    constexpr VkBufferUsageFlags kScratch =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    const VkDeviceSize n = desc_.group.capacity;
+    const VkDeviceSize poolBytes = n * tables().poolStride * kVec4Bytes;
+    const bool motion = wanted_.has(Stream::previousPositions) && !tables().patches.empty();
+    const bool patches = (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0;
+    pools_[0] = device.add({"supple coefficient pool", poolBytes, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    pools_[1] = device.add(
+        {"supple second coefficient pool", motion ? poolBytes : 0, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    patches_ =
+        device.add({"supple patch coefficients", patches ? n * tables().patches.size() * kPatchStride * kVec4Bytes : 0,
+                    kScratch | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+    scratch_ = device.add({"supple scratch", n * scratchStride() * kVec4Bytes, kScratch});
+}
+
+Status Tessellation::createSets(const InstanceSet& instances, const Visibility& visibility) {
+    instances_ = &instances;
+    visibility_ = &visibility;
+    clear_.renew(pools_[0].size() > 0);
+    return makeSets(sets_, *scheme_, program_);
+}
+
+Status Tessellation::makeSets(SurfaceSets& target, const SchemeTables& scheme, const surface::Program& program) const {
+    const std::vector<SetKind> kinds = setKindsOf(program);
+    return target.create({desc_.device, desc_.passes, kinds, windows().count(), writesMotion()},
+                         [&](const SurfaceSets::Which& which, SetContents& contents) {
+                             bindInput(which, scheme, contents);
+                             bindOutput(which, contents);
+                         });
+}
+
+void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables& scheme, SetContents& contents) const {
+    const VkDeviceSize first = windows().firstSlot(which.window), count = windows().slots(which.window);
+    const auto bind = [&](uint32_t binding, uint32_t texels, const gpu::PlannedBuffer& buffer, uint32_t stride,
+                          const char* name) {
+        const VkDeviceSize bytes = stride * kVec4Bytes;
+        contents.buffer(binding, buffer.buffer(), first * bytes, count * bytes);
+        contents.texels(texels, kFloat4, buffer.buffer(), first * bytes, count * bytes, name);
+    };
+    const VkBuffer table = scheme.buffers.buffer(0);
+    const VkDeviceSize tableBytes = scheme.buffers.size(0);
+    contents.buffer(kTableBinding, table, 0, tableBytes);
+    contents.texels(kTable4TexelBinding, kUint4, table, 0, tableBytes, "supple surface tables");
+    contents.texels(kTable1TexelBinding, kUint1, table, 0, tableBytes, "supple surface table words");
+    const uint32_t poolStride = tables().poolStride;
+    bind(kPoolBinding, kPoolTexelBinding, pools_[which.pool], poolStride, "supple pool");
+    if (which.previous && view() != nullptr) {
+        // Today's coefficients in the place of the cage, which no evaluation reads (shaders/evaluate/bicubic.comp,
+        // shaders/subdivision/net.glsl).
+        bind(kCageBinding, kCageTexelBinding, pools_[1 - which.pool], poolStride, "supple pool");
+    } else {
+        bind(kCageBinding, kCageTexelBinding, instances_->cages(), evaluation_.cageStride, "supple deformed cage");
+    }
+    if (scratch_.size() > 0) {
+        bind(kScratchBinding, kScratchTexelBinding, scratch_, scratchStride(), "supple scratch");
+    } else { // some kernels name it but never read it
+        bind(kScratchBinding, kScratchTexelBinding, pools_[which.pool], poolStride, "supple pool");
+    }
+    if (patches_.size() > 0) {
+        const VkDeviceSize bytes = tables().patches.size() * kPatchStride * kVec4Bytes;
+        contents.buffer(kPatchCoefficientBinding, patches_.buffer(), first * bytes, count * bytes);
+    }
+    contents.buffer(kPairBinding, desc_.pairs->buffer(0), 0, desc_.pairs->size(0));
+    const InstanceList list = visibility_->list();
+    contents.buffer(kInstanceBinding, list.buffer, 0, VK_WHOLE_SIZE);
+    contents.texels(kInstanceTexelBinding, kUint1, list.buffer, 0, list.bytes, "supple instances seen");
+}
+
+void Tessellation::fill(SuppleGroupOutput& output) {
+    output.vertexFormat = view() != nullptr ? view()->desc().vertexFormat : desc_.group.vertexFormat;
+    output.patchCount = static_cast<uint32_t>(tables().patches.size());
+    output.verticesPerInstance = evaluation_.verticesPerInstance;
+    output.patchCoefficients = {patches_.buffer(), 0, patches_.size(), static_cast<uint32_t>(kVec4Bytes)};
+}
+
+void Tessellation::addTransfers(Transfers&, uint64_t) const {}
+
+bool Tessellation::staticsPending() const {
+    return scheme_->buffers.uploadPending() || clear_.due();
+}
+
+VkDeviceSize Tessellation::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
+    if (clear_.due()) {
+        clear_.record(frame);
+        // The zero coefficient, and the slots that no stage writes.
+        for (const gpu::PlannedBuffer& pool : pools_) {
+            if (pool.size() > 0) {
+                desc_.device->vk.CmdFillBuffer(commandBuffer, pool.buffer(), 0, VK_WHOLE_SIZE, 0);
+            }
+        }
+    }
+    return scheme_->buffers.recordUpload(commandBuffer, frame);
+}
+
+void Tessellation::cancelFrame(uint64_t frame) {
+    scheme_->buffers.cancelUpload(frame);
+    clear_.cancel(frame);
+}
+
+void Tessellation::releaseStaging(uint64_t completedFrame) {
+    scheme_->buffers.releaseStaging(completedFrame);
+}
+
+VkDeviceSize Tessellation::recordUpload(VkCommandBuffer, uint64_t, bool) {
+    if (writesMotion()) {
+        pool_ = 1 - pool_;
+    }
+    return 0;
+}
+
+const surface::Steps& Tessellation::stepsOf(surface::Stage stage) const {
+    return stage == surface::Stage::vertex ? program_.vertex : program_.assemble;
+}
+
+surface::Window Tessellation::seen(uint32_t window) const {
+    surface::Window result = visibility_->window(window);
+    result.sets = sets(window);
+    return result;
+}
+
+PassCost Tessellation::recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const {
+    windows().forEach([&](uint32_t w) { record(commandBuffer, stepsOf(stage), seen(w)); });
+    uint64_t points = 0, coefficients = 0;
+    for (const surface::Construction& construction : tables().constructions) {
+        if (construction.stage == stage) {
+            points += construction.section.count;
+            coefficients += construction.coefficients;
+        }
+    }
+    return visibility_->cost(points, coefficients * kVec4Bytes);
+}
+
+PassCost Tessellation::recordPatch(VkCommandBuffer commandBuffer) const {
+    if (!writesPatches()) {
+        return {};
+    }
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.patch, seen(w)); });
+    const uint64_t points = tables().patches.size();
+    return visibility_->cost(points, points * kPatchStride * kVec4Bytes);
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,179 @@
+// How a group's surface becomes vertices: one implementation a file.
+//
+//   none.cpp          the deformed cage alone
+//   fixed_rate.cpp    grids of samples, patch by patch, at one rate
+//   indexed_mesh.cpp  one mesh an instance, which stores the samples on borders once
+//   levels.cpp        a view's vertices, at real-valued levels
+//   rates.cpp         groups of a view whose instances have one of several rates each (subdivision)
+#pragma once
+
+#include "gpu/buffer_plan.h"
+#include "runtime/asset.h"
+#include "runtime/culling/culling.h"
+#include "runtime/instance_set.h"
+#include "runtime/recorded_once.h"
+#include "runtime/surface_sets.h"
+#include "runtime/vertex_streams.h"
+#include "runtime/view.h"
+#include "surface/passes.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace supple::runtime {
+
+/// Surface vertices of an instance start on a multiple of this, so that descriptor offsets are aligned to 256 bytes
+/// (VkPhysicalDeviceLimits) in every stream: 12, 16 or 24 bytes each.
+inline constexpr uint32_t kVertexPadding = 64;
+
+/// What a tessellation is made of. All pointers must outlive it.
+struct TessellationDesc {
+    const gpu::Device* device = nullptr;
+    surface::Passes* passes = nullptr;
+    BoundsPass* bounds = nullptr; ///< groups of a view
+    const gpu::StaticBuffers* pairs = nullptr;
+    std::shared_ptr<View> view; ///< null, or the group's
+    Asset* asset = nullptr;
+    SuppleGroupDesc group{};
+    uint32_t framesInFlight = 2;
+    bool handsOver = false; ///< to another queue family: all output is written anew in every frame
+};
+
+/// The base class has what all have in common: tables, program, coefficients, descriptor sets, construction.
+class Tessellation {
+public:
+    /// Builds the tables, prepares the pipelines and lays out an instance; refuses what the scheme cannot take.
+    [[nodiscard]] static Result<std::unique_ptr<Tessellation>> create(const TessellationDesc& desc);
+    virtual ~Tessellation() = default;
+    Tessellation(const Tessellation&) = delete;
+    Tessellation& operator=(const Tessellation&) = delete;
+
+    [[nodiscard]] const SchemeTables& scheme() const { return *scheme_; }
+    [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables; }
+    /// Why the rate is not the one asked for, or empty.
+    [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
+
+    // Creation, in this order, after create().
+    [[nodiscard]] virtual BoundBytes boundBytes() const;
+    /// How many lists of `capacity` instances there are.
+    [[nodiscard]] virtual uint32_t lists() const { return 2; }
+    /// Joins the view; asks it for room.
+    [[nodiscard]] virtual Status join(const InstanceWindows& /*windows*/) { return success(); }
+    /// Groups of a view.
+    [[nodiscard]] virtual Culling::Needs cullingNeeds() const { return {}; }
+    virtual void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
+    /// When the plans are carried out. `visibility` is the group's Culling if it belongs to a view.
+    [[nodiscard]] virtual Status createSets(const InstanceSet& instances, const Visibility& visibility);
+
+    [[nodiscard]] virtual VkDeviceSize deviceBytes() const { return 0; } ///< beside the planned buffers
+    /// Fills in what output has of a surface.
+    virtual void fill(SuppleGroupOutput& output);
+    virtual void addTransfers(Transfers& transfers, uint64_t frame) const;
+    /// The next fill() tells of the new rate.
+    [[nodiscard]] virtual Status setRate(uint32_t rate) = 0;
+
+    // Uploads and clears that are recorded once.
+    [[nodiscard]] virtual bool staticsPending() const;
+    virtual VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
+    virtual void cancelFrame(uint64_t frame);
+    virtual void releaseStaging(uint64_t completedFrame);
+
+    // The passes of a frame. What their dispatches need between them they record themselves.
+    /// `changed`: the list of instances has.
+    virtual VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed);
+    [[nodiscard]] virtual bool attributesDue() const { return false; }
+    virtual PassCost recordAttributes(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/) { return {}; }
+    [[nodiscard]] bool has(surface::Stage stage) const { return !stepsOf(stage).empty(); }
+    PassCost recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const;
+    [[nodiscard]] bool writesPatches() const { return patches_.buffer() != VK_NULL_HANDLE; }
+    PassCost recordPatch(VkCommandBuffer commandBuffer) const;
+    // Groups of a view, in this order; the view solves its budget before places.
+    virtual PassCost recordEdgeLevels(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    virtual PassCost recordPatchLevels(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    virtual PassCost recordPlaces(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    [[nodiscard]] virtual bool writesLevelAttributes() const { return false; }
+    virtual PassCost recordLevelAttributes(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    virtual PassCost recordEvaluate(VkCommandBuffer commandBuffer) const = 0;
+    /// Previous positions.
+    [[nodiscard]] bool writesMotion() const { return pools_[1].buffer() != VK_NULL_HANDLE; }
+    /// Evaluation and motion write the same memory, so that a barrier stands between the two.
+    [[nodiscard]] virtual bool usesScratch() const { return scratch_.buffer() != VK_NULL_HANDLE; }
+    virtual PassCost recordMotion(VkCommandBuffer commandBuffer) const = 0;
+
+    /// Whether the vertices count in the view's budget.
+    [[nodiscard]] virtual bool isBudgeted() const { return false; }
+    /// What the view's statistics count of an instance that is seen: patches at levels.
+    [[nodiscard]] virtual uint32_t patchesAtLevels() const { return 0; }
+
+protected:
+    explicit Tessellation(TessellationDesc desc);
+
+    /// Builds the tables of the description; `rate` in segments along an edge of the cage.
+    [[nodiscard]] Status buildTables();
+    /// What the passes write for this group.
+    [[nodiscard]] surface::Needs needs() const;
+    [[nodiscard]] Status prepare();
+    [[nodiscard]] Status checkVertices(uint64_t vertices) const;
+    [[nodiscard]] Status checkRate(uint32_t rate, uint32_t most) const;
+    /// Null without a view.
+    [[nodiscard]] View* view() const { return desc_.view.get(); }
+    [[nodiscard]] bool wantsMotion() const;
+    [[nodiscard]] const InstanceWindows& windows() const { return instances_->windows(); }
+
+    /// The instances of a window with the sets that passes of this frame bind.
+    [[nodiscard]] surface::Window seen(uint32_t window) const;
+    [[nodiscard]] const surface::Sets& sets(uint32_t window) const { return sets_.at({window, pool_, false}); }
+    /// Sets that write previous positions, from the coefficients of the frame before.
+    [[nodiscard]] const surface::Sets& pastSets(uint32_t window) const { return sets_.at({window, 1 - pool_, true}); }
+    [[nodiscard]] const surface::Sets& todaysSets(uint32_t window) const { return sets_.at({window, pool_, true}); }
+    void record(VkCommandBuffer commandBuffer, std::span<const surface::Step> steps,
+                const surface::Window& window) const {
+        surface::record(*desc_.device, commandBuffer, steps, window);
+    }
+
+    [[nodiscard]] Status makeSets(SurfaceSets& target, const SchemeTables& scheme,
+                                  const surface::Program& program) const;
+    /// What differs by owner of the vertices: streams, scratch memory, the view's words.
+    virtual void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const = 0;
+    /// Elements of an instance.
+    [[nodiscard]] virtual uint32_t scratchStride() const { return program_.scratchStride; }
+
+    TessellationDesc desc_;
+    uint32_t askedRate_ = 8;
+    std::string rateNote_;
+    std::shared_ptr<SchemeTables> scheme_;
+    surface::Evaluation evaluation_;
+    surface::Program program_;
+    StreamSet wanted_;
+    const InstanceSet* instances_ = nullptr;
+    const Visibility* visibility_ = nullptr;
+    std::array<gpu::PlannedBuffer, 2> pools_; ///< motion: the pools take turns
+    gpu::PlannedBuffer patches_, scratch_;
+    SurfaceSets sets_;
+    uint32_t pool_ = 0; ///< of the newest frame
+    RecordedOnce clear_;
+
+private:
+    [[nodiscard]] const surface::Steps& stepsOf(surface::Stage stage) const;
+    void bindInput(const SurfaceSets::Which& which, const SchemeTables& scheme, SetContents& contents) const;
+};
+
+/// A tessellation that begin() has laid out, or why it cannot be.
+template <class T>
+[[nodiscard]] Result<std::unique_ptr<Tessellation>> begun(std::unique_ptr<T> made) {
+    const Status status = made->begin();
+    if (!status) {
+        return status.error();
+    }
+    return std::unique_ptr<Tessellation>(std::move(made));
+}
+
+// The implementations, for Tessellation::create().
+[[nodiscard]] std::unique_ptr<Tessellation> makeNoTessellation(const TessellationDesc& desc);
+[[nodiscard]] Result<std::unique_ptr<Tessellation>> makeFixedRate(const TessellationDesc& desc);
+[[nodiscard]] Result<std::unique_ptr<Tessellation>> makeIndexedMesh(const TessellationDesc& desc);
+[[nodiscard]] Result<std::unique_ptr<Tessellation>> makeLevels(const TessellationDesc& desc);
+[[nodiscard]] Result<std::unique_ptr<Tessellation>> makeRates(const TessellationDesc& desc);
+
+} // namespace supple::runtime

@@ -1,0 +1,95 @@
+// The streams of surface vertices: what a sample carries, one row a stream.
+#pragma once
+
+#include "gpu/buffer_plan.h"
+#include "runtime/transfers.h"
+#include "shaders/shared/surface.h"
+#include "supple/supple.h"
+
+#include <array>
+#include <cstdint>
+
+namespace supple::runtime {
+
+enum class Stream : uint32_t { vertices, previousPositions, attributes, uvs1, faceUvs, count };
+inline constexpr size_t kStreamCount = static_cast<size_t>(Stream::count);
+
+/// When a stream is written.
+enum class Written : uint32_t {
+    perFrame, ///< by evaluate or motion: a run of vertices per instance
+    static_   ///< by attributes: instances of a group share one run
+};
+
+struct StreamRow {
+    const char* name;   ///< for debuggers and messages
+    uint32_t bytes;     ///< per surface vertex; 0: by vertex format
+    Written written;    ///< in groups; a view's streams are all written in every frame
+    uint32_t groupFlag; ///< SuppleGroupFlags that ask for it; 0: always there
+    uint32_t viewFlag;  ///< SuppleViewFlags
+    uint32_t binding;   ///< shaders/shared/surface.h
+    uint32_t attribute; ///< shared::kOutput..., if only cages that have it fill the stream; else 0
+    SuppleBufferView SuppleGroupOutput::*output;
+};
+/// To add a stream, add a row, the binding, the member of the output, and the shader that writes it
+/// (docs/architecture.md).
+inline constexpr StreamRow kStreams[kStreamCount] = {
+    {"supple surface vertices", 0, Written::perFrame, 0, 0, shared::kSurfaceBinding, 0,
+     &SuppleGroupOutput::surfaceVertices},
+    {"supple previous positions", 12, Written::perFrame, SUPPLE_GROUP_MOTION, SUPPLE_VIEW_MOTION,
+     shared::kSurfaceBinding, 0, &SuppleGroupOutput::previousPositions},
+    {"supple surface attributes", 16, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_ATTRIBUTES,
+     shared::kAttributeBinding, 0, &SuppleGroupOutput::attributes},
+    {"supple second UV set", 8, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_UVS1, shared::kUv1Binding,
+     shared::kOutputUvs1, &SuppleGroupOutput::uvs1},
+    {"supple face UVs", 8, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_FACE_UVS, shared::kFaceUvBinding,
+     shared::kOutputFaceUvs, &SuppleGroupOutput::faceUvs},
+};
+
+/// Which streams there are: a bit per stream.
+class StreamSet {
+public:
+    [[nodiscard]] static StreamSet ofGroup(uint32_t groupFlags);
+    [[nodiscard]] static StreamSet ofView(uint32_t viewFlags);
+
+    [[nodiscard]] bool has(Stream stream) const { return (bits_ >> static_cast<uint32_t>(stream) & 1u) != 0; }
+    void remove(Stream stream) { bits_ &= ~(1u << static_cast<uint32_t>(stream)); }
+    /// The attributes beside the first that are wanted: shared::kOutput... bits.
+    [[nodiscard]] uint32_t attributeOutputs() const;
+    /// Takes out the streams that need an attribute which is not in `present` (shared::kOutput... bits).
+    void keepAttributes(uint32_t present);
+
+private:
+    void add(Stream stream) { bits_ |= 1u << static_cast<uint32_t>(stream); }
+    uint32_t bits_ = 0;
+};
+
+/// Bytes of a surface vertex.
+[[nodiscard]] constexpr uint32_t vertexBytes(SuppleVertexFormat format) {
+    return format == SUPPLE_VERTEX_24 ? 24 : 16;
+}
+
+/// The buffers of the streams. Their owner is a group, or a view for all its groups with levels.
+class VertexStreams {
+public:
+    /// `vertices`: of an instance, without padding; `stride`: with it. A view is one instance.
+    void plan(gpu::BufferPlan& plan, StreamSet set, SuppleVertexFormat format, VkDeviceSize vertices,
+              VkDeviceSize stride, uint32_t capacity);
+
+    [[nodiscard]] const StreamSet& set() const { return set_; }
+    [[nodiscard]] bool has(Stream stream) const { return set_.has(stream); }
+    [[nodiscard]] VkBuffer buffer(Stream stream) const { return buffers_[static_cast<size_t>(stream)].buffer(); }
+    [[nodiscard]] VkDeviceSize size(Stream stream) const { return buffers_[static_cast<size_t>(stream)].size(); }
+    [[nodiscard]] uint32_t bytes(Stream stream) const; ///< per surface vertex
+    [[nodiscard]] VkDeviceSize staticBytes() const;    ///< of all streams that are Written::static_
+
+    void fill(SuppleGroupOutput& output) const;
+    /// Those that are written in every frame, and with `statics` the others.
+    void addTransfers(Transfers& transfers, bool statics) const;
+
+private:
+    StreamSet set_;
+    SuppleVertexFormat format_ = SUPPLE_VERTEX_16;
+    std::array<gpu::PlannedBuffer, kStreamCount> buffers_;
+};
+
+} // namespace supple::runtime

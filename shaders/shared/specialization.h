@@ -1,0 +1,36 @@
+// Ids of the specialization constants of all kernels. One id has one meaning, whatever kernel has the constant: a
+// pipeline may be given constants that its kernel does not have.
+#ifndef SUPPLE_SHARED_SPECIALIZATION_H
+#define SUPPLE_SHARED_SPECIALIZATION_H
+
+#include "shaders/shared/portable.h"
+
+SUPPLE_SHARED_BEGIN
+
+// Every kernel (shaders/shared/mapping.glsl; gpu/pipeline.cpp sets them).
+SUPPLE_SHARED_CONST kLocalSizeConstant = 0u;     // lanes per workgroup
+SUPPLE_SHARED_CONST kExactDivisionConstant = 1u; // bool: the device rounds division correctly
+
+// Surface kernels.
+SUPPLE_SHARED_CONST kKindConstant = 2u;          // which kind of work: each kernel says what its kinds are
+SUPPLE_SHARED_CONST kVertexFormatConstant = 3u;  // kVertex16, kVertex24 or kVertexPosition
+SUPPLE_SHARED_CONST kCornerNormalsConstant = 4u; // bool: patch records have an element of corner normals
+SUPPLE_SHARED_CONST kInteriorConstant = 5u;      // bool: samples inside patches alone; edges have theirs from elsewhere
+SUPPLE_SHARED_CONST kRateConstant = 6u;          // tessellation rate; 0: the push constants tell it
+SUPPLE_SHARED_CONST kOutputsConstant = 7u;       // kOutputUvs1, kOutputFaceUvs: what is written beside the attributes
+SUPPLE_SHARED_CONST kChartsConstant = 8u;        // bool: a border is the blend of two charts, else a cubic
+
+// Subdivision.
+SUPPLE_SHARED_CONST kLoopConstant = 9u;             // bool: Loop's rules, else Catmull-Clark's
+SUPPLE_SHARED_CONST kSourceConstant = 10u;          // kFromScratch, kFromNet or kFromPastNet
+SUPPLE_SHARED_CONST kWorkConstant = 11u;            // kInBulk or kOneByOne
+SUPPLE_SHARED_CONST kWorkgroupPointsConstant = 12u; // points that workgroup memory has room for
+
+// Skinning.
+SUPPLE_SHARED_CONST kMorphsConstant = 13u;          // bool: the cage has morph targets
+SUPPLE_SHARED_CONST kDualQuaternionsConstant = 14u; // bool: dual quaternion blending, else linear blending
+SUPPLE_SHARED_CONST kWorkgroupRowsConstant = 15u;   // matrix rows that workgroup memory has room for
+
+SUPPLE_SHARED_END
+
+#endif

@@ -1,0 +1,22 @@
+// What the surface passes are told about the window of instances that a dispatch works on. It stands first in the push
+// constants of all of them, and is the only part that changes from frame to frame and from window to window, but for a
+// view's camera.
+#ifndef SUPPLE_SHARED_WINDOW_H
+#define SUPPLE_SHARED_WINDOW_H
+
+#include "shaders/shared/portable.h"
+
+SUPPLE_SHARED_BEGIN
+
+struct WindowPush {
+    uint firstInstance; // of the window, in the list of instances (shared/instances.h)
+    uint instanceCount; // or kCountOnDevice and where the count stands
+    // Level of detail:
+    uint firstSlot;   // of the window, in the group
+    uint firstRun;    // of the window, in the view (shared/lod.h)
+    uint firstBucket; // likewise
+};
+
+SUPPLE_SHARED_END
+
+#endif

@@ -1,0 +1,69 @@
+// The subdivision in shared memory: a workgroup takes a fragment, refines it level by level between two regions
+// and writes limit points and normals of its sectors. One workgroup a fragment and instance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#define POOL_READ_ONLY
+#define PUSH_CONSTANTS SubdivisionPush
+#include "shaders/shared/subdivision.h"
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/subdivision/net.glsl"
+#include "shaders/evaluate/surface_vertex.glsl"
+
+layout(constant_id = kWorkgroupPointsConstant) const uint kSharedPoints = 341u; // of the last two levels together
+
+// Components apart: neighbouring lanes read neighbouring words.
+shared float sharedX[kSharedPoints], sharedY[kSharedPoints], sharedZ[kSharedPoints];
+uint region; // of the level that is read
+
+vec3 point(uint i) { return vec3(sharedX[region + i], sharedY[region + i], sharedZ[region + i]); }
+
+#include "shaders/subdivision/fragment.glsl"
+#include "shaders/subdivision/samples.glsl"
+
+void writePoint(uint at, vec3 p) {
+    sharedX[at] = p.x;
+    sharedY[at] = p.y;
+    sharedZ[at] = p.z;
+}
+
+void main() {
+    // Workgroups past the last repeat it: all lanes must meet at the barriers.
+    uint id = min(workgroupIndex(), push.count * instanceCount() - 1u);
+    uint place = id / push.count, entry = instanceEntry(place), instance = entry & kInstanceSlotMask;
+    uvec4 record = tableElement(push.records + (id - place * push.count));
+    uint header = record.x, fragment = record.y;
+    uvec4 head = tableElement(header), last = tableElement(header + 2u);
+    uint patches = tableElement(header + 1u).x;
+    uint fragments = head.x, levels = header + kClassHeaderElements;
+
+    // Even levels begin at 0, odd ones at the other end, so that the last two share the memory whatever their sizes.
+    uint count = tableElement(levels).z;
+    for (uint i = gl_LocalInvocationID.x; i < count; i += gl_WorkGroupSize.x)
+        writePoint(i, netPoint(instance * push.poolStride + tableWord(head.z + i * fragments + fragment), entry,
+                               kVertexFormat == kVertexPosition));
+    region = 0u;
+    barrier();
+    for (uint step = 1u; step <= push.step; ++step) {
+        uvec4 level = tableElement(levels + step);
+        uint target = region == 0u ? kSharedPoints - level.z : 0u;
+        uint neighbours = tableElement(levels + step - 1u).y;
+        for (uint i = gl_LocalInvocationID.x; i < level.z; i += gl_WorkGroupSize.x)
+            writePoint(target + i,
+                       refinedPoint(tableElement(level.x + i), neighbours, header, fragments, fragment, step));
+        barrier();
+        region = target;
+    }
+    for (uint i = gl_LocalInvocationID.x; i < last.w; i += gl_WorkGroupSize.x) {
+        uint at = last.z + 2u * i;
+        uvec4 row = tableElement(at + 1u);
+        vec3 position, normal;
+        limitSample(tableElement(at), row, header, fragments, fragment, push.step, position, normal);
+        uint patchIndex = tableWord(patches + (row.z & ~kRightSide) * fragments + fragment);
+        if (patchIndex != kNoPatch)
+            storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples + row.w,
+                               position, normal);
+    }
+}

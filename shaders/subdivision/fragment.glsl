@@ -1,0 +1,67 @@
+// Points of a fragment by its class's tables (shared/subdivision.h), as both forms of the shader compute them. From
+// the includer what rules.glsl asks for.
+#include "shaders/subdivision/rules.glsl"
+
+float spokeSharpness(uint sharpnessWords, uint spoke, uint fragments, uint fragment, uint steps) {
+    return softened(uintBitsToFloat(tableWord(sharpnessWords + spoke * fragments + fragment)), steps);
+}
+
+// Point `row` of level `step`.
+vec3 refinedPoint(uvec4 packedRow, uint neighbours, uint header, uint fragments, uint fragment, uint step) {
+    Sources row = unpackSources(packedRow);
+    uint rule = row.s[7] & 3u, spoke = row.s[7] >> 2;
+    uvec4 head = tableElement(header);
+    float sharpness = 0.0;
+    if (spoke != 0u && (head.y & kSharpClass) != 0u)
+        sharpness = spokeSharpness(head.w, spoke - 1u, fragments, fragment, step - 1u);
+    vec3 p = vec3(0.0);
+    if (rule == kVertexRule) {
+        Sources around;
+        if (kLoop) around = Sources(uint[8](row.s[1], row.s[3], row.s[4], row.s[2], row.s[5], row.s[6], 0u, 0u));
+        else around = unpackSources(tableElement(neighbours + row.s[0]));
+        p = vertexPoint(point(row.s[0]), pointsOf(around), sharpness);
+    }
+    if (rule == kEdgeRule) {
+        vec3 q[4] = vec3[4](point(row.s[2]), vec3(0.0), point(row.s[3]), vec3(0.0)); // Loop's
+        if (!kLoop) q = vec3[4](q[0], q[2], point(row.s[4]), point(row.s[5]));
+        p = edgePoint(point(row.s[0]), point(row.s[1]), q[0], q[1], q[2], q[3], sharpness);
+    }
+    if (!kLoop && rule == kFaceRule)
+        p = facePoint(point(row.s[0]), point(row.s[1]), point(row.s[2]), point(row.s[3]));
+    if (rule == kCentreRule) {
+        vec2 weights = uintBitsToFloat(tableElement(header + 2u).xy);
+        vec4 shares = vec4(1.0, 0.0, 0.0, 0.0);
+        uvec4 centre = uvec4(0u);
+        if ((head.y & kSharpClass) != 0u) {
+            centre = tableElement(tableElement(header + 1u).z + (step - 1u) * fragments + fragment);
+            shares.xy = uintBitsToFloat(centre.xy);
+        }
+        p = centrePoint(head.y & ~kSharpClass, weights, shares.x, shares.y, centre.z, centre.w);
+    }
+    return p;
+}
+
+// Limit position and normal of the centre in one of its sectors, by the mask of the sector's run.
+void centreLimit(uint mask, out vec3 position, out vec3 normal) {
+    const uint stride = kLoop ? 1u : 2u;
+    uvec4 head = tableElement(mask);
+    vec3 c = point(0u);
+    precise vec3 sum = vec3(0.0), first = vec3(0.0), second = vec3(0.0);
+    for (uint i = 1u; i <= head.w; ++i) {
+        vec4 w = uintBitsToFloat(tableElement(mask + i));
+        precise vec3 d = point(i) - c;
+        sum = sum + w.x * d;
+        first = first + w.y * d;
+        second = second + w.z * d;
+    }
+    precise vec3 n = crossProduct(first, second);
+    uint spokes = head.w / stride; // an open fan's last spoke has no face point
+    spokes += head.w - stride * spokes;
+    for (uint h = head.y; h < ((head.x & kCornerMask) != 0u ? head.y + head.z : 0u); ++h) {
+        precise vec3 a = point(1u + stride * (h % spokes)) - c, b = point(1u + stride * ((h + 1u) % spokes)) - c;
+        n = n + crossProduct(a, b);
+    }
+    precise vec3 p = c + sum;
+    position = withPositiveZeros(p);
+    normal = n;
+}

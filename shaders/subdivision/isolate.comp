@@ -1,0 +1,31 @@
+// Isolation stage of the subdivision: the vertices of a global step, a stencil each over those of the step before.
+// One invocation a vertex and instance. Summed over differences to the first entry: the weights sum to 1.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/surface/store.glsl"
+#include "shaders/surface/cage.glsl"
+
+layout(constant_id = kKindConstant) const uint kFromPool = 0u; // not the first step
+
+vec3 vertexAt(uint instance, uint i) {
+    if (kFromPool != 0u) return poolVector(instance * push.poolStride + i);
+    return cageVertex(instance * push.cageStride + i);
+}
+
+void main() {
+    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
+    uint entry = id / push.count, instance = instanceSlot(entry);
+    uvec4 record = tableElement(push.table + (id - entry * push.count));
+    vec3 first = vertexAt(instance, record.x);
+    precise vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < record.z; i += 2u) {
+        uvec4 entries = tableElement(record.y + i / 2u);
+        precise vec3 a = vertexAt(instance, entries.x) - first, b = vertexAt(instance, entries.z) - first;
+        sum = sum + uintBitsToFloat(entries.y) * a;
+        sum = sum + uintBitsToFloat(entries.w) * b;
+    }
+    precise vec3 p = first + sum;
+    storePool(instance * push.poolStride + record.w, p);
+}

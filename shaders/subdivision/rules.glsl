@@ -1,0 +1,133 @@
+// The rules of Catmull-Clark and Loop on a fragment, and their limits (docs/subdivision.md). From the includer: `point(i)`,
+// the fragment's point of spiral index i on the level that is read.
+//
+// Every operand is added to its mirror image before anything is scaled, so that all fragments that have a point compute
+// the same bits for it.
+
+layout(constant_id = kLoopConstant) const bool kLoop = false;
+
+struct Sources {
+    uint s[8];
+};
+
+Sources unpackSources(uvec4 row) {
+    return Sources(uint[8](row.x & 0xFFFFu, row.x >> 16, row.y & 0xFFFFu, row.y >> 16, row.z & 0xFFFFu, row.z >> 16,
+                           row.w & 0xFFFFu, row.w >> 16));
+}
+
+// Sharpness of a spoke after `steps` steps; infinite sharpness stays.
+float softened(float sharpness, uint steps) {
+    precise float left = sharpness - float(steps);
+    return sharpness >= 1e9 ? sharpness : left > 0.0 ? left : 0.0;
+}
+
+vec3 blended(float sharpness, vec3 smoothPoint, vec3 creasePoint) {
+    precise vec3 mixed = smoothPoint + sharpness * (creasePoint - smoothPoint);
+    if (sharpness >= 1.0) return creasePoint;
+    return sharpness > 0.0 ? mixed : smoothPoint;
+}
+
+// Two opposite pairs of corners.
+vec3 facePoint(vec3 a, vec3 b, vec3 c, vec3 d) {
+    precise vec3 p = ((a + b) + (c + d)) * 0.25;
+    return p;
+}
+
+// The ends, then Catmull-Clark: the far corners of the faces on the left, then on the right; Loop: one on either side.
+vec3 edgePoint(vec3 a, vec3 b, vec3 left0, vec3 left1, vec3 right0, vec3 right1, float sharpness) {
+    precise vec3 ends = a + b;
+    precise vec3 p;
+    if (kLoop) p = (3.0 * ends + (left0 + right0)) * 0.125;
+    else p = (6.0 * ends + ((left0 + left1) + (right0 + right1))) * 0.0625;
+    precise vec3 crease = ends * 0.5;
+    return blended(sharpness, p, crease);
+}
+
+// The neighbours counter-clockwise from the axis on.
+vec3 vertexPoint(vec3 c, vec3 n[8], float sharpness) {
+    precise vec3 axis, p;
+    if (kLoop) {
+        axis = n[0] + n[3];
+        precise vec3 sides = (n[1] + n[2]) + (n[4] + n[5]);
+        p = (10.0 * c + (sides + axis)) * 0.0625;
+    } else {
+        axis = n[0] + n[4];
+        precise vec3 edges = axis + (n[2] + n[6]);
+        precise vec3 diagonals = (n[1] + n[5]) + (n[3] + n[7]);
+        p = (36.0 * c + (6.0 * edges + diagonals)) * 0.015625;
+    }
+    precise vec3 crease = 0.75 * c + axis * 0.125;
+    return blended(sharpness, p, crease);
+}
+
+vec3[8] pointsOf(Sources n) {
+    vec3 p[8];
+    for (uint k = 0u; k < 8u; ++k) p[k] = !kLoop || k < 6u ? point(n.s[k]) : vec3(0.0);
+    return p;
+}
+
+// The centre, by the weights of its spoke and face points and its step (smooth, crease, first and second spoke).
+vec3 centrePoint(uint spokes, vec2 weights, float smoothShare, float creaseShare, uint first, uint second) {
+    const uint stride = kLoop ? 1u : 2u;
+    vec3 c = point(0u);
+    precise vec3 spokeSum = vec3(0.0), faceSum = vec3(0.0);
+    for (uint k = 0u; k < spokes; ++k) {
+        precise vec3 spoke = point(1u + stride * k) - c;
+        spokeSum = spokeSum + spoke;
+        if (!kLoop) {
+            precise vec3 face = point(2u + stride * k) - c;
+            faceSum = faceSum + face;
+        }
+    }
+    precise vec3 p = c;
+    precise vec3 offset = vec3(0.0);
+    if (smoothShare > 0.0) offset = smoothShare * (weights.x * spokeSum + weights.y * faceSum);
+    if (creaseShare > 0.0) {
+        precise vec3 ends = (point(1u + stride * first) - c) + (point(1u + stride * second) - c);
+        offset = offset + creaseShare * (0.125 * ends);
+    }
+    p = c + offset;
+    return p;
+}
+
+vec3 crossProduct(vec3 a, vec3 b) {
+    precise vec3 n = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return n;
+}
+
+// Limit position and normal (not of unit length) of a point off the centre, from its neighbours counter-clockwise from its
+// axis on. `right`: the sector lies right of the axis.
+void limitPoint(vec3 c, vec3 p[8], float sharpness, bool right, out vec3 position, out vec3 normal) {
+    precise vec3 limit, along, across, axis;
+    bool sharp = sharpness > 0.0;
+    if (kLoop) {
+        axis = p[0] + p[3];
+        precise vec3 left = p[1] + p[2], rights = p[4] + p[5];
+        precise vec3 difference = p[0] - p[3];
+        limit = (6.0 * c + ((left + rights) + axis)) * (1.0 / 12.0);
+        along = 2.0 * difference + ((p[1] - p[2]) + (p[5] - p[4]));
+        across = left - rights;
+        if (sharp) {
+            along = difference;
+            precise vec3 side = right ? rights : left;
+            across = 2.0 * (side - c) - axis;
+        }
+    } else {
+        axis = p[0] + p[4];
+        precise vec3 edges = axis + (p[2] + p[6]);
+        precise vec3 diagonals = (p[1] + p[5]) + (p[3] + p[7]);
+        limit = (16.0 * c + (4.0 * edges + diagonals)) * (1.0 / 36.0);
+        along = (4.0 * p[0] + (p[1] + p[7])) - (4.0 * p[4] + (p[3] + p[5]));
+        across = (4.0 * p[2] + (p[1] + p[3])) - (4.0 * p[6] + (p[5] + p[7]));
+        if (sharp) {
+            along = p[0] - p[4];
+            precise vec3 corners = right ? p[7] + p[5] : p[1] + p[3];
+            vec3 edge = right ? p[6] : p[2];
+            across = 4.0 * (edge - c) + (corners - axis);
+        }
+    }
+    precise vec3 crease = (4.0 * c + axis) * (1.0 / 6.0);
+    precise vec3 p0 = sharp ? crease : limit;
+    position = withPositiveZeros(p0);
+    normal = sharp && right ? crossProduct(across, along) : crossProduct(along, across);
+}

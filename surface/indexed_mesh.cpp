@@ -1,0 +1,352 @@
+#include "surface/indexed_mesh.h"
+
+#include "shaders/shared/pm.h"
+#include "shaders/shared/prep.h"
+#include "surface/borders.h"
+#include "surface/table_writer.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace supple::surface {
+
+namespace {
+
+using namespace supple::shared;
+
+/// A side of a patch, in the direction that has the patch on its left.
+struct Side {
+    uint32_t patch = 0;
+    uint32_t side = 0;
+};
+
+/// What the record of an edge is made of, as one side of one patch has it.
+struct EdgeSource {
+    BorderCurve border{};
+    BorderCurve across{};
+    uint32_t flags = 0;
+    uint32_t extra = 0;
+    bool perturbed = false;
+    bool mixed = false; ///< needs the kernel of all of P_m's patches
+};
+
+class Builder {
+public:
+    Builder(Tables& tables, bool attributes) : tables_(tables), attributes_(attributes) {}
+
+    void build() {
+        collect();
+        chooseSides();
+        write();
+    }
+
+private:
+    [[nodiscard]] const PatchRange& rangeOf(uint32_t patch) const {
+        return *std::find_if(tables_.ranges.begin(), tables_.ranges.end(),
+                             [&](const PatchRange& range) { return patch < range.firstPatch + range.section.count; });
+    }
+    [[nodiscard]] uint32_t recordOf(const PatchRange& range, uint32_t patch) const {
+        return range.section.table + (patch - range.firstPatch) * recordElements(tables_, range.patchClass);
+    }
+    [[nodiscard]] uint32_t cornerElements() const { return tables_.uvSets == 2 || tables_.faceUvs ? 2 : 1; }
+    [[nodiscard]] uint32_t attributeElement(const PatchRange& range, uint32_t patch, uint32_t corner) const {
+        const uint32_t at = cornerCount(domainOf(range.patchClass)) * (patch - range.firstPatch) + corner;
+        const uint32_t word = tables_.words[range.attributes + (tables_.attributeHalves ? at / 2 : at)];
+        const uint32_t number = !tables_.attributeHalves ? word : word >> 16 * (at % 2) & 0xFFFFu;
+        return tables_.attributes + cornerElements() * number;
+    }
+
+    /// Numbers corners and edges in the order in which patches come to them.
+    void collect() {
+        std::map<std::pair<uint32_t, uint32_t>, uint32_t> corners; // by limit point and attributes
+        std::map<BorderCurve, uint32_t> edges;
+        for (const PatchRange& range : tables_.ranges) {
+            const uint32_t sides = cornerCount(domainOf(range.patchClass));
+            for (uint32_t patch = range.firstPatch; patch < range.firstPatch + range.section.count; ++patch) {
+                const std::vector<BorderCurve> curves = curvesOf(range, patch);
+                MeshTables::Patch& own = tables_.mesh.patches.emplace_back();
+                for (uint32_t i = 0; i < sides; ++i) {
+                    const std::pair key(curves[i][0], attributes_ ? attributeElement(range, patch, i) : 0);
+                    own.corners[i] = corners.try_emplace(key, static_cast<uint32_t>(corners.size())).first->second;
+                }
+                for (uint32_t i = 0; i < sides; ++i) {
+                    const BorderCurve curve{own.corners[i], curves[i][1], curves[i][2], own.corners[(i + 1) % sides]};
+                    const BorderCurve back{curve[3], curve[2], curve[1], curve[0]};
+                    own.reversed[i] = back < curve;
+                    own.edges[i] =
+                        edges.try_emplace(std::min(curve, back), static_cast<uint32_t>(edges.size())).first->second;
+                    edges_.resize(edges.size());
+                    edges_[own.edges[i]].sides[own.reversed[i] ? 1 : 0] = {patch, i};
+                    edges_[own.edges[i]].has[own.reversed[i] ? 1 : 0] = true;
+                }
+            }
+        }
+        tables_.mesh.edgeCount = static_cast<uint32_t>(edges.size());
+        tables_.mesh.cornerCount = static_cast<uint32_t>(corners.size());
+    }
+
+    /// Each corner's sample is stored by an edge that begins there: that of the first patch that comes to the corner.
+    /// The edge is still free then, for both patches at it have the corner. It is taken from that patch's side.
+    void chooseSides() {
+        auto& patches = tables_.mesh.patches;
+        std::vector<bool> stored(tables_.mesh.cornerCount, false);
+        for (uint32_t p = 0; p < patches.size(); ++p) {
+            for (uint32_t i = 0; i < tables_.patches[p].cornerCount; ++i) {
+                const uint32_t corner = patches[p].corners[i];
+                if (!stored[corner]) {
+                    stored[corner] = true;
+                    Edge& edge = edges_[patches[p].edges[i]];
+                    edge.corner = corner;
+                    edge.taken = patches[p].reversed[i] ? 1 : 0;
+                }
+            }
+        }
+        for (Edge& edge : edges_) {
+            if (edge.corner == kNoEdgeSample) {
+                edge.taken = edge.has[0] ? 0 : 1;
+            }
+            for (uint32_t s = 0; s < 2; ++s) { // from here on an edge runs as its record does
+                if (edge.has[s]) {
+                    const auto [patch, side] = edge.sides[s];
+                    patches[patch].reversed[side] = s != edge.taken;
+                }
+            }
+        }
+    }
+
+    void write() {
+        struct Made {
+            uint32_t edge = 0;
+            uint32_t corner = kNoEdgeSample;
+            Side side;
+            EdgeSource source;
+            uint32_t kind = kPlainEdges;
+        };
+        std::vector<Made> made;
+        bool mixed = false;
+        for (uint32_t e = 0; e < edges_.size(); ++e) {
+            const Side& side = edges_[e].sides[edges_[e].taken];
+            made.push_back({e, edges_[e].corner, side, sourceOf(side), kPlainEdges});
+            mixed = mixed || made.back().source.mixed;
+        }
+        for (Made& one : made) {
+            one.kind = mixed ? kMixedEdges : one.source.perturbed ? kPerturbedEdges : kPlainEdges;
+        }
+        std::stable_sort(made.begin(), made.end(), [](const Made& a, const Made& b) { return a.kind < b.kind; });
+
+        TableWriter writer(tables_.words);
+        MeshTables& mesh = tables_.mesh;
+        for (const Made& one : made) {
+            if (mesh.edges.empty() || mesh.edges.back().kind != one.kind) {
+                mesh.edges.push_back({one.kind, {writer.element(), 0}});
+            }
+            ++mesh.edges.back().section.count;
+            const EdgeSource& s = one.source;
+            writer.put({s.border[0], s.border[1], s.border[2], s.border[3], s.across[0], s.across[1], s.across[2],
+                        s.across[3], one.corner, one.edge, s.flags, s.extra});
+        }
+        if (!attributes_) {
+            return;
+        }
+        mesh.attributes = {writer.element(), static_cast<uint32_t>(made.size())};
+        for (const Made& one : made) {
+            const auto [patch, side] = one.side;
+            const PatchRange& range = rangeOf(patch);
+            const uint32_t next = (side + 1) % cornerCount(domainOf(range.patchClass));
+            writer.put({attributeElement(range, patch, side), attributeElement(range, patch, next), 0u, 0u});
+        }
+    }
+
+    /// The border curves of its edges; a polar patch's apex is none.
+    [[nodiscard]] std::vector<BorderCurve> curvesOf(const PatchRange& range, uint32_t patch) const {
+        const uint32_t* record = &tables_.words[size_t{4} * recordOf(range, patch)];
+        std::vector<BorderCurve> curves = borderCurves(tables_, record, range.patchClass);
+        if (range.patchClass == PatchClass::polar) {
+            curves.erase(curves.begin() + 2);
+        }
+        return curves;
+    }
+
+    [[nodiscard]] EdgeSource sourceOf(const Side& at) const {
+        const PatchRange& range = rangeOf(at.patch);
+        const uint32_t* record = &tables_.words[size_t{4} * recordOf(range, at.patch)];
+        EdgeSource source;
+        source.border = curvesOf(range, at.patch)[at.side];
+        if (!rowOf(range.patchClass).isBicubic()) {
+            addSector(record, cornerCount(domainOf(range.patchClass)), at.side, source);
+            return source;
+        }
+        const std::array<uint32_t, 16> net = netIndices(tables_, record, range.patchClass);
+        const auto g = [&](uint32_t i, uint32_t j) { return net[4 * j + i]; };
+        const bool polar = range.patchClass == PatchClass::polar;
+        const uint32_t quadSide = polar && at.side == 2 ? 3 : at.side;
+        for (uint32_t k = 0; k < 4; ++k) { // one step inside
+            const uint32_t i[4] = {k, 2, 3 - k, 1}, j[4] = {1, k, 2, 3 - k};
+            source.across[k] = g(i[quadSide], j[quadSide]);
+        }
+        if (polar) {
+            source.mixed = at.side != 0;
+            source.flags = at.side == 1 ? kApexLastEdge : at.side == 2 ? kApexFirstEdge : 0;
+        }
+        if (range.patchClass == PatchClass::perturbed) {
+            addPerturbation(record, at.side, source);
+        }
+        const uint32_t normal =
+            tables_.cornerNormals ? record[4 * (recordElements(tables_, range.patchClass) - 1) + at.side] : kNoNormal;
+        if (normal != kNoNormal) {
+            source.flags |= kStoredNormalEdge;
+            source.extra = normal;
+        }
+        return source;
+    }
+
+    static void addPerturbation(const uint32_t* record, uint32_t side, EdgeSource& source) {
+        const uint32_t edge = record[8 + side];
+        if ((edge & kStillEdgeOfPatch) != 0) {
+            return;
+        }
+        source.perturbed = true;
+        source.extra = edge & kEdgeOfPatchMask;
+        source.flags |= (edge & kReversedEdgeOfPatch) != 0 ? kSwappedEdge : 0;
+    }
+
+    void addSector(const uint32_t* record, uint32_t sides, uint32_t i, EdgeSource& source) const {
+        const uint32_t next = (i + 1) % sides, last = (i + sides - 1) % sides;
+        const uint32_t innerWord = record[SUPPLE_PM_INNER_WORD(sides)];
+        const uint32_t inner = SUPPLE_INNER(innerWord) + 1; // b211, b121, b112 a sector
+        source.across = {tables_.tangents + SUPPLE_NEXT_SPOKE(record[SUPPLE_PM_SPOKE_WORD(i)]), inner + 3 * i,
+                         inner + 3 * i + 1, tables_.tangents + SUPPLE_SPOKE(record[SUPPLE_PM_SPOKE_WORD(next)])};
+        source.mixed = true;
+        source.flags = sides;
+        if ((SUPPLE_SINGULAR(innerWord) & 1u << i) != 0) {
+            source.flags |= kSingularEdge;
+            source.extra = inner + 3 * last + 1;
+        }
+    }
+
+    struct Edge {
+        std::array<Side, 2> sides; ///< the second against the edge's own direction
+        std::array<bool, 2> has{};
+        uint32_t corner = kNoEdgeSample; ///< whose sample it stores
+        uint32_t taken = 0;
+    };
+    Tables& tables_;
+    bool attributes_;
+    std::vector<Edge> edges_;
+};
+
+/// Where a sample of a domain lies: on an edge at k, at a corner (k = 0), or inside.
+struct Place {
+    bool inside = true;
+    uint32_t edge = 0; ///< or the number among those inside
+    uint32_t k = 0;
+};
+
+std::vector<Place> places(Domain domain, uint32_t rate) {
+    std::vector<Place> all(sampleCount(domain, rate));
+    for (uint32_t edge = 0; edge < cornerCount(domain); ++edge) {
+        for (uint32_t k = 0; k < rate; ++k) {
+            all[edgeSample(domain, rate, edge, k)] = {false, edge, k};
+        }
+    }
+    if (domain == Domain::polar) { // the apex is a whole row
+        for (uint32_t i = 0; i <= rate; ++i) {
+            all[rate * (rate + 1) + i] = {false, 2, 0};
+        }
+    }
+    uint32_t inside = 0;
+    for (Place& place : all) {
+        if (place.inside) {
+            place.edge = inside++;
+        }
+    }
+    return all;
+}
+
+/// Which vertices are a patch's.
+class Numbering {
+public:
+    Numbering(const Tables& tables, const Evaluation& evaluation) : tables_(tables), evaluation_(evaluation) {}
+
+    [[nodiscard]] std::vector<uint32_t> vertices(uint32_t patch) {
+        const uint32_t rate = evaluation_.rate;
+        size_t r = 0;
+        while (patch >= tables_.ranges[r].firstPatch + tables_.ranges[r].section.count) {
+            ++r;
+        }
+        const PatchRange& range = tables_.ranges[r];
+        const Domain domain = domainOf(range.patchClass);
+        std::vector<Place>& known = places_[static_cast<size_t>(domain)];
+        if (known.empty()) {
+            known = places(domain, rate);
+        }
+        const MeshTables::Patch& own = tables_.mesh.patches[patch];
+        const uint32_t inside = evaluation_.firstVertices[r] + (patch - range.firstPatch) * interiorCount(domain, rate);
+        std::vector<uint32_t> result;
+        result.reserve(known.size());
+        for (const Place& place : known) {
+            if (place.inside) {
+                result.push_back(inside + place.edge);
+            } else if (place.k == 0) {
+                result.push_back(evaluation_.firstCornerVertex + own.corners[place.edge]);
+            } else {
+                const uint32_t k = own.reversed[place.edge] ? rate - place.k : place.k;
+                result.push_back(evaluation_.firstEdgeVertex + own.edges[place.edge] * (rate - 1) + k - 1);
+            }
+        }
+        return result;
+    }
+
+private:
+    const Tables& tables_;
+    const Evaluation& evaluation_;
+    std::array<std::vector<Place>, kDomainCount> places_;
+};
+
+} // namespace
+
+uint32_t interiorCount(Domain domain, uint32_t rate) {
+    switch (domain) {
+    case Domain::triangle:
+        return rate < 3 ? 0 : sampleCount(domain, rate - 3);
+    case Domain::pentagon:
+        return sampleCount(domain, rate - 1);
+    default:
+        return (rate - 1) * (rate - 1);
+    }
+}
+
+void appendIndexedMesh(Tables& tables, bool attributes) {
+    Builder(tables, attributes).build();
+}
+
+IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation) {
+    std::vector<uint32_t> materials;
+    for (const DrawRange& range : tables.drawRanges) {
+        materials.push_back(range.material);
+    }
+    std::sort(materials.begin(), materials.end());
+    materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
+    Numbering numbering(tables, evaluation);
+    IndexedMesh mesh;
+    for (const uint32_t material : materials) {
+        const auto first = static_cast<uint32_t>(mesh.indices.size());
+        for (const DrawRange& range : tables.drawRanges) {
+            if (range.material != material) {
+                continue;
+            }
+            const std::vector<uint16_t> grid = gridIndices(range.domain, evaluation.rate);
+            for (uint32_t patch = range.firstPatch; patch < range.firstPatch + range.patchCount; ++patch) {
+                const std::vector<uint32_t> vertices = numbering.vertices(patch);
+                for (const uint16_t sample : grid) {
+                    mesh.indices.push_back(vertices[sample]);
+                }
+            }
+        }
+        mesh.ranges.push_back({material, first, static_cast<uint32_t>(mesh.indices.size()) - first});
+    }
+    return mesh;
+}
+
+} // namespace supple::surface

@@ -1,0 +1,38 @@
+// The indexed mesh: an instance is one mesh in which patches share the samples on their borders. Its surface vertices
+// are the samples inside the patches, patch after patch; then those along edges, edge after edge; then those at
+// corners.
+//
+// Two patches share the samples of an edge if they compute its border curve from the same coefficients and have the
+// same corner attributes at both ends. Likewise for a corner. Samples that merely lie in the same place are not shared,
+// for example on the two sides of a crease.
+#pragma once
+
+#include "surface/evaluation.h"
+#include "surface/scheme.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace supple::surface {
+
+/// The number of samples that lie on no edge of the domain.
+[[nodiscard]] uint32_t interiorCount(Domain domain, uint32_t rate);
+
+/// Appends the edges to `tables` (Tables::mesh). Its patches must be of classes whose borders are cubics
+/// (surface/borders.h). `attributes`: the tables have corner attributes.
+void appendIndexedMesh(Tables& tables, bool attributes);
+
+/// The triangles of one instance, counter-clockwise seen from outside. They are sorted by material, then by patch;
+/// within a patch they have the order of gridIndices().
+struct IndexedMesh {
+    struct Range {
+        uint32_t material = cage::kNone;
+        uint32_t firstIndex = 0;
+        uint32_t indexCount = 0;
+    };
+    std::vector<uint32_t> indices;
+    std::vector<Range> ranges; ///< in order of materials
+};
+[[nodiscard]] IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation);
+
+} // namespace supple::surface

@@ -1,0 +1,27 @@
+// What a group wants of the surface passes.
+#pragma once
+
+#include "shaders/shared/surface.h"
+
+#include <cstdint>
+
+namespace supple::surface {
+
+/// What a group needs from the passes. It does not change after the group is created.
+struct Needs {
+    uint32_t vertexFormat = shared::kVertex16;
+    bool motion = false; ///< also writes the positions of the frame before
+    bool patches = false;
+    bool attributes = false;
+    /// What `attributes` writes beside the first UV set and the color, if the tables have it.
+    uint32_t attributeOutputs = shared::kOutputUvs1 | shared::kOutputFaceUvs;
+    bool view = false;        ///< the group belongs to a view. Its motion sets bind the coefficients of this frame in
+                              ///< the place of the cage, for instances without a past
+    bool lod = false;         ///< the view draws patches at levels, not at a rate
+    bool backFaces = false;   ///< with lod: leaves out patches that show their backs
+    uint32_t levelOffset = 0; ///< with lod: an instance has one level, which is so many entries behind its own in the
+                              ///< list of instances. 0: every edge has its own level
+    uint32_t rate = 0;        ///< the rate that the group is created with. Only this one gets pipelines of its own
+};
+
+} // namespace supple::surface

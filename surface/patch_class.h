@@ -1,0 +1,76 @@
+// The classes of patches: a table with one row per class.
+#pragma once
+
+#include "shaders/shared/pm.h"
+#include "shaders/shared/surface.h"
+#include "surface/grid.h"
+#include "surface/kernels.h"
+#include "surface/lod/form.h"
+
+#include <cstdint>
+
+namespace supple::surface {
+
+enum class PatchClass : uint32_t {
+    regular = shared::kRegularPatch,     ///< bicubic
+    perturbed = shared::kPerturbedPatch, ///< p-rep: bicubic and a sparse perturbation of degree 5
+    polar = shared::kPolarPatch,         ///< P_m: a triangle of a polar fan, bicubic with a collapsed side
+    p3 = shared::kP3Patch,               ///< P_m: three, four, five triangular sectors of degree 4
+    p4 = shared::kP4Patch,
+    p5 = shared::kP5Patch,
+    catmullClark = shared::kCatmullClarkPatch, ///< subdivision: a face of the isolated level
+    loop = shared::kLoopPatch,
+    blend = shared::kBlendPatch,          ///< blending surface: smooth all over
+    blendSharp = shared::kBlendSharpPatch ///< with creases, or without derivatives somewhere on its border
+};
+
+struct PatchClassRow {
+    const char* name = "";
+    Domain domain = Domain::quad;
+    uint32_t coefficients = 0;   ///< of a patch, as the patch pass writes them; 0: it has none
+    uint32_t recordElements = 0; ///< table elements of a patch, but for corner normals (Tables::cornerNormals)
+    // The kernels that evaluate it. The subdivision evaluates fragments (Tables::fragments) instead.
+    Kernel evaluate = Kernel::count; ///< at a rate
+    Kernel atLevels = Kernel::count;
+    Kernel patch = Kernel::count;            ///< writes the coefficients
+    lod::Form form = lod::Form::quad;        ///< of its grids at levels
+    bool charts = false;                     ///< its borders are between charts, else cubics
+    bool ownNarrow = false, ownWide = false; ///< by mapping: a pipeline of its own for a rate pays
+    uint32_t netElements = 0;                ///< bicubic patches: what one takes of a workgroup's memory in the wide
+                                             ///< mapping, where a lane takes a row of its samples. Of others a lane
+                                             ///< takes a sample
+    [[nodiscard]] constexpr bool isBicubic() const { return netElements > 0; }
+};
+
+inline constexpr PatchClassRow kPatchClasses[] = {
+    {"regular", Domain::quad, 16, 2, Kernel::evaluateBicubic, Kernel::evaluateBicubicLevelsRegular,
+     Kernel::evaluatePatch, lod::Form::quad, false, true, true, shared::kWideNetElements},
+    {"perturbed", Domain::quad, 32, 3, Kernel::evaluateBicubic, Kernel::evaluateBicubicLevels, Kernel::evaluatePatch,
+     lod::Form::quad, false, true, true, shared::kWidePerturbedNetElements},
+    {"polar", Domain::polar, 13, 2, Kernel::evaluateBicubic, Kernel::evaluateBicubicLevels, Kernel::evaluatePatch,
+     lod::Form::quad, false, false, true, shared::kWideNetElements},
+    {"p3", Domain::triangle, 19, SUPPLE_PM_RECORD_ELEMENTS(3u), Kernel::pmEvaluate, Kernel::pmEvaluateLevels,
+     Kernel::pmPatch, lod::Form::triangleRings},
+    {"p4", Domain::quad, 25, SUPPLE_PM_RECORD_ELEMENTS(4u), Kernel::pmEvaluate, Kernel::pmEvaluateLevels,
+     Kernel::pmPatch, lod::Form::quadRings},
+    {"p5", Domain::pentagon, 31, SUPPLE_PM_RECORD_ELEMENTS(5u), Kernel::pmEvaluate, Kernel::pmEvaluateLevels,
+     Kernel::pmPatch, lod::Form::pentagonRings},
+    {"catmull-clark", Domain::quad},
+    {"loop", Domain::triangle},
+    {"blend", Domain::quad, 0, 4, Kernel::blendEvaluate, Kernel::blendEvaluateLevels, Kernel::count, lod::Form::quad,
+     true},
+    {"blend-sharp", Domain::quad, 0, 4, Kernel::blendEvaluate, Kernel::blendEvaluateLevels, Kernel::count,
+     lod::Form::quad, true},
+};
+
+[[nodiscard]] constexpr const PatchClassRow& rowOf(PatchClass patchClass) {
+    return kPatchClasses[static_cast<uint32_t>(patchClass)];
+}
+[[nodiscard]] constexpr const char* className(PatchClass patchClass) {
+    return rowOf(patchClass).name;
+}
+[[nodiscard]] constexpr Domain domainOf(PatchClass patchClass) {
+    return rowOf(patchClass).domain;
+}
+
+} // namespace supple::surface

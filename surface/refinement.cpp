@@ -1,0 +1,340 @@
+#include "surface/refinement.h"
+
+#include "cage/features.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <utility>
+
+namespace supple::surface {
+namespace {
+
+using cage::Cage;
+using cage::Topology;
+
+float markedInfinite(float sharpness) {
+    return sharpness >= cage::kHardSharpness ? kInfiniteSharpness : sharpness;
+}
+
+/// Writes stencil rows of a level over its parent's vertices.
+class RowWriter {
+public:
+    RowWriter(uint32_t vertices, Stencils& out) : out_(out), sums_(vertices, 0.0), met_(vertices, 0) {
+        out_.starts.push_back(0);
+    }
+
+    void add(uint32_t v, double weight) {
+        if (met_[v] == 0) {
+            met_[v] = 1;
+            touched_.push_back(v);
+        }
+        sums_[v] += weight;
+    }
+
+    void close() {
+        std::sort(touched_.begin(), touched_.end());
+        for (const uint32_t v : touched_) {
+            out_.vertices.push_back(v);
+            out_.weights.push_back(sums_[v]);
+            sums_[v] = 0.0;
+            met_[v] = 0;
+        }
+        touched_.clear();
+        out_.starts.push_back(static_cast<uint32_t>(out_.vertices.size()));
+    }
+
+private:
+    Stencils& out_;
+    std::vector<double> sums_; ///< per vertex of the parent
+    std::vector<uint8_t> met_;
+    std::vector<uint32_t> touched_;
+};
+
+class Refiner {
+public:
+    Refiner(const Level& parent, Subdivision subdivision)
+        : parent_(parent), subdivision_(subdivision), rows_(parent.cage.vertexCount(), child_.stencils) {}
+
+    Level run() {
+        reserve();
+        for (uint32_t v = 0; v < parent_.cage.vertexCount(); ++v) {
+            addVertexPoint(v);
+        }
+        for (uint32_t e = 0; e < parent_.topology.edges.size(); ++e) {
+            addEdgePoint(e);
+        }
+        child_.cage.faceStarts.push_back(0);
+        for (uint32_t f = 0; f < parent_.cage.faceCount(); ++f) {
+            if (subdivision_ == Subdivision::catmullClark) {
+                addFacePoint(f);
+            }
+        }
+        for (uint32_t f = 0; f < parent_.cage.faceCount(); ++f) {
+            if (subdivision_ == Subdivision::catmullClark) {
+                addQuads(f);
+            } else {
+                addTriangles(f);
+            }
+        }
+        forEachCornerAttribute(parent_.cage, child_.cage, [&](const auto& from, auto& to) { carry(from, to); });
+        return std::move(child_);
+    }
+
+private:
+    void reserve() {
+        const bool quads = subdivision_ == Subdivision::catmullClark;
+        const size_t corners = parent_.cage.cornerCount(),
+                     faces = quads ? corners : 4 * size_t{parent_.cage.faceCount()};
+        const size_t points =
+            size_t{parent_.cage.vertexCount()} + parent_.topology.edges.size() + (quads ? parent_.cage.faceCount() : 0);
+        child_.cage.positions.reserve(points);
+        child_.stencils.starts.reserve(points + 1);
+        child_.stencils.vertices.reserve(8 * points);
+        child_.stencils.weights.reserve(8 * points);
+        child_.cage.faceStarts.reserve(faces + 1);
+        child_.cage.faceVertices.reserve((quads ? 4 : 3) * faces);
+        child_.sourceFaces.reserve(faces);
+        child_.holes.reserve(faces);
+        forEachCornerAttribute(parent_.cage, child_.cage, [&](const auto& from, auto& to) {
+            to.reserve(from.empty() ? 0 : (quads ? 4 : 3) * faces);
+        });
+    }
+
+    [[nodiscard]] uint32_t vertexAt(uint32_t corner) const { return parent_.cage.faceVertices[corner]; }
+    [[nodiscard]] uint32_t faceOf(uint32_t corner) const { return parent_.topology.cornerFaces[corner]; }
+    [[nodiscard]] uint32_t next(uint32_t corner) const {
+        return cage::nextCorner(parent_.cage, faceOf(corner), corner);
+    }
+    [[nodiscard]] uint32_t previous(uint32_t corner) const {
+        return cage::previousCorner(parent_.cage, faceOf(corner), corner);
+    }
+
+    void addVertexPoint(uint32_t v) {
+        const Topology& topology = parent_.topology;
+        const uint32_t base = topology.spokeStarts[v];
+        sharpness_.clear();
+        for (uint32_t k = 0; k < topology.spokeCount(v); ++k) {
+            sharpness_.push_back(parent_.edgeSharpness[cage::spokeEdge(parent_.cage, topology, base + k)]);
+        }
+        const CentreStep step = centreStep(sharpness_, parent_.vertexSharpness[v]);
+        if (step.smooth > 0.0) {
+            addSmoothVertex(v, step.smooth);
+        }
+        if (step.crease > 0.0) {
+            rows_.add(v, 0.75 * step.crease);
+            rows_.add(topology.spokeVertices[base + step.first], 0.125 * step.crease);
+            rows_.add(topology.spokeVertices[base + step.second], 0.125 * step.crease);
+        }
+        if (step.corner > 0.0) {
+            rows_.add(v, step.corner);
+        }
+        rows_.close();
+    }
+
+    void addSmoothVertex(uint32_t v, double share) {
+        const Topology& topology = parent_.topology;
+        const double k = topology.sectorCount(v);
+        const bool quads = subdivision_ == Subdivision::catmullClark;
+        const CentreWeights loop = refineWeights(Subdivision::loop, topology.sectorCount(v));
+        const double spoke = quads ? 1.0 / (k * k) : loop.spoke;
+        rows_.add(v, share * (quads ? (k - 2.0) / k : loop.centre));
+        for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
+            rows_.add(topology.spokeVertices[s], share * spoke);
+            if (quads) {
+                addFaceMean(faceOf(topology.sectorCorners[s]), share / (k * k));
+            }
+        }
+    }
+
+    void addFaceMean(uint32_t face, double weight) {
+        for (uint32_t c = parent_.cage.faceStarts[face]; c < parent_.cage.faceStarts[face + 1]; ++c) {
+            rows_.add(vertexAt(c), weight / parent_.cage.sides(face));
+        }
+    }
+
+    void addEdgePoint(uint32_t e) {
+        const auto [corner, twin] = parent_.topology.edges[e];
+        const double sharp = std::clamp(static_cast<double>(parent_.edgeSharpness[e]), 0.0, 1.0);
+        if (sharp > 0.0) {
+            rows_.add(vertexAt(corner), 0.5 * sharp);
+            rows_.add(vertexAt(next(corner)), 0.5 * sharp);
+        }
+        if (sharp < 1.0) {
+            for (const uint32_t c : {corner, twin}) {
+                if (subdivision_ == Subdivision::catmullClark) {
+                    rows_.add(vertexAt(c), 0.25 * (1.0 - sharp));
+                    addFaceMean(faceOf(c), 0.25 * (1.0 - sharp));
+                } else {
+                    rows_.add(vertexAt(c), 0.375 * (1.0 - sharp));
+                    rows_.add(vertexAt(previous(c)), 0.125 * (1.0 - sharp));
+                }
+            }
+        }
+        rows_.close();
+    }
+
+    void addFacePoint(uint32_t f) {
+        addFaceMean(f, 1.0);
+        rows_.close();
+    }
+
+    [[nodiscard]] uint32_t edgePoint(uint32_t corner) const {
+        return parent_.cage.vertexCount() + parent_.topology.cornerEdges[corner];
+    }
+    [[nodiscard]] uint32_t facePoint(uint32_t face) const {
+        return parent_.cage.vertexCount() + static_cast<uint32_t>(parent_.topology.edges.size()) + face;
+    }
+
+    void addQuads(uint32_t f) {
+        for (uint32_t c = parent_.cage.faceStarts[f]; c < parent_.cage.faceStarts[f + 1]; ++c) {
+            addFace(f, {vertexAt(c), edgePoint(c), facePoint(f), edgePoint(previous(c))});
+        }
+    }
+
+    void addTriangles(uint32_t f) {
+        const uint32_t first = parent_.cage.faceStarts[f];
+        for (uint32_t c = first; c < first + 3; ++c) {
+            addFace(f, {vertexAt(c), edgePoint(c), edgePoint(previous(c))});
+        }
+        addFace(f, {edgePoint(first), edgePoint(first + 1), edgePoint(first + 2)});
+    }
+
+    void addFace(uint32_t f, std::initializer_list<uint32_t> vertices) {
+        child_.cage.faceVertices.insert(child_.cage.faceVertices.end(), vertices);
+        closeFace(child_, parent_, f);
+    }
+
+    /// An attribute of the children's corners, in the order of addQuads() and addTriangles(): along edges and over
+    /// faces the mean.
+    template <class Value>
+    void carry(const std::vector<Value>& from, std::vector<Value>& to) const {
+        for (uint32_t f = 0; f < parent_.cage.faceCount() && !from.empty(); ++f) {
+            const uint32_t first = parent_.cage.faceStarts[f], end = parent_.cage.faceStarts[f + 1];
+            const auto middle = [&](uint32_t c) { return (from[c] + from[c + 1 == end ? first : c + 1]) * 0.5f; };
+            const auto before = [&](uint32_t c) { return middle(c == first ? end - 1 : c - 1); };
+            if (subdivision_ == Subdivision::catmullClark) {
+                Value mean(0.0f);
+                for (uint32_t c = first; c < end; ++c) {
+                    mean += from[c];
+                }
+                mean /= static_cast<float>(end - first);
+                for (uint32_t c = first; c < end; ++c) {
+                    to.insert(to.end(), {from[c], middle(c), mean, before(c)});
+                }
+            } else {
+                for (uint32_t c = first; c < end; ++c) {
+                    to.insert(to.end(), {from[c], middle(c), before(c)});
+                }
+                to.insert(to.end(), {middle(first), middle(first + 1), middle(first + 2)});
+            }
+        }
+    }
+
+    const Level& parent_;
+    Subdivision subdivision_;
+    Level child_;
+    RowWriter rows_;
+    std::vector<float> sharpness_; ///< of the vertex at work
+};
+
+void placeVertices(Level& level, const std::vector<glm::vec3>& positions) {
+    const Stencils& stencils = level.stencils;
+    for (uint32_t row = 0; row < stencils.rows(); ++row) {
+        glm::dvec3 sum(0.0);
+        for (uint32_t i = stencils.starts[row]; i < stencils.starts[row + 1]; ++i) {
+            sum += stencils.weights[i] * glm::dvec3(positions[stencils.vertices[i]]);
+        }
+        level.cage.positions.emplace_back(sum);
+    }
+}
+
+} // namespace
+
+void closeFace(Level& to, const Level& from, uint32_t face) {
+    to.cage.faceStarts.push_back(to.cage.cornerCount());
+    to.sourceFaces.push_back(from.sourceFaces[face]);
+    to.holes.push_back(from.holes[face]);
+    if (!from.cage.faceMaterials.empty()) {
+        to.cage.faceMaterials.push_back(from.cage.faceMaterials[face]);
+    }
+}
+
+Level givenLevel(const Cage& cage) {
+    Level level;
+    level.cage = cage;
+    level.cage.creases.clear();
+    level.cage.sharpVertices.clear();
+    level.cage.creaseScalars.clear();
+    level.cage.holes.clear();
+    level.cage.sourceVertices.clear(); // a child's vertices come from no file
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        level.sourceFaces.push_back(f);
+    }
+    level.holes.assign(cage.faceCount(), 0);
+    for (const uint32_t f : cage.holes) {
+        if (f < cage.faceCount()) {
+            level.holes[f] = 1;
+        }
+    }
+    return level;
+}
+
+void beginLevel(Level& level, const Cage& cage, std::vector<std::string>& notes) {
+    Cage featured;
+    featured.positions.resize(cage.positions.size());
+    featured.faceStarts = level.cage.faceStarts;
+    featured.faceVertices = level.cage.faceVertices;
+    featured.creases = cage.creases;
+    featured.sharpVertices = cage.sharpVertices;
+    const cage::Features features = cage::buildFeatures(featured, level.topology);
+    notes.insert(notes.end(), features.unused.begin(), features.unused.end());
+    if (!cage.creaseScalars.empty()) {
+        notes.push_back(std::to_string(cage.creaseScalars.size()) +
+                        " crease scalars: not used, they are for P_m alone");
+    }
+    for (const float sharpness : features.edgeSharpness) {
+        level.edgeSharpness.push_back(markedInfinite(sharpness));
+    }
+    for (uint32_t v = 0; v < level.cage.vertexCount(); ++v) {
+        const bool tip = level.topology.boundary[v] != 0 && level.topology.sectorCount(v) == 1;
+        level.vertexSharpness.push_back(tip ? kInfiniteSharpness : markedInfinite(features.vertexSharpness[v]));
+        level.stencils.starts.push_back(v);
+        level.stencils.vertices.push_back(v);
+        level.stencils.weights.push_back(1.0);
+    }
+    level.stencils.starts.push_back(level.cage.vertexCount());
+}
+
+Level refine(const Level& parent, Subdivision subdivision) {
+    Level child = Refiner(parent, subdivision).run();
+    placeVertices(child, parent.cage.positions);
+    return child;
+}
+
+std::optional<Error> equip(Level& child, const Level& parent) {
+    Result<Topology> topology = cage::buildTopology(child.cage);
+    if (!topology.ok()) {
+        return topology.error();
+    }
+    child.topology = std::move(*topology);
+    child.edgeSharpness.assign(child.topology.edges.size(), 0.0f);
+    child.vertexSharpness.assign(child.cage.vertexCount(), 0.0f);
+    for (uint32_t v = 0; v < parent.cage.vertexCount(); ++v) {
+        child.vertexSharpness[v] = softened(parent.vertexSharpness[v], 1);
+    }
+    for (uint32_t c = 0; c < parent.cage.cornerCount(); ++c) {
+        const float sharpness = softened(parent.edgeSharpness[parent.topology.cornerEdges[c]], 1);
+        const EdgeHalves halves = edgeHalves(child, parent, c);
+        child.edgeSharpness[halves.first] = sharpness;
+        child.edgeSharpness[halves.second] = sharpness;
+    }
+    return std::nullopt;
+}
+
+EdgeHalves edgeHalves(const Level& child, const Level& parent, uint32_t corner) {
+    // The quad of the corner begins with the first half of its edge; the quad of the next corner ends with the second.
+    const uint32_t next = cage::nextCorner(parent.cage, parent.topology.cornerFaces[corner], corner);
+    return {child.topology.cornerEdges[4 * corner], child.topology.cornerEdges[4 * next + 3]};
+}
+
+} // namespace supple::surface

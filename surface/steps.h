@@ -1,0 +1,73 @@
+// How the steps of a program are made. Private to surface/.
+#pragma once
+
+#include "gpu/pipelines.h"
+#include "surface/evaluation.h"
+#include "surface/needs.h"
+#include "surface/program.h"
+#include "surface/scheme.h"
+#include "surface/shaders.h"
+
+#include <initializer_list>
+#include <span>
+#include <string>
+
+namespace supple::surface {
+
+/// Builds one program: what it is made for, its steps, and the pipelines for them.
+class ProgramBuilder {
+public:
+    using Layouts = std::array<gpu::ComputeLayout, kSetKinds>;
+    ProgramBuilder(const gpu::Device& own, const Layouts& layouts, gpu::Pipelines& pipelines, const Shaders& shaders,
+                   const Tables& ofTables, const Needs& ofNeeds, const Evaluation& ofEvaluation)
+        : device(own), tables(ofTables), needs(ofNeeds), evaluation(ofEvaluation), layouts_(layouts),
+          pipelines_(pipelines), shaders_(shaders) {}
+
+    const gpu::Device& device;
+    const Tables& tables;
+    const Needs& needs;
+    const Evaluation& evaluation;
+    Program program;
+
+    [[nodiscard]] gpu::Kernel kernel(SetKind sets, Kernel kernel, std::span<const gpu::Constant> constants,
+                                     const std::string& name);
+    [[nodiscard]] gpu::Kernel kernel(SetKind sets, Kernel which, std::initializer_list<gpu::Constant> constants,
+                                     const std::string& name) {
+        return kernel(sets, which, std::span(constants.begin(), constants.size()), name);
+    }
+    /// The first error. After it no more pipelines are created.
+    [[nodiscard]] const Status& status() const { return status_; }
+
+    /// Adds a step unless it has no elements.
+    template <class Push>
+    void add(Steps& steps, SetKind sets, const gpu::Kernel& kernel, DispatchSize size, const Push& push,
+             uint32_t argument = 0, Order order = Order::free) {
+        if (size.elements > 0) {
+            steps.push_back({kernel, sets, order, size, argument, {}, 0});
+            steps.back().setPush(push);
+        }
+    }
+    /// One lane per element.
+    [[nodiscard]] DispatchSize lanes(uint32_t elements) const { return {elements, device.mapping.localSize}; }
+
+    /// The passes that write surface vertices: evaluate, and motion if it is needed.
+    struct VertexPass {
+        uint32_t format = shared::kVertex16;
+        Steps* steps = nullptr;
+    };
+    [[nodiscard]] std::vector<VertexPass> vertexPasses();
+
+private:
+    const Layouts& layouts_;
+    gpu::Pipelines& pipelines_;
+    const Shaders& shaders_;
+    Status status_ = success();
+};
+
+// Each adds what the tables and needs call for.
+void addConstructions(ProgramBuilder& builder);
+void addRanges(ProgramBuilder& builder); ///< patch, evaluate and attributes of patches, at a rate
+void addRangesAtLevels(ProgramBuilder& builder);
+void addIndexedMesh(ProgramBuilder& builder); ///< evaluate and attributes where patches share their samples
+
+} // namespace supple::surface

@@ -1,0 +1,43 @@
+// The subdivision on the CPU, in float or double. Sums have the order of docs/subdivision.md, so that float gives the
+// bits of the device. For tests and comparisons; not part of the runtime.
+#pragma once
+
+#include "surface/subdivision/mesh.h"
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace supple::surface::subdivision {
+
+template <class T>
+struct Sample {
+    glm::vec<3, T> refined;  ///< the point on the last level, before the limit
+    glm::vec<3, T> position; ///< the limit point
+    glm::vec<3, T> normal;   ///< outwards, of unit length, or zero if there is none. At a crease: of the sector's side
+};
+
+/// The samples of one face of the isolated level, in the grid order of its domain at rate 2^steps. The domain is a quad
+/// (Catmull-Clark) or a triangle (Loop). Its corner 0 is the one that Mesh::sectorFaces describes.
+template <class T>
+struct SectorGrid {
+    uint32_t face = 0; ///< of Mesh::cage
+    std::vector<Sample<T>> samples;
+};
+
+/// The vertices of the isolated level: one applyStencils() per step.
+template <class T>
+[[nodiscard]] std::vector<glm::vec<3, T>> isolate(const Mesh& mesh, std::span<const glm::vec<3, T>> positions);
+
+/// All sectors, fragment after fragment, refined `steps` times (0..6) beyond the isolated level.
+template <class T>
+[[nodiscard]] std::vector<SectorGrid<T>> evaluate(const Mesh& mesh, std::span<const glm::vec<3, T>> isolated,
+                                                  uint32_t steps);
+
+/// The same, but one sector at a time in one buffer. For results that would not fit into memory.
+template <class T>
+void forEachSector(const Mesh& mesh, std::span<const glm::vec<3, T>> isolated, uint32_t steps,
+                   const std::function<void(const SectorGrid<T>&)>& visit);
+
+} // namespace supple::surface::subdivision

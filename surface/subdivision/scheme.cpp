@@ -1,0 +1,542 @@
+#include "surface/subdivision/scheme.h"
+
+#include "shaders/shared/subdivision.h"
+#include "surface/stencil_table.h"
+#include "surface/subdivision/masks.h"
+#include "surface/subdivision/pattern.h"
+#include "surface/table_writer.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+namespace supple::surface::subdivision {
+
+namespace {
+
+static_assert(static_cast<uint32_t>(Rule::vertex) == shared::kVertexRule &&
+              static_cast<uint32_t>(Rule::edge) == shared::kEdgeRule &&
+              static_cast<uint32_t>(Rule::face) == shared::kFaceRule &&
+              static_cast<uint32_t>(Rule::centre) == shared::kCentreRule);
+
+constexpr uint32_t kMaxPoints = 0xFFFF; ///< 16-bit indices
+
+/// Fragments that share all their tables.
+struct ClassKey {
+    FragmentKind kind = FragmentKind::vertex;
+    Fan fan;
+    bool sharp = false;
+
+    bool operator<(const ClassKey& other) const {
+        return std::tie(kind, fan, sharp) < std::tie(other.kind, other.fan, other.sharp);
+    }
+};
+
+/// A list of rows or samples.
+struct List {
+    uint32_t first = 0; ///< word or element
+    uint32_t count = 0;
+};
+
+/// A level of a fragment: where its tables lie.
+struct LevelTables {
+    uint32_t rows = 0, neighbours = 0; ///< elements
+    uint32_t points = 0;
+    List cells;    ///< elements
+    List oneByOne; ///< words
+};
+
+/// A fan's pattern, or a facet's of one level, and where it lies in the tables.
+struct PatternTables {
+    Pattern pattern;
+    uint32_t rows = 0, neighbours = 0; ///< elements
+};
+
+struct ClassTables {
+    ClassKey key;
+    std::vector<uint32_t> fragments;                         ///< of the mesh
+    std::vector<LevelTables> levels;                         ///< 0..steps
+    List strips, limitRows;                                  ///< elements
+    uint32_t limitOneByOne = 0;                              ///< of the limit rows, the first
+    uint32_t net = 0, sharpness = 0, patches = 0, masks = 0; ///< words
+    uint32_t centreSteps = 0, header = 0;                    ///< elements
+    std::vector<uint32_t> runs;                              ///< per level: its run in the scratch buffer
+    [[nodiscard]] uint32_t sharedPoints() const {
+        const size_t last = levels.size() - 1;
+        return levels[last].points + (last > 0 ? levels[last - 1].points : 0);
+    }
+    [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(fragments.size()); }
+};
+
+class Builder {
+public:
+    Builder(const Mesh& mesh, uint32_t depth)
+        : mesh_(mesh), loop_(mesh.subdivision == Subdivision::loop),
+          steps_(depth > mesh.isolationSteps ? depth - mesh.isolationSteps : 0), writer_(tables_.words) {}
+
+    Result<Tables> build() {
+        sortFragments();
+        for (const ClassTables& c : classes_) {
+            if (c.key.kind == FragmentKind::vertex && pointCount(c.key.fan, (1u << steps_) + 1) >= kMaxPoints) {
+                const Fragment& fragment = mesh_.fragments[c.fragments.front()];
+                return Error{ErrorCode::limit, "vertex " + std::to_string(mesh_.net[fragment.firstNet]) + " has " +
+                                                   std::to_string(c.key.fan.sectors) + " faces: at depth " +
+                                                   std::to_string(steps_ + mesh_.isolationSteps) +
+                                                   " they have more points than the subdivision counts"};
+            }
+        }
+        sortPatches();
+        tables_.isolationSteps = mesh_.isolationSteps;
+        tables_.rate = 1u << steps_;
+        tables_.notes = mesh_.notes;
+        // What there is of them all, roughly: untouched pages cost nothing, growing does.
+        writer_.reserve(24 * size_t{mesh_.cage.vertexCount()} + 32 * size_t{mesh_.cage.faceCount()});
+        writeSteps();
+        for (ClassTables& c : classes_) {
+            writeClass(c);
+        }
+        writeFragments();
+        writeBlocks();
+        if (!patches_.empty()) {
+            tables_.ranges.push_back({loop_ ? PatchClass::loop : PatchClass::catmullClark,
+                                      {0, static_cast<uint32_t>(patches_.size())},
+                                      0,
+                                      0});
+        }
+        finishTables(mesh_.cage, patches_, writer_, tables_);
+        return std::move(tables_);
+    }
+
+private:
+    [[nodiscard]] std::span<const float> sharpness(const Fragment& fragment) const {
+        return std::span(mesh_.spokeSharpness).subspan(fragment.firstSpoke, fragment.spokes());
+    }
+
+    /// Classes by what a workgroup needs for a fragment.
+    void sortFragments() {
+        std::map<ClassKey, std::vector<uint32_t>> byKey;
+        for (uint32_t f = 0; f < mesh_.fragments.size(); ++f) {
+            const Fragment& fragment = mesh_.fragments[f];
+            const std::span<const float> spokes = sharpness(fragment);
+            const bool sharp = fragment.centreSharpness > 0.0f ||
+                               std::any_of(spokes.begin(), spokes.end(), [](float s) { return s > 0.0f; });
+            byKey[{fragment.kind, {mesh_.subdivision, fragment.sectors, fragment.open}, sharp}].push_back(f);
+        }
+        for (auto& [key, fragments] : byKey) {
+            ClassTables& c = classes_.emplace_back();
+            c.key = key;
+            c.fragments = std::move(fragments);
+            for (uint32_t level = 0; level <= steps_; ++level) {
+                const uint32_t side = 1u << level;
+                c.levels.push_back(
+                    {0, 0, key.kind == FragmentKind::facet ? facetPointCount(side) : pointCount(key.fan, side + 1)});
+            }
+        }
+        std::stable_sort(classes_.begin(), classes_.end(), [](const ClassTables& a, const ClassTables& b) {
+            return a.sharedPoints() < b.sharedPoints();
+        });
+    }
+
+    void sortPatches() {
+        patches_ = draftPatches(mesh_);
+        for (DraftPatch& patch : patches_) {
+            patch.info.patchClass = loop_ ? PatchClass::loop : PatchClass::catmullClark;
+        }
+        surface::sortPatches(patches_);
+        facePatches_.assign(mesh_.cage.faceCount(), shared::kNoPatch);
+        for (uint32_t p = 0; p < patches_.size(); ++p) {
+            facePatches_[patches_[p].facet] = p;
+        }
+    }
+
+    /// The isolated level stands at the front of the pool, a step before it behind.
+    void writeSteps() {
+        const std::vector<Stencils>& steps = mesh_.stencils;
+        const uint32_t isolated = steps.back().rows();
+        if (steps.size() == 1) {
+            writeStencils(steps[0], {}, writer_, tables_);
+            tables_.poolStride = isolated;
+        } else {
+            writeStencils(steps[0], {Stage::vertex, false, 0, isolated}, writer_, tables_);
+            writeStencils(steps[1], {Stage::assemble, true, isolated, 0}, writer_, tables_);
+            tables_.poolStride = isolated + steps[0].rows();
+        }
+        tables_.poolStride = (tables_.poolStride + 15) / 16 * 16;
+    }
+
+    void putHalves(const std::array<uint32_t, 8>& values) {
+        for (size_t i = 0; i < 8; i += 2) {
+            writer_.put({values[i] | values[i + 1] << 16});
+        }
+    }
+
+    PatternTables writePattern(Pattern pattern) {
+        PatternTables tables;
+        tables.rows = writer_.element();
+        for (const Row& row : pattern.rows) {
+            std::array<uint32_t, 8> halves{};
+            std::copy(row.sources.begin(), row.sources.end(), halves.begin());
+            halves[7] = static_cast<uint32_t>(row.rule) | (row.spoke == kNoSpoke ? 0u : (row.spoke + 1) << 2);
+            putHalves(halves);
+        }
+        tables.neighbours = writer_.element();
+        for (const Neighbours& neighbours : pattern.neighbours) {
+            putHalves(neighbours);
+        }
+        tables.pattern = std::move(pattern);
+        return tables;
+    }
+
+    const PatternTables& patternOf(const ClassKey& key, uint32_t level) {
+        if (key.kind == FragmentKind::vertex) { // one for all levels
+            const auto found = fans_.find(key.fan);
+            return found != fans_.end()
+                       ? found->second
+                       : fans_.emplace(key.fan, writePattern(fanPattern(key.fan, steps_))).first->second;
+        }
+        while (facets_.size() <= level) {
+            facets_.push_back(writePattern(facetPattern(static_cast<uint32_t>(facets_.size()))));
+        }
+        return facets_[level];
+    }
+
+    /// The points of the next level that a point's ring makes: towards which neighbours.
+    [[nodiscard]] std::span<const uint32_t> cellSlots() const {
+        static constexpr uint32_t kQuadSlots[] = {SUPPLE_SUBDIVISION_QUAD_SLOTS};
+        static constexpr uint32_t kTriangleSlots[] = {0, 1, 2, 3, 4, 5};
+        return loop_ ? std::span<const uint32_t>(kTriangleSlots) : std::span<const uint32_t>(kQuadSlots);
+    }
+
+    /// The points a cell makes, as the tables have them.
+    using Cell = std::array<uint32_t, 8>;
+
+    /// Gives every row of a level that needs neither sharpness nor the centre's rule to a cell of the level before, if
+    /// one has all of its sources round it, and takes it from `rows`. `neighbours` are those of the level before.
+    std::vector<Cell> makeCells(const ClassKey& key, std::span<const Neighbours> neighbours,
+                                const std::vector<Row>& pattern, std::vector<uint32_t>& rows) const {
+        const std::span<const uint32_t> slots = cellSlots();
+        std::map<uint32_t, Cell> cells;
+        const auto give = [&](uint32_t point, uint32_t slot, uint32_t row) {
+            const auto [cell, isNew] = cells.try_emplace(point);
+            if (isNew) {
+                cell->second.fill(shared::kNoTarget);
+                cell->second[shared::kCellTargets] = point;
+            }
+            cell->second[slot] = row;
+        };
+        std::erase_if(rows, [&](uint32_t row) {
+            const Row& r = pattern[row];
+            if (r.rule == Rule::centre || (key.sharp && r.spoke != kNoSpoke)) {
+                return false;
+            }
+            // A vertex point's cell is its first source's; an edge or face point's that of a corner with a slot for it.
+            const uint32_t corners = r.rule == Rule::vertex ? 1 : r.rule == Rule::edge ? 2 : 4;
+            for (uint32_t k = 0; k < corners; ++k) {
+                const uint32_t point = r.sources[k];
+                const bool centre = key.kind == FragmentKind::vertex && point == 0;
+                if (centre || point >= neighbours.size() || neighbours[point][0] == point) { // or in the halo
+                    continue;
+                }
+                if (r.rule == Rule::vertex) {
+                    give(point, 0, row);
+                    return true;
+                }
+                for (uint32_t slot = 0; slot < slots.size(); ++slot) {
+                    if (neighbours[point][slots[slot]] == r.sources[k ^ 1u]) {
+                        give(point, 1 + slot, row);
+                        return true;
+                    }
+                }
+            }
+            return false;
+        });
+        std::vector<Cell> result;
+        for (const auto& [point, cell] : cells) {
+            result.push_back(cell);
+        }
+        return result;
+    }
+
+    void writeWork(ClassTables& c) {
+        for (uint32_t level = 0; level <= steps_; ++level) {
+            const PatternTables& tables = patternOf(c.key, level);
+            c.levels[level].rows = tables.rows;
+            c.levels[level].neighbours = tables.neighbours;
+        }
+        for (uint32_t level = 1; level <= steps_; ++level) {
+            LevelTables& l = c.levels[level];
+            // Of a fan's neighbours those that the level before covers; they come first.
+            std::span<const Neighbours> neighbours = patternOf(c.key, level - 1).pattern.neighbours;
+            if (c.key.kind == FragmentKind::vertex) {
+                neighbours = neighbours.first(pointCount(c.key.fan, 1u << (level - 1)));
+            }
+            std::vector<uint32_t> rows(l.points);
+            std::iota(rows.begin(), rows.end(), 0u);
+            const std::vector<Cell> cells = makeCells(c.key, neighbours, patternOf(c.key, level).pattern.rows, rows);
+            l.cells = {writer_.element(), static_cast<uint32_t>(cells.size())};
+            for (const Cell& cell : cells) {
+                putHalves(cell);
+            }
+            l.oneByOne = {4 * writer_.element(), static_cast<uint32_t>(rows.size())};
+            for (const uint32_t row : rows) {
+                writer_.put({row});
+            }
+        }
+    }
+
+    /// The point of a fragment's last level at (a, b) of a sector, or kNoPoint.
+    [[nodiscard]] uint32_t pointAt(const ClassKey& key, uint32_t sector, int32_t a, int32_t b) const {
+        return key.kind == FragmentKind::facet ? facetPointIndex(1u << steps_, a, b)
+                                               : pointIndex(key.fan, sector, a, b);
+    }
+
+    /// Which of a sector's directions a point's neighbours begin with, kNoSample where with none of Loop's: its rules
+    /// depend on it, Catmull-Clark's do not.
+    [[nodiscard]] uint32_t axisOf(const ClassKey& key, const Neighbours& neighbours, uint32_t sector, int32_t a,
+                                  int32_t b) const {
+        if (!loop_) {
+            return 0;
+        }
+        constexpr int32_t kWays[3][2] = {{1, 0}, {0, 1}, {-1, 1}};
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            if (neighbours[0] == pointAt(key, sector, a + kWays[axis][0], b + kWays[axis][1])) {
+                return axis;
+            }
+        }
+        return shared::kNoSample;
+    }
+
+    /// Strips of the samples that need neither sharpness nor the centre's mask, and rows for all, the others first.
+    void writeLimits(ClassTables& c) {
+        const bool facet = c.key.kind == FragmentKind::facet;
+        const Pattern& pattern = patternOf(c.key, steps_).pattern;
+        const int32_t side = 1 << steps_;
+        struct LimitRow {
+            uint32_t point, place, sample;
+        };
+        std::vector<LimitRow> oneByOne, inStrips;
+        std::vector<List> strips; // columns
+        std::vector<uint32_t> stripSectors;
+        uint32_t column = writer_.element();
+        for (uint32_t sector = 0; sector < c.key.fan.sectors; ++sector) {
+            uint32_t sample = 0;
+            for (int32_t b = 0; b <= side; ++b) {
+                const int32_t last = loop_ ? side - b : side;
+                strips.push_back({column, static_cast<uint32_t>(last + 3)});
+                stripSectors.push_back(sector);
+                for (int32_t a = -1; a <= last + 1; ++a, ++column) {
+                    // Points that no sample of the strip asks for may be missing.
+                    const auto at = [&](int32_t y) {
+                        const uint32_t point = pointAt(c.key, sector, a, y);
+                        return point == kNoPoint ? 0u : point;
+                    };
+                    const uint32_t point = at(b);
+                    const bool isSample = a >= 0 && a <= last;
+                    uint32_t axis = shared::kNoSample;
+                    if (isSample) {
+                        const uint32_t spoke = pattern.spokes[point];
+                        const bool centre = !facet && point == 0;
+                        if (!centre && !(c.key.sharp && spoke != kNoSpoke)) {
+                            axis = axisOf(c.key, pattern.neighbours[point], sector, a, b);
+                        }
+                        // A facet lies right of the lines through c0 and c2, left of that through c1.
+                        const bool right = facet ? spoke != 1 : a == 0;
+                        (axis == shared::kNoSample ? oneByOne : inStrips)
+                            .push_back({point, sector | (right ? shared::kRightSide : 0u), sample});
+                    }
+                    writer_.put({at(b - 1) | point << 16, at(b + 1) | sample << 16, axis, 0u});
+                    sample += isSample ? 1 : 0;
+                }
+            }
+        }
+        c.strips = {writer_.element(), static_cast<uint32_t>(strips.size())};
+        for (size_t i = 0; i < strips.size(); ++i) {
+            writer_.put({strips[i].first, strips[i].count, stripSectors[i], 0u});
+        }
+        c.limitRows = {writer_.element(), static_cast<uint32_t>(oneByOne.size() + inStrips.size())};
+        c.limitOneByOne = static_cast<uint32_t>(oneByOne.size());
+        for (const std::vector<LimitRow>* rows : {&oneByOne, &inStrips}) {
+            for (const LimitRow& row : *rows) {
+                putHalves(pattern.neighbours[row.point]);
+                const uint32_t spoke = pattern.spokes[row.point];
+                writer_.put({row.point, spoke == kNoSpoke ? 0u : spoke + 1, row.place, row.sample});
+            }
+        }
+    }
+
+    void writeClass(ClassTables& c) {
+        const bool facet = c.key.kind == FragmentKind::facet;
+        const uint32_t sectors = c.key.fan.sectors;
+        writeWork(c);
+        writeLimits(c);
+        for (size_t i = 0; i < c.fragments.size() && !facet; ++i) {
+            if (i == 0 || c.key.sharp) {
+                writeMasks(c.key.fan, mesh_.fragments[c.fragments[i]]);
+            } else { // the same as the first one's
+                for (uint32_t h = 0; h < sectors; ++h) {
+                    masks_.push_back(masks_[masks_.size() - sectors]);
+                }
+            }
+        }
+        if (c.key.sharp && !facet) {
+            writeCentreSteps(c);
+        }
+        const auto words = [&](uint32_t rows, auto&& value) {
+            const uint32_t first = 4 * writer_.element();
+            for (uint32_t row = 0; row < rows; ++row) {
+                for (const uint32_t f : c.fragments) {
+                    writer_.put({value(mesh_.fragments[f], row)});
+                }
+            }
+            return first;
+        };
+        c.net = words(c.levels[0].points, [&](const Fragment& f, uint32_t i) { return mesh_.net[f.firstNet + i]; });
+        c.patches = words(sectors, [&](const Fragment& f, uint32_t sector) {
+            return facePatches_[mesh_.sectorFaces[f.firstSector + sector]];
+        });
+        if (c.key.sharp) {
+            c.sharpness = words(mesh_.fragments[c.fragments.front()].spokes(), [&](const Fragment& f, uint32_t spoke) {
+                return std::bit_cast<uint32_t>(sharpness(f)[spoke]);
+            });
+        }
+        if (!facet) {
+            uint32_t next = 0;
+            std::vector<uint32_t> own;
+            std::swap(own, masks_);
+            c.masks = words(
+                sectors, [&](const Fragment&, uint32_t sector) { return own[next++ % c.count() * sectors + sector]; });
+        }
+        const CentreWeights weights = facet ? CentreWeights{} : refineWeights(mesh_.subdivision, c.key.fan.sectors);
+        c.header = writer_.element();
+        writer_.put({c.count(), sectors | (c.key.sharp ? shared::kSharpClass : 0u), c.net, c.sharpness, c.patches,
+                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows.first,
+                     c.limitRows.count});
+        for (uint32_t level = 0; level <= steps_; ++level) {
+            c.runs.push_back(tables_.fragments.scratchStride);
+            const LevelTables& l = c.levels[level];
+            writer_.put({l.rows, l.neighbours, l.points, c.runs.back()});
+            tables_.fragments.scratchStride += level > 0 ? l.points * c.count() : 0;
+        }
+    }
+
+    /// Appends to masks_ the mask element of every sector of a fragment.
+    void writeMasks(const Fan& fan, const Fragment& fragment) {
+        std::vector<float> spokes;
+        for (const float s : sharpness(fragment)) {
+            spokes.push_back(softened(s, steps_));
+        }
+        const CentreLimit limit = centreLimit(fan, spokes, softened(fragment.centreSharpness, steps_));
+        const size_t first = masks_.size();
+        masks_.resize(first + fan.sectors);
+        const uint32_t ring = pointCount(fan, 1) - 1;
+        for (const CentreRun& run : limit.runs) {
+            std::vector<uint32_t> words = {run.corner ? shared::kCornerMask : 0u, run.firstSector, run.sectors, ring};
+            for (uint32_t i = 1; i <= ring; ++i) {
+                words.insert(words.end(), {floatBits(limit.position[i]), run.corner ? 0u : floatBits(run.first[i]),
+                                           run.corner ? 0u : floatBits(run.second[i]), 0u});
+            }
+            const auto [known, isNew] = maskElements_.try_emplace(words, 0u);
+            if (isNew) {
+                known->second = writer_.element();
+                for (const uint32_t word : words) {
+                    writer_.put({word});
+                }
+            }
+            for (uint32_t h = 0; h < run.sectors; ++h) {
+                masks_[first + (run.firstSector + h) % fan.sectors] = known->second;
+            }
+        }
+    }
+
+    void writeCentreSteps(ClassTables& c) {
+        c.centreSteps = writer_.element();
+        for (uint32_t step = 0; step < steps_; ++step) {
+            for (const uint32_t f : c.fragments) {
+                std::vector<float> spokes;
+                for (const float s : sharpness(mesh_.fragments[f])) {
+                    spokes.push_back(softened(s, step));
+                }
+                const CentreStep centre = centreStep(spokes, softened(mesh_.fragments[f].centreSharpness, step));
+                writer_.put({floatBits(centre.smooth), floatBits(centre.crease), centre.first, centre.second});
+            }
+        }
+    }
+
+    void writeFragments() {
+        tables_.fragments.steps = steps_;
+        tables_.fragments.loop = loop_;
+        tables_.fragments.scratchStride = (tables_.fragments.scratchStride + 15) / 16 * 16;
+        for (const ClassTables& c : classes_) {
+            tables_.fragments.classes.push_back({c.sharedPoints(), {writer_.element(), c.count()}, {}});
+            for (uint32_t fragment = 0; fragment < c.count(); ++fragment) {
+                writer_.put({c.header, fragment, 0u, 0u});
+            }
+        }
+    }
+
+    void writeBlocks() {
+        const auto forEachClass = [&](auto&& write) {
+            for (size_t k = 0; k < classes_.size(); ++k) {
+                write(k, classes_[k]);
+            }
+        };
+        for (uint32_t step = 1; step <= steps_; ++step) {
+            forEachClass([&](size_t k, const ClassTables& c) {
+                writeBlocks(k, step, c.levels[step].cells.first, 0, c.levels[step].cells.count, c.runs[step]);
+            });
+            forEachClass([&](size_t k, const ClassTables& c) {
+                const LevelTables& level = c.levels[step];
+                writeBlocks(k, step, level.rows, level.oneByOne.first, level.oneByOne.count, c.runs[step]);
+            });
+        }
+        forEachClass([&](size_t k, const ClassTables& c) {
+            writeBlocks(k, steps_ + 1, c.strips.first, c.patches, c.strips.count, 0);
+        });
+        forEachClass([&](size_t k, const ClassTables& c) {
+            writeBlocks(k, steps_ + 1, c.limitRows.first, c.patches, c.limitOneByOne, 0);
+        });
+    }
+
+    void writeBlocks(size_t classIndex, uint32_t step, uint32_t rows, uint32_t list, uint32_t places, uint32_t write) {
+        const ClassTables& c = classes_[classIndex];
+        Section section{writer_.element(), 0};
+        for (uint64_t lane = 0; lane < uint64_t{places} * c.count(); lane += shared::kBlockLanes, ++section.count) {
+            writer_.put({rows, list, static_cast<uint32_t>(lane / c.count()), static_cast<uint32_t>(lane % c.count()),
+                         step == 1 ? c.net : c.runs[step - 1], write, c.count(), places, c.levels[step - 1].neighbours,
+                         c.header, 0u, 0u});
+        }
+        tables_.fragments.classes[classIndex].blocks.push_back(section);
+    }
+
+    const Mesh& mesh_;
+    bool loop_;
+    uint32_t steps_;
+    Tables tables_;
+    TableWriter writer_;
+    std::vector<ClassTables> classes_;
+    std::vector<DraftPatch> patches_;
+    std::vector<uint32_t> facePatches_; ///< per face of the isolated level
+    std::map<Fan, PatternTables> fans_;
+    std::vector<PatternTables> facets_; ///< by level
+    std::map<std::vector<uint32_t>, uint32_t> maskElements_;
+    std::vector<uint32_t> masks_; ///< [fragment][sector] of the class at work
+};
+
+} // namespace
+
+Result<Tables> buildTables(const Mesh& mesh, uint32_t depth) {
+    return Builder(mesh, depth).build();
+}
+
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+    const Result<Mesh> mesh =
+        buildMesh(cage, recipe.scheme == SchemeId::loop ? Subdivision::loop : Subdivision::catmullClark);
+    if (!mesh) {
+        return mesh.error();
+    }
+    return buildTables(*mesh, recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0);
+}
+
+} // namespace supple::surface::subdivision

@@ -1,0 +1,54 @@
+// How the tests of the glTF reader read the files they make: as "t.glb", from memory alone.
+#pragma once
+
+#include "cage/gltf/reader.h"
+#include "tests/cage/gltf/builder.h"
+
+#include <gtest/gtest.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace supple::cage::test {
+
+using Strings = std::vector<std::string>;
+
+/// What a right file reads as.
+inline Character readWell(const std::vector<std::byte>& bytes, const GltfOptions& options = {}) {
+    Result<Character> result = readGltf(bytes, "t.glb", "", options);
+    EXPECT_TRUE(result.ok()) << result.error().message;
+    return result.ok() ? std::move(result.value()) : Character{};
+}
+inline Character readWell(const GltfBuilder& b, const GltfOptions& options = {}) {
+    return readWell(b.glb(), options);
+}
+
+/// Why a wrong file is refused; "accepted" where it is not.
+inline std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code = ErrorCode::asset) {
+    const Result<Character> result = readGltf(bytes, "t.glb", "");
+    if (result.ok()) {
+        return "accepted";
+    }
+    EXPECT_EQ(result.error().code, code) << result.error().message;
+    return result.error().message;
+}
+inline std::string messageOf(const GltfBuilder& b) {
+    return messageOf(b.glb());
+}
+
+/// Replaces the only occurrence of `from`.
+inline std::string replaced(const std::string& text, const std::string& from, const std::string& to) {
+    const size_t place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    if (place == std::string::npos) {
+        return text;
+    }
+    EXPECT_EQ(text.find(from, place + 1), std::string::npos) << "not unique: " << from;
+    return text.substr(0, place) + to + text.substr(place + from.size());
+}
+
+inline std::vector<uint32_t> face(const Cage& cage, uint32_t f) {
+    return {cage.faceVertices.begin() + cage.faceStarts[f], cage.faceVertices.begin() + cage.faceStarts[f + 1]};
+}
+
+} // namespace supple::cage::test

@@ -1,0 +1,80 @@
+// What a device must offer, what it is asked for, and the barriers between passes.
+#include "gpu/device.h"
+#include "tests/gpu/fake_vulkan.h"
+
+#include <gtest/gtest.h>
+#include <string>
+
+namespace supple::gpu {
+namespace {
+
+TEST(Device, NamesTheFirstFeatureThatIsNotEnabled) {
+    EXPECT_EQ(disabledFeature(nullptr), "scalarBlockLayout");
+
+    Requirements needed = requirements();
+    needed.features12.pNext = &needed.features13;
+    EXPECT_EQ(disabledFeature(&needed.features12), "");
+
+    needed.features13.maintenance4 = VK_FALSE;
+    EXPECT_EQ(disabledFeature(&needed.features12), "maintenance4");
+    needed.features13.synchronization2 = VK_FALSE;
+    EXPECT_EQ(disabledFeature(&needed.features12), "synchronization2");
+}
+
+TEST(Device, NamesTheEntryPointThatIsMissing) {
+    const auto nothing = [](VkInstance, const char*) -> PFN_vkVoidFunction { return nullptr; };
+    EXPECT_EQ(missingRequirement(VK_NULL_HANDLE, VK_NULL_HANDLE, nothing),
+              "entry point vkGetPhysicalDeviceProperties2 (is the instance Vulkan 1.1 or later?)");
+
+    const auto allButOne = [](VkInstance, const char* name) -> PFN_vkVoidFunction {
+        return std::string(name) == "vkGetDeviceProcAddr" ? nullptr : reinterpret_cast<PFN_vkVoidFunction>(1);
+    };
+    Functions functions;
+    EXPECT_STREQ(functions.loadInstance(VK_NULL_HANDLE, allButOne), "vkGetDeviceProcAddr");
+}
+
+TEST(Device, ErrorsSayWhatRanOut) {
+    EXPECT_EQ(vulkanError(VK_ERROR_OUT_OF_HOST_MEMORY, "a").code, ErrorCode::hostMemory);
+    EXPECT_EQ(vulkanError(VK_ERROR_OUT_OF_DEVICE_MEMORY, "a").code, ErrorCode::deviceMemory);
+    EXPECT_EQ(vulkanError(VK_ERROR_DEVICE_LOST, "a").code, ErrorCode::deviceLost);
+    const Error other = vulkanError(VK_ERROR_TOO_MANY_OBJECTS, "buffer of skins");
+    EXPECT_EQ(other.code, ErrorCode::vulkan);
+    EXPECT_EQ(other.message, "buffer of skins: VK_ERROR_TOO_MANY_OBJECTS (-10)");
+}
+
+TEST(Device, WindowsFitEveryDescriptor) {
+    test::FakeVulkan vulkan;
+    Device& device = vulkan.device;
+    device.limits.maxStorageBufferRange = 1000000;
+    device.limits.maxTexelBufferElements = 10000;
+    EXPECT_EQ(device.bufferWindow(4), 40000u) << "narrow: texels are read";
+    EXPECT_EQ(device.bufferWindow(128), 1000000u) << "narrow: the storage buffer ends first";
+    device.mapping.wide = true;
+    EXPECT_EQ(device.bufferWindow(4), 1000000u) << "wide: none are";
+}
+
+TEST(Device, DisjointWritesNeedABarrierWhereTexelsAreRead) {
+    test::FakeVulkan vulkan;
+    disjointBarrier(vulkan.device, test::kCommands);
+    EXPECT_EQ(vulkan.barriers.size(), 1u);
+    vulkan.device.mapping.wide = true;
+    disjointBarrier(vulkan.device, test::kCommands);
+    EXPECT_EQ(vulkan.barriers.size(), 1u);
+}
+
+TEST(Device, ComputeSeesWhatComputeWrote) {
+    test::FakeVulkan vulkan;
+    vulkan.device.mapping.wide = true;
+    computeBarrier(vulkan.device, test::kCommands);
+    ASSERT_EQ(vulkan.barriers.size(), 1u);
+    const VkMemoryBarrier2& barrier = vulkan.barriers[0];
+    EXPECT_EQ(barrier.srcStageMask, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+    EXPECT_EQ(barrier.dstStageMask, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+    EXPECT_EQ(barrier.srcAccessMask, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    constexpr VkAccessFlags2 kTexels = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    EXPECT_EQ(barrier.dstAccessMask,
+              kTexels | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+} // namespace
+} // namespace supple::gpu

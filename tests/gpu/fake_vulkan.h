@@ -1,0 +1,58 @@
+// A gpu::Device whose entry points are functions of the test: they count objects, keep memory on the host and note what
+// is recorded. One at a time.
+#pragma once
+
+#include "gpu/device.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace supple::gpu::test {
+
+struct FakeVulkan {
+    FakeVulkan();
+    ~FakeVulkan();
+    FakeVulkan(const FakeVulkan&) = delete;
+    FakeVulkan& operator=(const FakeVulkan&) = delete;
+
+    /// Narrow, 1 GiB of one heap with one type of memory that is everything, buffers of at most 1 GiB.
+    Device device;
+
+    // What the device says and does.
+    VkDeviceSize alignment = 64;        ///< of buffers
+    int64_t failAllocation = -1;        ///< index of the vkAllocateMemory that fails
+    std::vector<uint64_t> queryResults; ///< vkGetQueryPoolResults: value and availability of each timestamp
+
+    // What was called.
+    struct BoundBuffer {
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        VkDeviceSize offset = 0;
+        VkDeviceSize size = 0;
+    };
+    struct Pipeline {
+        std::vector<uint32_t> code;
+        std::vector<std::pair<uint32_t, uint32_t>> constants; ///< id and value
+    };
+    std::map<VkBuffer, BoundBuffer> buffers;                 ///< that live
+    std::map<VkDeviceMemory, std::vector<std::byte>> memory; ///< that live
+    std::map<VkBufferView, VkBufferViewCreateInfo> views;    ///< that live
+    std::map<VkShaderModule, std::vector<uint32_t>> shaders; ///< that live
+    size_t allocations = 0;                                  ///< vkAllocateMemory, those that failed included
+    size_t layouts = 0;                                      ///< of sets, that live
+    std::vector<VkDescriptorPoolSize> poolSizes;             ///< of the last pool
+    std::vector<Pipeline> pipelines;                         ///< all ever made
+    std::vector<std::pair<VkBuffer, VkBuffer>> copies;       ///< from, to
+    std::vector<std::pair<uint32_t, uint32_t>> dispatches;   ///< x, y
+    std::vector<VkMemoryBarrier2> barriers;                  ///< global ones
+    std::vector<std::pair<uint32_t, uint32_t>> resets;       ///< of queries: first, count
+    std::mutex mutex;                                        ///< of `resets`
+};
+
+/// A command buffer to record into: the fake never looks at it.
+inline constexpr VkCommandBuffer kCommands = VK_NULL_HANDLE;
+
+} // namespace supple::gpu::test

@@ -1,0 +1,36 @@
+// Which mapping a device gets.
+#include "gpu/mapping.h"
+
+#include <gtest/gtest.h>
+
+namespace supple::gpu {
+namespace {
+
+constexpr VkPhysicalDeviceType kGpus[] = {VK_PHYSICAL_DEVICE_TYPE_OTHER, VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU,
+                                          VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU};
+
+TEST(Mapping, IsNarrowOnCpusAndWideElsewhere) {
+    EXPECT_FALSE(chooseMapping(VK_PHYSICAL_DEVICE_TYPE_CPU, VK_DRIVER_ID_MESA_LLVMPIPE, MappingChoice::automatic).wide);
+    for (const VkPhysicalDeviceType type : kGpus) {
+        EXPECT_TRUE(chooseMapping(type, VK_DRIVER_ID_MESA_RADV, MappingChoice::automatic).wide) << type;
+    }
+}
+
+TEST(Mapping, IsWhatTheCallerChooses) {
+    EXPECT_TRUE(chooseMapping(VK_PHYSICAL_DEVICE_TYPE_CPU, VK_DRIVER_ID_MESA_LLVMPIPE, MappingChoice::wide).wide);
+    for (const VkPhysicalDeviceType type : kGpus) {
+        EXPECT_FALSE(chooseMapping(type, VK_DRIVER_ID_MESA_RADV, MappingChoice::narrow).wide) << type;
+    }
+}
+
+TEST(Mapping, TrustsTheDivisionOfLlvmpipeAlone) {
+    const auto exact = [](VkDriverId driver, MappingChoice choice) {
+        return chooseMapping(VK_PHYSICAL_DEVICE_TYPE_CPU, driver, choice).exactDivision;
+    };
+    EXPECT_TRUE(exact(VK_DRIVER_ID_MESA_LLVMPIPE, MappingChoice::narrow));
+    EXPECT_FALSE(exact(VK_DRIVER_ID_MESA_LLVMPIPE, MappingChoice::wide)) << "the table is tested here";
+    EXPECT_FALSE(exact(VK_DRIVER_ID_GOOGLE_SWIFTSHADER, MappingChoice::narrow));
+}
+
+} // namespace
+} // namespace supple::gpu

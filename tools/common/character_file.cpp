@@ -1,0 +1,89 @@
+#include "tools/common/character_file.h"
+
+#include "cage/formats/reader.h"
+
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+
+namespace supple::host {
+namespace {
+
+Result<std::vector<std::byte>> readFile(const std::string& path) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
+        return Error{ErrorCode::io, path + ": is a folder"};
+    }
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) {
+        return Error{ErrorCode::io, path + ": cannot be opened"};
+    }
+    std::vector<std::byte> bytes;
+    char block[1 << 16];
+    while (stream.read(block, sizeof block), stream.gcount() > 0) {
+        const auto* first = reinterpret_cast<const std::byte*>(block);
+        bytes.insert(bytes.end(), first, first + stream.gcount());
+    }
+    if (stream.bad()) {
+        return Error{ErrorCode::io, path + ": cannot be read"};
+    }
+    return bytes;
+}
+
+} // namespace
+
+Result<CharacterFile> readCharacterFile(const std::string& path, bool pairQuads) {
+    Result<std::vector<std::byte>> bytes = readFile(path);
+    if (!bytes) {
+        return bytes.error();
+    }
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    const std::string directory = parent.empty() ? "." : parent.string();
+    Result<cage::Character> character = cage::readCharacter(*bytes, path, directory, {.pairQuads = pairQuads});
+    if (!character) {
+        return character.error();
+    }
+    return CharacterFile{path, directory, pairQuads, std::move(*bytes), std::move(*character)};
+}
+
+Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof desc;
+    if (file.pairQuads) {
+        desc.flags |= SUPPLE_ASSET_PAIR_QUADS;
+    }
+    desc.name = file.path.c_str();
+    desc.bytes = file.bytes.data();
+    desc.byteCount = file.bytes.size();
+    desc.baseDirectory = file.directory.c_str();
+    SuppleAsset asset{};
+    Status status = context.check(suppleCreateAsset(context.handle(), &desc, &asset), "suppleCreateAsset");
+    if (!status) {
+        return status.error();
+    }
+    return asset;
+}
+
+Result<uint32_t> findClip(const cage::Character& character, const std::string& nameOrIndex) {
+    if (nameOrIndex.empty()) {
+        return SUPPLE_BIND_POSE;
+    }
+    const std::vector<cage::Clip>& clips = character.clips;
+    std::string names;
+    for (uint32_t i = 0; i < clips.size(); ++i) {
+        if (clips[i].name == nameOrIndex) {
+            return i;
+        }
+        names += (i == 0 ? "" : ", ") + std::to_string(i) + " " + clips[i].name;
+    }
+    uint32_t index = 0;
+    const char* const last = nameOrIndex.data() + nameOrIndex.size();
+    const auto [end, error] = std::from_chars(nameOrIndex.data(), last, index);
+    if (error == std::errc() && end == last && index < clips.size()) {
+        return index;
+    }
+    return Error{ErrorCode::argument,
+                 character.name + ": no clip \"" + nameOrIndex + "\"; it has " + (names.empty() ? "none" : names)};
+}
+
+} // namespace supple::host

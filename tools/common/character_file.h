@@ -1,0 +1,29 @@
+// A character file in memory, glTF or OBJ: read once, handed to Supple, looked into for what Supple does not tell.
+#pragma once
+
+#include "base/result.h"
+#include "cage/character.h"
+#include "host/context.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace supple::host {
+
+struct CharacterFile {
+    std::string path;
+    std::string directory; ///< where its external buffers and images lie
+    bool pairQuads = false;
+    std::vector<std::byte> bytes;
+    cage::Character character; ///< called as the path
+};
+[[nodiscard]] Result<CharacterFile> readCharacterFile(const std::string& path, bool pairQuads = false);
+
+[[nodiscard]] Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file);
+
+/// The clip of that name, else of that index; SUPPLE_BIND_POSE for an empty text. The error lists the clips there are.
+[[nodiscard]] Result<uint32_t> findClip(const cage::Character& character, const std::string& nameOrIndex);
+
+} // namespace supple::host

@@ -1,0 +1,159 @@
+#include "tools/supple/view_hashes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+namespace supple::tools {
+namespace {
+
+/// FNV-1a, 64 bits.
+class Hash {
+public:
+    void add(const void* bytes, size_t count) {
+        const auto* byte = static_cast<const unsigned char*>(bytes);
+        for (size_t i = 0; i < count; ++i) {
+            value_ = (value_ ^ byte[i]) * 0x100000001B3u;
+        }
+    }
+    [[nodiscard]] uint64_t value() const { return value_; }
+
+private:
+    uint64_t value_ = 0xCBF29CE484222325u;
+};
+
+/// Group; slot; patch; capacity or rate; hash of the levels; hash of the vertices.
+using Line = std::array<uint64_t, 6>;
+
+struct Stream {
+    std::vector<std::byte> bytes;
+    uint32_t stride = 0;
+};
+
+class ViewReader {
+public:
+    ViewReader(host::Device& device, const SuppleGroupOutput& output, uint64_t group, std::vector<Line>& lines)
+        : device_(device), output_(output), group_(group), lines_(lines) {}
+
+    Status read() {
+        for (const SuppleBufferView& view : {output_.surfaceVertices, output_.previousPositions}) {
+            if (view.buffer == VK_NULL_HANDLE) {
+                continue;
+            }
+            Result<std::vector<std::byte>> bytes = device_.readBuffer(view);
+            if (!bytes) {
+                return bytes.error();
+            }
+            streams_.push_back({std::move(*bytes), view.stride});
+        }
+        return output_.lodDrawCount > 0 ? readPatches() : readRates();
+    }
+
+private:
+    template <class T>
+    Result<std::vector<T>> elements(const SuppleBufferView& view) {
+        const Result<std::vector<std::byte>> bytes = device_.readBuffer(view);
+        if (!bytes) {
+            return bytes.error();
+        }
+        std::vector<T> values(bytes->size() / sizeof(T));
+        std::memcpy(values.data(), bytes->data(), values.size() * sizeof(T));
+        return values;
+    }
+
+    void addVertices(Hash& hash, size_t first, size_t count) const {
+        for (const Stream& stream : streams_) {
+            hash.add(stream.bytes.data() + first * stream.stride, count * stream.stride);
+        }
+    }
+
+    Status readPatches() {
+        using Bucket = std::array<uint32_t, 4>;
+        using Record = std::array<uint32_t, 16>; // patch, slot, first vertex, -, levels
+        const Result<std::vector<Bucket>> buckets = elements<Bucket>(output_.lodBuckets);
+        const Result<std::vector<Record>> records = elements<Record>(output_.lodPatches);
+        if (!buckets || !records) {
+            return buckets ? records.error() : buckets.error();
+        }
+        for (uint32_t draw = 0; draw < output_.lodDrawCount; ++draw) {
+            const auto [firstPatch, firstVertex, patchCount, unused] = (*buckets)[draw];
+            for (uint32_t i = 0; i < patchCount; ++i) {
+                const Record& record = (*records)[firstPatch + i];
+                Hash levels;
+                levels.add(&record[4], sizeof(Record) - 4 * sizeof(uint32_t));
+                Hash vertices;
+                addVertices(vertices, record[2], output_.lodDraws[draw].samplesPerPatch);
+                lines_.push_back({group_, record[1] & 0x0FFFFFFFu, record[0], output_.lodDraws[draw].capacity,
+                                  levels.value(), vertices.value()});
+            }
+        }
+        return success();
+    }
+
+    Status readRates() {
+        const Result<std::vector<VkDrawIndexedIndirectCommand>> commands =
+            elements<VkDrawIndexedIndirectCommand>(output_.indirect);
+        if (!commands) {
+            return commands.error();
+        }
+        for (uint32_t r = 0; r < output_.rateCount; ++r) {
+            const SuppleRate& rate = output_.rates[r];
+            const Result<std::vector<uint32_t>> slots = elements<uint32_t>(rate.instances);
+            if (!slots) {
+                return slots.error();
+            }
+            const uint32_t patches = output_.drawRanges[rate.firstDrawRange].patchCount;
+            const uint32_t instances = (*commands)[rate.firstDrawRange].instanceCount / patches;
+            for (uint32_t i = 0; i < instances; ++i) {
+                const size_t base = size_t{(*slots)[i]} * output_.verticesPerInstance;
+                Hash vertices;
+                for (uint32_t d = 0; d < rate.drawRangeCount; ++d) {
+                    const SuppleDrawRange& range = output_.drawRanges[rate.firstDrawRange + d];
+                    addVertices(vertices, base + range.firstVertex, size_t{range.patchCount} * range.samplesPerPatch);
+                }
+                lines_.push_back({group_, (*slots)[i], 0, rate.rate, 0, vertices.value()});
+            }
+        }
+        return success();
+    }
+
+    host::Device& device_;
+    const SuppleGroupOutput& output_;
+    uint64_t group_;
+    std::vector<Line>& lines_;
+    std::vector<Stream> streams_;
+};
+
+} // namespace
+
+Result<std::string> hashView(host::Context& context, std::span<const SuppleGroup> groups) {
+    std::vector<Line> lines;
+    for (size_t group = 0; group < groups.size(); ++group) {
+        SuppleGroupOutput output{};
+        output.structSize = sizeof output;
+        Status status =
+            context.check(suppleGetGroupOutput(context.handle(), groups[group], &output), "suppleGetGroupOutput");
+        if (status) {
+            status = ViewReader(context.device(), output, group, lines).read();
+        }
+        if (!status) {
+            return status.error();
+        }
+    }
+    std::sort(lines.begin(), lines.end());
+    std::string text;
+    for (const Line& line : lines) {
+        char row[160];
+        std::snprintf(row, sizeof row,
+                      "group %llu slot %llu patch %llu segments %llu levels %016llx vertices %016llx\n",
+                      static_cast<unsigned long long>(line[0]), static_cast<unsigned long long>(line[1]),
+                      static_cast<unsigned long long>(line[2]), static_cast<unsigned long long>(line[3]),
+                      static_cast<unsigned long long>(line[4]), static_cast<unsigned long long>(line[5]));
+        text += row;
+    }
+    return text;
+}
+
+} // namespace supple::tools
