@@ -97,7 +97,7 @@ Findings examine(const cage::Character& character) {
     } else {
         findings.topologyFault = topology.error().message;
     }
-    for (const Scheme& scheme : schemes()) {
+    for (const Scheme& scheme : kSchemes) {
         findings.schemes.push_back(judge(scheme, cage));
     }
     return findings;
