@@ -16,9 +16,8 @@ vec3 vertexAt(uint instance, uint i) {
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uvec4 record = tableElement(push.table + (id - entry * push.count));
+    uint item = itemOfLane(), instance = instanceOf(item);
+    uvec4 record = tableElement(push.table + elementOf(item));
     vec3 vertex = vertexAt(instance, record.x);
     uint points = tableElement(record.z).x;
     precise vec3 sum[9];

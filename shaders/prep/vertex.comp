@@ -21,8 +21,7 @@ vec3 ringDiagonal(uint word, uint cageBase, vec3 p0) {
 #include "shaders/surface/vertex.glsl"
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry), index = id - entry * push.count;
+    uint item = itemOfLane(), instance = instanceOf(item), index = elementOf(item);
     uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
     if (kFan == kRegularFan) {
         uvec4 words = tableElement(push.ring / 4u + index);

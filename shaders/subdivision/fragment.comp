@@ -31,9 +31,8 @@ void writePoint(uint at, vec3 p) {
 
 void main() {
     // Workgroups past the last repeat it: all lanes must meet at the barriers.
-    uint id = min(workgroupIndex(), push.count * instanceCount() - 1u);
-    uint place = id / push.count, entry = instanceEntry(place), instance = entry & kInstanceSlotMask;
-    uvec4 record = tableElement(push.records + (id - place * push.count));
+    uint item = min(workgroupIndex(), itemCount() - 1u), entry = entryOf(item), instance = entry & kInstanceSlotMask;
+    uvec4 record = tableElement(push.records + elementOf(item));
     uint header = record.x, fragment = record.y;
     uvec4 head = tableElement(header), last = tableElement(header + 2u);
     uint patches = tableElement(header + 1u).x;

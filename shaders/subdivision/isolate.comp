@@ -15,9 +15,8 @@ vec3 vertexAt(uint instance, uint i) {
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uvec4 record = tableElement(push.table + (id - entry * push.count));
+    uint item = itemOfLane(), instance = instanceOf(item);
+    uvec4 record = tableElement(push.table + elementOf(item));
     vec3 first = vertexAt(instance, record.x);
     precise vec3 sum = vec3(0.0);
     for (uint i = 0u; i < record.z; i += 2u) {

@@ -15,6 +15,13 @@ layout(set = 0, binding = kTable1TexelBinding) uniform usamplerBuffer tableWordT
 layout(push_constant) uniform Push { PUSH_CONSTANTS push; };
 #include "shaders/shared/instances.glsl"
 
+// A dispatch works on items: each is one of the `push.count` elements of one instance.
+uint itemCount() { return push.count * instanceCount(); }
+uint itemOfLane() { return min(invocationIndex(), itemCount() - 1u); } // idle lanes repeat the last
+uint elementOf(uint item) { return item - item / push.count * push.count; }
+uint entryOf(uint item) { return instanceEntry(item / push.count); }
+uint instanceOf(uint item) { return instanceSlot(item / push.count); }
+
 uvec4 tableElement(uint i) {
     if (kWide) return tableElements[i];
     return texelFetch(tableElementTexels, int(i));
