@@ -3,17 +3,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
-#include "shaders/surface/pool.glsl"
+#include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
-#include "shaders/surface/cage.glsl"
 #include "shaders/shared/blend.h"
-
-layout(constant_id = kKindConstant) const uint kFromPool = 0u; // the cage was subdivided
-
-vec3 vertexAt(uint instance, uint i) {
-    if (kFromPool != 0u) return poolVector(instance * push.poolStride + i);
-    return cageVertex(instance * push.cageStride + i);
-}
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item);

@@ -42,13 +42,13 @@ ChartPoint tablePoint(Corner corner, uint x, uint y) {
 void blendOfTables(Corner corners[4], uint i, uint j, out vec3 position, out vec3 du, out vec3 dv) {
     uint iBack = mirrored(i), jBack = mirrored(j);
     uvec2 at[4] = uvec2[4](uvec2(i, j), uvec2(j, iBack), uvec2(iBack, jBack), uvec2(jBack, i));
-    CornerView views[4];
+    CornerPlace places[4];
     for (uint k = 0u; k < 4u; ++k) {
         vec2 x = uintBitsToFloat(tableElement(push.ring + at[k].x).yz);
         vec2 y = uintBitsToFloat(tableElement(push.ring + at[k].y).yz);
-        views[k] = CornerView(tablePoint(corners[k], at[k].x, at[k].y), x, y);
+        places[k] = CornerPlace(tablePoint(corners[k], at[k].x, at[k].y), x, y);
     }
-    blend(corners, views, position, du, dv);
+    blend(corners, places, position, du, dv);
 }
 
 const float kTinyNormal = 1e-12; // against the face's diagonals, squared

@@ -12,21 +12,21 @@
 #include "shaders/subdivision/net.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 
-layout(constant_id = kWorkgroupPointsConstant) const uint kSharedPoints = 341u; // of the last two levels together
+layout(constant_id = kWorkgroupPointsConstant) const uint kLocalPoints = 341u; // of the last two levels together
 
 // Components apart: neighbouring lanes read neighbouring words.
-shared float sharedX[kSharedPoints], sharedY[kSharedPoints], sharedZ[kSharedPoints];
+shared float localX[kLocalPoints], localY[kLocalPoints], localZ[kLocalPoints];
 uint region; // of the level that is read
 
-vec3 point(uint i) { return vec3(sharedX[region + i], sharedY[region + i], sharedZ[region + i]); }
+vec3 point(uint i) { return vec3(localX[region + i], localY[region + i], localZ[region + i]); }
 
 #include "shaders/subdivision/fragment.glsl"
 #include "shaders/subdivision/samples.glsl"
 
 void writePoint(uint at, vec3 p) {
-    sharedX[at] = p.x;
-    sharedY[at] = p.y;
-    sharedZ[at] = p.z;
+    localX[at] = p.x;
+    localY[at] = p.y;
+    localZ[at] = p.z;
 }
 
 void main() {
@@ -47,7 +47,7 @@ void main() {
     barrier();
     for (uint step = 1u; step <= push.step; ++step) {
         uvec4 level = tableElement(levels + step);
-        uint target = region == 0u ? kSharedPoints - level.z : 0u;
+        uint target = region == 0u ? kLocalPoints - level.z : 0u;
         uint neighbours = tableElement(levels + step - 1u).y;
         for (uint i = gl_LocalInvocationID.x; i < level.z; i += gl_WorkGroupSize.x)
             writePoint(target + i,
