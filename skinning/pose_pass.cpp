@@ -58,7 +58,7 @@ Result<PosePass> PosePass::create(const gpu::Device& device, gpu::Pipelines& pip
 Status PosePass::prepare(SkinningMode mode) {
     const bool dual = mode == SkinningMode::dualQuaternion;
     const gpu::Constant constants[] = {
-        {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kSharedNodes : 1},
+        {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1},
         {kDualQuaternionsConstant, dual ? VK_TRUE : VK_FALSE}};
     const Result<gpu::Kernel> made =
         pipelines_->get(layout_, pose_palette_comp, constants,

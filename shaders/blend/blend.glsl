@@ -18,7 +18,7 @@ struct ChartPoint {
 };
 
 // A sample as a corner sees it: its place in the chart, and eta and its slope at x and y.
-struct CornerView {
+struct CornerPlace {
     ChartPoint point;
     vec2 x, y;
 };
@@ -82,13 +82,13 @@ void localGeometry(vec3 c[9], ChartPoint at, out vec3 offset, out vec3 dx, out v
     dy = at.ty * dt + (at.slope.x * dv - at.slope.y * du);
 }
 
-void blend(Corner corners[4], CornerView views[4], out vec3 position, out vec3 du, out vec3 dv) {
+void blend(Corner corners[4], CornerPlace places[4], out vec3 position, out vec3 du, out vec3 dv) {
     precise vec3 points[4];
     vec3 dx[4], dy[4];
     for (uint k = 0u; k < 4u; ++k) {
         vec3 offset, localX, localY;
-        localGeometry(corners[k].c, views[k].point, offset, localX, localY);
-        vec2 x = views[k].x, y = views[k].y;
+        localGeometry(corners[k].c, places[k].point, offset, localX, localY);
+        vec2 x = places[k].x, y = places[k].y;
         precise float weight = x.x * y.x;
         precise vec3 p = weight * (corners[k].c[0] + offset);
         points[k] = p;
@@ -107,13 +107,13 @@ void blend(Corner corners[4], CornerView views[4], out vec3 position, out vec3 d
 // At levels: u and v with their complements.
 void blendAt(Corner corners[4], vec2 u, vec2 v, out vec3 position, out vec3 du, out vec3 dv) {
     vec2 at[4] = vec2[4](vec2(u.x, v.x), vec2(v.x, u.y), vec2(u.y, v.y), vec2(v.y, u.x));
-    CornerView views[4];
+    CornerPlace places[4];
     for (uint k = 0u; k < 4u; ++k) {
         ChartPoint point =
             chartPoint(at[k], uintBitsToFloat(corners[k].where.x), isCreased(corners[k]), corners[k].directions);
-        views[k] = CornerView(point, hermite(at[k].x), hermite(at[k].y));
+        places[k] = CornerPlace(point, hermite(at[k].x), hermite(at[k].y));
     }
-    blend(corners, views, position, du, dv);
+    blend(corners, places, position, du, dv);
 }
 
 // All of a patch's corner but its coefficients.

@@ -3,22 +3,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
-#include "shaders/surface/pool.glsl"
+#include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
-#include "shaders/surface/cage.glsl"
 #include "shaders/shared/blend.h"
 
-layout(constant_id = kKindConstant) const uint kFromPool = 0u; // the cage was subdivided
-
-vec3 vertexAt(uint instance, uint i) {
-    if (kFromPool != 0u) return poolVector(instance * push.poolStride + i);
-    return cageVertex(instance * push.cageStride + i);
-}
-
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uvec4 record = tableElement(push.table + (id - entry * push.count));
+    uint item = itemOfLane(), instance = instanceOf(item);
+    uvec4 record = tableElement(push.table + elementOf(item));
     vec3 vertex = vertexAt(instance, record.x);
     uint points = tableElement(record.z).x;
     precise vec3 sum[9];

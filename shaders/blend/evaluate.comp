@@ -7,10 +7,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #define POOL_READ_ONLY
 #include "shaders/surface/tables.glsl"
-#include "shaders/surface/pool.glsl"
-#include "shaders/evaluate/surface_vertex.glsl"
-#include "shaders/surface/cage.glsl"
-#include "shaders/lod/record.glsl"
+#include "shaders/shared/blend.h"
+#include "shaders/shared/lod.h"
+
+const uint kRecordElements = 4u;
+const uint kForm = kLodQuadForm;
+const uint kParts = 4u * kChartCoefficients; // coefficients
+#include "shaders/evaluate/harness.glsl"
 
 layout(constant_id = kKindConstant) const uint kClass = kBlendPatch;
 const bool kSharp = kClass == kBlendSharpPatch; // some chart is creased, or the surface lies still somewhere
@@ -39,13 +42,13 @@ ChartPoint tablePoint(Corner corner, uint x, uint y) {
 void blendOfTables(Corner corners[4], uint i, uint j, out vec3 position, out vec3 du, out vec3 dv) {
     uint iBack = mirrored(i), jBack = mirrored(j);
     uvec2 at[4] = uvec2[4](uvec2(i, j), uvec2(j, iBack), uvec2(iBack, jBack), uvec2(jBack, i));
-    CornerView views[4];
+    CornerPlace places[4];
     for (uint k = 0u; k < 4u; ++k) {
         vec2 x = uintBitsToFloat(tableElement(push.ring + at[k].x).yz);
         vec2 y = uintBitsToFloat(tableElement(push.ring + at[k].y).yz);
-        views[k] = CornerView(tablePoint(corners[k], at[k].x, at[k].y), x, y);
+        places[k] = CornerPlace(tablePoint(corners[k], at[k].x, at[k].y), x, y);
     }
-    blend(corners, views, position, du, dv);
+    blend(corners, places, position, du, dv);
 }
 
 const float kTinyNormal = 1e-12; // against the face's diagonals, squared
@@ -71,7 +74,7 @@ vec3 normalOf(Corner corners[4], vec3 n) {
 // Half a step inside, for samples on a border.
 uint inside(uint i) { return i == 0u ? push.rate + 1u : i == push.rate ? push.rate + 2u : i; }
 
-void evaluateSample(Corner corners[4], uint i, uint j, bool still, out vec3 position, out vec3 normal) {
+void evaluateAtRate(Corner corners[4], uint i, uint j, bool still, out vec3 position, out vec3 normal) {
     vec3 du, dv;
     blendOfTables(corners, i, j, position, du, dv);
     if (kSharp && still) {
@@ -139,36 +142,26 @@ void evaluateLevels(Corner corners[4], vec2 u, vec2 v, out vec3 position, out ve
     normal = normalOf(corners, n);
 }
 
-// Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
-// place of the cage.
-vec3 coefficient(uint i, bool today) {
-    if (kLod && kVertexFormat == kVertexPosition && today) return cageVertex(i);
-    return poolVector(i);
-}
-
-Corner[4] loadCorners(uint record, uint base, bool today) {
+#ifndef WIDE
+Corner[4] loadCorners(const PatchPlace at) {
     Corner corners[4];
     for (uint k = 0u; k < 4u; ++k) {
         uint poolIndex;
-        corners[k] = cornerOf(record + k, poolIndex);
-        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = coefficient(base + poolIndex + c, today);
+        corners[k] = cornerOf(at.record + k, poolIndex);
+        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = coefficient(at.base + poolIndex + c, at.isNew);
     }
     return corners;
 }
 
-void evaluateNarrow() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uint patchIndex = id - entry * push.count;
-    Corner corners[4] = loadCorners(push.table + 4u * patchIndex, instance * push.poolStride, false);
-    uint side = push.rate + 1u;
-    uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
-    uint j = 0u;
+#ifndef LEVELS
+void evaluatePatch(const PatchPlace at) {
+    Corner corners[4] = loadCorners(at);
+    uint side = push.rate + 1u, vertex = at.vertex, j = 0u;
     do {
         uint i = 0u;
         do {
             vec3 position, normal;
-            evaluateSample(corners, i, j, false, position, normal);
+            evaluateAtRate(corners, i, j, false, position, normal);
             storeSurfaceVertex(vertex + j * side + i, position, normal);
         } while (++i < side);
     } while (++j < side);
@@ -179,20 +172,18 @@ void evaluateNarrow() {
         uint i = edge == 0u ? along : edge == 1u ? push.rate : edge == 2u ? push.rate - along : 0u;
         uint j = edge == 0u ? 0u : edge == 1u ? along : edge == 2u ? push.rate : push.rate - along;
         vec3 position, normal;
-        evaluateSample(corners, i, j, true, position, normal);
+        evaluateAtRate(corners, i, j, true, position, normal);
         if (liesStill(corners, i, j)) storeSurfaceVertex(vertex + j * side + i, position, normal);
     }
 }
 
-// Loops are tested at the bottom, see evaluate/bicubic.comp. Records that only fill up get points at the origin.
-void evaluateNarrowLod() {
-    LodRecord r = lodRecord(lodRecordOfLane());
-    uint last = r.capacity, side = last + 1u;
-    bool empty = r.patchIndex == kEmptyRecord;
-    Corner corners[4] = loadCorners(push.table + 4u * (empty ? 0u : r.patchIndex - push.firstPatch),
-                                    empty ? 0u : r.slot * push.poolStride, r.isNew);
+#else
+// Loops are tested at the bottom, see evaluate/bicubic.comp.
+void evaluatePatch(const PatchPlace at, uint lodRecord) {
+    uint last = at.capacity, side = last + 1u;
+    Corner corners[4] = loadCorners(at);
     LodPattern patterns[6];
-    for (uint k = 0u; k < 6u; ++k) patterns[k] = lodPattern(r.pairs[k], r.capacityIndex);
+    for (uint k = 0u; k < 6u; ++k) patterns[k] = recordPattern(lodRecord, k, at.capacityIndex);
     uint j = 0u;
     do {
         uint i = 0u;
@@ -202,91 +193,33 @@ void evaluateNarrowLod() {
             if (j > 0u && j < last) v = lodPair(i == last ? patterns[3] : i == 0u ? patterns[5] : patterns[1], j, last);
             vec3 position, normal;
             evaluateLevels(corners, u, v, position, normal);
-            storeSurfaceVertex(r.firstVertex + j * side + i, empty ? vec3(0.0) : position, normal);
+            storeSurfaceVertex(at.vertex + j * side + i, at.empty ? vec3(0.0) : position, normal);
         } while (++i < side);
     } while (++j < side);
 }
 
-shared vec4 sharedCoefficients[kMaxPatchesPerGroup * 36u];
+#endif
+#else
+shared vec4 localCoefficients[kMaxPatchesPerGroup * kParts];
 
-void loadShared(uint place, uint c, uint record, uint base, bool today) {
-    uint poolIndex = tableElement(record + c / 9u).x & kPoolIndexMask;
-    sharedCoefficients[place * 36u + c] = vec4(coefficient(base + poolIndex + c % 9u, today), 0.0);
+void loadPart(uint to, const PatchPlace at, uint c) {
+    uint poolIndex = tableElement(at.record + c / kChartCoefficients).x & kPoolIndexMask;
+    localCoefficients[to] = vec4(coefficient(at.base + poolIndex + c % kChartCoefficients, at.isNew), 0.0);
 }
 
-Corner[4] sharedCorners(uint place, uint record) {
+void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out vec3 normal) {
     Corner corners[4];
     for (uint k = 0u; k < 4u; ++k) {
         uint poolIndex;
-        corners[k] = cornerOf(record + k, poolIndex);
-        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = sharedCoefficients[place * 36u + 9u * k + c].xyz;
+        corners[k] = cornerOf(at.record + k, poolIndex);
+        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = localCoefficients[place * kParts + 9u * k + c].xyz;
     }
-    return corners;
-}
-
-void evaluateWide() {
-    uint total = push.count * instanceCount();
-    uint first = workgroupIndex() * push.patchesPerGroup;
-    uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
-    for (uint n = gl_LocalInvocationID.x; n < here * 36u; n += gl_WorkGroupSize.x) {
-        uint place = n / 36u, id = first + place;
-        uint entry = id / push.count, instance = instanceSlot(entry);
-        loadShared(place, n - place * 36u, push.table + 4u * (id - entry * push.count), instance * push.poolStride, false);
-    }
-    barrier();
-    uint side = push.rate + 1u;
-    for (uint n = gl_LocalInvocationID.x; n < here * push.samples; n += gl_WorkGroupSize.x) {
-        uint place = n / push.samples, sampleIndex = n - place * push.samples;
-        uint j = sampleIndex / side, i = sampleIndex - j * side;
-        uint id = first + place;
-        uint entry = id / push.count, instance = instanceSlot(entry);
-        uint patchIndex = id - entry * push.count;
-        Corner corners[4] = sharedCorners(place, push.table + 4u * patchIndex);
-        vec3 position, normal;
-        evaluateSample(corners, i, j, kSharp && liesStill(corners, i, j), position, normal);
-        storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples + sampleIndex,
-                           position, normal);
-    }
-}
-
-#if defined(WIDE) && defined(LEVELS)
-void evaluateWideLod() {
-    LodShare share = lodShareOfGroup(kLodQuadForm);
-    shareRecords(share);
-    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 36u; n += gl_WorkGroupSize.x) {
-        uint place = n / 36u;
-        LodRecord r = sharedRecord(place);
-        if (r.patchIndex != kEmptyRecord)
-            loadShared(place, n - place * 36u, push.table + 4u * (r.patchIndex - push.firstPatch),
-                       r.slot * push.poolStride, r.isNew);
-    }
-    barrier();
-    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * share.samples; n += gl_WorkGroupSize.x) {
-        uint place = n / share.samples, sampleIndex = n - place * share.samples;
-        LodRecord r = sharedRecord(place);
-        uint side = r.capacity + 1u, j = sampleIndex / side, i = sampleIndex - j * side;
-        vec3 position = vec3(0.0), normal = vec3(0.0);
-        if (r.patchIndex != kEmptyRecord) {
-            Corner corners[4] = sharedCorners(place, push.table + 4u * (r.patchIndex - push.firstPatch));
-            evaluateLevels(corners, lodU(place, r.capacity, i, j), lodV(place, r.capacity, i, j), position, normal);
-        }
-        storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
-    }
-}
-#endif
-
-void main() {
-#ifdef WIDE
 #ifdef LEVELS
-    evaluateWideLod();
+    uint j = index / (at.capacity + 1u), i = index - j * (at.capacity + 1u);
+    evaluateLevels(corners, lodU(place, at.capacity, i, j), lodV(place, at.capacity, i, j), position, normal);
 #else
-    evaluateWide();
-#endif
-#else
-#ifdef LEVELS
-    evaluateNarrowLod();
-#else
-    evaluateNarrow();
-#endif
+    uint j = index / (push.rate + 1u), i = index - j * (push.rate + 1u);
+    evaluateAtRate(corners, i, j, kSharp && liesStill(corners, i, j), position, normal);
 #endif
 }
+#endif

@@ -4,8 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/bounds/cull.glsl"
 
-layout(set = 0, binding = kBoundsCageBinding, std430) readonly buffer Cage { vec4 cage[]; };
-layout(set = 0, binding = kBoundsCageTexelBinding) uniform samplerBuffer cageTexels;
 layout(set = 0, binding = kBoundsBinding, std430) writeonly buffer Bounds { vec4 bounds[]; };
 layout(set = 0, binding = kCullViewBinding, std430) readonly buffer View { CullView view; };
 layout(push_constant) uniform Push { BoundsPush push; };
@@ -17,10 +15,8 @@ const float kFloatMax = 3.402823466e38;
 shared vec3 lows[kMaxLanes], highs[kMaxLanes];
 shared bool sounds[kMaxLanes];
 
-vec3 cageVertex(uint i) {
-    if (kWide) return cage[i].xyz;
-    return texelFetch(cageTexels, int(i)).xyz;
-}
+LOADED_BUFFER(vec4, cage, Cage, kBoundsCageBinding, samplerBuffer, kBoundsCageTexelBinding, xyzw)
+vec3 cageVertex(uint i) { return cage(i).xyz; }
 
 struct Box {
     vec3 low, high;

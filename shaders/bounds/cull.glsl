@@ -2,11 +2,6 @@
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/bounds.h"
 
-layout(set = 0, binding = kHostListBinding, std430) readonly buffer HostList { uint hostEntries[]; };
-layout(set = 0, binding = kHostListTexelBinding) uniform usamplerBuffer hostListTexels;
 layout(set = 0, binding = kBoundsStateBinding, std430) buffer States { uvec2 states[]; };
 
-uint hostEntry(uint i) {
-    if (kWide) return hostEntries[i];
-    return texelFetch(hostListTexels, int(i)).x;
-}
+LOADED_BUFFER(uint, hostEntry, HostList, kHostListBinding, usamplerBuffer, kHostListTexelBinding, x)

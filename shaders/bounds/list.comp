@@ -9,7 +9,7 @@ layout(set = 0, binding = kSizeBinding, std430) readonly buffer Sizes { uint siz
 
 shared uvec4 countsOf[kMaxLanes]; // with a past, new, left out, occluded
 shared uint sumsOf[kMaxLanes];
-shared uint sharedThreshold;
+shared uint localThreshold;
 
 uint saturatingSum(uint a, uint b) { return a + min(b, ~a); }
 
@@ -20,7 +20,7 @@ uint threshold() {
     uint begin = min(lane * each, kSizeRanks), end = min(begin + each, kSizeRanks), own = 0u; // the largest first
     for (uint i = begin; i < end; ++i) own = saturatingSum(own, sizes[kSizeRanks - 1u - i]);
     sumsOf[lane] = own;
-    if (lane == 0u) sharedThreshold = 0u;
+    if (lane == 0u) localThreshold = 0u;
     barrier();
     uint before = 0u;
     for (uint l = 0u; l < lane; ++l) before = saturatingSum(before, sumsOf[l]);
@@ -30,10 +30,10 @@ uint threshold() {
             sum = saturatingSum(sum, sizes[kSizeRanks - 1u - i]);
             if (sum > push.room) break;
         }
-        sharedThreshold = kSizeRanks - i;
+        localThreshold = kSizeRanks - i;
     }
     barrier();
-    return sharedThreshold;
+    return localThreshold;
 }
 
 // The entry with kInstanceIsNew as it is now.

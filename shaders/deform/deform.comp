@@ -8,24 +8,14 @@
 layout(constant_id = kMorphsConstant) const bool kMorphs = false;
 layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // else linear blending
 
-layout(set = 0, binding = kDeformTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
-layout(set = 0, binding = kDeformTableTexelBinding) uniform usamplerBuffer tableTexels;
-layout(set = 0, binding = kPoseBinding, std430) readonly buffer Poses { vec4 poseElements[]; };
-layout(set = 0, binding = kPoseTexelBinding) uniform samplerBuffer poseTexels;
 layout(set = 0, binding = kDeformedCageBinding, std430) writeonly buffer DeformedCage { vec4 deformedCage[]; };
 
 layout(push_constant) uniform Push { DeformPush push; };
 #define INSTANCE_PUSH push
 #include "shaders/shared/instances.glsl"
 
-uvec4 table(uint i) {
-    if (kWide) return tableElements[i];
-    return texelFetch(tableTexels, int(i));
-}
-vec4 pose(uint i) {
-    if (kWide) return poseElements[i];
-    return texelFetch(poseTexels, int(i));
-}
+LOADED_BUFFER(uvec4, table, Table, kDeformTableBinding, usamplerBuffer, kDeformTableTexelBinding, xyzw)
+LOADED_BUFFER(vec4, pose, Poses, kPoseBinding, samplerBuffer, kPoseTexelBinding, xyzw)
 
 // The affine matrix whose rows begin at pose element `i`, applied to a point.
 vec3 transformed(uint i, vec3 p) {

@@ -120,12 +120,12 @@ void store(uint vertex, Corners c, float w[5]) {
 
 // A patch with levels, by one lane: what a row has in common is found once. Loops are tested at the bottom, see
 // evaluate/bicubic.comp.
-void storeRows(LodRecord r, Corners c) {
+void storeRows(uint record, LodRecord r, Corners c) {
     uint last = r.capacity, vertex = r.firstVertex;
     uint first = kDomain == kPolarDomain ? 2u : 3u; // above corner 0; above corner 1 is 2
-    LodPattern insideU = lodPattern(r.pairs[0], r.capacityIndex), insideV = lodPattern(r.pairs[1], r.capacityIndex);
-    LodPattern bottom = lodPattern(r.pairs[2], r.capacityIndex), top = lodPattern(r.pairs[4], r.capacityIndex);
-    LodPattern left = lodPattern(r.pairs[5], r.capacityIndex), right = lodPattern(r.pairs[3], r.capacityIndex);
+    LodPattern insideU = recordPattern(record, 0u, r.capacityIndex), insideV = recordPattern(record, 1u, r.capacityIndex);
+    LodPattern bottom = recordPattern(record, 2u, r.capacityIndex), top = recordPattern(record, 4u, r.capacityIndex);
+    LodPattern left = recordPattern(record, 5u, r.capacityIndex), right = recordPattern(record, 3u, r.capacityIndex);
     const vec2 kBegin = vec2(0.0, 1.0), kEnd = vec2(1.0, 0.0);
     uint j = 0u;
     do {
@@ -155,11 +155,11 @@ void storeRows(LodRecord r, Corners c) {
 }
 
 // The same in rings.
-void storeRings(LodRecord r, Corners c) {
+void storeRings(uint record, LodRecord r, Corners c) {
     uint last = r.capacity, rings = (last + 1u) / 2u;
-    LodPattern inside = lodPattern(r.pairs[0], r.capacityIndex);
+    LodPattern inside = recordPattern(record, 0u, r.capacityIndex);
     for (uint sector = 0u; sector < kCorners; ++sector) {
-        LodPattern side = lodPattern(r.pairs[1u + sector], r.capacityIndex);
+        LodPattern side = recordPattern(record, 1u + sector, r.capacityIndex);
         uint ring = 0u;
         do {
             float t = lodPair(inside, ring, last).x;
@@ -176,11 +176,11 @@ void storeRings(LodRecord r, Corners c) {
 #if defined(WIDE) && defined(LEVELS)
 // A workgroup has several records only where it has a lane for each of their samples.
 void evaluateWideLod(uint form) {
-    LodShare share = lodShareOfGroup(form);
-    shareRecords(share);
+    Share share = lodShareOfGroup(form);
+    loadRecords(share);
     uint place = gl_LocalInvocationID.x / share.samples;
-    if (place >= share.recordCount) return;
-    LodRecord r = sharedRecord(place);
+    if (place >= share.count) return;
+    LodRecord r = localRecord(place);
     if (r.patchIndex == kEmptyRecord) return;
     Corners corners = loadCorners(r.patchIndex - push.firstPatch);
     for (uint k = gl_LocalInvocationID.x - place * share.samples; k < share.samples; k += gl_WorkGroupSize.x)
@@ -189,10 +189,11 @@ void evaluateWideLod(uint form) {
 #endif
 
 void evaluateNarrowLod() {
-    LodRecord r = lodRecord(lodRecordOfLane());
+    uint record = lodRecordElement(lodRecordOfLane());
+    LodRecord r = lodRecordOf(lodElement(record));
     Corners corners = loadCorners(r.patchIndex == kEmptyRecord ? 0u : r.patchIndex - push.firstPatch);
-    if (kRings) storeRings(r, corners);
-    else storeRows(r, corners);
+    if (kRings) storeRings(record, r, corners);
+    else storeRows(record, r, corners);
 }
 
 // A sample along an edge, or at the corner where it begins: see evaluate/edge.comp.

@@ -32,14 +32,7 @@ vec4 bernstein3(vec2 pair) {
     return b;
 }
 
-// Derivatives of the cubic Bernstein polynomials. They feed normals only.
-vec4 bernsteinDerivative3(vec2 pair) {
-    float t = pair.x, s = pair.y;
-    float tt = t * t, ss = s * s, ts = t * s;
-    return vec4(-3.0 * ss, 3.0 * ss - 6.0 * ts, 6.0 * ts - 3.0 * tt, 3.0 * tt);
-}
-
-// The derivative of a cubic is a quadratic of the differences of its coefficients.
+// The derivative of a cubic is a quadratic of the differences of its coefficients. It feeds normals only.
 vec3 derivativeWeights3(vec2 pair) { return vec3(3.0 * (pair.y * pair.y), 6.0 * (pair.x * pair.y), 3.0 * (pair.x * pair.x)); }
 
 struct Basis5 {

@@ -9,14 +9,15 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
+#define OWN_WIDE
 #include "shaders/surface/tables.glsl"
-#include "shaders/surface/pool.glsl"
+#include "shaders/evaluate/bicubic.glsl"
+#include "shaders/shared/lod.h"
+
+const uint kForm = kLodQuadForm;
+#include "shaders/evaluate/harness.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
-#include "shaders/evaluate/surface_vertex.glsl"
-#include "shaders/evaluate/bicubic.glsl"
-#include "shaders/surface/cage.glsl"
-#include "shaders/lod/record.glsl"
 
 const bool kPerturbed = kClass == kPerturbedPatch;
 const bool kPolar = kClass == kPolarPatch;
@@ -114,20 +115,13 @@ vec3 cornerNormal(vec3 normal, uint i, uint j, uint rate, uvec4 slots, uint base
     return slot == kNoNormal ? normal : poolVector(base + slot);
 }
 
-// Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
-// place of the cage.
-vec3 coefficient(uint i, bool today) {
-    if (kLod && kVertexFormat == kVertexPosition && today) return cageVertex(i);
-    return poolVector(i);
-}
-
-Patch loadPatch(uint record, uint base, bool today) {
+Patch loadPatch(const PatchPlace at) {
     Patch c;
-    NetRecord net = netRecord(record);
-    for (uint k = 0u; k < 16u; ++k) c.g[k] = coefficient(base + netIndex(net, kPolar, k), today);
+    NetRecord net = netRecord(at.record);
+    for (uint k = 0u; k < 16u; ++k) c.g[k] = coefficient(at.base + netIndex(net, kPolar, k), at.isNew);
     if (kPerturbed) {
-        uvec4 edges = tableElement(record + 2u);
-        for (uint k = 0u; k < 16u; ++k) c.h[k] = coefficient(base + perturbationIndex(edges, k), today);
+        uvec4 edges = tableElement(at.record + 2u);
+        for (uint k = 0u; k < 16u; ++k) c.h[k] = coefficient(at.base + perturbationIndex(edges, k), at.isNew);
     }
     for (uint k = 0u; k < 16u; ++k) {
         uint corner = cornerOf(k);
@@ -139,20 +133,16 @@ Patch loadPatch(uint record, uint base, bool today) {
 }
 
 uvec4 normalSlots(uint record) {
-    return kCornerNormals ? tableElement(record + recordElements() - 1u) : uvec4(kNoNormal);
+    return kCornerNormals ? tableElement(record + kRecordElements - 1u) : uvec4(kNoNormal);
 }
 
-void evaluateNarrow() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uint patchIndex = id - entry * push.count;
-    uint record = push.table + patchIndex * recordElements();
-    uint base = instance * push.poolStride;
-    Patch c = loadPatch(record, base, false);
-    uvec4 slots = normalSlots(record);
+#if !defined(WIDE) && !defined(LEVELS)
+void evaluatePatch(const PatchPlace at) {
+    Patch c = loadPatch(at);
+    uvec4 slots = normalSlots(at.record);
 
     uint rate = fixedRate(), first = kInterior ? 1u : 0u, end = rate + 1u - first;
-    uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
+    uint vertex = at.vertex;
     // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do.
     uint j = first;
     do {
@@ -162,27 +152,25 @@ void evaluateNarrow() {
             vec3 position, normal;
             finish(row, parameterPair(i, rate, push.pairs), position, normal);
             if (kPolar && j == rate) position = c.g[12]; // the apex itself, from every patch round it
-            if (kCornerNormals && !kInterior) normal = cornerNormal(normal, i, j, rate, slots, base);
+            if (kCornerNormals && !kInterior) normal = cornerNormal(normal, i, j, rate, slots, at.base);
             storeSurfaceVertex(vertex, position, normal);
             ++vertex;
         } while (++i < end);
     } while (++j < end);
 }
 
-// A lane a patch. Rows first, the inner ones without their ends: those lie on the borders u = 0 and u = 1, which have
+#endif
+
+#if !defined(WIDE) && defined(LEVELS)
+// Rows first, the inner ones without their ends: those lie on the borders u = 0 and u = 1, which have
 // levels of their own, and follow. Loops are tested at the bottom, see above; nothing they compute is used behind them.
-// Records that only fill up get points at the origin.
-void evaluateNarrowLod() {
-    LodRecord r = lodRecord(lodRecordOfLane());
-    bool empty = r.patchIndex == kEmptyRecord;
-    uint last = r.capacity, side = last + 1u, vertex = r.firstVertex;
-    uint record = push.table + (empty ? 0u : r.patchIndex - push.firstPatch) * recordElements();
-    uint base = empty ? 0u : r.slot * push.poolStride;
-    Patch c = loadPatch(record, base, r.isNew);
-    uvec4 slots = normalSlots(record);
-    LodPattern insideU = lodPattern(r.pairs[0], r.capacityIndex), insideV = lodPattern(r.pairs[1], r.capacityIndex);
-    LodPattern bottom = lodPattern(r.pairs[2], r.capacityIndex), top = lodPattern(r.pairs[4], r.capacityIndex);
-    LodPattern left = lodPattern(r.pairs[5], r.capacityIndex), right = lodPattern(r.pairs[3], r.capacityIndex);
+void evaluatePatch(const PatchPlace at, uint lodRecord) {
+    uint last = at.capacity, side = last + 1u, vertex = at.vertex;
+    Patch c = loadPatch(at);
+    uvec4 slots = normalSlots(at.record);
+    LodPattern insideU = recordPattern(lodRecord, 0u, at.capacityIndex), insideV = recordPattern(lodRecord, 1u, at.capacityIndex);
+    LodPattern bottom = recordPattern(lodRecord, 2u, at.capacityIndex), top = recordPattern(lodRecord, 4u, at.capacityIndex);
+    LodPattern left = recordPattern(lodRecord, 5u, at.capacityIndex), right = recordPattern(lodRecord, 3u, at.capacityIndex);
     const vec2 kBegin = vec2(0.0, 1.0), kEnd = vec2(1.0, 0.0);
     uint j = 0u;
     do {
@@ -196,8 +184,8 @@ void evaluateNarrowLod() {
             vec3 position, normal;
             finish(row, i == 0u ? kBegin : i == last ? kEnd : lodPair(along, i, last), position, normal);
             if (kPolar && j == last) position = c.g[12];
-            if (kCornerNormals) normal = cornerNormal(normal, i, j, last, slots, base);
-            storeSurfaceVertex(vertex + j * side + i, empty ? vec3(0.0) : position, normal);
+            if (kCornerNormals) normal = cornerNormal(normal, i, j, last, slots, at.base);
+            storeSurfaceVertex(vertex + j * side + i, at.empty ? vec3(0.0) : position, normal);
         } while (++i < end);
     } while (++j < side);
     if (last == 1u) return; // no inner rows
@@ -209,87 +197,89 @@ void evaluateNarrowLod() {
         j = n + (onRight ? 2u - last : 1u);
         vec3 position, normal;
         finish(collapse(c, lodPair(border, j, last)), onRight ? kEnd : kBegin, position, normal);
-        storeSurfaceVertex(vertex + j * side + (onRight ? last : 0u), empty ? vec3(0.0) : position, normal);
+        storeSurfaceVertex(vertex + j * side + (onRight ? last : 0u), at.empty ? vec3(0.0) : position, normal);
     } while (++n < count);
 }
+#endif
 
 #ifdef WIDE
 // The coefficients of a workgroup's patches: of every corner its point, tangent, next tangent and face coefficient (of a polar
 // patch's last corner the point and what is behind it), then the perturbation's, four an edge. One element more keeps the same
 // one of neighbouring patches in different banks.
-const uint kSharedStride = kPerturbed ? kWidePerturbedNetElements : kWideNetElements;
+const uint kLocalStride = kPerturbed ? kWidePerturbedNetElements : kWideNetElements;
 #ifdef LEVELS
-const uint kSharedElements = kMaxPatchesPerGroup * kSharedStride;
+const uint kLocalElements = kMaxPatchesPerGroup * kLocalStride;
 #else
-const uint kSharedElements = SUPPLE_WIDE_ELEMENTS(kVertexFormat);
+const uint kLocalElements = SUPPLE_WIDE_ELEMENTS(kVertexFormat);
 #endif
-shared vec4 sharedElements[kSharedElements]; // at a rate the positions of samples as well, when these are done with
+shared vec4 localElements[kLocalElements]; // at a rate the positions of samples as well, when these are done with
 
-vec3 sharedVector(uint at) { return sharedElements[at].xyz; }
-void share(uint at, uint coefficientIndex, bool today) { sharedElements[at].xyz = coefficient(coefficientIndex, today); }
+vec3 localVector(uint at) { return localElements[at].xyz; }
+void loadVector(uint to, uint i, bool isNew) { localElements[to].xyz = coefficient(i, isNew); }
 
-// What corner and edge `corner` of a patch bring, whose elements begin at `to`.
-void shareCorner(uint to, uint corner, uint record, uint base, bool today) {
-    uint point = tableWord(4u * record + corner), spoke = tableWord(4u * record + 4u + corner), at = to + 4u * corner;
-    share(at, base + point, today);
+// What corner and edge `corner` bring to the patch in a place.
+void loadCorner(uint place, const PatchPlace at, uint corner) {
+    uint first = 4u * at.record + corner, point = at.base + tableWord(first), spoke = tableWord(first + 4u);
+    uint to = place * kLocalStride + 4u * corner, tangents = at.base + push.tangents;
+    loadVector(to, point, at.isNew);
     if (kPolar && corner == 3u) { // it has no spoke
-        share(at + 1u, base + point + 1u, today);
+        loadVector(to + 1u, point + 1u, at.isNew);
     } else {
-        share(at + 1u, base + push.tangents + SUPPLE_SPOKE(spoke), today);
-        share(at + 2u, base + push.tangents + SUPPLE_NEXT_SPOKE(spoke), today);
-        share(at + 3u, base + push.faces + SUPPLE_SPOKE(spoke), today);
+        loadVector(to + 1u, tangents + SUPPLE_SPOKE(spoke), at.isNew);
+        loadVector(to + 2u, tangents + SUPPLE_NEXT_SPOKE(spoke), at.isNew);
+        loadVector(to + 3u, at.base + push.faces + SUPPLE_SPOKE(spoke), at.isNew);
     }
     if (!kPerturbed) return;
-    uint edge = tableWord(4u * record + 8u + corner);
-    for (uint s = 0u; s < 4u; ++s) share(at + 16u + s, base + SUPPLE_PREP_EDGE_INDEX(edge, s), today);
+    uint edge = tableWord(first + 8u);
+    for (uint s = 0u; s < 4u; ++s) loadVector(to + 16u + s, at.base + SUPPLE_PREP_EDGE_INDEX(edge, s), at.isNew);
 }
 
 // Where coefficient k is, and perturbation coefficient k.
-uint sharedSlot(uint k) {
+uint localSlot(uint k) {
     if (!kPolar) return 4u * SUPPLE_NET_CORNER(k) + SUPPLE_NET_KIND(k);
     uint kind = SUPPLE_POLAR_NET_KIND(k);
     return 4u * SUPPLE_POLAR_NET_CORNER(k) + (kind == kNetBehind ? 1u : kind);
 }
-vec3 sharedPerturbation(uint from, uint k) { return sharedVector(from + 16u + SUPPLE_PREP_FACE_EDGE(k)); }
+vec3 localPerturbation(uint from, uint k) { return localVector(from + 16u + SUPPLE_PREP_FACE_EDGE(k)); }
 
 // Column i of the coefficients, as loadPatch() has them.
-void sharedColumn(uint from, uint i, out vec3 g[4], out vec3 relative[4]) {
-    vec3 first = sharedVector(from + sharedSlot(0u));
+void localColumn(uint from, uint i, out vec3 g[4], out vec3 relative[4]) {
+    vec3 first = localVector(from + localSlot(0u));
     for (uint j = 0u; j < 4u; ++j) {
         uint k = 4u * j + i, corner = cornerOf(k);
-        vec3 v = sharedVector(from + sharedSlot(corner)), offset = vec3(0.0);
-        if (k != corner) offset = sharedVector(from + sharedSlot(k));
+        vec3 v = localVector(from + localSlot(corner)), offset = vec3(0.0);
+        if (k != corner) offset = localVector(from + localSlot(k));
         relative[j] = relativeTo(first, v, offset);
         g[j] = k == corner ? v : placed(v, offset);
     }
 }
-void sharedOuter(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
-    collapseOuter(v, vec3[2](sharedPerturbation(from, 8u + 2u * i), sharedPerturbation(from, 9u + 2u * i)), point, slope);
+void localOuter(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
+    collapseOuter(v, vec3[2](localPerturbation(from, 8u + 2u * i), localPerturbation(from, 9u + 2u * i)), point, slope);
 }
-void sharedInner(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
-    collapseInner(v, vec3[4](sharedPerturbation(from, 4u * i), sharedPerturbation(from, 4u * i + 1u),
-                             sharedPerturbation(from, 4u * i + 2u), sharedPerturbation(from, 4u * i + 3u)), point, slope);
+void localInner(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
+    collapseInner(v, vec3[4](localPerturbation(from, 4u * i), localPerturbation(from, 4u * i + 1u),
+                             localPerturbation(from, 4u * i + 2u), localPerturbation(from, 4u * i + 3u)), point, slope);
 }
 #endif
 
 #if defined(WIDE) && !defined(LEVELS)
 // Samples of a row that are stored together: what there is room for, and an odd number, so that rows begin in different banks.
 const uint kMostTogether = kVertexFormat == kVertex24 ? 3u : 5u;
-shared uint sharedNormals[kMaxLanes * kMostTogether * (kNormalWords == 0u ? 1u : kNormalWords)];
-shared uint sharedRows[kMaxLanes]; // the first surface vertex of each
+shared uint localNormals[kMaxLanes * kMostTogether * (kNormalWords == 0u ? 1u : kNormalWords)];
+shared uint localRows[kMaxLanes]; // the first surface vertex of each
 
 Row collapseFrom(uint from, vec2 v) {
     Row row;
     vec3 relative[4];
     [[unroll]] for (uint i = 0u; i < 4u; ++i) {
         vec3 g[4], r[4];
-        sharedColumn(from, i, g, r);
+        localColumn(from, i, g, r);
         collapseColumn(v, g, r, row.g[i], relative[i], row.gv[i]);
     }
     for (uint i = 0u; i < 3u; ++i) row.gu[i] = relative[i + 1u] - relative[i];
     if (kPerturbed) {
-        [[unroll]] for (uint i = 0u; i < 2u; ++i) sharedInner(from, i, v, row.inner[i], row.innerV[i]);
-        [[unroll]] for (uint i = 0u; i < 4u; ++i) sharedOuter(from, i, v, row.outer[i], row.outerV[i]);
+        [[unroll]] for (uint i = 0u; i < 2u; ++i) localInner(from, i, v, row.inner[i], row.innerV[i]);
+        [[unroll]] for (uint i = 0u; i < 4u; ++i) localOuter(from, i, v, row.outer[i], row.outerV[i]);
     }
     return row;
 }
@@ -299,24 +289,22 @@ Row collapseFrom(uint from, vec2 v) {
 void evaluateWide() {
     const uint kInset = kInterior ? 1u : 0u;
     uint rate = fixedRate(), side = rate + 1u - 2u * kInset, lane = gl_LocalInvocationID.x;
-    uint total = push.count * instanceCount(), first = workgroupIndex() * push.patchesPerGroup;
-    if (first >= total) return;
-    uint here = min(push.patchesPerGroup, total - first), rows = here * side;
-    for (uint n = lane; n < 4u * here; n += gl_WorkGroupSize.x) {
-        uint place = n / 4u, id = first + place;
-        uint entry = id / push.count, instance = instanceSlot(entry), patchIndex = id - entry * push.count;
-        shareCorner(place * kSharedStride, n & 3u, push.table + patchIndex * recordElements(), instance * push.poolStride,
-                    false);
-        uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples;
-        for (uint j = n & 3u; j < side; j += 4u) sharedRows[place * side + j] = vertex + j * side;
+    Share share = shareOfGroup();
+    if (share.count == 0u) return;
+    uint rows = share.count * side;
+    for (uint n = lane; n < 4u * share.count; n += gl_WorkGroupSize.x) {
+        uint place = n / 4u;
+        PatchPlace at = PATCH_IN_PLACE(share, place);
+        loadCorner(place, at, n & 3u);
+        for (uint j = n & 3u; j < side; j += 4u) localRows[place * side + j] = at.vertex + j * side;
     }
     barrier();
     uint place = lane / side, j = lane - place * side + kInset;
     Row row;
     vec3 apex;
     if (lane < rows) {
-        row = collapseFrom(place * kSharedStride, parameterPair(j, rate, push.pairs));
-        if (kPolar) apex = sharedVector(place * kSharedStride + sharedSlot(12u));
+        row = collapseFrom(place * kLocalStride, parameterPair(j, rate, push.pairs));
+        if (kPolar) apex = localVector(place * kLocalStride + localSlot(12u));
     }
     uint rounds = (side + kMostTogether - 1u) / kMostTogether, chunk = ((side + rounds - 1u) / rounds) | 1u;
     for (uint from = 0u; from < side; from += chunk) {
@@ -329,24 +317,23 @@ void evaluateWide() {
                 finish(row, parameterPair(i, rate, push.pairs), position, normal);
                 if (kPolar && j == rate) position = apex;
                 if (kCornerNormals && !kInterior && (i == 0u || i == rate) && (j == 0u || j == rate)) {
-                    uint id = first + place, entry = id / push.count;
-                    uint record = push.table + (id - entry * push.count) * recordElements();
-                    normal = cornerNormal(normal, i, j, rate, normalSlots(record), instanceSlot(entry) * push.poolStride);
+                    PatchPlace at = PATCH_IN_PLACE(share, place);
+                    normal = cornerNormal(normal, i, j, rate, normalSlots(at.record), at.base);
                 }
-                sharedElements[to].xyz = position;
+                localElements[to].xyz = position;
                 uvec3 words = normalWords(normal);
-                for (uint k = 0u; k < kNormalWords; ++k) sharedNormals[kNormalWords * to + k] = words[k];
+                for (uint k = 0u; k < kNormalWords; ++k) localNormals[kNormalWords * to + k] = words[k];
             }
         }
         barrier();
         for (uint n = lane; n < rows * chunk * kVertexStores; n += gl_WorkGroupSize.x) {
             uint at = n / kVertexStores, slot = at / chunk, c = at - slot * chunk;
             if (from + c >= side) continue;
-            uint vertex = sharedRows[slot] + from + c, word = kNormalWords * at;
+            uint vertex = localRows[slot] + from + c, word = kNormalWords * at;
             if (n - at * kVertexStores == 0u)
-                storePosition(vertex, sharedVector(at), kNormalWords == 1u ? sharedNormals[word] : 0u);
+                storePosition(vertex, localVector(at), kNormalWords == 1u ? localNormals[word] : 0u);
             else
-                storeNormal(vertex, uvec3(sharedNormals[word], sharedNormals[word + 1u], sharedNormals[word + 2u]));
+                storeNormal(vertex, uvec3(localNormals[word], localNormals[word + 1u], localNormals[word + 2u]));
         }
     }
 }
@@ -355,99 +342,75 @@ void evaluateWide() {
 #if defined(WIDE) && defined(LEVELS)
 const uint kRowsAtOnce = kPerturbed ? 24u : 51u; // with the coefficients below 16 KiB, which every device has
 const uint kColumns = 4u * kRowsAtOnce;          // of a kind; of perturbations 4 outer ones and 4 with 2 inner ones follow
-shared vec4 sharedPoints[(kPerturbed ? 3u : 1u) * kColumns];
-shared vec4 sharedSlopes[(kPerturbed ? 4u : 2u) * kColumns]; // relative points and slopes; slopes of perturbations
+shared vec4 localPoints[(kPerturbed ? 3u : 1u) * kColumns];
+shared vec4 localSlopes[(kPerturbed ? 4u : 2u) * kColumns]; // relative points and slopes; slopes of perturbations
 
 // Collapses a column of the patch in a place of the workgroup into column `to` of the shared ones.
-void collapseShared(uint to, uint place, uint i, vec2 v) {
+void collapseLocal(uint to, uint place, uint i, vec2 v) {
     vec3 g[4], relative[4], point, fromFirst, slope;
-    uint from = place * kSharedStride;
-    sharedColumn(from, i, g, relative);
+    uint from = place * kLocalStride;
+    localColumn(from, i, g, relative);
     collapseColumn(v, g, relative, point, fromFirst, slope);
-    sharedPoints[to] = vec4(point, 0.0);
-    sharedSlopes[to] = vec4(fromFirst, 0.0);
-    sharedSlopes[kColumns + to] = vec4(slope, 0.0);
+    localPoints[to] = vec4(point, 0.0);
+    localSlopes[to] = vec4(fromFirst, 0.0);
+    localSlopes[kColumns + to] = vec4(slope, 0.0);
     if (!kPerturbed) return;
-    sharedOuter(from, i, v, point, slope);
-    sharedPoints[kColumns + to] = vec4(point, 0.0);
-    sharedSlopes[2u * kColumns + to] = vec4(slope, 0.0);
+    localOuter(from, i, v, point, slope);
+    localPoints[kColumns + to] = vec4(point, 0.0);
+    localSlopes[2u * kColumns + to] = vec4(slope, 0.0);
     if (i > 1u) return;
-    sharedInner(from, i, v, point, slope);
-    sharedPoints[2u * kColumns + to] = vec4(point, 0.0);
-    sharedSlopes[3u * kColumns + to] = vec4(slope, 0.0);
+    localInner(from, i, v, point, slope);
+    localPoints[2u * kColumns + to] = vec4(point, 0.0);
+    localSlopes[3u * kColumns + to] = vec4(slope, 0.0);
 }
 
-Row sharedRow(uint slot) {
+Row localRow(uint slot) {
     Row row;
     for (uint i = 0u; i < 4u; ++i) {
         uint from = 4u * slot + i;
-        row.g[i] = sharedPoints[from].xyz;
-        row.gv[i] = sharedSlopes[kColumns + from].xyz;
-        if (i < 3u) row.gu[i] = sharedSlopes[from + 1u].xyz - sharedSlopes[from].xyz;
+        row.g[i] = localPoints[from].xyz;
+        row.gv[i] = localSlopes[kColumns + from].xyz;
+        if (i < 3u) row.gu[i] = localSlopes[from + 1u].xyz - localSlopes[from].xyz;
         if (!kPerturbed) continue;
-        row.outer[i] = sharedPoints[kColumns + from].xyz;
-        row.outerV[i] = sharedSlopes[2u * kColumns + from].xyz;
+        row.outer[i] = localPoints[kColumns + from].xyz;
+        row.outerV[i] = localSlopes[2u * kColumns + from].xyz;
         if (i > 1u) continue;
-        row.inner[i] = sharedPoints[2u * kColumns + from].xyz;
-        row.innerV[i] = sharedSlopes[3u * kColumns + from].xyz;
+        row.inner[i] = localPoints[2u * kColumns + from].xyz;
+        row.innerV[i] = localSlopes[3u * kColumns + from].xyz;
     }
     return row;
 }
 
 // A row has three slots: of the samples inside, and of those on the borders u = 0 and u = 1, which have levels of their own.
-void evaluateWideLod() {
-    LodShare share = lodShareOfGroup(kLodQuadForm);
-    shareRecords(share);
-    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * 4u; n += gl_WorkGroupSize.x) {
-        uint place = n / 4u;
-        LodRecord r = sharedRecord(place);
-        if (r.patchIndex != kEmptyRecord)
-            shareCorner(place * kSharedStride, n & 3u, push.table + (r.patchIndex - push.firstPatch) * recordElements(),
-                        r.slot * push.poolStride, r.isNew);
+void evaluateWide() {
+    Share share = shareOfGroup();
+    for (uint n = gl_LocalInvocationID.x; n < share.count * 4u; n += gl_WorkGroupSize.x) {
+        PatchPlace at = PATCH_IN_PLACE(share, n / 4u);
+        if (!at.empty) loadCorner(n / 4u, at, n & 3u);
     }
-    uint side = share.side, rows = share.recordCount * side;
+    uint side = share.side, rows = share.count * side;
     for (uint firstRow = 0u; firstRow < rows; firstRow += kRowsAtOnce / 3u) {
         uint count = min(kRowsAtOnce / 3u, rows - firstRow);
         barrier();
         for (uint n = gl_LocalInvocationID.x; n < 12u * count; n += gl_WorkGroupSize.x) {
             uint row = firstRow + n / 12u, place = row / side, column = n / 4u % 3u;
-            LodRecord r = sharedRecord(place);
-            if (r.patchIndex != kEmptyRecord)
-                collapseShared(n, place, n & 3u,
-                               lodV(place, r.capacity, column == 0u ? 1u : column == 1u ? 0u : r.capacity, row - place * side));
+            PatchPlace at = PATCH_IN_PLACE(share, place);
+            uint i = column == 0u ? 1u : column == 1u ? 0u : at.capacity;
+            if (!at.empty) collapseLocal(n, place, n & 3u, lodV(place, at.capacity, i, row - place * side));
         }
         barrier();
         for (uint n = gl_LocalInvocationID.x; n < count * side; n += gl_WorkGroupSize.x) {
             uint slot = n / side, row = firstRow + slot, place = row / side, i = n - slot * side, j = row - place * side;
-            LodRecord r = sharedRecord(place);
+            PatchPlace at = PATCH_IN_PLACE(share, place);
             vec3 position = vec3(0.0), normal = vec3(0.0);
-            if (r.patchIndex != kEmptyRecord) {
-                finish(sharedRow(3u * slot + (i == 0u ? 1u : i == r.capacity ? 2u : 0u)), lodU(place, r.capacity, i, j),
+            if (!at.empty) {
+                finish(localRow(3u * slot + (i == 0u ? 1u : i == at.capacity ? 2u : 0u)), lodU(place, at.capacity, i, j),
                        position, normal);
-                if (kPolar && j == r.capacity) position = sharedVector(place * kSharedStride + sharedSlot(12u));
-                if (kCornerNormals)
-                    normal = cornerNormal(normal, i, j, r.capacity,
-                                          normalSlots(push.table + (r.patchIndex - push.firstPatch) * recordElements()),
-                                          r.slot * push.poolStride);
+                if (kPolar && j == at.capacity) position = localVector(place * kLocalStride + localSlot(12u));
+                if (kCornerNormals) normal = cornerNormal(normal, i, j, at.capacity, normalSlots(at.record), at.base);
             }
-            storeSurfaceVertex(r.firstVertex + j * side + i, position, normal);
+            storeSurfaceVertex(at.vertex + j * side + i, position, normal);
         }
     }
 }
 #endif
-
-void main() {
-#ifdef WIDE
-#ifdef LEVELS
-    evaluateWideLod();
-#else
-    evaluateWide();
-#endif
-#else
-#ifdef LEVELS
-    evaluateNarrowLod();
-#else
-    evaluateNarrow();
-#endif
-#endif
-}

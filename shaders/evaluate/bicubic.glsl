@@ -15,4 +15,4 @@ uint cornerOf(uint k) {
     return (k & 12u) / 8u * 12u + (k & 3u) / 2u * 3u;
 }
 
-uint recordElements() { return (kClass == kPerturbedPatch ? 3u : 2u) + (kCornerNormals ? 1u : 0u); }
+const uint kRecordElements = (kClass == kPerturbedPatch ? 3u : 2u) + (kCornerNormals ? 1u : 0u);

@@ -87,9 +87,7 @@ void finish(Edge e, uint k, uint rate, out vec3 position, out vec3 normal) {
 }
 
 void evaluateNarrow() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uint record = push.table + (id - entry * push.count) * kEdgeElements;
+    uint item = itemOfLane(), instance = instanceOf(item), record = push.table + elementOf(item) * kEdgeElements;
     uvec4 own = tableElement(record + 2u);
     Edge e = loadEdge(record, own, instance * push.poolStride);
     uint first = instance * push.verticesPerInstance;

@@ -11,11 +11,8 @@
 layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer PatchCoefficients { vec4 coefficients[]; };
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uint patchIndex = id - entry * push.count;
-    uint record = push.table + patchIndex * recordElements();
-    uint base = instance * push.poolStride;
+    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = instance * push.poolStride;
+    uint record = push.table + patchIndex * kRecordElements;
     NetRecord net = netRecord(record);
     uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
     for (uint k = 0u; k < 16u; ++k) {

@@ -60,9 +60,7 @@ EdgeCurve chartCurve(uint base, uvec4 end0, uvec4 end1) {
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry), edge = id - entry * push.count;
-    uint base = instance * push.poolStride;
+    uint item = itemOfLane(), instance = instanceOf(item), edge = elementOf(item), base = instance * push.poolStride;
     EdgeCurve curve;
     if (kCharts) curve = chartCurve(base, tableElement(push.edges + 2u * edge), tableElement(push.edges + 2u * edge + 1u));
     else curve = cubicCurve(base + tableElement(push.edges + edge));

@@ -291,11 +291,9 @@ void countPatch(bool counted, uint run, uint form, uint priority, uint bin, uint
 }
 
 void main() {
-    uint id = invocationIndex(), total = push.count * instanceCount();
-    bool inside = id < total, counted = inside;
+    bool inside = invocationIndex() < itemCount(), counted = inside;
     if (!kWide && !inside) return;
-    id = min(id, total - 1u);
-    uint entry = id / push.count, listed = instanceEntry(entry), patchIndex = id - entry * push.count;
+    uint item = itemOfLane(), patchIndex = elementOf(item), listed = entryOf(item);
     uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), base = instance * push.poolStride;
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
@@ -309,7 +307,7 @@ void main() {
     vec4 ofEdges;
     vec2 own;
     if (push.levels != 0u) {
-        level = fifth = levelOfEntry(entry);
+        level = fifth = levelOfEntry(item / push.count);
         ofEdges = vec4(level);
         own = vec2(level);
     } else {

@@ -20,22 +20,19 @@ uvec2 levelPair(float level) {
 }
 
 void main() {
-    uint id = invocationIndex(), lane = gl_LocalInvocationID.x;
+    uint lane = gl_LocalInvocationID.x;
     uint bucketCount = push.runCount * kCapacityCount;
     if (kWide) {
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) taken[i] = 0u;
         barrier();
     }
-    uint total = push.count * instanceCount();
-    bool inside = id < total;
-    id = min(id, total - 1u);
-    uint entry = id / push.count, listed = instanceEntry(entry), patchIndex = id - entry * push.count;
+    uint item = itemOfLane(), patchIndex = elementOf(item), listed = entryOf(item);
     uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), at = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
     uint bin = levelWord(at);
     vec2 own = uintBitsToFloat(uvec2(levelWord(at + 1u), levelWord(at + 2u)));
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
-    bool drawn = inside && bin != kNoBin;
+    bool drawn = invocationIndex() < itemCount() && bin != kNoBin;
     uint capacity = 0u;
     if (drawn) capacity = lodWord(kLodCapacities + priority * kLodBinStride + bin);
 

@@ -17,11 +17,9 @@ struct LodRecord {
     bool isNew;
     uint firstVertex;
     uint capacityIndex, capacity;
-    vec2 pairs[6];
 };
 
 uint lodRecordElement(uint index) { return (kLodRecords + kLodRecordWords * index) / 4u; }
-// All but the pairs.
 LodRecord lodRecordOf(uvec4 head) {
     LodRecord r;
     r.patchIndex = head.x;
@@ -32,15 +30,10 @@ LodRecord lodRecordOf(uvec4 head) {
     r.capacity = capacityOf(head.w);
     return r;
 }
-LodRecord lodRecord(uint index) {
-    uint at = lodRecordElement(index);
-    LodRecord r = lodRecordOf(lodElement(at));
-    for (uint k = 0u; k < 3u; ++k) {
-        vec4 two = uintBitsToFloat(lodElement(at + 1u + k));
-        r.pairs[2u * k] = two.xy;
-        r.pairs[2u * k + 1u] = two.zw;
-    }
-    return r;
+// Pattern k of a record, whose elements begin at `element`.
+LodPattern recordPattern(uint element, uint k, uint capacityIndex) {
+    vec4 two = uintBitsToFloat(lodElement(element + 1u + k / 2u));
+    return lodPattern((k & 1u) == 0u ? two.xy : two.zw, capacityIndex);
 }
 
 // A sample of a ring grid (surface/lod/grid.h): its ring, the side of it, and the place along the side, counted from the
@@ -72,14 +65,14 @@ uint lodRecordOfLane() {
     return lodWord(at + 3u) + min(invocationIndex(), lodWord(at + 4u) - 1u);
 }
 
-// What a workgroup takes, in the wide mapping: some records of one bucket.
-struct LodShare {
-    uint firstRecord, recordCount, samples, side;
+// Wide mapping: what a workgroup takes of a dispatch. At levels, some records of one bucket.
+struct Share {
+    uint first, count, samples, side;
 };
-LodShare lodShareOfGroup(uint form) {
+Share lodShareOfGroup(uint form) {
     uint at = kLodDispatches + 8u * (push.window.firstRun + push.run);
     uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = lodWord(at + 6u);
-    LodShare share = LodShare(0u, 0u, 1u, 1u);
+    Share share = Share(0u, 0u, 1u, 1u);
     if (workgroupIndex() >= lodWord(at + 7u)) return share;
     uint b = 0u, past = count; // the last bucket that begins at or before this group, and is not empty
     while (past - b > 1u) {
@@ -93,35 +86,34 @@ LodShare lodShareOfGroup(uint form) {
     share.samples = formSamples(form, capacity);
     share.side = capacity + 1u; // of a grid of rows
     uint each = clamp(gl_WorkGroupSize.x / share.samples, 1u, kMaxPatchesPerGroup);
-    share.firstRecord = lodWord(bucket) + (workgroupIndex() - lodWord(bucket + 3u)) * each;
-    share.recordCount = share.firstRecord < next ? min(each, next - share.firstRecord) : 0u;
+    share.first = lodWord(bucket) + (workgroupIndex() - lodWord(bucket + 3u)) * each;
+    share.count = share.first < next ? min(each, next - share.first) : 0u;
     return share;
 }
 
 #if defined(WIDE) && defined(LEVELS)
-// The records of a workgroup and their patterns, in shared memory. The latter in two parts: one is integers.
-shared uvec4 sharedHeads[kMaxPatchesPerGroup];
-shared uvec2 sharedPatternBits[6u * kMaxPatchesPerGroup];
-shared vec2 sharedPatternWidths[6u * kMaxPatchesPerGroup];
+// The records of a workgroup and their patterns, in workgroup memory. The latter in two parts: one is integers.
+shared uvec4 localHeads[kMaxPatchesPerGroup];
+shared uvec2 localPatternBits[6u * kMaxPatchesPerGroup];
+shared vec2 localPatternWidths[6u * kMaxPatchesPerGroup];
 
 // To be called by all lanes.
-void shareRecords(LodShare share) {
-    for (uint n = gl_LocalInvocationID.x; n < 6u * share.recordCount; n += gl_WorkGroupSize.x) {
-        uint place = n / 6u, k = n - 6u * place, at = lodRecordElement(share.firstRecord + place);
+void loadRecords(Share share) {
+    for (uint n = gl_LocalInvocationID.x; n < 6u * share.count; n += gl_WorkGroupSize.x) {
+        uint place = n / 6u, k = n - 6u * place, at = lodRecordElement(share.first + place);
         uvec4 head = lodElement(at);
-        vec4 two = uintBitsToFloat(lodElement(at + 1u + k / 2u));
-        LodPattern p = lodPattern((k & 1u) == 0u ? two.xy : two.zw, head.w);
-        sharedPatternBits[n] = uvec2(p.full, p.fresh);
-        sharedPatternWidths[n] = vec2(p.part, p.inverse);
-        if (k == 0u) sharedHeads[place] = head;
+        LodPattern p = recordPattern(at, k, head.w);
+        localPatternBits[n] = uvec2(p.full, p.fresh);
+        localPatternWidths[n] = vec2(p.part, p.inverse);
+        if (k == 0u) localHeads[place] = head;
     }
     barrier();
 }
 // Of the record in a place, without its pairs.
-LodRecord sharedRecord(uint place) { return lodRecordOf(sharedHeads[place]); }
-vec2 sharedPair(uint place, uint k, uint i, uint capacity) {
-    uvec2 bits = sharedPatternBits[6u * place + k];
-    vec2 widths = sharedPatternWidths[6u * place + k];
+LodRecord localRecord(uint place) { return lodRecordOf(localHeads[place]); }
+vec2 localPair(uint place, uint k, uint i, uint capacity) {
+    uvec2 bits = localPatternBits[6u * place + k];
+    vec2 widths = localPatternWidths[6u * place + k];
     return lodPair(LodPattern(bits.x, bits.y, widths.x, widths.y), i, capacity);
 }
 
@@ -129,15 +121,15 @@ vec2 sharedPair(uint place, uint k, uint i, uint capacity) {
 vec2 lodU(uint place, uint capacity, uint i, uint j) {
     if (i == 0u) return vec2(0.0, 1.0);
     if (i == capacity) return vec2(1.0, 0.0);
-    return sharedPair(place, j == 0u ? 2u : j == capacity ? 4u : 0u, i, capacity);
+    return localPair(place, j == 0u ? 2u : j == capacity ? 4u : 0u, i, capacity);
 }
 vec2 lodV(uint place, uint capacity, uint i, uint j) {
     if (j == 0u) return vec2(0.0, 1.0);
     if (j == capacity) return vec2(1.0, 0.0);
-    return sharedPair(place, i == capacity ? 3u : i == 0u ? 5u : 1u, j, capacity);
+    return localPair(place, i == capacity ? 3u : i == 0u ? 5u : 1u, j, capacity);
 }
 vec3 ringWeights(uint place, uint capacity, RingSample s, out vec2 along) {
-    along = sharedPair(place, s.ring == 0u ? 1u + s.side : 0u, s.k, capacity);
-    return ringWeights(along, sharedPair(place, 0u, s.ring, capacity).x);
+    along = localPair(place, s.ring == 0u ? 1u + s.side : 0u, s.k, capacity);
+    return ringWeights(along, localPair(place, 0u, s.ring, capacity).x);
 }
 #endif

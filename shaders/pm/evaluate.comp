@@ -9,26 +9,19 @@
 #extension GL_EXT_scalar_block_layout : require
 #define POOL_READ_ONLY
 #include "shaders/surface/tables.glsl"
-#include "shaders/surface/pool.glsl"
+#include "shaders/pm/pm.glsl"
+#include "shaders/shared/lod.h"
+
+const uint kRecordElements = SUPPLE_PM_RECORD_ELEMENTS(kSides);
+const uint kForm = kClass == kP3Patch ? kLodTriangleForm : kClass == kP4Patch ? kLodQuadRingsForm : kLodPentagonForm;
+const uint kParts = kSides; // sectors
+#include "shaders/evaluate/harness.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
-#include "shaders/evaluate/surface_vertex.glsl"
-#include "shaders/pm/pm.glsl"
-#include "shaders/surface/cage.glsl"
-#include "shaders/lod/record.glsl"
 
 // Samples of a sector lie in rows parallel to its edge, kRowStep / rate of the way to the centre apart.
 const uint kRowStep = kClass == kP5Patch ? 1u : kClass == kP4Patch ? 2u : 3u;
 const vec2 kRay = vec2(kRayMiddle, kRaySide);
-const uint kElements = SUPPLE_PM_RECORD_ELEMENTS(kSides);
-const uint kSectorPoints = 20u; // centre, border[4], c[15]
-
-// Where previous positions are asked for, instances without a past come from today's coefficients, which are bound in the
-// place of the cage.
-vec3 coefficient(uint i, bool today) {
-    if (kLod && kVertexFormat == kVertexPosition && today) return cageVertex(i);
-    return poolVector(i);
-}
 
 #include "shaders/pm/sector.glsl"
 #include "shaders/pm/border.glsl"
@@ -145,13 +138,9 @@ uvec3 sectorOf(uint index) {
     return uvec3((s == 0u ? w[1] : s == 1u ? w[2] : w[0]) - d, 3u * d, s);
 }
 
-void evaluateNarrow() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uint patchIndex = id - entry * push.count;
-    uint record = push.table + kElements * patchIndex, base = instance * push.poolStride;
-    uint samples = push.samples;
-    uint vertex = instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples;
+#if !defined(WIDE) && !defined(LEVELS)
+void evaluatePatch(const PatchPlace at) {
+    uint record = at.record, base = at.base, vertex = at.vertex;
     uint innerBits = innerWord(record, kSides), singular = SUPPLE_SINGULAR(innerBits), inner = base + SUPPLE_INNER(innerBits);
     vec3 centre = coefficient(inner, false);
     SectorSide own = loadSide(kSides, record, base, inner, kSides - 1u, false);
@@ -193,38 +182,37 @@ void evaluateNarrow() {
     }
 }
 
-// Loops as above; nothing they compute is used behind them. Records that only fill up get points at the origin.
-void evaluateNarrowLod() {
-    LodRecord r = lodRecord(lodRecordOfLane());
-    bool empty = r.patchIndex == kEmptyRecord;
-    uint last = r.capacity, rings = (last + 1u) / 2u;
-    uint record = push.table + kElements * (empty ? 0u : r.patchIndex - push.firstPatch);
-    uint base = empty ? 0u : r.slot * push.poolStride;
+#endif
+
+#if !defined(WIDE) && defined(LEVELS)
+// Loops as above; nothing they compute is used behind them.
+void evaluatePatch(const PatchPlace at, uint lodRecord) {
+    uint record = at.record, base = at.base, last = at.capacity, rings = (last + 1u) / 2u;
     uint innerBits = innerWord(record, kSides), singular = SUPPLE_SINGULAR(innerBits), inner = base + SUPPLE_INNER(innerBits);
-    vec3 centre = coefficient(inner, r.isNew);
-    SectorSide before = loadSide(kSides, record, base, inner, kSides - 1u, r.isNew);
-    SectorSide own = loadSide(kSides, record, base, inner, 0u, r.isNew);
-    LodPattern inside = lodPattern(r.pairs[0], r.capacityIndex);
+    vec3 centre = coefficient(inner, at.isNew);
+    SectorSide before = loadSide(kSides, record, base, inner, kSides - 1u, at.isNew);
+    SectorSide own = loadSide(kSides, record, base, inner, 0u, at.isNew);
+    LodPattern inside = recordPattern(lodRecord, 0u, at.capacityIndex);
     for (uint sector = 0u; sector < kSides; ++sector) {
-        SectorSide next = loadSide(kSides, record, base, inner, sector + 1u == kSides ? 0u : sector + 1u, r.isNew);
+        SectorSide next = loadSide(kSides, record, base, inner, sector + 1u == kSides ? 0u : sector + 1u, at.isNew);
         Sector s = makeSector(kRay, centre, before, own, next);
         Border border = makeBorder(s, before, own, next, (singular & (1u << sector)) != 0u);
-        LodPattern side = lodPattern(r.pairs[1u + sector], r.capacityIndex);
+        LodPattern side = recordPattern(lodRecord, 1u + sector, at.capacityIndex);
         vec3 position, normal;
-        uint vertex = r.firstVertex + sector * last, k = 0u; // of ring 0
+        uint vertex = at.vertex + sector * last, k = 0u; // of ring 0
         do {
             finishBorder(border, k == 0u, lodPair(side, k, last), position, normal);
-            storeSurfaceVertex(vertex + k, empty ? vec3(0.0) : position, normal);
+            storeSurfaceVertex(vertex + k, at.empty ? vec3(0.0) : position, normal);
         } while (++k < last);
         uint ring = 1u;
         if (ring < rings) {
             do {
                 float t = lodPair(inside, ring, last).x;
-                vertex = r.firstVertex + ringSideStart(kSides, ring, sector, last);
+                vertex = at.vertex + ringSideStart(kSides, ring, sector, last);
                 k = ring;
                 do {
                     finishInside(s, ringWeights(lodPair(inside, k, last), t), position, normal);
-                    storeSurfaceVertex(vertex + k - ring, empty ? vec3(0.0) : position, normal);
+                    storeSurfaceVertex(vertex + k - ring, at.empty ? vec3(0.0) : position, normal);
                 } while (++k < last - ring);
             } while (++ring < rings);
         }
@@ -233,93 +221,43 @@ void evaluateNarrowLod() {
     }
 }
 
-shared vec4 sharedPoints[kMaxPatchesPerGroup * kSides * kSectorPoints];
+#endif
 
-void storeShared(uint n, Sector s) {
-    uint to = n * kSectorPoints;
-    sharedPoints[to] = vec4(s.centre, 0.0);
-    for (uint i = 0u; i < 4u; ++i) sharedPoints[to + 1u + i] = vec4(s.border[i], 0.0);
-    for (uint i = 0u; i < 15u; ++i) sharedPoints[to + 5u + i] = vec4(s.c[i], 0.0);
+#ifdef WIDE
+const uint kSectorPoints = 20u; // centre, border[4], c[15]
+shared vec4 localPoints[kMaxPatchesPerGroup * kSides * kSectorPoints];
+
+void loadPart(uint to, const PatchPlace at, uint side) {
+    Sector s = loadSector(kSides, kRay, at.record, at.base, side, at.isNew);
+    to *= kSectorPoints;
+    localPoints[to] = vec4(s.centre, 0.0);
+    for (uint i = 0u; i < 4u; ++i) localPoints[to + 1u + i] = vec4(s.border[i], 0.0);
+    for (uint i = 0u; i < 15u; ++i) localPoints[to + 5u + i] = vec4(s.c[i], 0.0);
 }
-Sector sharedSector(uint n) {
+Sector localSector(uint n) {
     uint from = n * kSectorPoints;
     Sector s;
-    s.centre = sharedPoints[from].xyz;
-    for (uint i = 0u; i < 4u; ++i) s.border[i] = sharedPoints[from + 1u + i].xyz;
-    for (uint i = 0u; i < 15u; ++i) s.c[i] = sharedPoints[from + 5u + i].xyz;
+    s.centre = localPoints[from].xyz;
+    for (uint i = 0u; i < 4u; ++i) s.border[i] = localPoints[from + 1u + i].xyz;
+    for (uint i = 0u; i < 15u; ++i) s.c[i] = localPoints[from + 5u + i].xyz;
     return s;
 }
 
-void evaluateWide() {
-    uint total = push.count * instanceCount();
-    uint first = workgroupIndex() * push.patchesPerGroup;
-    uint here = first < total ? min(push.patchesPerGroup, total - first) : 0u;
-    for (uint n = gl_LocalInvocationID.x; n < here * kSides; n += gl_WorkGroupSize.x) {
-        uint slot = n / kSides, id = first + slot;
-        uint entry = id / push.count, instance = instanceSlot(entry);
-        uint record = push.table + kElements * (id - entry * push.count);
-        storeShared(n, loadSector(kSides, kRay, record, instance * push.poolStride, n - slot * kSides, false));
-    }
-    barrier();
-    uint samples = push.samples;
-    for (uint n = gl_LocalInvocationID.x; n < here * samples; n += gl_WorkGroupSize.x) {
-        uint slot = n / samples, sampleIndex = n - slot * samples;
-        uint id = first + slot;
-        uint entry = id / push.count, instance = instanceSlot(entry);
-        uint patchIndex = id - entry * push.count;
-        uvec3 at = sectorOf(sampleIndex);
-        Sector s = sharedSector(slot * kSides + at.z);
-        uint singular = SUPPLE_SINGULAR(innerWord(push.table + kElements * patchIndex, kSides));
-        vec3 position, normal;
-        bool step = at.x == 0u && at.y == 0u && (singular & (1u << at.z)) != 0u;
-        finish(s, weightsAtRate(at.x, at.y), at.y == 0u, parameterPair(at.x, push.rate, push.pairs), step, position, normal);
-        storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * samples + sampleIndex,
-                           position, normal);
-    }
-}
-
-#if defined(WIDE) && defined(LEVELS)
-void evaluateWideLod() {
-    const uint kForm = kClass == kP3Patch ? kLodTriangleForm : kClass == kP4Patch ? kLodQuadRingsForm : kLodPentagonForm;
-    LodShare share = lodShareOfGroup(kForm);
-    shareRecords(share);
-    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * kSides; n += gl_WorkGroupSize.x) {
-        uint place = n / kSides;
-        LodRecord r = sharedRecord(place);
-        if (r.patchIndex != kEmptyRecord)
-            storeShared(n, loadSector(kSides, kRay, push.table + kElements * (r.patchIndex - push.firstPatch),
-                                      r.slot * push.poolStride, n - place * kSides, r.isNew));
-    }
-    barrier();
-    for (uint n = gl_LocalInvocationID.x; n < share.recordCount * share.samples; n += gl_WorkGroupSize.x) {
-        uint place = n / share.samples, sampleIndex = n - place * share.samples;
-        LodRecord r = sharedRecord(place);
-        vec3 position = vec3(0.0), normal = vec3(0.0);
-        if (r.patchIndex != kEmptyRecord) {
-            RingSample at = ringSample(kSides, r.capacity, sampleIndex);
-            uint singular = SUPPLE_SINGULAR(innerWord(push.table + kElements * (r.patchIndex - push.firstPatch), kSides));
-            vec2 along;
-            vec3 w = ringWeights(place, r.capacity, at, along);
-            bool step = at.ring == 0u && at.k == 0u && (singular & (1u << at.side)) != 0u;
-            finish(sharedSector(place * kSides + at.side), w, at.ring == 0u, along, step, position, normal);
-        }
-        storeSurfaceVertex(r.firstVertex + sampleIndex, position, normal);
-    }
-}
-#endif
-
-void main() {
-#ifdef WIDE
+void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out vec3 normal) {
 #ifdef LEVELS
-    evaluateWideLod();
+    RingSample s = ringSample(kSides, at.capacity, index);
+    vec2 along;
+    vec3 w = ringWeights(place, at.capacity, s, along);
+    uint sector = s.side;
+    bool border = s.ring == 0u, corner = border && s.k == 0u;
 #else
-    evaluateWide();
+    uvec3 s = sectorOf(index);
+    vec2 along = parameterPair(s.x, push.rate, push.pairs);
+    vec3 w = weightsAtRate(s.x, s.y);
+    uint sector = s.z;
+    bool border = s.y == 0u, corner = border && s.x == 0u;
 #endif
-#else
-#ifdef LEVELS
-    evaluateNarrowLod();
-#else
-    evaluateNarrow();
-#endif
-#endif
+    bool singular = corner && (SUPPLE_SINGULAR(innerWord(at.record, kSides)) & (1u << sector)) != 0u;
+    finish(localSector(place * kSides + sector), w, border, along, singular, position, normal);
 }
+#endif

@@ -96,9 +96,7 @@ void innerFacet(uint record, uint base) {
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uint facet = id - entry * push.count, base = instance * push.poolStride;
+    uint item = itemOfLane(), facet = elementOf(item), base = instanceOf(item) * push.poolStride;
     if (kClass == kPolarPatch) polarFacet(push.table + 2u * facet, base);
     else innerFacet(push.table + SUPPLE_PM_RECORD_ELEMENTS(kSides) * facet, base);
 }

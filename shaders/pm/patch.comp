@@ -11,9 +11,7 @@
 layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer PatchCoefficients { vec4 coefficients[]; };
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uint patchIndex = id - entry * push.count, base = instance * push.poolStride;
+    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = instance * push.poolStride;
     uint record = push.table + SUPPLE_PM_RECORD_ELEMENTS(kSides) * patchIndex;
     uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
     uint inner = base + centreIndex(record, kSides), tangents = base + push.tangents;

@@ -104,14 +104,10 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry), index = id - entry * push.count;
+    uint item = itemOfLane(), instance = instanceOf(item), index = elementOf(item);
     uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
     if (kFan == kRegularFan) {
-        uvec4 words = tableElement(push.ring / 4u + index);
-        uint vertex = ringCorner(words.x, kRingVertex), slot = 4u * index;
-        regularFan(base + vertex, base + push.tangents + slot, base + push.faces + slot, words, cageBase,
-                   cageVertex(cageBase + vertex));
+        regularFan(index, base, cageBase);
         return;
     }
     uint record = 4u * push.table + 3u * index;

@@ -7,12 +7,12 @@
 #include "shaders/pose/affine.glsl"
 
 layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // the pose has their layout
-layout(constant_id = kWorkgroupRowsConstant) const uint kSharedRows = 1u; // 3 * kSharedNodes with the wide mapping
+layout(constant_id = kWorkgroupRowsConstant) const uint kLocalRows = 1u; // 3 * kWorkgroupNodes with the wide mapping
 
 layout(set = 0, binding = kScratchPoseBinding, std430) coherent buffer Scratch { vec4 scratch[]; };
 layout(set = 0, binding = kScratchPoseTexelBinding) uniform samplerBuffer scratchTexels;
 
-shared vec4 sharedRows[kSharedRows];
+shared vec4 localRows[kLocalRows];
 
 vec4 localRow(uint i) {
     if (kWide) return scratch[i];
@@ -20,13 +20,13 @@ vec4 localRow(uint i) {
 }
 Affine localAt(uint i) { return Affine(localRow(i), localRow(i + 1u), localRow(i + 2u)); }
 
-bool shares() { return kWide && push.nodeCount <= kSharedNodes; }
+bool fits() { return kWide && push.nodeCount <= kWorkgroupNodes; }
 
 Affine globalAt(uint matrices, uint node) {
     uint i = kAffineElements * node;
     Affine m;
-    if (shares()) {
-        m = Affine(sharedRows[i], sharedRows[i + 1u], sharedRows[i + 2u]);
+    if (fits()) {
+        m = Affine(localRows[i], localRows[i + 1u], localRows[i + 2u]);
     } else {
         i += matrices;
         m = Affine(scratch[i], scratch[i + 1u], scratch[i + 2u]);
@@ -36,10 +36,10 @@ Affine globalAt(uint matrices, uint node) {
 void keepGlobal(uint matrices, uint node, Affine global) {
     precise Affine m = global;
     uint i = kAffineElements * node;
-    if (shares()) {
-        sharedRows[i] = m.x;
-        sharedRows[i + 1u] = m.y;
-        sharedRows[i + 2u] = m.z;
+    if (fits()) {
+        localRows[i] = m.x;
+        localRows[i + 1u] = m.y;
+        localRows[i + 2u] = m.z;
     } else {
         i += matrices;
         scratch[i] = m.x;

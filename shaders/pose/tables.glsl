@@ -7,26 +7,11 @@ layout(push_constant) uniform Push { PosePush push; };
 #define INSTANCE_PUSH push
 #include "shaders/shared/instances.glsl"
 
-layout(set = 0, binding = kClipTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
-layout(set = 0, binding = kClipTableTexelBinding) uniform usamplerBuffer tableTexels;
-layout(set = 0, binding = kStateBinding, std430) readonly buffer States { uvec4 stateElements[]; };
-layout(set = 0, binding = kStateTexelBinding) uniform usamplerBuffer stateTexels;
-layout(set = 0, binding = kMaskBinding, std430) readonly buffer Masks { vec4 maskElements[]; };
-layout(set = 0, binding = kMaskTexelBinding) uniform samplerBuffer maskTexels;
 layout(set = 0, binding = kPosedBinding, std430) writeonly buffer Posed { vec4 posed[]; };
 
-uvec4 table(uint i) {
-    if (kWide) return tableElements[i];
-    return texelFetch(tableTexels, int(i));
-}
-uvec4 state(uint i) {
-    if (kWide) return stateElements[i];
-    return texelFetch(stateTexels, int(i));
-}
-vec4 maskValues(uint i) {
-    if (kWide) return maskElements[i];
-    return texelFetch(maskTexels, int(i));
-}
+LOADED_BUFFER(uvec4, table, Table, kClipTableBinding, usamplerBuffer, kClipTableTexelBinding, xyzw)
+LOADED_BUFFER(uvec4, state, States, kStateBinding, usamplerBuffer, kStateTexelBinding, xyzw)
+LOADED_BUFFER(vec4, maskValues, Masks, kMaskBinding, samplerBuffer, kMaskTexelBinding, xyzw)
 vec4 tableFloats(uint i) { return uintBitsToFloat(table(i)); }
 vec4 stateFloats(uint i) { return uintBitsToFloat(state(i)); }
 

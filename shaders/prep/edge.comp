@@ -16,11 +16,9 @@ vec3 weighted(float w[6], vec3 tA, vec3 tB, vec3 B, vec3 SA, vec3 SB) {
 }
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uint index = id - entry * push.count;
+    uint item = itemOfLane(), index = elementOf(item);
     uvec4 record = tableElement(push.table + index); // A, its spoke, B, its spoke
-    uint base = instance * push.poolStride, tangents = base + push.tangents, faces = base + push.faces;
+    uint base = instanceOf(item) * push.poolStride, tangents = base + push.tangents, faces = base + push.faces;
     uint weights = push.edgeClasses + kEdgeClassElements * SUPPLE_PREP_EDGE_CLASS(record.x, record.z);
     uint target = base + push.inner + 4u * index;
 

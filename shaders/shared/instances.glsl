@@ -3,13 +3,8 @@
 #ifndef INSTANCE_PUSH
 #define INSTANCE_PUSH push.window
 #endif
-layout(set = 0, binding = kInstanceBinding, std430) readonly buffer Instances { uint instanceEntries[]; };
-layout(set = 0, binding = kInstanceTexelBinding) uniform usamplerBuffer instanceTexels;
 
-uint instanceWord(uint i) {
-    if (kWide) return instanceEntries[i];
-    return texelFetch(instanceTexels, int(i)).x;
-}
+LOADED_BUFFER(uint, instanceWord, Instances, kInstanceBinding, usamplerBuffer, kInstanceTexelBinding, x)
 // The dispatch's n-th entry of the list, and how many there are.
 uint instanceEntry(uint n) { return instanceWord(INSTANCE_PUSH.firstInstance + n); }
 uint instanceCount() {

@@ -8,6 +8,19 @@ const bool kWide = true;
 #else
 const bool kWide = false;
 #endif
+
+// A buffer of set 0 that a kernel only loads from, by `T load(uint i)`. GPUs bind it as a storage buffer. CPU devices bind it as
+// texels, of which an element is what `part` names: their drivers gather texels without a loop over the lanes.
+#ifdef WIDE
+#define LOADED_BUFFER(T, load, Block, bufferBinding, sampler, texelBinding, part)                                                 \
+    layout(set = 0, binding = bufferBinding, std430) readonly buffer Block { T load##Elements[]; };                               \
+    T load(uint i) { return load##Elements[i]; }
+#else
+#define LOADED_BUFFER(T, load, Block, bufferBinding, sampler, texelBinding, part)                                                 \
+    layout(set = 0, binding = texelBinding) uniform sampler load##Texels;                                                         \
+    T load(uint i) { return texelFetch(load##Texels, int(i)).part; }
+#endif
+
 layout(constant_id = kExactDivisionConstant) const bool kExactDivision = false; // the device rounds k / rate correctly
 
 const uint kMaxLanes = 128u; // of gl_WorkGroupSize.x: gpu/mapping.cpp

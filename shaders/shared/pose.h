@@ -83,7 +83,7 @@ SUPPLE_SHARED_CONST kCubicKeys = 2u;
 
 // Wide mapping: nodes whose matrices fit into the 16 KiB of shared memory that every device has. Larger skeletons stay
 // in the scratch memory.
-SUPPLE_SHARED_CONST kSharedNodes = 320u;
+SUPPLE_SHARED_CONST kWorkgroupNodes = 320u;
 
 struct PosePush {
     float timeHigh; // the group's time

@@ -85,11 +85,9 @@ SUPPLE_SHARED_CONST kEdgeDomain = 4u; // none of a patch: attributes of an index
 SUPPLE_SHARED_CONST kVertex16 = 0u;       // position, octahedral normal in 2 x snorm16
 SUPPLE_SHARED_CONST kVertex24 = 1u;       // position, normal
 SUPPLE_SHARED_CONST kVertexPosition = 2u; // position alone, 12 bytes: where a sample was before
-SUPPLE_SHARED_CONST kVertexFormats = 3u;
 
 SUPPLE_SHARED_CONST kOutputUvs1 = 1u;
 SUPPLE_SHARED_CONST kOutputFaceUvs = 2u;
-SUPPLE_SHARED_CONST kAttributeOutputs = 4u; // combinations
 
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
 

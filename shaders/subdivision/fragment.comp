@@ -12,28 +12,27 @@
 #include "shaders/subdivision/net.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 
-layout(constant_id = kWorkgroupPointsConstant) const uint kSharedPoints = 341u; // of the last two levels together
+layout(constant_id = kWorkgroupPointsConstant) const uint kLocalPoints = 341u; // of the last two levels together
 
 // Components apart: neighbouring lanes read neighbouring words.
-shared float sharedX[kSharedPoints], sharedY[kSharedPoints], sharedZ[kSharedPoints];
+shared float localX[kLocalPoints], localY[kLocalPoints], localZ[kLocalPoints];
 uint region; // of the level that is read
 
-vec3 point(uint i) { return vec3(sharedX[region + i], sharedY[region + i], sharedZ[region + i]); }
+vec3 point(uint i) { return vec3(localX[region + i], localY[region + i], localZ[region + i]); }
 
 #include "shaders/subdivision/fragment.glsl"
 #include "shaders/subdivision/samples.glsl"
 
 void writePoint(uint at, vec3 p) {
-    sharedX[at] = p.x;
-    sharedY[at] = p.y;
-    sharedZ[at] = p.z;
+    localX[at] = p.x;
+    localY[at] = p.y;
+    localZ[at] = p.z;
 }
 
 void main() {
     // Workgroups past the last repeat it: all lanes must meet at the barriers.
-    uint id = min(workgroupIndex(), push.count * instanceCount() - 1u);
-    uint place = id / push.count, entry = instanceEntry(place), instance = entry & kInstanceSlotMask;
-    uvec4 record = tableElement(push.records + (id - place * push.count));
+    uint item = min(workgroupIndex(), itemCount() - 1u), entry = entryOf(item), instance = entry & kInstanceSlotMask;
+    uvec4 record = tableElement(push.records + elementOf(item));
     uint header = record.x, fragment = record.y;
     uvec4 head = tableElement(header), last = tableElement(header + 2u);
     uint patches = tableElement(header + 1u).x;
@@ -48,7 +47,7 @@ void main() {
     barrier();
     for (uint step = 1u; step <= push.step; ++step) {
         uvec4 level = tableElement(levels + step);
-        uint target = region == 0u ? kSharedPoints - level.z : 0u;
+        uint target = region == 0u ? kLocalPoints - level.z : 0u;
         uint neighbours = tableElement(levels + step - 1u).y;
         for (uint i = gl_LocalInvocationID.x; i < level.z; i += gl_WorkGroupSize.x)
             writePoint(target + i,

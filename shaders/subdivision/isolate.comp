@@ -3,21 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
-#include "shaders/surface/pool.glsl"
+#include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
-#include "shaders/surface/cage.glsl"
-
-layout(constant_id = kKindConstant) const uint kFromPool = 0u; // not the first step
-
-vec3 vertexAt(uint instance, uint i) {
-    if (kFromPool != 0u) return poolVector(instance * push.poolStride + i);
-    return cageVertex(instance * push.cageStride + i);
-}
 
 void main() {
-    uint id = min(invocationIndex(), push.count * instanceCount() - 1u);
-    uint entry = id / push.count, instance = instanceSlot(entry);
-    uvec4 record = tableElement(push.table + (id - entry * push.count));
+    uint item = itemOfLane(), instance = instanceOf(item);
+    uvec4 record = tableElement(push.table + elementOf(item));
     vec3 first = vertexAt(instance, record.x);
     precise vec3 sum = vec3(0.0);
     for (uint i = 0u; i < record.z; i += 2u) {

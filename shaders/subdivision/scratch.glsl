@@ -17,11 +17,10 @@ Lane lane;
 
 void findLane() {
     uint id = invocationIndex();
-    uint block = min(id / kBlockLanes, push.count * instanceCount() - 1u);
-    uint entry = block / push.count;
-    lane.listed = instanceEntry(entry);
+    uint block = min(id / kBlockLanes, itemCount() - 1u);
+    lane.listed = entryOf(block);
     lane.instance = lane.listed & kInstanceSlotMask;
-    lane.record = push.records + 3u * (block - entry * push.count);
+    lane.record = push.records + 3u * elementOf(block);
     uvec4 where = tableElement(lane.record), what = tableElement(lane.record + 1u);
     lane.rows = where.x;
     lane.list = where.y;

@@ -1,8 +1,4 @@
 // The deformed cage, read.
-layout(set = 0, binding = kCageBinding, std430) readonly buffer Cage { vec4 cage[]; };
-layout(set = 0, binding = kCageTexelBinding) uniform samplerBuffer cageTexels;
 
-vec3 cageVertex(uint i) {
-    if (kWide) return cage[i].xyz;
-    return texelFetch(cageTexels, int(i)).xyz;
-}
+LOADED_BUFFER(vec4, cage, Cage, kCageBinding, samplerBuffer, kCageTexelBinding, xyzw)
+vec3 cageVertex(uint i) { return cage(i).xyz; }

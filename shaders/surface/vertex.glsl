@@ -22,8 +22,12 @@ void storeOffset(uint i, vec3 point, vec3 limit) {
     storePool(i, offset);
 }
 
-// A closed fan of four: the uniform bicubic B-spline.
-void regularFan(uint limit, uint tangent, uint face, uvec4 words, uint cageBase, vec3 p0) {
+// A closed fan of four: the uniform bicubic B-spline. These fans come first, and their ring is all there is of them.
+void regularFan(uint index, uint base, uint cageBase) {
+    uvec4 words = tableElement(push.ring / 4u + index);
+    uint vertex = ringCorner(words.x, kRingVertex), slot = 4u * index;
+    uint limit = base + vertex, tangent = base + push.tangents + slot, face = base + push.faces + slot;
+    vec3 p0 = cageVertex(cageBase + vertex);
     precise vec3 e[4], d[4];
     for (uint k = 0u; k < 4u; ++k) {
         e[k] = ringSpoke(words[k], cageBase) - p0;

@@ -1,0 +1,109 @@
+// Evaluation of patches, as all schemes do it: which patches a lane works on, what lanes share, where samples are stored.
+// Narrow mapping: one lane per patch. Wide mapping: a workgroup takes a few patches. Its lanes load the parts of these patches
+// into workgroup memory and then share the samples. With LEVELS, patches are records of a view (docs/lod.md). Without it, all
+// patches have the rate of the push constants.
+//
+// Before the include, a scheme includes tables.glsl and defines
+//   kRecordElements   table elements per patch
+//   kForm             the form of its grids at levels
+//   kParts            wide mapping: parts per patch
+//   OWN_WIDE          a macro, if its own evaluateWide() is faster than the one below
+// and behind it the functions that are declared here.
+#include "shaders/surface/pool.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/evaluate/surface_vertex.glsl"
+#include "shaders/lod/record.glsl"
+
+struct PatchPlace {
+    uint record;   // its first table element
+    uint base;     // where the coefficients of its instance begin in the pool
+    uint vertex;   // its first surface vertex
+    uint capacity; // at levels: segments along a side
+    uint capacityIndex;
+    bool isNew;    // at levels: its instance has no past
+    bool empty;    // at levels: there is no patch; all vertices are at the origin
+};
+
+#ifdef LEVELS
+PatchPlace placeOf(const LodRecord r) {
+    return PatchPlace(push.table + kRecordElements * (r.patchIndex - push.firstPatch), r.slot * push.poolStride, r.firstVertex,
+                      r.capacity, r.capacityIndex, r.isNew, r.patchIndex == kEmptyRecord);
+}
+#else
+PatchPlace placeOf(uint item) {
+    uint instance = instanceOf(item), element = elementOf(item);
+    return PatchPlace(push.table + kRecordElements * element, instance * push.poolStride,
+                      instance * push.verticesPerInstance + push.firstVertex + element * push.samples, 0u, 0u, false,
+                      false);
+}
+#endif
+
+// Instances without a past have today's coefficients as their previous ones. These are bound in the place of the cage.
+vec3 coefficient(uint i, bool isNew) {
+#ifdef LEVELS
+    if (kVertexFormat == kVertexPosition && isNew) return cageVertex(i);
+#endif
+    return poolVector(i);
+}
+
+#ifndef WIDE
+#ifdef LEVELS
+void evaluatePatch(const PatchPlace at, uint lodRecord); // with its patterns: recordPattern()
+
+void main() {
+    uint record = lodRecordElement(lodRecordOfLane());
+    PatchPlace at = placeOf(lodRecordOf(lodElement(record)));
+    if (at.empty) { // any coefficients will do
+        at.record = push.table;
+        at.base = 0u;
+    }
+    evaluatePatch(at, record);
+}
+#else
+void evaluatePatch(const PatchPlace at);
+
+void main() { evaluatePatch(placeOf(itemOfLane())); }
+#endif
+#else
+
+// The patches of a workgroup. To be called by all lanes.
+#ifdef LEVELS
+Share shareOfGroup() {
+    Share share = lodShareOfGroup(kForm);
+    loadRecords(share);
+    return share;
+}
+#define PATCH_IN_PLACE(share, place) placeOf(localRecord(place))
+#else
+Share shareOfGroup() {
+    uint total = push.count * instanceCount(), first = workgroupIndex() * push.patchesPerGroup;
+    return Share(first, first < total ? min(push.patchesPerGroup, total - first) : 0u, push.samples, push.rate + 1u);
+}
+#define PATCH_IN_PLACE(share, place) placeOf(share.first + (place))
+#endif
+
+void evaluateWide();
+#ifndef OWN_WIDE
+void loadPart(uint to, const PatchPlace at, uint part); // a part of a patch into part `to` of the workgroup's memory
+void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out vec3 normal);
+
+void evaluateWide() {
+    Share share = shareOfGroup();
+    for (uint n = gl_LocalInvocationID.x; n < share.count * kParts; n += gl_WorkGroupSize.x) {
+        uint place = n / kParts;
+        PatchPlace at = PATCH_IN_PLACE(share, place);
+        if (!kLod || !at.empty) loadPart(n, at, n - place * kParts);
+    }
+    barrier();
+    for (uint n = gl_LocalInvocationID.x; n < share.count * share.samples; n += gl_WorkGroupSize.x) {
+        uint place = n / share.samples, index = n - place * share.samples;
+        PatchPlace at = PATCH_IN_PLACE(share, place);
+        vec3 position = vec3(0.0), normal = vec3(0.0);
+        if (!kLod || !at.empty) evaluateSample(place, at, index, position, normal);
+        storeSurfaceVertex(at.vertex + index, position, normal);
+    }
+}
+#endif
+
+void main() { evaluateWide(); }
+#endif
