@@ -2,9 +2,9 @@
 
 #include "host/shaders/draw.h"
 #include "host/texture.h"
-#include "tools/common/character_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -59,20 +59,30 @@ float averageLuminance(const cage::Cage& cage, const std::vector<glm::vec4>& mat
     return area > 0.0f ? sum / area : 0.5f;
 }
 
+/// Each edge once.
+std::vector<std::array<uint32_t, 2>> edgesOf(const cage::Cage& cage) {
+    std::vector<std::array<uint32_t, 2>> edges;
+    edges.reserve(cage.faceVertices.size());
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
+            const uint32_t next = corner + 1 < cage.faceStarts[face + 1] ? corner + 1 : cage.faceStarts[face];
+            const auto [from, to] = std::minmax(cage.faceVertices[corner], cage.faceVertices[next]);
+            edges.push_back({from, to});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
 } // namespace
 
-Result<std::unique_ptr<Figure>> Figure::open(Context& context, const std::string& path, bool pairQuads) {
-    // Twice over: Supple keeps what it computes with; materials, pictures and the cage's faces are the host's to draw.
-    Result<CharacterFile> file = readCharacterFile(path, pairQuads);
-    if (!file)
-        return file.error();
+Result<std::unique_ptr<Figure>> Figure::create(Context& context, SuppleAsset asset, cage::Character character,
+                                               const std::string& path) {
     std::unique_ptr<Figure> figure(new Figure(context));
-    const Result<SuppleAsset> asset = createAsset(context, *file);
-    if (!asset)
-        return asset.error();
+    figure->asset_ = asset;
+    figure->character_ = std::move(character);
     figure->path_ = path;
-    figure->asset_ = *asset;
-    figure->character_ = std::move(file->character);
     if (const Status status = figure->uploadCage(); !status)
         return status.error();
     if (const Status status = figure->uploadBaseColors(); !status)
@@ -87,15 +97,11 @@ Figure::~Figure() {
         suppleDestroyAsset(context_.handle(), asset_);
 }
 
-Result<uint32_t> Figure::findClip(const std::string& nameOrIndex) const {
-    return host::findClip(character_, nameOrIndex);
-}
-
 double Figure::clipDuration(uint32_t clip) const {
     return clip < character_.clips.size() ? character_.clips[clip].duration : 0.0;
 }
 
-Status Figure::uploadCage() {
+std::vector<uint32_t> Figure::cageCornerWords() {
     const cage::Cage& cage = character_.cage;
     const auto materialOf = [&](uint32_t face) {
         return cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[face];
@@ -133,37 +139,24 @@ Status Figure::uploadCage() {
     std::vector<uint32_t> words(lists + cage.faceVertices.size());
     std::memcpy(words.data(), corners.data(), corners.size() * sizeof(shared::CageCorner));
     std::copy(cage.faceVertices.begin(), cage.faceVertices.end(), words.begin() + lists);
+    return words;
+}
 
-    std::vector<std::pair<uint32_t, uint32_t>> edges;
-    edges.reserve(cage.faceVertices.size());
-    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
-        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
-            const uint32_t next = corner + 1 < cage.faceStarts[face + 1] ? corner + 1 : cage.faceStarts[face];
-            edges.emplace_back(std::minmax(cage.faceVertices[corner], cage.faceVertices[next]));
-        }
-    }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+Status Figure::uploadCage() {
+    const std::vector<uint32_t> corners = cageCornerWords();
+    const std::vector<std::array<uint32_t, 2>> edges = edgesOf(character_.cage);
     cageEdgeCount_ = static_cast<uint32_t>(edges.size());
-    std::vector<uint32_t> edgeWords;
-    edgeWords.reserve(edges.size() * 2);
-    for (const auto& [from, to] : edges) {
-        edgeWords.push_back(from);
-        edgeWords.push_back(to);
-    }
-
     Device& device = context_.device();
-    Result<Buffer> cornerBuffer =
-        device.uploadBuffer(words.data(), words.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    if (!cornerBuffer)
-        return cornerBuffer.error();
-    cageCorners_ = std::move(*cornerBuffer);
-    Result<Buffer> edgeBuffer =
-        device.uploadBuffer(edgeWords.data(), edgeWords.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    if (!edgeBuffer)
-        return edgeBuffer.error();
-    cageEdges_ = std::move(*edgeBuffer);
-    return success();
+    const auto upload = [&](const void* bytes, size_t size, Buffer& into) -> Status {
+        Result<Buffer> buffer = device.uploadBuffer(bytes, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        if (!buffer)
+            return buffer.error();
+        into = std::move(*buffer);
+        return success();
+    };
+    if (const Status status = upload(corners.data(), corners.size() * sizeof corners[0], cageCorners_); !status)
+        return status.error();
+    return upload(edges.data(), edges.size() * sizeof edges[0], cageEdges_);
 }
 
 Status Figure::uploadBaseColors() {

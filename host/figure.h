@@ -1,4 +1,4 @@
-// A character file opened for drawing: Supple's asset, the tables that draw its cage, its materials' pictures; and a
+// A character for drawing: Supple's asset, the tables that draw its cage, its materials' pictures; and a
 // group made of it.
 #pragma once
 
@@ -22,9 +22,9 @@ public:
         uint32_t material = cage::kNone;
     };
 
-    /// The context must outlive the figure.
-    [[nodiscard]] static Result<std::unique_ptr<Figure>> open(Context& context, const std::string& path,
-                                                              bool pairQuads = false);
+    /// Takes the asset, also where it fails. `path` begins the messages. The context must outlive the figure.
+    [[nodiscard]] static Result<std::unique_ptr<Figure>> create(Context& context, SuppleAsset asset,
+                                                                cage::Character character, const std::string& path);
     ~Figure();
     Figure(const Figure&) = delete;
     Figure& operator=(const Figure&) = delete;
@@ -33,8 +33,6 @@ public:
     [[nodiscard]] SuppleAsset asset() const { return asset_; }
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] const cage::Character& character() const { return character_; }
-    /// By name or index; SUPPLE_BIND_POSE for an empty text. The error lists what there is.
-    [[nodiscard]] Result<uint32_t> findClip(const std::string& nameOrIndex) const;
     [[nodiscard]] double clipDuration(uint32_t clip) const;
 
     /// Luminance of the base color over the cage's faces: linear, 0..1.
@@ -50,6 +48,8 @@ public:
 
 private:
     explicit Figure(Context& context) : context_(context) {}
+    /// What shaders/cage_face.glsl reads; fills cageRanges_.
+    [[nodiscard]] std::vector<uint32_t> cageCornerWords();
     [[nodiscard]] Status uploadCage();
     [[nodiscard]] Status uploadBaseColors();
     [[nodiscard]] Status uploadTrims();
@@ -89,7 +89,7 @@ public:
 
     [[nodiscard]] Figure& figure() const { return figure_; }
     [[nodiscard]] SuppleGroup handle() const { return group_; }
-    /// All of them are there and visible from first to last: the instance's number is its slot.
+    /// All of them are there; an instance's number is its slot.
     [[nodiscard]] SuppleInstance instance(uint32_t index) const { return instances_[index]; }
     [[nodiscard]] const GroupOutput& output() const { return output_; }
     /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
@@ -105,6 +105,9 @@ public:
     void release();
 
     [[nodiscard]] Status pose(uint32_t instance, uint32_t clip, double time);
+    /// From the next frame that is recorded.
+    [[nodiscard]] Status setVisible(uint32_t instance, bool visible);
+    [[nodiscard]] uint32_t visibleCount() const;
     /// Positions of the surface vertices, or of the deformed cage, as last evaluated, instance after instance; waits
     /// for the device.
     [[nodiscard]] Result<std::vector<glm::vec3>> readSurface() const;
@@ -117,6 +120,7 @@ private:
     Figure& figure_;
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
+    std::vector<bool> visible_; ///< per instance
     GroupOutput output_{};
     uint32_t edgeRate_ = 0;
     Buffer patchClasses_;

@@ -86,6 +86,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
         return status.error();
     if (const Status status = context.createInstances(group->group_, options.instances, group->instances_); !status)
         return status.error();
+    group->visible_.assign(options.instances, true);
     if (const Status status =
             context.check(getGroupOutput(context.handle(), group->group_, group->output_), "suppleGetGroupInfo");
         !status)
@@ -152,6 +153,16 @@ Status FigureGroup::uploadTables() {
 Status FigureGroup::pose(uint32_t instance, uint32_t clip, double time) {
     Context& context = figure_.context();
     return context.check(suppleSetClipPose(context.handle(), instances_[instance], clip, time), "suppleSetClipPose");
+}
+
+Status FigureGroup::setVisible(uint32_t instance, bool visible) {
+    Context& context = figure_.context();
+    visible_[instance] = visible;
+    return context.check(suppleSetVisible(context.handle(), instances_[instance], visible ? 1 : 0), "suppleSetVisible");
+}
+
+uint32_t FigureGroup::visibleCount() const {
+    return static_cast<uint32_t>(std::count(visible_.begin(), visible_.end(), true));
 }
 
 Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {

@@ -11,6 +11,7 @@ namespace supple::host {
 
 namespace {
 
+constexpr uint32_t kFigureBuffers = 9; ///< of set 1
 constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
 
 /// The cage's lines over shaded faces, and over the smooth surface.
@@ -240,11 +241,17 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
 }
 
 Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
-    const Figure& figure = group.figure();
-    const auto materialCount = static_cast<uint32_t>(figure.baseColors().size());
-    constexpr uint32_t kFigureBuffers = 8;
     FigureBinding binding;
     binding.device_ = device_.handle();
+    if (const Status status = allocateSets(binding, static_cast<uint32_t>(group.figure().baseColors().size())); !status)
+        return status.error();
+    writeFigureSet(binding, group);
+    if (const Status status = writeMaterialSets(binding, group.figure()); !status)
+        return status.error();
+    return binding;
+}
+
+Status SurfaceRenderer::allocateSets(FigureBinding& binding, uint32_t materialCount) const {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * materialCount}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
@@ -265,7 +272,11 @@ Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
         return vulkanError(result, "vkAllocateDescriptorSets");
     binding.figure_ = sets[0];
     binding.materials_.assign(sets.begin() + 1, sets.end());
+    return success();
+}
 
+void SurfaceRenderer::writeFigureSet(const FigureBinding& binding, const FigureGroup& group) const {
+    const Figure& figure = group.figure();
     const GroupOutput& output = group.output();
     const auto viewInfo = [](const SuppleBufferRange& view) {
         return VkDescriptorBufferInfo{view.buffer, view.offset, view.size};
@@ -282,13 +293,12 @@ Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
         {shared::kSurfaceAttributeBinding, orCage(output.streams.attributes)},
         {shared::kSurfaceUv1Binding, orCage(output.streams.uvs1)},
         {shared::kSurfaceFaceUvBinding, orCage(output.streams.faceUvs)},
+        {shared::kInstancesBinding, viewInfo(output.info.instances)},
         {shared::kPatchClassBinding, wholeInfo(group.patchClasses())},
         {shared::kDeformedCageBinding, viewInfo(output.info.deformedCage)},
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
     };
-    std::vector<VkDescriptorImageInfo> images(2 * size_t{materialCount});
-    std::vector<VkWriteDescriptorSet> writes;
     for (const auto& [slot, info] : buffers) {
         auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         write.dstSet = binding.figure_;
@@ -296,50 +306,53 @@ Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
         write.descriptorCount = 1;
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = &info;
-        writes.push_back(write);
+        vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
     }
+}
+
+Status SurfaceRenderer::writeMaterialSets(FigureBinding& binding, const Figure& figure) const {
     const cage::Character& character = figure.character();
-    const auto sample = [&](uint32_t material, uint32_t slot, const Image& image, cage::Wrap wrapU,
-                            cage::Wrap wrapV) -> Status {
-        auto info = vkStruct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
-        info.magFilter = VK_FILTER_LINEAR;
-        info.minFilter = VK_FILTER_LINEAR;
-        info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
-        info.maxLod = VK_LOD_CLAMP_NONE;
-        info.anisotropyEnable = device_.hasAnisotropy() ? VK_TRUE : VK_FALSE;
-        info.maxAnisotropy = std::min(8.0f, device_.properties().limits.maxSamplerAnisotropy);
-        info.addressModeU = addressMode(wrapU);
-        info.addressModeV = addressMode(wrapV);
-        VkSampler sampler = VK_NULL_HANDLE;
-        if (const VkResult result = vkCreateSampler(device_.handle(), &info, nullptr, &sampler); result != VK_SUCCESS)
-            return vulkanError(result, "vkCreateSampler");
-        binding.samplers_.push_back(sampler);
-        VkDescriptorImageInfo& described = images[2 * size_t{material} + slot];
-        described = {sampler, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-        write.dstSet = binding.materials_[material];
-        write.dstBinding = slot;
-        write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        write.pImageInfo = &described;
-        writes.push_back(write);
-        return success();
-    };
-    static_assert(shared::kBaseColorBinding == 0 && shared::kTrimBinding == 1);
-    for (uint32_t i = 0; i < materialCount; ++i) {
+    for (size_t i = 0; i < binding.materials_.size(); ++i) {
         const cage::Material material = i < character.materials.size() ? character.materials[i] : cage::Material{};
-        if (const Status status =
-                sample(i, shared::kBaseColorBinding, figure.baseColors()[i], material.wrapU, material.wrapV);
-            !status)
-            return status.error();
         // A mask's trim is its base color; of what has none, nothing is looked up.
         const cage::Trim trim = cage::trimOf(material).value_or(cage::Trim{});
-        const Image& image = material.trim ? figure.trims()[i] : figure.baseColors()[i];
-        if (const Status status = sample(i, shared::kTrimBinding, image, trim.wrapU, trim.wrapV); !status)
+        const Image& trimImage = material.trim ? figure.trims()[i] : figure.baseColors()[i];
+        if (const Status status = writeTexture(binding, i, shared::kBaseColorBinding, figure.baseColors()[i],
+                                               addressMode(material.wrapU), addressMode(material.wrapV));
+            !status)
+            return status.error();
+        if (const Status status = writeTexture(binding, i, shared::kTrimBinding, trimImage, addressMode(trim.wrapU),
+                                               addressMode(trim.wrapV));
+            !status)
             return status.error();
     }
-    vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
-    return binding;
+    return success();
+}
+
+Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, uint32_t slot, const Image& image,
+                                     VkSamplerAddressMode wrapU, VkSamplerAddressMode wrapV) const {
+    auto info = vkStruct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+    info.magFilter = VK_FILTER_LINEAR;
+    info.minFilter = VK_FILTER_LINEAR;
+    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+    info.maxLod = VK_LOD_CLAMP_NONE;
+    info.anisotropyEnable = device_.hasAnisotropy() ? VK_TRUE : VK_FALSE;
+    info.maxAnisotropy = std::min(8.0f, device_.properties().limits.maxSamplerAnisotropy);
+    info.addressModeU = wrapU;
+    info.addressModeV = wrapV;
+    VkSampler sampler = VK_NULL_HANDLE;
+    if (const VkResult result = vkCreateSampler(device_.handle(), &info, nullptr, &sampler); result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateSampler");
+    binding.samplers_.push_back(sampler);
+    const VkDescriptorImageInfo described{sampler, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstSet = binding.materials_[material];
+    write.dstBinding = slot;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    write.pImageInfo = &described;
+    vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+    return success();
 }
 
 void SurfaceRenderer::record(VkCommandBuffer commands, uint32_t slot, const DrawTarget& target, const Scene& scene) {
@@ -519,7 +532,7 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
         }
         applyRange(range, push);
         pushConstants(commands, push);
-        const uint32_t patches = range.patchCount * output.info.capacity;
+        const uint32_t patches = range.patchCount * scene.group->visibleCount();
         if (range.domain == SUPPLE_DOMAIN_QUAD || range.domain == SUPPLE_DOMAIN_POLAR) {
             vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
             vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), patches, 0, 0, 0);
@@ -562,7 +575,7 @@ void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene
         pushConstants(commands, push);
         if (!light)
             bindMaterial(commands, scene, range.material);
-        vkCmdDraw(commands, range.cornerCount, scene.group->output().info.capacity, 0, 0);
+        vkCmdDraw(commands, range.cornerCount, scene.group->visibleCount(), 0, 0);
     }
 }
 
@@ -571,7 +584,7 @@ void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene
     push.baseColor = scene.cageFaces ? kCageEdgeColor : kOverlayEdgeColor;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
     pushConstants(commands, push);
-    vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->output().info.capacity, 0, 0);
+    vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->visibleCount(), 0, 0);
 }
 
 } // namespace supple::host

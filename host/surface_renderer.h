@@ -83,6 +83,11 @@ private:
     explicit SurfaceRenderer(Device& device) : device_(device) {}
     [[nodiscard]] Status createShadowMaps();
     [[nodiscard]] Status createSlots(uint32_t count);
+    [[nodiscard]] Status allocateSets(FigureBinding& binding, uint32_t materialCount) const;
+    void writeFigureSet(const FigureBinding& binding, const FigureGroup& group) const;
+    [[nodiscard]] Status writeMaterialSets(FigureBinding& binding, const Figure& figure) const;
+    [[nodiscard]] Status writeTexture(FigureBinding& binding, size_t material, uint32_t slot, const Image& image,
+                                      VkSamplerAddressMode wrapU, VkSamplerAddressMode wrapV) const;
     void writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene) const;
     void recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const;

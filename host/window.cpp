@@ -129,21 +129,22 @@ void Window::destroySwapchainViews() {
     images_.clear();
 }
 
+VkExtent2D Window::drawableExtent(const VkSurfaceCapabilitiesKHR& surface) const {
+    if (surface.currentExtent.width != UINT32_MAX)
+        return surface.currentExtent;
+    int width = 0; // the swapchain decides the size, not the surface
+    int height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    return {std::clamp(static_cast<uint32_t>(width), surface.minImageExtent.width, surface.maxImageExtent.width),
+            std::clamp(static_cast<uint32_t>(height), surface.minImageExtent.height, surface.maxImageExtent.height)};
+}
+
 Status Window::createSwapchain() {
     VkSurfaceCapabilitiesKHR surface{};
     if (const VkResult result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physicalDevice(), surface_, &surface);
         result != VK_SUCCESS)
         return vulkanError(result, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
-    VkExtent2D extent = surface.currentExtent;
-    if (extent.width == UINT32_MAX) { // the swapchain decides the size, not the surface
-        int width = 0;
-        int height = 0;
-        glfwGetFramebufferSize(window_, &width, &height);
-        extent.width =
-            std::clamp(static_cast<uint32_t>(width), surface.minImageExtent.width, surface.maxImageExtent.width);
-        extent.height =
-            std::clamp(static_cast<uint32_t>(height), surface.minImageExtent.height, surface.maxImageExtent.height);
-    }
+    const VkExtent2D extent = drawableExtent(surface);
     if (extent.width == 0 || extent.height == 0)
         return success(); // minimised: stale until it has a size again
 
@@ -181,7 +182,14 @@ Status Window::createSwapchain() {
         vkDestroySwapchainKHR(device_.handle(), swapchain_, nullptr);
     swapchain_ = swapchain;
     extent_ = extent;
+    if (const Status status = createSwapchainViews(); !status)
+        return status.error();
+    ++generation_;
+    stale_ = false;
+    return success();
+}
 
+Status Window::createSwapchainViews() {
     uint32_t count = 0;
     vkGetSwapchainImagesKHR(device_.handle(), swapchain_, &count, nullptr);
     images_.resize(count);
@@ -204,8 +212,6 @@ Status Window::createSwapchain() {
             return vulkanError(result, "vkCreateSemaphore");
         drawn_.push_back(semaphore);
     }
-    ++generation_;
-    stale_ = false;
     return success();
 }
 

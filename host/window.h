@@ -71,7 +71,9 @@ private:
     [[nodiscard]] Status chooseFormat();
     [[nodiscard]] Status createSlots();
     /// Success without a swapchain while the window has no size.
+    [[nodiscard]] VkExtent2D drawableExtent(const VkSurfaceCapabilitiesKHR& surface) const;
     [[nodiscard]] Status createSwapchain();
+    [[nodiscard]] Status createSwapchainViews();
     void destroySwapchainViews();
 
     Device& device_;

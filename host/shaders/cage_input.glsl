@@ -1,4 +1,8 @@
-// The deformed cage: one float4 a cage vertex, instance-major.
+// The deformed cage: one float4 per cage vertex, slot after slot.
+#include "instances.glsl"
+
 layout(set = 1, binding = kDeformedCageBinding, std430) readonly buffer DeformedCage { vec4 deformedCage[]; };
 
-vec3 cagePosition(uint vertex) { return deformedCage[gl_InstanceIndex * push.cageVerticesPerInstance + vertex].xyz; }
+vec3 cagePosition(uint vertex) {
+    return deformedCage[instanceSlots[gl_InstanceIndex] * push.cageVerticesPerInstance + vertex].xyz;
+}

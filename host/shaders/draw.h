@@ -26,6 +26,7 @@ SUPPLE_HOST_CONST kCageCornerBinding = 4u;
 SUPPLE_HOST_CONST kCageEdgeBinding = 5u;
 SUPPLE_HOST_CONST kSurfaceUv1Binding = 6u;
 SUPPLE_HOST_CONST kSurfaceFaceUvBinding = 7u;
+SUPPLE_HOST_CONST kInstancesBinding = 8u;
 // Set 2, the material.
 SUPPLE_HOST_CONST kBaseColorBinding = 0u;
 SUPPLE_HOST_CONST kTrimBinding = 1u;

@@ -8,8 +8,7 @@ vec2 surfaceUv(bool second) {
 }
 
 vec4 surfaceColor() {
-    uvec2 packed = attributes[surfaceVertex()].zw;
-    return vec4(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y));
+    return suppleUnpackColor(attributes[surfaceVertex()].zw);
 }
 
 /// Where the trim is looked up (UV or face UV), and what multiplies it.

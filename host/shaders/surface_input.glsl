@@ -1,16 +1,22 @@
-// Vertex pulling: draw instance i is patch firstPatch + i % patchCount of character instance i / patchCount, and the vertex
-// index is the sample within the patch.
+// The surface vertex of a draw, found by the public include as docs/integration.md says. One pipeline reads both vertex formats,
+// so the buffers are declared here.
+#include "supple_surface.glsl"
+#include "instances.glsl"
+
 layout(set = 1, binding = kSurfaceVertexBinding, std430) readonly buffer SurfaceVertices { uint surfaceWords[]; };
 
-uint drawnPatch() { return push.firstPatch + gl_InstanceIndex % push.patchCount; }
-
-// Counted within a character instance.
-uint surfaceVertex() {
-    return push.firstVertex + (gl_InstanceIndex % push.patchCount) * push.samplesPerPatch + gl_VertexIndex;
+SuppleRange drawnRange() {
+    return SuppleRange(push.patchCount, push.firstVertex, push.samplesPerPatch, push.verticesPerInstance);
 }
 
+uint drawnPatch() { return suppleDrawnPatch(drawnRange(), push.firstPatch, gl_InstanceIndex); }
+
+// Counted within an instance.
+uint surfaceVertex() { return suppleSharedVertex(drawnRange(), gl_InstanceIndex, gl_VertexIndex); }
+
 uint surfaceWord() {
-    uint vertex = (gl_InstanceIndex / push.patchCount) * push.verticesPerInstance + surfaceVertex();
+    uint slot = instanceSlots[suppleDrawnInstance(drawnRange(), gl_InstanceIndex)];
+    uint vertex = suppleSurfaceVertex(drawnRange(), slot, surfaceVertex());
     return vertex * ((push.flags & kDrawVertex24) != 0u ? 6u : 4u);
 }
 
@@ -21,9 +27,5 @@ vec3 surfacePosition(uint word) {
 vec3 surfaceNormal(uint word) {
     if ((push.flags & kDrawVertex24) != 0u)
         return uintBitsToFloat(uvec3(surfaceWords[word + 3u], surfaceWords[word + 4u], surfaceWords[word + 5u]));
-    vec2 p = unpackSnorm2x16(surfaceWords[word + 3u]);
-    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (n.z < 0.0)
-        n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-    return normalize(n);
+    return suppleOctahedralNormal(surfaceWords[word + 3u]);
 }

@@ -61,7 +61,6 @@ FOREIGN = {
 
 # Includes that look up or sideways for a reason. One that is no longer needed is refused.
 EXCEPTIONS = {
-    ("host/figure.cpp", "tools/common/character_file.h"): "to be mended: who reads files stands above host/",
     ("shaders/lod/edge.comp", "shaders/blend/blend.glsl"): "levels of charts are measured on their own polynomials",
     ("shaders/lod/patch.comp", "shaders/blend/blend.glsl"): "levels of charts are measured on their own polynomials",
     ("shaders/lod/patch.comp", "shaders/pm/sector.glsl"): "levels of sectors are measured on their own polynomials",

@@ -2,6 +2,7 @@
 // validation layer. Judging beauty stays with people.
 #include "host/surface_renderer.h"
 #include "tests/tools/validated_device.h"
+#include "tools/common/figure_file.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -37,8 +38,7 @@ protected:
         Result<DrawTarget> target = DrawTarget::create(*device_, kSize, renderer_->samples());
         ASSERT_TRUE(target.ok()) << target.error().message;
         target_ = std::move(*target);
-        Result<std::unique_ptr<Figure>> figure =
-            Figure::open(*context_, std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
+        Result<std::unique_ptr<Figure>> figure = openFigure(*context_, std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
         ASSERT_TRUE(figure.ok()) << figure.error().message;
         figure_ = std::move(*figure);
     }
@@ -236,9 +236,37 @@ TEST_F(RenderTest, InstancesStandWhereTheirTransformsPutThem) {
     EXPECT_NEAR(halves[0] / halves[1], 1.0, 0.1);
 }
 
+/// Slots of visible instances are no longer counted from 0 without a gap; neither surface, cage nor shadow may mistake
+/// one for another.
+TEST_F(RenderTest, InstancesAreDrawnByTheirSlotsWhenOthersAreHidden) {
+    const std::unique_ptr<FigureGroup> group = makeGroup({.instances = 3, .rate = 4});
+    const glm::mat4 turned = glm::rotate(glm::mat4(1.0f), 2.0f, glm::vec3(0.0f, 1.0f, 0.0f));
+    const glm::mat4 aside = glm::translate(glm::mat4(1.0f), glm::vec3(30.0f, 0.0f, 0.0f));
+    for (const uint32_t instance : {0u, 2u})
+        ASSERT_EQ(suppleSetTransform(context_->handle(), group->instance(instance), &aside[0][0]), SUPPLE_OK);
+    ASSERT_EQ(suppleSetTransform(context_->handle(), group->instance(1), &turned[0][0]), SUPPLE_OK);
+    for (const uint32_t instance : {0u, 2u})
+        ASSERT_TRUE(group->setVisible(instance, false).ok());
+    ASSERT_EQ(group->visibleCount(), 1u);
+    // As many instances, for the grid of shadows follows their number; its only visible one has slot 0.
+    const std::unique_ptr<FigureGroup> alone = makeGroup({.instances = 3, .rate = 4});
+    for (const uint32_t instance : {1u, 2u})
+        ASSERT_TRUE(alone->setVisible(instance, false).ok());
+    ASSERT_EQ(suppleSetTransform(context_->handle(), alone->instance(0), &turned[0][0]), SUPPLE_OK);
+    evaluate(*group);
+    evaluate(*alone);
+    for (const bool cage : {false, true}) {
+        Scene scene = frontScene(*alone, 0.6f);
+        scene.ground = scene.bounds.min.y;
+        scene.cageFaces = cage;
+        scene.cageEdges = true;
+        EXPECT_EQ(draw(*group, scene).rgba, draw(*alone, scene).rgba) << (cage ? "the cage" : "the surface");
+    }
+}
+
 /// Both buffers have room between their instances that nothing writes, and what is read back must not show it.
 TEST_F(RenderTest, PositionsReadBackAreThoseOfVerticesAlone) {
-    Result<std::unique_ptr<Figure>> helmet = Figure::open(*context_, std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb");
+    Result<std::unique_ptr<Figure>> helmet = openFigure(*context_, std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb");
     ASSERT_TRUE(helmet.ok()) << helmet.error().message;
     constexpr uint32_t kInstances = 2;
     Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(**helmet, {.instances = kInstances, .rate = 2});
@@ -336,7 +364,7 @@ TEST_F(RenderTest, TexturesLieWhereTheirUvsPutThem) {
         for (uint32_t x = 0; x < 16; ++x)
             picture.pixel(x, y)[x < 8 ? 0 : 2] = 230;
     }
-    Result<std::unique_ptr<Figure>> cube = Figure::open(*context_, texturedCube(directory, picture));
+    Result<std::unique_ptr<Figure>> cube = openFigure(*context_, texturedCube(directory, picture));
     std::filesystem::remove_all(directory);
     ASSERT_TRUE(cube.ok()) << cube.error().message;
     Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(**cube, {.rate = 8});

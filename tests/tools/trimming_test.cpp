@@ -6,6 +6,7 @@
 #include "tests/tools/validated_device.h"
 #include "tools/common/cage_arrays.h"
 #include "tools/common/character_file.h"
+#include "tools/common/figure_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,7 +153,7 @@ protected:
         const fs::path path = fs::path(testing::TempDir()) / ("supple_trim_" + std::to_string(getpid()) + ".glb");
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(glb->bytes.data()), static_cast<std::streamsize>(glb->bytes.size()));
-        Result<std::unique_ptr<Figure>> figure = Figure::open(*context_, path.string());
+        Result<std::unique_ptr<Figure>> figure = openFigure(*context_, path.string());
         fs::remove(path);
         EXPECT_TRUE(figure.ok()) << (figure.ok() ? "" : figure.error().message);
         return std::move(*figure);

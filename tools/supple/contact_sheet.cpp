@@ -1,5 +1,6 @@
 #include "tools/supple/contact_sheet.h"
 
+#include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/render_stage.h"
 #include "tools/supple/sheet_style.h"
@@ -37,7 +38,7 @@ struct Layout {
 Result<std::vector<uint32_t>> chosenClips(const host::Figure& figure, const std::vector<std::string>& names) {
     std::vector<uint32_t> clips;
     for (const std::string& name : names) {
-        const Result<uint32_t> clip = figure.findClip(name);
+        const Result<uint32_t> clip = host::findClip(figure.character(), name);
         if (!clip)
             return clip.error();
         clips.push_back(*clip);

@@ -1,5 +1,8 @@
 #include "tools/supple/view_stage.h"
 
+#include "tools/common/character_file.h"
+#include "tools/common/figure_file.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -41,10 +44,10 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
 }
 
 Status ViewStage::open(const std::string& file, const std::string& clip, float aspect) {
-    Result<std::unique_ptr<host::Figure>> figure = host::Figure::open(context_, file, pairQuads_);
+    Result<std::unique_ptr<host::Figure>> figure = host::openFigure(context_, file, pairQuads_);
     if (!figure)
         return figure.error();
-    const Result<uint32_t> chosen = (*figure)->findClip(clip);
+    const Result<uint32_t> chosen = host::findClip((*figure)->character(), clip);
     if (!chosen)
         return chosen.error();
     Result<std::unique_ptr<host::FigureGroup>> group = createGroup(**figure, static_cast<uint32_t>(settings.rate));
