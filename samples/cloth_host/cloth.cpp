@@ -89,7 +89,9 @@ void Cloth::createSupple(const sample::Device& device, uint32_t rate) {
     sample::check(supple::Group::create(context_, groupDesc, group_), "suppleCreateGroup");
     for (supple::Instance& sheet : sheets_)
         sample::check(supple::Instance::create(group_, sheet), "suppleCreateInstance");
-    sample::check(group_.output(output_), "suppleGetGroupOutput");
+    sample::check(group_.info(info_), "suppleGetGroupInfo");
+    sample::check(group_.vertexStreams(streams_), "suppleGetVertexStreams");
+    sample::check(group_.gridOutput(grid_), "suppleGetGridOutput");
 }
 
 void Cloth::createSimulation(sample::Device& device) {
@@ -118,7 +120,7 @@ void Cloth::createSimulation(sample::Device& device) {
     set_ = pool.allocate(setLayout);
     pool.write(set_, {sample::storageBuffer(0, sheetBuffer_.handle(), 0, sheetBuffer_.size()),
                       sample::storageBuffer(1, pointBuffer_.handle(), 0, pointBuffer_.size()),
-                      sample::storageBuffer(2, output_.deformedCage)});
+                      sample::storageBuffer(2, info_.deformedCage)});
 }
 
 void Cloth::beginFrame(uint64_t frame, uint64_t completed) const {
@@ -143,7 +145,7 @@ void Cloth::simulate(VkCommandBuffer commands, double seconds) {
                               static_cast<float>(seconds),
                               1.0f / 60.0f / kSteps,
                               kSpacing,
-                              output_.cageVerticesPerInstance};
+                              info_.cageVerticesPerInstance};
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set_, 0, nullptr);
     vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);

@@ -40,10 +40,9 @@ void run(const sample::PictureOptions& options) {
     device.waitIdle();
     if (!options.screenshot.empty())
         sample::writePng(options.screenshot, options.size.width, options.size.height, readback.mapped());
-    const SuppleGroupOutput& output = cloth.output();
     std::printf("%llu frames; a sheet: %u cage vertices, %u patches, %u surface vertices\n",
-                static_cast<unsigned long long>(options.frames), output.cageVertexCount, output.patchCount,
-                output.vertexCount);
+                static_cast<unsigned long long>(options.frames), cloth.info().cageVertexCount, cloth.info().patchCount,
+                cloth.grid().vertexCount);
 }
 
 } // namespace

@@ -126,9 +126,9 @@ Scene::Scene(sample::Device& device, const Cloth& cloth, VkExtent2D extent) : cl
     sheetSet_ = pool.allocate(sheetLayout);
     pool.write(sceneSet_, {sample::uniformBuffer(0, uniforms_),
                            sample::sampledImage(1, sunMap_, sample::createSampler(device, VK_FILTER_LINEAR, true))});
-    const SuppleGroupOutput& output = cloth.output();
-    pool.write(sheetSet_, {sample::storageBuffer(0, output.instances), sample::storageBuffer(1, output.surfaceVertices),
-                           sample::storageBuffer(3, output.attributes)});
+    const SuppleVertexStreams& streams = cloth.streams();
+    pool.write(sheetSet_, {sample::storageBuffer(0, cloth.info().instances), sample::storageBuffer(1, streams.vertices),
+                           sample::storageBuffer(3, streams.attributes)});
 
     sample::GraphicsDesc shadow{.layout = layout_, .depth = kDepthFormat, .depthBias = 1.0f, .depthBiasSlope = 2.0f};
     shadow.vertexShader = cloth_vert;
@@ -155,17 +155,17 @@ Scene::Scene(sample::Device& device, const Cloth& cloth, VkExtent2D extent) : cl
 }
 
 void Scene::drawSheets(VkCommandBuffer commands, VkPipeline pipeline, bool shadow) const {
-    const SuppleGroupOutput& output = cloth_.output();
+    const SuppleGridOutput& grid = cloth_.grid();
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
-    for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
-        const SuppleDrawRange& range = output.drawRanges[r];
-        const SheetPush push{range.patchCount, range.firstVertex, range.samplesPerPatch, output.verticesPerInstance,
+    vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset, VK_INDEX_TYPE_UINT16);
+    for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = grid.drawRanges[r];
+        const SheetPush push{range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance,
                              shadow ? 1u : 0u};
         vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
-        vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
-                                 output.indirect.offset + VkDeviceSize{r} * output.indirect.stride, 1,
-                                 output.indirect.stride);
+        vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,
+                                 grid.indirect.offset + VkDeviceSize{r} * grid.indirect.stride, 1,
+                                 grid.indirect.stride);
     }
 }
 

@@ -50,7 +50,7 @@ struct Write {
 
 Write uniformBuffer(uint32_t binding, const Buffer& buffer);
 Write storageBuffer(uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size);
-Write storageBuffer(uint32_t binding, const SuppleBufferView& view);
+Write storageBuffer(uint32_t binding, const SuppleBufferRange& view);
 Write sampledImage(uint32_t binding, const Image& image, VkSampler sampler,
                    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 Write storageImage(uint32_t binding, const Image& image);

@@ -92,7 +92,8 @@ Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
         desc.view = view_.handle();
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
         sample::check(supple::Group::create(context_, desc, kind.group), "suppleCreateGroup");
-        sample::check(kind.group.output(kind.output), "suppleGetGroupOutput");
+        sample::check(kind.group.vertexStreams(kind.streams), "suppleGetVertexStreams");
+        sample::check(kind.group.levelOutput(kind.levels), "suppleGetLevelOutput");
     }
 
     // Circles all over a square, a few steps from each other.

@@ -14,7 +14,9 @@ namespace engine {
 /// One of the two groups as the passes draw it.
 struct CharacterGroup {
     supple::Group group;
-    SuppleGroupOutput output{};
+    SuppleGroupInfo info{};
+    SuppleVertexStreams streams{};
+    SuppleGridOutput grid{};
     std::vector<bool> doubleSided; ///< a draw range
 };
 

@@ -71,11 +71,12 @@ Passes::Passes(sample::Device& device, Graph& graph, const Characters& character
                     sample::sampledImage(2, sunMap_, plain)});
     }
     for (std::size_t i = 0; i < groupSets_.size(); ++i) {
-        const SuppleGroupOutput& output = characters.groups()[i].output;
+        const SuppleVertexStreams& streams = characters.groups()[i].streams;
         groupSets_[i] = pool.allocate(groupLayout);
         pool.write(groupSets_[i],
-                   {sample::storageBuffer(0, output.instances), sample::storageBuffer(1, output.surfaceVertices),
-                    sample::storageBuffer(2, output.previousPositions), sample::storageBuffer(3, output.attributes)});
+                   {sample::storageBuffer(0, characters.groups()[i].info.instances),
+                    sample::storageBuffer(1, streams.vertices), sample::storageBuffer(2, streams.previousPositions),
+                    sample::storageBuffer(3, streams.attributes)});
     }
 
     shadowPipeline_ = sample::createGraphicsPipeline(device, {.layout = layout_,
@@ -153,19 +154,18 @@ void Passes::drawCharacters(VkCommandBuffer commands, VkPipeline pipeline, uint3
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     for (std::size_t i = 0; i < groupSets_.size(); ++i) {
         const CharacterGroup& group = characters_.groups()[i];
-        const SuppleGroupOutput& output = group.output;
+        const SuppleGridOutput& grid = group.grid;
         const VkDescriptorSet sets[] = {frameSets_[slot], groupSets_[i]};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
-        vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
-        for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
-            const SuppleDrawRange& range = output.drawRanges[r];
-            const RangePush push{range.patchCount, range.firstVertex, range.samplesPerPatch,
-                                 output.verticesPerInstance};
+        vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset, VK_INDEX_TYPE_UINT16);
+        for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+            const SuppleDrawRange& range = grid.drawRanges[r];
+            const RangePush push{range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance};
             vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
             vkCmdSetCullMode(commands, cull && !group.doubleSided[r] ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
-            vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
-                                     output.indirect.offset + VkDeviceSize{r} * output.indirect.stride, 1,
-                                     output.indirect.stride);
+            vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,
+                                     grid.indirect.offset + VkDeviceSize{r} * grid.indirect.stride, 1,
+                                     grid.indirect.stride);
         }
     }
 }

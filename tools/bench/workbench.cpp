@@ -144,7 +144,7 @@ void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
     group.tessellation().recordEvaluate(commands);
 }
 
-const SuppleGroupOutput& Workbench::output(SuppleGroup group) const {
+const host::GroupOutput& Workbench::output(SuppleGroup group) const {
     return inside_->group(group).output();
 }
 
@@ -175,8 +175,9 @@ Workbench::StaticBytes Workbench::staticBytes(SuppleGroup id) const {
             bytes.tables = scheme->buffers.size(0);
         }
     }
-    bytes.indices = group.output().lodDraws != nullptr ? 0 : group.output().gridIndices.size; // a view has them for all
-    bytes.group = group.output().deviceBytes;
+    bytes.indices =
+        group.output().levels.draws != nullptr ? 0 : group.output().indices().size; // a view has them for all
+    bytes.group = group.output().info.deviceBytes;
     return bytes;
 }
 

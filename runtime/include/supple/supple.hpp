@@ -189,9 +189,24 @@ public:
         desc.morphMaskCount = static_cast<uint32_t>(morphs.size());
         return suppleSetMask(context_, handle_, &desc);
     }
-    [[nodiscard]] SuppleResult output(SuppleGroupOutput& out) const {
-        out = sized<SuppleGroupOutput>();
-        return suppleGetGroupOutput(context_, handle_, &out);
+    [[nodiscard]] SuppleResult info(SuppleGroupInfo& out) const {
+        out = sized<SuppleGroupInfo>();
+        return suppleGetGroupInfo(context_, handle_, &out);
+    }
+    [[nodiscard]] SuppleResult vertexStreams(SuppleVertexStreams& out) const {
+        out = sized<SuppleVertexStreams>();
+        return suppleGetVertexStreams(context_, handle_, &out);
+    }
+    [[nodiscard]] SuppleResult gridOutput(SuppleGridOutput& out) const {
+        out = sized<SuppleGridOutput>();
+        return suppleGetGridOutput(context_, handle_, &out);
+    }
+    [[nodiscard]] SuppleResult levelOutput(SuppleLevelOutput& out) const {
+        out = sized<SuppleLevelOutput>();
+        return suppleGetLevelOutput(context_, handle_, &out);
+    }
+    [[nodiscard]] SuppleResult instanceBounds(SuppleBufferRange& out) const {
+        return suppleGetInstanceBounds(context_, handle_, &out);
     }
 
 private:
