@@ -1,7 +1,7 @@
-// Evaluation of the blending surface: four local geometries a face, blended by Hermite weights (docs/blend.md). Where samples
-// lie in the charts is read from tables: no transcendental here. Narrow mapping: one lane a patch, all of its coefficients in
-// registers. Wide mapping: a workgroup takes a few patches into shared memory, its lanes share the samples. Both use
-// blend() and normalAt(), so positions agree bit for bit.
+// Evaluates the blending surface: four local geometries per face, blended by Hermite weights (docs/blend.md). At a rate, tables
+// say where samples lie in the charts: nothing transcendental is computed here. Narrow mapping: a lane has all coefficients of a
+// patch in registers. Wide mapping: the parts that lanes load are single coefficients. Both use blend() and normalOf(), so
+// positions agree bit for bit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

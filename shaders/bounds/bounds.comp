@@ -1,5 +1,5 @@
-// Bounds pass: the box of every listed instance's deformed cage, and whether a view sees it. Narrow mapping: one lane an
-// instance. Wide mapping: one workgroup an instance.
+// Bounds pass: the box of every listed instance's deformed cage, and whether a view sees it. Narrow mapping: one lane per
+// instance. Wide mapping: one workgroup per instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/bounds/cull.glsl"

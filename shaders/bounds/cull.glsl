@@ -1,4 +1,4 @@
-// What the passes of bounds and culling share: loads, one function each (storage buffers on GPUs, texels on CPU devices).
+// Bindings of all passes of bounds and culling.
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/bounds.h"
 

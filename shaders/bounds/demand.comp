@@ -1,9 +1,9 @@
 // Demand pass: the vertices that instances of several rates need, by how far above its threshold each rate is, for the budget
 // (shaders/lod/solve.comp). One lane an instance, behind the list pass.
 //
-// A bin counts while levels are scaled down by fewer bins. It is above that where the level is above the threshold by one bin and a sixteenth
-// less than it, so that what is counted is not less than what is drawn; each step is shared by two bins, so that the
-// demand is continuous in levels.
+// A bin counts while levels are scaled down by fewer bins. It is above that where the level is above the threshold by one bin and
+// a sixteenth less than it, so that what is counted is not less than what is drawn. Each step is divided between two bins, so
+// that the demand is continuous in levels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/bounds/cull.glsl"

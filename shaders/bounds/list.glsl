@@ -1,5 +1,5 @@
-// What the passes share that list instances: one workgroup, of which every lane takes a run of entries. LIST_PUSH: what they
-// are told.
+// For the passes that list instances: one workgroup, of which every lane takes a run of entries. LIST_PUSH is the struct of push
+// constants.
 #include "shaders/bounds/cull.glsl"
 
 layout(set = 0, binding = kBoundsStateTexelBinding) uniform usamplerBuffer stateTexels;

@@ -1,7 +1,7 @@
-// Surface attributes: UV sets and color, interpolated between the corners of each patch. No pose changes them: they are
-// evaluated once a group, one invocation a patch sample; with level of detail in every frame, where samples lie then. Output
-// per sample (u, v, linear color as RG and BA in 16-bit unorm: 8 bits would band in the dark), and the second UV set and the
-// face UVs where there are any.
+// Evaluates surface attributes: UV sets and color, interpolated between a patch's corners. No pose changes them. At a rate
+// they are evaluated once per group, with one invocation per patch sample. At levels they are evaluated in every frame, where
+// samples lie then. Output per sample: u, v, and linear color as RG and BA in 16-bit unorm, because 8 bits would band in the
+// dark. If there are a second UV set and face UVs, these follow.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"

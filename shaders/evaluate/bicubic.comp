@@ -1,9 +1,11 @@
-// Evaluation of bicubic patches: regular, p-rep's with the sparse bi-5 perturbation (docs/prep.md), polar (docs/pm.md).
-// Coefficients are gathered from the pool by index. Narrow mapping: one lane a patch, everything in registers, rows collapsed
-// in v first. Wide mapping: a workgroup takes a few patches into shared memory, each lane collapses a row and has all of its
-// samples; at levels, where workgroups have fewer rows, lanes share the columns to collapse and then the samples. All use the
-// functions collapse...() and finish(), so positions agree bit for bit. With level of detail samples lie where the patch's
-// record says instead of at i / rate (docs/lod.md).
+// Evaluates bicubic patches: regular ones, those of p-rep with the sparse bi-5 perturbation (docs/prep.md), and polar ones
+// (docs/pm.md). Coefficients are gathered from the pool by index. A patch is collapsed in v to rows first, then each row is
+// sampled in u.
+//
+// Narrow mapping: a lane has the whole patch in registers. Wide mapping: it has a loop of its own, because rows are faster than
+// samples there. At a rate each lane collapses one row and evaluates all of its samples. At levels a workgroup has fewer rows:
+// lanes share the columns to collapse, then the samples. All use the functions collapse...() and finish(), so positions agree
+// bit for bit. At levels samples lie where the patch's record says instead of at i / rate (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,7 +1,7 @@
-// Indexed mesh: the samples along edges, each once, and at corners, each with one of the edges that begin there. An edge comes
-// from one of its patches, which it has on its left: positions from the border cubic, by the operations of the patches'
-// own evaluation and thus the same bits; normals from the border and what lies one step inside. Narrow mapping: one lane an
-// edge. Wide mapping: one lane a sample.
+// Indexed mesh: evaluates the samples along edges, each once, and at corners, each with one of the edges that begin there. An
+// edge comes from one of its patches, which it has on its left. Positions come from the border's cubic by the operations of the
+// patches' own evaluation, and thus have the same bits. Normals come from the border and from what lies one step inside. Narrow
+// mapping: one lane per edge. Wide mapping: one lane per sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

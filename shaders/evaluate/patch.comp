@@ -1,6 +1,6 @@
 // Patch pass of bicubic patches: gathers the coefficients of every patch, for inspection and tests. Evaluation gathers by itself.
-// One invocation a patch and instance. Output: kPatchStride float4 a patch: 16 g (i + 4 j); perturbed patches then 16 h
-// (4 e + s); polar patches have 13, their last row being one point.
+// One invocation per patch and instance. Output: kPatchStride float4 per patch: 16 g (i + 4 j). Perturbed patches then have 16 h
+// (4 e + s). Polar patches have 13 g, because their last row is one point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POOL_READ_ONLY

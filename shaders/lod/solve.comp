@@ -144,7 +144,7 @@ void main() {
     }
     barrier();
 
-    // Where buckets begin. One lane: there are some hundred, and their counts lie in shared memory.
+    // Where buckets begin. One lane: there are some hundred, and their counts lie in workgroup memory.
     if (lane == 0u) {
         uint room = push.room;
         if (push.rated != 0u) { // where levels fall short, rates are at their coarsest

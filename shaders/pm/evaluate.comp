@@ -1,9 +1,10 @@
-// Evaluation of P_3, P_4 and P_5 patches: m triangular sectors of degree 4 round a centre (docs/pm.md). Coefficients are
-// gathered from the pool by index; a sector's 15 are expanded from the patch's 6 m + 1. Samples on a border come from the
-// border's cubic alone, by the same sum as every other class of patch. Narrow mapping: one lane a patch, sector by sector,
-// of each its border and then what lies inside. Wide mapping: a workgroup expands the sectors of a few patches into shared
-// memory, its lanes share the samples. Both use makeSector(), borderPosition() and finishInside(), so positions agree bit for
-// bit. With level of detail samples lie in rings, where the patch's record says (docs/lod.md).
+// Evaluates P_3, P_4 and P_5 patches: m triangular sectors of degree 4 round a centre (docs/pm.md). Coefficients are gathered
+// from the pool by index. The 15 coefficients of a sector are expanded from the patch's 6 m + 1. Samples on a border come from
+// the border's cubic alone, by the same sum as in every other class of patch.
+//
+// Narrow mapping: sector by sector, first the border, then what lies inside. Wide mapping: the parts that lanes load are
+// sectors. Both use makeSector(), borderPosition() and finishInside(), so positions agree bit for bit. At levels samples lie in
+// rings, where the patch's record says (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

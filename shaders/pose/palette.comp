@@ -1,5 +1,5 @@
-// Pose pass, last part: parents before children, then the joint palette. Narrow: one lane an instance. Wide: one
-// workgroup an instance, a level of the hierarchy at a time, the matrices in shared memory where they fit.
+// Pose pass, last part: parents before children, then the joint palette. Narrow mapping: one lane per instance. Wide mapping: one
+// workgroup per instance, one depth of the hierarchy at a time, with the matrices in workgroup memory if they fit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"

@@ -1,6 +1,6 @@
-// Pose pass, second part, of groups with root motion: what the first layer's root has travelled goes into the instance's
-// transform, and what any layer's has is taken out of the root's local matrix. One invocation an instance; in a pass of its
-// own, for with locals.comp all nodes would step through its code.
+// Pose pass, second part, for groups with root motion. What the first layer's root has travelled goes into the instance's
+// transform. What any layer's root has travelled is taken out of the root's local matrix. One invocation per instance. It is a
+// pass of its own: in locals.comp all nodes would step through its code.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"

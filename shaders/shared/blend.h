@@ -9,17 +9,14 @@
 //   chart records    (vertex, first ring word, element of the fit, pool index of c_00), by number of ring points
 //   ring             words: vertices of the cage, or, where it is subdivided, of the pool
 //   fits             (ring points, 0, 0, 0), then three elements a ring point: its weights in c_00..c_22; one a class
-//   coordinates      one element a coordinate of samples: (t, eta(t), eta'(t), 0); t = i / rate, i = 0..rate, then half
-//   a step
+//   coordinates      one element a coordinate of samples: (t, eta(t), eta'(t), 0); t = i / rate, i = 0..rate, then half a step
 //                    inside either end
 //   directions       one element h: (e^(2 pi i h / k), e^(2 pi i (h + 1) / k)); one run a k
-//   chart samples    one element a pair of coordinates, x fastest: (zeta, d zeta / dz) of sector 0; where x = 0 and y >
-//   0 zeta is
+//   chart samples    one element a pair of coordinates, x fastest: (zeta, d zeta / dz) of sector 0; where x = 0 and y > 0 zeta is
 //                    told from the next direction, so that both faces at a spoke multiply the same numbers; one run a k
 //   crease samples   two elements likewise: the parameter of the crease, its slopes by x and by y; one run a k
-//   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples), or,
-//   at
-//                    levels, (.., .., 4 / k, 0)
+//   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples), or, at levels,
+//                    (.., .., 4 / k, 0)
 #ifndef SUPPLE_SHARED_BLEND_H
 #define SUPPLE_SHARED_BLEND_H
 

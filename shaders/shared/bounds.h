@@ -3,13 +3,11 @@
 //
 //   bounds   one pass a window of instances: the box of every listed instance's deformed cage, made larger by what the
 //            surface may lie outside, and whether it is seen
-//   size     only where not all may have room even at their coarsest: how many vertices those that are seen need, by
-//   size list     one workgroup a group, after the bounds of all its windows: those that are seen, in order, and the
-//   arguments of
-//            the indirect dispatches and draws
-//   demand   where instances have one of several rates and count in the budget: the vertices they need, by how far
-//   their
-//            levels are above what a rate is enough for (shaders/shared/lod.h)
+//   size     only where not all may have room even at their coarsest: how many vertices those that are seen need, by size
+//   list     one workgroup a group, after the bounds of all its windows: those that are seen, in order, and the
+//            arguments of the indirect dispatches and draws
+//   demand   where instances have one of several rates and count in the budget: the vertices they need, by how far their levels
+//            are above what a rate is enough for (shaders/shared/lod.h)
 //   rates    one workgroup a group, when the budget is solved: as list, once more for every rate
 //
 // Host list: an entry an instance, slots of the group rising: slot | priority << kInstancePriorityShift |
@@ -24,8 +22,7 @@
 // its level as the budget scales it, or the last. Between the two, `occlude` may take more instances out of sight, by a
 // depth pyramid. Table (uvec4 elements): windows, then arguments, then draws.
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
-//   argument   of a dispatch (x, y, 1): (elements an instance, elements a workgroup, which instances it counts, word in
-//   the
+//   argument   of a dispatch (x, y, 1): (elements an instance, elements a workgroup, which instances it counts, word in the
 //              argument buffer); those of window w stand argumentStride * w words further
 //   draw       (indices, first index, patches an instance, rate): a whole VkDrawIndexedIndirectCommand for all windows
 // Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded;

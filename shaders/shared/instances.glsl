@@ -3,7 +3,6 @@
 #ifndef INSTANCE_PUSH
 #define INSTANCE_PUSH push.window
 #endif
-
 LOADED_BUFFER(uint, instanceWord, Instances, kInstanceBinding, usamplerBuffer, kInstanceTexelBinding, x)
 // The dispatch's n-th entry of the list, and how many there are.
 uint instanceEntry(uint n) { return instanceWord(INSTANCE_PUSH.firstInstance + n); }

@@ -3,23 +3,19 @@
 // A view has one buffer, of words; what lies where is a constant, so that no pass is told:
 //   patterns      the words of all capacities (surface/lod/pattern.h)
 //   grids         by form and capacity: (first index, index count) of a draw instance
-//   runs          one word a run: form | the group's first run << 8 | dispatch << 16, dispatch from kMaxRuns on where
-//   no
-//                 group has the run. A run is the patches of one class and material of a window of instances of a
-//                 group; a dispatch evaluates the runs of one class, which follow each other
+//   runs          one word a run: form | the group's first run << 8 | dispatch << 16, dispatch from kMaxRuns on where no group
+//                 has the run. A run is the patches of one class and material of a window of instances of a group; a dispatch
+//                 evaluates the runs of one class, which follow each other
 //   doubleSided   a bit a run: its patches show their backs too
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
 //                 kSplitUnit is shared between two bins
 //   counts        by run, priority and bin: patches
-//   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their
-//   coarsest;
-//                 then by priority and bin what finer rates have more, which counts while levels are scaled by fewer
-//                 bins
-//   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first
-//   run
-//                 on; one more behind them tells where the last one's records end
+//   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their coarsest; then
+//                 by priority and bin what finer rates have more, which counts while levels are scaled by fewer bins
+//   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first run on; one
+//                 more behind them tells where the last one's records end
 //   dispatches    eight words each (LodDispatch)
 //   draws         by run and capacity: VkDrawIndexedIndirectCommand
 //   records       sixteen words a patch that is drawn, those of a bucket one after the other, filled up with empty ones

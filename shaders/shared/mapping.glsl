@@ -1,8 +1,8 @@
-// The constants that lay the same code on a CPU device or a GPU; chosen in gpu/mapping.cpp.
+// The mapping of the work to lanes, for CPU devices and for GPUs. gpu/mapping.cpp chooses it.
 #include "shaders/shared/specialization.h"
 
 layout(local_size_x_id = kLocalSizeConstant) in;
-// Many lanes a patch, storage-buffer loads. A macro: what one mapping does without need not be compiled for it.
+// Many lanes per patch, loads from storage buffers. It is a macro: what one mapping does without need not be compiled for it.
 #ifdef WIDE
 const bool kWide = true;
 #else
@@ -12,12 +12,12 @@ const bool kWide = false;
 // A buffer of set 0 that a kernel only loads from, by `T load(uint i)`. GPUs bind it as a storage buffer. CPU devices bind it as
 // texels, of which an element is what `part` names: their drivers gather texels without a loop over the lanes.
 #ifdef WIDE
-#define LOADED_BUFFER(T, load, Block, bufferBinding, sampler, texelBinding, part)                                                 \
-    layout(set = 0, binding = bufferBinding, std430) readonly buffer Block { T load##Elements[]; };                               \
+#define LOADED_BUFFER(T, load, Block, bufferBinding, sampler, texelBinding, part)                                                \
+    layout(set = 0, binding = bufferBinding, std430) readonly buffer Block { T load##Elements[]; };                              \
     T load(uint i) { return load##Elements[i]; }
 #else
-#define LOADED_BUFFER(T, load, Block, bufferBinding, sampler, texelBinding, part)                                                 \
-    layout(set = 0, binding = texelBinding) uniform sampler load##Texels;                                                         \
+#define LOADED_BUFFER(T, load, Block, bufferBinding, sampler, texelBinding, part)                                                \
+    layout(set = 0, binding = texelBinding) uniform sampler load##Texels;                                                        \
     T load(uint i) { return texelFetch(load##Texels, int(i)).part; }
 #endif
 

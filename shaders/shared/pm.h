@@ -7,27 +7,22 @@
 // Tables
 // Limit points are numbered as the cage's vertices are, a vertex's first sector with its vertex; other sectors' come
 // behind.
-//   ring             see shared/surface.h; regular sectors come first and have nothing else; of a triangle the far
-//   corners are
+//   ring             see shared/surface.h; regular sectors come first and have nothing else; of a triangle the far corners are
 //                    its two edges' ends
-//   sector records   of all others three words, one behind the other: first slot, element of the weights, limit point;
-//   smooth,
+//   sector records   of all others three words, one behind the other: first slot, element of the weights, limit point; smooth,
 //                    then creased ones
 //   smooth weights   (facets | kOpenSector, 0, 0, 0), then two elements a slot: (limitEdge, limitFace, e1Edge, e1Face),
 //                    (e2Edge, e2Face, cosine, sine); one a kind and count of facets
-//   creased weights  (facets | kOpenSector | kCornerSector | kPinnedSector, limit scale, tangent scale, 0), then one
-//   element a slot:
-//                    (alpha, cosine, sine, 0); one a sector
+//   creased weights  (facets | kOpenSector | kCornerSector | kPinnedSector, limit scale, tangent scale, 0), then one element a
+//                    slot: (alpha, cosine, sine, 0); one a sector
 //   apex classes     (c, 3/2 alpha of h02, 3/2 alpha of h32, 0); polar patches have the element as their fourth spoke
-//   edge classes     two elements (20): (chi0 / 4 mu, (2 mu - chi1) / 8 mu, factor of f - f_across at v_0, same at
-//   v_1),
-//                    (chi1 / 4 mu, (2 mu - chi0) / 8 mu, 0, 0)
-//   P_m patches      m - 1 elements, words as the macros below say: of every corner its limit point and its spoke, as
-//   in the
-//                    records of bicubic patches; b004, and in the bits above one a corner whose normal is taken a step
-//                    inside; the numbers of the edges' classes, three a word. With the limit point: whether the edge to
-//                    the last corner ends the sector, and the step from the spoke to the one whose facet lies across
-//                    the edge to the next corner, 0 where that edge ends the sector
+//   edge classes     two elements (20): (chi0 / 4 mu, (2 mu - chi1) / 8 mu, factor of f - f_across at v_0, same at v_1), (chi1 /
+//                    4 mu, (2 mu - chi0) / 8 mu, 0, 0)
+//   P_m patches      m - 1 elements, words as the macros below say: of every corner its limit point and its spoke, as in the
+//                    records of bicubic patches; b004, and in the bits above one a corner whose normal is taken a step inside;
+//                    the numbers of the edges' classes, three a word. With the limit point: whether the edge to the last corner
+//                    ends the sector, and the step from the spoke to the one whose facet lies across the edge to the next corner,
+//                    0 where that edge ends the sector
 #ifndef SUPPLE_SHARED_PM_H
 #define SUPPLE_SHARED_PM_H
 

@@ -3,8 +3,7 @@
 // Clip table (uvec4 elements, floats as bits), static, one an asset. Nodes are those that move a joint, sorted by
 // depth, so that parents stand before children and a level's nodes side by side; kNodeElements each, from the first
 // element on:
-//   node       (parent or kNoNode, 1 where the local matrix is fixed, 0, 0); then the three rows of the fixed matrix,
-//   or
+//   node       (parent or kNoNode, 1 where the local matrix is fixed, 0, 0); then the three rows of the fixed matrix, or
 //              translation, rotation (x, y, z, w), scale of the rest pose
 //   joint      kJointElements each, from `joints` on: the three rows of the inverse bind matrix; (node, 0, 0, 0)
 //   level      one element each, from `levels` on: (first node, end, 0, 0)
@@ -12,10 +11,8 @@
 //   clip       one element each, from `clips` on: (first of its nodes' elements, channel of the morph weights or 0,
 //              duration as a high and a low float)
 //   clip node  one element a node: channels of its translation, rotation and scale, or 0
-//   channel    (4 * keys + interpolation, keys a second as a float, element of the key times, of the values); times
-//   four
-//              an element; a value is one element, morph weights are packed; a cubic spline has in-tangent, value,
-//              out-tangent a key
+//   channel    (4 * keys + interpolation, keys a second as a float, element of the key times, of the values); times four an
+//              element; a value is one element, morph weights are packed; a cubic spline has in-tangent, value, out-tangent a key
 //
 // Playback (uvec4 elements, one run of `stateStride` an instance), uploaded when it changes:
 //   header     kStateElements: (layers, flags, root node or kNoNode, root axes);
@@ -81,7 +78,7 @@ SUPPLE_SHARED_CONST kStepKeys = 0u;
 SUPPLE_SHARED_CONST kLinearKeys = 1u;
 SUPPLE_SHARED_CONST kCubicKeys = 2u;
 
-// Wide mapping: nodes whose matrices fit into the 16 KiB of shared memory that every device has. Larger skeletons stay
+// Wide mapping: nodes whose matrices fit into the 16 KiB of workgroup memory that every device has. Larger skeletons stay
 // in the scratch memory.
 SUPPLE_SHARED_CONST kWorkgroupNodes = 320u;
 

@@ -9,15 +9,12 @@
 //   vertex records   of all others two words, one behind the other: first spoke slot, class element
 //   classes          (sectors | kBoundaryClass, 0, 0, 0), then two elements a spoke:
 //                    (limitEdge, limitFace, e1Edge, e1Face), (e2Edge, e2Face, cosine, sine)
-//   edge records     one element: for A, then for B, the vertex and in the bits above half of the edge class's number;
-//   then
-//                    the edge's spoke there, and the step to the one before it, whose sector is on the edge's other
-//                    side
+//   edge records     one element: for A, then for B, the vertex and in the bits above half of the edge class's number; then the
+//                    edge's spoke there, and the step to the one before it, whose sector is on the edge's other side
 //   edge classes     six elements, for A, tA, tB, B, SA, SB: their weights in (h20, h30, h21, h31)
-//   perturbed patch  behind the corners a word an edge: the pool index of its H, or of the zeros with
-//   kStillEdgeOfPatch;
-//                    kReversedEdgeOfPatch where the patch runs against the edge's own direction, which swaps h20 with
-//                    h30 and h21 with h31
+//   perturbed patch  behind the corners a word an edge: the pool index of its H, or of the zeros with kStillEdgeOfPatch;
+//                    kReversedEdgeOfPatch where the patch runs against the edge's own direction, which swaps h20 with h30 and h21
+//                    with h31
 #ifndef SUPPLE_SHARED_PREP_H
 #define SUPPLE_SHARED_PREP_H
 

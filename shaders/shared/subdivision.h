@@ -8,8 +8,7 @@
 // A class is all fragments of one kind: vertex or facet, sectors, open or closed, with or without sharpness.
 //
 // Tables
-//   stencil records    (cage vertex, first element of the entries, entries, pool index), by number of entries; the
-//   blending
+//   stencil records    (cage vertex, first element of the entries, entries, pool index), by number of entries; the blending
 //                      surface has them, too, where its cage takes a step of subdivision first
 //   stencil entries    two an element: (cage vertex, weight, cage vertex, weight)
 //   pattern rows       one element a point, 16 bits a source: s0..s6 and rule | (spoke + 1) << 2
@@ -24,11 +23,10 @@
 //                      (position, first tangent, second tangent, 0); one an arrangement of sharp spokes and run
 //   class words        [point][fragment] net: pool indices; [spoke][fragment] sharpness; [sector][fragment] patches or
 //                      kNoPatch; [sector][fragment] mask elements
-//   centre steps       [step][fragment] elements: (smooth, crease, first spoke, second spoke); of classes with
-//   sharpness class headers      (fragments, sectors | flags, net, sharpness), (patches, masks, centre steps, 0),
-//   (weight of a spoke
-//                      point, of a face point, limit row, limit rows), then one a level 0..steps: (pattern rows of the
-//                      level, neighbours on it, points, its run in the scratch buffer)
+//   centre steps       [step][fragment] elements: (smooth, crease, first spoke, second spoke); of classes with sharpness
+//   class headers      (fragments, sectors | flags, net, sharpness), (patches, masks, centre steps, 0), (weight of a spoke point,
+//                      of a face point, limit row, limit rows), then one a level 0..steps: (pattern rows of the level, neighbours
+//                      on it, points, its run in the scratch buffer)
 //   blocks             kBlockLanes lanes of one class, step and kind of work each, three elements: (first cell, pattern
 //                      row, strip or limit row; row list's first word or the class's patches; first place in the list;
 //                      first fragment), (run read, run written, fragments, places), (neighbours on the level before,

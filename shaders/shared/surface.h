@@ -7,35 +7,26 @@
 // limit point + offset, so that both sides of a border see the same bits.
 //
 // Tables (one buffer, read as uvec4 or as uint) begin with what the scheme's construction needs and end with
-//   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 the pool indices of the limit
-//   points,
-//                    then the spokes; a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge
-//                    to the next corner among tangents and face coefficients, and the step from it to that of the edge
-//                    to the last corner. A polar patch has three corners, then the pool index of its first inner
-//                    coefficient; and see shared/pm.h perturbed: one element more, see shared/prep.h;  P_m: see
-//                    shared/pm.h where the group keeps corner normals (kCornerNormals): one more element, for each
-//                    corner the pool index of its normal, or kNoNormal
-//   ring             p-rep, P_m: what a vertex's fan is made of, one word a spoke: the element that holds the corners
-//   of the
-//                    facet behind the spoke, and where in it stand (SUPPLE_RING_PLACE) the vertex itself, the spoke's
-//                    far end and the facet's two other far corners, a quad's twice. The element is the first of a
-//                    patch's record, whose limit points are numbered as the cage's vertices are, or one of its own: of
-//                    holes, and where a crease gives a vertex several limit points. A fan's last spoke without a facet
-//                    has the vertex for far corners
-//   attributes       one element for all corners that have the same: (u, v, color as RG and BA in 16-bit unorm); with a
-//   second
-//                    UV set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are
-//                    none
-//   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every
-//   class
-//                    of patches begins an element
-//   mesh edges       indexed mesh: three elements an edge, as one of its patches has it on its left: pool indices of
-//   the
-//                    border cubic (end, its tangent, the other end's tangent, other end); of four offsets that the
-//                    derivative across is made of; (corner sample at its beginning, or kNoEdgeSample where another edge
-//                    stores it; the edge; flags; extra). Extra: perturbed edges: h20, the others of the four follow, or
-//                    by kSwappedEdge stand as h30 h20 h31 h21; kStoredNormalEdge: the normal of the beginning;
-//                    kSingularEdge: b121 of the sector before
+//   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 the pool indices of the limit points,
+//                    then the spokes; a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge to the next
+//                    corner among tangents and face coefficients, and the step from it to that of the edge to the last corner. A
+//                    polar patch has three corners, then the pool index of its first inner coefficient; and see shared/pm.h.
+//                    Perturbed: one element more, see shared/prep.h. P_m: see shared/pm.h. Where the group keeps corner normals
+//                    (kCornerNormals), one more element, for each corner the pool index of its normal, or kNoNormal
+//   ring             p-rep, P_m: what a vertex's fan is made of, one word a spoke: the element that holds the corners of the
+//                    facet behind the spoke, and where in it stand (SUPPLE_RING_PLACE) the vertex itself, the spoke's far end and
+//                    the facet's two other far corners, a quad's twice. The element is the first of a patch's record, whose limit
+//                    points are numbered as the cage's vertices are, or one of its own: of holes, and where a crease gives a
+//                    vertex several limit points. A fan's last spoke without a facet has the vertex for far corners
+//   attributes       one element for all corners that have the same: (u, v, color as RG and BA in 16-bit unorm); with a second UV
+//                    set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
+//   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every class of
+//                    patches begins an element
+//   mesh edges       indexed mesh: three elements an edge, as one of its patches has it on its left: pool indices of the border
+//                    cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative across is
+//                    made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the edge; flags;
+//                    extra). Extra: perturbed edges: h20, the others of the four follow, or by kSwappedEdge stand as h30 h20 h31
+//                    h21; kStoredNormalEdge: the normal of the beginning; kSingularEdge: b121 of the sector before
 //   edge attributes  one element a record: (attribute element of the beginning, of the end, -, -)
 #ifndef SUPPLE_SHARED_SURFACE_H
 #define SUPPLE_SHARED_SURFACE_H
@@ -146,7 +137,7 @@ SUPPLE_SHARED_CONST kStoredNormalEdge = 64u;
 SUPPLE_SHARED_CONST kSingularEdge = 128u; // no normal at its beginning but as a limit
 
 SUPPLE_SHARED_CONST kPatchStride = 32u; // elements a patch of any class in the patch-coefficient buffer
-// Wide mapping: what the shared memory of the evaluation passes holds, patches of any class, and of bicubic ones at a
+// Wide mapping: what the workgroup memory of the evaluation passes holds, patches of any class, and of bicubic ones at a
 // rate elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes,
 // or three of 12.
 SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u;

@@ -1,5 +1,5 @@
-// The subdivision in shared memory: a workgroup takes a fragment, refines it level by level between two regions
-// and writes limit points and normals of its sectors. One workgroup a fragment and instance.
+// The subdivision in workgroup memory: a workgroup takes a fragment, refines it step by step between two regions, and writes
+// limit points and normals of its sectors. One workgroup per fragment and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -12,11 +12,11 @@
 #include "shaders/subdivision/net.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 
-layout(constant_id = kWorkgroupPointsConstant) const uint kLocalPoints = 341u; // of the last two levels together
+layout(constant_id = kWorkgroupPointsConstant) const uint kLocalPoints = 341u; // of the last two steps together
 
 // Components apart: neighbouring lanes read neighbouring words.
 shared float localX[kLocalPoints], localY[kLocalPoints], localZ[kLocalPoints];
-uint region; // of the level that is read
+uint region; // of the step that is read
 
 vec3 point(uint i) { return vec3(localX[region + i], localY[region + i], localZ[region + i]); }
 
@@ -38,7 +38,7 @@ void main() {
     uint patches = tableElement(header + 1u).x;
     uint fragments = head.x, levels = header + kClassHeaderElements;
 
-    // Even levels begin at 0, odd ones at the other end, so that the last two share the memory whatever their sizes.
+    // Even steps begin at 0, odd ones at the other end: so the last two fit into the memory whatever their sizes.
     uint count = tableElement(levels).z;
     for (uint i = gl_LocalInvocationID.x; i < count; i += gl_WorkGroupSize.x)
         writePoint(i, netPoint(instance * push.poolStride + tableWord(head.z + i * fragments + fragment), entry,

@@ -1,5 +1,5 @@
-// Isolation stage of the subdivision: the vertices of a global step, a stencil each over those of the step before.
-// One invocation a vertex and instance. Summed over differences to the first entry: the weights sum to 1.
+// Isolation stage of the subdivision: the vertices of a global step, each a stencil over the vertices of the step before.
+// One invocation per vertex and instance. Sums are over differences to the first entry: the weights sum to 1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"

@@ -1,5 +1,5 @@
-// Limit points and normals of all fragments' samples, from the last level in the scratch buffer. One invocation a strip
-// or sample, fragment and instance.
+// Limit points and normals of all fragments' samples, from the last step in the scratch buffer. One invocation per strip or
+// sample, fragment and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,6 +1,5 @@
-// One step of the subdivision for all fragments, level by level through the scratch buffer: the form for CPU
-// devices, and for fragments that do not fit into shared memory. One invocation a
-// cell or point, fragment and instance.
+// One step of the subdivision for all fragments, through the scratch buffer: the form for CPU devices, and for fragments that do
+// not fit into workgroup memory. One invocation per cell or point, fragment and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POOL_READ_ONLY

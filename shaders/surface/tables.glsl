@@ -1,9 +1,6 @@
-// Bindings and loads the passes share. Loads go through one function each: storage buffers on GPUs, texel buffers on
-// CPU devices, whose drivers gather texels without a loop over the lanes. A pass with push constants of its own defines
-// PUSH_CONSTANTS before the include.
+// Bindings and loads of the surface passes. A pass with push constants of its own defines PUSH_CONSTANTS before the include.
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/surface.h"
-
 
 #ifndef PUSH_CONSTANTS
 #define PUSH_CONSTANTS SurfacePush

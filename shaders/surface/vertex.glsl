@@ -1,5 +1,5 @@
-// The vertex stage, as far as schemes share it: limit point, tangent points and face coefficients of a fan whose weights
-// depend on connectivity alone. Needs tables.glsl, pool.glsl, store.glsl, ring.glsl, and from the scheme
+// The vertex stage of p-rep and P_m: limit point, tangent points and face coefficients of a fan whose weights depend on
+// connectivity alone. Needs tables.glsl, pool.glsl, store.glsl, ring.glsl, and from the scheme
 //   vec3 ringDiagonal(uint word, uint cageBase, vec3 p0)   opposite corner of a spoke's facet, relative to p0
 // Everything is summed over differences to the vertex: far from the origin that keeps the tangents, and with them the
 // normals, several times more exact. The weights of a point sum to 1 and those of a vector to 0, so that the centre's own
