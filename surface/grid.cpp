@@ -39,33 +39,6 @@ void triangleCells(uint32_t rate, std::vector<uint16_t>& indices, At&& at) {
 
 } // namespace
 
-GridSample gridSample(Domain domain, uint32_t rate, uint32_t sample) {
-    const uint32_t perSector = rate * (rate + 1) / 2;
-    GridSample at;
-    switch (domain) {
-    case Domain::triangle:
-        while (sample >= rowStart(rate + 1, at.j + 1)) {
-            ++at.j;
-        }
-        at.i = sample - rowStart(rate + 1, at.j);
-        return at;
-    case Domain::pentagon:
-        if (sample == 5 * perSector) {
-            at.j = rate;
-            return at;
-        }
-        at.sector = sample / perSector;
-        sample -= at.sector * perSector;
-        while (sample >= rowStart(rate, at.j + 1)) {
-            ++at.j;
-        }
-        at.i = sample - rowStart(rate, at.j);
-        return at;
-    default:
-        return {0, sample % (rate + 1), sample / (rate + 1)};
-    }
-}
-
 uint32_t edgeSample(Domain domain, uint32_t rate, uint32_t edge, uint32_t k) {
     const uint32_t side = rate + 1;
     switch (domain) {

@@ -2,17 +2,12 @@
 #pragma once
 
 #include "base/result.h"
-#include "surface/pm/mesh.h"
 #include "surface/recipe.h"
 #include "surface/scheme.h"
 
 namespace supple::surface::pm {
 
-/// The tables of shaders/shared/{surface,pm}.h. O(corners). Refuses a cage with too many edge classes with
-/// ErrorCode::limit.
-[[nodiscard]] Result<Tables> buildTables(const Mesh& mesh);
-
-/// See surface::Scheme.
+/// See surface::Scheme. O(corners). Refuses a cage with too many edge classes with ErrorCode::limit.
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 
 } // namespace supple::surface::pm

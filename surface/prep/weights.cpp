@@ -58,12 +58,8 @@ ValenceClass boundaryClass(uint32_t m, const Options& options) {
     k.boundary = true;
     k.sharpCorner = m == 1 && options.cornerRule == CornerRule::sharp;
     k.c = turn(1, 2 * m).first;
-    k.limitEdge.assign(m + 1, 0.0);
-    k.e1Edge.assign(m + 1, 0.0);
-    k.e2Edge.assign(m + 1, 0.0);
-    k.limitFace.assign(m, 0.0);
-    k.e1Face.assign(m, 0.0);
-    k.e2Face.assign(m, 0.0);
+    k.limitEdge = k.e1Edge = k.e2Edge = std::vector<double>(m + 1, 0.0);
+    k.limitFace = k.e1Face = k.e2Face = std::vector<double>(m, 0.0);
     for (uint32_t i = 0; i <= m; ++i) {
         const auto [cosine, sine] = turn(i, 2 * m);
         k.cosines.push_back(cosine);

@@ -4,7 +4,6 @@
 #include "surface/stencil_table.h"
 #include "surface/subdivision/masks.h"
 #include "surface/subdivision/pattern.h"
-#include "surface/table_writer.h"
 
 #include <algorithm>
 #include <map>
@@ -34,18 +33,12 @@ struct ClassKey {
     }
 };
 
-/// A list of rows or samples.
-struct List {
-    uint32_t first = 0; ///< word or element
-    uint32_t count = 0;
-};
-
 /// A level of a fragment: where its tables lie.
 struct LevelTables {
     uint32_t rows = 0, neighbours = 0; ///< elements
     uint32_t points = 0;
-    List cells;    ///< elements
-    List oneByOne; ///< words
+    Section cells;    ///< elements
+    Section oneByOne; ///< words
 };
 
 /// A fan's pattern, or a facet's of one level, and where it lies in the tables.
@@ -58,7 +51,7 @@ struct ClassTables {
     ClassKey key;
     std::vector<uint32_t> fragments;                         ///< of the mesh
     std::vector<LevelTables> levels;                         ///< 0..steps
-    List strips, limitRows;                                  ///< elements
+    Section strips, limitRows;                               ///< elements
     uint32_t limitOneByOne = 0;                              ///< of the limit rows, the first
     uint32_t net = 0, sharpness = 0, patches = 0, masks = 0; ///< words
     uint32_t centreSteps = 0, header = 0;                    ///< elements
@@ -72,6 +65,7 @@ struct ClassTables {
 
 class Builder {
 public:
+    /// `depth`: steps from the cage, at least the isolation steps.
     Builder(const Mesh& mesh, uint32_t depth)
         : mesh_(mesh), loop_(mesh.subdivision == Subdivision::loop),
           steps_(depth > mesh.isolationSteps ? depth - mesh.isolationSteps : 0), writer_(tables_.words) {}
@@ -140,11 +134,9 @@ private:
     }
 
     void sortPatches() {
-        patches_ = draftPatches(mesh_);
-        for (DraftPatch& patch : patches_) {
-            patch.info.patchClass = loop_ ? PatchClass::loop : PatchClass::catmullClark;
-        }
-        surface::sortPatches(patches_);
+        const PatchClass patchClass = loop_ ? PatchClass::loop : PatchClass::catmullClark;
+        patches_ = draftPatches({mesh_.cage, mesh_.hostVertices, mesh_.sourceFaces},
+                                [&](const DraftPatch&) { return patchClass; });
         facePatches_.assign(mesh_.cage.faceCount(), shared::kNoPatch);
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             facePatches_[patches_[p].facet] = p;
@@ -163,7 +155,7 @@ private:
             writeStencils(steps[1], {Stage::assemble, true, isolated, 0}, writer_, tables_);
             tables_.poolStride = isolated + steps[0].rows();
         }
-        tables_.poolStride = (tables_.poolStride + 15) / 16 * 16;
+        tables_.poolStride = poolStrideFor(tables_.poolStride);
     }
 
     void putHalves(const std::array<uint32_t, 8>& values) {
@@ -280,9 +272,7 @@ private:
                 putHalves(cell);
             }
             l.oneByOne = {4 * writer_.element(), static_cast<uint32_t>(rows.size())};
-            for (const uint32_t row : rows) {
-                writer_.put({row});
-            }
+            writer_.put(rows);
         }
     }
 
@@ -317,7 +307,7 @@ private:
             uint32_t point, place, sample;
         };
         std::vector<LimitRow> oneByOne, inStrips;
-        std::vector<List> strips; // columns
+        std::vector<Section> strips; // columns
         std::vector<uint32_t> stripSectors;
         uint32_t column = writer_.element();
         for (uint32_t sector = 0; sector < c.key.fan.sectors; ++sector) {
@@ -353,7 +343,7 @@ private:
         }
         c.strips = {writer_.element(), static_cast<uint32_t>(strips.size())};
         for (size_t i = 0; i < strips.size(); ++i) {
-            writer_.put({strips[i].first, strips[i].count, stripSectors[i], 0u});
+            writer_.put({strips[i].table, strips[i].count, stripSectors[i], 0u});
         }
         c.limitRows = {writer_.element(), static_cast<uint32_t>(oneByOne.size() + inStrips.size())};
         c.limitOneByOne = static_cast<uint32_t>(oneByOne.size());
@@ -411,7 +401,7 @@ private:
         const CentreWeights weights = facet ? CentreWeights{} : refineWeights(mesh_.subdivision, c.key.fan.sectors);
         c.header = writer_.element();
         writer_.put({c.count(), sectors | (c.key.sharp ? shared::kSharpClass : 0u), c.net, c.sharpness, c.patches,
-                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows.first,
+                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows.table,
                      c.limitRows.count});
         for (uint32_t level = 0; level <= steps_; ++level) {
             c.runs.push_back(tables_.fragments.scratchStride);
@@ -440,9 +430,7 @@ private:
             const auto [known, isNew] = maskElements_.try_emplace(words, 0u);
             if (isNew) {
                 known->second = writer_.element();
-                for (const uint32_t word : words) {
-                    writer_.put({word});
-                }
+                writer_.put(words);
             }
             for (uint32_t h = 0; h < run.sectors; ++h) {
                 masks_[first + (run.firstSector + h) % fan.sectors] = known->second;
@@ -467,7 +455,7 @@ private:
     void writeFragments() {
         tables_.fragments.steps = steps_;
         tables_.fragments.loop = loop_;
-        tables_.fragments.scratchStride = (tables_.fragments.scratchStride + 15) / 16 * 16;
+        tables_.fragments.scratchStride = poolStrideFor(tables_.fragments.scratchStride);
         for (const ClassTables& c : classes_) {
             tables_.fragments.classes.push_back({c.sharedPoints(), {writer_.element(), c.count()}, {}});
             for (uint32_t fragment = 0; fragment < c.count(); ++fragment) {
@@ -484,18 +472,18 @@ private:
         };
         for (uint32_t step = 1; step <= steps_; ++step) {
             forEachClass([&](size_t k, const ClassTables& c) {
-                writeBlocks(k, step, c.levels[step].cells.first, 0, c.levels[step].cells.count, c.runs[step]);
+                writeBlocks(k, step, c.levels[step].cells.table, 0, c.levels[step].cells.count, c.runs[step]);
             });
             forEachClass([&](size_t k, const ClassTables& c) {
                 const LevelTables& level = c.levels[step];
-                writeBlocks(k, step, level.rows, level.oneByOne.first, level.oneByOne.count, c.runs[step]);
+                writeBlocks(k, step, level.rows, level.oneByOne.table, level.oneByOne.count, c.runs[step]);
             });
         }
         forEachClass([&](size_t k, const ClassTables& c) {
-            writeBlocks(k, steps_ + 1, c.strips.first, c.patches, c.strips.count, 0);
+            writeBlocks(k, steps_ + 1, c.strips.table, c.patches, c.strips.count, 0);
         });
         forEachClass([&](size_t k, const ClassTables& c) {
-            writeBlocks(k, steps_ + 1, c.limitRows.first, c.patches, c.limitOneByOne, 0);
+            writeBlocks(k, steps_ + 1, c.limitRows.table, c.patches, c.limitOneByOne, 0);
         });
     }
 
@@ -526,17 +514,13 @@ private:
 
 } // namespace
 
-Result<Tables> buildTables(const Mesh& mesh, uint32_t depth) {
-    return Builder(mesh, depth).build();
-}
-
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Result<Mesh> mesh =
         buildMesh(cage, recipe.scheme == SchemeId::loop ? Subdivision::loop : Subdivision::catmullClark);
     if (!mesh) {
         return mesh.error();
     }
-    return buildTables(*mesh, recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0);
+    return Builder(*mesh, recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0).build();
 }
 
 } // namespace supple::surface::subdivision

@@ -22,15 +22,15 @@ inline surface::pm::Mesh pmMesh(const cage::Cage& cage) {
     return std::move(*mesh);
 }
 
-/// Gives every edge end inside a sector a new alpha, from its vertex, the far vertex and the alpha it has.
+/// Gives every edge end inside a fan a new alpha, from its vertex, the far vertex and the alpha it has.
 inline void setAlphas(surface::pm::Mesh& mesh, const std::function<double(uint32_t, uint32_t, double)>& alpha) {
-    for (surface::pm::Sector& sector : mesh.sectors) {
-        sector.creased = false;
-        for (uint32_t j = sector.closed() ? 0 : 1; j < sector.facets; ++j) {
-            const uint32_t slot = sector.firstSlot + j;
+    for (surface::pm::Fan& fan : mesh.fans) {
+        fan.creased = false;
+        for (uint32_t j = fan.closed() ? 0 : 1; j < fan.facets; ++j) {
+            const uint32_t slot = fan.firstSlot + j;
             double& a = mesh.slotAlphas[slot];
-            a = alpha(sector.vertex, mesh.topology.spokeVertices[mesh.slotSpokes[slot]], a);
-            sector.creased = sector.creased || a != surface::pm::kSmoothAlpha;
+            a = alpha(fan.vertex, mesh.topology.spokeVertices[mesh.slotSpokes[slot]], a);
+            fan.creased = fan.creased || a != surface::pm::kSmoothAlpha;
         }
     }
 }

@@ -12,8 +12,8 @@
 
 namespace supple::surface::pm {
 
-/// The output of the vertex stage, (13)-(16). There is one limit point, tau1 and tau2 per sector, and one tangent t_j
-/// and face coefficient f_j per slot. The last slot of an open sector has no f.
+/// The output of the vertex stage, (13)-(16). There is one limit point, tau1 and tau2 per fan, and one tangent t_j
+/// and face coefficient f_j per slot. The last slot of an open fan has no f.
 template <class T>
 struct Coefficients {
     using Vec = glm::vec<3, T>;
@@ -34,7 +34,7 @@ struct Patch {
     uint32_t count = 16;
     std::array<Vec, 31> c{};
     T apexCosine = 0; ///< polar: cos(2 pi / n) of the apex
-    /// Patch corners where the derivatives are parallel: crease sectors with a single facet. Only P_m patches have
+    /// Patch corners where the derivatives are parallel: crease fans with a single facet. Only P_m patches have
     /// them.
     std::array<bool, kMaxSides> singularCorner{};
 };
