@@ -2,8 +2,8 @@
 // them.
 #pragma once
 
-#include "surface/lod/form.h"
 #include "surface/lod/pattern.h"
+#include "surface/patch_class.h"
 
 #include <cstdint>
 #include <vector>

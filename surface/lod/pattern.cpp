@@ -11,7 +11,7 @@ constexpr uint32_t pairsOf(uint32_t capacity) {
 constexpr bool firstWordsFollow() {
     uint32_t next = 0;
     bool follow = true;
-    for (size_t c = 0; c < kCapacities.size(); ++c) {
+    for (uint32_t c = 0; c < kCapacities.size(); ++c) {
         follow = follow && SUPPLE_LOD_FIRST_WORD(c) == next && SUPPLE_LOD_CAPACITY(c) == kCapacities[c];
         next += pairsOf(kCapacities[c]) + 1;
     }

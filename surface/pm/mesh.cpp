@@ -144,23 +144,23 @@ std::vector<uint8_t> polarApexes(const Mesh& mesh) {
 
 void classify(Mesh& mesh) {
     const std::vector<uint8_t> apexes = polarApexes(mesh);
-    mesh.classes.assign(mesh.cage.faceCount(), FacetClass::p5);
+    mesh.classes.assign(mesh.cage.faceCount(), PatchClass::p5);
     mesh.firstCorners.assign(mesh.cage.faceCount(), 0);
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
         const uint32_t first = mesh.cage.faceStarts[f];
         const uint32_t sides = mesh.cage.sides(f);
         if (sides == 3) {
-            mesh.classes[f] = FacetClass::p3;
+            mesh.classes[f] = PatchClass::p3;
             for (uint32_t j = 0; j < 3; ++j) {
                 if (apexes[mesh.cage.faceVertices[first + j]] != 0) {
-                    mesh.classes[f] = FacetClass::polar;
+                    mesh.classes[f] = PatchClass::polar;
                     mesh.firstCorners[f] = static_cast<uint8_t>((j + 1) % 3);
                 }
             }
         } else if (sides == 4) {
             const bool regular = std::all_of(mesh.corners.begin() + first, mesh.corners.begin() + first + 4,
                                              [&](const FacetCorner& c) { return mesh.fans[c.fan].valence() == 4; });
-            mesh.classes[f] = regular ? FacetClass::ordinary : FacetClass::p4;
+            mesh.classes[f] = regular ? PatchClass::regular : PatchClass::p4;
         }
     }
 }
@@ -168,9 +168,6 @@ void classify(Mesh& mesh) {
 void fill(Mesh& mesh) {
     mesh.features = cage::buildFeatures(mesh.cage, mesh.topology);
     mesh.notes.insert(mesh.notes.end(), mesh.features.unused.begin(), mesh.features.unused.end());
-    for (uint32_t e = 0; e < mesh.topology.edges.size(); ++e) {
-        mesh.edgeCut.push_back(mesh.features.hard(e) ? 1 : 0);
-    }
     FanBuilder fans(mesh);
     for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
         fans.add(v);

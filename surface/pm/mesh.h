@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "cage/features.h"
 #include "cage/topology.h"
-#include "surface/grid.h"
+#include "surface/patch_class.h"
 
 #include <array>
 #include <cstdint>
@@ -48,8 +48,6 @@ struct Fan {
     }
 };
 
-enum class FacetClass : uint8_t { ordinary, polar, p3, p4, p5 };
-
 /// Corner c of facet f at vertex v. Half-edge c runs from v to the next vertex of f.
 struct FacetCorner {
     uint32_t fan = 0;
@@ -70,8 +68,7 @@ struct Mesh {
     std::vector<uint32_t> slotSpokes;  ///< per slot: the spoke of `topology` that is edge j
     std::vector<double> slotAlphas;    ///< per slot: alpha of edge j at this vertex; 2/3 where an open fan ends
     std::vector<FacetCorner> corners;  ///< per corner of `cage`
-    std::vector<uint8_t> edgeCut;      ///< per edge of `topology`: 1 for boundaries and hard edges
-    std::vector<FacetClass> classes;   ///< per facet
+    std::vector<PatchClass> classes;   ///< per facet: regular, polar, p3, p4 or p5
     /// Per facet: the corner (0..sides-1) that is corner 0 of its patch; patch corner i is facet corner (first + i) %
     /// sides. It is 0 except for polar facets, because the last corner of a polar patch must be the apex.
     std::vector<uint8_t> firstCorners;

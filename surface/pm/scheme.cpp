@@ -18,12 +18,6 @@ namespace supple::surface::pm {
 
 namespace {
 
-PatchClass patchClassOf(FacetClass facetClass) {
-    constexpr PatchClass kClasses[] = {PatchClass::regular, PatchClass::polar, PatchClass::p3, PatchClass::p4,
-                                       PatchClass::p5};
-    return kClasses[static_cast<size_t>(facetClass)];
-}
-
 /// By kind of fan.
 constexpr KindOfKernel kVertexKernels[] = {
     {Kernel::pmVertex, shared::kRegularFan, "supple P_m vertex, regular"},
@@ -56,7 +50,7 @@ public:
     Result<Tables> build() {
         tables_.notes = mesh_.notes;
         patches_ = draftPatches({cage_, cage_.vertexCount(), mesh_.sourceFaces, mesh_.firstCorners},
-                                [&](const DraftPatch& patch) { return patchClassOf(mesh_.classes[patch.facet]); });
+                                [&](const DraftPatch& patch) { return mesh_.classes[patch.facet]; });
         sortFans();
         layOutPool();
         writeFans();
@@ -175,7 +169,7 @@ private:
         const FacetCorner &a = corner(patch, i), &b = corner(patch, i + 1);
         return {patch.info.cornerCount,
                 {mesh_.fans[a.fan].valence(), mesh_.fans[b.fan].valence()},
-                mesh_.edgeCut[mesh_.topology.cornerEdges[patch.cageCorners[i]]] != 0,
+                mesh_.features.hard(mesh_.topology.cornerEdges[patch.cageCorners[i]]),
                 {a.across == cage::kNone, b.acrossBack == cage::kNone}};
     }
 

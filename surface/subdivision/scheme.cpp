@@ -33,32 +33,32 @@ struct ClassKey {
     }
 };
 
-/// A level of a fragment: where its tables lie.
-struct LevelTables {
-    uint32_t rows = 0, neighbours = 0; ///< elements
-    uint32_t points = 0;
-    Section cells;    ///< elements
-    Section oneByOne; ///< words
-};
-
-/// A fan's pattern, or a facet's of one level, and where it lies in the tables.
+/// A fan's pattern, or a facet's of one step, and where it lies in the tables.
 struct PatternTables {
     Pattern pattern;
     uint32_t rows = 0, neighbours = 0; ///< elements
 };
 
+/// A fragment after a step: where its tables lie.
+struct StepTables {
+    uint32_t points = 0;
+    const PatternTables* pattern = nullptr;
+    Section cells;    ///< elements
+    Section oneByOne; ///< words
+    uint32_t run = 0; ///< in the scratch buffer
+};
+
 struct ClassTables {
     ClassKey key;
     std::vector<uint32_t> fragments;                         ///< of the mesh
-    std::vector<LevelTables> levels;                         ///< 0..steps
+    std::vector<StepTables> after;                           ///< 0..steps
     Section strips, limitRows;                               ///< elements
     uint32_t limitOneByOne = 0;                              ///< of the limit rows, the first
     uint32_t net = 0, sharpness = 0, patches = 0, masks = 0; ///< words
     uint32_t centreSteps = 0, header = 0;                    ///< elements
-    std::vector<uint32_t> runs;                              ///< per level: its run in the scratch buffer
     [[nodiscard]] uint32_t sharedPoints() const {
-        const size_t last = levels.size() - 1;
-        return levels[last].points + (last > 0 ? levels[last - 1].points : 0);
+        const size_t last = after.size() - 1;
+        return after[last].points + (last > 0 ? after[last - 1].points : 0);
     }
     [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(fragments.size()); }
 };
@@ -122,10 +122,10 @@ private:
             ClassTables& c = classes_.emplace_back();
             c.key = key;
             c.fragments = std::move(fragments);
-            for (uint32_t level = 0; level <= steps_; ++level) {
-                const uint32_t side = 1u << level;
-                c.levels.push_back(
-                    {0, 0, key.kind == FragmentKind::facet ? facetPointCount(side) : pointCount(key.fan, side + 1)});
+            for (uint32_t step = 0; step <= steps_; ++step) {
+                const uint32_t side = 1u << step;
+                c.after.push_back(
+                    {key.kind == FragmentKind::facet ? facetPointCount(side) : pointCount(key.fan, side + 1)});
             }
         }
         std::stable_sort(classes_.begin(), classes_.end(), [](const ClassTables& a, const ClassTables& b) {
@@ -181,17 +181,19 @@ private:
         return tables;
     }
 
-    const PatternTables& patternOf(const ClassKey& key, uint32_t level) {
-        if (key.kind == FragmentKind::vertex) { // one for all levels
-            const auto found = fans_.find(key.fan);
-            return found != fans_.end()
-                       ? found->second
-                       : fans_.emplace(key.fan, writePattern(fanPattern(key.fan, steps_))).first->second;
+    const PatternTables& patternOf(const ClassKey& key, uint32_t step) {
+        if (key.kind == FragmentKind::vertex) { // one for all steps
+            const auto [known, isNew] = fans_.try_emplace(key.fan);
+            if (isNew) {
+                known->second = writePattern(fanPattern(key.fan, steps_));
+            }
+            return known->second;
         }
-        while (facets_.size() <= level) {
-            facets_.push_back(writePattern(facetPattern(static_cast<uint32_t>(facets_.size()))));
+        const auto [known, isNew] = facets_.try_emplace(step);
+        if (isNew) {
+            known->second = writePattern(facetPattern(step));
         }
-        return facets_[level];
+        return known->second;
     }
 
     /// The points of the next level that a point's ring makes: towards which neighbours.
@@ -252,26 +254,24 @@ private:
     }
 
     void writeWork(ClassTables& c) {
-        for (uint32_t level = 0; level <= steps_; ++level) {
-            const PatternTables& tables = patternOf(c.key, level);
-            c.levels[level].rows = tables.rows;
-            c.levels[level].neighbours = tables.neighbours;
+        for (uint32_t step = 0; step <= steps_; ++step) {
+            c.after[step].pattern = &patternOf(c.key, step);
         }
-        for (uint32_t level = 1; level <= steps_; ++level) {
-            LevelTables& l = c.levels[level];
-            // Of a fan's neighbours those that the level before covers; they come first.
-            std::span<const Neighbours> neighbours = patternOf(c.key, level - 1).pattern.neighbours;
+        for (uint32_t step = 1; step <= steps_; ++step) {
+            StepTables& own = c.after[step];
+            // Of a fan's neighbours those that were covered before the step; they come first.
+            std::span<const Neighbours> neighbours = c.after[step - 1].pattern->pattern.neighbours;
             if (c.key.kind == FragmentKind::vertex) {
-                neighbours = neighbours.first(pointCount(c.key.fan, 1u << (level - 1)));
+                neighbours = neighbours.first(pointCount(c.key.fan, 1u << (step - 1)));
             }
-            std::vector<uint32_t> rows(l.points);
+            std::vector<uint32_t> rows(own.points);
             std::iota(rows.begin(), rows.end(), 0u);
-            const std::vector<Cell> cells = makeCells(c.key, neighbours, patternOf(c.key, level).pattern.rows, rows);
-            l.cells = {writer_.element(), static_cast<uint32_t>(cells.size())};
+            const std::vector<Cell> cells = makeCells(c.key, neighbours, own.pattern->pattern.rows, rows);
+            own.cells = {writer_.element(), static_cast<uint32_t>(cells.size())};
             for (const Cell& cell : cells) {
                 putHalves(cell);
             }
-            l.oneByOne = {4 * writer_.element(), static_cast<uint32_t>(rows.size())};
+            own.oneByOne = {4 * writer_.element(), static_cast<uint32_t>(rows.size())};
             writer_.put(rows);
         }
     }
@@ -301,7 +301,7 @@ private:
     /// Strips of the samples that need neither sharpness nor the centre's mask, and rows for all, the others first.
     void writeLimits(ClassTables& c) {
         const bool facet = c.key.kind == FragmentKind::facet;
-        const Pattern& pattern = patternOf(c.key, steps_).pattern;
+        const Pattern& pattern = c.after[steps_].pattern->pattern;
         const int32_t side = 1 << steps_;
         struct LimitRow {
             uint32_t point, place, sample;
@@ -382,7 +382,7 @@ private:
             }
             return first;
         };
-        c.net = words(c.levels[0].points, [&](const Fragment& f, uint32_t i) { return mesh_.net[f.firstNet + i]; });
+        c.net = words(c.after[0].points, [&](const Fragment& f, uint32_t i) { return mesh_.net[f.firstNet + i]; });
         c.patches = words(sectors, [&](const Fragment& f, uint32_t sector) {
             return facePatches_[mesh_.sectorFaces[f.firstSector + sector]];
         });
@@ -403,11 +403,11 @@ private:
         writer_.put({c.count(), sectors | (c.key.sharp ? shared::kSharpClass : 0u), c.net, c.sharpness, c.patches,
                      c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows.table,
                      c.limitRows.count});
-        for (uint32_t level = 0; level <= steps_; ++level) {
-            c.runs.push_back(tables_.fragments.scratchStride);
-            const LevelTables& l = c.levels[level];
-            writer_.put({l.rows, l.neighbours, l.points, c.runs.back()});
-            tables_.fragments.scratchStride += level > 0 ? l.points * c.count() : 0;
+        for (uint32_t step = 0; step <= steps_; ++step) {
+            StepTables& own = c.after[step];
+            own.run = tables_.fragments.scratchStride;
+            writer_.put({own.pattern->rows, own.pattern->neighbours, own.points, own.run});
+            tables_.fragments.scratchStride += step > 0 ? own.points * c.count() : 0;
         }
     }
 
@@ -465,35 +465,32 @@ private:
     }
 
     void writeBlocks() {
-        const auto forEachClass = [&](auto&& write) {
-            for (size_t k = 0; k < classes_.size(); ++k) {
-                write(k, classes_[k]);
+        for (uint32_t step = 1; step <= steps_ + 1; ++step) {
+            for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
+                for (size_t k = 0; k < classes_.size(); ++k) {
+                    writeBlocks(k, step, kind);
+                }
             }
-        };
-        for (uint32_t step = 1; step <= steps_; ++step) {
-            forEachClass([&](size_t k, const ClassTables& c) {
-                writeBlocks(k, step, c.levels[step].cells.table, 0, c.levels[step].cells.count, c.runs[step]);
-            });
-            forEachClass([&](size_t k, const ClassTables& c) {
-                const LevelTables& level = c.levels[step];
-                writeBlocks(k, step, level.rows, level.oneByOne.table, level.oneByOne.count, c.runs[step]);
-            });
         }
-        forEachClass([&](size_t k, const ClassTables& c) {
-            writeBlocks(k, steps_ + 1, c.strips.table, c.patches, c.strips.count, 0);
-        });
-        forEachClass([&](size_t k, const ClassTables& c) {
-            writeBlocks(k, steps_ + 1, c.limitRows.table, c.patches, c.limitOneByOne, 0);
-        });
     }
 
-    void writeBlocks(size_t classIndex, uint32_t step, uint32_t rows, uint32_t list, uint32_t places, uint32_t write) {
+    /// Kind 0: cells, or strips in the limit, which is the last step; kind 1: rows one by one.
+    void writeBlocks(size_t classIndex, uint32_t step, uint32_t kind) {
         const ClassTables& c = classes_[classIndex];
+        const StepTables& before = c.after[step - 1];
+        uint32_t list = c.patches, write = 0;
+        Section rows = kind == 0 ? c.strips : Section{c.limitRows.table, c.limitOneByOne};
+        if (step <= steps_) {
+            const StepTables& own = c.after[step];
+            list = kind == 0 ? 0 : own.oneByOne.table;
+            write = own.run;
+            rows = kind == 0 ? own.cells : Section{own.pattern->rows, own.oneByOne.count};
+        }
         Section section{writer_.element(), 0};
-        for (uint64_t lane = 0; lane < uint64_t{places} * c.count(); lane += shared::kBlockLanes, ++section.count) {
-            writer_.put({rows, list, static_cast<uint32_t>(lane / c.count()), static_cast<uint32_t>(lane % c.count()),
-                         step == 1 ? c.net : c.runs[step - 1], write, c.count(), places, c.levels[step - 1].neighbours,
-                         c.header, 0u, 0u});
+        for (uint64_t lane = 0; lane < uint64_t{rows.count} * c.count(); lane += shared::kBlockLanes, ++section.count) {
+            writer_.put({rows.table, list, static_cast<uint32_t>(lane / c.count()),
+                         static_cast<uint32_t>(lane % c.count()), step == 1 ? c.net : before.run, write, c.count(),
+                         rows.count, before.pattern->neighbours, c.header, 0u, 0u});
         }
         tables_.fragments.classes[classIndex].blocks.push_back(section);
     }
@@ -507,7 +504,7 @@ private:
     std::vector<DraftPatch> patches_;
     std::vector<uint32_t> facePatches_; ///< per face of the isolated level
     std::map<Fan, PatternTables> fans_;
-    std::vector<PatternTables> facets_; ///< by level
+    std::map<uint32_t, PatternTables> facets_; ///< by step
     std::map<std::vector<uint32_t>, uint32_t> maskElements_;
     std::vector<uint32_t> masks_; ///< [fragment][sector] of the class at work
 };

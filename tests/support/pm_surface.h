@@ -47,8 +47,8 @@ struct PmSurface {
     }
 
     [[nodiscard]] surface::pm::Sample<T> at(uint32_t facet, uint32_t rate, uint32_t sample) const {
-        const surface::pm::FacetClass facetClass = mesh.classes[facet];
-        return surface::pm::evaluate<T>(patches[facet], surface::pm::domainPoint<T>(facetClass, rate, sample));
+        const surface::PatchClass patchClass = mesh.classes[facet];
+        return surface::pm::evaluate<T>(patches[facet], surface::pm::domainPoint<T>(patchClass, rate, sample));
     }
 
     /// The patch edge of a half-edge.
@@ -61,7 +61,7 @@ struct PmSurface {
     /// Sample k of `rate` on a half-edge, counted from its corner.
     [[nodiscard]] surface::pm::Sample<T> onEdge(uint32_t corner, uint32_t k, uint32_t rate) const {
         const uint32_t facet = mesh.topology.cornerFaces[corner];
-        const surface::Domain domain = surface::pm::domainOf(mesh.classes[facet]);
+        const surface::Domain domain = surface::domainOf(mesh.classes[facet]);
         return at(facet, rate, surface::edgeSample(domain, rate, patchEdge(corner), k));
     }
 

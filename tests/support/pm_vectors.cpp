@@ -12,7 +12,7 @@ namespace supple::test {
 namespace {
 
 using nlohmann::json;
-using surface::pm::FacetClass;
+using surface::PatchClass;
 using surface::pm::FanKind;
 
 PmVectors::Fan readFan(const json& j) {
@@ -33,13 +33,13 @@ PmVectors::Fan readFan(const json& j) {
 }
 
 PmVectors::Patch readPatch(const json& j) {
-    static const std::map<std::string, FacetClass> kClasses{{"bicubic", FacetClass::ordinary},
-                                                            {"polar", FacetClass::polar},
-                                                            {"P3", FacetClass::p3},
-                                                            {"P4", FacetClass::p4},
-                                                            {"P5", FacetClass::p5}};
+    static const std::map<std::string, PatchClass> kClasses{{"bicubic", PatchClass::regular},
+                                                            {"polar", PatchClass::polar},
+                                                            {"P3", PatchClass::p3},
+                                                            {"P4", PatchClass::p4},
+                                                            {"P5", PatchClass::p5}};
     PmVectors::Patch patch;
-    patch.facetClass = kClasses.at(j.at("type"));
+    patch.patchClass = kClasses.at(j.at("type"));
     patch.corners = j.at("corners").get<std::vector<uint32_t>>();
     patch.coefficients = jsonVectors(j.at("coef"));
     for (const json& s : j.at("samples")) {

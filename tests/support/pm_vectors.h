@@ -40,7 +40,7 @@ struct PmVectors {
         glm::dvec3 position{}, normal{};
     };
     struct Patch {
-        surface::pm::FacetClass facetClass = surface::pm::FacetClass::ordinary;
+        surface::PatchClass patchClass = surface::PatchClass::regular;
         std::vector<uint32_t> corners;
         std::vector<glm::dvec3> coefficients;
         std::vector<Sample> samples;

@@ -270,7 +270,7 @@ void gatherPm(const Mesh& mesh, uint32_t facet, std::span<const CornerView<T>> q
         const CornerView<T>& b = q[(i + 1) % m];
         const double chi0 = 1.0 + cosine(1, a.valence);
         const double chi1 = 1.0 + cosine(1, b.valence);
-        const bool cut = mesh.edgeCut[mesh.topology.cornerEdges[mesh.corner(facet, i)]] != 0;
+        const bool cut = mesh.features.hard(mesh.topology.cornerEdges[mesh.corner(facet, i)]);
         const double sines = cut ? 2.0 : sine(1, a.valence) + sine(1, b.valence);
         const T jump = T(3.0 / (8.0 * k.mu * sines));
         const Vec3<T> along = b.t1 - a.t0;
@@ -328,7 +328,7 @@ Vec3<T> sum3(const std::array<T, 3>& w, const Vec3<T>& a, const Vec3<T>& b, cons
 
 template <class T>
 Sample<T> evaluateTensor(const Patch<T>& patch, const DomainPoint<T>& at) {
-    const bool polar = patch.facetClass == FacetClass::polar;
+    const bool polar = patch.patchClass == PatchClass::polar;
     const auto g = [&](size_t i, size_t j) { return patch.c[polar && j == 3 ? 12 : i + 4 * j]; };
     const std::array<T, 4> bu = cubic(at.u);
     const std::array<T, 4> bv = cubic(at.v);
@@ -435,18 +435,18 @@ Coefficients<T> construct(const Mesh& mesh, std::span<const Vec3<T>> positions) 
 template <class T>
 Patch<T> gatherPatch(const Mesh& mesh, const Coefficients<T>& c, uint32_t facet) {
     Patch<T> patch;
-    patch.facetClass = mesh.classes[facet];
+    patch.patchClass = mesh.classes[facet];
     patch.sides = mesh.cage.sides(facet);
     std::vector<CornerView<T>> corners;
     for (uint32_t i = 0; i < patch.sides; ++i) {
         corners.emplace_back(mesh, c, mesh.corner(facet, i));
         patch.singularCorner[i] = corners.back().valence == 2;
     }
-    switch (patch.facetClass) {
-    case FacetClass::ordinary:
+    switch (patch.patchClass) {
+    case PatchClass::regular:
         gatherOrdinary<T>({corners[0], corners[1], corners[2], corners[3]}, patch);
         break;
-    case FacetClass::polar:
+    case PatchClass::polar:
         gatherPolar<T>({corners[0], corners[1], corners[2]}, patch);
         break;
     default:
@@ -455,22 +455,9 @@ Patch<T> gatherPatch(const Mesh& mesh, const Coefficients<T>& c, uint32_t facet)
     return patch;
 }
 
-Domain domainOf(FacetClass facetClass) {
-    switch (facetClass) {
-    case FacetClass::polar:
-        return Domain::polar;
-    case FacetClass::p3:
-        return Domain::triangle;
-    case FacetClass::p5:
-        return Domain::pentagon;
-    default:
-        return Domain::quad;
-    }
-}
-
 template <class T>
-DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample) {
-    const GridSample at = gridSample(domainOf(facetClass), rate, sample);
+DomainPoint<T> domainPoint(PatchClass patchClass, uint32_t rate, uint32_t sample) {
+    const GridSample at = gridSample(domainOf(patchClass), rate, sample);
     const uint32_t i = at.i;
     const uint32_t j = at.j;
     const auto fraction = [rate](uint32_t count) { return T(count) / T(rate); };
@@ -478,11 +465,11 @@ DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample
     const auto inSector = [&](uint32_t sector, uint32_t first, uint32_t second, uint32_t center) {
         return DomainPoint<T>{{}, {}, sector, {fraction(first), fraction(second), fraction(center)}};
     };
-    switch (facetClass) {
-    case FacetClass::ordinary:
-    case FacetClass::polar:
+    switch (patchClass) {
+    case PatchClass::regular:
+    case PatchClass::polar:
         return {pair(i), pair(j), 0, {}};
-    case FacetClass::p3: {
+    case PatchClass::p3: {
         const uint32_t count[3] = {rate - i - j, i, j};
         uint32_t least = 0;
         for (uint32_t r = 1; r < 3; ++r) {
@@ -492,7 +479,7 @@ DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample
         const uint32_t second = (least + 2) % 3;
         return inSector(first, count[first] - count[least], count[second] - count[least], 3 * count[least]);
     }
-    case FacetClass::p4:
+    case PatchClass::p4:
         if (j <= i && i + j <= rate) {
             return inSector(0, rate - i - j, i - j, 2 * j);
         }
@@ -510,7 +497,7 @@ DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample
 
 template <class T>
 Sample<T> evaluate(const Patch<T>& patch, const DomainPoint<T>& at) {
-    const bool tensor = patch.facetClass == FacetClass::ordinary || patch.facetClass == FacetClass::polar;
+    const bool tensor = patch.patchClass == PatchClass::regular || patch.patchClass == PatchClass::polar;
     return tensor ? evaluateTensor(patch, at) : evaluatePm(patch, at);
 }
 
@@ -524,8 +511,8 @@ template Coefficients<float> construct(const Mesh&, std::span<const glm::vec3>);
 template Coefficients<double> construct(const Mesh&, std::span<const glm::dvec3>);
 template Patch<float> gatherPatch(const Mesh&, const Coefficients<float>&, uint32_t);
 template Patch<double> gatherPatch(const Mesh&, const Coefficients<double>&, uint32_t);
-template DomainPoint<float> domainPoint(FacetClass, uint32_t, uint32_t);
-template DomainPoint<double> domainPoint(FacetClass, uint32_t, uint32_t);
+template DomainPoint<float> domainPoint(PatchClass, uint32_t, uint32_t);
+template DomainPoint<double> domainPoint(PatchClass, uint32_t, uint32_t);
 template Sample<float> evaluate(const Patch<float>&, const DomainPoint<float>&);
 template Sample<double> evaluate(const Patch<double>&, const DomainPoint<double>&);
 template Derivatives<float> derivatives(const Patch<float>&, const DomainPoint<float>&);

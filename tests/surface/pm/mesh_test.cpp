@@ -27,9 +27,9 @@ std::string refusalOf(const cage::Cage& cage) {
     return mesh.error().message;
 }
 
-std::map<FacetClass, uint32_t> countClasses(const Mesh& mesh) {
-    std::map<FacetClass, uint32_t> counts;
-    for (const FacetClass c : mesh.classes) {
+std::map<PatchClass, uint32_t> countClasses(const Mesh& mesh) {
+    std::map<PatchClass, uint32_t> counts;
+    for (const PatchClass c : mesh.classes) {
         ++counts[c];
     }
     return counts;
@@ -47,7 +47,6 @@ void checkSectors(const Mesh& mesh) {
     const uint32_t cornerCount = mesh.cage.cornerCount();
     ASSERT_EQ(mesh.corners.size(), cornerCount);
     ASSERT_EQ(mesh.slotAlphas.size(), mesh.slotSpokes.size());
-    ASSERT_EQ(mesh.edgeCut.size(), t.edges.size());
     uint32_t slots = 0;
     uint32_t facets = 0;
     for (size_t s = 0; s < mesh.fans.size(); ++s) {
@@ -62,7 +61,7 @@ void checkSectors(const Mesh& mesh) {
             const uint32_t spoke = mesh.slotSpokes[fan.firstSlot + j];
             EXPECT_GE(spoke, t.spokeStarts[fan.vertex]);
             EXPECT_LT(spoke, t.spokeStarts[fan.vertex + 1]);
-            const bool cut = mesh.edgeCut[cage::spokeEdge(mesh.cage, t, spoke)] != 0;
+            const bool cut = mesh.features.hard(cage::spokeEdge(mesh.cage, t, spoke));
             cuts += cut ? 1 : 0;
             const bool end = !fan.closed() && (j == 0 || j == fan.facets);
             EXPECT_TRUE(fan.closed() || cut == end);
@@ -87,8 +86,8 @@ void checkSectors(const Mesh& mesh) {
         EXPECT_EQ(mesh.slotSpokes[corner.slotBack], t.cornerSpokesBack[c]);
         const auto facetAt = [&](uint32_t slot) { return t.cornerFaces[t.sectorCorners[mesh.slotSpokes[slot]]]; };
         // Across an edge lies the facet of the twin, in the same fan unless the edge ends it.
-        const bool ends = !fan.closed() && mesh.edgeCut[t.cornerEdges[c]] != 0;
-        const bool endsBack = !fan.closed() && mesh.edgeCut[t.cornerEdges[back]] != 0;
+        const bool ends = !fan.closed() && mesh.features.hard(t.cornerEdges[c]);
+        const bool endsBack = !fan.closed() && mesh.features.hard(t.cornerEdges[back]);
         EXPECT_EQ(corner.across == cage::kNone, ends);
         EXPECT_EQ(corner.acrossBack == cage::kNone, endsBack);
         EXPECT_TRUE(ends || facetAt(corner.across) == t.cornerFaces[t.twins[c]]);
@@ -172,20 +171,20 @@ TEST(PmMesh, alphas) {
 }
 
 TEST(PmMesh, classes) {
-    using Classes = std::map<FacetClass, uint32_t>;
-    EXPECT_EQ(countClasses(pmMesh(test::torus(6, 5))), (Classes{{FacetClass::ordinary, 30}}));
-    EXPECT_EQ(countClasses(pmMesh(test::cube())), (Classes{{FacetClass::p4, 6}}));
-    EXPECT_EQ(countClasses(pmMesh(test::prism(5))), (Classes{{FacetClass::p4, 5}, {FacetClass::p5, 2}}));
+    using Classes = std::map<PatchClass, uint32_t>;
+    EXPECT_EQ(countClasses(pmMesh(test::torus(6, 5))), (Classes{{PatchClass::regular, 30}}));
+    EXPECT_EQ(countClasses(pmMesh(test::cube())), (Classes{{PatchClass::p4, 6}}));
+    EXPECT_EQ(countClasses(pmMesh(test::prism(5))), (Classes{{PatchClass::p4, 5}, {PatchClass::p5, 2}}));
     EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(7, 3))),
-              (Classes{{FacetClass::ordinary, 14}, {FacetClass::polar, 14}}));
+              (Classes{{PatchClass::regular, 14}, {PatchClass::polar, 14}}));
     // Both apexes of a bipyramid; in the octahedron all six vertices could be apexes, so none is.
-    EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(5, 1))), (Classes{{FacetClass::polar, 10}}));
-    EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(4, 1))), (Classes{{FacetClass::p3, 8}}));
+    EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(5, 1))), (Classes{{PatchClass::polar, 10}}));
+    EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(4, 1))), (Classes{{PatchClass::p3, 8}}));
     // Valence 5 at the rim.
-    EXPECT_EQ(countClasses(pmMesh(test::gyroBipyramid(6))), (Classes{{FacetClass::p3, 24}}));
+    EXPECT_EQ(countClasses(pmMesh(test::gyroBipyramid(6))), (Classes{{PatchClass::p3, 24}}));
     // Boundary corners and crease vertices of two facets count as valence 4.
-    EXPECT_EQ(countClasses(pmMesh(test::grid(1, 1))), (Classes{{FacetClass::ordinary, 1}}));
-    EXPECT_EQ(countClasses(pmMesh(test::grid(3, 2))), (Classes{{FacetClass::ordinary, 6}}));
+    EXPECT_EQ(countClasses(pmMesh(test::grid(1, 1))), (Classes{{PatchClass::regular, 1}}));
+    EXPECT_EQ(countClasses(pmMesh(test::grid(3, 2))), (Classes{{PatchClass::regular, 6}}));
 }
 
 TEST(PmMesh, polarFansAndCreases) {
@@ -196,7 +195,7 @@ TEST(PmMesh, polarFansAndCreases) {
         const Mesh mesh = pmMesh(cage);
         uint32_t polar = 0;
         for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-            if (mesh.classes[f] == FacetClass::polar) {
+            if (mesh.classes[f] == PatchClass::polar) {
                 ++polar;
                 EXPECT_EQ(mesh.cage.faceVertices[mesh.corner(f, 2)] / 2, 9u); // an apex, 18 or 19, is the last corner
             }

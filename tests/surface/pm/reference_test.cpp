@@ -60,7 +60,7 @@ TEST(PmReference, torusIsTheBSpline) {
                 }
             }
             const auto facet = static_cast<uint32_t>(i * kAcross + j);
-            ASSERT_EQ(surface.patches[facet].facetClass, FacetClass::ordinary);
+            ASSERT_EQ(surface.patches[facet].patchClass, PatchClass::regular);
             raise(worst, distance(surface.patches[facet], bezierOfBSpline(control)));
         }
     }
@@ -89,7 +89,7 @@ TEST(PmReference, openGridIsTheBSplineOfTheMirroredGrid) {
                 window[k] = control(x - 1 + k % 4, y - 1 + k / 4);
             }
             const auto facet = static_cast<uint32_t>(y * kColumns + x);
-            ASSERT_EQ(surface.patches[facet].facetClass, FacetClass::ordinary);
+            ASSERT_EQ(surface.patches[facet].patchClass, PatchClass::regular);
             raise(worst, distance(surface.patches[facet], bezierOfBSpline(window)));
         }
     }
@@ -107,7 +107,7 @@ TEST(PmReference, ordinaryFacetsArePRepsRegularPatches) {
         const PmSurface<double> pm(test::pmMesh(cage), positions);
         const test::PrepSurface<double> prep(cage, positions);
         for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-            if (pm.patches[f].facetClass == FacetClass::ordinary && !prep.patches[f].perturbed) {
+            if (pm.patches[f].patchClass == PatchClass::regular && !prep.patches[f].perturbed) {
                 raise(worst, distance(pm.patches[f], prep.patches[f].g) / test::extent(positions));
                 ++compared;
             }
@@ -151,7 +151,7 @@ OffPolyhedron offPolyhedron(const cage::Cage& cage, double alpha) {
 }
 
 TEST(PmReference, alphaZeroIsThePolyhedron) {
-    std::set<FacetClass> classes;
+    std::set<PatchClass> classes;
     for (const cage::Cage& cage : {test::cube(), test::prism(3), test::prism(5), test::cappedCylinder(6, 3),
                                    test::perturbed(test::gyroBipyramid(7), 0.1f, 1)}) {
         const Mesh mesh = test::pmMesh(cage);

@@ -54,11 +54,11 @@ TEST_P(PmVectorFiles, facesAndClasses) {
     std::set<uint32_t> apexes;
     ASSERT_EQ(mesh.classes.size(), v.patches.size());
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-        EXPECT_EQ(mesh.classes[f], v.patches[f].facetClass) << f;
+        EXPECT_EQ(mesh.classes[f], v.patches[f].patchClass) << f;
         for (uint32_t i = 0; i < mesh.cage.sides(f); ++i) {
             EXPECT_EQ(mesh.cage.faceVertices[mesh.corner(f, i)], v.patches[f].corners[i]);
         }
-        if (mesh.classes[f] == FacetClass::polar) {
+        if (mesh.classes[f] == PatchClass::polar) {
             apexes.insert(mesh.cage.faceVertices[mesh.corner(f, 2)]);
         }
     }
