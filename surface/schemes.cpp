@@ -1,12 +1,9 @@
 #include "surface/schemes.h"
 
 #include "cage/trim.h"
-#include "surface/blend/scheme.h"
+#include "surface/build.h"
 #include "surface/indexed_mesh.h"
 #include "surface/lod/tables.h"
-#include "surface/pm/scheme.h"
-#include "surface/prep/scheme.h"
-#include "surface/subdivision/scheme.h"
 
 #include <bit>
 #include <string>

@@ -1,7 +1,7 @@
-#include "surface/blend/scheme.h"
-
+// The blending surface as a scheme: the tables of shaders/shared/{surface,blend}.h.
 #include "shaders/shared/blend.h"
 #include "surface/blend/weights.h"
+#include "surface/build.h"
 #include "surface/stencil_table.h"
 
 #include <algorithm>
@@ -136,9 +136,8 @@ private:
             const CreaseTable table = makeCreaseTable(turns, rate_);
             tables.creaseSamples = writer_.element();
             for (uint32_t i = 0; i < side * side; ++i) {
-                const Coordinate y = coordinateAt(rate_, i / side);
-                const double t = static_cast<double>(y.numerator) / y.denominator;
-                put(onSecondSpoke(i) ? glm::dvec2(t, 0.0) : table.points[i], table.slopesX[i]);
+                const double y = coordinateAt(rate_, i / side).value();
+                put(onSecondSpoke(i) ? glm::dvec2(y, 0.0) : table.points[i], table.slopesX[i]);
                 put(table.slopesY[i], glm::dvec2(0.0));
             }
         }

@@ -55,12 +55,11 @@ private:
     /// Spokes first, first + 1, ... round the vertex.
     void addFan(uint32_t vertex, FanKind kind, uint32_t first, uint32_t facets, bool pinned) {
         const auto index = static_cast<uint32_t>(mesh_.fans.size());
-        Fan fan;
-        fan.vertex = vertex;
-        fan.firstSlot = static_cast<uint32_t>(mesh_.slotSpokes.size());
-        fan.facets = facets;
-        fan.kind = kind;
-        fan.pinned = pinned;
+        Fan fan{.vertex = vertex,
+                .firstSlot = static_cast<uint32_t>(mesh_.slotSpokes.size()),
+                .facets = facets,
+                .kind = kind,
+                .pinned = pinned};
         for (uint32_t j = 0; j < fan.edges(); ++j) {
             const uint32_t spoke = wrapped(first + j);
             const bool end = !fan.closed() && (j == 0 || j == facets);

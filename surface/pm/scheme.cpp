@@ -1,7 +1,7 @@
-#include "surface/pm/scheme.h"
-
+// P_m as a scheme: the tables of shaders/shared/{surface,pm}.h.
 #include "shaders/shared/pm.h"
 #include "surface/borders.h"
+#include "surface/build.h"
 #include "surface/pm/weights.h"
 #include "surface/valence.h"
 
@@ -41,6 +41,13 @@ uint32_t fanKind(const Fan& fan) {
         return shared::kRegularFan;
     }
     return fan.edges() <= shared::kFewSpokes ? shared::kFewFan : shared::kManyFan;
+}
+
+/// Coefficients of a patch that the facet stage makes.
+uint32_t innerCount(PatchClass patchClass) {
+    return patchClass == PatchClass::regular ? 0
+           : patchClass == PatchClass::polar ? 2
+                                             : 1 + 3 * cornerCount(domainOf(patchClass));
 }
 
 class Builder {
@@ -101,9 +108,7 @@ private:
         uint32_t next = tables_.faces + slots;
         for (const DraftPatch& patch : patches_) {
             inner_.push_back(next);
-            next += patch.info.patchClass == PatchClass::regular ? 0
-                    : patch.info.patchClass == PatchClass::polar ? 2
-                                                                 : 1 + 3 * patch.info.cornerCount;
+            next += innerCount(patch.info.patchClass);
         }
         tables_.poolStride = poolStrideFor(next);
     }
@@ -207,10 +212,8 @@ private:
                 continue;
             }
             const auto kernel = static_cast<size_t>(range.patchClass) - static_cast<size_t>(PatchClass::polar);
-            const uint32_t sides = cornerCount(domainOf(range.patchClass));
-            const uint32_t coefficients = range.patchClass == PatchClass::polar ? 2 : 1 + 3 * sides;
-            tables_.constructions.push_back(
-                {Stage::assemble, kFacetKernels[kernel], range.section, coefficients * range.section.count});
+            tables_.constructions.push_back({Stage::assemble, kFacetKernels[kernel], range.section,
+                                             innerCount(range.patchClass) * range.section.count});
         }
     }
 

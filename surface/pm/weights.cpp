@@ -15,10 +15,7 @@ FanScales fanScales(FanKind kind, uint32_t facets) {
 FanWeights makeFanWeights(FanKind kind, uint32_t facets) {
     const bool closed = kind == FanKind::interior;
     const uint32_t edges = closed ? facets : facets + 1;
-    Fan fan;
-    fan.facets = facets;
-    fan.kind = kind;
-    const uint32_t valence = fan.valence();
+    const uint32_t valence = Fan{.facets = facets, .kind = kind}.valence();
     const FanScales scales = fanScales(kind, facets);
     FanWeights w;
     w.limitEdge = w.e1Edge = w.e2Edge = std::vector<double>(edges, 0.0);

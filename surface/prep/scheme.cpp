@@ -1,7 +1,7 @@
-#include "surface/prep/scheme.h"
-
+// p-rep as a scheme: the tables of shaders/shared/{surface,prep}.h.
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
+#include "surface/build.h"
 #include "surface/fans.h"
 #include "surface/prep/weights.h"
 
@@ -226,12 +226,6 @@ private:
 };
 
 } // namespace
-
-bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge) {
-    const auto [corner, twin] = topology.edges[edge];
-    return twin != cage::kNone && (topology.effectiveValence(cage.faceVertices[corner]) != 4 ||
-                                   topology.effectiveValence(cage.faceVertices[twin]) != 4);
-}
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Result<cage::Topology> topology = cage::buildTopology(cage);

@@ -148,6 +148,12 @@ ValenceClass makeValenceClass(uint32_t sectors, bool boundary, const Options& op
     return boundary ? boundaryClass(sectors, options) : interiorClass(sectors, options);
 }
 
+bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge) {
+    const auto [corner, twin] = topology.edges[edge];
+    return twin != cage::kNone && (topology.effectiveValence(cage.faceVertices[corner]) != 4 ||
+                                   topology.effectiveValence(cage.faceVertices[twin]) != 4);
+}
+
 EdgeWeights makeEdgeWeights(double cA, double cB) {
     // Comparing with 0 is sound: regular classes store it exactly.
     if (cA == 0.0 && cB == 0.0) {

@@ -1,6 +1,7 @@
 // The weights of p-rep, per valence class, in double. They depend on connectivity only.
 #pragma once
 
+#include "cage/topology.h"
 #include "surface/fans.h"
 #include "surface/recipe.h"
 
@@ -24,6 +25,9 @@ struct ValenceClass : FanWeights {
 
 /// `sectors`: at least 3 in the interior and 1 on a boundary, which cage::buildTopology makes sure of.
 [[nodiscard]] ValenceClass makeValenceClass(uint32_t sectors, bool boundary, const Options& options);
+
+/// Whether an edge has a perturbation: it is interior, and one of its ends is irregular.
+[[nodiscard]] bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge);
 
 /// The perturbation of an edge A -> B. There is one row per coefficient h20, h30, h21, h31, in the edge's own
 /// direction. The columns are six vectors {A, tA, tB, B, SA, SB}: the limit points A and B, the tangents tA and tB of

@@ -1,6 +1,6 @@
-#include "surface/subdivision/scheme.h"
-
+// The subdivision as a scheme: the tables of shaders/shared/{surface,subdivision}.h.
 #include "shaders/shared/subdivision.h"
+#include "surface/build.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/masks.h"
 #include "surface/subdivision/pattern.h"
