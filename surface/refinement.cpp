@@ -50,10 +50,10 @@ private:
     std::vector<uint32_t> touched_;
 };
 
-class Refiner {
+class Refiner : StepPoints {
 public:
     Refiner(const RefinedMesh& parent, Subdivision subdivision)
-        : parent_(parent), quads_(subdivision == Subdivision::catmullClark),
+        : StepPoints(parent), quads_(subdivision == Subdivision::catmullClark),
           rows_(parent.cage.vertexCount(), child_.stencils) {}
 
     RefinedMesh run() {
@@ -92,15 +92,6 @@ private:
         forEachCornerAttribute(parent_.cage, child_.cage, [&](const auto& from, auto& to) {
             to.reserve(from.empty() ? 0 : (quads_ ? 4 : 3) * faces);
         });
-    }
-
-    [[nodiscard]] uint32_t vertexAt(uint32_t corner) const { return parent_.cage.faceVertices[corner]; }
-    [[nodiscard]] uint32_t faceOf(uint32_t corner) const { return parent_.topology.cornerFaces[corner]; }
-    [[nodiscard]] uint32_t next(uint32_t corner) const {
-        return cage::nextCorner(parent_.cage, faceOf(corner), corner);
-    }
-    [[nodiscard]] uint32_t previous(uint32_t corner) const {
-        return cage::previousCorner(parent_.cage, faceOf(corner), corner);
     }
 
     void addVertexPoint(uint32_t v) {
@@ -166,13 +157,6 @@ private:
         rows_.close();
     }
 
-    [[nodiscard]] uint32_t edgePoint(uint32_t corner) const {
-        return parent_.cage.vertexCount() + parent_.topology.cornerEdges[corner];
-    }
-    [[nodiscard]] uint32_t facePoint(uint32_t face) const {
-        return parent_.cage.vertexCount() + static_cast<uint32_t>(parent_.topology.edges.size()) + face;
-    }
-
     void addQuads(uint32_t f) {
         for (uint32_t c = parent_.cage.faceStarts[f]; c < parent_.cage.faceStarts[f + 1]; ++c) {
             addFace(f, {vertexAt(c), edgePoint(c), facePoint(f), edgePoint(previous(c))});
@@ -219,7 +203,6 @@ private:
         }
     }
 
-    const RefinedMesh& parent_;
     bool quads_; ///< Catmull-Clark, else Loop
     RefinedMesh child_;
     RowWriter rows_;

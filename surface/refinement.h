@@ -37,6 +37,31 @@ struct RefinedMesh {
 [[nodiscard]] Result<RefinedMesh> beginRefinement(const cage::Cage& cage, const SplitRule* rule,
                                                   std::vector<std::string>& notes);
 
+/// Corners of a mesh, and how refine() numbers what it makes of it.
+class StepPoints {
+public:
+    explicit StepPoints(const RefinedMesh& parent) : parent_(parent) {}
+
+    [[nodiscard]] uint32_t vertexAt(uint32_t corner) const { return parent_.cage.faceVertices[corner]; }
+    [[nodiscard]] uint32_t faceOf(uint32_t corner) const { return parent_.topology.cornerFaces[corner]; }
+    [[nodiscard]] uint32_t next(uint32_t corner) const {
+        return cage::nextCorner(parent_.cage, faceOf(corner), corner);
+    }
+    [[nodiscard]] uint32_t previous(uint32_t corner) const {
+        return cage::previousCorner(parent_.cage, faceOf(corner), corner);
+    }
+    /// The point of the edge from a corner to the next.
+    [[nodiscard]] uint32_t edgePoint(uint32_t corner) const {
+        return parent_.cage.vertexCount() + parent_.topology.cornerEdges[corner];
+    }
+    [[nodiscard]] uint32_t facePoint(uint32_t face) const {
+        return parent_.cage.vertexCount() + static_cast<uint32_t>(parent_.topology.edges.size()) + face;
+    }
+
+protected:
+    const RefinedMesh& parent_;
+};
+
 /// One step of Catmull-Clark on faces of any kind, or of Loop on triangles. The child lacks what equip() adds. Its
 /// vertices are those of the parent, then one per edge (in the order of Topology::edges), then, for Catmull-Clark, one
 /// per face. Each face of the parent gives one face per corner, which is the new face's corner 0; Loop then adds the

@@ -5,7 +5,9 @@
 #include "surface/indexed_mesh.h"
 #include "surface/lod/tables.h"
 
+#include <algorithm>
 #include <bit>
+#include <iterator>
 #include <string>
 
 namespace supple::surface {
@@ -24,16 +26,6 @@ constexpr Scheme kSchemes[] = {
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true, false, &blend::boundsMargin},
 };
-
-constexpr bool areInOrder() {
-    for (uint32_t i = 0; i < std::size(kSchemes); ++i) {
-        if (static_cast<uint32_t>(kSchemes[i].id) != i + 1) {
-            return false;
-        }
-    }
-    return true;
-}
-static_assert(areInOrder());
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Scheme& scheme = schemeOf(recipe.scheme);
@@ -84,7 +76,7 @@ std::span<const Scheme> schemes() {
 }
 
 const Scheme& schemeOf(SchemeId id) {
-    return kSchemes[static_cast<uint32_t>(id) - 1];
+    return *std::find_if(std::begin(kSchemes), std::end(kSchemes), [&](const Scheme& row) { return row.id == id; });
 }
 
 Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {

@@ -39,10 +39,10 @@ constexpr SplitRule kTriangles{.mostSides = 3,
                                .others = " more faces of four and more sides: split into triangles"};
 
 /// Cuts the isolated mesh into fragments, by the topology of its parent.
-class FragmentBuilder {
+class FragmentBuilder : StepPoints {
 public:
     FragmentBuilder(const RefinedMesh& parent, Mesh& mesh)
-        : parent_(parent), topology_(parent.topology), mesh_(mesh),
+        : StepPoints(parent), topology_(parent.topology), mesh_(mesh),
           quads_(mesh.subdivision == Subdivision::catmullClark) {}
 
     void run() {
@@ -60,20 +60,6 @@ public:
     }
 
 private:
-    [[nodiscard]] uint32_t vertexAt(uint32_t corner) const { return parent_.cage.faceVertices[corner]; }
-    [[nodiscard]] uint32_t next(uint32_t corner) const {
-        return cage::nextCorner(parent_.cage, topology_.cornerFaces[corner], corner);
-    }
-    [[nodiscard]] uint32_t previous(uint32_t corner) const {
-        return cage::previousCorner(parent_.cage, topology_.cornerFaces[corner], corner);
-    }
-    /// The point of the edge from a corner to the next.
-    [[nodiscard]] uint32_t edgePoint(uint32_t corner) const {
-        return parent_.cage.vertexCount() + topology_.cornerEdges[corner];
-    }
-    [[nodiscard]] uint32_t facePoint(uint32_t face) const {
-        return parent_.cage.vertexCount() + static_cast<uint32_t>(topology_.edges.size()) + face;
-    }
     [[nodiscard]] float sharpness(uint32_t edge) const { return softened(parent_.edgeSharpness[edge], 1); }
 
     Fragment& begin(FragmentKind kind, uint32_t sectors) {
@@ -159,7 +145,6 @@ private:
         }
     }
 
-    const RefinedMesh& parent_;
     const Topology& topology_;
     Mesh& mesh_;
     bool quads_;

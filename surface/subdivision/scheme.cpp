@@ -143,7 +143,7 @@ private:
         }
     }
 
-    /// The isolated level stands at the front of the pool, a step before it behind.
+    /// The isolated mesh stands at the front of the pool, a step before it behind.
     void writeSteps() {
         const std::vector<Stencils>& steps = mesh_.stencils;
         const uint32_t isolated = steps.back().rows();
@@ -196,7 +196,7 @@ private:
         return known->second;
     }
 
-    /// The points of the next level that a point's ring makes: towards which neighbours.
+    /// The points of the next step that a point's ring makes: towards which neighbours.
     [[nodiscard]] std::span<const uint32_t> cellSlots() const {
         static constexpr uint32_t kQuadSlots[] = {SUPPLE_SUBDIVISION_QUAD_SLOTS};
         static constexpr uint32_t kTriangleSlots[] = {0, 1, 2, 3, 4, 5};
@@ -206,8 +206,8 @@ private:
     /// The points a cell makes, as the tables have them.
     using Cell = std::array<uint32_t, 8>;
 
-    /// Gives every row of a level that needs neither sharpness nor the centre's rule to a cell of the level before, if
-    /// one has all of its sources round it, and takes it from `rows`. `neighbours` are those of the level before.
+    /// Gives every row of a step that needs neither sharpness nor the centre's rule to a cell of the step before, if
+    /// one has all of its sources round it, and takes it from `rows`. `neighbours` are those before the step.
     std::vector<Cell> makeCells(const ClassKey& key, std::span<const Neighbours> neighbours,
                                 const std::vector<Row>& pattern, std::vector<uint32_t>& rows) const {
         const std::span<const uint32_t> slots = cellSlots();
@@ -276,7 +276,7 @@ private:
         }
     }
 
-    /// The point of a fragment's last level at (a, b) of a sector, or kNoPoint.
+    /// The point of a fragment at the last step, at (a, b) of a sector, or kNoPoint.
     [[nodiscard]] uint32_t pointAt(const ClassKey& key, uint32_t sector, int32_t a, int32_t b) const {
         return key.kind == FragmentKind::facet ? facetPointIndex(1u << steps_, a, b)
                                                : pointIndex(key.fan, sector, a, b);
@@ -413,11 +413,8 @@ private:
 
     /// Appends to masks_ the mask element of every sector of a fragment.
     void writeMasks(const Fan& fan, const Fragment& fragment) {
-        std::vector<float> spokes;
-        for (const float s : sharpness(fragment)) {
-            spokes.push_back(softened(s, steps_));
-        }
-        const CentreLimit limit = centreLimit(fan, spokes, softened(fragment.centreSharpness, steps_));
+        const CentreLimit limit =
+            centreLimit(fan, softened(sharpness(fragment), steps_), softened(fragment.centreSharpness, steps_));
         const size_t first = masks_.size();
         masks_.resize(first + fan.sectors);
         const uint32_t ring = pointCount(fan, 1) - 1;
@@ -442,11 +439,9 @@ private:
         c.centreSteps = writer_.element();
         for (uint32_t step = 0; step < steps_; ++step) {
             for (const uint32_t f : c.fragments) {
-                std::vector<float> spokes;
-                for (const float s : sharpness(mesh_.fragments[f])) {
-                    spokes.push_back(softened(s, step));
-                }
-                const CentreStep centre = centreStep(spokes, softened(mesh_.fragments[f].centreSharpness, step));
+                const Fragment& fragment = mesh_.fragments[f];
+                const CentreStep centre =
+                    centreStep(softened(sharpness(fragment), step), softened(fragment.centreSharpness, step));
                 writer_.put({floatBits(centre.smooth), floatBits(centre.crease), centre.first, centre.second});
             }
         }
@@ -502,7 +497,7 @@ private:
     TableWriter writer_;
     std::vector<ClassTables> classes_;
     std::vector<DraftPatch> patches_;
-    std::vector<uint32_t> facePatches_; ///< per face of the isolated level
+    std::vector<uint32_t> facePatches_; ///< per face of the isolated mesh
     std::map<Fan, PatternTables> fans_;
     std::map<uint32_t, PatternTables> facets_; ///< by step
     std::map<std::vector<uint32_t>, uint32_t> maskElements_;
