@@ -87,7 +87,8 @@ private:
         if (isNew && sides > rule_.mostSides) {
             cut = rule_.cut(sides);
         } else if (isNew) {
-            std::iota(cut.parts.emplace_back(sides).begin(), cut.parts.front().end(), 0u);
+            std::vector<uint32_t>& whole = cut.parts.emplace_back(sides);
+            std::iota(whole.begin(), whole.end(), 0u);
         }
         const std::optional<uint32_t> start = cut.diagonals.empty() ? 0 : bestStart(face, cut);
         const auto name = [&] { return "face " + std::to_string(face) + " has " + std::to_string(sides) + " sides"; };
