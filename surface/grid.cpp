@@ -39,43 +39,14 @@ void triangleCells(uint32_t rate, std::vector<uint16_t>& indices, At&& at) {
 
 } // namespace
 
-GridSample gridSample(Domain domain, uint32_t rate, uint32_t sample) {
-    const uint32_t perSector = rate * (rate + 1) / 2;
-    GridSample at;
-    switch (domain) {
-    case Domain::triangle:
-        while (sample >= rowStart(rate + 1, at.j + 1)) {
-            ++at.j;
-        }
-        at.i = sample - rowStart(rate + 1, at.j);
-        return at;
-    case Domain::pentagon:
-        if (sample == 5 * perSector) {
-            at.j = rate;
-            return at;
-        }
-        at.sector = sample / perSector;
-        sample -= at.sector * perSector;
-        while (sample >= rowStart(rate, at.j + 1)) {
-            ++at.j;
-        }
-        at.i = sample - rowStart(rate, at.j);
-        return at;
-    default:
-        return {0, sample % (rate + 1), sample / (rate + 1)};
-    }
-}
-
 uint32_t edgeSample(Domain domain, uint32_t rate, uint32_t edge, uint32_t k) {
     const uint32_t side = rate + 1;
     switch (domain) {
-    case Domain::quad: {
-        const uint32_t i[4] = {k, rate, rate - k, 0}, j[4] = {0, k, rate, rate - k};
-        return j[edge] * side + i[edge];
-    }
+    case Domain::quad:
     case Domain::polar: {
-        const uint32_t i[3] = {k, rate, 0}, j[3] = {0, k, rate - k};
-        return j[edge] * side + i[edge];
+        const uint32_t last = domain == Domain::polar && edge == 2 ? 3 : edge; // the quad's third side is the apex
+        const uint32_t i[4] = {k, rate, rate - k, 0}, j[4] = {0, k, rate, rate - k};
+        return j[last] * side + i[last];
     }
     case Domain::triangle: {
         const uint32_t i[3] = {k, rate - k, 0}, j[3] = {0, k, rate - k};

@@ -44,15 +44,6 @@ inline constexpr uint32_t kDomainCount = 4;
     }
 }
 
-/// A sample's integer parameters. quad and polar: (i, j). triangle: (i, j) as above. pentagon: sector and (i, j); the
-/// centre is (0, rate) of sector 0.
-struct GridSample {
-    uint32_t sector = 0;
-    uint32_t i = 0;
-    uint32_t j = 0;
-};
-[[nodiscard]] GridSample gridSample(Domain domain, uint32_t rate, uint32_t sample);
-
 /// The k-th sample (0..rate) along edge e of the domain, from corner e to the next corner. Polar domains: edge 0 is the
 /// outer one, 1 and 2 are radial.
 [[nodiscard]] uint32_t edgeSample(Domain domain, uint32_t rate, uint32_t edge, uint32_t k);

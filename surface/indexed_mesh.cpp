@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace supple::surface {
@@ -27,9 +28,14 @@ struct EdgeSource {
     BorderCurve across{};
     uint32_t flags = 0;
     uint32_t extra = 0;
-    bool perturbed = false;
-    bool mixed = false; ///< needs the kernel of all of P_m's patches
+    uint32_t kind = kPlainEdges;
 };
+static_assert(kPlainEdges < kPerturbedEdges && kPerturbedEdges < kMixedEdges);
+
+const PatchRange& rangeOf(const Tables& tables, uint32_t patch) {
+    return *std::find_if(tables.ranges.begin(), tables.ranges.end(),
+                         [&](const PatchRange& range) { return patch < range.firstPatch + range.section.count; });
+}
 
 class Builder {
 public:
@@ -38,14 +44,10 @@ public:
     void build() {
         collect();
         chooseSides();
-        write();
+        writeEdges();
     }
 
 private:
-    [[nodiscard]] const PatchRange& rangeOf(uint32_t patch) const {
-        return *std::find_if(tables_.ranges.begin(), tables_.ranges.end(),
-                             [&](const PatchRange& range) { return patch < range.firstPatch + range.section.count; });
-    }
     [[nodiscard]] uint32_t recordOf(const PatchRange& range, uint32_t patch) const {
         return range.section.table + (patch - range.firstPatch) * recordElements(tables_, range.patchClass);
     }
@@ -115,44 +117,37 @@ private:
         }
     }
 
-    void write() {
-        struct Made {
-            uint32_t edge = 0;
-            uint32_t corner = kNoEdgeSample;
-            Side side;
-            EdgeSource source;
-            uint32_t kind = kPlainEdges;
-        };
-        std::vector<Made> made;
-        bool mixed = false;
-        for (uint32_t e = 0; e < edges_.size(); ++e) {
-            const Side& side = edges_[e].sides[edges_[e].taken];
-            made.push_back({e, edges_[e].corner, side, sourceOf(side), kPlainEdges});
-            mixed = mixed || made.back().source.mixed;
+    void writeEdges() {
+        std::vector<EdgeSource> sources;
+        uint32_t most = kPlainEdges;
+        for (const Edge& edge : edges_) {
+            sources.push_back(sourceOf(edge.sides[edge.taken]));
+            most = std::max(most, sources.back().kind);
         }
-        for (Made& one : made) {
-            one.kind = mixed ? kMixedEdges : one.source.perturbed ? kPerturbedEdges : kPlainEdges;
-        }
-        std::stable_sort(made.begin(), made.end(), [](const Made& a, const Made& b) { return a.kind < b.kind; });
+        // The kernel of mixed edges takes all of P_m's.
+        const auto kind = [&](uint32_t e) { return most == kMixedEdges ? most : sources[e].kind; };
+        std::vector<uint32_t> order(edges_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return kind(a) < kind(b); });
 
         TableWriter writer(tables_.words);
         MeshTables& mesh = tables_.mesh;
-        for (const Made& one : made) {
-            if (mesh.edges.empty() || mesh.edges.back().kind != one.kind) {
-                mesh.edges.push_back({one.kind, {writer.element(), 0}});
+        for (const uint32_t e : order) {
+            if (mesh.edges.empty() || mesh.edges.back().kind != kind(e)) {
+                mesh.edges.push_back({kind(e), {writer.element(), 0}});
             }
             ++mesh.edges.back().section.count;
-            const EdgeSource& s = one.source;
-            writer.put({s.border[0], s.border[1], s.border[2], s.border[3], s.across[0], s.across[1], s.across[2],
-                        s.across[3], one.corner, one.edge, s.flags, s.extra});
+            writer.put(sources[e].border);
+            writer.put(sources[e].across);
+            writer.put({edges_[e].corner, e, sources[e].flags, sources[e].extra});
         }
         if (!attributes_) {
             return;
         }
-        mesh.attributes = {writer.element(), static_cast<uint32_t>(made.size())};
-        for (const Made& one : made) {
-            const auto [patch, side] = one.side;
-            const PatchRange& range = rangeOf(patch);
+        mesh.attributes = {writer.element(), static_cast<uint32_t>(order.size())};
+        for (const uint32_t e : order) {
+            const auto [patch, side] = edges_[e].sides[edges_[e].taken];
+            const PatchRange& range = rangeOf(tables_, patch);
             const uint32_t next = (side + 1) % cornerCount(domainOf(range.patchClass));
             writer.put({attributeElement(range, patch, side), attributeElement(range, patch, next), 0u, 0u});
         }
@@ -169,7 +164,7 @@ private:
     }
 
     [[nodiscard]] EdgeSource sourceOf(const Side& at) const {
-        const PatchRange& range = rangeOf(at.patch);
+        const PatchRange& range = rangeOf(tables_, at.patch);
         const uint32_t* record = &tables_.words[size_t{4} * recordOf(range, at.patch)];
         EdgeSource source;
         source.border = curvesOf(range, at.patch)[at.side];
@@ -186,7 +181,7 @@ private:
             source.across[k] = g(i[quadSide], j[quadSide]);
         }
         if (polar) {
-            source.mixed = at.side != 0;
+            source.kind = at.side != 0 ? kMixedEdges : kPlainEdges;
             source.flags = at.side == 1 ? kApexLastEdge : at.side == 2 ? kApexFirstEdge : 0;
         }
         if (range.patchClass == PatchClass::perturbed) {
@@ -206,7 +201,7 @@ private:
         if ((edge & kStillEdgeOfPatch) != 0) {
             return;
         }
-        source.perturbed = true;
+        source.kind = kPerturbedEdges;
         source.extra = edge & kEdgeOfPatchMask;
         source.flags |= (edge & kReversedEdgeOfPatch) != 0 ? kSwappedEdge : 0;
     }
@@ -217,7 +212,7 @@ private:
         const uint32_t inner = SUPPLE_INNER(innerWord) + 1; // b211, b121, b112 a sector
         source.across = {tables_.tangents + SUPPLE_NEXT_SPOKE(record[SUPPLE_PM_SPOKE_WORD(i)]), inner + 3 * i,
                          inner + 3 * i + 1, tables_.tangents + SUPPLE_SPOKE(record[SUPPLE_PM_SPOKE_WORD(next)])};
-        source.mixed = true;
+        source.kind = kMixedEdges;
         source.flags = sides;
         if ((SUPPLE_SINGULAR(innerWord) & 1u << i) != 0) {
             source.flags |= kSingularEdge;
@@ -243,7 +238,7 @@ struct Place {
     uint32_t k = 0;
 };
 
-std::vector<Place> places(Domain domain, uint32_t rate) {
+std::vector<Place> placesOf(Domain domain, uint32_t rate) {
     std::vector<Place> all(sampleCount(domain, rate));
     for (uint32_t edge = 0; edge < cornerCount(domain); ++edge) {
         for (uint32_t k = 0; k < rate; ++k) {
@@ -264,45 +259,28 @@ std::vector<Place> places(Domain domain, uint32_t rate) {
     return all;
 }
 
-/// Which vertices are a patch's.
-class Numbering {
-public:
-    Numbering(const Tables& tables, const Evaluation& evaluation) : tables_(tables), evaluation_(evaluation) {}
-
-    [[nodiscard]] std::vector<uint32_t> vertices(uint32_t patch) {
-        const uint32_t rate = evaluation_.rate;
-        size_t r = 0;
-        while (patch >= tables_.ranges[r].firstPatch + tables_.ranges[r].section.count) {
-            ++r;
+/// Which vertices are a patch's, by its samples. `places`: those of its domain.
+std::vector<uint32_t> verticesOf(const Tables& tables, const Evaluation& evaluation, const std::vector<Place>& places,
+                                 uint32_t patch) {
+    const uint32_t rate = evaluation.rate;
+    const PatchRange& range = rangeOf(tables, patch);
+    const uint32_t inside = evaluation.firstVertices[static_cast<size_t>(&range - tables.ranges.data())] +
+                            (patch - range.firstPatch) * interiorCount(domainOf(range.patchClass), rate);
+    const MeshTables::Patch& own = tables.mesh.patches[patch];
+    std::vector<uint32_t> result;
+    result.reserve(places.size());
+    for (const Place& place : places) {
+        if (place.inside) {
+            result.push_back(inside + place.edge);
+        } else if (place.k == 0) {
+            result.push_back(evaluation.firstCornerVertex + own.corners[place.edge]);
+        } else {
+            const uint32_t k = own.reversed[place.edge] ? rate - place.k : place.k;
+            result.push_back(evaluation.firstEdgeVertex + own.edges[place.edge] * (rate - 1) + k - 1);
         }
-        const PatchRange& range = tables_.ranges[r];
-        const Domain domain = domainOf(range.patchClass);
-        std::vector<Place>& known = places_[static_cast<size_t>(domain)];
-        if (known.empty()) {
-            known = places(domain, rate);
-        }
-        const MeshTables::Patch& own = tables_.mesh.patches[patch];
-        const uint32_t inside = evaluation_.firstVertices[r] + (patch - range.firstPatch) * interiorCount(domain, rate);
-        std::vector<uint32_t> result;
-        result.reserve(known.size());
-        for (const Place& place : known) {
-            if (place.inside) {
-                result.push_back(inside + place.edge);
-            } else if (place.k == 0) {
-                result.push_back(evaluation_.firstCornerVertex + own.corners[place.edge]);
-            } else {
-                const uint32_t k = own.reversed[place.edge] ? rate - place.k : place.k;
-                result.push_back(evaluation_.firstEdgeVertex + own.edges[place.edge] * (rate - 1) + k - 1);
-            }
-        }
-        return result;
     }
-
-private:
-    const Tables& tables_;
-    const Evaluation& evaluation_;
-    std::array<std::vector<Place>, kDomainCount> places_;
-};
+    return result;
+}
 
 } // namespace
 
@@ -322,29 +300,24 @@ void appendIndexedMesh(Tables& tables, bool attributes) {
 }
 
 IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation) {
-    std::vector<uint32_t> materials;
-    for (const DrawRange& range : tables.drawRanges) {
-        materials.push_back(range.material);
-    }
-    std::sort(materials.begin(), materials.end());
-    materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
-    Numbering numbering(tables, evaluation);
+    std::vector<DrawRange> draws = tables.drawRanges;
+    std::stable_sort(draws.begin(), draws.end(),
+                     [](const DrawRange& a, const DrawRange& b) { return a.material < b.material; });
     IndexedMesh mesh;
-    for (const uint32_t material : materials) {
+    for (const DrawRange& draw : draws) {
         const auto first = static_cast<uint32_t>(mesh.indices.size());
-        for (const DrawRange& range : tables.drawRanges) {
-            if (range.material != material) {
-                continue;
-            }
-            const std::vector<uint16_t> grid = gridIndices(range.domain, evaluation.rate);
-            for (uint32_t patch = range.firstPatch; patch < range.firstPatch + range.patchCount; ++patch) {
-                const std::vector<uint32_t> vertices = numbering.vertices(patch);
-                for (const uint16_t sample : grid) {
-                    mesh.indices.push_back(vertices[sample]);
-                }
+        if (mesh.ranges.empty() || mesh.ranges.back().material != draw.material) {
+            mesh.ranges.push_back({draw.material, first, 0});
+        }
+        const std::vector<uint16_t> grid = gridIndices(draw.domain, evaluation.rate);
+        const std::vector<Place> places = placesOf(draw.domain, evaluation.rate);
+        for (uint32_t patch = draw.firstPatch; patch < draw.firstPatch + draw.patchCount; ++patch) {
+            const std::vector<uint32_t> vertices = verticesOf(tables, evaluation, places, patch);
+            for (const uint16_t sample : grid) {
+                mesh.indices.push_back(vertices[sample]);
             }
         }
-        mesh.ranges.push_back({material, first, static_cast<uint32_t>(mesh.indices.size()) - first});
+        mesh.ranges.back().indexCount += static_cast<uint32_t>(mesh.indices.size()) - first;
     }
     return mesh;
 }

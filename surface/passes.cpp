@@ -133,9 +133,6 @@ Result<Program> Passes::prepare(const Tables& tables, const Needs& needs, const 
         lod::addSteps(builder);
         addRangesAtLevels(builder);
     } else {
-        if (tables.hasIndexedMesh()) {
-            addIndexedMesh(builder);
-        }
         addRanges(builder);
         subdivision::addSteps(builder);
     }

@@ -16,7 +16,7 @@ float markedInfinite(float sharpness) {
     return sharpness >= cage::kHardSharpness ? kInfiniteSharpness : sharpness;
 }
 
-/// Writes stencil rows of a level over its parent's vertices.
+/// Writes stencil rows over the vertices of the parent.
 class RowWriter {
 public:
     RowWriter(uint32_t vertices, Stencils& out) : out_(out), sums_(vertices, 0.0), met_(vertices, 0) {
@@ -50,12 +50,13 @@ private:
     std::vector<uint32_t> touched_;
 };
 
-class Refiner {
+class Refiner : StepPoints {
 public:
-    Refiner(const Level& parent, Subdivision subdivision)
-        : parent_(parent), subdivision_(subdivision), rows_(parent.cage.vertexCount(), child_.stencils) {}
+    Refiner(const RefinedMesh& parent, Subdivision subdivision)
+        : StepPoints(parent), quads_(subdivision == Subdivision::catmullClark),
+          rows_(parent.cage.vertexCount(), child_.stencils) {}
 
-    Level run() {
+    RefinedMesh run() {
         reserve();
         for (uint32_t v = 0; v < parent_.cage.vertexCount(); ++v) {
             addVertexPoint(v);
@@ -63,18 +64,13 @@ public:
         for (uint32_t e = 0; e < parent_.topology.edges.size(); ++e) {
             addEdgePoint(e);
         }
+        for (uint32_t f = 0; f < parent_.cage.faceCount() && quads_; ++f) {
+            addFaceMean(f, 1.0);
+            rows_.close();
+        }
         child_.cage.faceStarts.push_back(0);
         for (uint32_t f = 0; f < parent_.cage.faceCount(); ++f) {
-            if (subdivision_ == Subdivision::catmullClark) {
-                addFacePoint(f);
-            }
-        }
-        for (uint32_t f = 0; f < parent_.cage.faceCount(); ++f) {
-            if (subdivision_ == Subdivision::catmullClark) {
-                addQuads(f);
-            } else {
-                addTriangles(f);
-            }
+            quads_ ? addQuads(f) : addTriangles(f);
         }
         forEachCornerAttribute(parent_.cage, child_.cage, [&](const auto& from, auto& to) { carry(from, to); });
         return std::move(child_);
@@ -82,31 +78,20 @@ public:
 
 private:
     void reserve() {
-        const bool quads = subdivision_ == Subdivision::catmullClark;
         const size_t corners = parent_.cage.cornerCount(),
-                     faces = quads ? corners : 4 * size_t{parent_.cage.faceCount()};
-        const size_t points =
-            size_t{parent_.cage.vertexCount()} + parent_.topology.edges.size() + (quads ? parent_.cage.faceCount() : 0);
+                     faces = quads_ ? corners : 4 * size_t{parent_.cage.faceCount()};
+        const size_t points = size_t{parent_.cage.vertexCount()} + parent_.topology.edges.size() +
+                              (quads_ ? parent_.cage.faceCount() : 0);
         child_.cage.positions.reserve(points);
         child_.stencils.starts.reserve(points + 1);
         child_.stencils.vertices.reserve(8 * points);
         child_.stencils.weights.reserve(8 * points);
         child_.cage.faceStarts.reserve(faces + 1);
-        child_.cage.faceVertices.reserve((quads ? 4 : 3) * faces);
+        child_.cage.faceVertices.reserve((quads_ ? 4 : 3) * faces);
         child_.sourceFaces.reserve(faces);
-        child_.holes.reserve(faces);
         forEachCornerAttribute(parent_.cage, child_.cage, [&](const auto& from, auto& to) {
-            to.reserve(from.empty() ? 0 : (quads ? 4 : 3) * faces);
+            to.reserve(from.empty() ? 0 : (quads_ ? 4 : 3) * faces);
         });
-    }
-
-    [[nodiscard]] uint32_t vertexAt(uint32_t corner) const { return parent_.cage.faceVertices[corner]; }
-    [[nodiscard]] uint32_t faceOf(uint32_t corner) const { return parent_.topology.cornerFaces[corner]; }
-    [[nodiscard]] uint32_t next(uint32_t corner) const {
-        return cage::nextCorner(parent_.cage, faceOf(corner), corner);
-    }
-    [[nodiscard]] uint32_t previous(uint32_t corner) const {
-        return cage::previousCorner(parent_.cage, faceOf(corner), corner);
     }
 
     void addVertexPoint(uint32_t v) {
@@ -134,13 +119,12 @@ private:
     void addSmoothVertex(uint32_t v, double share) {
         const Topology& topology = parent_.topology;
         const double k = topology.sectorCount(v);
-        const bool quads = subdivision_ == Subdivision::catmullClark;
         const CentreWeights loop = refineWeights(Subdivision::loop, topology.sectorCount(v));
-        const double spoke = quads ? 1.0 / (k * k) : loop.spoke;
-        rows_.add(v, share * (quads ? (k - 2.0) / k : loop.centre));
+        const double spoke = quads_ ? 1.0 / (k * k) : loop.spoke;
+        rows_.add(v, share * (quads_ ? (k - 2.0) / k : loop.centre));
         for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
             rows_.add(topology.spokeVertices[s], share * spoke);
-            if (quads) {
+            if (quads_) {
                 addFaceMean(faceOf(topology.sectorCorners[s]), share / (k * k));
             }
         }
@@ -161,7 +145,7 @@ private:
         }
         if (sharp < 1.0) {
             for (const uint32_t c : {corner, twin}) {
-                if (subdivision_ == Subdivision::catmullClark) {
+                if (quads_) {
                     rows_.add(vertexAt(c), 0.25 * (1.0 - sharp));
                     addFaceMean(faceOf(c), 0.25 * (1.0 - sharp));
                 } else {
@@ -171,18 +155,6 @@ private:
             }
         }
         rows_.close();
-    }
-
-    void addFacePoint(uint32_t f) {
-        addFaceMean(f, 1.0);
-        rows_.close();
-    }
-
-    [[nodiscard]] uint32_t edgePoint(uint32_t corner) const {
-        return parent_.cage.vertexCount() + parent_.topology.cornerEdges[corner];
-    }
-    [[nodiscard]] uint32_t facePoint(uint32_t face) const {
-        return parent_.cage.vertexCount() + static_cast<uint32_t>(parent_.topology.edges.size()) + face;
     }
 
     void addQuads(uint32_t f) {
@@ -201,7 +173,8 @@ private:
 
     void addFace(uint32_t f, std::initializer_list<uint32_t> vertices) {
         child_.cage.faceVertices.insert(child_.cage.faceVertices.end(), vertices);
-        closeFace(child_, parent_, f);
+        closeFace(child_.cage, parent_.cage, f);
+        child_.sourceFaces.push_back(parent_.sourceFaces[f]);
     }
 
     /// An attribute of the children's corners, in the order of addQuads() and addTriangles(): along edges and over
@@ -212,7 +185,7 @@ private:
             const uint32_t first = parent_.cage.faceStarts[f], end = parent_.cage.faceStarts[f + 1];
             const auto middle = [&](uint32_t c) { return (from[c] + from[c + 1 == end ? first : c + 1]) * 0.5f; };
             const auto before = [&](uint32_t c) { return middle(c == first ? end - 1 : c - 1); };
-            if (subdivision_ == Subdivision::catmullClark) {
+            if (quads_) {
                 Value mean(0.0f);
                 for (uint32_t c = first; c < end; ++c) {
                     mean += from[c];
@@ -230,90 +203,61 @@ private:
         }
     }
 
-    const Level& parent_;
-    Subdivision subdivision_;
-    Level child_;
+    bool quads_; ///< Catmull-Clark, else Loop
+    RefinedMesh child_;
     RowWriter rows_;
     std::vector<float> sharpness_; ///< of the vertex at work
 };
 
-void placeVertices(Level& level, const std::vector<glm::vec3>& positions) {
-    const Stencils& stencils = level.stencils;
-    for (uint32_t row = 0; row < stencils.rows(); ++row) {
-        glm::dvec3 sum(0.0);
-        for (uint32_t i = stencils.starts[row]; i < stencils.starts[row + 1]; ++i) {
-            sum += stencils.weights[i] * glm::dvec3(positions[stencils.vertices[i]]);
-        }
-        level.cage.positions.emplace_back(sum);
-    }
-}
-
 } // namespace
 
-void closeFace(Level& to, const Level& from, uint32_t face) {
-    to.cage.faceStarts.push_back(to.cage.cornerCount());
-    to.sourceFaces.push_back(from.sourceFaces[face]);
-    to.holes.push_back(from.holes[face]);
-    if (!from.cage.faceMaterials.empty()) {
-        to.cage.faceMaterials.push_back(from.cage.faceMaterials[face]);
+Result<RefinedMesh> beginRefinement(const Cage& cage, const SplitRule* rule, std::vector<std::string>& notes) {
+    Result<SplitCage> split = splitFaces(cage, rule);
+    if (!split) {
+        return split.error();
     }
-}
-
-Level givenLevel(const Cage& cage) {
-    Level level;
-    level.cage = cage;
-    level.cage.creases.clear();
-    level.cage.sharpVertices.clear();
-    level.cage.creaseScalars.clear();
-    level.cage.holes.clear();
-    level.cage.sourceVertices.clear(); // a child's vertices come from no file
-    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-        level.sourceFaces.push_back(f);
-    }
-    level.holes.assign(cage.faceCount(), 0);
-    for (const uint32_t f : cage.holes) {
-        if (f < cage.faceCount()) {
-            level.holes[f] = 1;
-        }
-    }
-    return level;
-}
-
-void beginLevel(Level& level, const Cage& cage, std::vector<std::string>& notes) {
-    Cage featured;
-    featured.positions.resize(cage.positions.size());
-    featured.faceStarts = level.cage.faceStarts;
-    featured.faceVertices = level.cage.faceVertices;
-    featured.creases = cage.creases;
-    featured.sharpVertices = cage.sharpVertices;
-    const cage::Features features = cage::buildFeatures(featured, level.topology);
+    RefinedMesh mesh{std::move(split->cage), std::move(split->sourceFaces), {}, std::move(split->topology), {}, {}};
+    mesh.cage.creaseScalars.clear();
+    const cage::Features features = cage::buildFeatures(mesh.cage, mesh.topology);
+    mesh.cage.creases.clear();
+    mesh.cage.sharpVertices.clear();
+    mesh.cage.sourceVertices.clear(); // a child's vertices come from no file
+    notes.insert(notes.end(), split->notes.begin(), split->notes.end());
     notes.insert(notes.end(), features.unused.begin(), features.unused.end());
     if (!cage.creaseScalars.empty()) {
         notes.push_back(std::to_string(cage.creaseScalars.size()) +
                         " crease scalars: not used, they are for P_m alone");
     }
     for (const float sharpness : features.edgeSharpness) {
-        level.edgeSharpness.push_back(markedInfinite(sharpness));
+        mesh.edgeSharpness.push_back(markedInfinite(sharpness));
     }
-    for (uint32_t v = 0; v < level.cage.vertexCount(); ++v) {
-        const bool tip = level.topology.boundary[v] != 0 && level.topology.sectorCount(v) == 1;
-        level.vertexSharpness.push_back(tip ? kInfiniteSharpness : markedInfinite(features.vertexSharpness[v]));
-        level.stencils.starts.push_back(v);
-        level.stencils.vertices.push_back(v);
-        level.stencils.weights.push_back(1.0);
+    for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
+        const bool tip = mesh.topology.boundary[v] != 0 && mesh.topology.sectorCount(v) == 1;
+        mesh.vertexSharpness.push_back(tip ? kInfiniteSharpness : markedInfinite(features.vertexSharpness[v]));
+        mesh.stencils.starts.push_back(v);
+        mesh.stencils.vertices.push_back(v);
+        mesh.stencils.weights.push_back(1.0);
     }
-    level.stencils.starts.push_back(level.cage.vertexCount());
+    mesh.stencils.starts.push_back(mesh.cage.vertexCount());
+    return mesh;
 }
 
-Level refine(const Level& parent, Subdivision subdivision) {
-    Level child = Refiner(parent, subdivision).run();
-    placeVertices(child, parent.cage.positions);
+RefinedMesh refine(const RefinedMesh& parent, Subdivision subdivision) {
+    RefinedMesh child = Refiner(parent, subdivision).run();
+    const Stencils& stencils = child.stencils;
+    for (uint32_t row = 0; row < stencils.rows(); ++row) {
+        glm::dvec3 sum(0.0);
+        for (uint32_t i = stencils.starts[row]; i < stencils.starts[row + 1]; ++i) {
+            sum += stencils.weights[i] * glm::dvec3(parent.cage.positions[stencils.vertices[i]]);
+        }
+        child.cage.positions.emplace_back(sum);
+    }
     return child;
 }
 
-std::optional<Error> equip(Level& child, const Level& parent) {
+Status equip(RefinedMesh& child, const RefinedMesh& parent) {
     Result<Topology> topology = cage::buildTopology(child.cage);
-    if (!topology.ok()) {
+    if (!topology) {
         return topology.error();
     }
     child.topology = std::move(*topology);
@@ -328,10 +272,10 @@ std::optional<Error> equip(Level& child, const Level& parent) {
         child.edgeSharpness[halves.first] = sharpness;
         child.edgeSharpness[halves.second] = sharpness;
     }
-    return std::nullopt;
+    return success();
 }
 
-EdgeHalves edgeHalves(const Level& child, const Level& parent, uint32_t corner) {
+EdgeHalves edgeHalves(const RefinedMesh& child, const RefinedMesh& parent, uint32_t corner) {
     // The quad of the corner begins with the first half of its edge; the quad of the next corner ends with the second.
     const uint32_t next = cage::nextCorner(parent.cage, parent.topology.cornerFaces[corner], corner);
     return {child.topology.cornerEdges[4 * corner], child.topology.cornerEdges[4 * next + 3]};

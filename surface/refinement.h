@@ -3,11 +3,10 @@
 #pragma once
 
 #include "base/result.h"
-#include "cage/topology.h"
+#include "surface/split.h"
 #include "surface/subdivision_rules.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,50 +21,60 @@ struct Stencils {
     [[nodiscard]] uint32_t rows() const { return static_cast<uint32_t>(starts.size() - 1); }
 };
 
-/// A mesh that can be refined.
-struct Level {
-    cage::Cage cage;                   ///< without creases, sharp vertices and holes
-    std::vector<uint32_t> sourceFaces; ///< per face: the face of the first level it came from
-    std::vector<uint8_t> holes;        ///< per face: 1 if that face is not drawn
-    Stencils stencils;                 ///< one row per vertex, over the vertices of the level before
+/// A cage that is subdivided, after some number of steps.
+struct RefinedMesh {
+    cage::Cage cage;                   ///< without creases and sharp vertices
+    std::vector<uint32_t> sourceFaces; ///< per face: the given face it came from
+    Stencils stencils;                 ///< one row per vertex, over the vertices before the last step
     // What another step needs. A child has none of it before equip().
     cage::Topology topology;
     std::vector<float> edgeSharpness, vertexSharpness;
 };
 
-/// Calls `copy` with every attribute that corners carry.
-template <class Copy>
-void forEachCornerAttribute(const cage::Cage& from, cage::Cage& to, Copy&& copy) {
-    copy(from.cornerUvs, to.cornerUvs);
-    copy(from.cornerUvs1, to.cornerUvs1);
-    copy(from.cornerColors, to.cornerColors);
-    copy(from.cornerFaceUvs, to.cornerFaceUvs);
-}
+/// The mesh before the first step: the cage with its faces cut by the rule, if there is one, and stencils in which
+/// every vertex is itself. What was cut, creases that name no edge and sharp vertices that do not exist are reported in
+/// `notes`. Refuses what splitFaces() refuses.
+[[nodiscard]] Result<RefinedMesh> beginRefinement(const cage::Cage& cage, const SplitRule* rule,
+                                                  std::vector<std::string>& notes);
 
-/// Ends a face of `to`, whose corners were added before. It came from face `face` of `from`.
-void closeFace(Level& to, const Level& from, uint32_t face);
+/// Corners of a mesh, and how refine() numbers what it makes of it.
+class StepPoints {
+public:
+    explicit StepPoints(const RefinedMesh& parent) : parent_(parent) {}
 
-/// The first level: faces, attributes and holes of the cage. The caller then fills in `topology` and calls
-/// beginLevel().
-[[nodiscard]] Level givenLevel(const cage::Cage& cage);
+    [[nodiscard]] uint32_t vertexAt(uint32_t corner) const { return parent_.cage.faceVertices[corner]; }
+    [[nodiscard]] uint32_t faceOf(uint32_t corner) const { return parent_.topology.cornerFaces[corner]; }
+    [[nodiscard]] uint32_t next(uint32_t corner) const {
+        return cage::nextCorner(parent_.cage, faceOf(corner), corner);
+    }
+    [[nodiscard]] uint32_t previous(uint32_t corner) const {
+        return cage::previousCorner(parent_.cage, faceOf(corner), corner);
+    }
+    /// The point of the edge from a corner to the next.
+    [[nodiscard]] uint32_t edgePoint(uint32_t corner) const {
+        return parent_.cage.vertexCount() + parent_.topology.cornerEdges[corner];
+    }
+    [[nodiscard]] uint32_t facePoint(uint32_t face) const {
+        return parent_.cage.vertexCount() + static_cast<uint32_t>(parent_.topology.edges.size()) + face;
+    }
 
-/// Gives the level the sharpness of the cage's creases and sharp vertices, and stencils in which every vertex is
-/// itself. Creases that name no edge and sharp vertices that do not exist are reported in `notes`.
-void beginLevel(Level& level, const cage::Cage& cage, std::vector<std::string>& notes);
+protected:
+    const RefinedMesh& parent_;
+};
 
 /// One step of Catmull-Clark on faces of any kind, or of Loop on triangles. The child lacks what equip() adds. Its
 /// vertices are those of the parent, then one per edge (in the order of Topology::edges), then, for Catmull-Clark, one
 /// per face. Each face of the parent gives one face per corner, which is the new face's corner 0; Loop then adds the
 /// middle one.
-[[nodiscard]] Level refine(const Level& parent, Subdivision subdivision);
+[[nodiscard]] RefinedMesh refine(const RefinedMesh& parent, Subdivision subdivision);
 
 /// Gives a Catmull-Clark child what another step needs.
-[[nodiscard]] std::optional<Error> equip(Level& child, const Level& parent);
+[[nodiscard]] Status equip(RefinedMesh& child, const RefinedMesh& parent);
 
 /// The two edges of a Catmull-Clark child that the parent's edge from a corner to the next was split into.
 struct EdgeHalves {
     uint32_t first = 0, second = 0;
 };
-[[nodiscard]] EdgeHalves edgeHalves(const Level& child, const Level& parent, uint32_t corner);
+[[nodiscard]] EdgeHalves edgeHalves(const RefinedMesh& child, const RefinedMesh& parent, uint32_t corner);
 
 } // namespace supple::surface

@@ -1,14 +1,13 @@
 #include "surface/schemes.h"
 
 #include "cage/trim.h"
-#include "surface/blend/scheme.h"
+#include "surface/build.h"
 #include "surface/indexed_mesh.h"
 #include "surface/lod/tables.h"
-#include "surface/pm/scheme.h"
-#include "surface/prep/scheme.h"
-#include "surface/subdivision/scheme.h"
 
+#include <algorithm>
 #include <bit>
+#include <iterator>
 #include <string>
 
 namespace supple::surface {
@@ -27,16 +26,6 @@ constexpr Scheme kSchemes[] = {
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true, false, &blend::boundsMargin},
 };
-
-constexpr bool areInOrder() {
-    for (uint32_t i = 0; i < std::size(kSchemes); ++i) {
-        if (static_cast<uint32_t>(kSchemes[i].id) != i + 1) {
-            return false;
-        }
-    }
-    return true;
-}
-static_assert(areInOrder());
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Scheme& scheme = schemeOf(recipe.scheme);
@@ -87,7 +76,7 @@ std::span<const Scheme> schemes() {
 }
 
 const Scheme& schemeOf(SchemeId id) {
-    return kSchemes[static_cast<uint32_t>(id) - 1];
+    return *std::find_if(std::begin(kSchemes), std::end(kSchemes), [&](const Scheme& row) { return row.id == id; });
 }
 
 Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {

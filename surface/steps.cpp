@@ -82,44 +82,63 @@ uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
     return best;
 }
 
-/// Adds a range of patches to a vertex pass. `side`: samples of a row of theirs.
-void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass, size_t range,
-                 const gpu::Kernel& kernel, uint32_t samples, uint32_t side) {
-    const PatchRange& from = builder.tables.ranges[range];
-    const gpu::Mapping& mapping = builder.device.mapping;
-    const PatchClassRow& row = rowOf(from.patchClass);
-    SurfacePush push = pushFor(builder, from.section);
-    push.samples = samples;
-    push.firstPatch = from.firstPatch;
-    push.firstVertex = builder.evaluation.firstVertices[range];
-    DispatchSize size = builder.lanes(push.count);
-    if (mapping.wide) {
-        push.patchesPerGroup =
-            row.isBicubic() ? std::min(mapping.localSize / side, SUPPLE_WIDE_ELEMENTS(pass.format) / row.netElements)
-                            : patchesPerGroup(samples, mapping.localSize);
-        size.perGroup = push.patchesPerGroup;
-    }
-    builder.add(*pass.steps, SetKind::evaluate, kernel, size, push);
+/// Of an indexed mesh a range evaluates the samples inside its patches alone.
+uint32_t samplesOf(const ProgramBuilder& builder, PatchClass patchClass) {
+    const Domain domain = domainOf(patchClass);
+    const uint32_t rate = builder.evaluation.rate;
+    return builder.tables.hasIndexedMesh() ? interiorCount(domain, rate) : sampleCount(domain, rate);
 }
 
 /// The kernel for any rate that is set later, and that of the rate the group begins with, where one of its own pays.
+/// The rate of a group with an indexed mesh stays.
 gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint32_t format) {
+    const bool indexed = builder.tables.hasIndexedMesh();
     const auto make = [&](uint32_t rate) {
+        const std::string name = indexed ? "supple evaluate inside, " : "supple evaluate, ";
         return builder.kernel(SetKind::evaluate, rowOf(patchClass).evaluate,
                               {{kKindConstant, static_cast<uint32_t>(patchClass)},
                                {kVertexFormatConstant, format},
                                {kCornerNormalsConstant, cornerNormals(builder)},
+                               {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
                                {kRateConstant, rate}},
-                              atRate(std::string("supple evaluate, ") + className(patchClass), rate));
+                              atRate(name + className(patchClass), rate));
     };
-    const gpu::Kernel any = make(0), own = ownRatePays(builder, patchClass) && format != kVertexPosition
-                                               ? make(builder.needs.rate)
-                                               : any;
+    const uint32_t ownRate = ownRatePays(builder, patchClass) ? builder.needs.rate : 0;
+    if (indexed) {
+        return make(ownRate);
+    }
+    const gpu::Kernel any = make(0), own = ownRate > 0 && format != kVertexPosition ? make(ownRate) : any;
     return builder.evaluation.rate == builder.needs.rate ? own : any;
 }
 
-void addAttributes(ProgramBuilder& builder, size_t range, const gpu::Kernel& kernel, uint32_t samples) {
+void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass, size_t range) {
     const PatchRange& from = builder.tables.ranges[range];
+    const gpu::Mapping& mapping = builder.device.mapping;
+    const PatchClassRow& row = rowOf(from.patchClass);
+    SurfacePush push = pushFor(builder, from.section);
+    push.samples = samplesOf(builder, from.patchClass);
+    push.firstPatch = from.firstPatch;
+    push.firstVertex = builder.evaluation.firstVertices[range];
+    DispatchSize size = builder.lanes(push.count);
+    if (mapping.wide) {
+        const uint32_t rowSamples = builder.tables.hasIndexedMesh() ? push.rate - 1 : push.rate + 1;
+        push.patchesPerGroup = row.isBicubic() ? std::min(mapping.localSize / rowSamples,
+                                                          SUPPLE_WIDE_ELEMENTS(pass.format) / row.netElements)
+                                               : patchesPerGroup(push.samples, mapping.localSize);
+        size.perGroup = push.patchesPerGroup;
+    }
+    builder.add(*pass.steps, SetKind::evaluate, evaluateKernel(builder, from.patchClass, pass.format), size, push);
+}
+
+void addAttributes(ProgramBuilder& builder, size_t range) {
+    const PatchRange& from = builder.tables.ranges[range];
+    const bool indexed = builder.tables.hasIndexedMesh();
+    const gpu::Kernel kernel = builder.kernel(SetKind::attributes, Kernel::evaluateAttributes,
+                                              {{kKindConstant, static_cast<uint32_t>(domainOf(from.patchClass))},
+                                               {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
+                                               {kOutputsConstant, outputsOf(builder)}},
+                                              indexed ? "supple attributes inside" : "supple attributes");
+    const uint32_t samples = samplesOf(builder, from.patchClass);
     SurfacePush push = pushFor(builder, {from.attributes, from.section.count * samples});
     push.samples = samples;
     push.firstVertex = builder.evaluation.firstVertices[range];
@@ -135,98 +154,6 @@ void addPatch(ProgramBuilder& builder, const PatchRange& range) {
     push.firstPatch = range.firstPatch;
     builder.add(builder.program.patch, SetKind::construct, kernel, builder.lanes(push.count), push);
 }
-
-} // namespace
-
-gpu::Kernel ProgramBuilder::kernel(SetKind sets, Kernel kernel, std::span<const gpu::Constant> constants,
-                                   const std::string& name) {
-    if (!status_) {
-        return {};
-    }
-    const Result<gpu::Kernel> made =
-        pipelines_.get(layouts_[static_cast<size_t>(sets)], shaders_[kernel], constants, name.c_str());
-    if (!made) {
-        status_ = made.error();
-        return {};
-    }
-    return *made;
-}
-
-std::vector<ProgramBuilder::VertexPass> ProgramBuilder::vertexPasses() {
-    std::vector<VertexPass> passes{{needs.vertexFormat, &program.evaluate}};
-    if (needs.motion) {
-        passes.push_back({kVertexPosition, &program.motion});
-    }
-    return passes;
-}
-
-void addConstructions(ProgramBuilder& builder) {
-    for (uint32_t i = 0; i < builder.tables.constructions.size(); ++i) {
-        const Construction& c = builder.tables.constructions[i];
-        const gpu::Kernel kernel =
-            builder.kernel(SetKind::construct, c.kernel.kernel, {{kKindConstant, c.kernel.kind}}, c.kernel.name);
-        Steps& steps = c.stage == Stage::vertex ? builder.program.vertex : builder.program.assemble;
-        // No facet kernel of P_m reads what another writes.
-        const Order order = c.stage == Stage::assemble && !steps.empty() ? Order::disjoint : Order::free;
-        builder.add(steps, SetKind::construct, kernel, builder.lanes(c.section.count), pushFor(builder, c.section), i,
-                    order);
-    }
-}
-
-void addRanges(ProgramBuilder& builder) {
-    const Tables& tables = builder.tables;
-    const bool evaluates = tables.fragments.classes.empty() && !tables.hasIndexedMesh();
-    for (size_t r = 0; r < tables.ranges.size(); ++r) {
-        const PatchRange& range = tables.ranges[r];
-        const Domain domain = domainOf(range.patchClass);
-        const uint32_t samples = sampleCount(domain, builder.evaluation.rate);
-        if (builder.needs.attributes && !tables.hasIndexedMesh()) {
-            const gpu::Kernel kernel =
-                builder.kernel(SetKind::attributes, Kernel::evaluateAttributes,
-                               {{kKindConstant, static_cast<uint32_t>(domain)}, {kOutputsConstant, outputsOf(builder)}},
-                               "supple attributes");
-            addAttributes(builder, r, kernel, samples);
-        }
-        if (builder.needs.patches) {
-            addPatch(builder, range);
-        }
-        for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
-            if (evaluates) {
-                addEvaluate(builder, pass, r, evaluateKernel(builder, range.patchClass, pass.format), samples,
-                            builder.evaluation.rate + 1);
-            }
-        }
-    }
-}
-
-void addRangesAtLevels(ProgramBuilder& builder) {
-    for (uint32_t r = 0; r < builder.tables.ranges.size(); ++r) {
-        const PatchRange& range = builder.tables.ranges[r];
-        const PatchClassRow& row = rowOf(range.patchClass);
-        SurfacePush push = pushFor(builder, range.section);
-        push.firstPatch = range.firstPatch;
-        push.run = r;
-        for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
-            const gpu::Kernel kernel = builder.kernel(SetKind::evaluateLevels, row.atLevels,
-                                                      {{kKindConstant, static_cast<uint32_t>(range.patchClass)},
-                                                       {kVertexFormatConstant, pass.format},
-                                                       {kCornerNormalsConstant, cornerNormals(builder)}},
-                                                      std::string("supple evaluate at levels, ") + row.name);
-            builder.add(*pass.steps, SetKind::evaluateLevels, kernel, builder.lanes(push.count), push, r);
-        }
-        if (builder.needs.attributes) {
-            const gpu::Kernel kernel = builder.kernel(
-                SetKind::attributes,
-                row.form == lod::Form::quad ? Kernel::evaluateAttributesLevels : Kernel::evaluateAttributesLevelsRings,
-                {{kKindConstant, static_cast<uint32_t>(row.domain)}, {kOutputsConstant, outputsOf(builder)}},
-                std::string("supple attributes at levels, ") + row.name);
-            push.table = range.attributes;
-            builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push, r);
-        }
-    }
-}
-
-namespace {
 
 void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
     constexpr const char* kNames[] = {"supple evaluate edges", "supple evaluate edges, perturbed",
@@ -260,46 +187,95 @@ void addEdgeAttributes(ProgramBuilder& builder) {
 
 } // namespace
 
-void addIndexedMesh(ProgramBuilder& builder) {
-    const Tables& tables = builder.tables;
-    // The rate of such a group stays. At low ones patches may have no sample inside.
-    const auto inside = [&](size_t range) {
-        return interiorCount(domainOf(tables.ranges[range].patchClass), builder.evaluation.rate);
-    };
-    for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
-        for (size_t r = 0; r < tables.ranges.size(); ++r) {
-            const PatchClass patchClass = tables.ranges[r].patchClass;
-            if (inside(r) == 0) {
-                continue;
-            }
-            const uint32_t rate = ownRatePays(builder, patchClass) ? builder.needs.rate : 0;
-            const gpu::Kernel kernel =
-                builder.kernel(SetKind::evaluate, rowOf(patchClass).evaluate,
-                               {{kKindConstant, static_cast<uint32_t>(patchClass)},
-                                {kVertexFormatConstant, pass.format},
-                                {kCornerNormalsConstant, cornerNormals(builder)},
-                                {kInteriorConstant, VK_TRUE},
-                                {kRateConstant, rate}},
-                               atRate(std::string("supple evaluate inside, ") + className(patchClass), rate));
-            addEvaluate(builder, pass, r, kernel, inside(r), builder.evaluation.rate - 1);
-        }
-        addEdges(builder, pass);
+gpu::Kernel ProgramBuilder::kernel(SetKind sets, Kernel which, std::initializer_list<gpu::Constant> constants,
+                                   const std::string& name) {
+    if (!status_) {
+        return {};
     }
-    if (!builder.needs.attributes) {
+    const Result<gpu::Kernel> made = pipelines_.get(layouts_[static_cast<size_t>(sets)], shaders_[which],
+                                                    std::span(constants.begin(), constants.size()), name.c_str());
+    if (!made) {
+        status_ = made.error();
+        return {};
+    }
+    return *made;
+}
+
+std::vector<ProgramBuilder::VertexPass> ProgramBuilder::vertexPasses() {
+    std::vector<VertexPass> passes{{needs.vertexFormat, &program.evaluate}};
+    if (needs.motion) {
+        passes.push_back({kVertexPosition, &program.motion});
+    }
+    return passes;
+}
+
+void addConstructions(ProgramBuilder& builder) {
+    for (uint32_t i = 0; i < builder.tables.constructions.size(); ++i) {
+        const Construction& c = builder.tables.constructions[i];
+        const gpu::Kernel kernel =
+            builder.kernel(SetKind::construct, c.kernel.kernel, {{kKindConstant, c.kernel.kind}}, c.kernel.name);
+        Steps& steps = c.stage == Stage::vertex ? builder.program.vertex : builder.program.assemble;
+        // No facet kernel of P_m reads what another writes.
+        const Order order = c.stage == Stage::assemble && !steps.empty() ? Order::disjoint : Order::free;
+        builder.add(steps, SetKind::construct, kernel, builder.lanes(c.section.count), pushFor(builder, c.section), i,
+                    order);
+    }
+}
+
+void addRanges(ProgramBuilder& builder) {
+    const Tables& tables = builder.tables;
+    for (size_t r = 0; r < tables.ranges.size(); ++r) {
+        if (builder.needs.patches) {
+            addPatch(builder, tables.ranges[r]);
+        }
+        if (samplesOf(builder, tables.ranges[r].patchClass) == 0) {
+            continue; // at low rates patches of an indexed mesh may have no sample inside
+        }
+        if (builder.needs.attributes) {
+            addAttributes(builder, r);
+        }
+        for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
+            if (tables.fragments.classes.empty()) {
+                addEvaluate(builder, pass, r);
+            }
+        }
+    }
+    if (!tables.hasIndexedMesh()) {
         return;
     }
-    for (size_t r = 0; r < tables.ranges.size(); ++r) {
-        if (inside(r) > 0) {
-            const gpu::Kernel kernel =
-                builder.kernel(SetKind::attributes, Kernel::evaluateAttributes,
-                               {{kKindConstant, static_cast<uint32_t>(domainOf(tables.ranges[r].patchClass))},
-                                {kInteriorConstant, VK_TRUE},
-                                {kOutputsConstant, outputsOf(builder)}},
-                               "supple attributes inside");
-            addAttributes(builder, r, kernel, inside(r));
+    for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
+        addEdges(builder, pass);
+    }
+    if (builder.needs.attributes) {
+        addEdgeAttributes(builder);
+    }
+}
+
+void addRangesAtLevels(ProgramBuilder& builder) {
+    for (uint32_t r = 0; r < builder.tables.ranges.size(); ++r) {
+        const PatchRange& range = builder.tables.ranges[r];
+        const PatchClassRow& row = rowOf(range.patchClass);
+        SurfacePush push = pushFor(builder, range.section);
+        push.firstPatch = range.firstPatch;
+        push.run = r;
+        for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
+            const gpu::Kernel kernel = builder.kernel(SetKind::evaluateLevels, row.atLevels,
+                                                      {{kKindConstant, static_cast<uint32_t>(range.patchClass)},
+                                                       {kVertexFormatConstant, pass.format},
+                                                       {kCornerNormalsConstant, cornerNormals(builder)}},
+                                                      std::string("supple evaluate at levels, ") + row.name);
+            builder.add(*pass.steps, SetKind::evaluateLevels, kernel, builder.lanes(push.count), push, r);
+        }
+        if (builder.needs.attributes) {
+            const gpu::Kernel kernel = builder.kernel(
+                SetKind::attributes,
+                row.form == lod::Form::quad ? Kernel::evaluateAttributesLevels : Kernel::evaluateAttributesLevelsRings,
+                {{kKindConstant, static_cast<uint32_t>(row.domain)}, {kOutputsConstant, outputsOf(builder)}},
+                std::string("supple attributes at levels, ") + row.name);
+            push.table = range.attributes;
+            builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push, r);
         }
     }
-    addEdgeAttributes(builder);
 }
 
 } // namespace supple::surface

@@ -9,7 +9,6 @@
 #include "surface/shaders.h"
 
 #include <initializer_list>
-#include <span>
 #include <string>
 
 namespace supple::surface {
@@ -29,12 +28,8 @@ public:
     const Evaluation& evaluation;
     Program program;
 
-    [[nodiscard]] gpu::Kernel kernel(SetKind sets, Kernel kernel, std::span<const gpu::Constant> constants,
-                                     const std::string& name);
     [[nodiscard]] gpu::Kernel kernel(SetKind sets, Kernel which, std::initializer_list<gpu::Constant> constants,
-                                     const std::string& name) {
-        return kernel(sets, which, std::span(constants.begin(), constants.size()), name);
-    }
+                                     const std::string& name);
     /// The first error. After it no more pipelines are created.
     [[nodiscard]] const Status& status() const { return status_; }
 
@@ -66,8 +61,7 @@ private:
 
 // Each adds what the tables and needs call for.
 void addConstructions(ProgramBuilder& builder);
-void addRanges(ProgramBuilder& builder); ///< patch, evaluate and attributes of patches, at a rate
+void addRanges(ProgramBuilder& builder); ///< patch, evaluate and attributes, at a rate
 void addRangesAtLevels(ProgramBuilder& builder);
-void addIndexedMesh(ProgramBuilder& builder); ///< evaluate and attributes where patches share their samples
 
 } // namespace supple::surface

@@ -3,7 +3,6 @@
 #include "surface/valence.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace supple::surface {
 namespace {
@@ -41,6 +40,14 @@ float softened(float sharpness, uint32_t steps) {
     return std::max(0.0f, sharpness - static_cast<float>(steps));
 }
 
+std::vector<float> softened(std::span<const float> sharpness, uint32_t steps) {
+    std::vector<float> left(sharpness.begin(), sharpness.end());
+    for (float& value : left) {
+        value = softened(value, steps);
+    }
+    return left;
+}
+
 VertexRule vertexRule(std::span<const float> spokeSharpness, float vertexSharpness) {
     VertexRule result;
     uint32_t sharp = 0;
@@ -67,13 +74,8 @@ CentreWeights refineWeights(Subdivision subdivision, uint32_t valence) {
 }
 
 CentreStep centreStep(std::span<const float> spokeSharpness, float vertexSharpness) {
-    std::vector<float> childSpokes;
-    childSpokes.reserve(spokeSharpness.size());
-    for (const float sharpness : spokeSharpness) {
-        childSpokes.push_back(softened(sharpness, 1));
-    }
     const VertexRule parent = vertexRule(spokeSharpness, vertexSharpness);
-    const VertexRule child = vertexRule(childSpokes, softened(vertexSharpness, 1));
+    const VertexRule child = vertexRule(softened(spokeSharpness, 1), softened(vertexSharpness, 1));
     CentreStep step;
     step.smooth = 0.0;
     const auto add = [&](const VertexRule& rule, double share) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace supple::surface {
 
@@ -13,6 +14,7 @@ inline constexpr float kInfiniteSharpness = 1e9f;
 
 /// The sharpness that is left after `steps` steps. Each takes away 1, down to 0. Infinite sharpness stays.
 [[nodiscard]] float softened(float sharpness, uint32_t steps);
+[[nodiscard]] std::vector<float> softened(std::span<const float> sharpness, uint32_t steps);
 
 enum class CentreRule : uint8_t { smooth, crease, corner };
 

@@ -55,14 +55,8 @@ private:
         };
         const glm::vec2 uv = uvOf(cage_.cornerUvs), uv1 = uvOf(cage_.cornerUvs1), faceUv = uvOf(cage_.cornerFaceUvs);
         const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
-        return {bits(uv.x),
-                bits(uv.y),
-                unorm16(0) | unorm16(1) << 16,
-                unorm16(2) | unorm16(3) << 16,
-                bits(uv1.x),
-                bits(uv1.y),
-                bits(faceUv.x),
-                bits(faceUv.y)};
+        const uint32_t redGreen = unorm16(0) | unorm16(1) << 16, blueAlpha = unorm16(2) | unorm16(3) << 16;
+        return {bits(uv.x), bits(uv.y), redGreen, blueAlpha, bits(uv1.x), bits(uv1.y), bits(faceUv.x), bits(faceUv.y)};
     }
 
     const cage::Cage& cage_;
@@ -87,9 +81,7 @@ void writeAttributes(const cage::Cage& cage, const std::vector<DraftPatch>& patc
     tables.attributes = writer.element();
     writer.reserve(elementWords * known.count() + numbers.size());
     for (uint32_t number = 0; number < known.count(); ++number) {
-        for (size_t w = 0; w < elementWords; ++w) {
-            writer.put({known.words(number)[w]});
-        }
+        writer.put(std::span(known.words(number)).first(elementWords));
     }
     tables.attributeHalves = known.count() <= 1u << 16;
     size_t next = 0;
@@ -115,13 +107,39 @@ bool Tables::has(Stage stage) const {
                        [&](const Construction& c) { return c.stage == stage && c.section.count > 0; });
 }
 
-void sortPatches(std::vector<DraftPatch>& patches) {
+std::vector<DraftPatch> draftPatches(const DraftFaces& faces,
+                                     const std::function<PatchClass(const DraftPatch&)>& classOf) {
+    const cage::Cage& cage = faces.cage;
+    std::vector<DraftPatch> patches;
+    patches.reserve(cage.faceCount());
+    auto hole = cage.holes.begin();
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        if (hole != cage.holes.end() && *hole == f) {
+            ++hole;
+            continue;
+        }
+        DraftPatch& patch = patches.emplace_back();
+        patch.facet = f;
+        patch.info.face = faces.sourceFaces.empty() ? f : faces.sourceFaces[f];
+        patch.info.material = cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[f];
+        patch.info.cornerCount = cage.sides(f);
+        const uint32_t first = faces.firstCorners.empty() ? 0 : faces.firstCorners[f];
+        for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
+            const uint32_t corner = cage.faceStarts[f] + (first + i) % patch.info.cornerCount;
+            const uint32_t vertex = cage.faceVertices[corner];
+            patch.cageCorners[i] = corner;
+            patch.info.corners[i] = vertex < faces.hostVertices ? vertex : cage::kNone;
+        }
+        patch.info.patchClass = classOf(patch);
+    }
     const auto before = [](const DraftPatch& a, const DraftPatch& b) {
-        return std::tuple(a.info.patchClass, a.material, a.facet) < std::tuple(b.info.patchClass, b.material, b.facet);
+        return std::tuple(a.info.patchClass, a.info.material, a.facet) <
+               std::tuple(b.info.patchClass, b.info.material, b.facet);
     };
     if (!std::is_sorted(patches.begin(), patches.end(), before)) { // which they mostly are
         std::sort(patches.begin(), patches.end(), before);
     }
+    return patches;
 }
 
 void countPatch(PatchClass patchClass, uint32_t patch, TableWriter& writer, Tables& tables) {
@@ -145,13 +163,12 @@ void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches
     for (const DraftPatch& patch : patches) {
         const Domain domain = domainOf(patch.info.patchClass);
         const auto index = static_cast<uint32_t>(tables.patches.size());
-        if (tables.drawRanges.empty() || tables.drawRanges.back().material != patch.material ||
+        if (tables.drawRanges.empty() || tables.drawRanges.back().material != patch.info.material ||
             tables.drawRanges.back().domain != domain) {
-            tables.drawRanges.push_back({domain, index, 0, patch.material});
+            tables.drawRanges.push_back({domain, index, 0, patch.info.material});
         }
         ++tables.drawRanges.back().patchCount;
         tables.patches.push_back(patch.info);
-        tables.patches.back().material = patch.material;
     }
 }
 

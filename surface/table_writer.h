@@ -5,9 +5,16 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <initializer_list>
+#include <span>
 
 namespace supple::surface {
+
+/// A weight, which was computed in double, as the device reads it.
+[[nodiscard]] inline uint32_t floatBits(double value) {
+    return std::bit_cast<uint32_t>(static_cast<float>(value));
+}
 
 /// Appends words to the tables. Sections begin on element boundaries.
 class TableWriter {
@@ -27,49 +34,39 @@ public:
         }
     }
     void put(std::initializer_list<uint32_t> values) { words_.insert(words_.end(), values); }
+    void put(std::span<const uint32_t> values) { words_.insert(words_.end(), values.begin(), values.end()); }
+    void putFloats(std::initializer_list<double> values) {
+        for (const double value : values) {
+            words_.push_back(floatBits(value));
+        }
+    }
 
 private:
     std::vector<uint32_t>& words_;
 };
 
-/// A weight, which was computed in double, as the device reads it.
-[[nodiscard]] inline uint32_t floatBits(double value) {
-    return std::bit_cast<uint32_t>(static_cast<float>(value));
+/// Coefficients per instance such that every instance starts on 256 bytes.
+[[nodiscard]] constexpr uint32_t poolStrideFor(uint32_t coefficients) {
+    return (coefficients + 15) / 16 * 16;
 }
 
-/// A patch that is not in the tables yet: what decides its place there, and which corners of the cage are its corners.
+/// A patch that is not in the tables yet, and which corners of the cage are its corners.
 struct DraftPatch {
     PatchInfo info;
-    uint32_t facet = 0; ///< face of the cage that the scheme works on
-    uint32_t material = cage::kNone;
+    uint32_t facet = 0;                            ///< face of the cage that the scheme works on
     std::array<uint32_t, kMaxSides> cageCorners{}; ///< corners of that cage
 };
 
-/// One patch, still without a class, for every face of a refined cage that is no hole. `mesh` has `cage`,
-/// `sourceFaces`, `holes` and `cornerSources` (see subdivision::Mesh).
-template <class Mesh>
-[[nodiscard]] std::vector<DraftPatch> draftPatches(const Mesh& mesh) {
-    std::vector<DraftPatch> patches;
-    patches.reserve(mesh.cage.faceCount());
-    for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-        if (mesh.holes[f] != 0) {
-            continue;
-        }
-        DraftPatch& patch = patches.emplace_back();
-        patch.facet = f;
-        patch.material = mesh.cage.faceMaterials.empty() ? cage::kNone : mesh.cage.faceMaterials[f];
-        patch.info.face = mesh.sourceFaces[f];
-        patch.info.cornerCount = mesh.cage.sides(f);
-        for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
-            patch.cageCorners[i] = mesh.cage.faceStarts[f] + i;
-            patch.info.corners[i] = mesh.cornerSources[patch.cageCorners[i]];
-        }
-    }
-    return patches;
-}
-
-/// Puts patches into device order: by class, then material, then facet.
-void sortPatches(std::vector<DraftPatch>& patches);
+/// What patches are made of: the faces of a cage that are no holes.
+struct DraftFaces {
+    const cage::Cage& cage;
+    uint32_t hostVertices = 0;               ///< vertices of the cage that are the host's come first
+    std::span<const uint32_t> sourceFaces{}; ///< per face: the host's; empty: all are the host's
+    std::span<const uint8_t> firstCorners{}; ///< per face: the corner that is corner 0 of its patch; empty: 0
+};
+/// The patches in device order: by class, then material, then facet.
+[[nodiscard]] std::vector<DraftPatch> draftPatches(const DraftFaces& faces,
+                                                   const std::function<PatchClass(const DraftPatch&)>& classOf);
 
 /// Counts a patch, whose record comes next, among those of its class. `patch`: its index in device order.
 void countPatch(PatchClass patchClass, uint32_t patch, TableWriter& writer, Tables& tables);

@@ -4,7 +4,6 @@
 #include "cage/features.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace supple::surface::blend {
@@ -14,7 +13,7 @@ using cage::Cage;
 using cage::kNone;
 using cage::Topology;
 
-/// What the host made sharp, of a level.
+/// What the host made sharp.
 struct Marks {
     std::vector<uint8_t> edges;    ///< boundary edges too: a boundary is none without a crease
     std::vector<uint8_t> vertices; ///< kHardSharpness and more
@@ -37,7 +36,7 @@ Marks marksOf(const Cage& cage, const Topology& topology, float threshold) {
 }
 
 /// Both halves of a sharp edge are sharp; what the step adds to the vertices is not.
-Marks childMarks(const Marks& marks, const Level& child, const Level& parent) {
+Marks childMarks(const Marks& marks, const RefinedMesh& child, const RefinedMesh& parent) {
     Marks result;
     result.edges.assign(child.topology.edges.size(), 0);
     for (uint32_t c = 0; c < parent.cage.cornerCount(); ++c) {
@@ -51,12 +50,12 @@ Marks childMarks(const Marks& marks, const Level& child, const Level& parent) {
 
 /// The step knows sharp and smooth alone, as the surface does: a crease must not change its nature because there is a
 /// triangle elsewhere.
-void makeSharp(Level& level, const Marks& marks) {
-    for (uint32_t e = 0; e < level.edgeSharpness.size(); ++e) {
-        const bool boundary = level.topology.edges[e].twin == kNone;
-        level.edgeSharpness[e] = boundary || marks.edges[e] != 0 ? kInfiniteSharpness : 0.0f;
+void makeSharp(RefinedMesh& mesh, const Marks& marks) {
+    for (uint32_t e = 0; e < mesh.edgeSharpness.size(); ++e) {
+        const bool boundary = mesh.topology.edges[e].twin == kNone;
+        mesh.edgeSharpness[e] = boundary || marks.edges[e] != 0 ? kInfiniteSharpness : 0.0f;
     }
-    for (float& sharpness : level.vertexSharpness) {
+    for (float& sharpness : mesh.vertexSharpness) {
         sharpness = sharpness >= cage::kHardSharpness ? kInfiniteSharpness : 0.0f;
     }
 }
@@ -168,36 +167,30 @@ uint32_t countOtherThanQuads(const Cage& cage) {
 }
 
 Result<Mesh> build(const Cage& cage, const Options& options) {
-    Result<Topology> topology = cage::buildTopology(cage);
-    if (!topology.ok()) {
-        return topology.error();
-    }
     Mesh mesh;
     mesh.creases = options.creases;
-    Level level = givenLevel(cage);
-    level.topology = std::move(*topology);
-    beginLevel(level, cage, mesh.notes);
-    Marks marks = marksOf(cage, level.topology, options.sharpThreshold);
+    Result<RefinedMesh> quads = beginRefinement(cage, nullptr, mesh.notes);
+    if (!quads) {
+        return quads.error();
+    }
+    Marks marks = marksOf(cage, quads->topology, options.sharpThreshold);
     if (const uint32_t others = countOtherThanQuads(cage); others > 0) {
         mesh.refined = true;
         mesh.notes.push_back(std::to_string(others) + " of " + std::to_string(cage.faceCount()) +
                              " faces are no quads: the cage takes one step of Catmull-Clark first");
-        makeSharp(level, marks);
-        Level child = refine(level, Subdivision::catmullClark);
-        if (std::optional<Error> error = equip(child, level)) {
-            return std::move(*error);
+        makeSharp(*quads, marks);
+        RefinedMesh child = refine(*quads, Subdivision::catmullClark);
+        if (const Status equipped = equip(child, *quads); !equipped) {
+            return equipped.error();
         }
-        marks = childMarks(marks, child, level);
-        level = std::move(child);
+        marks = childMarks(marks, child, *quads);
+        *quads = std::move(child);
     }
-    for (const uint32_t v : level.cage.faceVertices) {
-        mesh.cornerSources.push_back(v < cage.vertexCount() ? v : kNone);
-    }
-    mesh.cage = std::move(level.cage);
-    mesh.topology = std::move(level.topology);
-    mesh.stencils = std::move(level.stencils);
-    mesh.sourceFaces = std::move(level.sourceFaces);
-    mesh.holes = std::move(level.holes);
+    mesh.hostVertices = cage.vertexCount();
+    mesh.cage = std::move(quads->cage);
+    mesh.topology = std::move(quads->topology);
+    mesh.stencils = std::move(quads->stencils);
+    mesh.sourceFaces = std::move(quads->sourceFaces);
     ChartBuilder(marks, mesh).run();
     mesh.edgeSharp = std::move(marks.edges);
     return mesh;

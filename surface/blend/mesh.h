@@ -77,14 +77,13 @@ struct Mesh {
     /// Whether the cage had faces other than quads and was subdivided once by Catmull-Clark. Then vertices and faces
     /// have the order of surface::refine(), else that of the host's cage.
     bool refined = false;
-    /// Quads, with corner attributes, materials and rest positions; without creases, sharp vertices and holes.
+    /// Quads, with corner attributes, materials, holes and rest positions; without creases and sharp vertices.
     cage::Cage cage;
     cage::Topology topology; ///< of `cage`
     Stencils stencils;       ///< one row per vertex of `cage`, over the host's vertices; itself unless refined
-    std::vector<uint32_t> sourceFaces;   ///< per face: the host's face it came from
-    std::vector<uint8_t> holes;          ///< per face: 1 if the host's face is not drawn
-    std::vector<uint32_t> cornerSources; ///< per corner: the host's cage vertex at that place, or kNone
-    std::vector<uint8_t> edgeSharp;      ///< per edge of `topology`: 1 if the host made it sharp
+    std::vector<uint32_t> sourceFaces; ///< per face: the host's face it came from
+    uint32_t hostVertices = 0;         ///< so many vertices of `cage` are the host's; they come first
+    std::vector<uint8_t> edgeSharp;    ///< per edge of `topology`: 1 if the host made it sharp
 
     std::vector<ChartClass> classes;   ///< sorted, without duplicates
     std::vector<Chart> charts;         ///< grouped by vertex; at a crease the side of the first sharp spoke comes first

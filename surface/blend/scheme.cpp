@@ -1,12 +1,12 @@
-#include "surface/blend/scheme.h"
-
+// The blending surface as a scheme: the tables of shaders/shared/{surface,blend}.h.
 #include "shaders/shared/blend.h"
 #include "surface/blend/weights.h"
+#include "surface/build.h"
 #include "surface/stencil_table.h"
-#include "surface/table_writer.h"
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace supple::surface::blend {
 
@@ -22,14 +22,17 @@ struct TurnTables {
 
 class Builder {
 public:
+    /// `rate`: segments along a patch edge; 0: tables for samples at any parameters.
     Builder(const Mesh& mesh, uint32_t rate) : mesh_(mesh), rate_(rate), writer_(tables_.words) {}
 
     Tables build() {
         tables_.rate = rate_;
         tables_.isolationSteps = mesh_.refined ? 1 : 0;
         tables_.notes = mesh_.notes;
-        sortPatches();
-        layOutPool();
+        patches_ = draftPatches({mesh_.cage, mesh_.hostVertices, mesh_.sourceFaces},
+                                [&](const DraftPatch& patch) { return classOf(patch); });
+        firstChart_ = mesh_.refined ? mesh_.cage.vertexCount() : 0;
+        tables_.poolStride = poolStrideFor(poolIndex(static_cast<uint32_t>(mesh_.charts.size())));
         if (mesh_.refined) {
             writeStencils(mesh_.stencils, {}, writer_, tables_);
         }
@@ -52,31 +55,18 @@ private:
         return kind == ChartKind::point || kind == ChartKind::curve;
     }
 
-    void sortPatches() {
-        patches_ = draftPatches(mesh_);
-        for (DraftPatch& patch : patches_) {
-            patch.info.patchClass = PatchClass::blend;
-            for (uint32_t c = 4 * patch.facet; c < 4 * patch.facet + 4; ++c) {
-                if (mesh_.classOf(mesh_.corners[c].chart).creased() || stillCorner(c) || flatAcross(mesh_, c)) {
-                    patch.info.patchClass = PatchClass::blendSharp;
-                }
-            }
-        }
-        surface::sortPatches(patches_);
+    [[nodiscard]] PatchClass classOf(const DraftPatch& patch) const {
+        const bool sharp = std::any_of(patch.cageCorners.begin(), patch.cageCorners.begin() + 4, [&](uint32_t c) {
+            return mesh_.classOf(mesh_.corners[c].chart).creased() || stillCorner(c) || flatAcross(mesh_, c);
+        });
+        return sharp ? PatchClass::blendSharp : PatchClass::blend;
     }
 
-    void layOutPool() {
-        firstChart_ = mesh_.refined ? mesh_.cage.vertexCount() : 0;
-        const auto charts = static_cast<uint32_t>(mesh_.charts.size());
-        tables_.poolStride = (firstChart_ + kCoefficients * charts + 15) / 16 * 16;
-    }
     [[nodiscard]] uint32_t poolIndex(uint32_t chart) const { return firstChart_ + kCoefficients * chart; }
 
     void writeCharts() {
         const uint32_t ring = 4 * writer_.element();
-        for (const uint32_t vertex : mesh_.ring) {
-            writer_.put({vertex});
-        }
+        writer_.put(mesh_.ring);
         std::vector<uint32_t> fits;
         for (const ChartClass& chartClass : mesh_.classes) {
             const FitMatrix matrix = makeFitMatrix(chartClass);
@@ -84,16 +74,14 @@ private:
             writer_.put({matrix.ringPoints, 0u, 0u, 0u});
             for (uint32_t i = 0; i < matrix.ringPoints; ++i) {
                 for (uint32_t row = 0; row < kCoefficients; ++row) {
-                    writer_.put({floatBits(matrix.weight(row, i))});
+                    writer_.putFloats({matrix.weight(row, i)});
                 }
                 writer_.put({0u, 0u, 0u});
             }
         }
         // By class, and classes by size, so that neighbouring lanes loop equally long.
         std::vector<uint32_t> order(mesh_.charts.size());
-        for (uint32_t i = 0; i < order.size(); ++i) {
-            order[i] = i;
-        }
+        std::iota(order.begin(), order.end(), 0u);
         std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
             return mesh_.classOf(a).ringPoints() < mesh_.classOf(b).ringPoints();
         });
@@ -120,9 +108,7 @@ private:
         }
     }
 
-    void put(glm::dvec2 a, glm::dvec2 b) {
-        writer_.put({floatBits(a.x), floatBits(a.y), floatBits(b.x), floatBits(b.y)});
-    }
+    void put(glm::dvec2 a, glm::dvec2 b) { writer_.putFloats({a.x, a.y, b.x, b.y}); }
 
     void writeTurns(const ChartClass& chartClass) {
         const uint32_t turns = chartClass.turns(), side = coordinateCount(rate_);
@@ -150,9 +136,8 @@ private:
             const CreaseTable table = makeCreaseTable(turns, rate_);
             tables.creaseSamples = writer_.element();
             for (uint32_t i = 0; i < side * side; ++i) {
-                const Coordinate y = coordinateAt(rate_, i / side);
-                const double t = static_cast<double>(y.numerator) / y.denominator;
-                put(onSecondSpoke(i) ? glm::dvec2(t, 0.0) : table.points[i], table.slopesX[i]);
+                const double y = coordinateAt(rate_, i / side).value();
+                put(onSecondSpoke(i) ? glm::dvec2(y, 0.0) : table.points[i], table.slopesX[i]);
                 put(table.slopesY[i], glm::dvec2(0.0));
             }
         }
@@ -186,20 +171,13 @@ private:
 
 } // namespace
 
-Tables buildTables(const Mesh& mesh, uint32_t rate) {
-    return Builder(mesh, rate).build();
-}
-
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Result<Mesh> mesh = buildMesh(cage, recipe.blend);
     if (!mesh) {
         return mesh.error();
     }
-    if (recipe.lod) {
-        return buildTables(*mesh, 0);
-    }
     const uint32_t rate = std::max(recipe.rate, 1u);
-    return buildTables(*mesh, mesh->refined ? (rate + 1) / 2 : rate);
+    return Builder(*mesh, recipe.lod ? 0 : mesh->refined ? (rate + 1) / 2 : rate).build();
 }
 
 float boundsMargin(const cage::Cage& cage) {

@@ -158,10 +158,7 @@ private:
 template <class At>
 void forEachSample(uint32_t rate, At&& at) {
     const uint32_t side = coordinateCount(rate);
-    const auto value = [&](uint32_t coordinate) {
-        const Coordinate c = coordinateAt(rate, coordinate);
-        return static_cast<double>(c.numerator) / c.denominator;
-    };
+    const auto value = [&](uint32_t coordinate) { return coordinateAt(rate, coordinate).value(); };
     for (uint32_t j = 0; j < side; ++j) {
         for (uint32_t i = 0; i < side; ++i) {
             at(j * side + i, value(i), value(j));
@@ -201,8 +198,7 @@ ChartTable makeChartTable(uint32_t turns, uint32_t rate) {
     table.points.resize(size_t{side} * side);
     table.slopes.resize(table.points.size());
     for (uint32_t i = 0; i < side; ++i) {
-        const Coordinate c = coordinateAt(rate, i);
-        table.radii.push_back(std::pow(static_cast<double>(c.numerator) / c.denominator, power));
+        table.radii.push_back(std::pow(coordinateAt(rate, i).value(), power));
     }
     forEachSample(rate, [&](uint32_t index, double x, double y) {
         const double length = std::hypot(x, y), angle = std::atan2(y, x);

@@ -44,6 +44,7 @@ struct FitMatrix {
 /// t as a fraction.
 struct Coordinate {
     uint32_t numerator = 0, denominator = 1;
+    [[nodiscard]] double value() const { return static_cast<double>(numerator) / denominator; }
 };
 [[nodiscard]] Coordinate coordinateAt(uint32_t rate, uint32_t coordinate);
 

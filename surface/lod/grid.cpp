@@ -15,12 +15,13 @@ constexpr uint32_t ringStart(uint32_t sides, uint32_t capacity, uint32_t r) {
     return sides * r * (capacity - r + 1);
 }
 
-uint32_t ringSample(uint32_t sides, uint32_t capacity, GridSample at) {
-    if (at.k == capacity - at.ring) { // the ray belongs to the next side
-        at.side = (at.side + 1) % sides;
-        at.k = at.ring;
+/// Sample k of ring r, counted from the ray of corner `side`.
+uint32_t ringSample(uint32_t sides, uint32_t capacity, uint32_t r, uint32_t side, uint32_t k) {
+    if (k == capacity - r) { // the ray belongs to the next side
+        side = (side + 1) % sides;
+        k = r;
     }
-    return ringStart(sides, capacity, at.ring) + at.side * (capacity - 2 * at.ring) + at.k - at.ring;
+    return ringStart(sides, capacity, r) + side * (capacity - 2 * r) + k - r;
 }
 
 /// Appends triangles to an index buffer; a cell's corners go round, a first.
@@ -63,7 +64,7 @@ void ringTriangles(uint32_t sides, uint32_t capacity, Triangles& triangles) {
     const uint32_t h = middle(capacity);
     for (uint32_t r = 0; r < h; ++r) {
         for (uint32_t side = 0; side < sides; ++side) {
-            const auto at = [&](uint32_t ring, uint32_t k) { return ringSample(sides, capacity, {ring, side, k}); };
+            const auto at = [&](uint32_t ring, uint32_t k) { return ringSample(sides, capacity, ring, side, k); };
             // A ray is the diagonal of the cells at the corners; each side has one half of both.
             triangles.add(at(r, r), at(r, r + 1), at(r + 1, r + 1));
             for (uint32_t k = r + 1; k + 1 < capacity - r; ++k) {
@@ -79,29 +80,6 @@ void ringTriangles(uint32_t sides, uint32_t capacity, Triangles& triangles) {
 }
 
 } // namespace
-
-GridSample gridSample(Form form, uint32_t capacity, uint32_t sample) {
-    if (form == Form::quad) {
-        return {sample / (capacity + 1), 0, sample % (capacity + 1)};
-    }
-    GridSample at;
-    while (sample >= ringStart(sides(form), capacity, at.ring + 1)) {
-        ++at.ring;
-    }
-    sample -= ringStart(sides(form), capacity, at.ring);
-    at.side = sample / (capacity - 2 * at.ring);
-    at.k = at.ring + sample % (capacity - 2 * at.ring);
-    return at;
-}
-
-uint32_t edgeSample(Form form, uint32_t capacity, uint32_t side, uint32_t k) {
-    if (form != Form::quad) {
-        return ringSample(sides(form), capacity, {0, side, k});
-    }
-    const uint32_t i[4] = {k, capacity, capacity - k, 0};
-    const uint32_t j[4] = {0, k, capacity, capacity - k};
-    return j[side] * (capacity + 1) + i[side];
-}
 
 std::vector<uint16_t> gridIndices(Form form, uint32_t capacity) {
     std::vector<uint16_t> indices;

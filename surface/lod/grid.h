@@ -2,8 +2,8 @@
 // them.
 #pragma once
 
-#include "surface/lod/form.h"
 #include "surface/lod/pattern.h"
+#include "surface/patch_class.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,15 +16,6 @@ namespace supple::surface::lod {
 [[nodiscard]] constexpr uint32_t sampleCount(Form form, uint32_t capacity) {
     return sides(form) * (capacity + 1) * (capacity + 1) / 4;
 }
-/// A sample of a ring grid. For quads: side 0, ring j, k = i.
-struct GridSample {
-    uint32_t ring = 0;
-    uint32_t side = 0;
-    uint32_t k = 0;
-};
-[[nodiscard]] GridSample gridSample(Form form, uint32_t capacity, uint32_t sample);
-/// The k-th sample (0..capacity) along side e, from corner e to the next corner.
-[[nodiscard]] uint32_t edgeSample(Form form, uint32_t capacity, uint32_t side, uint32_t k);
 
 /// How many patches a draw instance has. Several small grids together do not waste the vertex shader's lanes.
 [[nodiscard]] constexpr uint32_t patchesPerDraw(Form form, uint32_t capacity) {

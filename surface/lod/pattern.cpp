@@ -1,9 +1,5 @@
 #include "surface/lod/pattern.h"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-
 namespace supple::surface::lod {
 
 namespace {
@@ -15,9 +11,8 @@ constexpr uint32_t pairsOf(uint32_t capacity) {
 constexpr bool firstWordsFollow() {
     uint32_t next = 0;
     bool follow = true;
-    for (size_t c = 0; c < kFirstPatternWords.size(); ++c) {
-        follow = follow && kFirstPatternWords[c] == next && SUPPLE_LOD_FIRST_WORD(c) == next &&
-                 SUPPLE_LOD_CAPACITY(c) == kCapacities[c];
+    for (uint32_t c = 0; c < kCapacities.size(); ++c) {
+        follow = follow && SUPPLE_LOD_FIRST_WORD(c) == next && SUPPLE_LOD_CAPACITY(c) == kCapacities[c];
         next += pairsOf(kCapacities[c]) + 1;
     }
     return follow && next == shared::kPatternWordCount;
@@ -61,32 +56,6 @@ uint32_t segmentsBorn(const Ranks& ranks, uint32_t pairs, uint32_t born) {
 }
 
 } // namespace
-
-uint32_t capacityIndexFor(float level) {
-    const auto* const found = std::find_if(kCapacities.begin(), kCapacities.end(),
-                                           [&](uint32_t capacity) { return static_cast<float>(capacity) >= level; });
-    return static_cast<uint32_t>(std::min<std::ptrdiff_t>(found - kCapacities.begin(), kCapacities.size() - 1));
-}
-
-LevelPair levelPair(float level) {
-    return {(level - 1.0f) * 0.5f, 1.0f / level};
-}
-
-Parameter parameter(uint32_t capacity, uint32_t i, LevelPair level) {
-    const uint32_t pairs = pairsOf(capacity);
-    const Ranks ranks = birthRanks(pairs);
-    const uint32_t whole = std::min(static_cast<uint32_t>(level.a), pairs);
-    const uint32_t full = segmentsBorn(ranks, pairs, whole);
-    const uint32_t fresh = segmentsBorn(ranks, pairs, std::min(whole + 1, pairs)) ^ full;
-    const float growing = level.a - static_cast<float>(whole);
-
-    const bool near = 2 * i <= capacity;
-    const uint32_t passed = (1U << (near ? i : capacity - i)) - 1;
-    const float x =
-        (static_cast<float>(std::popcount(full & passed)) + ((fresh & passed) != 0 ? growing : 0.0f)) * level.inverse;
-    const float y = 1.0f - x;
-    return near ? Parameter{x, y} : Parameter{y, x};
-}
 
 std::vector<uint32_t> patternWords() {
     std::vector<uint32_t> words;

@@ -15,33 +15,11 @@
 
 namespace supple::surface::lod {
 
-inline constexpr float kMaxLevel = 63.0f;
-
 /// The capacities of grids, in rising order.
 inline constexpr std::array<uint32_t, shared::kCapacityCount> kCapacities{SUPPLE_LOD_CAPACITIES};
-
-/// The index of the smallest capacity that is not below `level` (1..63).
-[[nodiscard]] uint32_t capacityIndexFor(float level);
-
-/// A level as the device stores it: a = (L - 1) / 2 and 1 / L.
-struct LevelPair {
-    float a = 0.0f;
-    float inverse = 1.0f;
-};
-[[nodiscard]] LevelPair levelPair(float level);
-
-/// A parameter and its complement. Sample capacity - i has the two swapped, bit for bit.
-struct Parameter {
-    float t = 0.0f;
-    float s = 1.0f;
-};
-/// The parameter of sample i, 0..capacity, computed with the device's float32 operations.
-[[nodiscard]] Parameter parameter(uint32_t capacity, uint32_t i, LevelPair level);
 
 /// The words of all capacities, one capacity after the other. With h = (capacity - 1) / 2, a capacity has the words
 /// n = 0..h. Bit j of word n is set if the j-th segment from the corner is among the first n that are born.
 [[nodiscard]] std::vector<uint32_t> patternWords();
-/// Where the words of each capacity begin.
-inline constexpr std::array<uint32_t, shared::kCapacityCount> kFirstPatternWords{SUPPLE_LOD_FIRST_WORDS};
 
 } // namespace supple::surface::lod

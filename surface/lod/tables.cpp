@@ -12,29 +12,27 @@ namespace supple::surface::lod {
 
 namespace {
 
-/// A border as its edge is written, and as the patch on the other side writes it. A cubic: see surface/borders.h.
-/// Between charts, for either end: chart, direction in it, 4 / k.
-struct Border {
-    std::vector<uint32_t> words, reversed;
-};
+/// Two patches at a border write it from opposite ends. Its edge is the smaller of both, which is the same for them.
+using Words = std::vector<uint32_t>;
 
-Border chartBorder(const std::vector<uint32_t>& words, const uint32_t* corner, const uint32_t* next) {
-    std::vector<uint32_t> ends[2];
+/// Between charts, for either end: chart, direction in it, 4 / k.
+Words chartBorder(const Words& words, const uint32_t* corner, const uint32_t* next) {
+    Words ends[2];
     for (uint32_t e = 0; e < 2; ++e) {
         const uint32_t* record = e == 0 ? corner : next;
         const uint32_t* direction = &words[size_t{4} * record[1] + 2 * e]; // of the first spoke, and of the second one
         ends[e] = {record[0] & (shared::kPoolIndexMask | shared::kCreasedChart), direction[0], direction[1], record[2]};
     }
-    Border border{ends[0], ends[1]};
-    border.words.insert(border.words.end(), ends[1].begin(), ends[1].end());
-    border.reversed.insert(border.reversed.end(), ends[0].begin(), ends[0].end());
+    const auto [first, second] = std::minmax(ends[0], ends[1]);
+    Words border = first;
+    border.insert(border.end(), second.begin(), second.end());
     return border;
 }
 
 /// By side of the grid.
-std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass patchClass) {
+std::vector<Words> borders(const Tables& tables, uint32_t element, PatchClass patchClass) {
     const uint32_t* record = &tables.words[size_t{4} * element];
-    std::vector<Border> all;
+    std::vector<Words> all;
     if (rowOf(patchClass).charts) {
         for (uint32_t i = 0; i < 4; ++i) {
             all.push_back(chartBorder(tables.words, record + size_t{4} * i, record + size_t{4} * ((i + 1) % 4)));
@@ -42,7 +40,7 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
         return all;
     }
     for (const BorderCurve& c : borderCurves(tables, record, patchClass)) {
-        all.push_back({{c[0], c[1], c[2], c[3]}, {c[3], c[2], c[1], c[0]}});
+        all.push_back(std::min(Words{c[0], c[1], c[2], c[3]}, Words{c[3], c[2], c[1], c[0]}));
     }
     return all;
 }
@@ -50,8 +48,8 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
 } // namespace
 
 void appendTables(Tables& tables) {
-    std::map<std::vector<uint32_t>, uint32_t> edges;
-    std::vector<uint32_t> edgeWords, patches;
+    std::map<Words, uint32_t> edges;
+    Words edgeWords, patches;
     for (const PatchRange& range : tables.ranges) {
         const uint32_t elements = recordElements(tables, range.patchClass);
         tables.lod.charts = rowOf(range.patchClass).charts;
@@ -64,14 +62,13 @@ void appendTables(Tables& tables) {
             }
             ++tables.lod.runs.back().patchCount;
             std::array<uint32_t, kMaxSides> own{};
-            const std::vector<Border> sideBorders = borders(tables, element, range.patchClass);
-            for (size_t e = 0; e < sideBorders.size(); ++e) {
-                const std::vector<uint32_t>& key = std::min(sideBorders[e].words, sideBorders[e].reversed);
-                const auto [found, fresh] = edges.try_emplace(key, static_cast<uint32_t>(edges.size()));
-                if (fresh) {
-                    edgeWords.insert(edgeWords.end(), key.begin(), key.end());
+            uint32_t side = 0;
+            for (const Words& border : borders(tables, element, range.patchClass)) {
+                const auto [found, isNew] = edges.try_emplace(border, static_cast<uint32_t>(edges.size()));
+                if (isNew) {
+                    edgeWords.insert(edgeWords.end(), border.begin(), border.end());
                 }
-                own[e] = found->second;
+                own[side++] = found->second;
             }
             const auto run = static_cast<uint32_t>(tables.lod.runs.size() - 1);
             patches.insert(patches.end(), {own[0], own[1], own[2], own[3], own[4], run, element,
@@ -80,9 +77,9 @@ void appendTables(Tables& tables) {
     }
     TableWriter writer(tables.words);
     tables.lod.edges = {writer.element(), static_cast<uint32_t>(edges.size())};
-    tables.words.insert(tables.words.end(), edgeWords.begin(), edgeWords.end());
+    writer.put(edgeWords);
     tables.lod.patches = {writer.element(), static_cast<uint32_t>(tables.patches.size())};
-    tables.words.insert(tables.words.end(), patches.begin(), patches.end());
+    writer.put(patches);
 }
 
 } // namespace supple::surface::lod

@@ -1,7 +1,7 @@
 #include "surface/pm/mesh.h"
 
 #include "base/within_memory.h"
-#include "surface/pm/split.h"
+#include "surface/split.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@ namespace {
 using cage::Cage;
 using cage::Topology;
 
-/// Cuts the fans into sectors and packs their slots.
-class SectorBuilder {
+/// Cuts the faces round every vertex into fans and packs their slots.
+class FanBuilder {
 public:
-    explicit SectorBuilder(Mesh& mesh) : mesh_(mesh) { mesh_.corners.resize(mesh_.cage.cornerCount()); }
+    explicit FanBuilder(Mesh& mesh) : mesh_(mesh) { mesh_.corners.resize(mesh_.cage.cornerCount()); }
 
     void add(uint32_t vertex) {
         const Topology& topology = mesh_.topology;
@@ -32,15 +32,15 @@ public:
         }
         const bool sharp = mesh_.features.vertexSharpness[vertex] >= cage::kHardSharpness;
         if (!boundary && hard.size() < 2) {
-            addSector(vertex, SectorKind::interior, 0, facets_, sharp);
+            addFan(vertex, FanKind::interior, 0, facets_, sharp);
             return;
         }
         const bool corner = sharp || hard.size() != 2 || (boundary && facets_ == 1);
-        const SectorKind kind = corner ? SectorKind::corner : SectorKind::crease;
+        const FanKind kind = corner ? FanKind::corner : FanKind::crease;
         const size_t runs = boundary ? hard.size() - 1 : hard.size();
         for (size_t i = 0; i < runs; ++i) {
             const uint32_t last = i + 1 < hard.size() ? hard[i + 1] : hard[0] + facets_;
-            addSector(vertex, kind, hard[i], last - hard[i], false);
+            addFan(vertex, kind, hard[i], last - hard[i], false);
         }
     }
 
@@ -53,40 +53,39 @@ private:
     }
 
     /// Spokes first, first + 1, ... round the vertex.
-    void addSector(uint32_t vertex, SectorKind kind, uint32_t first, uint32_t facets, bool pinned) {
-        const auto index = static_cast<uint32_t>(mesh_.sectors.size());
-        Sector sector;
-        sector.vertex = vertex;
-        sector.firstSlot = static_cast<uint32_t>(mesh_.slotSpokes.size());
-        sector.facets = facets;
-        sector.kind = kind;
-        sector.pinned = pinned;
-        for (uint32_t j = 0; j < sector.edges(); ++j) {
+    void addFan(uint32_t vertex, FanKind kind, uint32_t first, uint32_t facets, bool pinned) {
+        const auto index = static_cast<uint32_t>(mesh_.fans.size());
+        Fan fan{.vertex = vertex,
+                .firstSlot = static_cast<uint32_t>(mesh_.slotSpokes.size()),
+                .facets = facets,
+                .kind = kind,
+                .pinned = pinned};
+        for (uint32_t j = 0; j < fan.edges(); ++j) {
             const uint32_t spoke = wrapped(first + j);
-            const bool end = !sector.closed() && (j == 0 || j == facets);
+            const bool end = !fan.closed() && (j == 0 || j == facets);
             const double alpha = end ? kSmoothAlpha : alphaOf(spoke);
-            sector.creased = sector.creased || alpha != kSmoothAlpha;
+            fan.creased = fan.creased || alpha != kSmoothAlpha;
             mesh_.slotSpokes.push_back(base_ + spoke);
             mesh_.slotAlphas.push_back(alpha);
         }
         for (uint32_t j = 0; j < facets; ++j) {
-            const uint32_t slot = sector.firstSlot;
-            const uint32_t next = sector.closed() ? (j + 1) % facets : j + 1;
+            const uint32_t slot = fan.firstSlot;
+            const uint32_t next = fan.closed() ? (j + 1) % facets : j + 1;
             FacetCorner& corner = mesh_.corners[mesh_.topology.sectorCorners[base_ + wrapped(first + j)]];
-            corner.sector = index;
+            corner.fan = index;
             corner.slot = slot + j;
             corner.slotBack = slot + next;
-            if (sector.closed() || j > 0) {
+            if (fan.closed() || j > 0) {
                 corner.across = slot + (j + facets - 1) % facets;
             }
             if (next < facets) {
                 corner.acrossBack = slot + next;
             }
         }
-        mesh_.sectors.push_back(sector);
+        mesh_.fans.push_back(fan);
     }
 
-    /// Alpha at this vertex of an edge inside a sector. The one hard edge at a dart's tip is as smooth as the others.
+    /// Alpha at this vertex of an edge inside a fan. The one hard edge at a dart's tip is as smooth as the others.
     [[nodiscard]] double alphaOf(uint32_t spoke) const {
         const float given = mesh_.features.spokeAlphas[base_ + spoke];
         if (given >= 0.0f) {
@@ -116,8 +115,8 @@ bool couldBeApex(const Mesh& mesh, uint32_t vertex) {
         }
         const uint32_t next = cage::nextCorner(mesh.cage, facet, corner);
         for (const uint32_t outer : {next, cage::nextCorner(mesh.cage, facet, next)}) {
-            const Sector& sector = mesh.sectors[mesh.corners[outer].sector];
-            if (sector.valence() != 4 || sector.kind == SectorKind::corner) {
+            const Fan& fan = mesh.fans[mesh.corners[outer].fan];
+            if (fan.valence() != 4 || fan.kind == FanKind::corner) {
                 return false;
             }
         }
@@ -144,24 +143,23 @@ std::vector<uint8_t> polarApexes(const Mesh& mesh) {
 
 void classify(Mesh& mesh) {
     const std::vector<uint8_t> apexes = polarApexes(mesh);
-    mesh.classes.assign(mesh.cage.faceCount(), FacetClass::p5);
+    mesh.classes.assign(mesh.cage.faceCount(), PatchClass::p5);
     mesh.firstCorners.assign(mesh.cage.faceCount(), 0);
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
         const uint32_t first = mesh.cage.faceStarts[f];
         const uint32_t sides = mesh.cage.sides(f);
         if (sides == 3) {
-            mesh.classes[f] = FacetClass::p3;
+            mesh.classes[f] = PatchClass::p3;
             for (uint32_t j = 0; j < 3; ++j) {
                 if (apexes[mesh.cage.faceVertices[first + j]] != 0) {
-                    mesh.classes[f] = FacetClass::polar;
+                    mesh.classes[f] = PatchClass::polar;
                     mesh.firstCorners[f] = static_cast<uint8_t>((j + 1) % 3);
                 }
             }
         } else if (sides == 4) {
-            const bool regular =
-                std::all_of(mesh.corners.begin() + first, mesh.corners.begin() + first + 4,
-                            [&](const FacetCorner& c) { return mesh.sectors[c.sector].valence() == 4; });
-            mesh.classes[f] = regular ? FacetClass::ordinary : FacetClass::p4;
+            const bool regular = std::all_of(mesh.corners.begin() + first, mesh.corners.begin() + first + 4,
+                                             [&](const FacetCorner& c) { return mesh.fans[c.fan].valence() == 4; });
+            mesh.classes[f] = regular ? PatchClass::regular : PatchClass::p4;
         }
     }
 }
@@ -169,36 +167,53 @@ void classify(Mesh& mesh) {
 void fill(Mesh& mesh) {
     mesh.features = cage::buildFeatures(mesh.cage, mesh.topology);
     mesh.notes.insert(mesh.notes.end(), mesh.features.unused.begin(), mesh.features.unused.end());
-    for (uint32_t e = 0; e < mesh.topology.edges.size(); ++e) {
-        mesh.edgeCut.push_back(mesh.features.hard(e) ? 1 : 0);
-    }
-    SectorBuilder sectors(mesh);
+    FanBuilder fans(mesh);
     for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
-        sectors.add(v);
+        fans.add(v);
     }
     classify(mesh);
 }
 
-Result<Mesh> build(const Cage& cage) {
-    Result<Topology> topology = cage::buildTopology(cage);
-    if (!topology.ok()) {
-        return topology.error();
+/// Zig-zag diagonals: from a start corner r the quads r+a, r+a+1, r-2-a, r-1-a for a = 0, 1, .., until four or five
+/// corners are left.
+FaceCut zigzagCut(uint32_t sides) {
+    FaceCut cut;
+    const uint32_t quads = (sides - 4) / 2;
+    for (uint32_t a = 0; a < quads; ++a) {
+        const uint32_t far = sides - 1 - a;
+        cut.parts.push_back({a, a + 1, far - 1, far});
+        cut.diagonals.push_back({a + 1, far - 1});
     }
-    Result<SplitCage> split = splitFaces(cage, *topology);
-    if (!split.ok()) {
+    std::vector<uint32_t>& rest = cut.parts.emplace_back();
+    for (uint32_t k = quads; k < sides - quads; ++k) {
+        rest.push_back(k);
+    }
+    return cut;
+}
+
+/// P_m has no patch for more than five sides.
+constexpr SplitRule kZigzag{.mostSides = kMaxSides,
+                            .cut = zigzagCut,
+                            .startCorners = 256,
+                            .shortest = true,
+                            .parts = "quads",
+                            .note = [](uint32_t sides, uint32_t) {
+                                const bool pentagon = sides % 2 != 0;
+                                const uint32_t quads = (sides - 4) / 2 + (pentagon ? 0 : 1);
+                                return (quads == 1 ? "a quad" : std::to_string(quads) + " quads") +
+                                       (pentagon ? " and a pentagon" : "");
+                            }};
+
+Result<Mesh> build(const Cage& cage) {
+    Result<SplitCage> split = splitFaces(cage, &kZigzag);
+    if (!split) {
         return split.error();
     }
     Mesh mesh;
     mesh.cage = std::move(split->cage);
+    mesh.topology = std::move(split->topology);
     mesh.sourceFaces = std::move(split->sourceFaces);
     mesh.notes = std::move(split->notes);
-    if (mesh.cage.faceCount() > cage.faceCount()) {
-        topology = cage::buildTopology(mesh.cage);
-        if (!topology.ok()) {
-            return topology.error();
-        }
-    }
-    mesh.topology = std::move(*topology);
     fill(mesh);
     return mesh;
 }
@@ -210,7 +225,7 @@ double alphaOfSharpness(double sharpness) {
 }
 
 Result<Mesh> buildMesh(const Cage& cage) {
-    return withinMemory("the facets and sectors of P_m", [&] { return build(cage); });
+    return withinMemory("the facets and fans of P_m", [&] { return build(cage); });
 }
 
 } // namespace supple::surface::pm

@@ -1,4 +1,4 @@
-// The cage as P_m sees it: facets of three to five sides, sectors between sharp edges, facet classes. Depends on
+// The cage as P_m sees it: facets of three to five sides, fans between sharp edges, facet classes. Depends on
 // connectivity and sharpness; rest positions only decide which diagonals cut large faces. Built once per asset.
 // Paper: A. Myles, T. Ni, J. Peters, "Fast Parallel Construction of Smooth Surfaces from Meshes with Tri/Quad/Pent
 // Facets", SGP 2008; numbers in parentheses are its equations, in the corrected form of docs/pm.md.
@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "cage/features.h"
 #include "cage/topology.h"
-#include "surface/grid.h"
+#include "surface/patch_class.h"
 
 #include <array>
 #include <cstdint>
@@ -21,42 +21,40 @@ inline constexpr double kSmoothAlpha = 2.0 / 3.0;
 /// alpha = (2/3) 2^-s for 0 <= s < cage::kHardSharpness. Harder edges are cut and have no alpha.
 [[nodiscard]] double alphaOfSharpness(double sharpness);
 
-enum class SectorKind : uint8_t {
+enum class FanKind : uint8_t {
     interior, ///< closed: the whole ring of an interior vertex with no sharp edge, or with one (the tip of a dart)
     crease,   ///< open: two sharp edges meet at the vertex and form a smooth boundary or crease
     corner    ///< open: the surface interpolates the vertex
 };
 
 /// A fan of facets around a vertex. Facet j (0 <= j < facets) lies between edges j and j + 1, counter-clockwise. The
-/// edges and facets of all sectors are numbered by slots: slot firstSlot + j stands for edge j and, if j < facets, for
+/// edges and facets of all fans are numbered by slots: slot firstSlot + j stands for edge j and, if j < facets, for
 /// facet j.
-struct Sector {
+struct Fan {
     uint32_t vertex = 0;
     uint32_t firstSlot = 0;
     uint32_t facets = 0; ///< q
-    SectorKind kind = SectorKind::interior;
-    bool creased = false; ///< an edge inside the sector has an alpha other than 2/3
-    /// The sector is closed and its vertex p is sharp (cage::SharpVertex). Its v, t and f are moved by p - v, so that
-    /// the surface passes through the vertex. An open sector becomes a corner instead.
+    FanKind kind = FanKind::interior;
+    bool creased = false; ///< an edge inside the fan has an alpha other than 2/3
+    /// The fan is closed and its vertex p is sharp (cage::SharpVertex). Its v, t and f are moved by p - v, so that
+    /// the surface passes through the vertex. An open fan becomes a corner instead.
     bool pinned = false;
 
-    [[nodiscard]] bool closed() const { return kind == SectorKind::interior; }
+    [[nodiscard]] bool closed() const { return kind == FanKind::interior; }
     [[nodiscard]] uint32_t edges() const { return closed() ? facets : facets + 1; }
     /// N in cos(2 pi / N): q if closed, 2 q at creases, 4 q at corners.
     [[nodiscard]] uint32_t valence() const {
-        return kind == SectorKind::interior ? facets : kind == SectorKind::crease ? 2 * facets : 4 * facets;
+        return kind == FanKind::interior ? facets : kind == FanKind::crease ? 2 * facets : 4 * facets;
     }
 };
 
-enum class FacetClass : uint8_t { ordinary, polar, p3, p4, p5 };
-
 /// Corner c of facet f at vertex v. Half-edge c runs from v to the next vertex of f.
 struct FacetCorner {
-    uint32_t sector = 0;
-    uint32_t slot = 0;     ///< slot of f in the sector, and of edge j, which is half-edge c
+    uint32_t fan = 0;
+    uint32_t slot = 0;     ///< slot of f in the fan, and of edge j, which is half-edge c
     uint32_t slotBack = 0; ///< slot of edge j + 1, which leads to the previous vertex of f
-    /// Slots of the facets across edge j (facet j - 1) and across edge j + 1 (facet j + 1) in the same sector. kNone if
-    /// the sector ends at that edge.
+    /// Slots of the facets across edge j (facet j - 1) and across edge j + 1 (facet j + 1) in the same fan. kNone if
+    /// the fan ends at that edge.
     uint32_t across = cage::kNone;
     uint32_t acrossBack = cage::kNone;
 };
@@ -66,12 +64,11 @@ struct Mesh {
     cage::Topology topology;
     cage::Features features;
     std::vector<uint32_t> sourceFaces; ///< per facet: the face it came from
-    std::vector<Sector> sectors;       ///< grouped by vertex, in vertex order
+    std::vector<Fan> fans;             ///< grouped by vertex, in vertex order
     std::vector<uint32_t> slotSpokes;  ///< per slot: the spoke of `topology` that is edge j
-    std::vector<double> slotAlphas;    ///< per slot: alpha of edge j at this vertex; 2/3 where an open sector ends
+    std::vector<double> slotAlphas;    ///< per slot: alpha of edge j at this vertex; 2/3 where an open fan ends
     std::vector<FacetCorner> corners;  ///< per corner of `cage`
-    std::vector<uint8_t> edgeCut;      ///< per edge of `topology`: 1 for boundaries and hard edges
-    std::vector<FacetClass> classes;   ///< per facet
+    std::vector<PatchClass> classes;   ///< per facet: regular, polar, p3, p4 or p5
     /// Per facet: the corner (0..sides-1) that is corner 0 of its patch; patch corner i is facet corner (first + i) %
     /// sides. It is 0 except for polar facets, because the last corner of a polar patch must be the apex.
     std::vector<uint8_t> firstCorners;
@@ -83,7 +80,7 @@ struct Mesh {
     }
 };
 
-/// Splits large faces, builds topology and features, and finds sectors and classes. Refuses what cage::buildTopology
+/// Splits large faces, builds topology and features, and finds fans and classes. Refuses what cage::buildTopology
 /// refuses, and a face of six or more sides that no zig-zag split fits ("face 12 has 6 sides: ..."). O(corners), apart
 /// from sorting neighbours and choosing splits.
 [[nodiscard]] Result<Mesh> buildMesh(const cage::Cage& cage);

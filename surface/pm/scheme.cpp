@@ -1,15 +1,14 @@
-#include "surface/pm/scheme.h"
-
+// P_m as a scheme: the tables of shaders/shared/{surface,pm}.h.
 #include "shaders/shared/pm.h"
 #include "surface/borders.h"
+#include "surface/build.h"
 #include "surface/pm/weights.h"
-#include "surface/ring_writer.h"
-#include "surface/table_writer.h"
 #include "surface/valence.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string>
 #include <tuple>
@@ -18,12 +17,6 @@
 namespace supple::surface::pm {
 
 namespace {
-
-PatchClass patchClassOf(FacetClass facetClass) {
-    constexpr PatchClass kClasses[] = {PatchClass::regular, PatchClass::polar, PatchClass::p3, PatchClass::p4,
-                                       PatchClass::p5};
-    return kClasses[static_cast<size_t>(facetClass)];
-}
 
 /// By kind of fan.
 constexpr KindOfKernel kVertexKernels[] = {
@@ -40,14 +33,21 @@ constexpr KindOfKernel kFacetKernels[] = {
     {Kernel::pmFacet, shared::kP5Patch, "supple P_m facet, pentagon"},
 };
 
-uint32_t fanKind(const Sector& sector) {
-    if (sector.creased || sector.pinned) {
+uint32_t fanKind(const Fan& fan) {
+    if (fan.creased || fan.pinned) {
         return shared::kCreasedFan;
     }
-    if (sector.closed() && sector.facets == 4) {
+    if (fan.closed() && fan.facets == 4) {
         return shared::kRegularFan;
     }
-    return sector.edges() <= shared::kFewSpokes ? shared::kFewFan : shared::kManyFan;
+    return fan.edges() <= shared::kFewSpokes ? shared::kFewFan : shared::kManyFan;
+}
+
+/// Coefficients of a patch that the facet stage makes.
+uint32_t innerCount(PatchClass patchClass) {
+    return patchClass == PatchClass::regular ? 0
+           : patchClass == PatchClass::polar ? 2
+                                             : 1 + 3 * cornerCount(domainOf(patchClass));
 }
 
 class Builder {
@@ -56,10 +56,11 @@ public:
 
     Result<Tables> build() {
         tables_.notes = mesh_.notes;
-        sortedPatches();
-        sortSectors();
+        patches_ = draftPatches({cage_, cage_.vertexCount(), mesh_.sourceFaces, mesh_.firstCorners},
+                                [&](const DraftPatch& patch) { return mesh_.classes[patch.facet]; });
+        sortFans();
         layOutPool();
-        writeSectors();
+        writeFans();
         const Status numbered = writeEdgeClasses();
         if (!numbered) {
             return numbered.error();
@@ -75,146 +76,96 @@ private:
     [[nodiscard]] const FacetCorner& corner(const DraftPatch& patch, uint32_t i) const {
         return mesh_.corners[patch.cageCorners[i % patch.info.cornerCount]];
     }
-    void sortedPatches() {
-        for (uint32_t f = 0; f < cage_.faceCount(); ++f) {
-            if (std::binary_search(cage_.holes.begin(), cage_.holes.end(), f)) {
-                continue;
-            }
-            DraftPatch& patch = patches_.emplace_back();
-            patch.facet = f;
-            patch.material = cage_.faceMaterials.empty() ? cage::kNone : cage_.faceMaterials[f];
-            patch.info.face = mesh_.sourceFaces[f];
-            patch.info.patchClass = patchClassOf(mesh_.classes[f]);
-            patch.info.cornerCount = cage_.sides(f);
-            for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
-                const uint32_t c = mesh_.corner(f, i);
-                patch.cageCorners[i] = c;
-                patch.info.corners[i] = cage_.faceVertices[c];
-            }
-        }
-        sortPatches(patches_);
-    }
-
     /// By kind, regular ones first, then by size, so that neighbouring lanes loop equally long. Slots lie in this
     /// order.
-    void sortSectors() {
-        const auto count = static_cast<uint32_t>(mesh_.sectors.size());
-        for (uint32_t s = 0; s < count; ++s) {
-            order_.push_back(s);
-        }
+    void sortFans() {
+        const auto count = static_cast<uint32_t>(mesh_.fans.size());
+        order_.resize(count);
+        std::iota(order_.begin(), order_.end(), 0u);
         const auto rank = [&](uint32_t s) {
-            return std::tuple(fanKind(mesh_.sectors[s]), mesh_.sectors[s].edges(), mesh_.sectors[s].kind, s);
+            return std::tuple(fanKind(mesh_.fans[s]), mesh_.fans[s].edges(), mesh_.fans[s].kind, s);
         };
         std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
         slots_.resize(mesh_.slotSpokes.size());
         uint32_t next = 0;
         for (const uint32_t s : order_) {
-            for (uint32_t j = 0; j < mesh_.sectors[s].edges(); ++j) {
-                slots_[mesh_.sectors[s].firstSlot + j] = next++;
+            for (uint32_t j = 0; j < mesh_.fans[s].edges(); ++j) {
+                slots_[mesh_.fans[s].firstSlot + j] = next++;
             }
         }
         uint32_t others = cage_.vertexCount();
         for (uint32_t s = 0; s < count; ++s) {
-            const bool first = s == 0 || mesh_.sectors[s - 1].vertex != mesh_.sectors[s].vertex;
-            points_.push_back(first ? mesh_.sectors[s].vertex : others++);
+            const bool first = s == 0 || mesh_.fans[s - 1].vertex != mesh_.fans[s].vertex;
+            points_.push_back(first ? mesh_.fans[s].vertex : others++);
         }
     }
 
     /// v, t, f, then what the facet stage adds, patch by patch.
     void layOutPool() {
         const auto slots = static_cast<uint32_t>(mesh_.slotSpokes.size());
-        tables_.tangents = static_cast<uint32_t>(mesh_.sectors.size());
+        tables_.tangents = static_cast<uint32_t>(mesh_.fans.size());
         tables_.faces = tables_.tangents + slots;
         uint32_t next = tables_.faces + slots;
         for (const DraftPatch& patch : patches_) {
             inner_.push_back(next);
-            next += patch.info.patchClass == PatchClass::regular ? 0
-                    : patch.info.patchClass == PatchClass::polar ? 2
-                                                                 : 1 + 3 * patch.info.cornerCount;
+            next += innerCount(patch.info.patchClass);
         }
-        tables_.poolStride = (next + 15) / 16 * 16;
+        tables_.poolStride = poolStrideFor(next);
     }
 
     void writeRing() {
-        RingWriter ring(writer_, cage_.faceCount());
+        std::vector<uint32_t> points; // per corner, where they have the numbers of vertices
+        for (uint32_t c = 0; c < cage_.cornerCount(); ++c) {
+            const uint32_t vertex = cage_.faceVertices[c];
+            points.push_back(points_[mesh_.corners[c].fan] == vertex ? vertex : cage::kNone);
+        }
+        RingWriter ring(cage_, mesh_.topology, points, mesh_.firstCorners, writer_);
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             ring.setRecord(patches_[p].facet, records_[p]);
         }
-        for (const uint32_t s : order_) {
-            const Sector& sector = mesh_.sectors[s];
-            for (uint32_t j = 0; j < sector.edges(); ++j) {
-                // The last edge of an open sector has no facet behind it: its far end is in the one before.
-                const bool last = j == sector.facets;
-                const uint32_t spoke = mesh_.slotSpokes[sector.firstSlot + j];
-                const uint32_t c =
-                    mesh_.topology.sectorCorners[last ? mesh_.slotSpokes[sector.firstSlot + j - 1] : spoke];
-                const uint32_t f = mesh_.topology.cornerFaces[c], first = cage_.faceStarts[f], m = cage_.sides(f);
-                const auto at = [&](uint32_t steps) { // fewer than m
-                    const uint32_t k = c - first + steps;
-                    return cage_.faceVertices[first + (k < m ? k : k - m)];
-                };
-                std::array<uint32_t, kMaxSides> points{};
-                for (uint32_t i = 0; i < m; ++i) {
-                    const uint32_t corner = mesh_.corner(f, i), vertex = cage_.faceVertices[corner];
-                    points[i] = points_[mesh_.corners[corner].sector] == vertex ? vertex : cage::kNone;
-                }
-                ring.add({sector.vertex, mesh_.topology.spokeVertices[spoke], last ? sector.vertex : at(2),
-                          last ? sector.vertex : at(m - 2)},
-                         f, std::span(points).first(m));
-            }
+        for (const uint32_t f : order_) {
+            const Fan& fan = mesh_.fans[f];
+            ring.add(fan.vertex, std::span(mesh_.slotSpokes).subspan(fan.firstSlot, fan.edges()), !fan.closed());
         }
         tables_.ring = ring.write();
     }
 
-    uint32_t writeSmoothWeights(const Sector& sector) {
-        const SectorWeights w = makeSectorWeights(sector.kind, sector.facets);
+    uint32_t writeCreasedWeights(const Fan& fan) {
+        const FanScales scales = fanScales(fan.kind, fan.facets);
         const uint32_t element = writer_.element();
-        writer_.put({sector.facets | (sector.closed() ? 0u : shared::kOpenSector), 0u, 0u, 0u});
-        for (uint32_t j = 0; j < sector.edges(); ++j) {
-            const bool facet = j < sector.facets;
-            const auto [cosine, sine] = turn(j, sector.valence());
-            writer_.put({floatBits(w.limitEdge[j]), floatBits(facet ? w.limitFace[j] : 0.0), floatBits(w.tau1Edge[j]),
-                         floatBits(facet ? w.tau1Face[j] : 0.0), floatBits(w.tau2Edge[j]),
-                         floatBits(facet ? w.tau2Face[j] : 0.0), floatBits(cosine), floatBits(sine)});
-        }
-        return element;
-    }
-
-    uint32_t writeCreasedWeights(const Sector& sector) {
-        const SectorScales scales = sectorScales(sector.kind, sector.facets);
-        const uint32_t element = writer_.element();
-        writer_.put({sector.facets | (sector.closed() ? 0u : shared::kOpenSector) |
-                         (sector.kind == SectorKind::corner ? shared::kCornerSector : 0u) |
-                         (sector.pinned ? shared::kPinnedSector : 0u),
+        writer_.put({fan.facets | (fan.closed() ? 0u : shared::kOpenSector) |
+                         (fan.kind == FanKind::corner ? shared::kCornerSector : 0u) |
+                         (fan.pinned ? shared::kPinnedSector : 0u),
                      floatBits(scales.limit), floatBits(scales.tangent), 0u});
-        for (uint32_t j = 0; j < sector.edges(); ++j) {
-            const auto [cosine, sine] = turn(j, sector.valence());
-            writer_.put({floatBits(mesh_.slotAlphas[sector.firstSlot + j]), floatBits(cosine), floatBits(sine), 0u});
+        for (uint32_t j = 0; j < fan.edges(); ++j) {
+            const auto [cosine, sine] = turn(j, fan.valence());
+            writer_.putFloats({mesh_.slotAlphas[fan.firstSlot + j], cosine, sine, 0.0});
         }
         return element;
     }
 
-    void writeSectors() {
-        std::vector<uint32_t> weights(mesh_.sectors.size(), 0);
-        std::map<std::pair<SectorKind, uint32_t>, uint32_t> smooth;
+    void writeFans() {
+        std::vector<uint32_t> weights(mesh_.fans.size(), 0);
+        std::map<std::pair<FanKind, uint32_t>, uint32_t> smooth;
         for (uint32_t s = 0; s < weights.size(); ++s) {
-            const Sector& sector = mesh_.sectors[s];
-            if (fanKind(sector) == shared::kCreasedFan) {
-                weights[s] = writeCreasedWeights(sector);
-            } else if (fanKind(sector) != shared::kRegularFan) {
-                const auto [known, isNew] = smooth.try_emplace({sector.kind, sector.facets}, 0u);
+            const Fan& fan = mesh_.fans[s];
+            if (fanKind(fan) == shared::kCreasedFan) {
+                weights[s] = writeCreasedWeights(fan);
+            } else if (fanKind(fan) != shared::kRegularFan) {
+                const auto [known, isNew] = smooth.try_emplace({fan.kind, fan.facets}, 0u);
                 if (isNew) {
-                    known->second = writeSmoothWeights(sector);
+                    known->second = writeFanWeights(makeFanWeights(fan.kind, fan.facets),
+                                                    fan.closed() ? 0u : shared::kOpenSector, writer_);
                 }
                 weights[s] = known->second;
             }
         }
         for (const uint32_t s : order_) {
-            const Sector& sector = mesh_.sectors[s];
-            const KindOfKernel& kernel = kVertexKernels[fanKind(sector)];
-            countVertex(kernel, 1 + sector.edges() + sector.facets, writer_, tables_);
+            const Fan& fan = mesh_.fans[s];
+            const KindOfKernel& kernel = kVertexKernels[fanKind(fan)];
+            countVertex(kernel, 1 + fan.edges() + fan.facets, writer_, tables_);
             if (kernel.kind != shared::kRegularFan) {
-                writer_.put({slots_[sector.firstSlot], weights[s], points_[s]});
+                writer_.put({slots_[fan.firstSlot], weights[s], points_[s]});
             }
         }
     }
@@ -222,8 +173,8 @@ private:
     [[nodiscard]] EdgeClass edgeClass(const DraftPatch& patch, uint32_t i) const {
         const FacetCorner &a = corner(patch, i), &b = corner(patch, i + 1);
         return {patch.info.cornerCount,
-                {mesh_.sectors[a.sector].valence(), mesh_.sectors[b.sector].valence()},
-                mesh_.edgeCut[mesh_.topology.cornerEdges[patch.cageCorners[i]]] != 0,
+                {mesh_.fans[a.fan].valence(), mesh_.fans[b.fan].valence()},
+                mesh_.features.hard(mesh_.topology.cornerEdges[patch.cageCorners[i]]),
                 {a.across == cage::kNone, b.acrossBack == cage::kNone}};
     }
 
@@ -239,8 +190,7 @@ private:
                         firstTooMany = patch.info.face;
                     }
                     const EdgeFactors f = makeEdgeFactors(known->first);
-                    writer_.put({floatBits(f.along[0]), floatBits(f.own[0]), floatBits(f.across[0]),
-                                 floatBits(f.across[1]), floatBits(f.along[1]), floatBits(f.own[1]), 0u, 0u});
+                    writer_.putFloats({f.along[0], f.own[0], f.across[0], f.across[1], f.along[1], f.own[1], 0.0, 0.0});
                 }
             }
         }
@@ -262,10 +212,8 @@ private:
                 continue;
             }
             const auto kernel = static_cast<size_t>(range.patchClass) - static_cast<size_t>(PatchClass::polar);
-            const uint32_t sides = cornerCount(domainOf(range.patchClass));
-            const uint32_t coefficients = range.patchClass == PatchClass::polar ? 2 : 1 + 3 * sides;
-            tables_.constructions.push_back(
-                {Stage::assemble, kFacetKernels[kernel], range.section, coefficients * range.section.count});
+            tables_.constructions.push_back({Stage::assemble, kFacetKernels[kernel], range.section,
+                                             innerCount(range.patchClass) * range.section.count});
         }
     }
 
@@ -273,7 +221,7 @@ private:
         std::map<std::array<uint32_t, 3>, uint32_t> apexes;
         const auto apexWeights = [&](const DraftPatch& patch) -> std::array<uint32_t, 3> {
             const FacetCorner& apex = corner(patch, 2);
-            const double c = turn(1, mesh_.sectors[apex.sector].valence()).first;
+            const double c = turn(1, mesh_.fans[apex.fan].valence()).first;
             return {floatBits(c), floatBits(1.5 * mesh_.slotAlphas[apex.slot]),
                     floatBits(1.5 * mesh_.slotAlphas[apex.slotBack])};
         };
@@ -297,14 +245,15 @@ private:
             std::array<uint32_t, 4> points{}, spokes{};
             for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
                 const FacetCorner& c = corner(patch, i);
-                points[i] = points_[c.sector];
+                points[i] = points_[c.fan];
                 spokes[i] = spokeWord(slots_[c.slot], slots_[c.slotBack]);
             }
             if (patchClass == PatchClass::polar) {
                 points[3] = inner_[p];
                 spokes[3] = apexes.at(apexWeights(patch));
             }
-            writer_.put({points[0], points[1], points[2], points[3], spokes[0], spokes[1], spokes[2], spokes[3]});
+            writer_.put(points);
+            writer_.put(spokes);
         }
     }
 
@@ -316,23 +265,21 @@ private:
         for (uint32_t i = 0; i < m; ++i) {
             const FacetCorner& c = corner(patch, i);
             const uint32_t slot = slots_[c.slot], across = c.across == cage::kNone ? slot : slots_[c.across];
-            words[SUPPLE_PM_POINT_WORD(i)] = spokeWord(points_[c.sector], points_[c.sector] + (across - slot)) |
+            words[SUPPLE_PM_POINT_WORD(i)] = spokeWord(points_[c.fan], points_[c.fan] + (across - slot)) |
                                              (c.acrossBack == cage::kNone ? kEndsBehind : 0u);
             words[SUPPLE_PM_SPOKE_WORD(i)] = spokeWord(slot, slots_[c.slotBack]);
             words[SUPPLE_PM_CLASS_WORD(m, i)] |= edgeClasses_.at(edgeClass(patch, i)) << kEdgeClassBits * (i % 3);
         }
         words[SUPPLE_PM_INNER_WORD(m)] = inner | singularCorners(patch) << kInnerBits;
-        for (uint32_t w = 0; w < 4 * SUPPLE_PM_RECORD_ELEMENTS(m); ++w) {
-            writer_.put({words[w]});
-        }
+        writer_.put(std::span(words).first(size_t{4} * SUPPLE_PM_RECORD_ELEMENTS(m)));
     }
 
-    /// A bit a corner whose sector is a crease of one facet: its two tangents lie on one line.
+    /// A bit a corner whose fan is a crease of one facet: its two tangents lie on one line.
     [[nodiscard]] uint32_t singularCorners(const DraftPatch& patch) const {
         uint32_t bits = 0;
         for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
-            const Sector& sector = mesh_.sectors[corner(patch, i).sector];
-            bits |= sector.kind == SectorKind::crease && sector.facets == 1 ? 1u << i : 0u;
+            const Fan& fan = mesh_.fans[corner(patch, i).fan];
+            bits |= fan.kind == FanKind::crease && fan.facets == 1 ? 1u << i : 0u;
         }
         return bits;
     }
@@ -344,17 +291,13 @@ private:
     std::vector<DraftPatch> patches_;
     std::vector<uint32_t> inner_;   ///< per patch: its first coefficient of the facet stage in the pool
     std::vector<uint32_t> records_; ///< per patch: the element its record begins with
-    std::vector<uint32_t> order_;   ///< sectors as the vertex stage takes them
+    std::vector<uint32_t> order_;   ///< fans as the vertex stage takes them
     std::vector<uint32_t> slots_;   ///< per slot of the mesh: its number in the pool
-    std::vector<uint32_t> points_;  ///< per sector: its limit point in the pool
+    std::vector<uint32_t> points_;  ///< per fan: its limit point in the pool
     std::map<EdgeClass, uint32_t> edgeClasses_;
 };
 
 } // namespace
-
-Result<Tables> buildTables(const Mesh& mesh) {
-    return Builder(mesh).build();
-}
 
 Result<Tables> build(const Recipe&, const cage::Cage& cage) {
     const Result<Mesh> mesh = buildMesh(cage);
@@ -362,14 +305,14 @@ Result<Tables> build(const Recipe&, const cage::Cage& cage) {
         return mesh.error();
     }
     SpokeLimits spokes;
-    for (const Sector& sector : mesh->sectors) {
-        spokes.add(sector.vertex, sector.edges());
+    for (const Fan& fan : mesh->fans) {
+        spokes.add(fan.vertex, fan.edges());
     }
     const Status fits = spokes.check();
     if (!fits) {
         return fits.error();
     }
-    return buildTables(*mesh);
+    return Builder(*mesh).build();
 }
 
 } // namespace supple::surface::pm

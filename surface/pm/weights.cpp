@@ -4,28 +4,26 @@
 
 namespace supple::surface::pm {
 
-SectorScales sectorScales(SectorKind kind, uint32_t facets) {
+FanScales fanScales(FanKind kind, uint32_t facets) {
     const double q = facets;
-    if (kind == SectorKind::interior) {
+    if (kind == FanKind::interior) {
         return {9.0 / (q * (q + 5.0)), 1.0 / (q * subdominant(facets))};
     }
-    return {0.0, kind == SectorKind::crease ? 1.0 / (q * subdominant(2 * facets)) : 0.0};
+    return {0.0, kind == FanKind::crease ? 1.0 / (q * subdominant(2 * facets)) : 0.0};
 }
 
-SectorWeights makeSectorWeights(SectorKind kind, uint32_t facets) {
-    const bool closed = kind == SectorKind::interior;
+FanWeights makeFanWeights(FanKind kind, uint32_t facets) {
+    const bool closed = kind == FanKind::interior;
     const uint32_t edges = closed ? facets : facets + 1;
-    Sector sector;
-    sector.facets = facets;
-    sector.kind = kind;
-    const uint32_t valence = sector.valence();
-    const SectorScales scales = sectorScales(kind, facets);
-    SectorWeights w;
-    for (std::vector<double>* v : {&w.limitEdge, &w.tau1Edge, &w.tau2Edge}) {
-        v->assign(edges, 0.0);
-    }
-    for (std::vector<double>* v : {&w.limitFace, &w.tau1Face, &w.tau2Face}) {
-        v->assign(facets, 0.0);
+    const uint32_t valence = Fan{.facets = facets, .kind = kind}.valence();
+    const FanScales scales = fanScales(kind, facets);
+    FanWeights w;
+    w.limitEdge = w.e1Edge = w.e2Edge = std::vector<double>(edges, 0.0);
+    w.limitFace = w.e1Face = w.e2Face = std::vector<double>(facets, 0.0);
+    for (uint32_t j = 0; j < edges; ++j) {
+        const auto [cosine, sine] = turn(j, valence);
+        w.cosines.push_back(cosine);
+        w.sines.push_back(sine);
     }
     // factor * (f_j - p), f_j - p = (2 (X_j + X_j+1) + Q_j) / 9
     const auto addFace = [&](uint32_t j, double factor, std::vector<double>& edge, std::vector<double>& face) {
@@ -40,25 +38,24 @@ SectorWeights makeSectorWeights(SectorKind kind, uint32_t facets) {
     };
     if (closed) {
         for (uint32_t j = 0; j < facets; ++j) {
-            const auto [cosine, sine] = turn(j, valence);
             addFace(j, scales.limit, w.limitEdge, w.limitFace);
-            addEdge(j, scales.tangent * cosine, w.tau1Edge, w.tau1Face);
-            addEdge(j, scales.tangent * sine, w.tau2Edge, w.tau2Face);
+            addEdge(j, scales.tangent * w.cosines[j], w.e1Edge, w.e1Face);
+            addEdge(j, scales.tangent * w.sines[j], w.e2Edge, w.e2Face);
         }
         return w;
     }
-    if (kind == SectorKind::corner) {
-        w.tau1Edge[0] = w.tau2Edge[facets] = 1.0 / 3.0;
+    if (kind == FanKind::corner) {
+        w.e1Edge[0] = w.e2Edge[facets] = 1.0 / 3.0;
         return w;
     }
     w.limitEdge[0] = w.limitEdge[facets] = 1.0 / 6.0;
-    w.tau1Edge[0] = 1.0 / 6.0;
-    w.tau1Edge[facets] = -1.0 / 6.0;
+    w.e1Edge[0] = 1.0 / 6.0;
+    w.e1Edge[facets] = -1.0 / 6.0;
     for (uint32_t j = 1; j < facets; ++j) {
-        const double factor = scales.tangent * turn(j, valence).second;
-        addEdge(j, factor, w.tau2Edge, w.tau2Face);
-        w.tau2Edge[0] -= factor / 6.0;
-        w.tau2Edge[facets] -= factor / 6.0;
+        const double factor = scales.tangent * w.sines[j];
+        addEdge(j, factor, w.e2Edge, w.e2Face);
+        w.e2Edge[0] -= factor / 6.0;
+        w.e2Edge[facets] -= factor / 6.0;
     }
     return w;
 }

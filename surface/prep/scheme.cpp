@@ -1,14 +1,13 @@
-#include "surface/prep/scheme.h"
-
+// p-rep as a scheme: the tables of shaders/shared/{surface,prep}.h.
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
-#include "surface/ring_writer.h"
-#include "surface/table_writer.h"
+#include "surface/build.h"
+#include "surface/fans.h"
+#include "surface/prep/weights.h"
 
 #include <algorithm>
-#include <bit>
-#include <glm/glm.hpp>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string>
 #include <tuple>
@@ -26,64 +25,26 @@ constexpr KindOfKernel kVertexKernels[] = {
 };
 constexpr KindOfKernel kEdgeKernel = {Kernel::prepEdge, 0, "supple p-rep edge"};
 
-bool regular(const cage::Topology& topology, uint32_t vertex) {
-    return topology.effectiveValence(vertex) == 4;
-}
-
-/// Valence classes in use, each written once.
-class ClassTable {
-public:
-    ClassTable(const cage::Topology& topology, const Options& options) : topology_(topology), options_(options) {}
-
-    void write(TableWriter& writer, uint32_t vertexCount) {
-        for (uint32_t v = 0; v < vertexCount; ++v) {
-            const auto key = keyOf(v);
-            if (elements_.contains(key)) {
-                continue;
-            }
-            const ValenceClass c = makeValenceClass(key.first, key.second, options_);
-            elements_[key] = writer.element();
-            cosines_[key] = c.c;
-            writer.put({c.sectors | (c.boundary ? shared::kBoundaryClass : 0u), 0u, 0u, 0u});
-            const uint32_t spokes = c.sectors + (c.boundary ? 1u : 0u);
-            for (uint32_t k = 0; k < spokes; ++k) {
-                // The last spoke of a boundary fan has no sector: its diagonal counts nothing.
-                const bool sector = k < c.sectors;
-                writer.put({floatBits(c.limitEdge[k]), floatBits(sector ? c.limitFace[k] : 0.0), floatBits(c.e1Edge[k]),
-                            floatBits(sector ? c.e1Face[k] : 0.0), floatBits(c.e2Edge[k]),
-                            floatBits(sector ? c.e2Face[k] : 0.0), floatBits(c.cosines[k]), floatBits(c.sines[k])});
-            }
-        }
-    }
-    [[nodiscard]] uint32_t element(uint32_t vertex) const { return elements_.at(keyOf(vertex)); }
-    [[nodiscard]] double c(uint32_t vertex) const { return cosines_.at(keyOf(vertex)); }
-
-private:
-    [[nodiscard]] std::pair<uint32_t, bool> keyOf(uint32_t v) const {
-        return {topology_.sectorCount(v), topology_.boundary[v] != 0};
-    }
-    const cage::Topology& topology_;
-    Options options_;
-    std::map<std::pair<uint32_t, bool>, uint32_t> elements_;
-    std::map<std::pair<uint32_t, bool>, double> cosines_;
-};
-
 class Builder {
 public:
     Builder(const cage::Cage& cage, const cage::Topology& topology, const Options& options)
-        : cage_(cage), topology_(topology), options_(options), writer_(tables_.words), classes_(topology, options) {}
+        : cage_(cage), topology_(topology), options_(options), writer_(tables_.words) {}
 
     Tables build() {
         sortVertices();
         layOutPool();
-        classes_.write(writer_, cage_.vertexCount());
+        writeClasses();
         writeVertices();
         writeEdgeClasses();
         writeEdges();
-        sortedPatches();
-        RingWriter ring(writer_, cage_.faceCount());
+        patches_ = draftPatches({cage_, cage_.vertexCount()}, [&](const DraftPatch& patch) { return classOf(patch); });
+        RingWriter ring(cage_, topology_, cage_.faceVertices, {}, writer_);
         writePatches(ring);
-        writeRing(ring);
+        for (const uint32_t v : order_) {
+            const std::span spokes = std::span(spokes_).subspan(topology_.spokeStarts[v], topology_.spokeCount(v));
+            ring.add(v, spokes, topology_.boundary[v] != 0);
+        }
+        tables_.ring = ring.write();
         finishTables(cage_, patches_, writer_, tables_);
         return std::move(tables_);
     }
@@ -101,18 +62,24 @@ private:
         const uint32_t first = cage_.faceStarts[topology_.cornerFaces[c]];
         return first + (c - first + steps) % 4;
     }
+    /// What the vertices of a valence class have in common: faces, and whether they lie on the boundary.
+    [[nodiscard]] std::pair<uint32_t, bool> classKey(uint32_t v) const {
+        return {topology_.sectorCount(v), topology_.boundary[v] != 0};
+    }
     /// What the edges of a class have in common: the weights of both ends.
     [[nodiscard]] std::pair<double, double> edgeKey(uint32_t edge) const {
         const cage::Topology::Edge& e = topology_.edges[edge];
-        return {classes_.c(cage_.faceVertices[e.corner]), classes_.c(cage_.faceVertices[e.twin])};
+        return {classes_.at(classKey(cage_.faceVertices[e.corner])).c,
+                classes_.at(classKey(cage_.faceVertices[e.twin])).c};
     }
 
     /// Spokes lie vertex by vertex: regular interior ones first; the others by class, so that neighbouring lanes loop
     /// equally long.
     void sortVertices() {
-        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            order_.push_back(v);
-        }
+        order_.resize(cage_.vertexCount());
+        std::iota(order_.begin(), order_.end(), 0u);
+        spokes_.resize(topology_.spokeVertices.size());
+        std::iota(spokes_.begin(), spokes_.end(), 0u);
         const auto rank = [&](uint32_t v) {
             return std::tuple(!hasRegularFan(v), topology_.spokeCount(v), topology_.boundary[v]);
         };
@@ -141,7 +108,18 @@ private:
                 perturbedEdges_.push_back(e);
             }
         }
-        tables_.poolStride = (zero_ + 4 + 15) / 16 * 16;
+        tables_.poolStride = poolStrideFor(zero_ + 4);
+    }
+
+    void writeClasses() {
+        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
+            const auto [known, isNew] = classes_.try_emplace(classKey(v));
+            if (isNew) {
+                const auto [sectors, boundary] = known->first;
+                const ValenceClass c = makeValenceClass(sectors, boundary, options_);
+                known->second = {writeFanWeights(c, boundary ? shared::kBoundaryClass : 0u, writer_), c.c};
+            }
+        }
     }
 
     void writeVertices() {
@@ -152,7 +130,7 @@ private:
                                                                  : shared::kManyFan;
             countVertex(kVertexKernels[kind], 1 + 2 * spokes, writer_, tables_);
             if (kind != shared::kRegularFan) {
-                writer_.put({slots_[topology_.spokeStarts[v]], classes_.element(v)});
+                writer_.put({slots_[topology_.spokeStarts[v]], classes_.at(classKey(v)).element});
             }
         }
     }
@@ -167,8 +145,7 @@ private:
             }
             const EdgeWeights weights = makeEdgeWeights(known->first.first, known->first.second);
             for (size_t vector = 0; vector < 6; ++vector) {
-                writer_.put({floatBits(weights[0][vector]), floatBits(weights[1][vector]),
-                             floatBits(weights[2][vector]), floatBits(weights[3][vector])});
+                writer_.putFloats({weights[0][vector], weights[1][vector], weights[2][vector], weights[3][vector]});
             }
         }
     }
@@ -187,28 +164,19 @@ private:
         }
     }
 
-    void sortedPatches() {
-        for (uint32_t face = 0; face < cage_.faceCount(); ++face) {
-            if (std::binary_search(cage_.holes.begin(), cage_.holes.end(), face)) {
-                continue;
-            }
-            DraftPatch& patch = patches_.emplace_back();
-            patch.facet = patch.info.face = face;
-            patch.material = cage_.faceMaterials.empty() ? cage::kNone : cage_.faceMaterials[face];
-            for (uint32_t j = 0; j < 4; ++j) {
-                const uint32_t c = cage_.faceStarts[face] + j;
-                patch.cageCorners[j] = c;
-                patch.info.corners[j] = cage_.faceVertices[c];
-                if (edgeSlots_[topology_.cornerEdges[c]] != cage::kNone) {
-                    patch.info.patchClass = PatchClass::perturbed;
-                }
-                tables_.cornerNormals = tables_.cornerNormals || isSmoothCorner(cage_.faceVertices[c]);
-            }
-        }
-        sortPatches(patches_);
+    [[nodiscard]] PatchClass classOf(const DraftPatch& patch) const {
+        const bool perturbed = std::any_of(patch.cageCorners.begin(), patch.cageCorners.begin() + 4, [&](uint32_t c) {
+            return edgeSlots_[topology_.cornerEdges[c]] != cage::kNone;
+        });
+        return perturbed ? PatchClass::perturbed : PatchClass::regular;
     }
 
     void writePatches(RingWriter& ring) {
+        for (const DraftPatch& patch : patches_) {
+            tables_.cornerNormals =
+                tables_.cornerNormals || std::any_of(patch.info.corners.begin(), patch.info.corners.begin() + 4,
+                                                     [&](uint32_t v) { return isSmoothCorner(v); });
+        }
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             const DraftPatch& patch = patches_[p];
             const PatchClass patchClass = patch.info.patchClass;
@@ -225,40 +193,31 @@ private:
                 normals[j] =
                     isSmoothCorner(v) ? tables_.faces + slots_[topology_.spokeStarts[v]] + 1 : shared::kNoNormal;
             }
-            const std::array<uint32_t, kMaxSides>& points = patch.info.corners;
-            writer_.put({points[0], points[1], points[2], points[3], spokes[0], spokes[1], spokes[2], spokes[3]});
+            writer_.put(std::span(patch.info.corners).first(4));
+            writer_.put(spokes);
             if (patchClass == PatchClass::perturbed) {
-                writer_.put({edges[0], edges[1], edges[2], edges[3]});
+                writer_.put(edges);
             }
             if (tables_.cornerNormals) {
-                writer_.put({normals[0], normals[1], normals[2], normals[3]});
+                writer_.put(normals);
             }
         }
     }
 
-    void writeRing(RingWriter& ring) {
-        for (const uint32_t v : order_) {
-            for (uint32_t s = topology_.spokeStarts[v]; s < topology_.spokeStarts[v + 1]; ++s) {
-                // The last spoke of a boundary fan has no face behind it: its far end is in the one before.
-                const uint32_t own = topology_.sectorCorners[s];
-                const uint32_t c = own == cage::kNone ? topology_.sectorCorners[s - 1] : own;
-                const uint32_t face = topology_.cornerFaces[c];
-                const uint32_t diagonal = own == cage::kNone ? v : cage_.faceVertices[corner(c, 2)];
-                ring.add({v, topology_.spokeVertices[s], diagonal, diagonal}, face,
-                         std::span(cage_.faceVertices).subspan(cage_.faceStarts[face], 4));
-            }
-        }
-        tables_.ring = ring.write();
-    }
+    struct ClassEntry {
+        uint32_t element = 0;
+        double c = 0.0; ///< ValenceClass::c
+    };
 
     const cage::Cage& cage_;
     const cage::Topology& topology_;
     Options options_;
     Tables tables_;
     TableWriter writer_;
-    ClassTable classes_;
-    std::vector<uint32_t> order_; ///< vertices
-    std::vector<uint32_t> slots_; ///< by spoke: its place among tangents and face coefficients
+    std::map<std::pair<uint32_t, bool>, ClassEntry> classes_;
+    std::vector<uint32_t> order_;  ///< vertices
+    std::vector<uint32_t> spokes_; ///< of the topology, as they are
+    std::vector<uint32_t> slots_;  ///< by spoke: its place among tangents and face coefficients
     std::vector<uint32_t> perturbedEdges_;
     std::vector<uint32_t> edgeSlots_; ///< by edge: the pool index of its H, or kNone
     uint32_t zero_ = 0;               ///< pool index of the zeros
@@ -268,36 +227,16 @@ private:
 
 } // namespace
 
-bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge) {
-    const cage::Topology::Edge& e = topology.edges[edge];
-    if (e.twin == cage::kNone) {
-        return false;
-    }
-    return !regular(topology, cage.faceVertices[e.corner]) || !regular(topology, cage.faceVertices[e.twin]);
-}
-
-Status accepts(const cage::Cage& cage) {
-    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
-        if (cage.sides(face) != 4) {
-            return Error{ErrorCode::asset, "face " + std::to_string(face) + " has " + std::to_string(cage.sides(face)) +
-                                               " sides: p-rep takes quads only"};
-        }
-    }
-    return success();
-}
-
-Tables buildTables(const cage::Cage& cage, const cage::Topology& topology, const Options& options) {
-    return Builder(cage, topology, options).build();
-}
-
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Result<cage::Topology> topology = cage::buildTopology(cage);
     if (!topology) {
         return topology.error();
     }
-    const Status accepted = accepts(cage);
-    if (!accepted) {
-        return accepted.error();
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        if (cage.sides(face) != 4) {
+            return Error{ErrorCode::asset, "face " + std::to_string(face) + " has " + std::to_string(cage.sides(face)) +
+                                               " sides: p-rep takes quads only"};
+        }
     }
     SpokeLimits spokes;
     for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
@@ -307,7 +246,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!fits) {
         return fits.error();
     }
-    return buildTables(cage, *topology, recipe.prep);
+    return Builder(cage, *topology, recipe.prep).build();
 }
 
 } // namespace supple::surface::prep

@@ -58,12 +58,8 @@ ValenceClass boundaryClass(uint32_t m, const Options& options) {
     k.boundary = true;
     k.sharpCorner = m == 1 && options.cornerRule == CornerRule::sharp;
     k.c = turn(1, 2 * m).first;
-    k.limitEdge.assign(m + 1, 0.0);
-    k.e1Edge.assign(m + 1, 0.0);
-    k.e2Edge.assign(m + 1, 0.0);
-    k.limitFace.assign(m, 0.0);
-    k.e1Face.assign(m, 0.0);
-    k.e2Face.assign(m, 0.0);
+    k.limitEdge = k.e1Edge = k.e2Edge = std::vector<double>(m + 1, 0.0);
+    k.limitFace = k.e1Face = k.e2Face = std::vector<double>(m, 0.0);
     for (uint32_t i = 0; i <= m; ++i) {
         const auto [cosine, sine] = turn(i, 2 * m);
         k.cosines.push_back(cosine);
@@ -150,6 +146,12 @@ Row nearInnerWeights(double cNear, double cFar, const Row& near, const Row& far)
 ValenceClass makeValenceClass(uint32_t sectors, bool boundary, const Options& options) {
     assert(sectors >= (boundary ? 1u : 3u));
     return boundary ? boundaryClass(sectors, options) : interiorClass(sectors, options);
+}
+
+bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge) {
+    const auto [corner, twin] = topology.edges[edge];
+    return twin != cage::kNone && (topology.effectiveValence(cage.faceVertices[corner]) != 4 ||
+                                   topology.effectiveValence(cage.faceVertices[twin]) != 4);
 }
 
 EdgeWeights makeEdgeWeights(double cA, double cB) {

@@ -1,7 +1,10 @@
 // The weights of p-rep, per valence class, in double. They depend on connectivity only.
 #pragma once
 
+#include "cage/topology.h"
+#include "surface/fans.h"
 #include "surface/recipe.h"
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -9,25 +12,22 @@
 namespace supple::surface::prep {
 
 /// The weights of one valence class: all vertices with the same number of faces that are all interior or all boundary.
-struct ValenceClass {
+/// On a boundary the tangents of the first and the last spoke are (2 p0 + p_k)/3 - X instead.
+struct ValenceClass : FanWeights {
     uint32_t sectors = 0; ///< faces: n in the interior, m on the boundary
     bool boundary = false;
     double c = 0.0;           ///< cos(2 pi / effective valence), exactly 0 for regular vertices
     bool sharpCorner = false; ///< boundary, one face, CornerRule::sharp
-    // The limit point is center*p0 + sum edge[k]*spoke_k + sum face[k]*diagonal_k, over spokes and sectors. Its weights
-    // sum to 1, those of e1 and e2 to 0. In float, sum differences from p0 and leave the weight of the centre aside
-    // (docs/prep.md).
-    double limitCenter = 0.0;
-    std::vector<double> limitEdge, limitFace;
-    // e1 and e2 span the tangent plane. They are sums of the same kind.
-    double e1Center = 0.0, e2Center = 0.0;
-    std::vector<double> e1Edge, e1Face, e2Edge, e2Face;
-    // TG[k] = X + e1*cosines[k] + e2*sines[k]. On a boundary the first and the last spoke use (2 p0 + p_k)/3 instead.
-    std::vector<double> cosines, sines;
+    // Of the vertex itself. All weights of the limit point sum to 1, those of e1 and e2 to 0. In float, sum differences
+    // from the vertex and leave its own weight aside (docs/prep.md).
+    double limitCenter = 0.0, e1Center = 0.0, e2Center = 0.0;
 };
 
 /// `sectors`: at least 3 in the interior and 1 on a boundary, which cage::buildTopology makes sure of.
 [[nodiscard]] ValenceClass makeValenceClass(uint32_t sectors, bool boundary, const Options& options);
+
+/// Whether an edge has a perturbation: it is interior, and one of its ends is irregular.
+[[nodiscard]] bool isPerturbed(const cage::Cage& cage, const cage::Topology& topology, uint32_t edge);
 
 /// The perturbation of an edge A -> B. There is one row per coefficient h20, h30, h21, h31, in the edge's own
 /// direction. The columns are six vectors {A, tA, tB, B, SA, SB}: the limit points A and B, the tangents tA and tB of

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <set>
 #include <utility>
 
 namespace supple::surface::subdivision {
@@ -16,102 +14,35 @@ using cage::Cage;
 using cage::kNone;
 using cage::Topology;
 
-// ---- the faces that come in ----
+/// A fan of triangles from one corner.
+FaceCut fanCut(uint32_t sides) {
+    FaceCut cut;
+    for (uint32_t k = 1; k + 1 < sides; ++k) {
+        cut.parts.push_back({0, k, k + 1});
+        if (k > 1) {
+            cut.diagonals.push_back({0, k});
+        }
+    }
+    return cut;
+}
 
-/// Every face a fan of triangles: from its first corner, unless diagonals from there are edges already.
-class TriangleSplitter {
+constexpr SplitRule kTriangles{.mostSides = 3,
+                               .cut = fanCut,
+                               .startCorners = 64,
+                               .parts = "a fan of triangles",
+                               .note =
+                                   [](uint32_t sides, uint32_t start) {
+                                       return std::to_string(sides - 2) + " triangles" +
+                                              (start > 0 ? " from corner " + std::to_string(start) : "");
+                                   },
+                               .listed = 16,
+                               .others = " more faces of four and more sides: split into triangles"};
+
+/// Cuts the isolated mesh into fragments, by the topology of its parent.
+class FragmentBuilder : StepPoints {
 public:
-    TriangleSplitter(const Level& given, const Topology& topology) : given_(given), topology_(topology) {}
-
-    std::optional<Error> run() {
-        out_.cage.positions = given_.cage.positions;
-        out_.cage.faceStarts.push_back(0);
-        for (uint32_t face = 0; face < given_.cage.faceCount(); ++face) {
-            if (std::optional<Error> error = addFace(face)) {
-                return error;
-            }
-        }
-        if (splits_ > kListedSplits) {
-            notes_.push_back("and " + std::to_string(splits_ - kListedSplits) +
-                             " more faces of four and more sides: split into triangles");
-        }
-        return std::nullopt;
-    }
-
-    Level out() { return std::move(out_); }
-    std::vector<std::string> notes() { return std::move(notes_); }
-
-private:
-    static constexpr uint32_t kStartCorners = 64; ///< tried at most
-    static constexpr uint32_t kListedSplits = 16;
-
-    [[nodiscard]] uint32_t corner(uint32_t face, uint32_t k) const {
-        return given_.cage.faceStarts[face] + k % given_.cage.sides(face);
-    }
-
-    /// From corner `start` to corner start + k, smaller vertex first.
-    [[nodiscard]] std::pair<uint32_t, uint32_t> diagonal(uint32_t face, uint32_t start, uint32_t k) const {
-        const uint32_t a = given_.cage.faceVertices[corner(face, start)];
-        const uint32_t b = given_.cage.faceVertices[corner(face, start + k)];
-        return {std::min(a, b), std::max(a, b)};
-    }
-
-    [[nodiscard]] bool isFree(uint32_t face, uint32_t start) const {
-        for (uint32_t k = 2; k + 1 < given_.cage.sides(face); ++k) {
-            const auto [a, b] = diagonal(face, start, k);
-            if (diagonals_.contains({a, b}) || cage::findEdge(given_.cage, topology_, a, b) != kNone) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    std::optional<Error> addFace(uint32_t face) {
-        const uint32_t sides = given_.cage.sides(face);
-        const std::string name = "face " + std::to_string(face) + " has " + std::to_string(sides) + " sides";
-        uint32_t start = 0;
-        while (!isFree(face, start)) {
-            if (++start == std::min(sides, kStartCorners)) {
-                return Error{ErrorCode::asset, name + ": every way to split it into a fan of triangles needs a "
-                                                      "diagonal that is already an edge of the cage"};
-            }
-        }
-        for (uint32_t k = 1; k + 1 < sides; ++k) {
-            if (k > 1) {
-                diagonals_.insert(diagonal(face, start, k));
-            }
-            for (const uint32_t c : {corner(face, start), corner(face, start + k), corner(face, start + k + 1)}) {
-                out_.cage.faceVertices.push_back(given_.cage.faceVertices[c]);
-                forEachCornerAttribute(given_.cage, out_.cage, [&](const auto& from, auto& to) {
-                    if (!from.empty()) {
-                        to.push_back(from[c]);
-                    }
-                });
-            }
-            closeFace(out_, given_, face);
-        }
-        if (sides > 3 && ++splits_ <= kListedSplits) {
-            notes_.push_back(name + ": split into " + std::to_string(sides - 2) + " triangles" +
-                             (start > 0 ? " from corner " + std::to_string(start) : ""));
-        }
-        return std::nullopt;
-    }
-
-    const Level& given_;
-    const Topology& topology_;
-    std::set<std::pair<uint32_t, uint32_t>> diagonals_; ///< laid so far
-    uint32_t splits_ = 0;
-    Level out_;
-    std::vector<std::string> notes_;
-};
-
-// ---- fragments ----
-
-/// Cuts the isolated level into fragments, by the topology of its parent.
-class FragmentBuilder {
-public:
-    FragmentBuilder(const Level& parent, Mesh& mesh)
-        : parent_(parent), topology_(parent.topology), mesh_(mesh),
+    FragmentBuilder(const RefinedMesh& parent, Mesh& mesh)
+        : StepPoints(parent), topology_(parent.topology), mesh_(mesh),
           quads_(mesh.subdivision == Subdivision::catmullClark) {}
 
     void run() {
@@ -129,20 +60,6 @@ public:
     }
 
 private:
-    [[nodiscard]] uint32_t vertexAt(uint32_t corner) const { return parent_.cage.faceVertices[corner]; }
-    [[nodiscard]] uint32_t next(uint32_t corner) const {
-        return cage::nextCorner(parent_.cage, topology_.cornerFaces[corner], corner);
-    }
-    [[nodiscard]] uint32_t previous(uint32_t corner) const {
-        return cage::previousCorner(parent_.cage, topology_.cornerFaces[corner], corner);
-    }
-    /// The point of the edge from a corner to the next.
-    [[nodiscard]] uint32_t edgePoint(uint32_t corner) const {
-        return parent_.cage.vertexCount() + topology_.cornerEdges[corner];
-    }
-    [[nodiscard]] uint32_t facePoint(uint32_t face) const {
-        return parent_.cage.vertexCount() + static_cast<uint32_t>(topology_.edges.size()) + face;
-    }
     [[nodiscard]] float sharpness(uint32_t edge) const { return softened(parent_.edgeSharpness[edge], 1); }
 
     Fragment& begin(FragmentKind kind, uint32_t sectors) {
@@ -228,15 +145,14 @@ private:
         }
     }
 
-    const Level& parent_;
     const Topology& topology_;
     Mesh& mesh_;
     bool quads_;
 };
 
-bool allOf(const Cage& cage, uint32_t sides) {
+bool allQuads(const Cage& cage) {
     for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-        if (cage.sides(f) != sides) {
+        if (cage.sides(f) != 4) {
             return false;
         }
     }
@@ -244,45 +160,27 @@ bool allOf(const Cage& cage, uint32_t sides) {
 }
 
 Result<Mesh> build(const Cage& cage, Subdivision subdivision) {
-    Result<Topology> topology = cage::buildTopology(cage);
-    if (!topology.ok()) {
-        return topology.error();
-    }
+    const bool loop = subdivision == Subdivision::loop;
     Mesh mesh;
     mesh.subdivision = subdivision;
-    Level parent = givenLevel(cage);
-    if (subdivision == Subdivision::loop && !allOf(cage, 3)) {
-        TriangleSplitter splitter(parent, *topology);
-        if (std::optional<Error> error = splitter.run()) {
-            return std::move(*error);
-        }
-        mesh.notes = splitter.notes();
-        parent = splitter.out();
-        topology = cage::buildTopology(parent.cage);
-        if (!topology.ok()) {
-            return topology.error();
-        }
+    Result<RefinedMesh> parent = beginRefinement(cage, loop ? &kTriangles : nullptr, mesh.notes);
+    if (!parent) {
+        return parent.error();
     }
-    parent.topology = std::move(*topology);
-    beginLevel(parent, cage, mesh.notes);
-    mesh.isolationSteps = subdivision == Subdivision::catmullClark && !allOf(cage, 4) ? 2 : 1;
+    mesh.isolationSteps = loop || allQuads(cage) ? 1 : 2;
     if (mesh.isolationSteps == 2) {
-        Level quads = refine(parent, subdivision);
-        if (std::optional<Error> error = equip(quads, parent)) {
-            return std::move(*error);
+        RefinedMesh quads = refine(*parent, subdivision);
+        if (const Status equipped = equip(quads, *parent); !equipped) {
+            return equipped.error();
         }
         mesh.stencils.push_back(std::move(quads.stencils));
-        parent = std::move(quads);
+        *parent = std::move(quads);
     }
-    Level isolated = refine(parent, subdivision);
-    FragmentBuilder(parent, mesh).run();
-    mesh.cornerSources.reserve(isolated.cage.cornerCount());
-    for (const uint32_t v : isolated.cage.faceVertices) {
-        mesh.cornerSources.push_back(v < cage.vertexCount() ? v : kNone);
-    }
+    RefinedMesh isolated = refine(*parent, subdivision);
+    FragmentBuilder(*parent, mesh).run();
+    mesh.hostVertices = cage.vertexCount();
     mesh.cage = std::move(isolated.cage);
     mesh.sourceFaces = std::move(isolated.sourceFaces);
-    mesh.holes = std::move(isolated.holes);
     mesh.stencils.push_back(std::move(isolated.stencils));
     return mesh;
 }

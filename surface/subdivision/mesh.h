@@ -39,14 +39,11 @@ struct Fragment {
 struct Mesh {
     Subdivision subdivision = Subdivision::catmullClark;
     uint32_t isolationSteps = 1; ///< G: 2 for Catmull-Clark unless all faces are quads, else 1
-    /// The isolated level: quads or triangles with corner attributes, materials and rest positions. Vertices and faces
-    /// have the order of surface::refine(). It has no creases, sharp vertices and holes: sharpness is in the fragments,
-    /// and holes are listed below.
+    /// The isolated mesh: quads or triangles with corner attributes, materials, holes and rest positions. Vertices and
+    /// faces have the order of surface::refine(). It has no creases and sharp vertices: sharpness is in the fragments.
     cage::Cage cage;
     std::vector<uint32_t> sourceFaces; ///< per face of `cage`: the host's face it came from
-    std::vector<uint8_t> holes;        ///< per face of `cage`: 1 if the host's face is not drawn
-    /// Per corner of `cage`: the host's cage vertex at that place, or kNone.
-    std::vector<uint32_t> cornerSources;
+    uint32_t hostVertices = 0;         ///< so many vertices of `cage` are the host's; they come first
     /// One entry per step, over the vertices of the step before. The last one gives the vertices of `cage`.
     std::vector<Stencils> stencils;
 

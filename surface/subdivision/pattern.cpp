@@ -79,22 +79,14 @@ Row makeRow(Subdivision subdivision, Point fine, AxisAt&& axisAt, IndexOf&& inde
         }
     } else if (subdivision == Subdivision::loop) {
         row.rule = Rule::edge;
-        if (odd(fine.a) && odd(fine.b)) {
-            add(p + kAlong);
-            add(p + kUp);
-            add(p);
-            add(p + kAlong + kUp);
-        } else if (odd(fine.a)) {
-            add(p);
-            add(p + kAlong);
-            add(p + kUp);
-            add(p + kAlong + -kUp);
-        } else {
-            add(p);
-            add(p + kUp);
-            add(p + kRound);
-            add(p + kAlong);
-        }
+        const bool diagonal = odd(fine.a) && odd(fine.b);
+        const Point begin = diagonal ? p + kAlong : p;
+        const Point edge = diagonal ? kRound : odd(fine.a) ? kAlong : kUp;
+        const Point left = turned(subdivision, edge);
+        add(begin);
+        add(begin + edge);
+        add(begin + left);
+        add(begin + edge + -left);
     } else if (odd(fine.a) && odd(fine.b)) {
         row.rule = Rule::face;
         add(p);

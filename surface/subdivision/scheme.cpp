@@ -1,10 +1,9 @@
-#include "surface/subdivision/scheme.h"
-
+// The subdivision as a scheme: the tables of shaders/shared/{surface,subdivision}.h.
 #include "shaders/shared/subdivision.h"
+#include "surface/build.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/masks.h"
 #include "surface/subdivision/pattern.h"
-#include "surface/table_writer.h"
 
 #include <algorithm>
 #include <map>
@@ -34,44 +33,39 @@ struct ClassKey {
     }
 };
 
-/// A list of rows or samples.
-struct List {
-    uint32_t first = 0; ///< word or element
-    uint32_t count = 0;
-};
-
-/// A level of a fragment: where its tables lie.
-struct LevelTables {
-    uint32_t rows = 0, neighbours = 0; ///< elements
-    uint32_t points = 0;
-    List cells;    ///< elements
-    List oneByOne; ///< words
-};
-
-/// A fan's pattern, or a facet's of one level, and where it lies in the tables.
+/// A fan's pattern, or a facet's of one step, and where it lies in the tables.
 struct PatternTables {
     Pattern pattern;
     uint32_t rows = 0, neighbours = 0; ///< elements
 };
 
+/// A fragment after a step: where its tables lie.
+struct StepTables {
+    uint32_t points = 0;
+    const PatternTables* pattern = nullptr;
+    Section cells;    ///< elements
+    Section oneByOne; ///< words
+    uint32_t run = 0; ///< in the scratch buffer
+};
+
 struct ClassTables {
     ClassKey key;
     std::vector<uint32_t> fragments;                         ///< of the mesh
-    std::vector<LevelTables> levels;                         ///< 0..steps
-    List strips, limitRows;                                  ///< elements
+    std::vector<StepTables> after;                           ///< 0..steps
+    Section strips, limitRows;                               ///< elements
     uint32_t limitOneByOne = 0;                              ///< of the limit rows, the first
     uint32_t net = 0, sharpness = 0, patches = 0, masks = 0; ///< words
     uint32_t centreSteps = 0, header = 0;                    ///< elements
-    std::vector<uint32_t> runs;                              ///< per level: its run in the scratch buffer
     [[nodiscard]] uint32_t sharedPoints() const {
-        const size_t last = levels.size() - 1;
-        return levels[last].points + (last > 0 ? levels[last - 1].points : 0);
+        const size_t last = after.size() - 1;
+        return after[last].points + (last > 0 ? after[last - 1].points : 0);
     }
     [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(fragments.size()); }
 };
 
 class Builder {
 public:
+    /// `depth`: steps from the cage, at least the isolation steps.
     Builder(const Mesh& mesh, uint32_t depth)
         : mesh_(mesh), loop_(mesh.subdivision == Subdivision::loop),
           steps_(depth > mesh.isolationSteps ? depth - mesh.isolationSteps : 0), writer_(tables_.words) {}
@@ -128,10 +122,10 @@ private:
             ClassTables& c = classes_.emplace_back();
             c.key = key;
             c.fragments = std::move(fragments);
-            for (uint32_t level = 0; level <= steps_; ++level) {
-                const uint32_t side = 1u << level;
-                c.levels.push_back(
-                    {0, 0, key.kind == FragmentKind::facet ? facetPointCount(side) : pointCount(key.fan, side + 1)});
+            for (uint32_t step = 0; step <= steps_; ++step) {
+                const uint32_t side = 1u << step;
+                c.after.push_back(
+                    {key.kind == FragmentKind::facet ? facetPointCount(side) : pointCount(key.fan, side + 1)});
             }
         }
         std::stable_sort(classes_.begin(), classes_.end(), [](const ClassTables& a, const ClassTables& b) {
@@ -140,18 +134,16 @@ private:
     }
 
     void sortPatches() {
-        patches_ = draftPatches(mesh_);
-        for (DraftPatch& patch : patches_) {
-            patch.info.patchClass = loop_ ? PatchClass::loop : PatchClass::catmullClark;
-        }
-        surface::sortPatches(patches_);
+        const PatchClass patchClass = loop_ ? PatchClass::loop : PatchClass::catmullClark;
+        patches_ = draftPatches({mesh_.cage, mesh_.hostVertices, mesh_.sourceFaces},
+                                [&](const DraftPatch&) { return patchClass; });
         facePatches_.assign(mesh_.cage.faceCount(), shared::kNoPatch);
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             facePatches_[patches_[p].facet] = p;
         }
     }
 
-    /// The isolated level stands at the front of the pool, a step before it behind.
+    /// The isolated mesh stands at the front of the pool, a step before it behind.
     void writeSteps() {
         const std::vector<Stencils>& steps = mesh_.stencils;
         const uint32_t isolated = steps.back().rows();
@@ -163,7 +155,7 @@ private:
             writeStencils(steps[1], {Stage::assemble, true, isolated, 0}, writer_, tables_);
             tables_.poolStride = isolated + steps[0].rows();
         }
-        tables_.poolStride = (tables_.poolStride + 15) / 16 * 16;
+        tables_.poolStride = poolStrideFor(tables_.poolStride);
     }
 
     void putHalves(const std::array<uint32_t, 8>& values) {
@@ -189,20 +181,22 @@ private:
         return tables;
     }
 
-    const PatternTables& patternOf(const ClassKey& key, uint32_t level) {
-        if (key.kind == FragmentKind::vertex) { // one for all levels
-            const auto found = fans_.find(key.fan);
-            return found != fans_.end()
-                       ? found->second
-                       : fans_.emplace(key.fan, writePattern(fanPattern(key.fan, steps_))).first->second;
+    const PatternTables& patternOf(const ClassKey& key, uint32_t step) {
+        if (key.kind == FragmentKind::vertex) { // one for all steps
+            const auto [known, isNew] = fans_.try_emplace(key.fan);
+            if (isNew) {
+                known->second = writePattern(fanPattern(key.fan, steps_));
+            }
+            return known->second;
         }
-        while (facets_.size() <= level) {
-            facets_.push_back(writePattern(facetPattern(static_cast<uint32_t>(facets_.size()))));
+        const auto [known, isNew] = facets_.try_emplace(step);
+        if (isNew) {
+            known->second = writePattern(facetPattern(step));
         }
-        return facets_[level];
+        return known->second;
     }
 
-    /// The points of the next level that a point's ring makes: towards which neighbours.
+    /// The points of the next step that a point's ring makes: towards which neighbours.
     [[nodiscard]] std::span<const uint32_t> cellSlots() const {
         static constexpr uint32_t kQuadSlots[] = {SUPPLE_SUBDIVISION_QUAD_SLOTS};
         static constexpr uint32_t kTriangleSlots[] = {0, 1, 2, 3, 4, 5};
@@ -212,8 +206,8 @@ private:
     /// The points a cell makes, as the tables have them.
     using Cell = std::array<uint32_t, 8>;
 
-    /// Gives every row of a level that needs neither sharpness nor the centre's rule to a cell of the level before, if
-    /// one has all of its sources round it, and takes it from `rows`. `neighbours` are those of the level before.
+    /// Gives every row of a step that needs neither sharpness nor the centre's rule to a cell of the step before, if
+    /// one has all of its sources round it, and takes it from `rows`. `neighbours` are those before the step.
     std::vector<Cell> makeCells(const ClassKey& key, std::span<const Neighbours> neighbours,
                                 const std::vector<Row>& pattern, std::vector<uint32_t>& rows) const {
         const std::span<const uint32_t> slots = cellSlots();
@@ -260,33 +254,29 @@ private:
     }
 
     void writeWork(ClassTables& c) {
-        for (uint32_t level = 0; level <= steps_; ++level) {
-            const PatternTables& tables = patternOf(c.key, level);
-            c.levels[level].rows = tables.rows;
-            c.levels[level].neighbours = tables.neighbours;
+        for (uint32_t step = 0; step <= steps_; ++step) {
+            c.after[step].pattern = &patternOf(c.key, step);
         }
-        for (uint32_t level = 1; level <= steps_; ++level) {
-            LevelTables& l = c.levels[level];
-            // Of a fan's neighbours those that the level before covers; they come first.
-            std::span<const Neighbours> neighbours = patternOf(c.key, level - 1).pattern.neighbours;
+        for (uint32_t step = 1; step <= steps_; ++step) {
+            StepTables& own = c.after[step];
+            // Of a fan's neighbours those that were covered before the step; they come first.
+            std::span<const Neighbours> neighbours = c.after[step - 1].pattern->pattern.neighbours;
             if (c.key.kind == FragmentKind::vertex) {
-                neighbours = neighbours.first(pointCount(c.key.fan, 1u << (level - 1)));
+                neighbours = neighbours.first(pointCount(c.key.fan, 1u << (step - 1)));
             }
-            std::vector<uint32_t> rows(l.points);
+            std::vector<uint32_t> rows(own.points);
             std::iota(rows.begin(), rows.end(), 0u);
-            const std::vector<Cell> cells = makeCells(c.key, neighbours, patternOf(c.key, level).pattern.rows, rows);
-            l.cells = {writer_.element(), static_cast<uint32_t>(cells.size())};
+            const std::vector<Cell> cells = makeCells(c.key, neighbours, own.pattern->pattern.rows, rows);
+            own.cells = {writer_.element(), static_cast<uint32_t>(cells.size())};
             for (const Cell& cell : cells) {
                 putHalves(cell);
             }
-            l.oneByOne = {4 * writer_.element(), static_cast<uint32_t>(rows.size())};
-            for (const uint32_t row : rows) {
-                writer_.put({row});
-            }
+            own.oneByOne = {4 * writer_.element(), static_cast<uint32_t>(rows.size())};
+            writer_.put(rows);
         }
     }
 
-    /// The point of a fragment's last level at (a, b) of a sector, or kNoPoint.
+    /// The point of a fragment at the last step, at (a, b) of a sector, or kNoPoint.
     [[nodiscard]] uint32_t pointAt(const ClassKey& key, uint32_t sector, int32_t a, int32_t b) const {
         return key.kind == FragmentKind::facet ? facetPointIndex(1u << steps_, a, b)
                                                : pointIndex(key.fan, sector, a, b);
@@ -311,13 +301,13 @@ private:
     /// Strips of the samples that need neither sharpness nor the centre's mask, and rows for all, the others first.
     void writeLimits(ClassTables& c) {
         const bool facet = c.key.kind == FragmentKind::facet;
-        const Pattern& pattern = patternOf(c.key, steps_).pattern;
+        const Pattern& pattern = c.after[steps_].pattern->pattern;
         const int32_t side = 1 << steps_;
         struct LimitRow {
             uint32_t point, place, sample;
         };
         std::vector<LimitRow> oneByOne, inStrips;
-        std::vector<List> strips; // columns
+        std::vector<Section> strips; // columns
         std::vector<uint32_t> stripSectors;
         uint32_t column = writer_.element();
         for (uint32_t sector = 0; sector < c.key.fan.sectors; ++sector) {
@@ -353,7 +343,7 @@ private:
         }
         c.strips = {writer_.element(), static_cast<uint32_t>(strips.size())};
         for (size_t i = 0; i < strips.size(); ++i) {
-            writer_.put({strips[i].first, strips[i].count, stripSectors[i], 0u});
+            writer_.put({strips[i].table, strips[i].count, stripSectors[i], 0u});
         }
         c.limitRows = {writer_.element(), static_cast<uint32_t>(oneByOne.size() + inStrips.size())};
         c.limitOneByOne = static_cast<uint32_t>(oneByOne.size());
@@ -392,7 +382,7 @@ private:
             }
             return first;
         };
-        c.net = words(c.levels[0].points, [&](const Fragment& f, uint32_t i) { return mesh_.net[f.firstNet + i]; });
+        c.net = words(c.after[0].points, [&](const Fragment& f, uint32_t i) { return mesh_.net[f.firstNet + i]; });
         c.patches = words(sectors, [&](const Fragment& f, uint32_t sector) {
             return facePatches_[mesh_.sectorFaces[f.firstSector + sector]];
         });
@@ -411,23 +401,20 @@ private:
         const CentreWeights weights = facet ? CentreWeights{} : refineWeights(mesh_.subdivision, c.key.fan.sectors);
         c.header = writer_.element();
         writer_.put({c.count(), sectors | (c.key.sharp ? shared::kSharpClass : 0u), c.net, c.sharpness, c.patches,
-                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows.first,
+                     c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows.table,
                      c.limitRows.count});
-        for (uint32_t level = 0; level <= steps_; ++level) {
-            c.runs.push_back(tables_.fragments.scratchStride);
-            const LevelTables& l = c.levels[level];
-            writer_.put({l.rows, l.neighbours, l.points, c.runs.back()});
-            tables_.fragments.scratchStride += level > 0 ? l.points * c.count() : 0;
+        for (uint32_t step = 0; step <= steps_; ++step) {
+            StepTables& own = c.after[step];
+            own.run = tables_.fragments.scratchStride;
+            writer_.put({own.pattern->rows, own.pattern->neighbours, own.points, own.run});
+            tables_.fragments.scratchStride += step > 0 ? own.points * c.count() : 0;
         }
     }
 
     /// Appends to masks_ the mask element of every sector of a fragment.
     void writeMasks(const Fan& fan, const Fragment& fragment) {
-        std::vector<float> spokes;
-        for (const float s : sharpness(fragment)) {
-            spokes.push_back(softened(s, steps_));
-        }
-        const CentreLimit limit = centreLimit(fan, spokes, softened(fragment.centreSharpness, steps_));
+        const CentreLimit limit =
+            centreLimit(fan, softened(sharpness(fragment), steps_), softened(fragment.centreSharpness, steps_));
         const size_t first = masks_.size();
         masks_.resize(first + fan.sectors);
         const uint32_t ring = pointCount(fan, 1) - 1;
@@ -440,9 +427,7 @@ private:
             const auto [known, isNew] = maskElements_.try_emplace(words, 0u);
             if (isNew) {
                 known->second = writer_.element();
-                for (const uint32_t word : words) {
-                    writer_.put({word});
-                }
+                writer_.put(words);
             }
             for (uint32_t h = 0; h < run.sectors; ++h) {
                 masks_[first + (run.firstSector + h) % fan.sectors] = known->second;
@@ -454,11 +439,9 @@ private:
         c.centreSteps = writer_.element();
         for (uint32_t step = 0; step < steps_; ++step) {
             for (const uint32_t f : c.fragments) {
-                std::vector<float> spokes;
-                for (const float s : sharpness(mesh_.fragments[f])) {
-                    spokes.push_back(softened(s, step));
-                }
-                const CentreStep centre = centreStep(spokes, softened(mesh_.fragments[f].centreSharpness, step));
+                const Fragment& fragment = mesh_.fragments[f];
+                const CentreStep centre =
+                    centreStep(softened(sharpness(fragment), step), softened(fragment.centreSharpness, step));
                 writer_.put({floatBits(centre.smooth), floatBits(centre.crease), centre.first, centre.second});
             }
         }
@@ -467,7 +450,7 @@ private:
     void writeFragments() {
         tables_.fragments.steps = steps_;
         tables_.fragments.loop = loop_;
-        tables_.fragments.scratchStride = (tables_.fragments.scratchStride + 15) / 16 * 16;
+        tables_.fragments.scratchStride = poolStrideFor(tables_.fragments.scratchStride);
         for (const ClassTables& c : classes_) {
             tables_.fragments.classes.push_back({c.sharedPoints(), {writer_.element(), c.count()}, {}});
             for (uint32_t fragment = 0; fragment < c.count(); ++fragment) {
@@ -477,35 +460,32 @@ private:
     }
 
     void writeBlocks() {
-        const auto forEachClass = [&](auto&& write) {
-            for (size_t k = 0; k < classes_.size(); ++k) {
-                write(k, classes_[k]);
+        for (uint32_t step = 1; step <= steps_ + 1; ++step) {
+            for (uint32_t kind = 0; kind < shared::kWorkKinds; ++kind) {
+                for (size_t k = 0; k < classes_.size(); ++k) {
+                    writeBlocks(k, step, kind);
+                }
             }
-        };
-        for (uint32_t step = 1; step <= steps_; ++step) {
-            forEachClass([&](size_t k, const ClassTables& c) {
-                writeBlocks(k, step, c.levels[step].cells.first, 0, c.levels[step].cells.count, c.runs[step]);
-            });
-            forEachClass([&](size_t k, const ClassTables& c) {
-                const LevelTables& level = c.levels[step];
-                writeBlocks(k, step, level.rows, level.oneByOne.first, level.oneByOne.count, c.runs[step]);
-            });
         }
-        forEachClass([&](size_t k, const ClassTables& c) {
-            writeBlocks(k, steps_ + 1, c.strips.first, c.patches, c.strips.count, 0);
-        });
-        forEachClass([&](size_t k, const ClassTables& c) {
-            writeBlocks(k, steps_ + 1, c.limitRows.first, c.patches, c.limitOneByOne, 0);
-        });
     }
 
-    void writeBlocks(size_t classIndex, uint32_t step, uint32_t rows, uint32_t list, uint32_t places, uint32_t write) {
+    /// Kind 0: cells, or strips in the limit, which is the last step; kind 1: rows one by one.
+    void writeBlocks(size_t classIndex, uint32_t step, uint32_t kind) {
         const ClassTables& c = classes_[classIndex];
+        const StepTables& before = c.after[step - 1];
+        uint32_t list = c.patches, write = 0;
+        Section rows = kind == 0 ? c.strips : Section{c.limitRows.table, c.limitOneByOne};
+        if (step <= steps_) {
+            const StepTables& own = c.after[step];
+            list = kind == 0 ? 0 : own.oneByOne.table;
+            write = own.run;
+            rows = kind == 0 ? own.cells : Section{own.pattern->rows, own.oneByOne.count};
+        }
         Section section{writer_.element(), 0};
-        for (uint64_t lane = 0; lane < uint64_t{places} * c.count(); lane += shared::kBlockLanes, ++section.count) {
-            writer_.put({rows, list, static_cast<uint32_t>(lane / c.count()), static_cast<uint32_t>(lane % c.count()),
-                         step == 1 ? c.net : c.runs[step - 1], write, c.count(), places, c.levels[step - 1].neighbours,
-                         c.header, 0u, 0u});
+        for (uint64_t lane = 0; lane < uint64_t{rows.count} * c.count(); lane += shared::kBlockLanes, ++section.count) {
+            writer_.put({rows.table, list, static_cast<uint32_t>(lane / c.count()),
+                         static_cast<uint32_t>(lane % c.count()), step == 1 ? c.net : before.run, write, c.count(),
+                         rows.count, before.pattern->neighbours, c.header, 0u, 0u});
         }
         tables_.fragments.classes[classIndex].blocks.push_back(section);
     }
@@ -517,18 +497,14 @@ private:
     TableWriter writer_;
     std::vector<ClassTables> classes_;
     std::vector<DraftPatch> patches_;
-    std::vector<uint32_t> facePatches_; ///< per face of the isolated level
+    std::vector<uint32_t> facePatches_; ///< per face of the isolated mesh
     std::map<Fan, PatternTables> fans_;
-    std::vector<PatternTables> facets_; ///< by level
+    std::map<uint32_t, PatternTables> facets_; ///< by step
     std::map<std::vector<uint32_t>, uint32_t> maskElements_;
     std::vector<uint32_t> masks_; ///< [fragment][sector] of the class at work
 };
 
 } // namespace
-
-Result<Tables> buildTables(const Mesh& mesh, uint32_t depth) {
-    return Builder(mesh, depth).build();
-}
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Result<Mesh> mesh =
@@ -536,7 +512,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!mesh) {
         return mesh.error();
     }
-    return buildTables(*mesh, recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0);
+    return Builder(*mesh, recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0).build();
 }
 
 } // namespace supple::surface::subdivision

@@ -23,7 +23,6 @@ FLOORS = [line.split() for line in """
     gpu/ cage/
     cage/gltf/ cage/obj/
     cage/formats/
-    surface/lod/form.
     skinning/ surface/
     surface/lod/ surface/prep/ surface/pm/ surface/subdivision/ surface/blend/
     surface/passes.

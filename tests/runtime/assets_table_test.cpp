@@ -76,15 +76,14 @@ uint32_t degenerateFacesOf(const cage::Character& character) {
 
 /// "12 regular, 8 p3".
 std::string patchCounts(const surface::pm::Mesh& mesh) {
-    constexpr std::array<const char*, 5> kNames = {"regular", "polar", "p3", "p4", "p5"};
-    std::array<uint32_t, 5> counts{};
-    for (const surface::pm::FacetClass facetClass : mesh.classes) {
-        ++counts[static_cast<size_t>(facetClass)];
+    std::array<uint32_t, std::size(surface::kPatchClasses)> counts{};
+    for (const surface::PatchClass patchClass : mesh.classes) {
+        ++counts[static_cast<size_t>(patchClass)];
     }
     std::string text;
     for (size_t c = 0; c < counts.size(); ++c) {
         if (counts[c] > 0) {
-            text += (text.empty() ? "" : ", ") + std::to_string(counts[c]) + " " + kNames[c];
+            text += (text.empty() ? "" : ", ") + std::to_string(counts[c]) + " " + surface::kPatchClasses[c].name;
         }
     }
     return text;
@@ -119,7 +118,7 @@ void evaluate(const cage::Cage& cage, const surface::pm::Mesh& mesh, Totals& tot
     for (uint32_t e = 0; e < mesh.topology.edges.size(); ++e) {
         const cage::Topology::Edge& edge = mesh.topology.edges[e];
         if (patches.shared(edge)) {
-            (mesh.edgeCut[e] != 0 ? hard : smooth).add(patches.sharedBits(0, edge));
+            (mesh.features.hard(e) ? hard : smooth).add(patches.sharedBits(0, edge));
         }
     }
     EXPECT_EQ(notFinite, 0u);

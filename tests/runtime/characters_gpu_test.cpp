@@ -97,7 +97,7 @@ public:
 
     [[nodiscard]] const cage::Cage& cage() const { return surface_.mesh.cage; }
     [[nodiscard]] const cage::Topology& topology() const { return surface_.mesh.topology; }
-    [[nodiscard]] bool smooth(uint32_t edge) const { return surface_.mesh.edgeCut[edge] == 0; }
+    [[nodiscard]] bool smooth(uint32_t edge) const { return !surface_.mesh.features.hard(edge); }
     [[nodiscard]] std::vector<uint32_t> patches(const GpuSurface& gpu) const {
         const PmPatches found(gpu, surface_.mesh);
         std::vector<uint32_t> patches;
@@ -107,7 +107,7 @@ public:
         return patches;
     }
     [[nodiscard]] surface::Domain domain(uint32_t facet) const {
-        return surface::pm::domainOf(surface_.mesh.classes[facet]);
+        return surface::domainOf(surface_.mesh.classes[facet]);
     }
     [[nodiscard]] uint32_t patchEdge(uint32_t corner) const { return surface_.patchEdge(corner); }
     [[nodiscard]] surface::pm::Sample<double> at(uint32_t facet, uint32_t sample) const {

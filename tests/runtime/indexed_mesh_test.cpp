@@ -212,7 +212,7 @@ TEST_P(IndexedMesh, PmHasTheGridsBits) {
     for (const PmCage& zoo : pmZoo()) {
         const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(zoo.cage);
         ASSERT_TRUE(mesh.ok()) << zoo.name;
-        // An edge is one where both its facets lie in the same sectors at both ends.
+        // An edge is one where both its facets lie in the same fans at both ends.
         const cage::Topology& topology = mesh->topology;
         uint64_t sides = 0;
         for (const cage::Topology::Edge& edge : topology.edges) {
@@ -220,12 +220,11 @@ TEST_P(IndexedMesh, PmHasTheGridsBits) {
                 ++sides;
                 continue;
             }
-            const auto sector = [&](uint32_t corner) { return mesh->corners[corner].sector; };
+            const auto fan = [&](uint32_t corner) { return mesh->corners[corner].fan; };
             const auto next = [&](uint32_t corner) {
                 return cage::nextCorner(mesh->cage, topology.cornerFaces[corner], corner);
             };
-            const bool same =
-                sector(edge.corner) == sector(next(edge.twin)) && sector(edge.twin) == sector(next(edge.corner));
+            const bool same = fan(edge.corner) == fan(next(edge.twin)) && fan(edge.twin) == fan(next(edge.corner));
             const bool cutThrough = mesh->corners[edge.corner].across == cage::kNone;
             sides += same && !cutThrough ? 0 : 2;
         }
@@ -244,9 +243,9 @@ TEST_P(IndexedMesh, PmHasTheGridsBits) {
                 const uint32_t f = facets.facet(p);
                 const auto domain = static_cast<surface::Domain>(gridded.rangeOf(p).domain);
                 for (uint32_t i = 0; i < mesh->cage.sides(f); ++i) {
-                    const surface::pm::Sector& sector = mesh->sectors[mesh->corners[mesh->corner(f, i)].sector];
-                    if (surface::edgeSample(domain, rate, i, 0) == s && sector.facets == 1 &&
-                        sector.kind == surface::pm::SectorKind::crease) {
+                    const surface::pm::Fan& fan = mesh->fans[mesh->corners[mesh->corner(f, i)].fan];
+                    if (surface::edgeSample(domain, rate, i, 0) == s && fan.facets == 1 &&
+                        fan.kind == surface::pm::FanKind::crease) {
                         return true;
                     }
                 }

@@ -1,9 +1,9 @@
 // Views: groups drawn at levels of detail, as the device wrote them.
 #include "cage/gltf/reader.h"
 #include "cage/procedural.h"
-#include "surface/lod/grid.h"
 #include "tests/support/blend_surface.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/lod_levels.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_surface.h"

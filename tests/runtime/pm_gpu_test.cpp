@@ -16,7 +16,7 @@
 namespace supple::test {
 namespace {
 
-using surface::pm::FacetClass;
+using surface::PatchClass;
 
 class PmOnGpu : public testing::TestWithParam<SuppleMapping> {};
 INSTANTIATE_TEST_SUITE_P(Mappings, PmOnGpu, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
@@ -66,7 +66,7 @@ TEST_P(PmOnGpu, SurfaceMatchesTheReference) {
                 const auto patch = surface::pm::gatherPatch<double>(*mesh, coefficients, patches.facet(p));
                 for (uint32_t s = 0; s < gpu.sampleCount(p); ++s) {
                     const auto expected =
-                        surface::pm::evaluate(patch, surface::pm::domainPoint<double>(patch.facetClass, rate, s));
+                        surface::pm::evaluate(patch, surface::pm::domainPoint<double>(patch.patchClass, rate, s));
                     const GpuSurface::Vertex& vertex = gpu.vertex(0, p, s);
                     raise(worstPosition,
                           glm::length(glm::dvec3(vertex.position) - expected.position) / extent(positions));
@@ -94,7 +94,7 @@ TEST_P(PmOnGpu, BordersAgreeBitForBit) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    std::map<std::pair<FacetClass, FacetClass>, ComparedBits> pairs;
+    std::map<std::pair<PatchClass, PatchClass>, ComparedBits> pairs;
     ComparedBits hard;
     for (const PmCage& zoo : pmZoo()) {
         const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(zoo.cage);
@@ -109,9 +109,9 @@ TEST_P(PmOnGpu, BordersAgreeBitForBit) {
                 if (!patches.shared(edge)) {
                     continue;
                 }
-                const FacetClass a = mesh->classes[mesh->topology.cornerFaces[edge.corner]];
-                const FacetClass b = mesh->classes[mesh->topology.cornerFaces[edge.twin]];
-                ComparedBits& bits = mesh->edgeCut[e] != 0 ? hard : pairs[std::minmax(a, b)];
+                const PatchClass a = mesh->classes[mesh->topology.cornerFaces[edge.corner]];
+                const PatchClass b = mesh->classes[mesh->topology.cornerFaces[edge.twin]];
+                ComparedBits& bits = mesh->features.hard(e) ? hard : pairs[std::minmax(a, b)];
                 bits.add(patches.sharedBits(0, edge));
             }
         }

@@ -65,7 +65,7 @@ inline bool isSharpPatch(const surface::blend::Mesh& mesh, uint32_t face) {
 inline std::vector<uint32_t> facesOfPatches(const surface::blend::Mesh& mesh) {
     std::vector<uint32_t> faces;
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-        if (mesh.holes[f] == 0) {
+        if (!std::binary_search(mesh.cage.holes.begin(), mesh.cage.holes.end(), f)) {
             faces.push_back(f);
         }
     }

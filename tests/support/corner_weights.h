@@ -1,7 +1,7 @@
 // What attributes are interpolated with, computed from the grid's own numbers: shaders/evaluate/attributes.comp again.
 #pragma once
 
-#include "surface/grid.h"
+#include "tools/reference/grid.h"
 
 #include <array>
 #include <cstdint>

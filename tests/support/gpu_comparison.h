@@ -106,7 +106,7 @@ template <class Mesh, class ClassOf>
 PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf) {
     PatchFaces found;
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-        if (mesh.holes[f] == 0) {
+        if (!std::binary_search(mesh.cage.holes.begin(), mesh.cage.holes.end(), f)) {
             found.faces.push_back(f);
         }
     }

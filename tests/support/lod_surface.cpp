@@ -1,6 +1,6 @@
 #include "tests/support/lod_surface.h"
 
-#include "surface/lod/grid.h"
+#include "tests/support/lod_levels.h"
 
 #include <algorithm>
 #include <cstring>

@@ -56,7 +56,7 @@ PmPatches::PmPatches(const GpuSurface& gpu, const Mesh& mesh)
 const GpuSurface::Vertex& PmPatches::onEdge(uint32_t instance, uint32_t corner, uint32_t k) const {
     const uint32_t f = mesh_.topology.cornerFaces[corner], m = mesh_.cage.sides(f);
     const uint32_t edge = (corner - mesh_.cage.faceStarts[f] + m - mesh_.firstCorners[f]) % m;
-    const surface::Domain domain = surface::pm::domainOf(mesh_.classes[f]);
+    const surface::Domain domain = surface::domainOf(mesh_.classes[f]);
     return gpu_.vertex(instance, patches_[f], surface::edgeSample(domain, gpu_.output().grid.rate, edge, k));
 }
 

@@ -22,15 +22,15 @@ inline surface::pm::Mesh pmMesh(const cage::Cage& cage) {
     return std::move(*mesh);
 }
 
-/// Gives every edge end inside a sector a new alpha, from its vertex, the far vertex and the alpha it has.
+/// Gives every edge end inside a fan a new alpha, from its vertex, the far vertex and the alpha it has.
 inline void setAlphas(surface::pm::Mesh& mesh, const std::function<double(uint32_t, uint32_t, double)>& alpha) {
-    for (surface::pm::Sector& sector : mesh.sectors) {
-        sector.creased = false;
-        for (uint32_t j = sector.closed() ? 0 : 1; j < sector.facets; ++j) {
-            const uint32_t slot = sector.firstSlot + j;
+    for (surface::pm::Fan& fan : mesh.fans) {
+        fan.creased = false;
+        for (uint32_t j = fan.closed() ? 0 : 1; j < fan.facets; ++j) {
+            const uint32_t slot = fan.firstSlot + j;
             double& a = mesh.slotAlphas[slot];
-            a = alpha(sector.vertex, mesh.topology.spokeVertices[mesh.slotSpokes[slot]], a);
-            sector.creased = sector.creased || a != surface::pm::kSmoothAlpha;
+            a = alpha(fan.vertex, mesh.topology.spokeVertices[mesh.slotSpokes[slot]], a);
+            fan.creased = fan.creased || a != surface::pm::kSmoothAlpha;
         }
     }
 }
@@ -47,8 +47,8 @@ struct PmSurface {
     }
 
     [[nodiscard]] surface::pm::Sample<T> at(uint32_t facet, uint32_t rate, uint32_t sample) const {
-        const surface::pm::FacetClass facetClass = mesh.classes[facet];
-        return surface::pm::evaluate<T>(patches[facet], surface::pm::domainPoint<T>(facetClass, rate, sample));
+        const surface::PatchClass patchClass = mesh.classes[facet];
+        return surface::pm::evaluate<T>(patches[facet], surface::pm::domainPoint<T>(patchClass, rate, sample));
     }
 
     /// The patch edge of a half-edge.
@@ -61,7 +61,7 @@ struct PmSurface {
     /// Sample k of `rate` on a half-edge, counted from its corner.
     [[nodiscard]] surface::pm::Sample<T> onEdge(uint32_t corner, uint32_t k, uint32_t rate) const {
         const uint32_t facet = mesh.topology.cornerFaces[corner];
-        const surface::Domain domain = surface::pm::domainOf(mesh.classes[facet]);
+        const surface::Domain domain = surface::domainOf(mesh.classes[facet]);
         return at(facet, rate, surface::edgeSample(domain, rate, patchEdge(corner), k));
     }
 

@@ -12,34 +12,34 @@ namespace supple::test {
 namespace {
 
 using nlohmann::json;
-using surface::pm::FacetClass;
-using surface::pm::SectorKind;
+using surface::PatchClass;
+using surface::pm::FanKind;
 
-PmVectors::Sector readSector(const json& j) {
-    static const std::map<std::string, SectorKind> kKinds{
-        {"interior", SectorKind::interior}, {"crease", SectorKind::crease}, {"corner", SectorKind::corner}};
-    PmVectors::Sector sector;
-    sector.vertex = j.at("vertex");
-    sector.kind = kKinds.at(j.at("kind"));
-    sector.valence = j.at("N");
-    sector.edges = j.at("edges").get<std::vector<uint32_t>>();
-    sector.faces = j.at("faces").get<std::vector<uint32_t>>();
-    sector.v = jsonVector(j.at("v"));
-    sector.tau1 = jsonVector(j.at("tau1"));
-    sector.tau2 = jsonVector(j.at("tau2"));
-    sector.t = jsonVectors(j.at("t"));
-    sector.f = jsonVectors(j.at("f"));
-    return sector;
+PmVectors::Fan readFan(const json& j) {
+    static const std::map<std::string, FanKind> kKinds{
+        {"interior", FanKind::interior}, {"crease", FanKind::crease}, {"corner", FanKind::corner}};
+    PmVectors::Fan fan;
+    fan.vertex = j.at("vertex");
+    fan.kind = kKinds.at(j.at("kind"));
+    fan.valence = j.at("N");
+    fan.edges = j.at("edges").get<std::vector<uint32_t>>();
+    fan.faces = j.at("faces").get<std::vector<uint32_t>>();
+    fan.v = jsonVector(j.at("v"));
+    fan.tau1 = jsonVector(j.at("tau1"));
+    fan.tau2 = jsonVector(j.at("tau2"));
+    fan.t = jsonVectors(j.at("t"));
+    fan.f = jsonVectors(j.at("f"));
+    return fan;
 }
 
 PmVectors::Patch readPatch(const json& j) {
-    static const std::map<std::string, FacetClass> kClasses{{"bicubic", FacetClass::ordinary},
-                                                            {"polar", FacetClass::polar},
-                                                            {"P3", FacetClass::p3},
-                                                            {"P4", FacetClass::p4},
-                                                            {"P5", FacetClass::p5}};
+    static const std::map<std::string, PatchClass> kClasses{{"bicubic", PatchClass::regular},
+                                                            {"polar", PatchClass::polar},
+                                                            {"P3", PatchClass::p3},
+                                                            {"P4", PatchClass::p4},
+                                                            {"P5", PatchClass::p5}};
     PmVectors::Patch patch;
-    patch.facetClass = kClasses.at(j.at("type"));
+    patch.patchClass = kClasses.at(j.at("type"));
     patch.corners = j.at("corners").get<std::vector<uint32_t>>();
     patch.coefficients = jsonVectors(j.at("coef"));
     for (const json& s : j.at("samples")) {
@@ -68,8 +68,8 @@ PmVectors read(const std::filesystem::path& path) {
     v.faces = j.at("faces").get<Polygons>();
     v.sourceFaces = j.at("source_face").get<std::vector<uint32_t>>();
     v.apexes = j.at("polar").get<std::vector<uint32_t>>();
-    for (const json& sector : j.at("sectors")) {
-        v.sectors.push_back(readSector(sector));
+    for (const json& fan : j.at("sectors")) {
+        v.fans.push_back(readFan(fan));
     }
     for (const json& patch : j.at("patches")) {
         v.patches.push_back(readPatch(patch));

@@ -24,23 +24,23 @@ struct PmVectors {
     Polygons faces; ///< after the split
     std::vector<uint32_t> sourceFaces;
     std::vector<uint32_t> apexes; ///< of polar facets
-    /// Closed sectors begin at any of their edges.
-    struct Sector {
+    /// Closed fans begin at any of their edges.
+    struct Fan {
         uint32_t vertex = 0;
-        surface::pm::SectorKind kind = surface::pm::SectorKind::interior;
+        surface::pm::FanKind kind = surface::pm::FanKind::interior;
         uint32_t valence = 0;
         std::vector<uint32_t> edges; ///< the far vertices
         std::vector<uint32_t> faces;
         glm::dvec3 v{}, tau1{}, tau2{};
         std::vector<glm::dvec3> t, f;
     };
-    std::vector<Sector> sectors;
+    std::vector<Fan> fans;
     struct Sample {
         std::vector<double> at; ///< u, v or sector, l1, l2
         glm::dvec3 position{}, normal{};
     };
     struct Patch {
-        surface::pm::FacetClass facetClass = surface::pm::FacetClass::ordinary;
+        surface::PatchClass patchClass = surface::PatchClass::regular;
         std::vector<uint32_t> corners;
         std::vector<glm::dvec3> coefficients;
         std::vector<Sample> samples;

@@ -4,6 +4,7 @@
 #include "tests/support/meshes.h"
 #include "tools/reference/subdivision.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <utility>
@@ -29,9 +30,9 @@ inline cage::Cage trianglesOf(const surface::subdivision::Mesh& mesh, const cage
     for (uint32_t f = 0; f < mesh.cage.faceCount(); f += 4) { // the corners' faces, then the middle
         std::vector<uint32_t>& triangle = triangles.emplace_back();
         for (uint32_t corner = 0; corner < 3; ++corner) {
-            triangle.push_back(mesh.cornerSources[mesh.cage.faceStarts[f + corner]]);
+            triangle.push_back(mesh.cage.faceVertices[mesh.cage.faceStarts[f + corner]]);
         }
-        if (mesh.holes[f] != 0) {
+        if (std::binary_search(mesh.cage.holes.begin(), mesh.cage.holes.end(), f)) {
             holes.push_back(f / 4);
         }
     }

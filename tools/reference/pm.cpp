@@ -3,6 +3,8 @@
 // so that it checks them. Arithmetic must round as written: the bits of shared borders depend on it.
 #include "tools/reference/pm.h"
 
+#include "tools/reference/grid.h"
+
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -43,22 +45,22 @@ Vec3<T> unitOrZero(const Vec3<T>& v) {
     return length > T(0) ? v / length : Vec3<T>(T(0));
 }
 
-/// The vertex stage of one sector. All is relative to the vertex p: a character is large beside its facets, and
+/// The vertex stage of one fan. All is relative to the vertex p: a character is large beside its facets, and
 /// differences keep the rounding of a float at the size of the ring.
 template <class T>
-class SectorStage {
+class FanStage {
 public:
-    SectorStage(const Mesh& mesh, std::span<const Vec3<T>> positions, const Sector& sector)
-        : mesh_(mesh), positions_(positions), sector_(sector), p_(positions[sector.vertex]) {
-        const uint32_t facets = sector.facets;
+    FanStage(const Mesh& mesh, std::span<const Vec3<T>> positions, const Fan& fan)
+        : mesh_(mesh), positions_(positions), fan_(fan), p_(positions[fan.vertex]) {
+        const uint32_t facets = fan.facets;
         for (uint32_t j = 0; j < facets; ++j) {
-            f_.push_back(faceCoefficient(j, j + 1 < sector.edges() ? j + 1 : 0));
+            f_.push_back(faceCoefficient(j, j + 1 < fan.edges() ? j + 1 : 0));
         }
-        e_.resize(facets); // of an open sector, e_0 is not used
-        for (uint32_t j = sector.closed() ? 0 : 1; j < facets; ++j) {
+        e_.resize(facets); // of an open fan, e_0 is not used
+        for (uint32_t j = fan.closed() ? 0 : 1; j < facets; ++j) {
             e_[j] = (f_[j] + f_[j > 0 ? j - 1 : facets - 1]) / T(2);
         }
-        if (sector.closed()) {
+        if (fan.closed()) {
             closedFrame();
         } else {
             openFrame();
@@ -66,23 +68,22 @@ public:
     }
 
     void store(uint32_t index, Coefficients<T>& out) const {
-        const Vec3<T> moved = sector_.pinned ? v_ : Vec3<T>(T(0));
+        const Vec3<T> moved = fan_.pinned ? v_ : Vec3<T>(T(0));
         out.limitPoints[index] = p_ + (v_ - moved);
         out.tau1[index] = tau1_;
         out.tau2[index] = tau2_;
-        for (uint32_t j = 0; j < sector_.edges(); ++j) {
-            const bool end = !sector_.closed() && (j == 0 || j == sector_.facets);
+        for (uint32_t j = 0; j < fan_.edges(); ++j) {
+            const bool end = !fan_.closed() && (j == 0 || j == fan_.facets);
             // The ends belong to both sides of a hard edge: from the edge alone.
-            out.tangents[sector_.firstSlot + j] =
-                p_ + (end ? spoke(j) * T(1.0 / 3.0) : (v_ - moved) + turned(j)); // (16)
+            out.tangents[fan_.firstSlot + j] = p_ + (end ? spoke(j) * T(1.0 / 3.0) : (v_ - moved) + turned(j)); // (16)
         }
-        for (uint32_t j = 0; j < sector_.facets; ++j) {
-            out.faceCoefficients[sector_.firstSlot + j] = p_ + (f_[j] - moved);
+        for (uint32_t j = 0; j < fan_.facets; ++j) {
+            out.faceCoefficients[fan_.firstSlot + j] = p_ + (f_[j] - moved);
         }
     }
 
 private:
-    [[nodiscard]] uint32_t spokeSlot(uint32_t j) const { return mesh_.slotSpokes[sector_.firstSlot + j]; }
+    [[nodiscard]] uint32_t spokeSlot(uint32_t j) const { return mesh_.slotSpokes[fan_.firstSlot + j]; }
 
     [[nodiscard]] Vec3<T> spoke(uint32_t j) const {
         return positions_[mesh_.topology.spokeVertices[spokeSlot(j)]] - p_;
@@ -102,20 +103,20 @@ private:
 
     /// (14), which is (13) where both alphas are 2/3.
     [[nodiscard]] Vec3<T> faceCoefficient(uint32_t j, uint32_t next) const {
-        const T a = T(mesh_.slotAlphas[sector_.firstSlot + j]);
-        const T b = T(mesh_.slotAlphas[sector_.firstSlot + next]);
+        const T a = T(mesh_.slotAlphas[fan_.firstSlot + j]);
+        const T b = T(mesh_.slotAlphas[fan_.firstSlot + next]);
         const Vec3<T> x = spoke(j);
         const Vec3<T> y = spoke(next);
         return ((T(1) - a) * b * x + a * (T(1) - b) * y) / T(2) + a * b * ((x + y) + farMean(j)) / T(4);
     }
 
     [[nodiscard]] Vec3<T> turned(uint32_t j) const {
-        const uint32_t n = sector_.valence();
+        const uint32_t n = fan_.valence();
         return tau1_ * T(cosine(j, n)) + tau2_ * T(sine(j, n));
     }
 
     void closedFrame() {
-        const uint32_t n = sector_.valence();
+        const uint32_t n = fan_.valence();
         for (const Vec3<T>& f : f_) {
             v_ += f;
         }
@@ -130,24 +131,24 @@ private:
 
     void openFrame() {
         const Vec3<T> a = spoke(0);
-        const Vec3<T> b = spoke(sector_.facets);
-        if (sector_.kind == SectorKind::corner) {
+        const Vec3<T> b = spoke(fan_.facets);
+        if (fan_.kind == FanKind::corner) {
             tau1_ = a * T(1.0 / 3.0);
             tau2_ = b * T(1.0 / 3.0);
             return;
         }
         v_ = (a + b) * T(1.0 / 6.0); // the same bits from both sides of a hard edge
         tau1_ = (a - b) * T(1.0 / 6.0);
-        const uint32_t n = sector_.valence();
-        for (uint32_t j = 1; j < sector_.facets; ++j) {
+        const uint32_t n = fan_.valence();
+        for (uint32_t j = 1; j < fan_.facets; ++j) {
             tau2_ += T(sine(j, n)) * (e_[j] - v_);
         }
-        tau2_ *= T(1.0 / (sector_.facets * lambda(n)));
+        tau2_ *= T(1.0 / (fan_.facets * lambda(n)));
     }
 
     const Mesh& mesh_;
     std::span<const Vec3<T>> positions_;
-    const Sector& sector_;
+    const Fan& fan_;
     Vec3<T> p_;
     std::vector<Vec3<T>> f_, e_;
     Vec3<T> v_{T(0)}, tau1_{T(0)}, tau2_{T(0)};
@@ -158,9 +159,9 @@ template <class T>
 struct CornerView {
     CornerView(const Mesh& mesh, const Coefficients<T>& c, uint32_t corner) {
         const FacetCorner& at = mesh.corners[corner];
-        const Sector& sector = mesh.sectors[at.sector];
-        valence = sector.valence();
-        v = c.limitPoints[at.sector];
+        const Fan& fan = mesh.fans[at.fan];
+        valence = fan.valence();
+        v = c.limitPoints[at.fan];
         t0 = c.tangents[at.slot];
         t1 = c.tangents[at.slotBack];
         f = c.faceCoefficients[at.slot];
@@ -269,7 +270,7 @@ void gatherPm(const Mesh& mesh, uint32_t facet, std::span<const CornerView<T>> q
         const CornerView<T>& b = q[(i + 1) % m];
         const double chi0 = 1.0 + cosine(1, a.valence);
         const double chi1 = 1.0 + cosine(1, b.valence);
-        const bool cut = mesh.edgeCut[mesh.topology.cornerEdges[mesh.corner(facet, i)]] != 0;
+        const bool cut = mesh.features.hard(mesh.topology.cornerEdges[mesh.corner(facet, i)]);
         const double sines = cut ? 2.0 : sine(1, a.valence) + sine(1, b.valence);
         const T jump = T(3.0 / (8.0 * k.mu * sines));
         const Vec3<T> along = b.t1 - a.t0;
@@ -327,7 +328,7 @@ Vec3<T> sum3(const std::array<T, 3>& w, const Vec3<T>& a, const Vec3<T>& b, cons
 
 template <class T>
 Sample<T> evaluateTensor(const Patch<T>& patch, const DomainPoint<T>& at) {
-    const bool polar = patch.facetClass == FacetClass::polar;
+    const bool polar = patch.patchClass == PatchClass::polar;
     const auto g = [&](size_t i, size_t j) { return patch.c[polar && j == 3 ? 12 : i + 4 * j]; };
     const std::array<T, 4> bu = cubic(at.u);
     const std::array<T, 4> bv = cubic(at.v);
@@ -420,13 +421,13 @@ Coefficients<T> construct(const Mesh& mesh, std::span<const Vec3<T>> positions) 
     assert(positions.size() == mesh.cage.vertexCount());
     Coefficients<T> out;
     const Vec3<T> zero(T(0));
-    out.limitPoints.assign(mesh.sectors.size(), zero);
-    out.tau1.assign(mesh.sectors.size(), zero);
-    out.tau2.assign(mesh.sectors.size(), zero);
+    out.limitPoints.assign(mesh.fans.size(), zero);
+    out.tau1.assign(mesh.fans.size(), zero);
+    out.tau2.assign(mesh.fans.size(), zero);
     out.tangents.assign(mesh.slotSpokes.size(), zero);
     out.faceCoefficients.assign(mesh.slotSpokes.size(), zero);
-    for (uint32_t s = 0; s < mesh.sectors.size(); ++s) {
-        SectorStage<T>(mesh, positions, mesh.sectors[s]).store(s, out);
+    for (uint32_t s = 0; s < mesh.fans.size(); ++s) {
+        FanStage<T>(mesh, positions, mesh.fans[s]).store(s, out);
     }
     return out;
 }
@@ -434,18 +435,18 @@ Coefficients<T> construct(const Mesh& mesh, std::span<const Vec3<T>> positions) 
 template <class T>
 Patch<T> gatherPatch(const Mesh& mesh, const Coefficients<T>& c, uint32_t facet) {
     Patch<T> patch;
-    patch.facetClass = mesh.classes[facet];
+    patch.patchClass = mesh.classes[facet];
     patch.sides = mesh.cage.sides(facet);
     std::vector<CornerView<T>> corners;
     for (uint32_t i = 0; i < patch.sides; ++i) {
         corners.emplace_back(mesh, c, mesh.corner(facet, i));
         patch.singularCorner[i] = corners.back().valence == 2;
     }
-    switch (patch.facetClass) {
-    case FacetClass::ordinary:
+    switch (patch.patchClass) {
+    case PatchClass::regular:
         gatherOrdinary<T>({corners[0], corners[1], corners[2], corners[3]}, patch);
         break;
-    case FacetClass::polar:
+    case PatchClass::polar:
         gatherPolar<T>({corners[0], corners[1], corners[2]}, patch);
         break;
     default:
@@ -454,22 +455,9 @@ Patch<T> gatherPatch(const Mesh& mesh, const Coefficients<T>& c, uint32_t facet)
     return patch;
 }
 
-Domain domainOf(FacetClass facetClass) {
-    switch (facetClass) {
-    case FacetClass::polar:
-        return Domain::polar;
-    case FacetClass::p3:
-        return Domain::triangle;
-    case FacetClass::p5:
-        return Domain::pentagon;
-    default:
-        return Domain::quad;
-    }
-}
-
 template <class T>
-DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample) {
-    const GridSample at = gridSample(domainOf(facetClass), rate, sample);
+DomainPoint<T> domainPoint(PatchClass patchClass, uint32_t rate, uint32_t sample) {
+    const GridSample at = gridSample(domainOf(patchClass), rate, sample);
     const uint32_t i = at.i;
     const uint32_t j = at.j;
     const auto fraction = [rate](uint32_t count) { return T(count) / T(rate); };
@@ -477,11 +465,11 @@ DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample
     const auto inSector = [&](uint32_t sector, uint32_t first, uint32_t second, uint32_t center) {
         return DomainPoint<T>{{}, {}, sector, {fraction(first), fraction(second), fraction(center)}};
     };
-    switch (facetClass) {
-    case FacetClass::ordinary:
-    case FacetClass::polar:
+    switch (patchClass) {
+    case PatchClass::regular:
+    case PatchClass::polar:
         return {pair(i), pair(j), 0, {}};
-    case FacetClass::p3: {
+    case PatchClass::p3: {
         const uint32_t count[3] = {rate - i - j, i, j};
         uint32_t least = 0;
         for (uint32_t r = 1; r < 3; ++r) {
@@ -491,7 +479,7 @@ DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample
         const uint32_t second = (least + 2) % 3;
         return inSector(first, count[first] - count[least], count[second] - count[least], 3 * count[least]);
     }
-    case FacetClass::p4:
+    case PatchClass::p4:
         if (j <= i && i + j <= rate) {
             return inSector(0, rate - i - j, i - j, 2 * j);
         }
@@ -509,7 +497,7 @@ DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample
 
 template <class T>
 Sample<T> evaluate(const Patch<T>& patch, const DomainPoint<T>& at) {
-    const bool tensor = patch.facetClass == FacetClass::ordinary || patch.facetClass == FacetClass::polar;
+    const bool tensor = patch.patchClass == PatchClass::regular || patch.patchClass == PatchClass::polar;
     return tensor ? evaluateTensor(patch, at) : evaluatePm(patch, at);
 }
 
@@ -523,8 +511,8 @@ template Coefficients<float> construct(const Mesh&, std::span<const glm::vec3>);
 template Coefficients<double> construct(const Mesh&, std::span<const glm::dvec3>);
 template Patch<float> gatherPatch(const Mesh&, const Coefficients<float>&, uint32_t);
 template Patch<double> gatherPatch(const Mesh&, const Coefficients<double>&, uint32_t);
-template DomainPoint<float> domainPoint(FacetClass, uint32_t, uint32_t);
-template DomainPoint<double> domainPoint(FacetClass, uint32_t, uint32_t);
+template DomainPoint<float> domainPoint(PatchClass, uint32_t, uint32_t);
+template DomainPoint<double> domainPoint(PatchClass, uint32_t, uint32_t);
 template Sample<float> evaluate(const Patch<float>&, const DomainPoint<float>&);
 template Sample<double> evaluate(const Patch<double>&, const DomainPoint<double>&);
 template Derivatives<float> derivatives(const Patch<float>&, const DomainPoint<float>&);

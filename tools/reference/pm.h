@@ -12,8 +12,8 @@
 
 namespace supple::surface::pm {
 
-/// The output of the vertex stage, (13)-(16). There is one limit point, tau1 and tau2 per sector, and one tangent t_j
-/// and face coefficient f_j per slot. The last slot of an open sector has no f.
+/// The output of the vertex stage, (13)-(16). There is one limit point, tau1 and tau2 per fan, and one tangent t_j
+/// and face coefficient f_j per slot. The last slot of an open fan has no f.
 template <class T>
 struct Coefficients {
     using Vec = glm::vec<3, T>;
@@ -29,12 +29,12 @@ struct Coefficients {
 template <class T>
 struct Patch {
     using Vec = glm::vec<3, T>;
-    FacetClass facetClass = FacetClass::ordinary;
+    PatchClass patchClass = PatchClass::regular;
     uint32_t sides = 4;
     uint32_t count = 16;
     std::array<Vec, 31> c{};
     T apexCosine = 0; ///< polar: cos(2 pi / n) of the apex
-    /// Patch corners where the derivatives are parallel: crease sectors with a single facet. Only P_m patches have
+    /// Patch corners where the derivatives are parallel: crease fans with a single facet. Only P_m patches have
     /// them.
     std::array<bool, kMaxSides> singularCorner{};
 };
@@ -52,8 +52,6 @@ template <class T>
 template <class T>
 [[nodiscard]] Patch<T> gatherPatch(const Mesh& mesh, const Coefficients<T>& c, uint32_t facet);
 
-[[nodiscard]] Domain domainOf(FacetClass facetClass);
-
 /// A point of the domain. Ordinary and polar patches: the pairs (u, 1 - u) and (v, 1 - v). P_m patches: a sector, and
 /// the weights of its first corner, its second corner and the centre.
 template <class T>
@@ -65,7 +63,7 @@ struct DomainPoint {
 /// The domain point of a grid sample, computed from integers and correctly rounded. In triangles the smallest weight
 /// decides the sector, in P_4 the diagonals of the square.
 template <class T>
-[[nodiscard]] DomainPoint<T> domainPoint(FacetClass facetClass, uint32_t rate, uint32_t sample);
+[[nodiscard]] DomainPoint<T> domainPoint(PatchClass patchClass, uint32_t rate, uint32_t sample);
 
 /// Position and exact normal. A point on a border (u or v is 0 or 1, or the weight of the centre is 0) is evaluated
 /// with the border cubic alone, (w^3 b0 + u^3 b3) + (3 w^2 u b1 + 3 u^2 w b2), so that both sides give the same bits.

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "cage/topology.h"
-#include "surface/prep/scheme.h"
+#include "surface/prep/weights.h"
 
 #include <array>
 #include <glm/glm.hpp>

@@ -35,7 +35,7 @@ struct Grid {
 uint32_t flippedTriangles(const surface::pm::Patch<double>& patch, const Grid& grid) {
     std::vector<glm::dvec3> points;
     for (uint32_t s = 0; s < grid.samples; ++s) {
-        const auto at = surface::pm::domainPoint<double>(patch.facetClass, kFoldRate, s);
+        const auto at = surface::pm::domainPoint<double>(patch.patchClass, kFoldRate, s);
         points.push_back(surface::pm::evaluate(patch, at).position);
     }
     std::vector<glm::dvec3> normals;
@@ -69,7 +69,7 @@ Folds findFolds(const surface::pm::Mesh& mesh) {
         if (std::binary_search(mesh.cage.holes.begin(), mesh.cage.holes.end(), f)) {
             continue;
         }
-        const Grid& grid = grids[static_cast<size_t>(surface::pm::domainOf(mesh.classes[f]))];
+        const Grid& grid = grids[static_cast<size_t>(surface::domainOf(mesh.classes[f]))];
         const uint32_t flipped = flippedTriangles(surface::pm::gatherPatch<double>(mesh, coefficients, f), grid);
         Folds::Face& face = faces[mesh.sourceFaces[f]];
         face.face = mesh.sourceFaces[f];

@@ -346,7 +346,7 @@ Result<LimitSurface> LimitSurface::build(const cage::Cage& cage, std::span<const
     const std::vector<Kind> kinds = kindsOf(*mesh);
     const std::vector<glm::dvec3> isolated = subdivision::isolate<double>(*mesh, positions);
     subdivision::forEachSector<double>(*mesh, isolated, steps, [&](const subdivision::SectorGrid<double>& grid) {
-        if (mesh->holes[grid.face] == 0) {
+        if (!std::binary_search(mesh->cage.holes.begin(), mesh->cage.holes.end(), grid.face)) {
             data->add(grid, mesh->sourceFaces[grid.face], steps, kinds[grid.face]);
         }
     });

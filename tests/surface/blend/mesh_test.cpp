@@ -80,7 +80,7 @@ TEST(BlendMesh, quadsStayAsTheyAre) {
     EXPECT_EQ(mesh.cage.positions, cage.positions);
     EXPECT_TRUE(mesh.notes.empty());
     ASSERT_EQ(mesh.stencils.rows(), cage.vertexCount());
-    EXPECT_EQ(mesh.cornerSources, cage.faceVertices);
+    EXPECT_EQ(mesh.hostVertices, cage.vertexCount());
     EXPECT_EQ(classesAt(mesh, 0)[0].kind, ChartKind::interior);
 }
 
@@ -104,11 +104,11 @@ TEST(BlendMesh, otherFacesTakeAStepFirst) {
         EXPECT_LT(glm::distance(positions[v], expected.positions[v]), 1e-15);
     }
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-        EXPECT_EQ(mesh.holes[f] != 0, mesh.sourceFaces[f] == 2);
-        const uint32_t source = mesh.cornerSources[4 * f];
-        EXPECT_EQ(source, cage.faceVertices[f]); // a face a corner, in order
+        EXPECT_EQ(std::binary_search(mesh.cage.holes.begin(), mesh.cage.holes.end(), f), mesh.sourceFaces[f] == 2);
+        EXPECT_LT(mesh.cage.faceVertices[4 * f], mesh.hostVertices);
+        EXPECT_EQ(mesh.cage.faceVertices[4 * f], cage.faceVertices[f]); // a face a corner, in order
         EXPECT_EQ(mesh.cage.cornerUvs[4 * f], cage.cornerUvs[f]);
-        EXPECT_EQ(mesh.cornerSources[4 * f + 2], cage::kNone);
+        EXPECT_GE(mesh.cage.faceVertices[4 * f + 2], mesh.hostVertices);
     }
 }
 

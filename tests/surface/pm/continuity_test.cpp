@@ -57,7 +57,7 @@ TEST(PmContinuity, g1AcrossEveryPairOfClasses) {
         const double extent = test::extent(test::doublePositions(entry.cage));
         for (uint32_t e = 0; e < mesh.topology.edges.size(); ++e) {
             const cage::Topology::Edge& edge = mesh.topology.edges[e];
-            if (mesh.edgeCut[e] != 0) {
+            if (mesh.features.hard(e)) {
                 continue;
             }
             const PairKey key = pairOf(mesh, edge);
@@ -100,7 +100,7 @@ TEST(PmContinuity, c1WithinPatches) {
     for (const PmCage& entry : pmZoo()) {
         const PmSurface<double> surface(test::pmMesh(entry.cage), test::doublePositions(entry.cage));
         for (const Patch<double>& patch : surface.patches) {
-            if (patch.facetClass == FacetClass::ordinary || patch.facetClass == FacetClass::polar) {
+            if (patch.patchClass == PatchClass::regular || patch.patchClass == PatchClass::polar) {
                 continue;
             }
             const uint32_t m = patch.sides;
@@ -171,7 +171,7 @@ TEST(PmContinuity, sameBitsAcrossEveryPairOfClasses) {
             const Bits bits = compareEdge(surface, edge);
             EXPECT_EQ(bits.different, 0u) << entry.name << ", " << test::pmVariantName(entry.variant) << ", edge " << e
                                           << ", " << kClassNames[key.low] << "-" << kClassNames[key.high];
-            Bits& sum = (surface.mesh.edgeCut[e] != 0 ? hard : smooth)[key.low][key.high];
+            Bits& sum = (surface.mesh.features.hard(e) ? hard : smooth)[key.low][key.high];
             sum.samples += bits.samples;
         }
     }
@@ -231,7 +231,7 @@ TEST(PmContinuity, floatNormalsAgreeAcrossEdges) {
         const PmSurface<float> surface(v.mesh(), v.cage.positions);
         for (uint32_t e = 0; e < surface.mesh.topology.edges.size(); ++e) {
             const cage::Topology::Edge& edge = surface.mesh.topology.edges[e];
-            for (uint32_t k = 0; k <= 8 && surface.mesh.edgeCut[e] == 0; ++k) {
+            for (uint32_t k = 0; k <= 8 && !surface.mesh.features.hard(e); ++k) {
                 raise(worst, test::angleDegrees(surface.onEdge(edge.corner, k, 8).normal,
                                                 surface.onEdge(edge.twin, 8 - k, 8).normal));
             }
@@ -282,7 +282,7 @@ TEST(PmContinuity, assets) {
             for (uint32_t k = 0; k <= kRate; ++k) {
                 const double angle = test::angleDegrees(exact.onEdge(edge.corner, k, kRate).normal,
                                                         exact.onEdge(edge.twin, kRate - k, kRate).normal);
-                if (mesh.edgeCut[e] == 0) {
+                if (!mesh.features.hard(e)) {
                     EXPECT_LE(angle, 1e-8) << name << ", edge " << e << ", at " << k;
                     raise(angles.worst, angle);
                 }

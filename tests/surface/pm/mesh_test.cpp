@@ -1,4 +1,4 @@
-// The cage as P_m sees it: sectors, alphas, facet classes, splits, refusals.
+// The cage as P_m sees it: fans, alphas, facet classes, splits, refusals.
 #include "tests/support/meshes.h"
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_zoo.h"
@@ -27,9 +27,9 @@ std::string refusalOf(const cage::Cage& cage) {
     return mesh.error().message;
 }
 
-std::map<FacetClass, uint32_t> countClasses(const Mesh& mesh) {
-    std::map<FacetClass, uint32_t> counts;
-    for (const FacetClass c : mesh.classes) {
+std::map<PatchClass, uint32_t> countClasses(const Mesh& mesh) {
+    std::map<PatchClass, uint32_t> counts;
+    for (const PatchClass c : mesh.classes) {
         ++counts[c];
     }
     return counts;
@@ -41,55 +41,53 @@ TEST(PmMesh, alphaOfSharpness) {
     EXPECT_DOUBLE_EQ(alphaOfSharpness(3.5), 2.0 / 3.0 / std::pow(2.0, 3.5));
 }
 
-/// Everything mesh.h promises of slots, sectors and corners, against the topology.
+/// Everything mesh.h promises of slots, fans and corners, against the topology.
 void checkSectors(const Mesh& mesh) {
     const cage::Topology& t = mesh.topology;
     const uint32_t cornerCount = mesh.cage.cornerCount();
     ASSERT_EQ(mesh.corners.size(), cornerCount);
     ASSERT_EQ(mesh.slotAlphas.size(), mesh.slotSpokes.size());
-    ASSERT_EQ(mesh.edgeCut.size(), t.edges.size());
     uint32_t slots = 0;
     uint32_t facets = 0;
-    for (size_t s = 0; s < mesh.sectors.size(); ++s) {
-        const Sector& sector = mesh.sectors[s];
-        EXPECT_EQ(sector.firstSlot, slots);
-        EXPECT_TRUE(s == 0 || mesh.sectors[s - 1].vertex <= sector.vertex);
-        slots += sector.edges();
-        facets += sector.facets;
+    for (size_t s = 0; s < mesh.fans.size(); ++s) {
+        const Fan& fan = mesh.fans[s];
+        EXPECT_EQ(fan.firstSlot, slots);
+        EXPECT_TRUE(s == 0 || mesh.fans[s - 1].vertex <= fan.vertex);
+        slots += fan.edges();
+        facets += fan.facets;
         uint32_t cuts = 0;
         bool creased = false;
-        for (uint32_t j = 0; j < sector.edges(); ++j) {
-            const uint32_t spoke = mesh.slotSpokes[sector.firstSlot + j];
-            EXPECT_GE(spoke, t.spokeStarts[sector.vertex]);
-            EXPECT_LT(spoke, t.spokeStarts[sector.vertex + 1]);
-            const bool cut = mesh.edgeCut[cage::spokeEdge(mesh.cage, t, spoke)] != 0;
+        for (uint32_t j = 0; j < fan.edges(); ++j) {
+            const uint32_t spoke = mesh.slotSpokes[fan.firstSlot + j];
+            EXPECT_GE(spoke, t.spokeStarts[fan.vertex]);
+            EXPECT_LT(spoke, t.spokeStarts[fan.vertex + 1]);
+            const bool cut = mesh.features.hard(cage::spokeEdge(mesh.cage, t, spoke));
             cuts += cut ? 1 : 0;
-            const bool end = !sector.closed() && (j == 0 || j == sector.facets);
-            EXPECT_TRUE(sector.closed() || cut == end);
-            creased = creased || mesh.slotAlphas[sector.firstSlot + j] != kSmoothAlpha;
-            EXPECT_TRUE(!end || mesh.slotAlphas[sector.firstSlot + j] == kSmoothAlpha);
+            const bool end = !fan.closed() && (j == 0 || j == fan.facets);
+            EXPECT_TRUE(fan.closed() || cut == end);
+            creased = creased || mesh.slotAlphas[fan.firstSlot + j] != kSmoothAlpha;
+            EXPECT_TRUE(!end || mesh.slotAlphas[fan.firstSlot + j] == kSmoothAlpha);
         }
-        EXPECT_EQ(creased, sector.creased);
-        EXPECT_TRUE(!sector.closed() || cuts < 2);
-        EXPECT_EQ(sector.pinned,
-                  sector.closed() && mesh.features.vertexSharpness[sector.vertex] >= cage::kHardSharpness);
+        EXPECT_EQ(creased, fan.creased);
+        EXPECT_TRUE(!fan.closed() || cuts < 2);
+        EXPECT_EQ(fan.pinned, fan.closed() && mesh.features.vertexSharpness[fan.vertex] >= cage::kHardSharpness);
     }
     EXPECT_EQ(slots, mesh.slotSpokes.size());
     EXPECT_EQ(facets, cornerCount);
     for (uint32_t c = 0; c < cornerCount; ++c) {
         const FacetCorner& corner = mesh.corners[c];
-        const Sector& sector = mesh.sectors[corner.sector];
+        const Fan& fan = mesh.fans[corner.fan];
         const uint32_t facet = t.cornerFaces[c];
         const uint32_t back = cage::previousCorner(mesh.cage, facet, c);
-        EXPECT_EQ(sector.vertex, mesh.cage.faceVertices[c]);
-        EXPECT_GE(corner.slot, sector.firstSlot);
-        EXPECT_LT(corner.slot, sector.firstSlot + sector.facets);
+        EXPECT_EQ(fan.vertex, mesh.cage.faceVertices[c]);
+        EXPECT_GE(corner.slot, fan.firstSlot);
+        EXPECT_LT(corner.slot, fan.firstSlot + fan.facets);
         EXPECT_EQ(mesh.slotSpokes[corner.slot], t.cornerSpokes[c]);
         EXPECT_EQ(mesh.slotSpokes[corner.slotBack], t.cornerSpokesBack[c]);
         const auto facetAt = [&](uint32_t slot) { return t.cornerFaces[t.sectorCorners[mesh.slotSpokes[slot]]]; };
-        // Across an edge lies the facet of the twin, in the same sector unless the edge ends it.
-        const bool ends = !sector.closed() && mesh.edgeCut[t.cornerEdges[c]] != 0;
-        const bool endsBack = !sector.closed() && mesh.edgeCut[t.cornerEdges[back]] != 0;
+        // Across an edge lies the facet of the twin, in the same fan unless the edge ends it.
+        const bool ends = !fan.closed() && mesh.features.hard(t.cornerEdges[c]);
+        const bool endsBack = !fan.closed() && mesh.features.hard(t.cornerEdges[back]);
         EXPECT_EQ(corner.across == cage::kNone, ends);
         EXPECT_EQ(corner.acrossBack == cage::kNone, endsBack);
         EXPECT_TRUE(ends || facetAt(corner.across) == t.cornerFaces[t.twins[c]]);
@@ -98,17 +96,17 @@ void checkSectors(const Mesh& mesh) {
 }
 
 TEST(PmMesh, sectorsOfTheZoo) {
-    std::set<SectorKind> kinds;
+    std::set<FanKind> kinds;
     bool pinned = false;
     bool creased = false;
     for (const PmCage& entry : pmZoo()) {
         SCOPED_TRACE(entry.name);
         const Mesh mesh = pmMesh(entry.cage);
         checkSectors(mesh);
-        for (const Sector& sector : mesh.sectors) {
-            kinds.insert(sector.kind);
-            pinned = pinned || sector.pinned;
-            creased = creased || sector.creased;
+        for (const Fan& fan : mesh.fans) {
+            kinds.insert(fan.kind);
+            pinned = pinned || fan.pinned;
+            creased = creased || fan.creased;
         }
     }
     EXPECT_EQ(kinds.size(), 3u);
@@ -127,26 +125,24 @@ TEST(PmMesh, kindsOfSectors) {
             cage.sharpVertices.push_back({4, cage::kHardSharpness});
         }
         const Mesh mesh = pmMesh(cage);
-        std::multiset<std::pair<SectorKind, uint32_t>> kinds;
-        for (const Sector& sector : mesh.sectors) {
-            if (sector.vertex == 4) {
-                kinds.insert({sector.kind, sector.valence()});
+        std::multiset<std::pair<FanKind, uint32_t>> kinds;
+        for (const Fan& fan : mesh.fans) {
+            if (fan.vertex == 4) {
+                kinds.insert({fan.kind, fan.valence()});
             }
         }
         return kinds;
     };
-    using Kinds = std::multiset<std::pair<SectorKind, uint32_t>>;
-    EXPECT_EQ(kindsAt4({}, false), (Kinds{{SectorKind::interior, 4}}));
-    EXPECT_EQ(kindsAt4({}, true), (Kinds{{SectorKind::interior, 4}}));
-    EXPECT_EQ(kindsAt4({1}, false), (Kinds{{SectorKind::interior, 4}}));
-    EXPECT_EQ(kindsAt4({1, 7}, false), (Kinds{{SectorKind::crease, 4}, {SectorKind::crease, 4}}));
-    EXPECT_EQ(kindsAt4({1, 3}, false), (Kinds{{SectorKind::crease, 2}, {SectorKind::crease, 6}}));
-    EXPECT_EQ(kindsAt4({1, 7}, true), (Kinds{{SectorKind::corner, 8}, {SectorKind::corner, 8}}));
-    EXPECT_EQ(kindsAt4({1, 3, 5}, false),
-              (Kinds{{SectorKind::corner, 4}, {SectorKind::corner, 4}, {SectorKind::corner, 8}}));
-    EXPECT_EQ(
-        kindsAt4({1, 3, 5, 7}, false),
-        (Kinds{{SectorKind::corner, 4}, {SectorKind::corner, 4}, {SectorKind::corner, 4}, {SectorKind::corner, 4}}));
+    using Kinds = std::multiset<std::pair<FanKind, uint32_t>>;
+    EXPECT_EQ(kindsAt4({}, false), (Kinds{{FanKind::interior, 4}}));
+    EXPECT_EQ(kindsAt4({}, true), (Kinds{{FanKind::interior, 4}}));
+    EXPECT_EQ(kindsAt4({1}, false), (Kinds{{FanKind::interior, 4}}));
+    EXPECT_EQ(kindsAt4({1, 7}, false), (Kinds{{FanKind::crease, 4}, {FanKind::crease, 4}}));
+    EXPECT_EQ(kindsAt4({1, 3}, false), (Kinds{{FanKind::crease, 2}, {FanKind::crease, 6}}));
+    EXPECT_EQ(kindsAt4({1, 7}, true), (Kinds{{FanKind::corner, 8}, {FanKind::corner, 8}}));
+    EXPECT_EQ(kindsAt4({1, 3, 5}, false), (Kinds{{FanKind::corner, 4}, {FanKind::corner, 4}, {FanKind::corner, 8}}));
+    EXPECT_EQ(kindsAt4({1, 3, 5, 7}, false),
+              (Kinds{{FanKind::corner, 4}, {FanKind::corner, 4}, {FanKind::corner, 4}, {FanKind::corner, 4}}));
 }
 
 TEST(PmMesh, alphas) {
@@ -175,20 +171,20 @@ TEST(PmMesh, alphas) {
 }
 
 TEST(PmMesh, classes) {
-    using Classes = std::map<FacetClass, uint32_t>;
-    EXPECT_EQ(countClasses(pmMesh(test::torus(6, 5))), (Classes{{FacetClass::ordinary, 30}}));
-    EXPECT_EQ(countClasses(pmMesh(test::cube())), (Classes{{FacetClass::p4, 6}}));
-    EXPECT_EQ(countClasses(pmMesh(test::prism(5))), (Classes{{FacetClass::p4, 5}, {FacetClass::p5, 2}}));
+    using Classes = std::map<PatchClass, uint32_t>;
+    EXPECT_EQ(countClasses(pmMesh(test::torus(6, 5))), (Classes{{PatchClass::regular, 30}}));
+    EXPECT_EQ(countClasses(pmMesh(test::cube())), (Classes{{PatchClass::p4, 6}}));
+    EXPECT_EQ(countClasses(pmMesh(test::prism(5))), (Classes{{PatchClass::p4, 5}, {PatchClass::p5, 2}}));
     EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(7, 3))),
-              (Classes{{FacetClass::ordinary, 14}, {FacetClass::polar, 14}}));
+              (Classes{{PatchClass::regular, 14}, {PatchClass::polar, 14}}));
     // Both apexes of a bipyramid; in the octahedron all six vertices could be apexes, so none is.
-    EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(5, 1))), (Classes{{FacetClass::polar, 10}}));
-    EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(4, 1))), (Classes{{FacetClass::p3, 8}}));
+    EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(5, 1))), (Classes{{PatchClass::polar, 10}}));
+    EXPECT_EQ(countClasses(pmMesh(test::cappedCylinder(4, 1))), (Classes{{PatchClass::p3, 8}}));
     // Valence 5 at the rim.
-    EXPECT_EQ(countClasses(pmMesh(test::gyroBipyramid(6))), (Classes{{FacetClass::p3, 24}}));
+    EXPECT_EQ(countClasses(pmMesh(test::gyroBipyramid(6))), (Classes{{PatchClass::p3, 24}}));
     // Boundary corners and crease vertices of two facets count as valence 4.
-    EXPECT_EQ(countClasses(pmMesh(test::grid(1, 1))), (Classes{{FacetClass::ordinary, 1}}));
-    EXPECT_EQ(countClasses(pmMesh(test::grid(3, 2))), (Classes{{FacetClass::ordinary, 6}}));
+    EXPECT_EQ(countClasses(pmMesh(test::grid(1, 1))), (Classes{{PatchClass::regular, 1}}));
+    EXPECT_EQ(countClasses(pmMesh(test::grid(3, 2))), (Classes{{PatchClass::regular, 6}}));
 }
 
 TEST(PmMesh, polarFansAndCreases) {
@@ -199,7 +195,7 @@ TEST(PmMesh, polarFansAndCreases) {
         const Mesh mesh = pmMesh(cage);
         uint32_t polar = 0;
         for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-            if (mesh.classes[f] == FacetClass::polar) {
+            if (mesh.classes[f] == PatchClass::polar) {
                 ++polar;
                 EXPECT_EQ(mesh.cage.faceVertices[mesh.corner(f, 2)] / 2, 9u); // an apex, 18 or 19, is the last corner
             }

@@ -60,7 +60,7 @@ TEST(PmReference, torusIsTheBSpline) {
                 }
             }
             const auto facet = static_cast<uint32_t>(i * kAcross + j);
-            ASSERT_EQ(surface.patches[facet].facetClass, FacetClass::ordinary);
+            ASSERT_EQ(surface.patches[facet].patchClass, PatchClass::regular);
             raise(worst, distance(surface.patches[facet], bezierOfBSpline(control)));
         }
     }
@@ -89,7 +89,7 @@ TEST(PmReference, openGridIsTheBSplineOfTheMirroredGrid) {
                 window[k] = control(x - 1 + k % 4, y - 1 + k / 4);
             }
             const auto facet = static_cast<uint32_t>(y * kColumns + x);
-            ASSERT_EQ(surface.patches[facet].facetClass, FacetClass::ordinary);
+            ASSERT_EQ(surface.patches[facet].patchClass, PatchClass::regular);
             raise(worst, distance(surface.patches[facet], bezierOfBSpline(window)));
         }
     }
@@ -107,7 +107,7 @@ TEST(PmReference, ordinaryFacetsArePRepsRegularPatches) {
         const PmSurface<double> pm(test::pmMesh(cage), positions);
         const test::PrepSurface<double> prep(cage, positions);
         for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-            if (pm.patches[f].facetClass == FacetClass::ordinary && !prep.patches[f].perturbed) {
+            if (pm.patches[f].patchClass == PatchClass::regular && !prep.patches[f].perturbed) {
                 raise(worst, distance(pm.patches[f], prep.patches[f].g) / test::extent(positions));
                 ++compared;
             }
@@ -151,7 +151,7 @@ OffPolyhedron offPolyhedron(const cage::Cage& cage, double alpha) {
 }
 
 TEST(PmReference, alphaZeroIsThePolyhedron) {
-    std::set<FacetClass> classes;
+    std::set<PatchClass> classes;
     for (const cage::Cage& cage : {test::cube(), test::prism(3), test::prism(5), test::cappedCylinder(6, 3),
                                    test::perturbed(test::gyroBipyramid(7), 0.1f, 1)}) {
         const Mesh mesh = test::pmMesh(cage);
@@ -200,7 +200,7 @@ std::array<glm::vec<3, T>, 4> borderOf(const PmSurface<T>& surface, uint32_t cor
     const FacetCorner& a = mesh.corners[corner];
     const FacetCorner& b = mesh.corners[cage::nextCorner(mesh.cage, mesh.topology.cornerFaces[corner], corner)];
     const Coefficients<T>& c = surface.coefficients;
-    return {c.limitPoints[a.sector], c.tangents[a.slot], c.tangents[b.slotBack], c.limitPoints[b.sector]};
+    return {c.limitPoints[a.fan], c.tangents[a.slot], c.tangents[b.slotBack], c.limitPoints[b.fan]};
 }
 
 uint32_t halfEdge(const Mesh& mesh, uint32_t from, uint32_t to) {
@@ -209,10 +209,10 @@ uint32_t halfEdge(const Mesh& mesh, uint32_t from, uint32_t to) {
     return mesh.cage.faceVertices[corner] == from ? corner : twin;
 }
 
-std::vector<uint32_t> sectorsAt(const Mesh& mesh, uint32_t vertex) {
+std::vector<uint32_t> fansAt(const Mesh& mesh, uint32_t vertex) {
     std::vector<uint32_t> found;
-    for (uint32_t s = 0; s < mesh.sectors.size(); ++s) {
-        if (mesh.sectors[s].vertex == vertex) {
+    for (uint32_t s = 0; s < mesh.fans.size(); ++s) {
+        if (mesh.fans[s].vertex == vertex) {
             found.push_back(s);
         }
     }
@@ -256,12 +256,12 @@ TEST(PmReference, dartIsSmoothAtItsTip) {
     const PmSurface<double> surface(test::pmMesh(cage), test::doublePositions(cage));
     const Mesh& mesh = surface.mesh;
     for (const uint32_t tip : {0u, 3 * kAcross}) {
-        ASSERT_EQ(sectorsAt(mesh, tip).size(), 1u);
-        EXPECT_EQ(mesh.sectors[sectorsAt(mesh, tip)[0]].kind, SectorKind::interior);
+        ASSERT_EQ(fansAt(mesh, tip).size(), 1u);
+        EXPECT_EQ(mesh.fans[fansAt(mesh, tip)[0]].kind, FanKind::interior);
     }
     for (const uint32_t inner : {kAcross, 2 * kAcross}) {
-        ASSERT_EQ(sectorsAt(mesh, inner).size(), 2u);
-        EXPECT_EQ(mesh.sectors[sectorsAt(mesh, inner)[0]].kind, SectorKind::crease);
+        ASSERT_EQ(fansAt(mesh, inner).size(), 2u);
+        EXPECT_EQ(mesh.fans[fansAt(mesh, inner)[0]].kind, FanKind::crease);
     }
     EXPECT_LE(angleAt(surface, 0, kAcross, 0, 8), 1e-8);
     EXPECT_LE(angleAt(surface, 2 * kAcross, 3 * kAcross, 8, 8), 1e-8);
@@ -295,18 +295,18 @@ TEST(PmReference, cornersInterpolate) {
     struct Case {
         const cage::Cage& cage;
         uint32_t vertex;
-        size_t sectors;
-        SectorKind kind;
+        size_t fans;
+        FanKind kind;
     };
-    for (const Case& c : {Case{cube, 0, 3, SectorKind::corner}, Case{torus, 5, 2, SectorKind::corner},
-                          Case{torus, 10, 2, SectorKind::crease}, Case{grid, 0, 1, SectorKind::corner},
-                          Case{grid, 1, 1, SectorKind::corner}, Case{grid, 3, 1, SectorKind::crease}}) {
+    for (const Case& c :
+         {Case{cube, 0, 3, FanKind::corner}, Case{torus, 5, 2, FanKind::corner}, Case{torus, 10, 2, FanKind::crease},
+          Case{grid, 0, 1, FanKind::corner}, Case{grid, 1, 1, FanKind::corner}, Case{grid, 3, 1, FanKind::crease}}) {
         const PmSurface<float> surface(test::pmMesh(c.cage), c.cage.positions);
-        const std::vector<uint32_t> sectors = sectorsAt(surface.mesh, c.vertex);
-        EXPECT_EQ(sectors.size(), c.sectors);
-        for (const uint32_t s : sectors) {
-            EXPECT_EQ(surface.mesh.sectors[s].kind, c.kind);
-            EXPECT_EQ(surface.coefficients.limitPoints[s] == c.cage.positions[c.vertex], c.kind == SectorKind::corner);
+        const std::vector<uint32_t> fans = fansAt(surface.mesh, c.vertex);
+        EXPECT_EQ(fans.size(), c.fans);
+        for (const uint32_t s : fans) {
+            EXPECT_EQ(surface.mesh.fans[s].kind, c.kind);
+            EXPECT_EQ(surface.coefficients.limitPoints[s] == c.cage.positions[c.vertex], c.kind == FanKind::corner);
         }
     }
 }
@@ -317,10 +317,10 @@ TEST(PmReference, pinnedVerticesInterpolateAndStaySmooth) {
         const PmSurface<float> surface(test::pmMesh(entry.cage), entry.cage.positions);
         const Mesh& mesh = surface.mesh;
         for (uint32_t c = 0; c < mesh.cage.cornerCount(); ++c) {
-            const Sector& sector = mesh.sectors[mesh.corners[c].sector];
-            if (sector.pinned) {
-                EXPECT_TRUE(sector.closed());
-                EXPECT_EQ(surface.onEdge(c, 0, 8).position, mesh.cage.positions[sector.vertex]) << entry.name;
+            const Fan& fan = mesh.fans[mesh.corners[c].fan];
+            if (fan.pinned) {
+                EXPECT_TRUE(fan.closed());
+                EXPECT_EQ(surface.onEdge(c, 0, 8).position, mesh.cage.positions[fan.vertex]) << entry.name;
                 ++pinned;
             }
         }
@@ -337,7 +337,7 @@ TEST(PmReference, pinnedVerticesInterpolateAndStaySmooth) {
     const glm::dvec3 moved = positions[0] - before.coefficients.limitPoints[0];
     EXPECT_GT(glm::length(moved), 0.01);
     for (uint32_t s = 0; s < before.mesh.slotSpokes.size(); ++s) {
-        const glm::dvec3 expected = s < before.mesh.sectors[0].facets ? moved : glm::dvec3(0.0);
+        const glm::dvec3 expected = s < before.mesh.fans[0].facets ? moved : glm::dvec3(0.0);
         const Coefficients<double>& b = before.coefficients;
         const Coefficients<double>& a = after.coefficients;
         EXPECT_LE(glm::distance(a.tangents[s] - b.tangents[s], expected), 1e-15);

@@ -20,26 +20,26 @@ protected:
     const PmVectors& v = test::pmVectors()[GetParam()];
 };
 
-/// Where a stored sector lies in the mesh. Edge j of it is edge slot(j) here.
+/// Where a stored fan lies in the mesh. Edge j of it is edge slot(j) here.
 struct Located {
-    uint32_t sector = cage::kNone;
+    uint32_t fan = cage::kNone;
     uint32_t shift = 0;
 };
 
-Located locate(const Mesh& mesh, const PmVectors::Sector& stored) {
+Located locate(const Mesh& mesh, const PmVectors::Fan& stored) {
     const uint32_t facet = stored.faces.front();
     for (uint32_t c = mesh.cage.faceStarts[facet]; c < mesh.cage.faceStarts[facet + 1]; ++c) {
         if (mesh.cage.faceVertices[c] == stored.vertex) {
-            const uint32_t sector = mesh.corners[c].sector;
-            return {sector, mesh.corners[c].slot - mesh.sectors[sector].firstSlot};
+            const uint32_t fan = mesh.corners[c].fan;
+            return {fan, mesh.corners[c].slot - mesh.fans[fan].firstSlot};
         }
     }
     return {};
 }
 
 uint32_t slotOf(const Mesh& mesh, const Located& at, uint32_t j) {
-    const Sector& sector = mesh.sectors[at.sector];
-    return sector.firstSlot + (sector.closed() ? (at.shift + j) % sector.facets : j);
+    const Fan& fan = mesh.fans[at.fan];
+    return fan.firstSlot + (fan.closed() ? (at.shift + j) % fan.facets : j);
 }
 
 TEST_P(PmVectorFiles, facesAndClasses) {
@@ -54,41 +54,41 @@ TEST_P(PmVectorFiles, facesAndClasses) {
     std::set<uint32_t> apexes;
     ASSERT_EQ(mesh.classes.size(), v.patches.size());
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-        EXPECT_EQ(mesh.classes[f], v.patches[f].facetClass) << f;
+        EXPECT_EQ(mesh.classes[f], v.patches[f].patchClass) << f;
         for (uint32_t i = 0; i < mesh.cage.sides(f); ++i) {
             EXPECT_EQ(mesh.cage.faceVertices[mesh.corner(f, i)], v.patches[f].corners[i]);
         }
-        if (mesh.classes[f] == FacetClass::polar) {
+        if (mesh.classes[f] == PatchClass::polar) {
             apexes.insert(mesh.cage.faceVertices[mesh.corner(f, 2)]);
         }
     }
     EXPECT_EQ(std::vector<uint32_t>(apexes.begin(), apexes.end()), v.apexes);
 }
 
-TEST_P(PmVectorFiles, sectors) {
+TEST_P(PmVectorFiles, fans) {
     const Mesh mesh = v.mesh();
-    ASSERT_EQ(mesh.sectors.size(), v.sectors.size());
+    ASSERT_EQ(mesh.fans.size(), v.fans.size());
     std::set<uint32_t> met;
-    for (const PmVectors::Sector& stored : v.sectors) {
+    for (const PmVectors::Fan& stored : v.fans) {
         const Located at = locate(mesh, stored);
-        ASSERT_NE(at.sector, cage::kNone);
-        met.insert(at.sector);
-        const Sector& sector = mesh.sectors[at.sector];
-        EXPECT_EQ(sector.vertex, stored.vertex);
-        EXPECT_EQ(sector.kind, stored.kind);
-        EXPECT_EQ(sector.valence(), stored.valence);
-        ASSERT_EQ(sector.facets, stored.faces.size());
-        ASSERT_EQ(sector.edges(), stored.edges.size());
-        EXPECT_TRUE(sector.closed() || at.shift == 0);
-        for (uint32_t j = 0; j < sector.edges(); ++j) {
+        ASSERT_NE(at.fan, cage::kNone);
+        met.insert(at.fan);
+        const Fan& fan = mesh.fans[at.fan];
+        EXPECT_EQ(fan.vertex, stored.vertex);
+        EXPECT_EQ(fan.kind, stored.kind);
+        EXPECT_EQ(fan.valence(), stored.valence);
+        ASSERT_EQ(fan.facets, stored.faces.size());
+        ASSERT_EQ(fan.edges(), stored.edges.size());
+        EXPECT_TRUE(fan.closed() || at.shift == 0);
+        for (uint32_t j = 0; j < fan.edges(); ++j) {
             const uint32_t spoke = mesh.slotSpokes[slotOf(mesh, at, j)];
             EXPECT_EQ(mesh.topology.spokeVertices[spoke], stored.edges[j]);
-            if (j < sector.facets) {
+            if (j < fan.facets) {
                 EXPECT_EQ(mesh.topology.cornerFaces[mesh.topology.sectorCorners[spoke]], stored.faces[j]);
             }
         }
     }
-    EXPECT_EQ(met.size(), v.sectors.size());
+    EXPECT_EQ(met.size(), v.fans.size());
 }
 
 /// Largest deviations of a surface from the vectors: lengths relative to the extent, normals absolute and in degrees.
@@ -106,9 +106,9 @@ Deviation deviation(const PmVectors& v, const PmSurface<T>& surface) {
         return glm::distance(glm::dvec3(a), b) / extent;
     };
     Deviation d;
-    for (const PmVectors::Sector& stored : v.sectors) {
+    for (const PmVectors::Fan& stored : v.fans) {
         const Located at = locate(mesh, stored);
-        raise(d.limitPoints, apart(c.limitPoints[at.sector], stored.v));
+        raise(d.limitPoints, apart(c.limitPoints[at.fan], stored.v));
         for (uint32_t j = 0; j < stored.t.size(); ++j) {
             raise(d.tangents, apart(c.tangents[slotOf(mesh, at, j)], stored.t[j]));
         }
@@ -117,8 +117,8 @@ Deviation deviation(const PmVectors& v, const PmSurface<T>& surface) {
         }
         // tau1 points to the first edge: ours, turned to theirs.
         const double angle = 2.0 * std::numbers::pi * at.shift / stored.valence;
-        const glm::dvec3 tau1(c.tau1[at.sector]);
-        const glm::dvec3 tau2(c.tau2[at.sector]);
+        const glm::dvec3 tau1(c.tau1[at.fan]);
+        const glm::dvec3 tau2(c.tau2[at.fan]);
         raise(d.taus, apart(std::cos(angle) * tau1 + std::sin(angle) * tau2, stored.tau1));
         raise(d.taus, apart(std::cos(angle) * tau2 - std::sin(angle) * tau1, stored.tau2));
     }

@@ -71,8 +71,7 @@ TEST(SubdivisionMesh, parts) {
                 before = stencils.rows();
             }
             ASSERT_EQ(mesh.sourceFaces.size(), mesh.cage.faceCount());
-            ASSERT_EQ(mesh.holes.size(), mesh.cage.faceCount());
-            ASSERT_EQ(mesh.cornerSources.size(), mesh.cage.cornerCount());
+            ASSERT_EQ(mesh.hostVertices, entry.cage.vertexCount());
             std::set<uint32_t> faces;
             uint32_t net = 0, sectors = 0, spokes = 0;
             for (const Fragment& fragment : mesh.fragments) {
@@ -221,10 +220,10 @@ TEST(SubdivisionMesh, attributes) {
         ASSERT_EQ(mesh.cage.cornerUvs1.size(), mesh.cage.cornerCount());
         ASSERT_EQ(mesh.cage.cornerColors.size(), mesh.cage.cornerCount());
         ASSERT_EQ(mesh.cage.faceMaterials.size(), mesh.cage.faceCount());
-        EXPECT_TRUE(mesh.cage.holes.empty());
         for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
             const uint32_t source = mesh.sourceFaces[f];
-            EXPECT_EQ(mesh.holes[f] != 0, source == 2 || source == 5);
+            EXPECT_EQ(std::binary_search(mesh.cage.holes.begin(), mesh.cage.holes.end(), f),
+                      source == 2 || source == 5);
             EXPECT_EQ(mesh.cage.faceMaterials[f], source % 3);
             glm::vec2 low(1e9f), high(-1e9f);
             for (uint32_t c = cage.faceStarts[source]; c < cage.faceStarts[source + 1]; ++c) {
@@ -240,10 +239,9 @@ TEST(SubdivisionMesh, attributes) {
                 EXPECT_TRUE(glm::all(glm::greaterThanEqual(mesh.cage.cornerUvs[c], low - 1e-4f)));
                 EXPECT_TRUE(glm::all(glm::lessThanEqual(mesh.cage.cornerUvs[c], high + 1e-4f)));
                 // A vertex of the host's has its own corner's values.
-                const uint32_t vertex = mesh.cornerSources[c];
-                EXPECT_EQ(vertex,
-                          mesh.cage.faceVertices[c] < cage.vertexCount() ? mesh.cage.faceVertices[c] : cage::kNone);
-                if (vertex != cage::kNone) {
+                const uint32_t vertex = mesh.cage.faceVertices[c];
+                EXPECT_EQ(mesh.hostVertices, cage.vertexCount());
+                if (vertex < mesh.hostVertices) {
                     EXPECT_EQ(glm::vec3(color), cage.positions[vertex]);
                 }
             }

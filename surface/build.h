@@ -1,0 +1,34 @@
+// What builds the tables of each scheme: Scheme::build in the folder of the scheme. surface/schemes.cpp has the rows.
+#pragma once
+
+#include "base/result.h"
+#include "surface/recipe.h"
+#include "surface/scheme.h"
+
+namespace supple::surface {
+
+namespace prep {
+/// Refuses a cage with faces other than quads: "face 12 has 5 sides: p-rep takes quads only". The cage may have
+/// boundaries. Creases are ignored. O(faces).
+[[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+} // namespace prep
+
+namespace pm {
+/// Refuses a cage with too many classes of edges, with ErrorCode::limit. O(corners).
+[[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+} // namespace pm
+
+namespace subdivision {
+/// Catmull-Clark or Loop. Refuses a vertex with so many edges that 16 bits do not number the points of its fragment:
+/// "vertex 7 has 260 faces: ...".
+[[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+} // namespace subdivision
+
+namespace blend {
+/// O(corners + classes rate^2).
+[[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+/// See Scheme::boundsMargin.
+[[nodiscard]] float boundsMargin(const cage::Cage& cage);
+} // namespace blend
+
+} // namespace supple::surface
