@@ -12,7 +12,8 @@ function(supple_target name)
         # Vulkan structs are begun with their sType alone; the rest is zero by the language.
         target_compile_options(${name} PRIVATE -Wall -Wextra -Werror -Wno-missing-field-initializers)
         # GCC 12 sees overlapping copies inside std::string that are not there (GCC bug 105651).
-        target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+        target_compile_options(${name} PRIVATE
+            $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CXX_COMPILER_ID:GNU>>:-Wno-restrict>)
     endif()
     # Reference arithmetic must round as written: bit-exact edges are tested against it.
     if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")

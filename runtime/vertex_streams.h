@@ -44,6 +44,15 @@ inline constexpr StreamRow kStreams[kStreamCount] = {
      shared::kOutputFaceUvs, &SuppleVertexStreams::faceUvs},
 };
 
+/// The flags that ask for streams: all of SuppleGroupFlags, or of SuppleViewFlags.
+[[nodiscard]] constexpr uint32_t streamFlags(uint32_t StreamRow::*flag) {
+    uint32_t flags = 0;
+    for (const StreamRow& row : kStreams) {
+        flags |= row.*flag;
+    }
+    return flags;
+}
+
 /// Which streams there are: a bit per stream.
 class StreamSet {
 public:

@@ -14,7 +14,7 @@ struct Needs {
     bool patches = false;
     bool attributes = false;
     /// What `attributes` writes beside the first UV set and the color, if the tables have it.
-    uint32_t attributeOutputs = shared::kOutputUvs1 | shared::kOutputFaceUvs;
+    uint32_t attributeOutputs = shared::kAttributeOutputs - 1;
     bool view = false;        ///< the group belongs to a view. Its motion sets bind the coefficients of this frame in
                               ///< the place of the cage, for instances without a past
     bool lod = false;         ///< the view draws patches at levels, not at a rate

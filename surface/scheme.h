@@ -142,6 +142,10 @@ struct Tables {
     std::vector<std::string> notes; ///< what the scheme changed about the cage, one line each
 
     [[nodiscard]] bool has(Stage stage) const;
+    /// What corners have beside the first UV set and the color: shared::kOutput... bits.
+    [[nodiscard]] uint32_t attributeOutputs() const {
+        return (uvSets == 2 ? shared::kOutputUvs1 : 0) | (faceUvs ? shared::kOutputFaceUvs : 0);
+    }
     /// Whether samples on borders are stored once for all patches that meet there.
     [[nodiscard]] bool hasIndexedMesh() const { return !mesh.edges.empty(); }
 };

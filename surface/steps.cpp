@@ -57,9 +57,7 @@ SurfacePush pushFor(const ProgramBuilder& builder, const Section& section) {
 
 /// Attributes that are asked for and that the tables have, beside the first UV set and the color.
 uint32_t outputsOf(const ProgramBuilder& builder) {
-    const Tables& tables = builder.tables;
-    return ((tables.uvSets == 2 ? kOutputUvs1 : 0) | (tables.faceUvs ? kOutputFaceUvs : 0)) &
-           builder.needs.attributeOutputs;
+    return builder.tables.attributeOutputs() & builder.needs.attributeOutputs;
 }
 
 uint32_t cornerNormals(const ProgramBuilder& builder) {

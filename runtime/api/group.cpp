@@ -1,5 +1,7 @@
 // supple.h, group.
 #include "runtime/api/entry.h"
+#include "runtime/vertex_streams.h"
+#include "surface/schemes.h"
 
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
@@ -54,10 +56,11 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (desc.rate > SUPPLE_MAX_RATE) {
             return refuse(context, ErrorCode::range, kHere, "rate must be 1..64");
         }
-        if (!within(desc.scheme, SUPPLE_SCHEME_BLEND) && runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
+        if (runtime::rawValue(desc.scheme) > surface::schemes().size() &&
+            runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
-        constexpr uint32_t kFlags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION |
+        constexpr uint32_t kFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
                                     SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL;
         if ((desc.flags & ~kFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");

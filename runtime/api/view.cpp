@@ -1,5 +1,6 @@
 // supple_view.h.
 #include "runtime/api/entry.h"
+#include "runtime/vertex_streams.h"
 
 #include <bit>
 
@@ -17,9 +18,8 @@ SuppleResult suppleCreateView(SuppleContext handle, const SuppleViewDesc* given,
         if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
             return *fault;
         }
-        constexpr uint32_t kFlags = SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1 |
-                                    SUPPLE_VIEW_FACE_UVS | SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION |
-                                    SUPPLE_VIEW_BACK_FACES;
+        constexpr uint32_t kFlags = runtime::streamFlags(&runtime::StreamRow::viewFlag) | SUPPLE_VIEW_CULL |
+                                    SUPPLE_VIEW_OCCLUSION | SUPPLE_VIEW_BACK_FACES;
         if ((desc.flags & ~kFlags) != 0 || !within(desc.vertexFormat, SUPPLE_VERTEX_24)) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags, or no such vertexFormat");
         }

@@ -100,7 +100,7 @@ Status Tessellation::buildTables() {
         rateNote_ = "rate " + std::to_string(askedRate_) + ": " + scheme.name + " has " + scheme.ratesInWords +
                     " segments an edge of the cage, here " + std::to_string(taken);
     }
-    wanted_.keepAttributes((own.uvSets == 2 ? kOutputUvs1 : 0) | (own.faceUvs ? kOutputFaceUvs : 0));
+    wanted_.keepAttributes(own.attributeOutputs());
     if (own.patches.empty()) {
         wanted_.remove(Stream::previousPositions);
     }

@@ -31,7 +31,7 @@ FLOORS = [line.split() for line in """
     runtime/include/
     runtime/
     host/
-    samples/common/ tools/common/
+    samples/common/ tools/common/ tools/reference/
     samples/ tools/bench/ tools/creature/
     tools/supple/
     tests/

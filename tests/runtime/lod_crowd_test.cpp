@@ -2,9 +2,9 @@
 // device's budget against the CPU's.
 #include "cage/procedural.h"
 #include "shaders/shared/lod.h"
-#include "surface/lod/budget.h"
 #include "surface/lod/grid.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/lod_budget.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/subdivision_zoo.h"

@@ -1,7 +1,7 @@
 // Levels of edges as the device writes them, against the reference's from the same cubics, for both measures.
 #include "cage/gltf/reader.h"
-#include "surface/lod/budget.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/lod_budget.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/test_view.h"
 

@@ -2,9 +2,9 @@
 // rate alone.
 #include "cage/gltf/reader.h"
 #include "cage/procedural.h"
-#include "surface/lod/budget.h"
 #include "surface/lod/instance.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/lod_budget.h"
 #include "tests/support/meshes.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/subdivision_zoo.h"

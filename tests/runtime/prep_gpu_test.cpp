@@ -2,11 +2,11 @@
 #include "cage/procedural.h"
 #include "cage/topology.h"
 #include "surface/grid.h"
-#include "surface/prep/reference.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/prep_vectors.h"
+#include "tools/reference/prep.h"
 
 #include <cstring>
 #include <gtest/gtest.h>

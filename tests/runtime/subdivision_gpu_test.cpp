@@ -1,12 +1,12 @@
 // The subdivision on the device: against the reference, both mappings, all depths, and the bits its patches
 // share.
-#include "surface/subdivision/reference.h"
 #include "tests/support/corner_weights.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tools/reference/subdivision.h"
 
 #include <cstdio>
 #include <cstring>

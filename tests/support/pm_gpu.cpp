@@ -1,6 +1,6 @@
 #include "tests/support/pm_gpu.h"
 
-#include "surface/pm/reference.h"
+#include "tools/reference/pm.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // A whole P_m surface on the CPU, with walks over its shared borders.
 #pragma once
 
-#include "surface/pm/reference.h"
 #include "tests/support/prep_surface.h"
+#include "tools/reference/pm.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 // A whole p-rep surface on the CPU, with walks over its shared borders.
 #pragma once
 
-#include "surface/prep/reference.h"
+#include "tools/reference/prep.h"
 
 #include <algorithm>
 #include <cmath>

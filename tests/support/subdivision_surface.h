@@ -1,8 +1,8 @@
 // A whole subdivided cage on the CPU, and which of its samples are one point.
 #pragma once
 
-#include "surface/subdivision/reference.h"
 #include "tests/support/meshes.h"
+#include "tools/reference/subdivision.h"
 
 #include <cstdint>
 #include <gtest/gtest.h>

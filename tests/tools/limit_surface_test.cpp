@@ -1,8 +1,8 @@
 // What supple inspect --compare measures against: points of the limit lie on it, other points as far as they are off.
 #include "tools/supple/limit_surface.h"
 
-#include "surface/subdivision/reference.h"
 #include "tests/support/meshes.h"
+#include "tools/reference/subdivision.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

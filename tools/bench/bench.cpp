@@ -7,8 +7,8 @@
 #include "tools/bench/heat.h"
 #include "tools/bench/loading.h"
 #include "tools/bench/plain_evaluation.h"
-#include "tools/bench/scheme_names.h"
 #include "tools/bench/targets.h"
+#include "tools/common/schemes.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -104,7 +104,7 @@ Status Run::prepare() {
     for (BenchCage& cage : cages_) {
         std::erase_if(cage.schemes, [&](SuppleScheme scheme) {
             return !options_.schemes.empty() && std::find(options_.schemes.begin(), options_.schemes.end(),
-                                                          schemeName(scheme)) == options_.schemes.end();
+                                                          tools::schemeName(scheme)) == options_.schemes.end();
         });
     }
     SuppleContextDesc desc = host::contextDesc(device_);
@@ -164,7 +164,7 @@ std::vector<SuppleScheme> Run::crowdSchemes() const {
     std::vector<SuppleScheme> schemes{SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM};
     const std::vector<std::string>& wanted = options_.schemes;
     std::erase_if(schemes, [&](SuppleScheme scheme) {
-        return !wanted.empty() && std::find(wanted.begin(), wanted.end(), schemeName(scheme)) == wanted.end();
+        return !wanted.empty() && std::find(wanted.begin(), wanted.end(), tools::schemeName(scheme)) == wanted.end();
     });
     return schemes;
 }
@@ -311,7 +311,7 @@ Status Run::pipelines(const BenchCage& cage, SuppleScheme scheme) {
         if (use == PipelineUse::inView && options_.quick && scheme != SUPPLE_SCHEME_PREP) {
             continue; // drivers take seconds to compile them
         }
-        std::fprintf(stderr, "\rpipelines of %s   ", schemeName(scheme));
+        std::fprintf(stderr, "\rpipelines of %s   ", tools::schemeName(scheme));
         const Result<Pipelines> made = measurePipelines(device_, options_.mapping, cage, scheme, use);
         if (!made) {
             return made.error();

@@ -3,7 +3,7 @@
 #include "tools/bench/crowd_character.h"
 #include "tools/bench/device_write.h"
 #include "tools/bench/replay.h"
-#include "tools/bench/scheme_names.h"
+#include "tools/common/schemes.h"
 #include "tools/common/statistics.h"
 
 #include <algorithm>
@@ -190,7 +190,7 @@ Result<Json> measureCrowd(host::Device& device, Workbench& workbench, const Crow
                 std::clamp<VkDeviceSize>(deviceMemory(device) / kShareOfMemory / bytes, 2, wanted));
         }
         if (desc.progress) {
-            desc.progress(std::string(schemeName(scheme)) + ", rate " + std::to_string(rate) + ", " +
+            desc.progress(std::string(tools::schemeName(scheme)) + ", rate " + std::to_string(rate) + ", " +
                           std::to_string(characters));
         }
         Crowd crowd(device, workbench);
@@ -199,7 +199,7 @@ Result<Json> measureCrowd(host::Device& device, Workbench& workbench, const Crow
         if (!row) {
             return row.error();
         }
-        Json named{{"scheme", schemeName(scheme)}, {"rate", rate}};
+        Json named{{"scheme", tools::schemeName(scheme)}, {"rate", rate}};
         named.update(*row);
         result["rows"].push_back(std::move(named));
         return success();
@@ -248,7 +248,7 @@ Result<std::vector<Agreement>> compareCrowd(host::Device& device, Workbench& wor
         }
         return count;
     };
-    const std::string name = std::string("crowd of ") + schemeName(scheme);
+    const std::string name = std::string("crowd of ") + tools::schemeName(scheme);
     return std::vector<Agreement>{
         {name + ": vertices of its first character unlike those of one alone", vertices(0, 1, false), 0.0},
         {name + ": vertices that two characters have in common", vertices(1, 2, true), 0.0}};

@@ -3,8 +3,8 @@
 #include "tools/bench/avx2_evaluation.h"
 #include "tools/bench/plain_evaluation.h"
 #include "tools/bench/replay.h"
-#include "tools/bench/scheme_names.h"
 #include "tools/bench/write_bandwidth.h"
+#include "tools/common/schemes.h"
 #include "tools/common/statistics.h"
 
 #include <algorithm>
@@ -90,7 +90,7 @@ Status Heat::addSchemes() {
             status = addSubject(*asset, scheme, kSharedVariant);
         }
         if (!status && (status.error().code == ErrorCode::asset || status.error().code == ErrorCode::limit)) {
-            refused_.push_back({{"scheme", schemeName(scheme)}, {"reason", status.error().message}});
+            refused_.push_back({{"scheme", tools::schemeName(scheme)}, {"reason", status.error().message}});
             status = success();
         }
         if (!status) {
@@ -120,7 +120,7 @@ Status Heat::addSubject(SuppleAsset asset, SuppleScheme scheme, const Variant& v
     if (!recorded || !submitted) {
         return recorded ? submitted : recorded;
     }
-    const std::string name = schemeName(scheme);
+    const std::string name = tools::schemeName(scheme);
     if (&variant == &kPlainVariant) {
         schemes_.push_back(name);
         points_ = workbench_.output(group).grid.vertexCount;

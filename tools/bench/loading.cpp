@@ -4,7 +4,7 @@
 #include "host/vk_struct.h"
 #include "tools/bench/clocks.h"
 #include "tools/bench/pipeline_watch.h"
-#include "tools/bench/scheme_names.h"
+#include "tools/common/schemes.h"
 #include "tools/common/statistics.h"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ Result<Loading> measureLoading(host::Device& device, Workbench& workbench, const
                                uint32_t loads) {
     Loading loading;
     loading.cage = cage.name;
-    loading.scheme = schemeName(scheme);
+    loading.scheme = tools::schemeName(scheme);
     loading.faces = cage.character.cage.faceCount();
     std::vector<LoadTimes> all;
     for (uint32_t i = 0; i < loads + 1; ++i) { // the first one makes the pipelines
@@ -139,7 +139,7 @@ Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, 
                                    SuppleScheme scheme, PipelineUse use) {
     Pipelines result;
     result.cage = cage.name;
-    result.scheme = schemeName(scheme);
+    result.scheme = tools::schemeName(scheme);
     const auto cacheInfo = host::vkStruct<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
     VkPipelineCache cache = VK_NULL_HANDLE;
     const VkResult created = vkCreatePipelineCache(device.handle(), &cacheInfo, nullptr, &cache);

@@ -143,7 +143,7 @@ void bindBench(CLI::App& app, int& exitCode) {
     bench::BenchOptions& options = flags->bench;
     bindDevice(*command, flags->device);
     std::vector<std::string> schemeNames;
-    for (const Scheme& known : schemes()) {
+    for (const Scheme& known : kSchemes) {
         schemeNames.emplace_back(known.name);
     }
     command->add_option("FILE", options.files, "Characters to measure as well");

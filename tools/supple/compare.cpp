@@ -154,7 +154,7 @@ Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& f
     }
     Comparison comparison;
     std::optional<LimitSurface> limit;
-    for (const Scheme& scheme : schemes()) {
+    for (const Scheme& scheme : kSchemes) {
         SchemeDeviation deviation;
         deviation.scheme = scheme.name;
         SurfaceFlags flags = surface;

@@ -1,6 +1,6 @@
 #include "tools/supple/folds.h"
 
-#include "surface/pm/reference.h"
+#include "tools/reference/pm.h"
 
 #include <algorithm>
 #include <map>

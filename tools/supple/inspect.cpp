@@ -97,7 +97,7 @@ Findings examine(const cage::Character& character) {
     } else {
         findings.topologyFault = topology.error().message;
     }
-    for (const Scheme& scheme : schemes()) {
+    for (const Scheme& scheme : kSchemes) {
         findings.schemes.push_back(judge(scheme, cage));
     }
     return findings;
@@ -372,7 +372,7 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     for (const SchemeVerdict& verdict : findings.schemes) {
         std::string text = verdict.refusal.empty() ? "accepted:" : "refused: " + verdict.refusal;
         for (const auto& [name, count] : verdict.patches) {
-            text += " " + std::to_string(count) + " " + name;
+            text.append(" ").append(std::to_string(count)).append(" ").append(name);
         }
         printLine((std::string("scheme ") + verdict.scheme).c_str(), text);
         for (const std::string& note : verdict.notes) {

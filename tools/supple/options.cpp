@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace supple::tools {
 namespace {
@@ -44,7 +45,7 @@ void bindRate(CLI::App& command, uint32_t& rate) {
 void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, bool& pairQuads,
                 const std::vector<std::string>& extraSchemes) {
     std::vector<std::string> names{"auto"};
-    for (const Scheme& known : schemes()) {
+    for (const Scheme& known : kSchemes) {
         names.emplace_back(known.name);
     }
     names.insert(names.end(), extraSchemes.begin(), extraSchemes.end());
@@ -101,32 +102,13 @@ void bindPose(CLI::App& command, std::string& clip, double& time) {
         ->capture_default_str();
 }
 
-std::span<const Scheme> schemes() {
-    static constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM, true},
-                                          {"prep", SUPPLE_SCHEME_PREP, true},
-                                          {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK, false},
-                                          {"loop", SUPPLE_SCHEME_LOOP, false},
-                                          {"blend", SUPPLE_SCHEME_BLEND, false}};
-    return kSchemes;
-}
-
-SuppleScheme schemeOf(const std::string& name) {
-    for (const Scheme& scheme : schemes()) {
-        if (name == scheme.name) {
-            return scheme.scheme;
-        }
-    }
-    return name == "cage" ? SUPPLE_SCHEME_CAGE : SUPPLE_SCHEME_AUTO;
-}
-
 std::string resolvedScheme(const std::string& name) {
-    return name == "auto" ? schemes().front().name : name;
+    return name == "auto" ? kSchemes[0].name : name;
 }
 
 bool hasCoefficients(const std::string& name) {
     const std::string resolved = resolvedScheme(name);
-    const auto all = schemes();
-    return std::any_of(all.begin(), all.end(),
+    return std::any_of(std::begin(kSchemes), std::end(kSchemes),
                        [&](const Scheme& scheme) { return resolved == scheme.name && scheme.coefficients; });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/result.h"
+#include "tools/common/schemes.h"
 
 #include <cstdint>
 #include <span>
@@ -62,15 +63,6 @@ void bindRate(CLI::App& command, uint32_t& rate);
 /// --clip, a name or index, empty for the bind pose; --time in seconds.
 void bindPose(CLI::App& command, std::string& clip, double& time);
 
-/// The list of schemes; "auto" is the first.
-struct Scheme {
-    const char* name;
-    SuppleScheme scheme;
-    bool coefficients; ///< its patches have coefficients to read (SUPPLE_GROUP_PATCHES)
-};
-[[nodiscard]] std::span<const Scheme> schemes();
-/// "auto", "cage" (no surface) and the names above; anything else is auto.
-[[nodiscard]] SuppleScheme schemeOf(const std::string& name);
 /// Whether the rate counts segments along an edge of the cage, in powers of two.
 [[nodiscard]] constexpr bool subdivides(SuppleScheme scheme) {
     return scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;

@@ -270,7 +270,7 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
                 machine.driverInfo.c_str(), machine.mapping.c_str(), machine.cpu.c_str());
     const bool all = options.surface.scheme == "all";
     std::vector<std::string> names;
-    for (const Scheme& scheme : schemes()) {
+    for (const Scheme& scheme : kSchemes) {
         names.emplace_back(scheme.name);
     }
     if (!all) {

@@ -143,7 +143,7 @@ Status render(Session& session, const RenderOptions& options, VkExtent2D size, u
         return host::writePng(*picture, options.output);
     }
     std::vector<Error> refusals;
-    for (const Scheme& scheme : schemes()) {
+    for (const Scheme& scheme : kSchemes) {
         Result<Shown> shown = open(session, options, scheme.name, size);
         if (shown)
             all.push_back(std::move(*shown));

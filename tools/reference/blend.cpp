@@ -1,6 +1,6 @@
 // Arithmetic must round as written: both faces at an edge make its samples of the same operands in the same order. The
 // sums are those of docs/blend.md.
-#include "surface/blend/reference.h"
+#include "tools/reference/blend.h"
 
 #include "shaders/shared/blend.h"
 

@@ -1,7 +1,7 @@
 // Equation numbers are those of "Fast Parallel Construction of Smooth Surfaces from Meshes with Tri/Quad/Pent Facets";
 // docs/pm.md says where we depart from the print. Written from the formulas, without the weights of the GPU's tables,
 // so that it checks them. Arithmetic must round as written: the bits of shared borders depend on it.
-#include "surface/pm/reference.h"
+#include "tools/reference/pm.h"
 
 #include <cassert>
 #include <cmath>

@@ -1,4 +1,4 @@
-// P_m on the CPU, in float or double, as the formulas have it. For tests and comparisons; not part of the runtime.
+// P_m on the CPU, in float or double, as the formulas have it. For tests and comparisons.
 // Paper: see surface/pm/mesh.h. Formulas: docs/pm.md, where errors of the paper are corrected.
 #pragma once
 

@@ -1,6 +1,6 @@
 // Equation numbers are those of "GPU Smoothing of Quad Meshes"; docs/prep.md says where we depart from the print.
 // Arithmetic here must round as written (no contraction, no reassociation): the bits of shared borders depend on it.
-#include "surface/prep/reference.h"
+#include "tools/reference/prep.h"
 
 #include <cassert>
 #include <map>

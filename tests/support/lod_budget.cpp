@@ -1,4 +1,4 @@
-#include "surface/lod/budget.h"
+#include "tests/support/lod_budget.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // The blending surface on the CPU, in float or double. Sums have the order of docs/blend.md, so that float gives the
-// bits of the device. For tests and comparisons; not part of the runtime.
+// bits of the device. For tests and comparisons.
 #pragma once
 
-#include "surface/blend/chart_point.h"
 #include "surface/blend/mesh.h"
 #include "surface/blend/weights.h"
+#include "tools/reference/chart_point.h"
 
 #include <array>
 #include <cstdint>

@@ -1,10 +1,10 @@
 // Arithmetic must round as written: every operand is added to its mirror image before anything is scaled, so that all
 // fragments which have a point get the same bits. The sums are those of docs/subdivision.md.
-#include "surface/subdivision/reference.h"
+#include "tools/reference/subdivision.h"
 
-#include "surface/stencil_reference.h"
 #include "surface/subdivision/masks.h"
 #include "surface/subdivision/pattern.h"
+#include "tools/reference/stencils.h"
 
 #include <cmath>
 #include <map>

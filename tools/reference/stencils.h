@@ -1,5 +1,4 @@
-// Stencils on the CPU, in float or double. Sums have the order that they have on the device. For tests and comparisons;
-// not part of the runtime.
+// Stencils on the CPU, in float or double. Sums have the order that they have on the device. For tests and comparisons.
 #pragma once
 
 #include "surface/refinement.h"

@@ -1,5 +1,5 @@
 // The subdivision on the CPU, in float or double. Sums have the order of docs/subdivision.md, so that float gives the
-// bits of the device. For tests and comparisons; not part of the runtime.
+// bits of the device. For tests and comparisons.
 #pragma once
 
 #include "surface/subdivision/mesh.h"

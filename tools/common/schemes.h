@@ -1,0 +1,41 @@
+// The surface schemes, as the command line and reports name them.
+#pragma once
+
+#include <string_view>
+#include <supple/supple.h>
+
+namespace supple::tools {
+
+struct Scheme {
+    const char* name;
+    SuppleScheme scheme;
+    bool coefficients; ///< its patches have coefficients to read (SUPPLE_GROUP_PATCHES)
+};
+
+/// "auto" chooses the first.
+inline constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM, true},
+                                      {"prep", SUPPLE_SCHEME_PREP, true},
+                                      {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK, false},
+                                      {"loop", SUPPLE_SCHEME_LOOP, false},
+                                      {"blend", SUPPLE_SCHEME_BLEND, false}};
+
+[[nodiscard]] constexpr const char* schemeName(SuppleScheme scheme) {
+    for (const Scheme& known : kSchemes) {
+        if (known.scheme == scheme) {
+            return known.name;
+        }
+    }
+    return scheme == SUPPLE_SCHEME_CAGE ? "cage" : kSchemes[0].name;
+}
+
+/// "auto", "cage" (no surface) and the names above; anything else is auto.
+[[nodiscard]] constexpr SuppleScheme schemeOf(std::string_view name) {
+    for (const Scheme& known : kSchemes) {
+        if (name == known.name) {
+            return known.scheme;
+        }
+    }
+    return name == "cage" ? SUPPLE_SCHEME_CAGE : SUPPLE_SCHEME_AUTO;
+}
+
+} // namespace supple::tools
