@@ -267,7 +267,7 @@ void compareAttributes(const GpuSurface& grid, const GpuSurface& shared) {
     const std::vector<std::vector<uint32_t>> vertices = sharedVertices(grid, shared, readIndices(shared));
     uint64_t samples = 0, different = 0;
     const auto compare = [&](SuppleBufferRange SuppleVertexStreams::*view) {
-        const SuppleBufferRange &a = grid.output().*view, &b = shared.output().*view;
+        const SuppleBufferRange &a = grid.output().streams.*view, &b = shared.output().streams.*view;
         ASSERT_EQ(a.buffer == VK_NULL_HANDLE, b.buffer == VK_NULL_HANDLE);
         if (a.buffer == VK_NULL_HANDLE) {
             return;

@@ -305,7 +305,7 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
             for (uint32_t r = 0; r < rates; ++r) {
                 alone.push_back(readBack(twins.at(r)));
                 ASSERT_EQ(alone[r].rates.size(), 1u);
-                ASSERT_EQ(alone[r].output.rate, written.rates[r].rate.rate) << "rate " << r;
+                ASSERT_EQ(alone[r].output.grid.rate, written.rates[r].rate.rate) << "rate " << r;
                 ASSERT_EQ(alone[r].rates[0].slots.size(), twins.size());
                 ASSERT_EQ(written.rates[r].rate.drawRangeCount, alone[r].rates[0].rate.drawRangeCount);
                 for (size_t d = 0; d < alone[r].rates[0].ranges.size(); ++d) {

@@ -330,7 +330,7 @@ TEST_P(Occlusion, OutOfThePictureIsNotBehindIt) {
     context.run(crowd.group());
     EXPECT_EQ(slotsOf(shown(crowd)), (std::set<uint32_t>{1, 2, 3}));
     // One level alone: too fine for what is larger than eight of its texels.
-    pyramid.levels = 1;
+    pyramid.mipLevels = 1;
     EXPECT_EQ(suppleSetDepthPyramid(context.handle(), view.handle(), &pyramid), SUPPLE_OK);
     context.run(crowd.group());
     EXPECT_EQ(slotsOf(shown(crowd)), (std::set<uint32_t>{0, 1, 2, 3}));
