@@ -1,5 +1,7 @@
 #include "tests/support/lod_budget.h"
 
+#include "tests/support/lod_levels.h"
+
 #include <algorithm>
 #include <cmath>
 

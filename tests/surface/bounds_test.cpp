@@ -47,7 +47,7 @@ Evaluate evaluator(SchemeId scheme, const cage::Cage& cage, uint32_t rate = kRat
             Points samples;
             const test::PmSurface<double> surface(mesh, positions);
             for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
-                for (uint32_t k = 0; k < sampleCount(pm::domainOf(mesh.classes[f]), rate); ++k) {
+                for (uint32_t k = 0; k < sampleCount(domainOf(mesh.classes[f]), rate); ++k) {
                     samples.push_back(surface.at(f, rate, k).position);
                 }
             }
