@@ -79,7 +79,7 @@ TEST(DeviceLost, StaysLostForTheContextAndForNoOther) {
                       0u);
             // What does not need it works.
             EXPECT_EQ(suppleSetClipPose(lost.handle(), a.instances[0], 0, 0.5), SUPPLE_OK);
-            EXPECT_EQ(outputOf(lost.handle(), a.group).capacity, 1u);
+            EXPECT_EQ(outputOf(lost.handle(), a.group).info.capacity, 1u);
 
             healthy.evaluate({&b.group, 1});
             EXPECT_TRUE(surfaceBits(healthy, b.group) == bits) << "another context goes on";

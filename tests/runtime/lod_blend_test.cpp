@@ -2,6 +2,7 @@
 #include "surface/lod/grid.h"
 #include "tests/support/blend_surface.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/lod_levels.h"
 #include "tests/support/lod_random.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"

@@ -1,5 +1,7 @@
 #include "tests/support/posed_group.h"
 
+#include "tools/common/inside_output.h"
+
 #include <cstring>
 #include <gtest/gtest.h>
 
@@ -60,7 +62,7 @@ void PosedGroup::deform() {
     const Status submitted = shared_.device.submitAndWait(
         [&](VkCommandBuffer commands) { EXPECT_TRUE(shared_.context->record(commands, record).ok()); });
     ASSERT_TRUE(submitted.ok()) << submitted.error().message;
-    const host::GroupOutput& output = group_->output();
+    const host::GroupOutput output = tools::insideOutput(*group_);
     const Result<std::vector<std::byte>> bytes = shared_.device.readBuffer(output.info.deformedCage);
     ASSERT_TRUE(bytes.ok());
     cages_.assign(output.info.capacity, std::vector<glm::vec3>(output.info.cageVertexCount));

@@ -63,7 +63,7 @@ public:
         return recorded ? submitted : recorded;
     }
 
-    [[nodiscard]] const host::GroupOutput& output() const { return workbench_.output(group_); }
+    [[nodiscard]] host::GroupOutput output() const { return workbench_.output(group_); }
     [[nodiscard]] uint64_t vertices() const { return uint64_t{output().grid.vertexCount} * output().info.capacity; }
     [[nodiscard]] Result<std::unique_ptr<Replay>> replay(bool frame) const {
         return Replay::create(device_, [&](VkCommandBuffer commands) {
@@ -72,7 +72,7 @@ public:
     }
     [[nodiscard]] Result<std::vector<std::byte>> verticesOf(uint32_t instance) const {
         const VkDeviceSize stride = VkDeviceSize{output().grid.verticesPerInstance} * kVertexBytes;
-        const SuppleBufferRange& all = output().streams.vertices;
+        const SuppleBufferRange all = output().streams.vertices;
         return device_.readBuffer(all.buffer, all.offset + instance * stride,
                                   VkDeviceSize{output().grid.vertexCount} * kVertexBytes);
     }

@@ -44,7 +44,7 @@ public:
     /// from sampling their poses on. Groups without a view.
     void recordCompute(SuppleGroup group, VkCommandBuffer commands) const;
 
-    [[nodiscard]] const host::GroupOutput& output(SuppleGroup group) const;
+    [[nodiscard]] host::GroupOutput output(SuppleGroup group) const;
     /// The group's first patches that are plain bicubic ones.
     [[nodiscard]] uint32_t regularPatches(SuppleGroup group) const;
     /// The cage's face of every patch.

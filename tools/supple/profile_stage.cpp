@@ -1,6 +1,7 @@
 #include "tools/supple/profile_stage.h"
 
 #include "host/camera.h"
+#include "host/group_output.h"
 #include "tools/supple/command.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "tools/supple/view_hashes.h"
 
+#include "host/group_output.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>

@@ -169,7 +169,6 @@ public:
         return suppleGetRootMotion(context_, handle_, &pose, &out);
     }
 };
-};
 
 /// Owns a SuppleGroup. Its context must outlive it; the device memory goes once the frames that used it are complete.
 class Group : public Owner<SuppleGroup> {
@@ -214,8 +213,6 @@ public:
         return suppleGetInstanceBounds(context_, handle_, &out);
     }
 };
-}
-;
 
 /// Owns a SuppleView. Its context must outlive it.
 class View : public Owner<SuppleView> {
@@ -238,8 +235,6 @@ public:
         return suppleGetViewStatistics(context_, handle_, &out);
     }
 };
-}
-;
 
 /// Owns a SuppleInstance. Its context and its group must outlive it.
 class Instance : public Owner<SuppleInstance> {
@@ -295,7 +290,5 @@ public:
         return suppleSetTransform(context_, handle_, transform.data());
     }
 };
-}
-;
 
 } // namespace supple
