@@ -1,4 +1,4 @@
-// Every function of supple.h with every kind of wrong argument: the result, the one line that says why, and that
+// Every function of the public headers with every kind of wrong argument: the result, the one line that says why, and that
 // nothing else has happened: what the call was to fill is as it was, and the next frame has the bits it had.
 #include "runtime/sized.h"
 #include "tests/support/gpu_surface.h"
@@ -1645,9 +1645,12 @@ TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
 }
 
 TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
-    std::ifstream file(std::string(SUPPLE_SOURCE_DIR) + "/runtime/include/supple/supple.h");
-    ASSERT_TRUE(file.good());
-    const std::string header((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    std::string header;
+    for (const char* name : {"supple.h", "supple_view.h", "supple_playback.h"}) {
+        std::ifstream file(std::string(SUPPLE_SOURCE_DIR) + "/runtime/include/supple/" + name);
+        ASSERT_TRUE(file.good()) << name;
+        header.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    }
     const std::regex declaration(R"(\nSUPPLE_API [^;(]*?(supple[A-Z]\w*)\(([^)]*)\);)");
     std::set<std::string> declared, walked, contextual, nulled;
     for (std::sregex_iterator i(header.begin(), header.end(), declaration), end; i != end; ++i) {

@@ -20,8 +20,6 @@ GpuOptions pmOptions(SuppleMapping mapping, uint32_t rate) {
 
 PmPatches::PmPatches(const GpuSurface& gpu, const Mesh& mesh)
     : gpu_(gpu), mesh_(mesh), patches_(mesh.cage.faceCount(), cage::kNone) {
-    constexpr SupplePatchClass kClasses[] = {SUPPLE_PATCH_REGULAR, SUPPLE_PATCH_POLAR, SUPPLE_PATCH_P3, SUPPLE_PATCH_P4,
-                                             SUPPLE_PATCH_P5};
     // Two facets of one source face differ in their corners.
     std::map<std::vector<uint32_t>, uint32_t> facets;
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
@@ -45,7 +43,7 @@ PmPatches::PmPatches(const GpuSurface& gpu, const Mesh& mesh)
             facets_.push_back(0);
             continue;
         }
-        EXPECT_EQ(patch.patchClass, kClasses[static_cast<size_t>(mesh.classes[found->second])]);
+        EXPECT_EQ(patch.patchClass, static_cast<SupplePatchClass>(mesh.classes[found->second]));
         EXPECT_GE(patch.patchClass, last) << "patches come class by class";
         last = patch.patchClass;
         patches_[found->second] = static_cast<uint32_t>(facets_.size());

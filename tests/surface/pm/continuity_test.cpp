@@ -34,9 +34,14 @@ struct PairKey {
     size_t low = 0, high = 0;
 };
 
+/// In kClassNames: p-rep's perturbed patches stand between the first and the others.
+size_t classIndex(PatchClass patchClass) {
+    return patchClass == PatchClass::regular ? 0 : static_cast<size_t>(patchClass) - 1;
+}
+
 PairKey pairOf(const Mesh& mesh, const cage::Topology::Edge& edge) {
-    const auto a = static_cast<size_t>(mesh.classes[mesh.topology.cornerFaces[edge.corner]]);
-    const auto b = static_cast<size_t>(mesh.classes[mesh.topology.cornerFaces[edge.twin]]);
+    const size_t a = classIndex(mesh.classes[mesh.topology.cornerFaces[edge.corner]]);
+    const size_t b = classIndex(mesh.classes[mesh.topology.cornerFaces[edge.twin]]);
     return {std::min(a, b), std::max(a, b)};
 }
 
