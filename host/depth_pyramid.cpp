@@ -81,11 +81,11 @@ void DepthPyramid::record(VkCommandBuffer commands) const {
 
 SuppleDepthPyramidDesc DepthPyramid::desc(std::span<const float, 16> viewProjection) const {
     auto desc = supple::sized<SuppleDepthPyramidDesc>();
-    desc.view = image_.view();
+    desc.imageView = image_.view();
     desc.layout = VK_IMAGE_LAYOUT_GENERAL;
     desc.width = image_.desc().extent.width;
     desc.height = image_.desc().extent.height;
-    desc.levels = image_.desc().mipLevels;
+    desc.mipLevels = image_.desc().mipLevels;
     std::copy(viewProjection.begin(), viewProjection.end(), desc.viewProjection);
     return desc;
 }

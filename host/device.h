@@ -135,7 +135,7 @@ public:
 
     /// The bytes of a device buffer (TRANSFER_SRC) after all work submitted so far.
     [[nodiscard]] Result<std::vector<std::byte>> readBuffer(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size);
-    [[nodiscard]] Result<std::vector<std::byte>> readBuffer(const SuppleBufferView& view) {
+    [[nodiscard]] Result<std::vector<std::byte>> readBuffer(const SuppleBufferRange& view) {
         return readBuffer(view.buffer, view.offset, view.size);
     }
     /// A device buffer filled with the bytes; TRANSFER_DST is added to the usage.

@@ -5,6 +5,7 @@
 #include "cage/character.h"
 #include "host/camera.h"
 #include "host/context.h"
+#include "host/group_output.h"
 
 #include <memory>
 #include <string>
@@ -90,9 +91,9 @@ public:
     [[nodiscard]] SuppleGroup handle() const { return group_; }
     /// All of them are there; an instance's number is its slot.
     [[nodiscard]] SuppleInstance instance(uint32_t index) const { return instances_[index]; }
-    [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
+    [[nodiscard]] const GroupOutput& output() const { return output_; }
     /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
-    /// more than one patch to (SuppleGroupOutput::rate counts along a patch).
+    /// more than one patch to (SuppleGridOutput::rate counts along a patch).
     [[nodiscard]] uint32_t edgeRate() const { return edgeRate_; }
     /// Per patch: which of the colors of the view of patch classes it has.
     [[nodiscard]] const Buffer& patchClasses() const { return patchClasses_; }
@@ -120,7 +121,7 @@ private:
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
     std::vector<bool> visible_; ///< per instance
-    SuppleGroupOutput output_{};
+    GroupOutput output_{};
     uint32_t edgeRate_ = 0;
     Buffer patchClasses_;
     Buffer shadowIndices_;

@@ -75,8 +75,11 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     desc.rate = options.rate;
     desc.vertexFormat = options.vertexFormat;
     desc.skinning = options.skinning;
-    desc.creaseMode = options.creaseMode;
-    desc.sharpThreshold = options.sharpThreshold;
+    SuppleBlendOptions blend{};
+    blend.structSize = sizeof blend;
+    blend.creaseMode = options.creaseMode;
+    blend.sharpThreshold = options.sharpThreshold;
+    desc.blend = &blend;
     if (const Status status =
             context.check(suppleCreateGroup(context.handle(), &desc, &group->group_), "suppleCreateGroup");
         !status)
@@ -84,15 +87,14 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     if (const Status status = context.createInstances(group->group_, options.instances, group->instances_); !status)
         return status.error();
     group->visible_.assign(options.instances, true);
-    group->output_.structSize = sizeof group->output_;
-    if (const Status status = context.check(suppleGetGroupOutput(context.handle(), group->group_, &group->output_),
-                                            "suppleGetGroupOutput");
+    if (const Status status =
+            context.check(getGroupOutput(context.handle(), group->group_, group->output_), "suppleGetGroupInfo");
         !status)
         return status.error();
-    group->edgeRate_ = group->output_.rate << halvings(options.scheme, figure.character().cage);
+    group->edgeRate_ = group->output_.grid.rate << halvings(options.scheme, figure.character().cage);
     // The renderer binds each output whole; a crowd larger than that would be drawn in windows of instances.
     const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;
-    for (const SuppleBufferView& view : {group->output_.surfaceVertices, group->output_.deformedCage}) {
+    for (const SuppleBufferRange& view : {group->output_.streams.vertices, group->output_.info.deformedCage}) {
         if (view.size > limit)
             return Error{ErrorCode::limit, figure.path() + ": " + std::to_string(view.size) +
                                                " bytes to draw at once; a storage buffer of this device holds " +
@@ -116,8 +118,8 @@ void FigureGroup::release() {
 Status FigureGroup::uploadTables() {
     Context& context = figure_.context();
     Device& device = context.device();
-    std::vector<SupplePatchInfo> patches(output_.patchCount);
-    uint32_t count = output_.patchCount;
+    std::vector<SupplePatchInfo> patches(output_.info.patchCount);
+    uint32_t count = output_.info.patchCount;
     if (const Status status =
             context.check(suppleGetPatches(context.handle(), group_, patches.data(), &count), "suppleGetPatches");
         !status)
@@ -132,12 +134,13 @@ Status FigureGroup::uploadTables() {
     patchClasses_ = std::move(*classBuffer);
 
     const uint64_t budget = device.isCpu() ? kShadowTrianglesCpu : kShadowTrianglesGpu;
-    const uint64_t shown = uint64_t{output_.patchCount} * output_.capacity;
-    uint32_t segments = output_.rate;
-    const uint32_t fewest = output_.rate < edgeRate_ ? 1 : 2; // two to an edge of the cage
+    const uint64_t shown = uint64_t{output_.info.patchCount} * output_.info.capacity;
+    const uint32_t rate = std::max(output_.grid.rate, 1u); // a cage alone has none
+    uint32_t segments = rate;
+    const uint32_t fewest = rate < edgeRate_ ? 1 : 2; // two to an edge of the cage
     while (segments > fewest && shown * 2 * segments * segments > budget)
         segments = (segments + 1) / 2;
-    const std::vector<uint16_t> indices = coarseGrid(output_.rate, segments);
+    const std::vector<uint16_t> indices = coarseGrid(rate, segments);
     shadowIndexCount_ = static_cast<uint32_t>(indices.size());
     Result<Buffer> indexBuffer =
         device.uploadBuffer(indices.data(), indices.size() * sizeof(uint16_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
@@ -163,19 +166,19 @@ uint32_t FigureGroup::visibleCount() const {
 }
 
 Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {
-    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.surfaceVertices);
+    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.streams.vertices);
     if (!bytes)
         return bytes.error();
-    return positionsOf(*bytes, output_.surfaceVertices.stride, output_.capacity, output_.verticesPerInstance,
-                       output_.vertexCount);
+    return positionsOf(*bytes, output_.streams.vertices.stride, output_.info.capacity, output_.grid.verticesPerInstance,
+                       output_.grid.vertexCount);
 }
 
 Result<std::vector<glm::vec3>> FigureGroup::readCage() const {
-    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.deformedCage);
+    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.info.deformedCage);
     if (!bytes)
         return bytes.error();
-    return positionsOf(*bytes, output_.deformedCage.stride, output_.capacity, output_.cageVerticesPerInstance,
-                       output_.cageVertexCount);
+    return positionsOf(*bytes, output_.info.deformedCage.stride, output_.info.capacity,
+                       output_.info.cageVerticesPerInstance, output_.info.cageVertexCount);
 }
 
 } // namespace supple::host

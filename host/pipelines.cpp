@@ -204,7 +204,7 @@ Write storageBuffer(uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDe
     return {binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VkDescriptorBufferInfo{buffer, offset, size}};
 }
 
-Write storageBuffer(uint32_t binding, const SuppleBufferView& view) {
+Write storageBuffer(uint32_t binding, const SuppleBufferRange& view) {
     return storageBuffer(binding, view.buffer, view.offset, view.size);
 }
 

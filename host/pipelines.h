@@ -58,7 +58,7 @@ struct Write {
 
 [[nodiscard]] Write uniformBuffer(uint32_t binding, const Buffer& buffer);
 [[nodiscard]] Write storageBuffer(uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size);
-[[nodiscard]] Write storageBuffer(uint32_t binding, const SuppleBufferView& view);
+[[nodiscard]] Write storageBuffer(uint32_t binding, const SuppleBufferRange& view);
 [[nodiscard]] Write sampledImage(uint32_t binding, const Image& image, VkSampler sampler,
                                  VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 [[nodiscard]] Write storageImage(uint32_t binding, const Image& image);

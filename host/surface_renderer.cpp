@@ -32,8 +32,8 @@ void applyRange(const SuppleDrawRange& range, shared::DrawPush& push) {
     push.firstVertex = range.firstVertex;
 }
 
-void bindGridIndices(VkCommandBuffer commands, const SuppleGroupOutput& output) {
-    const SuppleBufferView& indices = output.gridIndices;
+void bindGridIndices(VkCommandBuffer commands, const GroupOutput& output) {
+    const SuppleBufferRange& indices = output.indices();
     vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset,
                          indices.stride == 4 ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_UINT16);
 }
@@ -279,25 +279,25 @@ Status SurfaceRenderer::allocateSets(FigureBinding& binding, uint32_t materialCo
 
 void SurfaceRenderer::writeFigureSet(const FigureBinding& binding, const FigureGroup& group) const {
     const Figure& figure = group.figure();
-    const SuppleGroupOutput& output = group.output();
-    const auto viewInfo = [](const SuppleBufferView& view) {
+    const GroupOutput& output = group.output();
+    const auto viewInfo = [](const SuppleBufferRange& view) {
         return VkDescriptorBufferInfo{view.buffer, view.offset, view.size};
     };
     const auto wholeInfo = [](const Buffer& buffer) {
         return VkDescriptorBufferInfo{buffer.handle(), 0, VK_WHOLE_SIZE};
     };
     // What the group is without the shaders do not look at; something valid has to be bound all the same.
-    const auto orCage = [&](const SuppleBufferView& view) {
-        return viewInfo(view.buffer != VK_NULL_HANDLE ? view : output.deformedCage);
+    const auto orCage = [&](const SuppleBufferRange& view) {
+        return viewInfo(view.buffer != VK_NULL_HANDLE ? view : output.info.deformedCage);
     };
     const std::pair<uint32_t, VkDescriptorBufferInfo> buffers[kFigureBuffers] = {
-        {shared::kSurfaceVertexBinding, orCage(output.surfaceVertices)},
-        {shared::kSurfaceAttributeBinding, orCage(output.attributes)},
-        {shared::kSurfaceUv1Binding, orCage(output.uvs1)},
-        {shared::kSurfaceFaceUvBinding, orCage(output.faceUvs)},
-        {shared::kInstancesBinding, viewInfo(output.instances)},
+        {shared::kSurfaceVertexBinding, orCage(output.streams.vertices)},
+        {shared::kSurfaceAttributeBinding, orCage(output.streams.attributes)},
+        {shared::kSurfaceUv1Binding, orCage(output.streams.uvs1)},
+        {shared::kSurfaceFaceUvBinding, orCage(output.streams.faceUvs)},
+        {shared::kInstancesBinding, viewInfo(output.info.instances)},
         {shared::kPatchClassBinding, wholeInfo(group.patchClasses())},
-        {shared::kDeformedCageBinding, viewInfo(output.deformedCage)},
+        {shared::kDeformedCageBinding, viewInfo(output.info.deformedCage)},
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
     };
@@ -486,17 +486,17 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
 
 /// Push constants that fit any draw of the group; ranges and materials are filled in draw by draw.
 shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, uint32_t light) const {
-    const SuppleGroupOutput& output = scene.group->output();
+    const GroupOutput& output = scene.group->output();
     shared::DrawPush push{};
     push.baseColor = glm::vec4(1.0f);
-    push.rate = output.rate;
-    push.verticesPerInstance = output.verticesPerInstance;
-    push.cageVerticesPerInstance = output.cageVerticesPerInstance;
+    push.rate = output.grid.rate;
+    push.verticesPerInstance = output.grid.verticesPerInstance;
+    push.cageVerticesPerInstance = output.info.cageVerticesPerInstance;
     push.view = scene.view;
     push.light = light;
-    if (output.vertexFormat == SUPPLE_VERTEX_24)
+    if (output.streams.vertexFormat == SUPPLE_VERTEX_24)
         push.flags |= shared::kDrawVertex24;
-    if (output.attributes.buffer != VK_NULL_HANDLE)
+    if (output.streams.attributes.buffer != VK_NULL_HANDLE)
         push.flags |= shared::kDrawAttributes;
     if (samples() != VK_SAMPLE_COUNT_1_BIT)
         push.flags |= shared::kDrawCoverage;
@@ -515,12 +515,12 @@ void SurfaceRenderer::pushConstants(VkCommandBuffer commands, const shared::Draw
 }
 
 void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
-    const SuppleGroupOutput& output = scene.group->output();
+    const GroupOutput& output = scene.group->output();
     const cage::Character& character = scene.group->figure().character();
     shared::DrawPush push = basePush(scene, light);
     VkPipeline bound = VK_NULL_HANDLE;
-    for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
-        const SuppleDrawRange& range = output.drawRanges[i];
+    for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
+        const SuppleDrawRange& range = output.grid.drawRanges[i];
         const Shadow shadow = shadowOf(character, range.material);
         if (shadow == Shadow::none)
             continue;
@@ -546,22 +546,22 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
 }
 
 void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) const {
-    const SuppleGroupOutput& output = scene.group->output();
+    const GroupOutput& output = scene.group->output();
     const cage::Character& character = scene.group->figure().character();
     shared::DrawPush push = basePush(scene, 0);
     const bool vertexLit = device_.isCpu() && scene.group->edgeRate() >= kVertexLitRate;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                       vertexLit ? pipelines_->surfaceVertexLit : pipelines_->surface);
     bindGridIndices(commands, output);
-    for (uint32_t i = 0; i < output.drawRangeCount; ++i) {
-        const SuppleDrawRange& range = output.drawRanges[i];
+    for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
+        const SuppleDrawRange& range = output.grid.drawRanges[i];
         applyMaterial(character, range.material, push);
         applyRange(range, push);
         pushConstants(commands, push);
         bindMaterial(commands, scene, range.material);
-        vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
-                                 output.indirect.offset + VkDeviceSize{i} * output.indirect.stride, 1,
-                                 output.indirect.stride);
+        vkCmdDrawIndexedIndirect(commands, output.indirect().buffer,
+                                 output.indirect().offset + VkDeviceSize{i} * output.indirect().stride, 1,
+                                 output.indirect().stride);
     }
 }
 

@@ -51,7 +51,6 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     if (!status) {
         return Error{status.error().code, group->asset_->character.name + ": " + status.error().message};
     }
-    group->fillOutput();
     return group;
 }
 
@@ -97,21 +96,14 @@ Status Group::createParts(const GroupShared& shared, const SuppleGroupDesc& desc
     return status ? tessellation_->createSets(*instances_, *visibility_) : status;
 }
 
-void Group::fillOutput() {
-    output_ = {};
-    output_.structSize = sizeof(output_);
-    instances_->fill(output_);
-    visibility_->fill(output_);
-    tessellation_->fill(output_);
-    output_.deviceBytes = buffers_.allocatedBytes() + instances_->deviceBytes() + tessellation_->deviceBytes();
-}
-
-Status Group::setRate(uint32_t rate) {
-    const Status set = tessellation_->setRate(rate);
-    if (set) {
-        fillOutput();
-    }
-    return set;
+void Group::fill(SuppleGroupInfo& info) const {
+    instances_->fill(info);
+    info.tessellation = tessellation_->kind();
+    info.patchCount = static_cast<uint32_t>(tables().patches.size());
+    info.instances = visibility_->list().slots(info.capacity);
+    const gpu::PlannedBuffer& patches = tessellation_->patchCoefficients();
+    info.patchCoefficients = {patches.buffer(), 0, patches.size(), 16};
+    info.deviceBytes = buffers_.allocatedBytes() + instances_->deviceBytes() + tessellation_->deviceBytes();
 }
 
 uint64_t Group::leastVertices() const {

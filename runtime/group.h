@@ -37,8 +37,8 @@ public:
 
     [[nodiscard]] const Asset& asset() const { return *asset_; }
     [[nodiscard]] const surface::Tables& tables() const { return tessellation_->tables(); }
-    [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
-    [[nodiscard]] Status setRate(uint32_t rate);
+    void fill(SuppleGroupInfo& info) const;
+    [[nodiscard]] Status setRate(uint32_t rate) { return tessellation_->setRate(rate); }
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }
@@ -49,6 +49,7 @@ public:
     // Null if the group belongs to no view.
     [[nodiscard]] View* view() const { return view_.get(); }
     [[nodiscard]] Culling* culling() { return culling_; }
+    [[nodiscard]] const Culling* culling() const { return culling_; }
 
     // Recording, in the order of a frame; runtime/frame.cpp has the passes.
     /// Static tables and first-use clears. The caller sees to it that no other thread does the same: the asset's tables
@@ -79,7 +80,6 @@ public:
 
 private:
     [[nodiscard]] Status createParts(const GroupShared& shared, const SuppleGroupDesc& desc);
-    void fillOutput();
 
     std::shared_ptr<Asset> asset_;
     std::shared_ptr<View> view_;
@@ -88,7 +88,6 @@ private:
     std::unique_ptr<Visibility> visibility_;
     Culling* culling_ = nullptr; ///< visibility_, if the group belongs to a view
     std::unique_ptr<Tessellation> tessellation_;
-    SuppleGroupOutput output_{};
     RecordedOnce clear_; ///< of what culling remembers from frame to frame
     uint64_t passesFrame_ = 0, lastRecordedFrame_ = 0;
 };

@@ -132,9 +132,9 @@ Status InstanceSet::createSets() {
     return status;
 }
 
-void InstanceSet::fill(SuppleGroupOutput& output) const {
+void InstanceSet::fill(SuppleGroupInfo& output) const {
     const auto whole = [](const gpu::PlannedBuffer& buffer, uint32_t stride) {
-        return SuppleBufferView{buffer.buffer(), 0, buffer.size(), stride};
+        return SuppleBufferRange{buffer.buffer(), 0, buffer.size(), stride};
     };
     output.capacity = desc_.capacity;
     output.cageVertexCount = desc_.asset->character.cage.vertexCount();

@@ -58,7 +58,7 @@ public:
     /// capacity entries of all instances, then as many by window.
     [[nodiscard]] const gpu::PlannedBuffer& list() const { return list_; }
     [[nodiscard]] VkDeviceSize deviceBytes() const { return poses_->deviceBytes(); }
-    void fill(SuppleGroupOutput& output) const;
+    void fill(SuppleGroupInfo& output) const;
     void addTransfers(Transfers& transfers) const;
 
     /// Whether instances have come, gone or changed since the last list.

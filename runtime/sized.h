@@ -11,13 +11,9 @@
 namespace supple::runtime {
 
 /// The size a struct had in the first version of the ABI (SOVERSION 0). A struct that grows gets a specialization with
-/// its old size; a new field must not lie where an older struct had padding.
+/// its old size. A new field must not lie where an older struct had padding.
 template <class T>
 inline constexpr size_t kFirstSize = sizeof(T);
-template <>
-inline constexpr size_t kFirstSize<SuppleGroupDesc> = offsetof(SuppleGroupDesc, view);
-template <>
-inline constexpr size_t kFirstSize<SuppleGroupOutput> = offsetof(SuppleGroupOutput, lodDraws);
 
 /// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with
 /// something in fields that this library does not know.

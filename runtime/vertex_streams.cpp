@@ -72,7 +72,7 @@ VkDeviceSize VertexStreams::staticBytes() const {
     return sum;
 }
 
-void VertexStreams::fill(SuppleGroupOutput& output) const {
+void VertexStreams::fill(SuppleVertexStreams& output) const {
     output.vertexFormat = format_;
     forEachStream([&](Stream stream, const StreamRow& row) {
         output.*row.output = {buffer(stream), 0, size(stream), bytes(stream)};

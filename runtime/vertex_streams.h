@@ -28,21 +28,20 @@ struct StreamRow {
     uint32_t viewFlag;  ///< SuppleViewFlags
     uint32_t binding;   ///< shaders/shared/surface.h
     uint32_t attribute; ///< shared::kOutput..., if only cages that have it fill the stream; else 0
-    SuppleBufferView SuppleGroupOutput::*output;
+    SuppleBufferRange SuppleVertexStreams::*output;
 };
 /// To add a stream, add a row, the binding, the member of the output, and the shader that writes it
 /// (docs/architecture.md).
 inline constexpr StreamRow kStreams[kStreamCount] = {
-    {"supple surface vertices", 0, Written::perFrame, 0, 0, shared::kSurfaceBinding, 0,
-     &SuppleGroupOutput::surfaceVertices},
+    {"supple surface vertices", 0, Written::perFrame, 0, 0, shared::kSurfaceBinding, 0, &SuppleVertexStreams::vertices},
     {"supple previous positions", 12, Written::perFrame, SUPPLE_GROUP_MOTION, SUPPLE_VIEW_MOTION,
-     shared::kSurfaceBinding, 0, &SuppleGroupOutput::previousPositions},
+     shared::kSurfaceBinding, 0, &SuppleVertexStreams::previousPositions},
     {"supple surface attributes", 16, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_ATTRIBUTES,
-     shared::kAttributeBinding, 0, &SuppleGroupOutput::attributes},
+     shared::kAttributeBinding, 0, &SuppleVertexStreams::attributes},
     {"supple second UV set", 8, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_UVS1, shared::kUv1Binding,
-     shared::kOutputUvs1, &SuppleGroupOutput::uvs1},
+     shared::kOutputUvs1, &SuppleVertexStreams::uvs1},
     {"supple face UVs", 8, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_FACE_UVS, shared::kFaceUvBinding,
-     shared::kOutputFaceUvs, &SuppleGroupOutput::faceUvs},
+     shared::kOutputFaceUvs, &SuppleVertexStreams::faceUvs},
 };
 
 /// The flags that ask for streams: all of SuppleGroupFlags, or of SuppleViewFlags.
@@ -91,7 +90,7 @@ public:
     [[nodiscard]] uint32_t bytes(Stream stream) const; ///< per surface vertex
     [[nodiscard]] VkDeviceSize staticBytes() const;    ///< of all streams that are Written::static_
 
-    void fill(SuppleGroupOutput& output) const;
+    void fill(SuppleVertexStreams& output) const;
     /// Those that are written in every frame, and with `statics` the others.
     void addTransfers(Transfers& transfers, bool statics) const;
 

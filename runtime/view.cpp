@@ -393,15 +393,15 @@ void View::addTransfers(Transfers& transfers) const {
     }
 }
 
-void View::fillGroup(SuppleGroupOutput& output, uint32_t firstRun, uint32_t drawCount) const {
+void View::fillDraws(SuppleLevelOutput& output, uint32_t firstRun) const {
     const auto words = [&](VkDeviceSize first, VkDeviceSize count, uint32_t stride) {
-        return SuppleBufferView{words_.buffer(), first * 4, count * stride, stride};
+        return SuppleBufferRange{words_.buffer(), first * 4, count * stride, stride};
     };
     const VkDeviceSize firstDraw = VkDeviceSize{firstRun} * kCapacityCount;
-    output.gridIndices = {static_.buffer(0), 0, static_.size(0), 2};
-    output.indirect = words(kLodDraws + 5 * firstDraw, drawCount, sizeof(VkDrawIndexedIndirectCommand));
-    output.lodBuckets = words(kLodBuckets + 4 * VkDeviceSize{firstRun} * kLodBucketStride, drawCount, 16);
-    output.lodPatches = words(kLodRecords, (words_.size() / 4 - kLodRecords) / kLodRecordWords, kLodRecordWords * 4);
+    output.indices = {static_.buffer(0), 0, static_.size(0), 2};
+    output.indirect = words(kLodDraws + 5 * firstDraw, output.drawCount, sizeof(VkDrawIndexedIndirectCommand));
+    output.buckets = words(kLodBuckets + 4 * VkDeviceSize{firstRun} * kLodBucketStride, output.drawCount, 16);
+    output.patches = words(kLodRecords, (words_.size() / 4 - kLodRecords) / kLodRecordWords, kLodRecordWords * 4);
 }
 
 } // namespace supple::runtime

@@ -86,8 +86,8 @@ public:
     [[nodiscard]] VkDeviceSize wordBytes() const { return words_.size(); }
     [[nodiscard]] VkBuffer cull() const { return cull_.buffer(); }   ///< shared::CullView
     [[nodiscard]] VkBuffer sizes() const { return sizes_.buffer(); } ///< of instances (shaders/shared/bounds.h)
-    /// Fills in where the draws of a group are, whose runs begin at `firstRun`.
-    void fillGroup(SuppleGroupOutput& output, uint32_t firstRun, uint32_t drawCount) const;
+    /// Fills in where output.drawCount draws of a group are, whose runs begin at `firstRun`.
+    void fillDraws(SuppleLevelOutput& output, uint32_t firstRun) const;
 
 private:
     [[nodiscard]] Status createBuffers();

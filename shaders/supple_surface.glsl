@@ -1,13 +1,13 @@
 // Drawing for hosts: how a vertex shader finds its surface vertex among what Supple wrote. Self-contained: copy it, or include
 // it from where it lies.
 //
-// One draw a SuppleDrawRange: bind SuppleGroupOutput.gridIndices as uint16 indices at the byte
-// gridIndices.offset, no vertex buffers, and
+// One draw a SuppleDrawRange: bind SuppleGridOutput.indices as uint16 indices at the byte
+// indices.offset, no vertex buffers, and
 //
-//     vkCmdDrawIndexedIndirect(commands, output.indirect.buffer, output.indirect.offset + range * output.indirect.stride, 1, 0);
+//     vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer, grid.indirect.offset + range * grid.indirect.stride, 1, 0);
 //
 // The first half of this file has no bindings: the shader hands in what it knows of the range, as push constants or from a
-// buffer. The second half, for shaders that define SUPPLE_SURFACE_SET, declares the buffers of a SuppleGroupOutput as storage
+// buffer. The second half, for shaders that define SUPPLE_SURFACE_SET, declares what a group hands out as storage
 // buffers of that descriptor set and reads them:
 //
 //     #define SUPPLE_SURFACE_SET 1
@@ -26,38 +26,38 @@
 //
 // Groups with SUPPLE_GROUP_INDEXED_MESH: the same shader; bind the indices as uint32.
 //
-// Groups of a view (level of detail): one draw a SuppleLodDraw, bound and drawn alike. With SUPPLE_SURFACE_LOD defined there
+// Groups of a view (level of detail): one draw a SuppleLevelDraw, bound and drawn alike. With SUPPLE_SURFACE_LOD defined there
 // is suppleLodVertex(draw, gl_InstanceIndex, gl_VertexIndex) instead, and the buffer of instances is not needed:
 //
 //     layout(push_constant) uniform Push { SuppleDraw draw; };
 //
 // Its vertex is the same index everywhere, for attributes of a view are written with the vertices, every frame.
-// lodDraws never change: a host with multiDrawIndirect and shaderDrawParameters keeps their two numbers in a buffer, draws all
+// SuppleLevelOutput.draws never change: a host with multiDrawIndirect and shaderDrawParameters keeps their two numbers in a buffer, draws all
 // that share a pipeline by one vkCmdDrawIndexedIndirect, their commands follow each other, and makes SuppleDraw of gl_DrawID.
 #ifndef SUPPLE_SURFACE_GLSL
 #define SUPPLE_SURFACE_GLSL
 
-/// What a draw must be told, all of it from SuppleGroupOutput and its SuppleDrawRange.
+/// What a draw must be told, from SuppleGridOutput and its SuppleDrawRange.
 struct SuppleRange {
     uint patchCount;          // SuppleDrawRange
     uint firstVertex;         // SuppleDrawRange
     uint samplesPerPatch;     // SuppleDrawRange
-    uint verticesPerInstance; // SuppleGroupOutput
+    uint verticesPerInstance; // SuppleGridOutput
 };
 
-/// The same for a SuppleLodDraw.
+/// The same for a SuppleLevelDraw.
 struct SuppleDraw {
-    uint index;               // of the draw: SuppleGroupOutput.lodDraws[index]
-    uint verticesPerInstance; // SuppleLodDraw
-    uint samplesPerPatch;     // SuppleLodDraw
+    uint index;               // of the draw: SuppleLevelOutput.draws[index]
+    uint verticesPerInstance; // SuppleLevelDraw
+    uint samplesPerPatch;     // SuppleLevelDraw
 };
 
-/// The surface vertex: an index into surfaceVertices, previousPositions, attributes, uvs1 and faceUvs.
+/// The surface vertex: an index into vertices, previousPositions, attributes, uvs1 and faceUvs.
 uint suppleLodSurfaceVertex(SuppleDraw draw, uint instanceIndex, uint vertexIndex) {
     return vertexIndex + instanceIndex * draw.verticesPerInstance;
 }
 
-/// Which of the visible instances this is: an index into SuppleGroupOutput.instances, where its slot stands.
+/// Which of the visible instances this is: an index into SuppleGroupInfo.instances, where its slot stands.
 uint suppleDrawnInstance(SuppleRange range, uint instanceIndex) { return instanceIndex / range.patchCount; }
 
 /// The patch within the instance, if the range's first one is known: an index of suppleGetPatches.
@@ -70,7 +70,7 @@ uint suppleSharedVertex(SuppleRange range, uint instanceIndex, uint vertexIndex)
     return range.firstVertex + (instanceIndex % range.patchCount) * range.samplesPerPatch + vertexIndex;
 }
 
-/// The surface vertex: an index into surfaceVertices and previousPositions.
+/// The surface vertex: an index into vertices and previousPositions.
 uint suppleSurfaceVertex(SuppleRange range, uint slot, uint sharedVertex) {
     return slot * range.verticesPerInstance + sharedVertex;
 }
@@ -84,7 +84,7 @@ vec3 suppleOctahedralNormal(uint word) {
     return normalize(n);
 }
 
-/// The color of SuppleGroupOutput.attributes: linear, four unorm16.
+/// The color of SuppleVertexStreams.attributes: linear, four unorm16.
 vec4 suppleUnpackColor(uvec2 words) { return vec4(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y)); }
 
 #ifdef SUPPLE_SURFACE_SET
@@ -110,10 +110,10 @@ vec4 suppleUnpackColor(uvec2 words) { return vec4(unpackUnorm2x16(words.x), unpa
 #define SUPPLE_PATCHES_BINDING 5
 #endif
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_BUCKETS_BINDING, std430) readonly buffer SuppleBuckets {
-    uvec4 suppleBuckets[]; // SuppleGroupOutput.lodBuckets
+    uvec4 suppleBuckets[]; // SuppleLevelOutput.buckets
 };
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_PATCHES_BINDING, std430) readonly buffer SupplePatches {
-    uvec4 supplePatches[]; // SuppleGroupOutput.lodPatches, four a patch
+    uvec4 supplePatches[]; // SuppleLevelOutput.patches, four a patch
 };
 #else
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_INSTANCES_BINDING, std430) readonly buffer SuppleInstances {
@@ -139,7 +139,7 @@ layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_ATTRIBUTES_BINDING, std430) re
 struct SuppleVertex {
     uint slot;  // of the instance: where a host keeps what it knows of its instances
     uint own;   // within the instance: index into attributes, uvs1, faceUvs
-    uint index; // index into surfaceVertices, previousPositions
+    uint index; // index into vertices, previousPositions
 };
 
 #ifdef SUPPLE_SURFACE_LOD

@@ -2,7 +2,7 @@
 // include it from where it lies. docs/trimming.md shows a whole pair of shaders.
 //
 //     vec2 at = trimUv;                                             // domain uv: the UV set, interpolated
-//     vec2 at = suppleTrimTile(faceUv, tiles, textureSize(trim, 0)); // domain face: SuppleGroupOutput.faceUvs, interpolated
+//     vec2 at = suppleTrimTile(faceUv, tiles, textureSize(trim, 0)); // domain face: SuppleVertexStreams.faceUvs, interpolated
 //     float value = texture(trim, at)[channel];
 //     if (domain is face && !suppleTrimHasTile(faceUv)) value = 1.0;
 //     if (suppleTrimmed(value, cutoff)) discard;                    // without multisampling, in depth and shadow passes

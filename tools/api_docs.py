@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/api.md from the comments of supple.h and supple.hpp, by doxygen.
+"""docs/api.md from the comments of the public headers, by doxygen.
 
   api_docs.py            writes docs/api.md
   api_docs.py --check    is it up to date, does doxygen warn, is anything new without a comment?
@@ -16,7 +16,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-HEADERS = ("supple.h", "supple.hpp")
+HEADERS = ("supple.h", "supple_view.h", "supple_playback.h", "supple.hpp")
 INCLUDE = ROOT / "runtime/include/supple"
 PAGE = ROOT / "docs/api.md"
 UNDOCUMENTED = ROOT / "tests/api_docs/undocumented.txt"
@@ -213,13 +213,13 @@ def page(xml):
                 name = plain(member.find("name"))
                 if member.get("kind") == "typedef" and plain(member.find("type")) in (f"struct {name}", f"enum {name}"):
                     continue
-                if member.get("kind") == "define" and name in ("SUPPLE_H", "SUPPLE_API"):
+                if member.get("kind") == "define" and name in ("SUPPLE_H", "SUPPLE_VIEW_H", "SUPPLE_PLAYBACK_H", "SUPPLE_API"):
                     continue
                 if member.get("kind") == "variable" and name in HEADERS:
                     continue
                 if of in entities:
                     entities[of].append((location(member)[1], member))
-    lines = ["# API", "", "Made from the comments of `supple.h` and `supple.hpp` by `tools/api_docs.py`; change it there.", ""]
+    lines = ["# API", "", "Made from the comments of the public headers by `tools/api_docs.py`; change it there.", ""]
     for header in HEADERS:
         text = (INCLUDE / header).read_text()
         banners = [(number, BANNER.search(line)[1]) for number, line in enumerate(text.split("\n"), 1)

@@ -190,24 +190,3 @@ SuppleResult suppleGetImageInfo(SuppleContext handle, SuppleAsset asset, uint32_
                             });
     });
 }
-
-SuppleResult suppleFillJointMask(SuppleContext handle, SuppleAsset asset, uint32_t joint, float value, float* mask,
-                                 uint32_t jointCount) {
-    constexpr const char* kHere = "suppleFillJointMask";
-    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
-        if (mask == nullptr) {
-            return refuse(context, ErrorCode::nullPointer, kHere, "mask is null");
-        }
-        const size_t joints = found.character.skin.joints.size();
-        if (jointCount != joints || joint >= jointCount) {
-            return refuse(context, ErrorCode::range, kHere,
-                          "joint " + std::to_string(joint) + ", jointCount " + std::to_string(jointCount) +
-                              ": the skin has " + std::to_string(joints));
-        }
-        if (!(value >= 0.0f && value <= 1.0f)) {
-            return refuse(context, ErrorCode::range, kHere, "value leaves 0..1");
-        }
-        skinning::fillJointMask(found.rig, joint, value, {mask, jointCount});
-        return SUPPLE_OK;
-    });
-}

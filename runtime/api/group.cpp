@@ -6,8 +6,41 @@
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
+namespace {
+
+constexpr const char* kHere = "suppleCreateGroup";
+
+/// Copies the options that desc points to, and lets it point to the copies. Null if they are sound.
+std::optional<SuppleResult> takeSchemeOptions(Context& context, SuppleGroupDesc& desc, SupplePrepOptions& prep,
+                                              SuppleBlendOptions& blend) {
+    if (desc.prep != nullptr) {
+        if (const auto fault = takeIn(context, kHere, "prep", desc.prep, prep)) {
+            return fault;
+        }
+        desc.prep = &prep;
+    }
+    if (desc.blend != nullptr) {
+        if (const auto fault = takeIn(context, kHere, "blend", desc.blend, blend)) {
+            return fault;
+        }
+        desc.blend = &blend;
+    }
+    if (!within(prep.tangentMode, SUPPLE_TANGENTS_PRINTED) || !within(prep.cornerRule, SUPPLE_CORNERS_SMOOTH) ||
+        !within(blend.creaseMode, SUPPLE_CREASES_CURVE)) {
+        return refuse(context, ErrorCode::range, kHere, "no such tangentMode, cornerRule or creaseMode");
+    }
+    if (std::isnan(blend.sharpThreshold)) {
+        return refuse(context, ErrorCode::notFinite, kHere, "sharpThreshold is NaN");
+    }
+    if (blend.sharpThreshold < 0.0f) {
+        return refuse(context, ErrorCode::range, kHere, "sharpThreshold is negative");
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
 SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* given, SuppleGroup* out) {
-    constexpr const char* kHere = "suppleCreateGroup";
     return onDevice(handle, kHere, [&](Context& context) {
         if (out == nullptr) {
             return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
@@ -32,18 +65,14 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if ((desc.flags & ~kFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
-        if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.tangentMode, SUPPLE_TANGENTS_PRINTED) ||
-            !within(desc.cornerRule, SUPPLE_CORNERS_SMOOTH) || !within(desc.creaseMode, SUPPLE_CREASES_CURVE) ||
-            !within(desc.skinning, SUPPLE_SKINNING_DUAL_QUATERNION) ||
+        if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.skinning, SUPPLE_SKINNING_DUAL_QUATERNION) ||
             !within(desc.poseSource, SUPPLE_POSES_PLAYBACK)) {
-            return refuse(context, ErrorCode::range, kHere,
-                          "no such vertexFormat, tangentMode, cornerRule, creaseMode, skinning or poseSource");
+            return refuse(context, ErrorCode::range, kHere, "no such vertexFormat, skinning or poseSource");
         }
-        if (std::isnan(desc.sharpThreshold)) {
-            return refuse(context, ErrorCode::notFinite, kHere, "sharpThreshold is NaN");
-        }
-        if (desc.sharpThreshold < 0.0f) {
-            return refuse(context, ErrorCode::range, kHere, "sharpThreshold is negative");
+        SupplePrepOptions prep{};
+        SuppleBlendOptions blend{};
+        if (const auto fault = takeSchemeOptions(context, desc, prep, blend)) {
+            return *fault;
         }
         if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
             return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");

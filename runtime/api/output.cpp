@@ -4,10 +4,32 @@
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
-SuppleResult suppleGetGroupOutput(SuppleContext handle, SuppleGroup group, SuppleGroupOutput* out) {
-    return withGroup(handle, group, "suppleGetGroupOutput", [&](Context& context, Group& found) {
-        return describe(context, "suppleGetGroupOutput", out,
-                        [&](SuppleGroupOutput& output) { output = found.output(); });
+SuppleResult suppleGetGroupInfo(SuppleContext handle, SuppleGroup group, SuppleGroupInfo* out) {
+    constexpr const char* kHere = "suppleGetGroupInfo";
+    return withGroup(handle, group, kHere, [&](Context& context, Group& found) {
+        return describe(context, kHere, out, [&](SuppleGroupInfo& info) { found.fill(info); });
+    });
+}
+
+SuppleResult suppleGetVertexStreams(SuppleContext handle, SuppleGroup group, SuppleVertexStreams* out) {
+    constexpr const char* kHere = "suppleGetVertexStreams";
+    return withGroup(handle, group, kHere, [&](Context& context, Group& found) {
+        const runtime::VertexStreams* streams = found.tessellation().streams();
+        if (streams == nullptr) {
+            return refuse(context, ErrorCode::argument, kHere, "a cage has no surface vertices");
+        }
+        return describe(context, kHere, out, [&](SuppleVertexStreams& output) { streams->fill(output); });
+    });
+}
+
+SuppleResult suppleGetGridOutput(SuppleContext handle, SuppleGroup group, SuppleGridOutput* out) {
+    constexpr const char* kHere = "suppleGetGridOutput";
+    return withGroup(handle, group, kHere, [&](Context& context, Group& found) {
+        const SuppleTessellation kind = found.tessellation().kind();
+        if (kind == SUPPLE_TESSELLATION_NONE || kind == SUPPLE_TESSELLATION_LEVELS) {
+            return refuse(context, ErrorCode::argument, kHere, "the group has no grids of a rate");
+        }
+        return describe(context, kHere, out, [&](SuppleGridOutput& output) { found.tessellation().fillGrid(output); });
     });
 }
 

@@ -1,8 +1,6 @@
 // supple.h, pose.
 #include "runtime/api/poses.h"
-#include "runtime/pose_desc.h"
 
-#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
 using namespace supple;      // NOLINT
@@ -28,50 +26,6 @@ SuppleResult suppleSetClipPose(SuppleContext handle, SuppleInstance instance, ui
             return refuse(context, ErrorCode::notFinite, kHere, "time is not finite");
         }
         found.poses().host()->setClipPose(instance.slot, clip, time);
-        return SUPPLE_OK;
-    });
-}
-
-SuppleResult suppleSetPose(SuppleContext handle, SuppleInstance instance, const SupplePoseDesc* given) {
-    constexpr const char* kHere = "suppleSetPose";
-    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
-        SupplePoseDesc pose{};
-        if (const auto fault = takeIn(context, kHere, "pose", given, pose)) {
-            return *fault;
-        }
-        const Status valid = runtime::checkPose(found.asset(), pose);
-        if (!valid) {
-            return refuse(context, valid.error().code, kHere, valid.error().message);
-        }
-        found.poses().host()->setLayers(instance.slot, pose);
-        return SUPPLE_OK;
-    });
-}
-
-SuppleResult suppleGetRootMotion(SuppleContext handle, SuppleAsset asset, const SupplePoseDesc* given,
-                                 SuppleRootMotion* out) {
-    constexpr const char* kHere = "suppleGetRootMotion";
-    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
-        if (const auto fault = checkOut(context, kHere, out)) {
-            return *fault;
-        }
-        SupplePoseDesc pose{};
-        if (const auto fault = takeIn(context, kHere, "pose", given, pose)) {
-            return *fault;
-        }
-        const Status valid = runtime::checkPose(found, pose);
-        if (!valid) {
-            return refuse(context, valid.error().code, kHere, valid.error().message);
-        }
-        const skinning::RootMotion motion = runtime::rootMotionOf(found, pose);
-        const glm::mat4 transform(skinning::toMatrix(motion));
-        SuppleRootMotion filled{};
-        for (int axis = 0; axis < 3; ++axis) {
-            filled.translation[axis] = transform[3][axis];
-        }
-        filled.yaw = static_cast<float>(motion.yaw);
-        std::memcpy(filled.transform, glm::value_ptr(transform), sizeof(filled.transform));
-        runtime::writeSized(filled, *out);
         return SUPPLE_OK;
     });
 }

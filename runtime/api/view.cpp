@@ -119,8 +119,8 @@ SuppleResult suppleSetDepthPyramid(SuppleContext handle, SuppleView view, const 
         if ((pyramid.flags & ~uint32_t{SUPPLE_DEPTH_REVERSED}) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
-        if (pyramid.view == VK_NULL_HANDLE) {
-            return refuse(context, ErrorCode::nullPointer, kHere, "view is null");
+        if (pyramid.imageView == VK_NULL_HANDLE) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "imageView is null");
         }
         if (pyramid.layout != VK_IMAGE_LAYOUT_GENERAL && pyramid.layout != VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL &&
             pyramid.layout != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
@@ -133,15 +133,40 @@ SuppleResult suppleSetDepthPyramid(SuppleContext handle, SuppleView view, const 
                           "width and height must be 1.." + std::to_string(limit) + ", as the device's images");
         }
         const auto most = static_cast<uint32_t>(std::bit_width(side));
-        if (pyramid.levels == 0 || pyramid.levels > most) {
+        if (pyramid.mipLevels == 0 || pyramid.mipLevels > most) {
             return refuse(context, ErrorCode::range, kHere,
-                          "levels must be 1.." + std::to_string(most) + " for " + std::to_string(pyramid.width) +
+                          "mipLevels must be 1.." + std::to_string(most) + " for " + std::to_string(pyramid.width) +
                               " x " + std::to_string(pyramid.height));
         }
         if (!finite(pyramid.viewProjection, 16)) {
             return refuse(context, ErrorCode::notFinite, kHere, "viewProjection is not finite");
         }
         found.setDepthPyramid(pyramid);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetLevelOutput(SuppleContext handle, SuppleGroup group, SuppleLevelOutput* out) {
+    constexpr const char* kHere = "suppleGetLevelOutput";
+    return withGroup(handle, group, kHere, [&](Context& context, Group& found) {
+        if (found.tessellation().kind() != SUPPLE_TESSELLATION_LEVELS) {
+            return refuse(context, ErrorCode::argument, kHere, "the group has no levels");
+        }
+        return describe(context, kHere, out,
+                        [&](SuppleLevelOutput& output) { found.tessellation().fillLevels(output); });
+    });
+}
+
+SuppleResult suppleGetInstanceBounds(SuppleContext handle, SuppleGroup group, SuppleBufferRange* out) {
+    constexpr const char* kHere = "suppleGetInstanceBounds";
+    return withGroup(handle, group, kHere, [&](Context& context, Group& found) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        if (found.culling() == nullptr) {
+            return refuse(context, ErrorCode::argument, kHere, "the group belongs to no view");
+        }
+        *out = found.culling()->bounds();
         return SUPPLE_OK;
     });
 }

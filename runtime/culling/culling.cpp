@@ -173,9 +173,8 @@ PassCost Culling::cost(uint64_t points, uint64_t) const {
     return {0, 0, points > 0 && windows_->visible > 0};
 }
 
-void Culling::fill(SuppleGroupOutput& output) const {
-    output.instances = {list_.buffer(), 0, VkDeviceSize{windows_->capacity} * kWordBytes, sizeof(uint32_t)};
-    output.bounds = {bounds_.buffer(), 0, bounds_.size(), static_cast<uint32_t>(kBoundsBytes)};
+SuppleBufferRange Culling::bounds() const {
+    return {bounds_.buffer(), 0, bounds_.size(), static_cast<uint32_t>(kBoundsBytes)};
 }
 
 void Culling::addTransfers(Transfers& transfers) const {
@@ -205,7 +204,7 @@ PassCost Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place,
     }
     OcclusionSet& own = occlusionSets_[place];
     if (own.generation != generation) {
-        occlusion_->writePyramid(own.set, pyramid.view, pyramid.layout);
+        occlusion_->writePyramid(own.set, pyramid.imageView, pyramid.layout);
         own.generation = generation;
     }
     OcclusionPush push{};
@@ -213,7 +212,7 @@ PassCost Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place,
     push.instanceCount = windows_->visible;
     push.width = pyramid.width;
     push.height = pyramid.height;
-    push.levels = pyramid.levels;
+    push.levels = pyramid.mipLevels;
     push.reversed = (pyramid.flags & SUPPLE_DEPTH_REVERSED) != 0 ? 1 : 0;
     occlusion_->record(commandBuffer, own.set, push);
     return {0, 0, true};

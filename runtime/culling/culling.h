@@ -63,7 +63,6 @@ public:
     [[nodiscard]] InstanceList list() const override { return {list_.buffer(), list_.size()}; }
     [[nodiscard]] surface::Window window(uint32_t window) const override;
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override;
-    void fill(SuppleGroupOutput& output) const override;
     void addTransfers(Transfers& transfers) const override;
 
     /// Once, before anything else.
@@ -82,6 +81,7 @@ public:
     /// With rates, behind the view's solution: the lists of all rates. `counted`: the budget scales levels.
     PassCost recordRates(VkCommandBuffer commandBuffer, bool counted) const;
 
+    [[nodiscard]] SuppleBufferRange bounds() const; ///< by slot
     [[nodiscard]] uint32_t leastVertices() const { return leastVertices_; }
     /// Of all instances that the host shows.
     [[nodiscard]] uint64_t leastVerticesOfAll() const { return uint64_t{leastVertices_} * windows_->visible; }

@@ -16,6 +16,11 @@ namespace supple::runtime {
 struct InstanceList {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize bytes = 0;
+
+    /// `count` slots from `offset` on.
+    [[nodiscard]] SuppleBufferRange slots(uint32_t count, VkDeviceSize offset = 0) const {
+        return {buffer, offset, VkDeviceSize{count} * sizeof(uint32_t), sizeof(uint32_t)};
+    }
 };
 
 class Visibility {
@@ -37,7 +42,6 @@ public:
     /// The cost of a pass, given what it writes per instance.
     [[nodiscard]] virtual PassCost cost(uint64_t points, uint64_t bytes) const = 0;
 
-    virtual void fill(SuppleGroupOutput& output) const = 0;
     virtual void addTransfers(Transfers& transfers) const = 0;
 };
 
@@ -62,9 +66,6 @@ public:
     }
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override {
         return {points * windows_->visible, bytes * windows_->visible};
-    }
-    void fill(SuppleGroupOutput& output) const override {
-        output.instances = {list_.buffer, 0, VkDeviceSize{windows_->capacity} * sizeof(uint32_t), sizeof(uint32_t)};
     }
     void addTransfers(Transfers&) const override {}
 

@@ -9,6 +9,7 @@ class FixedRate final : public OneRate {
 public:
     explicit FixedRate(const TessellationDesc& desc) : OneRate(desc) {}
     [[nodiscard]] Status begin();
+    [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_GRIDS; }
     [[nodiscard]] Status setRate(uint32_t rate) override;
 
 private:

@@ -12,6 +12,7 @@ class IndexedMesh final : public OneRate {
 public:
     explicit IndexedMesh(const TessellationDesc& desc) : OneRate(desc) { indexBytes_ = sizeof(uint32_t); }
     [[nodiscard]] Status begin();
+    [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_INDEXED_MESH; }
     [[nodiscard]] Status setRate(uint32_t rate) override;
 };
 

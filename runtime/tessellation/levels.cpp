@@ -21,7 +21,9 @@ public:
     [[nodiscard]] uint32_t lists() const override { return 3; }
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
     [[nodiscard]] Culling::Needs cullingNeeds() const override;
-    void fill(SuppleGroupOutput& output) override;
+    [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_LEVELS; }
+    [[nodiscard]] const VertexStreams* streams() const override { return &view()->streams(); }
+    void fillLevels(SuppleLevelOutput& output) const override;
     [[nodiscard]] Status setRate(uint32_t rate) override;
 
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
@@ -50,7 +52,7 @@ private:
 
     uint32_t firstRun_ = 0; ///< in the view; all windows one after the other
     uint32_t takenRuns_ = 0;
-    std::vector<SuppleLodDraw> draws_;
+    std::vector<SuppleLevelDraw> draws_;
 };
 
 Levels::~Levels() {
@@ -140,12 +142,10 @@ void Levels::bindOutput(const SurfaceSets::Which& which, SetContents& contents) 
     contents.texels(kLodTexelBinding, VK_FORMAT_R32G32B32A32_UINT, words, 0, view()->wordBytes(), "supple view");
 }
 
-void Levels::fill(SuppleGroupOutput& output) {
-    Tessellation::fill(output);
-    view()->streams().fill(output);
-    view()->fillGroup(output, firstRun_, static_cast<uint32_t>(draws_.size()));
-    output.lodDraws = draws_.data();
-    output.lodDrawCount = static_cast<uint32_t>(draws_.size());
+void Levels::fillLevels(SuppleLevelOutput& output) const {
+    output.draws = draws_.data();
+    output.drawCount = static_cast<uint32_t>(draws_.size());
+    view()->fillDraws(output, firstRun_);
 }
 
 Status Levels::setRate(uint32_t) {

@@ -12,13 +12,7 @@ public:
         evaluation_.rate = askedRate_;
     }
 
-    void fill(SuppleGroupOutput& output) override {
-        Tessellation::fill(output);
-        output.rate = evaluation_.rate;
-        rate_ = {evaluation_.rate, 0, 0, output.instances};
-        output.rates = &rate_;
-        output.rateCount = 1;
-    }
+    [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_NONE; }
     [[nodiscard]] Status setRate(uint32_t rate) override {
         const Status valid = checkRate(rate, askedRate_);
         evaluation_.rate = valid ? rate : evaluation_.rate; // nothing is evaluated
@@ -29,9 +23,6 @@ public:
 
 protected:
     void bindOutput(const SurfaceSets::Which&, SetContents&) const override {}
-
-private:
-    SuppleRate rate_{};
 };
 
 } // namespace

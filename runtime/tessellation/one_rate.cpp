@@ -30,13 +30,11 @@ VkDeviceSize HostDraws::recordUpload(const gpu::Device& device, VkCommandBuffer 
     return staging_.recordCopy(device, commandBuffer, 0, buffer_.buffer(), 0, buffer_.size());
 }
 
-SuppleBufferView HostDraws::output() const {
-    return {buffer_.buffer(), 0, buffer_.size(), sizeof(VkDrawIndexedIndirectCommand)};
-}
-
 void OneRate::setDraws(std::vector<SuppleDrawRange> draws) {
     draws_ = std::move(draws);
-    rates_ = {{evaluation_.rate, 0, static_cast<uint32_t>(draws_.size()), {}}};
+    rates_.resize(1);
+    rates_.front().rate = evaluation_.rate;
+    rates_.front().drawRangeCount = static_cast<uint32_t>(draws_.size());
     hostDraws_.setChanged();
 }
 
@@ -48,18 +46,19 @@ void OneRate::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
 Status OneRate::createSets(const InstanceSet& instances, const Visibility& visibility) {
     const Status made = createIndices(indexData_);
     indexData_ = {};
+    rates_.front().instances = visibility.list().slots(desc_.group.capacity);
     return made ? OwnVertices::createSets(instances, visibility) : made;
 }
 
-void OneRate::fill(SuppleGroupOutput& output) {
-    rates_.front().instances = output.instances;
-    OwnVertices::fill(output);
-    output.indirect = hostDraws_.output();
+void OneRate::fillGrid(SuppleGridOutput& output) const {
+    OwnVertices::fillGrid(output);
+    output.indirect = {hostDraws_.buffer().buffer(), 0, hostDraws_.buffer().size(),
+                       sizeof(VkDrawIndexedIndirectCommand)};
 }
 
 void OneRate::addTransfers(Transfers& transfers, uint64_t frame) const {
     OwnVertices::addTransfers(transfers, frame);
-    transfers.add(hostDraws_.buffer());
+    transfers.add(hostDraws_.buffer().buffer());
 }
 
 VkDeviceSize OneRate::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {

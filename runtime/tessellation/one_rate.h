@@ -14,8 +14,7 @@ public:
     /// `listed`: the list of instances has changed. `always`: upload though nothing has. Returns the bytes.
     VkDeviceSize recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, bool listed, bool always,
                               std::span<const SuppleDrawRange> draws, uint32_t visible);
-    [[nodiscard]] SuppleBufferView output() const;
-    [[nodiscard]] VkBuffer buffer() const { return buffer_.buffer(); }
+    [[nodiscard]] const gpu::PlannedBuffer& buffer() const { return buffer_; }
 
 private:
     gpu::PlannedBuffer buffer_;
@@ -27,7 +26,7 @@ class OneRate : public OwnVertices {
 public:
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
     [[nodiscard]] Status createSets(const InstanceSet& instances, const Visibility& visibility) override;
-    void fill(SuppleGroupOutput& output) override;
+    void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;

@@ -66,12 +66,11 @@ void OwnVertices::bindOutput(const SurfaceSets::Which& which, SetContents& conte
     }
 }
 
-void OwnVertices::fill(SuppleGroupOutput& output) {
-    Tessellation::fill(output);
-    streams_.fill(output);
+void OwnVertices::fillGrid(SuppleGridOutput& output) const {
     output.rate = evaluation_.rate;
     output.vertexCount = vertexCount_;
-    output.gridIndices = {indices_.buffer(0), 0, indices_.size(0), indexBytes_};
+    output.verticesPerInstance = evaluation_.verticesPerInstance;
+    output.indices = {indices_.buffer(0), 0, indices_.size(0), indexBytes_};
     output.drawRanges = draws_.data();
     output.drawRangeCount = static_cast<uint32_t>(draws_.size());
     output.rates = rates_.data();

@@ -14,7 +14,8 @@ public:
     [[nodiscard]] BoundBytes boundBytes() const override;
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
     [[nodiscard]] VkDeviceSize deviceBytes() const override { return indices_.deviceBytes(); }
-    void fill(SuppleGroupOutput& output) override;
+    [[nodiscard]] const VertexStreams* streams() const override { return &streams_; }
+    void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
 
     [[nodiscard]] bool staticsPending() const override;

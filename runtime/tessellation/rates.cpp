@@ -24,7 +24,8 @@ public:
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
     [[nodiscard]] Culling::Needs cullingNeeds() const override;
     [[nodiscard]] Status createSets(const InstanceSet& instances, const Visibility& visibility) override;
-    void fill(SuppleGroupOutput& output) override;
+    [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_RATES; }
+    void fillGrid(SuppleGridOutput& output) const override;
     [[nodiscard]] Status setRate(uint32_t rate) override;
 
     [[nodiscard]] bool staticsPending() const override;
@@ -146,16 +147,14 @@ Status Rates::createSets(const InstanceSet& instances, const Visibility& visibil
     for (Rate& rate : own_) {
         status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;
     }
+    for (uint32_t r = 0; r < rates_.size(); ++r) {
+        rates_[r].instances = visibility.list().slots(desc_.group.capacity, culling().rateListOffset(r));
+    }
     return status;
 }
 
-void Rates::fill(SuppleGroupOutput& output) {
-    for (uint32_t r = 0; r < rates_.size(); ++r) {
-        rates_[r].instances = output.instances;
-        rates_[r].instances.offset = culling().rateListOffset(r);
-    }
-    OwnVertices::fill(output);
-    output.rate = evaluation_.rate;
+void Rates::fillGrid(SuppleGridOutput& output) const {
+    OwnVertices::fillGrid(output);
     output.indirect = {culling().list().buffer, culling().drawOffset(),
                        draws_.size() * sizeof(VkDrawIndexedIndirectCommand), sizeof(VkDrawIndexedIndirectCommand)};
 }

@@ -24,13 +24,18 @@ surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View*
     const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
     recipe.lod = view != nullptr && scheme.hasLevels;
     recipe.rate = scheme.tableRate(rate, recipe.lod);
-    recipe.blend.creases =
-        desc.creaseMode == SUPPLE_CREASES_CURVE ? surface::blend::CreaseMode::curve : surface::blend::CreaseMode::cut;
-    recipe.blend.sharpThreshold = desc.sharpThreshold > 0.0f ? desc.sharpThreshold : 1.0f;
-    recipe.prep.tangentMode = desc.tangentMode == SUPPLE_TANGENTS_PRINTED ? surface::prep::TangentMode::printed
-                                                                          : surface::prep::TangentMode::standard;
-    recipe.prep.cornerRule =
-        desc.cornerRule == SUPPLE_CORNERS_SMOOTH ? surface::prep::CornerRule::smooth : surface::prep::CornerRule::sharp;
+    if (desc.blend != nullptr) {
+        using surface::blend::CreaseMode;
+        recipe.blend.creases = desc.blend->creaseMode == SUPPLE_CREASES_CURVE ? CreaseMode::curve : CreaseMode::cut;
+        recipe.blend.sharpThreshold = desc.blend->sharpThreshold > 0.0f ? desc.blend->sharpThreshold : 1.0f;
+    }
+    if (desc.prep != nullptr) {
+        using namespace surface::prep;
+        const bool printed = desc.prep->tangentMode == SUPPLE_TANGENTS_PRINTED;
+        recipe.prep.tangentMode = printed ? TangentMode::printed : TangentMode::standard;
+        recipe.prep.cornerRule =
+            desc.prep->cornerRule == SUPPLE_CORNERS_SMOOTH ? CornerRule::smooth : CornerRule::sharp;
+    }
     return recipe;
 }
 
@@ -79,6 +84,8 @@ Status Tessellation::buildTables() {
         return built.error();
     }
     scheme_ = std::move(*built);
+    desc_.group.prep = nullptr; // the caller's
+    desc_.group.blend = nullptr;
     const surface::Tables& own = tables();
     const surface::Scheme& scheme = surface::schemeOf(scheme_->recipe.scheme);
     const bool hasCoefficients =
@@ -213,13 +220,6 @@ void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables
     const InstanceList list = visibility_->list();
     contents.buffer(kInstanceBinding, list.buffer, 0, VK_WHOLE_SIZE);
     contents.texels(kInstanceTexelBinding, kUint1, list.buffer, 0, list.bytes, "supple instances seen");
-}
-
-void Tessellation::fill(SuppleGroupOutput& output) {
-    output.vertexFormat = view() != nullptr ? view()->desc().vertexFormat : desc_.group.vertexFormat;
-    output.patchCount = static_cast<uint32_t>(tables().patches.size());
-    output.verticesPerInstance = evaluation_.verticesPerInstance;
-    output.patchCoefficients = {patches_.buffer(), 0, patches_.size(), static_cast<uint32_t>(kVec4Bytes)};
 }
 
 void Tessellation::addTransfers(Transfers&, uint64_t) const {}

@@ -67,10 +67,15 @@ public:
     [[nodiscard]] virtual Status createSets(const InstanceSet& instances, const Visibility& visibility);
 
     [[nodiscard]] virtual VkDeviceSize deviceBytes() const { return 0; } ///< beside the planned buffers
-    /// Fills in what output has of a surface.
-    virtual void fill(SuppleGroupOutput& output);
+    // Output; the API asks for what a tessellation of this kind has.
+    [[nodiscard]] virtual SuppleTessellation kind() const = 0;
+    /// Null without surface vertices.
+    [[nodiscard]] virtual const VertexStreams* streams() const { return nullptr; }
+    virtual void fillGrid(SuppleGridOutput& /*output*/) const {}
+    virtual void fillLevels(SuppleLevelOutput& /*output*/) const {}
+    [[nodiscard]] const gpu::PlannedBuffer& patchCoefficients() const { return patches_; }
     virtual void addTransfers(Transfers& transfers, uint64_t frame) const;
-    /// The next fill() tells of the new rate.
+    /// The next fillGrid() tells of the new rate.
     [[nodiscard]] virtual Status setRate(uint32_t rate) = 0;
 
     // Uploads and clears that are recorded once.

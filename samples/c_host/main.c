@@ -136,7 +136,8 @@ typedef struct Crowd {
     SuppleGroup group;
     SuppleInstance resident;
     SuppleInstance guests[FRAMES_IN_FLIGHT]; /* one a frame; leaves when the next comes to its place */
-    SuppleGroupOutput output;
+    SuppleVertexStreams streams;
+    SuppleGridOutput grid;
 } Crowd;
 
 static void createCrowd(SuppleContext context, SuppleAsset asset, SuppleScheme scheme, Crowd* crowd) {
@@ -149,8 +150,10 @@ static void createCrowd(SuppleContext context, SuppleAsset asset, SuppleScheme s
     desc.vertexFormat = SUPPLE_VERTEX_24;
     CHECK_SUPPLE(suppleCreateGroup(context, &desc, &crowd->group));
     CHECK_SUPPLE(suppleCreateInstance(context, crowd->group, &crowd->resident));
-    crowd->output.structSize = sizeof crowd->output;
-    CHECK_SUPPLE(suppleGetGroupOutput(context, crowd->group, &crowd->output));
+    crowd->streams.structSize = sizeof crowd->streams;
+    CHECK_SUPPLE(suppleGetVertexStreams(context, crowd->group, &crowd->streams));
+    crowd->grid.structSize = sizeof crowd->grid;
+    CHECK_SUPPLE(suppleGetGridOutput(context, crowd->group, &crowd->grid));
 }
 
 /* Creating and destroying is one thread's; earlier frames that still read the old guest are not disturbed. */
@@ -187,13 +190,13 @@ static void place(Job* job, SuppleInstance instance, float x) {
 }
 
 static void copyFirstVertex(const Job* job, VkCommandBuffer commands, SuppleInstance instance, uint32_t place) {
-    const SuppleGroupOutput* output = &job->crowd->output;
+    const SuppleBufferRange* vertices = &job->crowd->streams.vertices;
     VkBufferCopy region = {0};
-    region.srcOffset = output->surfaceVertices.offset +
-                       (VkDeviceSize)instance.slot * output->verticesPerInstance * output->surfaceVertices.stride;
-    region.dstOffset = job->targetOffset + (VkDeviceSize)place * output->surfaceVertices.stride;
-    region.size = output->surfaceVertices.stride;
-    vkCmdCopyBuffer(commands, output->surfaceVertices.buffer, job->target, 1, &region);
+    region.srcOffset =
+        vertices->offset + (VkDeviceSize)instance.slot * job->crowd->grid.verticesPerInstance * vertices->stride;
+    region.dstOffset = job->targetOffset + (VkDeviceSize)place * vertices->stride;
+    region.size = vertices->stride;
+    vkCmdCopyBuffer(commands, vertices->buffer, job->target, 1, &region);
 }
 
 /* Poses one group's instances and records its passes, beside the thread that does the same for the other group. */
@@ -421,7 +424,7 @@ int main(int argc, char** argv) {
     for (i = 0; i < THREADS; ++i) {
         createCrowd(context, asset, schemes[i], &crowds[i]);
     }
-    vertexBytes = crowds[0].output.surfaceVertices.stride;
+    vertexBytes = crowds[0].streams.vertices.stride;
     readback = createReadback(&host, memory, FRAMES_IN_FLIGHT * THREADS * COPIES_PER_THREAD * vertexBytes);
     fenceInfo.flags = VK_FENCE_CREATE_SIGNALED_BIT; /* the first wait of each must pass */
     memset(jobs, 0, sizeof jobs);

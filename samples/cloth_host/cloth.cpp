@@ -89,7 +89,9 @@ void Cloth::createSupple(const Device& device, uint32_t rate) {
     must(supple::Group::create(context_, groupDesc, group_), "suppleCreateGroup");
     for (supple::Instance& sheet : sheets_)
         must(supple::Instance::create(group_, sheet), "suppleCreateInstance");
-    must(group_.output(output_), "suppleGetGroupOutput");
+    must(group_.info(info_), "suppleGetGroupInfo");
+    must(group_.vertexStreams(streams_), "suppleGetVertexStreams");
+    must(group_.gridOutput(grid_), "suppleGetGridOutput");
 }
 
 void Cloth::createSimulation(Device& device) {
@@ -116,9 +118,9 @@ void Cloth::createSimulation(Device& device) {
     pipeline_ = must(createComputePipeline(device, layout_, cloth_comp));
     DescriptorPool pool = must(DescriptorPool::create(device, 1));
     set_ = must(pool.allocate(setLayout));
-    pool.write(set_, {storageBuffer(0, sheetBuffer_.handle(), 0, sheetBuffer_.size()),
-                      storageBuffer(1, pointBuffer_.handle(), 0, pointBuffer_.size()),
-                      storageBuffer(2, output_.deformedCage)});
+    pool.write(set_,
+               {storageBuffer(0, sheetBuffer_.handle(), 0, sheetBuffer_.size()),
+                storageBuffer(1, pointBuffer_.handle(), 0, pointBuffer_.size()), storageBuffer(2, info_.deformedCage)});
 }
 
 void Cloth::beginFrame(uint64_t frame, uint64_t completed) const {
@@ -143,7 +145,7 @@ void Cloth::simulate(VkCommandBuffer commands, double seconds) {
                               static_cast<float>(seconds),
                               1.0f / 60.0f / kSteps,
                               kSpacing,
-                              output_.cageVerticesPerInstance};
+                              info_.cageVerticesPerInstance};
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set_, 0, nullptr);
     vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);

@@ -1,6 +1,6 @@
 // Cloth that the host simulates on the device, and the smooth surface that Supple makes of it. The control cage is a
 // grid of quads with sharp corners; a compute shader of the host's moves its points straight in
-// SuppleGroupOutput.deformedCage.
+// SuppleGroupInfo.deformedCage.
 #pragma once
 
 #include "host/pipelines.h"
@@ -36,7 +36,9 @@ public:
     /// Moves the cloth by a frame, then lets Supple make the surface, for draws as vertex shader reads. All barriers
     /// round the two are recorded too.
     void record(VkCommandBuffer commands, double seconds);
-    const SuppleGroupOutput& output() const { return output_; }
+    const SuppleGroupInfo& info() const { return info_; }
+    const SuppleVertexStreams& streams() const { return streams_; }
+    const SuppleGridOutput& grid() const { return grid_; }
 
 private:
     void createSupple(const Device& device, uint32_t rate);
@@ -47,7 +49,9 @@ private:
     supple::Asset asset_;
     supple::Group group_;
     std::array<supple::Instance, 2> sheets_;
-    SuppleGroupOutput output_{};
+    SuppleGroupInfo info_{};
+    SuppleVertexStreams streams_{};
+    SuppleGridOutput grid_{};
 
     Buffer sheetBuffer_;
     Buffer pointBuffer_; ///< positions and velocities: the host's own

@@ -41,10 +41,9 @@ std::shared_ptr<const ValidationLog> run(const PictureOptions& options) {
     device.waitIdle();
     if (!options.screenshot.empty())
         must(writePng(must(readPicture(device, scene.picture())), options.screenshot));
-    const SuppleGroupOutput& output = cloth.output();
     std::printf("%llu frames; a sheet: %u cage vertices, %u patches, %u surface vertices\n",
-                static_cast<unsigned long long>(options.frames), output.cageVertexCount, output.patchCount,
-                output.vertexCount);
+                static_cast<unsigned long long>(options.frames), cloth.info().cageVertexCount, cloth.info().patchCount,
+                cloth.grid().vertexCount);
     return device.validation();
 }
 

@@ -110,9 +110,9 @@ Scene::Scene(Device& device, const Cloth& cloth, VkExtent2D extent) : cloth_(clo
     sheetSet_ = must(pool.allocate(sheetLayout));
     pool.write(sceneSet_, {uniformBuffer(0, uniforms_),
                            sampledImage(1, sunMap_, must(createSampler(device, VK_FILTER_LINEAR, true)))});
-    const SuppleGroupOutput& output = cloth.output();
-    pool.write(sheetSet_, {storageBuffer(0, output.instances), storageBuffer(1, output.surfaceVertices),
-                           storageBuffer(3, output.attributes)});
+    const SuppleVertexStreams& streams = cloth.streams();
+    pool.write(sheetSet_, {storageBuffer(0, cloth.info().instances), storageBuffer(1, streams.vertices),
+                           storageBuffer(3, streams.attributes)});
 
     GraphicsDesc shadow{.layout = layout_, .depth = kDepthFormat, .depthBias = 1.0f, .depthBiasSlope = 2.0f};
     shadow.vertexShader = cloth_vert;
@@ -139,17 +139,17 @@ Scene::Scene(Device& device, const Cloth& cloth, VkExtent2D extent) : cloth_(clo
 }
 
 void Scene::drawSheets(VkCommandBuffer commands, VkPipeline pipeline, bool shadow) const {
-    const SuppleGroupOutput& output = cloth_.output();
+    const SuppleGridOutput& grid = cloth_.grid();
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
-    for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
-        const SuppleDrawRange& range = output.drawRanges[r];
-        const SheetPush push{range.patchCount, range.firstVertex, range.samplesPerPatch, output.verticesPerInstance,
+    vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset, VK_INDEX_TYPE_UINT16);
+    for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = grid.drawRanges[r];
+        const SheetPush push{range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance,
                              shadow ? 1u : 0u};
         vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
-        vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
-                                 output.indirect.offset + VkDeviceSize{r} * output.indirect.stride, 1,
-                                 output.indirect.stride);
+        vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,
+                                 grid.indirect.offset + VkDeviceSize{r} * grid.indirect.stride, 1,
+                                 grid.indirect.stride);
     }
 }
 

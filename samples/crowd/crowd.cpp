@@ -92,7 +92,8 @@ Crowd::Crowd(const Device& device, const CrowdOptions& options)
         desc.view = view_.handle();
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
         must(supple::Group::create(context_, desc, kind.group), "suppleCreateGroup");
-        must(kind.group.output(kind.output), "suppleGetGroupOutput");
+        must(kind.group.vertexStreams(kind.streams), "suppleGetVertexStreams");
+        must(kind.group.levelOutput(kind.levels), "suppleGetLevelOutput");
     }
 
     // Circles all over a square, a few steps from each other.

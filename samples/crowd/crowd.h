@@ -20,7 +20,8 @@ inline constexpr size_t kKinds = 3;
 struct Kind {
     supple::Asset asset;
     supple::Group group;
-    SuppleGroupOutput output{};
+    SuppleVertexStreams streams{};
+    SuppleLevelOutput levels{};
     uint32_t firstArc = 0; ///< clip of the first of its arcs
     double duration = 1.0;
     bool walks = true; ///< else its file has no clip to walk by

@@ -88,10 +88,11 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
         pool.write(textSets_[slot], {storageBuffer(0, text_[slot].handle(), 0, kMaxTextBytes)});
     }
     for (size_t k = 0; k < kKinds; ++k) {
-        const SuppleGroupOutput& output = crowd.kinds()[k].output;
+        const SuppleVertexStreams& streams = crowd.kinds()[k].streams;
+        const SuppleLevelOutput& levels = crowd.kinds()[k].levels;
         kindSets_[k] = must(pool.allocate(kindLayout));
-        pool.write(kindSets_[k], {storageBuffer(1, output.surfaceVertices), storageBuffer(3, output.attributes),
-                                  storageBuffer(4, output.lodBuckets), storageBuffer(5, output.lodPatches)});
+        pool.write(kindSets_[k], {storageBuffer(1, streams.vertices), storageBuffer(3, streams.attributes),
+                                  storageBuffer(4, levels.buckets), storageBuffer(5, levels.patches)});
     }
 
     sunPipeline_ = must(createGraphicsPipeline(device, {.layout = layout_,
@@ -171,12 +172,12 @@ void Scene::update(uint32_t slot, const Camera& camera, const std::vector<std::s
 void Scene::drawCharacters(VkCommandBuffer commands, uint32_t slot, bool sun, bool paint) const {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sun ? sunPipeline_ : characterPipeline_);
     for (size_t k = 0; k < kKinds; ++k) {
-        const SuppleGroupOutput& output = crowd_.kinds()[k].output;
+        const SuppleLevelOutput& levels = crowd_.kinds()[k].levels;
         const VkDescriptorSet sets[] = {sceneSets_[slot], kindSets_[k]};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
-        vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
-        for (uint32_t i = 0; i < output.lodDrawCount; ++i) {
-            const SuppleLodDraw& draw = output.lodDraws[i];
+        vkCmdBindIndexBuffer(commands, levels.indices.buffer, levels.indices.offset, VK_INDEX_TYPE_UINT16);
+        for (uint32_t i = 0; i < levels.drawCount; ++i) {
+            const SuppleLevelDraw& draw = levels.draws[i];
             const CharacterPush push{i,
                                      draw.verticesPerInstance,
                                      draw.samplesPerPatch,
@@ -185,9 +186,9 @@ void Scene::drawCharacters(VkCommandBuffer commands, uint32_t slot, bool sun, bo
                                      sun ? 1u : 0u,
                                      static_cast<uint32_t>(k)};
             vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
-            vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
-                                     output.indirect.offset + VkDeviceSize{i} * output.indirect.stride, 1,
-                                     output.indirect.stride);
+            vkCmdDrawIndexedIndirect(commands, levels.indirect.buffer,
+                                     levels.indirect.offset + VkDeviceSize{i} * levels.indirect.stride, 1,
+                                     levels.indirect.stride);
         }
     }
 }

@@ -107,9 +107,9 @@ void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer co
 
     SuppleAssetInfo info;
     check(asset.info(info), "info");
-    SuppleGroupOutput output; // the buffers that a host draws from
-    check(group.output(output), "output");
-    std::printf("%u faces, %u clips, %u surface vertices\n", info.faceCount, info.clipCount, output.vertexCount);
+    SuppleGridOutput grid; // what a host draws; suppleGetVertexStreams has the buffers of the vertices
+    check(group.gridOutput(grid), "gridOutput");
+    std::printf("%u faces, %u clips, %u surface vertices\n", info.faceCount, info.clipCount, grid.vertexCount);
 
     uint64_t frame = 1;
     for (; frame <= 10; ++frame) {
@@ -121,7 +121,7 @@ void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer co
         const SuppleSyncScope draws{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
         const SuppleGroup groups[] = {group.handle()};
         check(context.record(commands, groups, draws, draws, SUPPLE_RECORD_TIMINGS), "record");
-        // Here a host draws: one vkCmdDrawIndexedIndirect for each of output.drawRanges.
+        // Here a host draws: one vkCmdDrawIndexedIndirect for each of grid.drawRanges.
         check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
         const VkSubmitInfo submit{
             VK_STRUCTURE_TYPE_SUBMIT_INFO, nullptr, 0, nullptr, nullptr, 1, &commands, 0, nullptr};

@@ -32,10 +32,12 @@ CharacterGroup createGroup(const supple::Context& context, const supple::Asset& 
     desc.rate = rate;
     CharacterGroup created;
     must(supple::Group::create(context, desc, created.group), "the character's surface");
-    must(created.group.output(created.output), "suppleGetGroupOutput");
-    for (uint32_t i = 0; i < created.output.drawRangeCount; ++i) {
+    must(created.group.info(created.info), "suppleGetGroupInfo");
+    must(created.group.vertexStreams(created.streams), "suppleGetVertexStreams");
+    must(created.group.gridOutput(created.grid), "suppleGetGridOutput");
+    for (uint32_t i = 0; i < created.grid.drawRangeCount; ++i) {
         SuppleMaterialInfo material{};
-        const uint32_t index = created.output.drawRanges[i].material;
+        const uint32_t index = created.grid.drawRanges[i].material;
         if (index != SUPPLE_NO_MATERIAL)
             must(asset.materialInfo(index, material), "suppleGetMaterialInfo");
         created.doubleSided.push_back(index == SUPPLE_NO_MATERIAL || material.doubleSided != 0);

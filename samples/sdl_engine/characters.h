@@ -18,7 +18,9 @@ using namespace supple::host;
 /// One of the two groups as the passes draw it.
 struct CharacterGroup {
     supple::Group group;
-    SuppleGroupOutput output{};
+    SuppleGroupInfo info{};
+    SuppleVertexStreams streams{};
+    SuppleGridOutput grid{};
     std::vector<bool> doubleSided; ///< a draw range
 };
 

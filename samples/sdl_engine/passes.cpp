@@ -73,10 +73,11 @@ Passes::Passes(Device& device, Graph& graph, const Characters& characters)
                                       sampledImage(2, sunMap_, plain)});
     }
     for (std::size_t i = 0; i < groupSets_.size(); ++i) {
-        const SuppleGroupOutput& output = characters.groups()[i].output;
+        const SuppleVertexStreams& streams = characters.groups()[i].streams;
         groupSets_[i] = must(pool.allocate(groupLayout));
-        pool.write(groupSets_[i], {storageBuffer(0, output.instances), storageBuffer(1, output.surfaceVertices),
-                                   storageBuffer(2, output.previousPositions), storageBuffer(3, output.attributes)});
+        pool.write(groupSets_[i],
+                   {storageBuffer(0, characters.groups()[i].info.instances), storageBuffer(1, streams.vertices),
+                    storageBuffer(2, streams.previousPositions), storageBuffer(3, streams.attributes)});
     }
 
     shadowPipeline_ = must(createGraphicsPipeline(device, {.layout = layout_,
@@ -154,19 +155,18 @@ void Passes::drawCharacters(VkCommandBuffer commands, VkPipeline pipeline, uint3
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     for (std::size_t i = 0; i < groupSets_.size(); ++i) {
         const CharacterGroup& group = characters_.groups()[i];
-        const SuppleGroupOutput& output = group.output;
+        const SuppleGridOutput& grid = group.grid;
         const VkDescriptorSet sets[] = {frameSets_[slot], groupSets_[i]};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
-        vkCmdBindIndexBuffer(commands, output.gridIndices.buffer, output.gridIndices.offset, VK_INDEX_TYPE_UINT16);
-        for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
-            const SuppleDrawRange& range = output.drawRanges[r];
-            const RangePush push{range.patchCount, range.firstVertex, range.samplesPerPatch,
-                                 output.verticesPerInstance};
+        vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset, VK_INDEX_TYPE_UINT16);
+        for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+            const SuppleDrawRange& range = grid.drawRanges[r];
+            const RangePush push{range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance};
             vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
             vkCmdSetCullMode(commands, cull && !group.doubleSided[r] ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
-            vkCmdDrawIndexedIndirect(commands, output.indirect.buffer,
-                                     output.indirect.offset + VkDeviceSize{r} * output.indirect.stride, 1,
-                                     output.indirect.stride);
+            vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,
+                                     grid.indirect.offset + VkDeviceSize{r} * grid.indirect.stride, 1,
+                                     grid.indirect.stride);
         }
     }
 }

@@ -215,11 +215,11 @@ public:
     [[nodiscard]] static SuppleDepthPyramidDesc pyramidDesc() {
         SuppleDepthPyramidDesc desc{};
         desc.structSize = sizeof(desc);
-        desc.view = reinterpret_cast<VkImageView>(uintptr_t{8});
+        desc.imageView = reinterpret_cast<VkImageView>(uintptr_t{8});
         desc.layout = VK_IMAGE_LAYOUT_GENERAL;
         desc.width = 640;
         desc.height = 360;
-        desc.levels = 10;
+        desc.mipLevels = 10;
         desc.viewProjection[0] = 1.0f;
         return desc;
     }
@@ -782,14 +782,14 @@ void views(Rows& r) {
     };
     pyramid("flags", kBad, kRange, [](Pyramid& p) { p.flags = 2; });
     pyramid("REVERSED", SUPPLE_OK, kSilent, [](Pyramid& p) { p.flags = SUPPLE_DEPTH_REVERSED; });
-    pyramid("view null", kBad, SUPPLE_MESSAGE_NULL_POINTER, [](Pyramid& p) { p.view = VK_NULL_HANDLE; });
+    pyramid("imageView null", kBad, SUPPLE_MESSAGE_NULL_POINTER, [](Pyramid& p) { p.imageView = VK_NULL_HANDLE; });
     pyramid("layout", kBad, kRange, [](Pyramid& p) { p.layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL; });
     pyramid("READ_ONLY_OPTIMAL", SUPPLE_OK, kSilent, [](Pyramid& p) { p.layout = VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL; });
     pyramid("width 0", kBad, kRange, [](Pyramid& p) { p.width = 0; });
     pyramid("height beyond the device's images", kBad, kRange, [](Pyramid& p) { p.height = 0x80000000u; });
-    pyramid("no level", kBad, kRange, [](Pyramid& p) { p.levels = 0; });
-    pyramid("one level", SUPPLE_OK, kSilent, [](Pyramid& p) { p.levels = 1; });
-    pyramid("more levels than there can be", kBad, kRange, [](Pyramid& p) { p.levels = 11; });
+    pyramid("no level", kBad, kRange, [](Pyramid& p) { p.mipLevels = 0; });
+    pyramid("one level", SUPPLE_OK, kSilent, [](Pyramid& p) { p.mipLevels = 1; });
+    pyramid("more levels than there can be", kBad, kRange, [](Pyramid& p) { p.mipLevels = 11; });
     pyramid("viewProjection NaN", kBad, kFinite, [](Pyramid& p) { p.viewProjection[9] = kNan; });
 
     handles(kStatistics, [](World& w, SuppleContext c, SuppleView v) {
@@ -884,19 +884,40 @@ void groups(Rows& r) {
     range("capacity 0", [](Desc& d) { d.capacity = 0; });
     range("rate 65", [](Desc& d) { d.rate = SUPPLE_MAX_RATE + 1; });
     range("flags", [](Desc& d) { d.flags = 16; });
-    range("sharpThreshold negative", [](Desc& d) { d.sharpThreshold = -1.0f; });
-    spoiled("sharpThreshold NaN", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NOT_FINITE,
-            [](Desc& d) { d.sharpThreshold = kNan; });
+    const auto blend = [&](const std::string& what, SuppleResult result, int message, SuppleBlendOptions options) {
+        r.add(kCreate, what, result, message, [=](World& w) {
+            SuppleGroupDesc desc = w.groupDesc();
+            desc.blend = &options;
+            return create(w, &desc);
+        });
+    };
+    const auto prep = [&](const std::string& what, SupplePrepOptions options) {
+        r.add(kCreate, what, SUPPLE_ERROR_ARGUMENT,
+              options.structSize < sizeof(options) ? SUPPLE_MESSAGE_STRUCT_SIZE : SUPPLE_MESSAGE_OUT_OF_RANGE,
+              [=](World& w) {
+                  SuppleGroupDesc desc = w.groupDesc();
+                  desc.prep = &options;
+                  return create(w, &desc);
+              });
+    };
+    constexpr uint32_t kBlendSize = sizeof(SuppleBlendOptions), kPrepSize = sizeof(SupplePrepOptions);
+    blend("sharpThreshold negative", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE,
+          {kBlendSize, SUPPLE_CREASES_CUT, -1.0f});
+    blend("sharpThreshold NaN", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NOT_FINITE,
+          {kBlendSize, SUPPLE_CREASES_CUT, kNan});
+    blend("blend, structSize 0", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_STRUCT_SIZE, {});
+    prep("prep, structSize 0", {});
     for (const int value : {6, 99, 101, -1}) {
         range("scheme " + std::to_string(value), [=](Desc& d) { d.scheme = static_cast<SuppleScheme>(value); });
     }
     for (const int value : {3, -1}) {
         const std::string n = " " + std::to_string(value);
         range("vertexFormat" + n, [=](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(value); });
-        range("tangentMode" + n, [=](Desc& d) { d.tangentMode = static_cast<SuppleTangentMode>(value); });
-        range("cornerRule" + n, [=](Desc& d) { d.cornerRule = static_cast<SuppleCornerRule>(value); });
+        prep("tangentMode" + n, {kPrepSize, static_cast<SuppleTangentMode>(value), SUPPLE_CORNERS_SHARP});
+        prep("cornerRule" + n, {kPrepSize, SUPPLE_TANGENTS_DEFAULT, static_cast<SuppleCornerRule>(value)});
         range("skinning" + n, [=](Desc& d) { d.skinning = static_cast<SuppleSkinning>(value); });
-        range("creaseMode" + n, [=](Desc& d) { d.creaseMode = static_cast<SuppleCreaseMode>(value); });
+        blend("creaseMode" + n, SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE,
+              {kBlendSize, static_cast<SuppleCreaseMode>(value), 0.0f});
     }
     for (const int value : {4, -1}) {
         range("poseSource " + std::to_string(value),
@@ -933,13 +954,36 @@ void groups(Rows& r) {
     r.accept("suppleSetRate", "as it is", [](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, 2); });
     r.add("suppleSetRate", "of a scheme of one rate", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
           [](World& w) { return suppleSetRate(w.handle(), w.mine.subdivision.group, 64); });
-    const auto output = [](World& w, SuppleContext c, SuppleGroup g) {
-        return suppleGetGroupOutput(c, g, w.watched<SuppleGroupOutput>(sizeof(SuppleGroupOutput)));
+    const auto output = [&]<class T>(const char* function, SuppleResult (*get)(SuppleContext, SuppleGroup, T*)) {
+        r.groups(function,
+                 [=](World& w, SuppleContext c, SuppleGroup g) { return get(c, g, w.template watched<T>(sizeof(T))); });
+        const bool levels = std::is_same_v<T, SuppleLevelOutput>;
+        r.output<T>(function,
+                    [=](World& w, T* out) { return get(w.handle(), levels ? w.seen.group : w.mine.main.group, out); });
     };
-    r.groups("suppleGetGroupOutput", output);
-    r.output<SuppleGroupOutput>("suppleGetGroupOutput", [](World& w, SuppleGroupOutput* out) {
-        return suppleGetGroupOutput(w.handle(), w.mine.main.group, out);
+    const auto conflict = [&]<class T>(const char* function, SuppleResult (*get)(SuppleContext, SuppleGroup, T*),
+                                       const char* what, SmallGroup World::*of) {
+        r.refuse(function, what, SUPPLE_MESSAGE_CONFLICT,
+                 [=](World& w) { return get(w.handle(), (w.*of).group, w.template watched<T>(sizeof(T))); });
+    };
+    output("suppleGetGroupInfo", suppleGetGroupInfo);
+    output("suppleGetVertexStreams", suppleGetVertexStreams);
+    output("suppleGetGridOutput", suppleGetGridOutput);
+    output("suppleGetLevelOutput", suppleGetLevelOutput);
+    conflict("suppleGetVertexStreams", suppleGetVertexStreams, "of a cage", &World::spare);
+    conflict("suppleGetGridOutput", suppleGetGridOutput, "of a cage", &World::spare);
+    conflict("suppleGetGridOutput", suppleGetGridOutput, "of levels", &World::seen);
+    conflict("suppleGetLevelOutput", suppleGetLevelOutput, "of a cage", &World::spare);
+    constexpr const char* kBounds = "suppleGetInstanceBounds";
+    r.groups(kBounds, [](World& w, SuppleContext c, SuppleGroup g) {
+        return suppleGetInstanceBounds(c, g, w.plain<SuppleBufferRange>());
     });
+    r.refuse(kBounds, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetInstanceBounds(w.handle(), w.seen.group, nullptr); });
+    r.refuse(kBounds, "without a view", SUPPLE_MESSAGE_CONFLICT,
+             [](World& w) { return suppleGetInstanceBounds(w.handle(), w.spare.group, w.plain<SuppleBufferRange>()); });
+    r.accept(kBounds, "of a view",
+             [](World& w) { return suppleGetInstanceBounds(w.handle(), w.seen.group, w.plain<SuppleBufferRange>()); });
     constexpr const char* kPatches = "suppleGetPatches";
     r.groups(kPatches, [](World& w, SuppleContext c, SuppleGroup g) {
         return suppleGetPatches(c, g, w.plain<SupplePatchInfo>(2), w.number(2));

@@ -146,7 +146,7 @@ TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
             Crowd someCrowd(context, desc);
             ASSERT_TRUE(allCrowd.valid() && someCrowd.valid());
             const SuppleInstance instances[] = {allCrowd.spawn(), someCrowd.spawn()};
-            std::vector<SupplePatchInfo> patches(allCrowd.output().patchCount);
+            std::vector<SupplePatchInfo> patches(allCrowd.output().info.patchCount);
             auto count = static_cast<uint32_t>(patches.size());
             ASSERT_EQ(suppleGetPatches(context.handle(), allCrowd.group(), patches.data(), &count), SUPPLE_OK);
             glm::vec3 low(1e30f), high(-1e30f);
@@ -251,7 +251,7 @@ public:
         EXPECT_TRUE(wholeCrowd_.valid() && leftCrowd_.valid());
         (void)wholeCrowd_.spawn();
         (void)leftCrowd_.spawn();
-        patches.resize(wholeCrowd_.output().patchCount);
+        patches.resize(wholeCrowd_.output().info.patchCount);
         auto count = static_cast<uint32_t>(patches.size());
         EXPECT_EQ(suppleGetPatches(context.handle(), wholeCrowd_.group(), patches.data(), &count), SUPPLE_OK);
     }
@@ -458,7 +458,7 @@ TEST_P(BackFaces, AreCountedAndDoubleSidedOnesStay) {
         EXPECT_EQ(statistics.instanceCount, 3u);
         EXPECT_EQ(statistics.drawnInstanceCount, 3u);
         EXPECT_EQ(statistics.patchCount, drawn);
-        EXPECT_EQ(statistics.backFaceCount, 3 * crowd.output().patchCount - drawn);
+        EXPECT_EQ(statistics.backFaceCount, 3 * crowd.output().info.patchCount - drawn);
         EXPECT_EQ(statistics.backFaceCount == 0, doubleSided);
     }
 }

@@ -50,7 +50,7 @@ TEST_P(BlendOnGpu, SurfaceMatchesTheReference) {
             ASSERT_TRUE(gpu.valid());
             gpu.evaluate();
             const uint32_t patchRate = mesh.refined ? (rate + 1) / 2 : rate;
-            ASSERT_EQ(gpu.output().rate, patchRate);
+            ASSERT_EQ(gpu.output().grid.rate, patchRate);
             const std::vector<uint32_t> faces = blendPatches(mesh, gpu).faces;
             ASSERT_EQ(faces.size(), gpu.patches().size());
             const std::vector<glm::dvec3> positions = doublePositions(cage);
@@ -112,7 +112,7 @@ void compareCharacter(host::Device& device, const std::string& path, const cage:
     evaluateInAPose(gpu, character);
     const PatchFaces found = blendPatches(*mesh, gpu);
     ASSERT_EQ(found.faces.size(), gpu.patches().size());
-    const uint32_t rate = gpu.output().rate;
+    const uint32_t rate = gpu.output().grid.rate;
     const BlendSurface<float> surface(*mesh, gpu.deformedCage(0));
     const surface::blend::Evaluator<float> reference = surface.at(rate);
     ComparedBits bits;

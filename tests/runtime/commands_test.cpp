@@ -142,10 +142,11 @@ Recorded recordOf(CrowdContext& context, const CommandCase& c, uint32_t visible,
             recorded.frames.push_back(
                 {wrapped.dispatches, wrapped.indirectDispatches, wrapped.barriers, wrapped.copies, wrapped.fills});
         }
-        const SuppleGroupOutput output = crowd.output();
-        const auto take = [&](const SuppleBufferView& buffer, uint32_t count) {
+        const host::GroupOutput output = crowd.output();
+        const auto take = [&](const SuppleBufferRange& buffer, uint32_t count) {
             const std::vector<std::byte> bytes = crowd.read(buffer);
-            const size_t each = bytes.size() / output.capacity, own = size_t{count} * buffer.stride; // without padding
+            const size_t each = bytes.size() / output.info.capacity,
+                         own = size_t{count} * buffer.stride; // without padding
             EXPECT_GE(each, own);
             for (size_t first = 0; first < visible * each && own > 0; first += each) {
                 const auto begin = bytes.begin() + static_cast<ptrdiff_t>(first);
@@ -153,17 +154,17 @@ Recorded recordOf(CrowdContext& context, const CommandCase& c, uint32_t visible,
             }
         };
         if (!c.view) {
-            take(output.deformedCage, output.cageVertexCount);
+            take(output.info.deformedCage, output.info.cageVertexCount);
         }
         if (!c.view && c.scheme != SUPPLE_SCHEME_CAGE) {
-            take(output.surfaceVertices, output.vertexCount);
+            take(output.streams.vertices, output.grid.vertexCount);
         }
         if (!c.view && (c.flags & SUPPLE_GROUP_MOTION) != 0) {
-            take(output.previousPositions, output.vertexCount);
+            take(output.streams.previousPositions, output.grid.vertexCount);
         }
         if ((c.flags & SUPPLE_GROUP_ATTRIBUTES) != 0 && !c.view) {
-            std::vector<std::byte> bytes = crowd.read(output.attributes);
-            bytes.resize(size_t{output.vertexCount} * output.attributes.stride);
+            std::vector<std::byte> bytes = crowd.read(output.streams.attributes);
+            bytes.resize(size_t{output.grid.vertexCount} * output.streams.attributes.stride);
             recorded.outputs.push_back(std::move(bytes));
         }
         if (pyramid) {

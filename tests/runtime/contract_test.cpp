@@ -101,9 +101,8 @@ TEST(Contract, OnlyPosesCrossPerFrame) {
         ASSERT_EQ(suppleCreateGroup((*context)->handle(), &groupDesc, &group), SUPPLE_OK);
         std::vector<SuppleInstance> instances;
         ASSERT_TRUE((*context)->createInstances(group, kInstances, instances).ok());
-        SuppleGroupOutput output{};
-        output.structSize = sizeof(output);
-        ASSERT_EQ(suppleGetGroupOutput((*context)->handle(), group, &output), SUPPLE_OK);
+        host::GroupOutput output{};
+        ASSERT_EQ(host::getGroupOutput((*context)->handle(), group, output), SUPPLE_OK);
         ASSERT_TRUE((*context)->evaluate({&group, 1}).ok()); // the first frame uploads the static tables
 
         const uint64_t paletteBytes = uint64_t{kInstances} * info.jointCount * 48;
@@ -125,7 +124,7 @@ TEST(Contract, OnlyPosesCrossPerFrame) {
             EXPECT_EQ(counts.copies, listed ? 4u : 1u) << "poses; the two lists of instances, draws";
             EXPECT_EQ(counts.copiedBytes,
                       paletteBytes +
-                          (listed ? uint64_t{kInstances} * 8 + uint64_t{output.drawRangeCount} * 20 : uint64_t{0}))
+                          (listed ? uint64_t{kInstances} * 8 + uint64_t{output.grid.drawRangeCount} * 20 : uint64_t{0}))
                 << "joint palettes, who is drawn, and nothing else";
         }
         std::printf("%llu bytes cross per frame: %u instances x %u joints x 48\n",
@@ -233,7 +232,7 @@ TEST(Contract, InstancesHaveTheirOwnPoseAndTransform) {
     ASSERT_EQ(suppleSetClipPose(context, alone.instance(0), 1, 0.9), SUPPLE_OK);
     alone.evaluate();
     double moved = 0.0, turned = 0.0;
-    for (uint32_t p = 0; p < three.output().patchCount; ++p) {
+    for (uint32_t p = 0; p < three.output().info.patchCount; ++p) {
         for (uint32_t s = 0; s < three.sampleCount(p); ++s) {
             const GpuSurface::Vertex &a = alone.vertex(0, p, s), &b = three.vertex(1, p, s), &c = three.vertex(2, p, s);
             ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << "an instance's bits depend on its neighbours";
@@ -270,7 +269,7 @@ TEST(Contract, MatrixPosesEqualClipPoses) {
         SUPPLE_OK);
     gpu.evaluate();
     double worst = 0.0;
-    for (uint32_t v = 0; v < gpu.output().cageVertexCount; ++v) {
+    for (uint32_t v = 0; v < gpu.output().info.cageVertexCount; ++v) {
         worst = std::max<double>(worst, glm::length(gpu.deformed(0, v) - gpu.deformed(1, v)));
     }
     EXPECT_LT(worst, 1e-6);
@@ -352,12 +351,16 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
         EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << scheme;
     }
     groupDesc.scheme = SUPPLE_SCHEME_BLEND;
-    groupDesc.sharpThreshold = -1.0f;
+    SuppleBlendOptions blend{sizeof(blend), SUPPLE_CREASES_CUT, -1.0f};
+    groupDesc.blend = &blend;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
-    groupDesc.sharpThreshold = 0.0f;
-    groupDesc.creaseMode = static_cast<SuppleCreaseMode>(2);
+    blend.sharpThreshold = 0.0f;
+    blend.creaseMode = static_cast<SuppleCreaseMode>(2);
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
-    groupDesc.creaseMode = SUPPLE_CREASES_CUT;
+    blend.creaseMode = SUPPLE_CREASES_CUT;
+    blend.structSize = 4;
+    EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
+    groupDesc.blend = nullptr;
     groupDesc.scheme = SUPPLE_SCHEME_AUTO;
     groupDesc.structSize = 4;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT);
@@ -372,9 +375,9 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     EXPECT_EQ(suppleBeginFrame(context, 0, 0), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleBeginFrame(context, 5, 0), SUPPLE_ERROR_ARGUMENT) << "more in flight than the context keeps";
     EXPECT_EQ(suppleBeginFrame(context, 5, 5), SUPPLE_ERROR_ARGUMENT);
-    SuppleGroupOutput output{};
-    EXPECT_EQ(suppleGetGroupOutput(context, c.group, &output), SUPPLE_ERROR_ARGUMENT) << "structSize is 0";
-    EXPECT_EQ(suppleGetGroupOutput(context, {12345}, &output), SUPPLE_ERROR_ARGUMENT);
+    host::GroupOutput output{};
+    EXPECT_EQ(suppleGetGroupInfo(context, c.group, &output.info), SUPPLE_ERROR_ARGUMENT) << "structSize is 0";
+    EXPECT_EQ(host::getGroupOutput(context, {12345}, output), SUPPLE_ERROR_ARGUMENT);
     uint32_t count = 0;
     EXPECT_EQ(suppleGetTimings(context, nullptr, &count), SUPPLE_NOT_READY);
     EXPECT_TRUE((*created)->evaluate({&c.group, 1}).ok()) << "and it still works";
@@ -404,16 +407,16 @@ TEST(Contract, TheCageAloneNeedsNoScheme) {
     std::vector<SuppleInstance> instances;
     ASSERT_TRUE((*created)->createInstances(group, 2, instances).ok());
     ASSERT_TRUE((*created)->evaluate({&group, 1}, SUPPLE_RECORD_TIMINGS).ok());
-    SuppleGroupOutput output{};
-    output.structSize = sizeof(output);
-    ASSERT_EQ(suppleGetGroupOutput((*created)->handle(), group, &output), SUPPLE_OK);
-    EXPECT_EQ(output.patchCount, 0u);
-    EXPECT_EQ(output.surfaceVertices.buffer, VkBuffer{VK_NULL_HANDLE});
-    const Result<std::vector<std::byte>> bytes = device->readBuffer(output.deformedCage);
+    host::GroupOutput output{};
+    ASSERT_EQ(host::getGroupOutput((*created)->handle(), group, output), SUPPLE_OK);
+    EXPECT_EQ(output.info.patchCount, 0u);
+    EXPECT_EQ(output.streams.vertices.buffer, VkBuffer{VK_NULL_HANDLE});
+    const Result<std::vector<std::byte>> bytes = device->readBuffer(output.info.deformedCage);
     ASSERT_TRUE(bytes.ok());
     for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
-        EXPECT_EQ(std::memcmp(bytes->data() + 16 * size_t{output.cageVerticesPerInstance + v}, &cage.positions[v], 12),
-                  0);
+        EXPECT_EQ(
+            std::memcmp(bytes->data() + 16 * size_t{output.info.cageVerticesPerInstance + v}, &cage.positions[v], 12),
+            0);
     }
 }
 
@@ -548,16 +551,15 @@ TEST(Contract, LargeGroupsAreWindowsOfInstances) {
                               SUPPLE_OK);
                 }
                 ASSERT_TRUE((*context)->evaluate({&c.group, 1}).ok());
-                SuppleGroupOutput output{};
-                output.structSize = sizeof(output);
-                ASSERT_EQ(suppleGetGroupOutput((*context)->handle(), c.group, &output), SUPPLE_OK);
-                EXPECT_GT(output.surfaceVertices.size, 4u << 16) << "too small to need windows";
-                Result<std::vector<std::byte>> bytes = device->readBuffer(output.surfaceVertices);
+                host::GroupOutput output{};
+                ASSERT_EQ(host::getGroupOutput((*context)->handle(), c.group, output), SUPPLE_OK);
+                EXPECT_GT(output.streams.vertices.size, 4u << 16) << "too small to need windows";
+                Result<std::vector<std::byte>> bytes = device->readBuffer(output.streams.vertices);
                 ASSERT_TRUE(bytes.ok());
                 // Padding between instances is never written.
-                const size_t used = size_t{output.vertexCount} * 16;
+                const size_t used = size_t{output.grid.vertexCount} * 16;
                 for (uint32_t i = 0; i < kInstances; ++i) {
-                    const std::byte* first = bytes->data() + size_t{i} * output.verticesPerInstance * 16;
+                    const std::byte* first = bytes->data() + size_t{i} * output.grid.verticesPerInstance * 16;
                     results[small ? 1 : 0].insert(results[small ? 1 : 0].end(), first, first + used);
                 }
             }
@@ -576,14 +578,13 @@ TEST(Contract, FramesInFlightKeepTheirOwnPoses) {
     SuppleContext context = (*created)->handle();
     Character c = makeCharacter(context);
     ASSERT_EQ(c.result, SUPPLE_OK);
-    SuppleGroupOutput output{};
-    output.structSize = sizeof(output);
-    ASSERT_EQ(suppleGetGroupOutput(context, c.group, &output), SUPPLE_OK);
+    host::GroupOutput output{};
+    ASSERT_EQ(host::getGroupOutput(context, c.group, output), SUPPLE_OK);
     Result<host::Buffer> copies[2] = {
-        device->createBuffer(output.deformedCage.size,
+        device->createBuffer(output.info.deformedCage.size,
                              VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                              host::MemoryKind::device),
-        device->createBuffer(output.deformedCage.size,
+        device->createBuffer(output.info.deformedCage.size,
                              VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                              host::MemoryKind::device)};
     ASSERT_TRUE(copies[0].ok() && copies[1].ok());
@@ -604,22 +605,22 @@ TEST(Contract, FramesInFlightKeepTheirOwnPoses) {
                     desc.before = copy;
                     desc.after = copy;
                     EXPECT_EQ(suppleRecord(context, commands, &desc), SUPPLE_OK);
-                    const VkBufferCopy region{0, 0, output.deformedCage.size};
-                    vkCmdCopyBuffer(commands, output.deformedCage.buffer, copies[frame - 1]->handle(), 1, &region);
+                    const VkBufferCopy region{0, 0, output.info.deformedCage.size};
+                    vkCmdCopyBuffer(commands, output.info.deformedCage.buffer, copies[frame - 1]->handle(), 1, &region);
                 }
             })
             .ok());
     for (uint32_t frame = 1; frame <= 2; ++frame) {
         const Result<std::vector<std::byte>> bytes =
-            device->readBuffer(copies[frame - 1]->handle(), 0, output.deformedCage.size);
+            device->readBuffer(copies[frame - 1]->handle(), 0, output.info.deformedCage.size);
         ASSERT_TRUE(bytes.ok());
         float sum = 0.0f;
-        for (uint32_t v = 0; v < output.cageVertexCount; ++v) {
+        for (uint32_t v = 0; v < output.info.cageVertexCount; ++v) {
             float x = 0.0f;
             std::memcpy(&x, bytes->data() + 16 * size_t{v}, 4);
             sum += x;
         }
-        EXPECT_NEAR(sum / static_cast<float>(output.cageVertexCount), 10.0f * static_cast<float>(frame), 1e-3f);
+        EXPECT_NEAR(sum / static_cast<float>(output.info.cageVertexCount), 10.0f * static_cast<float>(frame), 1e-3f);
     }
 }
 
@@ -660,11 +661,11 @@ TEST(Contract, MappingsSkinAndEvaluateManyInstancesAlike) {
     wide.evaluate();
     uint64_t different = 0;
     for (uint32_t i = 0; i < 3; ++i) {
-        for (uint32_t v = 0; v < narrow.output().cageVertexCount; ++v) {
+        for (uint32_t v = 0; v < narrow.output().info.cageVertexCount; ++v) {
             const glm::vec3 a = narrow.deformed(i, v), b = wide.deformed(i, v);
             different += std::memcmp(&a, &b, sizeof(a)) != 0 ? 1 : 0;
         }
-        for (uint32_t p = 0; p < narrow.output().patchCount; ++p) {
+        for (uint32_t p = 0; p < narrow.output().info.patchCount; ++p) {
             for (uint32_t s = 0; s < narrow.sampleCount(p); ++s) {
                 different += std::memcmp(&narrow.vertex(i, p, s).position, &wide.vertex(i, p, s).position, 12) != 0;
             }

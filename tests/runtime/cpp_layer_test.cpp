@@ -84,12 +84,22 @@ TEST(CppLayer, OwnsWhatItMakes) {
     ASSERT_EQ(context.beginFrame(3, 2), SUPPLE_OK);
     EXPECT_EQ(context.timings(timings), SUPPLE_OK);
     EXPECT_FALSE(timings.empty());
-    SuppleGroupOutput output;
-    ASSERT_EQ(group.output(output), SUPPLE_OK);
-    EXPECT_EQ(output.patchCount, 6u);
+    SuppleGroupInfo info;
+    ASSERT_EQ(group.info(info), SUPPLE_OK);
+    EXPECT_EQ(info.patchCount, 6u);
+    SuppleVertexStreams streams;
+    SuppleGridOutput grid;
+    SuppleLevelOutput levels;
+    SuppleBufferRange bounds;
+    EXPECT_EQ(group.vertexStreams(streams), SUPPLE_OK);
+    EXPECT_NE(streams.vertices.buffer, VkBuffer{VK_NULL_HANDLE});
+    EXPECT_EQ(group.gridOutput(grid), SUPPLE_OK);
+    EXPECT_GT(grid.drawRangeCount, 0u);
+    EXPECT_EQ(group.levelOutput(levels), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(group.instanceBounds(bounds), SUPPLE_ERROR_ARGUMENT);
     supple::Group moved = std::move(group);
-    EXPECT_EQ(group.output(output), SUPPLE_ERROR_ARGUMENT) << "moved from";
-    EXPECT_EQ(moved.output(output), SUPPLE_OK);
+    EXPECT_EQ(group.info(info), SUPPLE_ERROR_ARGUMENT) << "moved from";
+    EXPECT_EQ(moved.info(info), SUPPLE_OK);
 }
 
 } // namespace

@@ -18,7 +18,7 @@ namespace {
 constexpr uint32_t kShared = SUPPLE_GROUP_INDEXED_MESH;
 
 std::vector<uint32_t> readIndices(const GpuSurface& gpu) {
-    const SuppleBufferView& view = gpu.output().gridIndices;
+    const SuppleBufferRange& view = gpu.output().indices();
     EXPECT_EQ(view.stride, 4u);
     const Result<std::vector<std::byte>> bytes = testDevice()->readBuffer(view);
     EXPECT_TRUE(bytes.ok());
@@ -31,15 +31,15 @@ std::vector<uint32_t> readIndices(const GpuSurface& gpu) {
 /// sample that no triangle has, as one of the many at a polar patch's apex, has none.
 std::vector<std::vector<uint32_t>> sharedVertices(const GpuSurface& grid, const GpuSurface& shared,
                                                   const std::vector<uint32_t>& indices) {
-    const uint32_t rate = grid.output().rate;
+    const uint32_t rate = grid.output().grid.rate;
     std::vector<std::vector<uint32_t>> vertices(grid.patches().size());
     std::map<uint32_t, uint32_t> next; // by material: the first index not yet taken
-    for (uint32_t r = 0; r < shared.output().drawRangeCount; ++r) {
-        const SuppleDrawRange& range = shared.output().drawRanges[r];
+    for (uint32_t r = 0; r < shared.output().grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = shared.output().grid.drawRanges[r];
         EXPECT_EQ(range.domain, SUPPLE_DOMAIN_MESH);
         EXPECT_EQ(range.patchCount, 1u);
         EXPECT_EQ(range.firstVertex, 0u);
-        EXPECT_EQ(range.samplesPerPatch, shared.output().vertexCount);
+        EXPECT_EQ(range.samplesPerPatch, shared.output().grid.vertexCount);
         EXPECT_TRUE(next.emplace(range.material, range.firstIndex).second) << "one range a material";
     }
     for (uint32_t p = 0; p < vertices.size(); ++p) {
@@ -49,14 +49,14 @@ std::vector<std::vector<uint32_t>> sharedVertices(const GpuSurface& grid, const 
         uint32_t& first = next.at(range.material);
         for (const uint16_t sample : own) {
             const uint32_t vertex = indices.at(first++);
-            EXPECT_LT(vertex, shared.output().vertexCount);
+            EXPECT_LT(vertex, shared.output().grid.vertexCount);
             uint32_t& known = vertices[p][sample];
             EXPECT_TRUE(known == cage::kNone || known == vertex) << "patch " << p << ", sample " << sample;
             known = vertex;
         }
     }
-    for (uint32_t r = 0; r < shared.output().drawRangeCount; ++r) {
-        const SuppleDrawRange& range = shared.output().drawRanges[r];
+    for (uint32_t r = 0; r < shared.output().grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = shared.output().grid.drawRanges[r];
         EXPECT_EQ(next.at(range.material), range.firstIndex + range.indexCount);
     }
     return vertices;
@@ -92,9 +92,9 @@ template <class Singular>
 void compareSamples(const GpuSurface& grid, const GpuSurface& shared, Compared& all, Singular&& singular) {
     const std::vector<uint32_t> indices = readIndices(shared);
     const std::vector<std::vector<uint32_t>> vertices = sharedVertices(grid, shared, indices);
-    const uint32_t rate = grid.output().rate;
+    const uint32_t rate = grid.output().grid.rate;
     std::map<uint32_t, std::vector<bool>> borders; // by domain
-    std::vector<bool> used(shared.output().vertexCount, false);
+    std::vector<bool> used(shared.output().grid.vertexCount, false);
     for (uint32_t p = 0; p < vertices.size(); ++p) {
         const auto domain = static_cast<surface::Domain>(grid.rangeOf(p).domain);
         std::vector<bool>& border = borders[static_cast<uint32_t>(domain)];
@@ -195,7 +195,7 @@ TEST_P(IndexedMesh, PrepHasTheGridsBits) {
                 EXPECT_EQ(openSegments(readIndices(shared)), boundary * rate);
                 // Euler: V - E + F of the cage is that of the mesh.
                 const uint64_t r = rate, faces = named.cage.faceCount(), edges = topology->edges.size();
-                EXPECT_EQ(shared.output().vertexCount,
+                EXPECT_EQ(shared.output().grid.vertexCount,
                           faces * (r - 1) * (r - 1) + edges * (r - 1) + named.cage.vertexCount());
             }
         }
@@ -267,15 +267,15 @@ TEST_P(IndexedMesh, PmHasTheGridsBits) {
 void compareAttributes(const GpuSurface& grid, const GpuSurface& shared) {
     const std::vector<std::vector<uint32_t>> vertices = sharedVertices(grid, shared, readIndices(shared));
     uint64_t samples = 0, different = 0;
-    const auto compare = [&](SuppleBufferView SuppleGroupOutput::*view) {
-        const SuppleBufferView &a = grid.output().*view, &b = shared.output().*view;
+    const auto compare = [&](SuppleBufferRange SuppleVertexStreams::*view) {
+        const SuppleBufferRange &a = grid.output().streams.*view, &b = shared.output().streams.*view;
         ASSERT_EQ(a.buffer == VK_NULL_HANDLE, b.buffer == VK_NULL_HANDLE);
         if (a.buffer == VK_NULL_HANDLE) {
             return;
         }
         const Result<std::vector<std::byte>> of = testDevice()->readBuffer(a), as = testDevice()->readBuffer(b);
         ASSERT_TRUE(of.ok() && as.ok());
-        ASSERT_GE(as->size(), size_t{shared.output().vertexCount} * b.stride);
+        ASSERT_GE(as->size(), size_t{shared.output().grid.vertexCount} * b.stride);
         for (uint32_t p = 0; p < vertices.size(); ++p) {
             for (uint32_t s = 0; s < vertices[p].size(); ++s) {
                 if (vertices[p][s] != cage::kNone) {
@@ -288,9 +288,9 @@ void compareAttributes(const GpuSurface& grid, const GpuSurface& shared) {
             }
         }
     };
-    compare(&SuppleGroupOutput::attributes);
-    compare(&SuppleGroupOutput::uvs1);
-    compare(&SuppleGroupOutput::faceUvs);
+    compare(&SuppleVertexStreams::attributes);
+    compare(&SuppleVertexStreams::uvs1);
+    compare(&SuppleVertexStreams::faceUvs);
     std::printf("%llu attributes, %llu differ\n", static_cast<unsigned long long>(samples),
                 static_cast<unsigned long long>(different));
     EXPECT_GT(samples, 0u);
@@ -333,7 +333,7 @@ TEST_P(IndexedMesh, CharactersInAPose) {
                 // As many as P_m's two sides are apart beside sharp creases (characters_gpu_test.cpp).
                 EXPECT_LE(all.border, 0.05);
                 openSegments(readIndices(shared));
-                vertices[attributes != 0 ? 1 : 0] = shared3.output().vertexCount;
+                vertices[attributes != 0 ? 1 : 0] = shared3.output().grid.vertexCount;
                 if (attributes != 0) {
                     compareAttributes(gridded, shared);
                 }
@@ -363,7 +363,7 @@ TEST_P(IndexedMesh, FormatsInstancesAndDraws) {
     packed.evaluate();
     double worst = 0.0;
     for (const uint32_t instance : {0u, 2u}) {
-        for (uint32_t v = 0; v < full.output().vertexCount; ++v) {
+        for (uint32_t v = 0; v < full.output().grid.vertexCount; ++v) {
             const GpuSurface::Vertex &a = full.sharedVertex(instance, v), &b = packed.sharedVertex(instance, v);
             ASSERT_EQ(std::memcmp(&a.position, &b.position, 12), 0);
             raise(worst, angleDegrees(a.normal, b.normal));
@@ -371,8 +371,8 @@ TEST_P(IndexedMesh, FormatsInstancesAndDraws) {
         }
     }
     EXPECT_LE(worst, 0.005);
-    ASSERT_EQ(packed.output().drawRangeCount, 1u);
-    const Result<std::vector<std::byte>> bytes = testDevice()->readBuffer(packed.output().indirect);
+    ASSERT_EQ(packed.output().grid.drawRangeCount, 1u);
+    const Result<std::vector<std::byte>> bytes = testDevice()->readBuffer(packed.output().indirect());
     ASSERT_TRUE(bytes.ok());
     VkDrawIndexedIndirectCommand draw{};
     std::memcpy(&draw, bytes->data(), sizeof(draw));

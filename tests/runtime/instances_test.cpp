@@ -124,12 +124,12 @@ TEST_F(Instances, WhoIsVisibleIsListedDrawnAndWritten) {
         desc.flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_MOTION;
         Crowd crowd(own, desc);
         ASSERT_TRUE(crowd.valid());
-        const SuppleGroupOutput output = crowd.output();
-        EXPECT_GT(output.drawRangeCount, 1u);
-        EXPECT_EQ(output.capacity, kCapacity);
-        EXPECT_EQ(output.instances.size, kCapacity * sizeof(uint32_t));
-        const SuppleBufferView views[] = {output.surfaceVertices, output.previousPositions, output.deformedCage,
-                                          output.patchCoefficients};
+        const host::GroupOutput output = crowd.output();
+        EXPECT_GT(output.grid.drawRangeCount, 1u);
+        EXPECT_EQ(output.info.capacity, kCapacity);
+        EXPECT_EQ(output.info.instances.size, kCapacity * sizeof(uint32_t));
+        const SuppleBufferRange views[] = {output.streams.vertices, output.streams.previousPositions,
+                                           output.info.deformedCage, output.info.patchCoefficients};
         std::map<uint32_t, SuppleInstance> members;
         const auto shown = [&](const std::set<uint32_t>& visible, float at) {
             for (const auto& [slot, instance] : members) {
@@ -138,17 +138,17 @@ TEST_F(Instances, WhoIsVisibleIsListedDrawnAndWritten) {
                 crowd.pose(instance, 0, at, placedAt({at, static_cast<float>(slot), 0.0f}));
             }
             std::vector<std::vector<std::byte>> before;
-            for (const SuppleBufferView& view : views) {
+            for (const SuppleBufferRange& view : views) {
                 before.push_back(crowd.read(view));
             }
             crowd.run();
             EXPECT_EQ(crowd.listed(), std::vector<uint32_t>(visible.begin(), visible.end()));
             const std::vector<VkDrawIndexedIndirectCommand> draws = crowd.draws();
-            ASSERT_EQ(draws.size(), output.drawRangeCount);
-            for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
-                EXPECT_EQ(draws[r].instanceCount, output.drawRanges[r].patchCount * visible.size());
-                EXPECT_EQ(draws[r].indexCount, output.drawRanges[r].indexCount);
-                EXPECT_EQ(draws[r].firstIndex, output.drawRanges[r].firstIndex);
+            ASSERT_EQ(draws.size(), output.grid.drawRangeCount);
+            for (uint32_t r = 0; r < output.grid.drawRangeCount; ++r) {
+                EXPECT_EQ(draws[r].instanceCount, output.grid.drawRanges[r].patchCount * visible.size());
+                EXPECT_EQ(draws[r].indexCount, output.grid.drawRanges[r].indexCount);
+                EXPECT_EQ(draws[r].firstIndex, output.grid.drawRanges[r].firstIndex);
                 EXPECT_EQ(draws[r].vertexOffset, 0);
                 EXPECT_EQ(draws[r].firstInstance, 0u);
             }
@@ -233,11 +233,12 @@ public:
             base_[rate] = asPositions(alone.positions(0));
         }
         output_ = crowd_.output();
-        sizes_ = {output_.surfaceVertices, output_.previousPositions, output_.instances, output_.indirect};
+        sizes_ = {output_.streams.vertices, output_.streams.previousPositions, output_.info.instances,
+                  output_.indirect()};
         for (uint32_t i = 0; i < framesInFlight; ++i) {
             flights_.push_back(std::make_unique<Flight>(context.device()));
             VkDeviceSize bytes = 0;
-            for (const SuppleBufferView& view : sizes_) {
+            for (const SuppleBufferRange& view : sizes_) {
                 bytes += view.size;
             }
             Result<host::Buffer> copy =
@@ -383,15 +384,15 @@ private:
         const SuppleGroup group = crowd_.group();
         EXPECT_EQ(context_.record(commands, {&group, 1}), SUPPLE_OK);
         VkDeviceSize at = 0;
-        for (const SuppleBufferView& view : sizes_) {
+        for (const SuppleBufferRange& view : sizes_) {
             const VkBufferCopy region{view.offset, at, view.size};
             vkCmdCopyBuffer(commands, view.buffer, flight.copy.handle(), 1, &region);
             at += view.size;
         }
         host::memoryBarrier(commands, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                             {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
-        const SuppleGroupOutput now = crowd_.output();
-        Shown shown{now.rate, {now.drawRanges, now.drawRanges + now.drawRangeCount}, {}};
+        const host::GroupOutput now = crowd_.output();
+        Shown shown{now.grid.rate, {now.grid.drawRanges, now.grid.drawRanges + now.grid.drawRangeCount}, {}};
         for (auto& [slot, member] : members_) {
             if (member.visible) {
                 shown.members[slot] = member;
@@ -434,7 +435,7 @@ private:
             uint32_t listed = 0;
             std::memcpy(&listed, list + sizeof(listed) * entry++, sizeof(listed));
             EXPECT_EQ(listed, slot);
-            const size_t first = size_t{slot} * output_.verticesPerInstance;
+            const size_t first = size_t{slot} * output_.grid.verticesPerInstance;
             float wrong = 0.0f, wrongPast = 0.0f;
             for (size_t v = 0; v < base.size(); ++v) {
                 glm::vec3 now, before;
@@ -456,8 +457,8 @@ private:
     uint32_t inFlight_;
     std::mt19937 random_;
     Crowd crowd_;
-    SuppleGroupOutput output_{};
-    std::vector<SuppleBufferView> sizes_;
+    host::GroupOutput output_{};
+    std::vector<SuppleBufferRange> sizes_;
     std::map<uint32_t, std::vector<glm::vec3>> base_; ///< by rate: the sphere at its place
     std::map<uint32_t, Member> members_;
     uint32_t rate_ = kMaxRate, moves_ = 0;

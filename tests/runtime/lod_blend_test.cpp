@@ -67,7 +67,9 @@ TEST_P(LodBlend, RandomLevelsAreTheReferences) {
         ASSERT_TRUE(character.ok());
         SuppleGroupDesc desc{};
         desc.scheme = SUPPLE_SCHEME_BLEND;
-        desc.creaseMode = mode == CreaseMode::curve ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT;
+        const SuppleBlendOptions blend{sizeof(blend),
+                                       mode == CreaseMode::curve ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT, 0.0f};
+        desc.blend = &blend;
         std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(*character), desc);
         ASSERT_TRUE(drawn.has_value());
         nameCorners(mesh, drawn->patches);
@@ -134,7 +136,9 @@ TEST_P(LodBlend, BothSidesOfAnEdgeAskForTheSame) {
         ASSERT_TRUE(character.ok());
         SuppleGroupDesc desc{};
         desc.scheme = SUPPLE_SCHEME_BLEND;
-        desc.creaseMode = mode == CreaseMode::curve ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT;
+        const SuppleBlendOptions blend{sizeof(blend),
+                                       mode == CreaseMode::curve ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT, 0.0f};
+        desc.blend = &blend;
         std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(*character), desc);
         ASSERT_TRUE(drawn.has_value());
         nameCorners(blendMesh(entry.cage, {mode, 1.0f}), drawn->patches);

@@ -90,7 +90,8 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
                 desc.asset = context.asset(path);
                 desc.capacity = 1;
                 desc.scheme = c.scheme;
-                desc.creaseMode = c.creases;
+                const SuppleBlendOptions blend{sizeof(blend), c.creases, 0.0f};
+                desc.blend = &blend;
                 desc.view = view;
                 Crowd crowd(context, desc);
                 ASSERT_TRUE(crowd.valid()) << name;
@@ -177,7 +178,8 @@ TEST(LodRandom, LevelsAndCapacitiesLeaveNoCracks) {
                 const cage::Cage cage = character->cage;
                 SuppleGroupDesc desc{};
                 desc.scheme = c.scheme;
-                desc.creaseMode = c.creases;
+                const SuppleBlendOptions blend{sizeof(blend), c.creases, 0.0f};
+                desc.blend = &blend;
                 std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(*character), desc);
                 if (!drawn) {
                     continue; // the test above prints which cages a scheme refuses, and why

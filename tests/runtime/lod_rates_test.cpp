@@ -48,7 +48,7 @@ struct RateOutput {
 
 /// A group's outputs, read back.
 struct Written {
-    SuppleGroupOutput output{};
+    host::GroupOutput output{};
     std::vector<RateOutput> rates;
     std::vector<std::byte> vertices, previous, attributes, uvs1;
 
@@ -60,14 +60,14 @@ struct Written {
         return {begin, begin + static_cast<ptrdiff_t>(count * stride)};
     }
     [[nodiscard]] size_t firstVertex(uint32_t slot, size_t r) const {
-        return size_t{slot} * output.verticesPerInstance + rates[r].ranges.front().firstVertex;
+        return size_t{slot} * output.grid.verticesPerInstance + rates[r].ranges.front().firstVertex;
     }
     [[nodiscard]] size_t vertexCount(size_t r) const {
         const SuppleDrawRange& last = rates[r].ranges.back();
         return last.firstVertex + size_t{last.patchCount} * last.samplesPerPatch - rates[r].ranges.front().firstVertex;
     }
     [[nodiscard]] std::vector<std::byte> verticesOf(uint32_t slot, size_t r) const {
-        return part(vertices, output.surfaceVertices.stride, firstVertex(slot, r), vertexCount(r));
+        return part(vertices, output.streams.vertices.stride, firstVertex(slot, r), vertexCount(r));
     }
     [[nodiscard]] std::vector<std::byte> previousOf(uint32_t slot, size_t r) const {
         return part(previous, 12, firstVertex(slot, r), vertexCount(r));
@@ -76,7 +76,7 @@ struct Written {
     [[nodiscard]] std::vector<std::byte> positionsOf(uint32_t slot, size_t r) const {
         std::vector<std::byte> positions;
         for (size_t v = firstVertex(slot, r), end = v + vertexCount(r); v < end; ++v) {
-            const std::vector<std::byte> one = part(vertices, 1, v * output.surfaceVertices.stride, 12);
+            const std::vector<std::byte> one = part(vertices, 1, v * output.streams.vertices.stride, 12);
             positions.insert(positions.end(), one.begin(), one.end());
         }
         return positions;
@@ -98,20 +98,20 @@ enum class Parts { all, lists };
 Written readBack(const Crowd& crowd, Parts parts = Parts::all) {
     Written written;
     written.output = crowd.output();
-    const SuppleGroupOutput& o = written.output;
+    const host::GroupOutput& o = written.output;
     if (parts == Parts::all) {
-        written.vertices = crowd.read(o.surfaceVertices);
-        written.previous = crowd.read(o.previousPositions);
-        written.attributes = crowd.read(o.attributes);
-        written.uvs1 = crowd.read(o.uvs1);
+        written.vertices = crowd.read(o.streams.vertices);
+        written.previous = crowd.read(o.streams.previousPositions);
+        written.attributes = crowd.read(o.streams.attributes);
+        written.uvs1 = crowd.read(o.streams.uvs1);
     }
     const std::vector<VkDrawIndexedIndirectCommand> draws = crowd.draws();
-    EXPECT_EQ(draws.size(), o.drawRangeCount);
-    for (uint32_t r = 0; r < o.rateCount; ++r) {
+    EXPECT_EQ(draws.size(), o.grid.drawRangeCount);
+    for (uint32_t r = 0; r < o.grid.rateCount; ++r) {
         RateOutput& rate = written.rates.emplace_back();
-        rate.rate = o.rates[r];
+        rate.rate = o.grid.rates[r];
         for (uint32_t d = 0; d < rate.rate.drawRangeCount; ++d) {
-            rate.ranges.push_back(o.drawRanges[rate.rate.firstDrawRange + d]);
+            rate.ranges.push_back(o.grid.drawRanges[rate.rate.firstDrawRange + d]);
             rate.draws.push_back(draws[rate.rate.firstDrawRange + d]);
         }
         rate.slots.resize(rate.draws.front().instanceCount / rate.ranges.front().patchCount);
@@ -140,7 +140,7 @@ std::vector<uint32_t> allSlots(const Crowd& crowd, const Written& written) {
         count += rate.slots.size();
     }
     std::vector<uint32_t> slots(count);
-    const std::vector<std::byte> bytes = crowd.read(written.output.instances);
+    const std::vector<std::byte> bytes = crowd.read(written.output.info.instances);
     if (count > 0) {
         std::memcpy(slots.data(), bytes.data(), count * 4);
     }
@@ -150,10 +150,10 @@ std::vector<uint32_t> allSlots(const Crowd& crowd, const Written& written) {
 /// The level of an instance by its deformed cage, in double.
 double levelOf(const Crowd& crowd, uint32_t slot, const cage::Cage& bindPose, const SuppleCameraDesc& camera) {
     const surface::lod::InstanceMeasure measure = surface::lod::measureInstance(bindPose);
-    const SuppleGroupOutput output = crowd.output();
-    const std::vector<std::byte> bytes = crowd.slotBytes(output.deformedCage, slot);
+    const host::GroupOutput output = crowd.output();
+    const std::vector<std::byte> bytes = crowd.slotBytes(output.info.deformedCage, slot);
     glm::dvec3 low(1e30), high(-1e30);
-    for (uint32_t v = 0; v < output.cageVertexCount; ++v) {
+    for (uint32_t v = 0; v < output.info.cageVertexCount; ++v) {
         glm::vec3 p;
         std::memcpy(&p, bytes.data() + size_t{16} * v, sizeof(p));
         low = glm::min(low, glm::dvec3(p));
@@ -174,7 +174,7 @@ public:
         SuppleGroupDesc own = desc;
         own.view = {};
         own.flags = flags;
-        for (uint32_t r = 0; r < crowd.output().rateCount; ++r) {
+        for (uint32_t r = 0; r < crowd.output().grid.rateCount; ++r) {
             own.rate = firstRate << r;
             twins_.push_back(std::make_unique<Crowd>(crowd.context(), own));
         }
@@ -277,8 +277,8 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
         Crowd crowd(context, desc);
         ASSERT_TRUE(crowd.valid());
         const uint32_t rates = static_cast<uint32_t>(std::countr_zero(c.rate) - std::countr_zero(c.firstRate)) + 1;
-        ASSERT_EQ(crowd.output().rateCount, rates);
-        ASSERT_EQ(crowd.output().lodDrawCount, 0u);
+        ASSERT_EQ(crowd.output().grid.rateCount, rates);
+        ASSERT_EQ(crowd.output().levels.drawCount, 0u);
         Twins twins(crowd, desc, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, c.firstRate);
         for (uint32_t i = 0; i < c.instances; ++i) {
             twins.spawn();
@@ -305,7 +305,7 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
             for (uint32_t r = 0; r < rates; ++r) {
                 alone.push_back(readBack(twins.at(r)));
                 ASSERT_EQ(alone[r].rates.size(), 1u);
-                ASSERT_EQ(alone[r].output.rate, written.rates[r].rate.rate) << "rate " << r;
+                ASSERT_EQ(alone[r].output.grid.rate, written.rates[r].rate.rate) << "rate " << r;
                 ASSERT_EQ(alone[r].rates[0].slots.size(), twins.size());
                 ASSERT_EQ(written.rates[r].rate.drawRangeCount, alone[r].rates[0].rate.drawRangeCount);
                 for (size_t d = 0; d < alone[r].rates[0].ranges.size(); ++d) {
@@ -316,7 +316,7 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
                     EXPECT_EQ(own.domain, theirs.domain);
                     EXPECT_EQ(own.samplesPerPatch, theirs.samplesPerPatch);
                     const auto triangles = [&](const Crowd& of, const SuppleDrawRange& range) {
-                        return Written::part(of.read(of.output().gridIndices), 2, range.firstIndex, range.indexCount);
+                        return Written::part(of.read(of.output().indices()), 2, range.firstIndex, range.indexCount);
                     };
                     EXPECT_EQ(triangles(crowd, own), triangles(twins.at(r), theirs));
                 }
@@ -469,8 +469,8 @@ TEST_P(LodRates, WithoutAVertexBudgetTheyAreNotCounted) {
     desc.capacity = 16;
     Crowd levels(context, desc);
     ASSERT_TRUE(rates.valid() && levels.valid());
-    EXPECT_EQ(levels.output().rateCount, 0u);
-    EXPECT_EQ(levels.output().rates, nullptr);
+    EXPECT_EQ(levels.output().grid.rateCount, 0u);
+    EXPECT_EQ(levels.output().grid.rates, nullptr);
     spawnColumn(rates, 8);
     spawnColumn(levels, 16);
     const auto run = [&](std::span<const SuppleGroup> groups) {
@@ -528,12 +528,12 @@ TEST_P(LodRates, WithoutAVertexBudgetTheyAreNotCounted) {
 
 /// Vertices of an instance, by rate.
 std::vector<uint32_t> verticesByRate(const Crowd& crowd) {
-    const SuppleGroupOutput output = crowd.output();
+    const host::GroupOutput output = crowd.output();
     std::vector<uint32_t> vertices;
-    for (uint32_t r = 0; r < output.rateCount; ++r) {
+    for (uint32_t r = 0; r < output.grid.rateCount; ++r) {
         vertices.push_back(0);
-        for (uint32_t d = 0; d < output.rates[r].drawRangeCount; ++d) {
-            const SuppleDrawRange& range = output.drawRanges[output.rates[r].firstDrawRange + d];
+        for (uint32_t d = 0; d < output.grid.rates[r].drawRangeCount; ++d) {
+            const SuppleDrawRange& range = output.grid.drawRanges[output.grid.rates[r].firstDrawRange + d];
             vertices.back() += range.patchCount * range.samplesPerPatch;
         }
     }
@@ -542,11 +542,11 @@ std::vector<uint32_t> verticesByRate(const Crowd& crowd) {
 
 /// Those that the draws take.
 uint32_t drawnVertices(const Crowd& crowd) {
-    const SuppleGroupOutput output = crowd.output();
+    const host::GroupOutput output = crowd.output();
     const std::vector<VkDrawIndexedIndirectCommand> draws = crowd.draws();
     uint32_t vertices = 0;
-    for (uint32_t d = 0; d < output.drawRangeCount; ++d) {
-        vertices += draws[d].instanceCount * output.drawRanges[d].samplesPerPatch;
+    for (uint32_t d = 0; d < output.grid.drawRangeCount; ++d) {
+        vertices += draws[d].instanceCount * output.grid.drawRanges[d].samplesPerPatch;
     }
     return vertices;
 }
@@ -602,7 +602,7 @@ TEST_P(LodRates, TheBudgetHolds) {
         }
 
         const uint32_t limit = enough.vertexCount / 3;
-        const uint32_t padding = levels.output().lodDrawCount / shared::kCapacityCount * 3 * 64; // runtime/view.cpp
+        const uint32_t padding = levels.output().levels.drawCount / shared::kCapacityCount * 3 * 64; // runtime/view.cpp
         float distance = 40.0f, before = 1.0f, steepest = 0.0f;
         size_t steps = 0, changes = 0, scaled = 0;
         std::vector<std::vector<uint32_t>> last;
@@ -713,8 +713,8 @@ TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
         view.look({0.0f, 0.0f, 2.0f});
         context.run(crowd.group());
         const Written written = readBack(crowd);
-        EXPECT_EQ(written.output.rate, c.rate);
-        ASSERT_EQ(written.output.rateCount, c.rateCount);
+        EXPECT_EQ(written.output.grid.rate, c.rate);
+        ASSERT_EQ(written.output.grid.rateCount, c.rateCount);
         for (uint32_t r = 0; r < c.rateCount; ++r) {
             EXPECT_EQ(written.rates[r].rate.rate, c.rate >> (c.rateCount - 1 - r));
         }
@@ -731,14 +731,14 @@ TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
             if (scheme == SUPPLE_SCHEME_PM) {
                 crowd.setRate(rate);
             }
-            const SuppleGroupOutput output = crowd.output();
-            ASSERT_EQ(output.rateCount, 1u);
-            EXPECT_EQ(output.rates[0].rate, output.rate);
-            EXPECT_EQ(output.rates[0].firstDrawRange, 0u);
-            EXPECT_EQ(output.rates[0].drawRangeCount, output.drawRangeCount);
-            EXPECT_EQ(output.rates[0].instances.buffer, output.instances.buffer);
-            EXPECT_EQ(output.rates[0].instances.offset, output.instances.offset);
-            EXPECT_EQ(output.rates[0].instances.size, output.instances.size);
+            const host::GroupOutput output = crowd.output();
+            ASSERT_EQ(output.grid.rateCount, 1u);
+            EXPECT_EQ(output.grid.rates[0].rate, output.grid.rate);
+            EXPECT_EQ(output.grid.rates[0].firstDrawRange, 0u);
+            EXPECT_EQ(output.grid.rates[0].drawRangeCount, output.grid.drawRangeCount);
+            EXPECT_EQ(output.grid.rates[0].instances.buffer, output.info.instances.buffer);
+            EXPECT_EQ(output.grid.rates[0].instances.offset, output.info.instances.offset);
+            EXPECT_EQ(output.grid.rates[0].instances.size, output.info.instances.size);
         }
     }
 }

@@ -49,7 +49,7 @@ TEST_P(LodViews, ClosedCagesHaveNoCracks) {
                 context.run(crowd.group());
                 const LodSurface surface = readLodSurface(crowd);
                 const Sides sides = matchSides(surface);
-                EXPECT_EQ(surface.patches.size(), crowd.output().patchCount);
+                EXPECT_EQ(surface.patches.size(), crowd.output().info.patchCount);
                 EXPECT_GE(sides.triangles, 2 * surface.patches.size());
                 EXPECT_EQ(sides.unmatched, 0u) << name << " at " << distance;
                 for (const LodSurface::Patch& patch : surface.patches) {
@@ -204,7 +204,7 @@ TEST_P(LodViews, SamplesLieOnTheSurfaceAndSoDoTheirPasts) {
             view.look({0.4f * static_cast<float>(frame), 1.0f, 9.0f - static_cast<float>(frame)});
             context.run(crowd.group());
             const LodSurface surface = readLodSurface(crowd);
-            EXPECT_EQ(surface.patches.size(), instances.size() * crowd.output().patchCount);
+            EXPECT_EQ(surface.patches.size(), instances.size() * crowd.output().info.patchCount);
             for (const LodSurface::Patch& patch : surface.patches) {
                 const uint32_t count = surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
                 const bool past = patch.slot < before.size();
@@ -507,7 +507,7 @@ TEST_P(LodViews, TheBudgetHolds) {
         const SuppleViewStatistics now = run(budget, z);
         EXPECT_LE(now.vertexCount, budget);
         EXPECT_GE(now.vertexCount, budget * 85 / 100);
-        EXPECT_EQ(now.patchCount, 64u * crowd.output().patchCount);
+        EXPECT_EQ(now.patchCount, 64u * crowd.output().info.patchCount);
         EXPECT_EQ(now.shortfall, 0u);
         EXPECT_LE(now.levelScales[0], scale) << "at " << z;
         EXPECT_NEAR(now.levelScales[2], std::pow(now.levelScales[0], 0.25f), 1e-4f);
@@ -563,7 +563,7 @@ TEST_P(LodViews, WhatTheCameraDoesNotSeeHasNoSurface) {
             }
             std::set<uint32_t> seen;
             for (const auto& [slot, patches] : slots) {
-                EXPECT_EQ(patches, crowd.output().patchCount);
+                EXPECT_EQ(patches, crowd.output().info.patchCount);
                 seen.insert(slot);
             }
             return seen;
@@ -614,7 +614,7 @@ TEST_P(LodViews, AttributesFollowTheSamples) {
         view.look({0.4f, 1.2f, 1.6f});
         context.run(crowd.group());
         const LodSurface surface = readLodSurface(crowd);
-        const std::vector<std::byte> bytes = crowd.read(crowd.output().attributes);
+        const std::vector<std::byte> bytes = crowd.read(crowd.output().streams.attributes);
         const auto uvOf = [](const std::vector<std::byte>& from, size_t vertex) {
             glm::vec2 uv;
             std::memcpy(&uv, &from[16 * vertex], sizeof(uv));
@@ -631,13 +631,13 @@ TEST_P(LodViews, AttributesFollowTheSamples) {
         ASSERT_TRUE(corners.valid());
         (void)corners.spawn();
         context.run(corners.group());
-        const SuppleGroupOutput output = corners.output();
-        const std::vector<std::byte> cornerBytes = corners.read(output.attributes);
+        const host::GroupOutput output = corners.output();
+        const std::vector<std::byte> cornerBytes = corners.read(output.streams.attributes);
         size_t compared = 0;
         double largest = 0.0;
         std::set<SuppleDomain> domains;
         for (const LodSurface::Patch& patch : surface.patches) {
-            const SuppleDrawRange* range = output.drawRanges;
+            const SuppleDrawRange* range = output.grid.drawRanges;
             while (patch.patch >= range->firstPatch + range->patchCount) {
                 ++range;
             }
@@ -707,7 +707,7 @@ TEST_P(LodViews, GroupsComeAndGoAndShareTheView) {
         size_t patches = 0;
         for (const auto& crowd : crowds) {
             const LodSurface surface = readLodSurface(*crowd);
-            EXPECT_EQ(surface.patches.size(), crowd->output().patchCount);
+            EXPECT_EQ(surface.patches.size(), crowd->output().info.patchCount);
             EXPECT_EQ(matchSides(surface).unmatched, 0u);
             for (const LodSurface::Patch& patch : surface.patches) {
                 firsts.insert(patch.firstVertex);

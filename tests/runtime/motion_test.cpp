@@ -246,19 +246,19 @@ protected:
 
 /// The draw ranges and the indices of a group are those of one created at that rate.
 void expectSameDraws(const Crowd& crowd, const Crowd& fresh) {
-    const SuppleGroupOutput a = crowd.output(), b = fresh.output();
-    EXPECT_EQ(a.rate, b.rate);
-    EXPECT_EQ(a.vertexCount, b.vertexCount);
-    EXPECT_GE(a.verticesPerInstance, a.vertexCount);
-    ASSERT_EQ(a.drawRangeCount, b.drawRangeCount);
+    const host::GroupOutput a = crowd.output(), b = fresh.output();
+    EXPECT_EQ(a.grid.rate, b.grid.rate);
+    EXPECT_EQ(a.grid.vertexCount, b.grid.vertexCount);
+    EXPECT_GE(a.grid.verticesPerInstance, a.grid.vertexCount);
+    ASSERT_EQ(a.grid.drawRangeCount, b.grid.drawRangeCount);
     const auto indices = [](const Crowd& from, const SuppleDrawRange& range) {
-        const SuppleBufferView view = from.output().gridIndices;
+        const SuppleBufferRange view = from.output().indices();
         EXPECT_LE(2u * (range.firstIndex + range.indexCount), view.size);
         return from.read({view.buffer, 2u * range.firstIndex, 2u * range.indexCount, 2});
     };
     const std::vector<VkDrawIndexedIndirectCommand> draws = crowd.draws();
-    for (uint32_t r = 0; r < a.drawRangeCount; ++r) {
-        const SuppleDrawRange &x = a.drawRanges[r], &y = b.drawRanges[r];
+    for (uint32_t r = 0; r < a.grid.drawRangeCount; ++r) {
+        const SuppleDrawRange &x = a.grid.drawRanges[r], &y = b.grid.drawRanges[r];
         EXPECT_EQ(x.firstPatch, y.firstPatch);
         EXPECT_EQ(x.patchCount, y.patchCount);
         EXPECT_EQ(x.material, y.material);
@@ -306,8 +306,8 @@ TEST_F(MotionFrames, AChangedRateHasThePastAtTheNewRate) {
                 fresh.run();
                 expectSameDraws(crowd, fresh);
                 const auto attributes = [&](const Crowd& from) {
-                    std::vector<std::byte> bytes = from.read(from.output().attributes);
-                    bytes.resize(size_t{from.output().vertexCount} * 16);
+                    std::vector<std::byte> bytes = from.read(from.output().streams.attributes);
+                    bytes.resize(size_t{from.output().grid.vertexCount} * 16);
                     return bytes;
                 };
                 EXPECT_TRUE(attributes(crowd) == attributes(fresh));
@@ -328,13 +328,14 @@ TEST_F(MotionFrames, RefusedRatesLeaveEverythingAsItWas) {
         const SuppleInstance instance = crowd.spawn();
         apply(crowd, instance, poseOf(0, 0));
         crowd.run();
-        const SuppleGroupOutput before = crowd.output();
-        const std::vector<SuppleDrawRange> ranges(before.drawRanges, before.drawRanges + before.drawRangeCount);
+        const host::GroupOutput before = crowd.output();
+        const std::vector<SuppleDrawRange> ranges(before.grid.drawRanges,
+                                                  before.grid.drawRanges + before.grid.drawRangeCount);
         EXPECT_EQ(suppleSetRate(own.handle(), crowd.group(), rate), SUPPLE_ERROR_ARGUMENT);
         EXPECT_NE(own.takeError(), 0);
-        const SuppleGroupOutput after = crowd.output();
+        const host::GroupOutput after = crowd.output();
         EXPECT_EQ(std::memcmp(&before, &after, sizeof(before)), 0);
-        EXPECT_EQ(std::memcmp(ranges.data(), after.drawRanges, ranges.size() * sizeof(ranges[0])), 0);
+        EXPECT_EQ(std::memcmp(ranges.data(), after.grid.drawRanges, ranges.size() * sizeof(ranges[0])), 0);
         // Asking for the rate it was created with is always right.
         EXPECT_EQ(suppleSetRate(own.handle(), crowd.group(), c.rate), SUPPLE_OK);
         const PositionBits past = crowd.positions(0);
@@ -438,8 +439,9 @@ TEST_F(MotionFrames, UploadsOfACancelledFrameComeAgain) {
         static_cast<void>(fresh.spawn());
         fresh.run();
         expectSameDraws(crowd, fresh);
-        const size_t bytes = size_t{fresh.output().vertexCount} * 16;
-        std::vector<std::byte> a = crowd.read(crowd.output().attributes), b = fresh.read(fresh.output().attributes);
+        const size_t bytes = size_t{fresh.output().grid.vertexCount} * 16;
+        std::vector<std::byte> a = crowd.read(crowd.output().streams.attributes),
+                               b = fresh.read(fresh.output().streams.attributes);
         a.resize(bytes);
         b.resize(bytes);
         EXPECT_TRUE(a == b) << "attributes at rate " << rate;
@@ -496,7 +498,7 @@ TEST_F(MotionFrames, WindowsOfInstancesMoveAlike) {
                 };
                 Crowd windows(small, desc(small)), one(large, desc(large));
                 ASSERT_TRUE(windows.valid() && one.valid());
-                EXPECT_GT(windows.output().surfaceVertices.size, 4u * kRange) << "too small to need windows";
+                EXPECT_GT(windows.output().streams.vertices.size, 4u * kRange) << "too small to need windows";
                 Crowd* const both[] = {&windows, &one};
                 std::vector<SuppleInstance> instances[2];
                 for (uint32_t frame = 0; frame < 5; ++frame) {

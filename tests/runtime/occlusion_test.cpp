@@ -96,7 +96,7 @@ std::map<uint32_t, double> shown(const Crowd& crowd) {
         ++patches[patch.slot];
     }
     for (const auto& [slot, count] : patches) {
-        EXPECT_EQ(count, crowd.output().patchCount);
+        EXPECT_EQ(count, crowd.output().info.patchCount);
     }
     return slots;
 }
@@ -275,8 +275,8 @@ TEST_P(Occlusion, WhatIsHiddenTakesNothingOfTheBudget) {
     const auto wall = DepthPyramid::create(context.device(), picture, 320, 180);
     ASSERT_NE(wall, nullptr);
     const SuppleDepthPyramidDesc pyramid = wall->desc(columnsOf(both));
-    const uint32_t least = crowd.output().patchCount * 4; // vertices of an instance at its coarsest
-    const uint32_t padding = crowd.output().lodDrawCount / 10 * 192;
+    const uint32_t least = crowd.output().info.patchCount * 4; // vertices of an instance at its coarsest
+    const uint32_t padding = crowd.output().levels.drawCount / 10 * 192;
     const auto run = [&](uint32_t room) {
         view.camera.vertexBudget = padding + room;
         view.look({0.0f, 0.0f, 0.0f});
@@ -330,7 +330,7 @@ TEST_P(Occlusion, OutOfThePictureIsNotBehindIt) {
     context.run(crowd.group());
     EXPECT_EQ(slotsOf(shown(crowd)), (std::set<uint32_t>{1, 2, 3}));
     // One level alone: too fine for what is larger than eight of its texels.
-    pyramid.levels = 1;
+    pyramid.mipLevels = 1;
     EXPECT_EQ(suppleSetDepthPyramid(context.handle(), view.handle(), &pyramid), SUPPLE_OK);
     context.run(crowd.group());
     EXPECT_EQ(slotsOf(shown(crowd)), (std::set<uint32_t>{0, 1, 2, 3}));

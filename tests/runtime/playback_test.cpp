@@ -205,11 +205,11 @@ public:
     /// What the last frame left; of the slots that are listed.
     [[nodiscard]] Difference difference() {
         Difference worst;
-        const SuppleGroupOutput output = plays_.output();
-        const std::vector<float> told = floatsOf(told_.read(told_.output().poses)),
-                                 played = floatsOf(plays_.read(output.poses));
+        const host::GroupOutput output = plays_.output();
+        const std::vector<float> told = floatsOf(told_.read(told_.output().info.poses)),
+                                 played = floatsOf(plays_.read(output.info.poses));
         EXPECT_EQ(told.size(), played.size());
-        const size_t stride = output.poses.stride / sizeof(float);
+        const size_t stride = output.info.poses.stride / sizeof(float);
         const bool linear = desc_.skinning == SUPPLE_SKINNING_LINEAR;
         const size_t joints = info_.jointCount;
         for (uint32_t slot = 0; slot < desc_.capacity; ++slot) {
@@ -245,11 +245,11 @@ public:
                     std::max(worst.weights, std::abs(static_cast<double>(a[at + t]) - static_cast<double>(b[at + t])));
             }
         }
-        const std::vector<float> toldCages = floatsOf(told_.read(told_.output().deformedCage)),
-                                 playedCages = floatsOf(plays_.read(output.deformedCage));
+        const std::vector<float> toldCages = floatsOf(told_.read(told_.output().info.deformedCage)),
+                                 playedCages = floatsOf(plays_.read(output.info.deformedCage));
         for (uint32_t slot = 0; slot < desc_.capacity; ++slot) {
-            const size_t first = 4 * size_t{slot} * output.cageVerticesPerInstance;
-            for (size_t i = first; i < first + 4 * size_t{output.cageVertexCount}; ++i) {
+            const size_t first = 4 * size_t{slot} * output.info.cageVerticesPerInstance;
+            for (size_t i = first; i < first + 4 * size_t{output.info.cageVertexCount}; ++i) {
                 const double off = std::abs(static_cast<double>(toldCages[i]) - static_cast<double>(playedCages[i]));
                 worst.cages = std::max(worst.cages, off / extent_);
             }
@@ -517,9 +517,9 @@ TEST_F(PlaybackOnGpu, IsInPhaseAfterTenHours) {
         // Within the last frame's motion of a loop, no more than 1e-4 s off: the other way round, poses of times that
         // far apart differ by more than was measured.
         duet.run(hours + 3.3);
-        const std::vector<float> now = floatsOf(duet.plays().read(duet.plays().output().poses));
+        const std::vector<float> now = floatsOf(duet.plays().read(duet.plays().output().info.poses));
         duet.run(hours + 3.3 + 1e-4);
-        const std::vector<float> then = floatsOf(duet.plays().read(duet.plays().output().poses));
+        const std::vector<float> then = floatsOf(duet.plays().read(duet.plays().output().info.poses));
         double moved = 0.0;
         for (size_t i = 0; i < now.size(); ++i) {
             moved = std::max(moved, std::abs(static_cast<double>(now[i]) - static_cast<double>(then[i])));
@@ -672,7 +672,7 @@ TEST_F(PlaybackOnGpu, BothMappingsGiveTheSameBits) {
             if (joints < 100) { // four hundred that scale one another leave no number that could be compared
                 worst.add(duet.difference());
             }
-            poses[m] = duet.plays().read(duet.plays().output().poses);
+            poses[m] = duet.plays().read(duet.plays().output().info.poses);
         }
         EXPECT_FALSE(poses[0].empty());
         EXPECT_TRUE(poses[0] == poses[1]) << joints << " joints";
@@ -737,7 +737,7 @@ TEST_F(PlaybackOnGpu, NewInstancesAreInTheBindPose) {
         const auto same = [&] {
             own.run(told.group());
             own.run(plays.group());
-            return told.read(told.output().poses) == plays.read(plays.output().poses);
+            return told.read(told.output().info.poses) == plays.read(plays.output().info.poses);
         };
         static_cast<void>(told.spawn());
         static_cast<void>(told.spawn());
@@ -869,7 +869,7 @@ TEST_F(PlaybackOnGpu, WindowsOfInstancesPlayAlike) {
             Walkers windows(small, cageGroup(small.createAsset(tube), kCapacity)),
                 one(large, cageGroup(large.createAsset(tube), kCapacity));
             ASSERT_TRUE(windows.crowd.valid() && one.crowd.valid());
-            EXPECT_GT(windows.crowd.output().poses.stride * VkDeviceSize{kCapacity}, kRange / 2);
+            EXPECT_GT(windows.crowd.output().info.poses.stride * VkDeviceSize{kCapacity}, kRange / 2);
             for (const double time : {0.3, 0.7, 0.9}) {
                 for (Walkers* walkers : {&windows, &one}) {
                     if (time == 0.7) {
@@ -879,14 +879,14 @@ TEST_F(PlaybackOnGpu, WindowsOfInstancesPlayAlike) {
                     walkers->setTime(time);
                     walkers->crowd.context().run(walkers->crowd.group());
                 }
-                const SuppleGroupOutput a = windows.crowd.output(), b = one.crowd.output();
-                const std::vector<std::byte> cages = windows.crowd.read(a.deformedCage),
-                                             wanted = one.crowd.read(b.deformedCage);
+                const host::GroupOutput a = windows.crowd.output(), b = one.crowd.output();
+                const std::vector<std::byte> cages = windows.crowd.read(a.info.deformedCage),
+                                             wanted = one.crowd.read(b.info.deformedCage);
                 size_t different = 0;
                 for (uint32_t slot = 0; slot < kCapacity; ++slot) {
-                    different += std::memcmp(cages.data() + size_t{slot} * a.cageVerticesPerInstance * 16,
-                                             wanted.data() + size_t{slot} * b.cageVerticesPerInstance * 16,
-                                             size_t{a.cageVertexCount} * 16) != 0;
+                    different += std::memcmp(cages.data() + size_t{slot} * a.info.cageVerticesPerInstance * 16,
+                                             wanted.data() + size_t{slot} * b.info.cageVerticesPerInstance * 16,
+                                             size_t{a.info.cageVertexCount} * 16) != 0;
                 }
                 EXPECT_EQ(different, 0u) << "time " << time;
             }
@@ -938,7 +938,7 @@ TEST_F(PlaybackOnGpu, WhatIsNotSetIsNotUploaded) {
             walkers.place(0, glm::vec3(3.0f));
             own.cancel(walkers.crowd.group());
             walkers.crowd.run();
-            EXPECT_EQ(counts.copiedBytes, 2 * one + instances * 8 + walkers.crowd.output().drawRangeCount * 20);
+            EXPECT_EQ(counts.copiedBytes, 2 * one + instances * 8 + walkers.crowd.output().grid.drawRangeCount * 20);
             EXPECT_GT(differences(walkers.crowd.positions(0), before), 0u);
         }
         std::printf("%llu bytes for an instance that is set\n", static_cast<unsigned long long>(one));

@@ -167,9 +167,9 @@ TEST_P(PmOnGpu, AttributesReachTheSurfaceVertices) {
             const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(cage);
             ASSERT_TRUE(mesh.ok());
             const PmPatches patches(gpu, *mesh);
-            ASSERT_EQ(gpu.output().uvs1.size, VkDeviceSize{gpu.output().vertexCount} * 8);
-            const Result<std::vector<std::byte>> bytes = device->readBuffer(gpu.output().attributes);
-            const Result<std::vector<std::byte>> bytes1 = device->readBuffer(gpu.output().uvs1);
+            ASSERT_EQ(gpu.output().streams.uvs1.size, VkDeviceSize{gpu.output().grid.vertexCount} * 8);
+            const Result<std::vector<std::byte>> bytes = device->readBuffer(gpu.output().streams.attributes);
+            const Result<std::vector<std::byte>> bytes1 = device->readBuffer(gpu.output().streams.uvs1);
             ASSERT_TRUE(bytes.ok() && bytes1.ok());
             for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
                 const SuppleDomain domain = gpu.rangeOf(p).domain;

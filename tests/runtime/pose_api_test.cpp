@@ -96,15 +96,15 @@ protected:
     /// The cages of all instances as the device has them, without the padding between them.
     [[nodiscard]] std::vector<std::vector<std::byte>> cages() {
         EXPECT_TRUE(context_->evaluate({&group, 1}).ok());
-        SuppleGroupOutput output{};
-        output.structSize = sizeof(output);
-        EXPECT_EQ(suppleGetGroupOutput(handle(), group, &output), SUPPLE_OK);
-        const Result<std::vector<std::byte>> bytes = context_->device().readBuffer(output.deformedCage);
+        host::GroupOutput output{};
+        EXPECT_EQ(host::getGroupOutput(handle(), group, output), SUPPLE_OK);
+        const Result<std::vector<std::byte>> bytes = context_->device().readBuffer(output.info.deformedCage);
         EXPECT_TRUE(bytes.ok());
         std::vector<std::vector<std::byte>> result;
-        for (uint32_t i = 0; i < output.capacity && bytes.ok(); ++i) {
-            const auto begin = bytes->begin() + static_cast<ptrdiff_t>(16 * size_t{i} * output.cageVerticesPerInstance);
-            result.emplace_back(begin, begin + static_cast<ptrdiff_t>(16 * size_t{output.cageVertexCount}));
+        for (uint32_t i = 0; i < output.info.capacity && bytes.ok(); ++i) {
+            const auto begin =
+                bytes->begin() + static_cast<ptrdiff_t>(16 * size_t{i} * output.info.cageVerticesPerInstance);
+            result.emplace_back(begin, begin + static_cast<ptrdiff_t>(16 * size_t{output.info.cageVertexCount}));
         }
         return result;
     }

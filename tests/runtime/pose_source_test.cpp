@@ -65,7 +65,7 @@ TEST_F(PoseSources, PalettesFromABufferPoseAsCallsDo) {
         Crowd &called = twins.called, &filled = twins.filled;
         const std::vector<SuppleInstance>&callers = twins.callers, &fillers = twins.fillers;
         ASSERT_TRUE(called.valid() && filled.valid());
-        const SuppleBufferView poses = filled.output().poses;
+        const SuppleBufferRange poses = filled.output().info.poses;
         EXPECT_GE(poses.stride, (12 * kJoints + kTargets) * sizeof(float));
         EXPECT_EQ(poses.stride % 16, 0u);
         std::vector<PositionBits> past;
@@ -98,7 +98,7 @@ TEST_F(PoseSources, PalettesFromABufferPoseAsCallsDo) {
             called.setVisible(callers[1], frame != 1);
             filled.setVisible(fillers[1], frame != 1);
             called.run();
-            const std::vector<std::byte> calledPoses = called.read(called.output().poses);
+            const std::vector<std::byte> calledPoses = called.read(called.output().info.poses);
             size_t different = 0;
             for (size_t i = 0; i < bytes.size(); ++i) { // as numbers: zeros have signs
                 float value = 0.0f;
@@ -152,7 +152,7 @@ TEST_F(PoseSources, APaletteCopiedOnTheDevicePosesACharacter) {
             called.pose(second, 1, 0.6 + frame, glm::translate(glm::mat4(1.0f), {0.3f, 0.1f, 2.0f}));
             called.run();
             filled.run([&](VkCommandBuffer commands) {
-                const SuppleBufferView from = called.output().poses, to = filled.output().poses;
+                const SuppleBufferRange from = called.output().info.poses, to = filled.output().info.poses;
                 const VkBufferCopy region{from.offset, to.offset, to.size};
                 vkCmdCopyBuffer(commands, from.buffer, to.buffer, 1, &region);
             });
@@ -184,8 +184,8 @@ TEST_F(PoseSources, CagesFromABufferHaveTheSameSurface) {
         Crowd &called = twins.called, &filled = twins.filled;
         const std::vector<SuppleInstance>&callers = twins.callers, &fillers = twins.fillers;
         ASSERT_TRUE(called.valid() && filled.valid());
-        EXPECT_EQ(called.output().cageVerticesPerInstance, filled.output().cageVerticesPerInstance);
-        EXPECT_EQ(filled.output().poses.buffer, VkBuffer{VK_NULL_HANDLE}) << "nothing would read them";
+        EXPECT_EQ(called.output().info.cageVerticesPerInstance, filled.output().info.cageVerticesPerInstance);
+        EXPECT_EQ(filled.output().info.poses.buffer, VkBuffer{VK_NULL_HANDLE}) << "nothing would read them";
         for (uint32_t frame = 0; frame < 3; ++frame) {
             SCOPED_TRACE("frame " + std::to_string(frame));
             for (const SuppleInstance& instance : callers) {
@@ -195,8 +195,8 @@ TEST_F(PoseSources, CagesFromABufferHaveTheSameSurface) {
             called.setVisible(callers[0], frame != 1);
             filled.setVisible(fillers[0], frame != 1);
             called.run();
-            const SuppleBufferView to = filled.output().deformedCage;
-            const std::vector<std::byte> cages = called.read(called.output().deformedCage);
+            const SuppleBufferRange to = filled.output().info.deformedCage;
+            const std::vector<std::byte> cages = called.read(called.output().info.deformedCage);
             const Result<host::Buffer> staging = own.device().uploadBuffer(
                 cages.data(), cages.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT); // a cloth solver's, say
             ASSERT_TRUE(staging.ok());
@@ -286,19 +286,19 @@ TEST_F(PoseSources, GroupsWithoutASurfaceTakeThemToo) {
         Crowd crowd(own, desc);
         ASSERT_TRUE(crowd.valid());
         static_cast<void>(crowd.spawn());
-        const SuppleGroupOutput output = crowd.output();
-        EXPECT_EQ(output.previousPositions.buffer, VkBuffer{VK_NULL_HANDLE});
+        const host::GroupOutput output = crowd.output();
+        EXPECT_EQ(output.streams.previousPositions.buffer, VkBuffer{VK_NULL_HANDLE});
         const float rows[12] = {2, 0, 0, 1, 0, 2, 0, 0, 0, 0, 2, 0};
         const float point[4] = {1, 2, 3, 1};
         crowd.run([&](VkCommandBuffer commands) {
             if (source == SUPPLE_POSES_PALETTE_BUFFER) {
-                vkCmdUpdateBuffer(commands, output.poses.buffer, output.poses.offset, sizeof(rows), rows);
+                vkCmdUpdateBuffer(commands, output.info.poses.buffer, output.info.poses.offset, sizeof(rows), rows);
             } else {
-                vkCmdUpdateBuffer(commands, output.deformedCage.buffer, output.deformedCage.offset, sizeof(point),
-                                  point);
+                vkCmdUpdateBuffer(commands, output.info.deformedCage.buffer, output.info.deformedCage.offset,
+                                  sizeof(point), point);
             }
         });
-        const std::vector<std::byte> bytes = crowd.read(output.deformedCage);
+        const std::vector<std::byte> bytes = crowd.read(output.info.deformedCage);
         glm::vec3 first{};
         std::memcpy(&first, bytes.data(), sizeof(first));
         const glm::vec3 wanted = source == SUPPLE_POSES_PALETTE_BUFFER

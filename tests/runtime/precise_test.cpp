@@ -91,7 +91,11 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
                             [&](VkCommandBuffer commands) { EXPECT_TRUE((*context)->record(commands, record).ok()); })
                         .ok());
         const runtime::Group& group = *(*context)->groups.find(*id);
-        const Result<std::vector<std::byte>> bytes = device.readBuffer(group.output().surfaceVertices);
+        SuppleVertexStreams streams{};
+        group.tessellation().streams()->fill(streams);
+        SuppleGridOutput grid{};
+        group.tessellation().fillGrid(grid);
+        const Result<std::vector<std::byte>> bytes = device.readBuffer(streams.vertices);
         std::vector<uint32_t> patchOfFace(cage.faceCount());
         for (uint32_t p = 0; p < group.tables().patches.size(); ++p) {
             patchOfFace[group.tables().patches[p].face] = p;
@@ -99,7 +103,7 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
         const auto position = [&](uint32_t corner, uint32_t k) {
             const uint32_t face = topology->cornerFaces[corner];
             const uint32_t edge = corner - cage.faceStarts[face];
-            return bytes->data() + 24 * (size_t{patchOfFace[face]} * group.output().drawRanges[0].samplesPerPatch +
+            return bytes->data() + 24 * (size_t{patchOfFace[face]} * grid.drawRanges[0].samplesPerPatch +
                                          surface::edgeSample(surface::Domain::quad, rate, edge, k));
         };
         for (const cage::Topology::Edge& edge : topology->edges) {

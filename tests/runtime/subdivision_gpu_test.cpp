@@ -58,7 +58,7 @@ TEST_P(SubdivisionOnGpu, SurfaceMatchesTheReference) {
             gpu.evaluate();
             const Mesh mesh = meshOf(cage);
             const uint32_t steps = depth > mesh.isolationSteps ? depth - mesh.isolationSteps : 0;
-            ASSERT_EQ(gpu.output().rate, 1u << steps);
+            ASSERT_EQ(gpu.output().grid.rate, 1u << steps);
             const std::vector<glm::dvec3> exact = doublePositions(cage);
             const auto expected =
                 surface::subdivision::evaluate<double>(mesh, surface::subdivision::isolate<double>(mesh, exact), steps);
@@ -163,13 +163,13 @@ TEST_P(SubdivisionOnGpu, AttributesReachTheSurfaceVertices) {
     ASSERT_TRUE(gpu.valid());
     gpu.evaluate();
     const Mesh mesh = meshOf(cage);
-    const Result<std::vector<std::byte>> bytes = device->readBuffer(gpu.output().attributes);
+    const Result<std::vector<std::byte>> bytes = device->readBuffer(gpu.output().streams.attributes);
     ASSERT_TRUE(bytes.ok());
     double worst = 0.0;
     for (uint32_t p = 0; p < gpu.patches().size(); ++p) {
         const auto domain = static_cast<surface::Domain>(gpu.rangeOf(p).domain);
         for (uint32_t s = 0; s < gpu.sampleCount(p); ++s) {
-            const auto weights = cornerWeights(domain, gpu.output().rate, s);
+            const auto weights = cornerWeights(domain, gpu.output().grid.rate, s);
             glm::vec2 uv(0.0f), read;
             for (uint32_t i = 0; i < mesh.cage.sides(p); ++i) {
                 uv += weights[i] * mesh.cage.cornerUvs[mesh.cage.faceStarts[p] + i];
@@ -249,7 +249,7 @@ TEST(SubdivisionRates, AreRoundedUp) {
         options.rate = c.asked;
         GpuSurface gpu(*device, c.cage, options);
         ASSERT_TRUE(gpu.valid());
-        EXPECT_EQ(gpu.output().rate, c.patchRate) << c.asked;
+        EXPECT_EQ(gpu.output().grid.rate, c.patchRate) << c.asked;
     }
 }
 

@@ -101,11 +101,11 @@ protected:
         group = createGroup(context->handle(), asset,
                             {.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION | SUPPLE_GROUP_PATCHES})
                     .group;
-        const SuppleGroupOutput output = outputOf(context->handle(), group);
-        always = {output.surfaceVertices.buffer, output.previousPositions.buffer, output.deformedCage.buffer,
-                  output.instances.buffer, output.indirect.buffer};
-        attributes = {output.attributes.buffer, output.uvs1.buffer, output.faceUvs.buffer};
-        indices = output.gridIndices.buffer;
+        const host::GroupOutput output = outputOf(context->handle(), group);
+        always = {output.streams.vertices.buffer, output.streams.previousPositions.buffer,
+                  output.info.deformedCage.buffer, output.info.instances.buffer, output.indirect().buffer};
+        attributes = {output.streams.attributes.buffer, output.streams.uvs1.buffer, output.streams.faceUvs.buffer};
+        indices = output.indices().buffer;
         EXPECT_EQ(sorted(always).size(), 5u);
     }
     /// A frame of the groups, drawn from in a second submission; the buffers that change hands.
@@ -171,10 +171,10 @@ TEST_F(AsyncCompute, HandsOverWhatTheFrameWrote) {
     // A second group of the same asset brings its own.
     const SmallGroup second = createGroup(context->handle(), asset, {.scheme = SUPPLE_SCHEME_CATMULL_CLARK});
     const SuppleGroup both[] = {group, second.group};
-    const SuppleGroupOutput output = outputOf(context->handle(), second.group);
+    const host::GroupOutput output = outputOf(context->handle(), second.group);
     std::vector<VkBuffer> buffers = wanted(false, false);
-    for (const VkBuffer buffer : {output.surfaceVertices.buffer, output.deformedCage.buffer, output.instances.buffer,
-                                  output.indirect.buffer, output.gridIndices.buffer}) {
+    for (const VkBuffer buffer : {output.streams.vertices.buffer, output.info.deformedCage.buffer,
+                                  output.info.instances.buffer, output.indirect().buffer, output.indices().buffer}) {
         buffers.push_back(buffer);
     }
     EXPECT_EQ(handedOver(both), sorted(buffers));
@@ -201,9 +201,9 @@ TEST_F(AsyncCompute, OfAViewsWordsOnlyWhatHostsReadIsHandedOver) {
     ASSERT_EQ(first.result, SUPPLE_OK);
     ASSERT_EQ(second.result, SUPPLE_OK);
     const SuppleGroup both[] = {first.group, second.group};
-    const SuppleGroupOutput outputs[] = {outputOf(context->handle(), first.group),
+    const host::GroupOutput outputs[] = {outputOf(context->handle(), first.group),
                                          outputOf(context->handle(), second.group)};
-    const VkBuffer words = outputs[0].lodBuckets.buffer;
+    const VkBuffer words = outputs[0].levels.buckets.buffer;
     std::vector<std::vector<std::byte>> frames;
     for (int frame = 0; frame < 4; ++frame) {
         VkDeviceSize from = 0;
@@ -212,14 +212,14 @@ TEST_F(AsyncCompute, OfAViewsWordsOnlyWhatHostsReadIsHandedOver) {
         }
         EXPECT_GT(from, 0u);
         std::vector<std::byte> drawn;
-        for (const SuppleGroupOutput& output : outputs) {
-            for (const SuppleBufferView& range : {output.lodBuckets, output.lodPatches, output.indirect}) {
+        for (const host::GroupOutput& output : outputs) {
+            for (const SuppleBufferRange& range : {output.levels.buckets, output.levels.patches, output.indirect()}) {
                 EXPECT_EQ(range.buffer, words);
                 EXPECT_GE(range.offset, from);
             }
-            EXPECT_EQ(output.lodBuckets.offset % 256, 0u);
-            EXPECT_EQ(output.lodPatches.offset % 256, 0u);
-            const Result<std::vector<std::byte>> commands = device->readBuffer(output.indirect);
+            EXPECT_EQ(output.levels.buckets.offset % 256, 0u);
+            EXPECT_EQ(output.levels.patches.offset % 256, 0u);
+            const Result<std::vector<std::byte>> commands = device->readBuffer(output.indirect());
             ASSERT_TRUE(commands.ok());
             drawn.insert(drawn.end(), commands->begin(), commands->end());
         }
@@ -228,7 +228,7 @@ TEST_F(AsyncCompute, OfAViewsWordsOnlyWhatHostsReadIsHandedOver) {
         statistics.structSize = sizeof(statistics);
         if (frame > 0) {
             ASSERT_EQ(suppleGetViewStatistics(context->handle(), view, &statistics), SUPPLE_OK);
-            EXPECT_EQ(statistics.patchCount, 3 * outputs[0].patchCount + 2 * outputs[1].patchCount);
+            EXPECT_EQ(statistics.patchCount, 3 * outputs[0].info.patchCount + 2 * outputs[1].info.patchCount);
         }
         EXPECT_TRUE(
             device
@@ -329,9 +329,9 @@ TEST(RecordScopes, AHostsOwnBarrierIsEnoughAndNeeded) {
         ASSERT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
         const SmallGroup group =
             createGroup(context.handle(), asset, {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_PATCHES});
-        const SuppleGroupOutput output = outputOf(context.handle(), group.group);
-        Result<host::Buffer> copy =
-            device->createBuffer(output.deformedCage.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, host::MemoryKind::device);
+        const host::GroupOutput output = outputOf(context.handle(), group.group);
+        Result<host::Buffer> copy = device->createBuffer(output.info.deformedCage.size,
+                                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT, host::MemoryKind::device);
         ASSERT_TRUE(copy.ok());
         // Four frames that follow each other in one command buffer, each read by a copy of the host's.
         const auto frames = [&](uint64_t completed, bool barriers) {
@@ -351,8 +351,8 @@ TEST(RecordScopes, AHostsOwnBarrierIsEnoughAndNeeded) {
                                     EXPECT_EQ(suppleRecord(context.handle(), commands, &desc), SUPPLE_OK);
                                     if (barriers) {
                                         host::memoryBarrier(commands, last, kCopy);
-                                        const VkBufferCopy region{0, 0, output.deformedCage.size};
-                                        vkCmdCopyBuffer(commands, output.deformedCage.buffer, copy->handle(), 1,
+                                        const VkBufferCopy region{0, 0, output.info.deformedCage.size};
+                                        vkCmdCopyBuffer(commands, output.info.deformedCage.buffer, copy->handle(), 1,
                                                         &region);
                                     }
                                 }

@@ -69,9 +69,8 @@ void change(SuppleContext context, uint32_t g, uint32_t frame, SmallGroup& group
     if (frame % 6 == 2) {
         ok(suppleTeleport(context, group.instances[1]));
     }
-    SuppleGroupOutput output{};
-    output.structSize = sizeof(output);
-    ok(suppleGetGroupOutput(context, group.group, &output));
+    host::GroupOutput output{};
+    ok(host::getGroupOutput(context, group.group, output));
 }
 
 enum class Order { oneThread, asRecorded, reversed };

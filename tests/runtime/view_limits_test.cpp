@@ -43,7 +43,7 @@ TEST_P(ViewLimits, PaddingLeavesSomethingOrTheGroupIsRefused) {
     context.takeLines();
     Crowd first(context, desc);
     ASSERT_TRUE(first.valid());
-    const uint32_t runs = first.output().lodDrawCount / 10;
+    const uint32_t runs = first.output().levels.drawCount / 10;
     const uint32_t more = 1499 / 192 / runs - 1; // groups that there is room for besides
     ASSERT_GE(more, 1u);
     std::vector<std::unique_ptr<Crowd>> others;
@@ -68,7 +68,7 @@ TEST_P(ViewLimits, PaddingLeavesSomethingOrTheGroupIsRefused) {
     EXPECT_TRUE(again.valid());
     (void)first.spawn();
     context.run(first.group());
-    EXPECT_EQ(readLodSurface(first).patches.size(), first.output().patchCount);
+    EXPECT_EQ(readLodSurface(first).patches.size(), first.output().info.patchCount);
 }
 
 TEST_P(ViewLimits, RunsOfAGroupLieSideBySide) {
@@ -80,7 +80,7 @@ TEST_P(ViewLimits, RunsOfAGroupLieSideBySide) {
     wider.asset = context.createAsset(withCutQuads(cage::makeCubeSphere(8), 0.05, 1));
     wider.scheme = SUPPLE_SCHEME_PM;
     wider.view = other.handle();
-    const uint32_t widerRuns = Crowd(context, wider).output().lodDrawCount / 10;
+    const uint32_t widerRuns = Crowd(context, wider).output().levels.drawCount / 10;
     ASSERT_GE(widerRuns, 3u);
     ASSERT_LE(widerRuns, 4u);
     wider.view = view.handle();
@@ -194,11 +194,11 @@ TEST_P(ViewLimits, HostsMayBindWhatIsHandedOut) {
         context.run(groups);
         size_t patches = 0;
         for (const auto& crowd : crowds) {
-            const SuppleGroupOutput output = crowd->output();
-            EXPECT_EQ(output.lodBuckets.offset % 256, 0u);
-            EXPECT_EQ(output.lodPatches.offset % 256, 0u);
+            const host::GroupOutput output = crowd->output();
+            EXPECT_EQ(output.levels.buckets.offset % 256, 0u);
+            EXPECT_EQ(output.levels.patches.offset % 256, 0u);
             const LodSurface surface = readLodSurface(*crowd);
-            EXPECT_EQ(surface.patches.size(), output.patchCount);
+            EXPECT_EQ(surface.patches.size(), output.info.patchCount);
             EXPECT_EQ(matchSides(surface).unmatched, 0u);
             patches += surface.patches.size();
         }

@@ -195,10 +195,9 @@ void Crowd::end() {
     group_ = {};
 }
 
-SuppleGroupOutput Crowd::output() const {
-    SuppleGroupOutput output{};
-    output.structSize = sizeof(output);
-    EXPECT_EQ(suppleGetGroupOutput(context_.handle(), group_, &output), SUPPLE_OK);
+host::GroupOutput Crowd::output() const {
+    host::GroupOutput output{};
+    EXPECT_EQ(host::getGroupOutput(context_.handle(), group_, output), SUPPLE_OK);
     return output;
 }
 
@@ -234,7 +233,7 @@ void Crowd::run(const std::function<void(VkCommandBuffer)>& first) {
     read();
 }
 
-std::vector<std::byte> Crowd::read(const SuppleBufferView& view) const {
+std::vector<std::byte> Crowd::read(const SuppleBufferRange& view) const {
     if (view.buffer == VK_NULL_HANDLE) {
         return {};
     }
@@ -244,12 +243,12 @@ std::vector<std::byte> Crowd::read(const SuppleBufferView& view) const {
 }
 
 void Crowd::read() {
-    const SuppleGroupOutput now = output();
-    surface_ = read(now.surfaceVertices);
-    previous_ = read(now.previousPositions);
-    surfaceStride_ = now.surfaceVertices.stride;
-    vertexCount_ = now.vertexCount;
-    verticesPerInstance_ = now.verticesPerInstance;
+    const host::GroupOutput now = output();
+    surface_ = read(now.streams.vertices);
+    previous_ = read(now.streams.previousPositions);
+    surfaceStride_ = now.streams.vertices.stride;
+    vertexCount_ = now.grid.vertexCount;
+    verticesPerInstance_ = now.grid.verticesPerInstance;
 }
 
 PositionBits Crowd::bits(uint32_t slot, const std::vector<std::byte>& bytes, size_t stride) const {
@@ -265,23 +264,23 @@ PositionBits Crowd::bits(uint32_t slot, const std::vector<std::byte>& bytes, siz
     return result;
 }
 
-std::vector<std::byte> Crowd::slotBytes(const SuppleBufferView& view, uint32_t slot) const {
-    const VkDeviceSize bytes = view.size / output().capacity;
+std::vector<std::byte> Crowd::slotBytes(const SuppleBufferRange& view, uint32_t slot) const {
+    const VkDeviceSize bytes = view.size / output().info.capacity;
     return read({view.buffer, view.offset + slot * bytes, bytes, view.stride});
 }
 
 std::vector<VkDrawIndexedIndirectCommand> Crowd::draws() const {
-    const std::vector<std::byte> bytes = read(output().indirect);
+    const std::vector<std::byte> bytes = read(output().indirect());
     std::vector<VkDrawIndexedIndirectCommand> commands(bytes.size() / sizeof(VkDrawIndexedIndirectCommand));
     std::memcpy(commands.data(), bytes.data(), commands.size() * sizeof(commands[0]));
     return commands;
 }
 
 std::vector<uint32_t> Crowd::listed() const {
-    const SuppleGroupOutput now = output();
-    const std::vector<std::byte> bytes = read(now.instances);
+    const host::GroupOutput now = output();
+    const std::vector<std::byte> bytes = read(now.info.instances);
     const std::vector<VkDrawIndexedIndirectCommand> commands = draws();
-    const uint32_t visible = commands.empty() ? 0 : commands[0].instanceCount / now.drawRanges[0].patchCount;
+    const uint32_t visible = commands.empty() ? 0 : commands[0].instanceCount / now.grid.drawRanges[0].patchCount;
     std::vector<uint32_t> slots(visible);
     EXPECT_LE(visible * sizeof(uint32_t), bytes.size());
     if (visible > 0) { // an empty list has no address to copy to

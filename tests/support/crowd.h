@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "host/group_output.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
 
@@ -97,7 +98,7 @@ public:
     void end(); ///< destroys the group now
     [[nodiscard]] CrowdContext& context() const { return context_; }
     [[nodiscard]] SuppleGroup group() const { return group_; }
-    [[nodiscard]] SuppleGroupOutput output() const; ///< as it is now
+    [[nodiscard]] host::GroupOutput output() const; ///< as it is now
     [[nodiscard]] uint32_t clipCount() const { return clipCount_; }
 
     [[nodiscard]] SuppleInstance spawn();
@@ -111,11 +112,11 @@ public:
     void run(const std::function<void(VkCommandBuffer)>& first = {});
     /// Reads what the last frame left.
     void read();
-    [[nodiscard]] std::vector<std::byte> read(const SuppleBufferView& view) const;
+    [[nodiscard]] std::vector<std::byte> read(const SuppleBufferRange& view) const;
     [[nodiscard]] PositionBits positions(uint32_t slot) const { return bits(slot, surface_, surfaceStride_); }
     [[nodiscard]] PositionBits previous(uint32_t slot) const { return bits(slot, previous_, 12); }
     /// What the slot has of a buffer that is counted by slots.
-    [[nodiscard]] std::vector<std::byte> slotBytes(const SuppleBufferView& view, uint32_t slot) const;
+    [[nodiscard]] std::vector<std::byte> slotBytes(const SuppleBufferRange& view, uint32_t slot) const;
     [[nodiscard]] std::vector<uint32_t> listed() const; ///< as many of the list of instances as are drawn
     [[nodiscard]] std::vector<VkDrawIndexedIndirectCommand> draws() const;
 

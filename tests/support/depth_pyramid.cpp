@@ -157,11 +157,11 @@ SuppleDepthPyramidDesc DepthPyramid::desc(const std::array<float, 16>& viewProje
     SuppleDepthPyramidDesc desc{};
     desc.structSize = sizeof(desc);
     desc.flags = reversed_ ? SUPPLE_DEPTH_REVERSED : 0;
-    desc.view = view();
+    desc.imageView = view();
     desc.layout = VK_IMAGE_LAYOUT_GENERAL;
     desc.width = image_.desc().extent.width;
     desc.height = image_.desc().extent.height;
-    desc.levels = levels();
+    desc.mipLevels = levels();
     std::copy(viewProjection.begin(), viewProjection.end(), desc.viewProjection);
     return desc;
 }

@@ -77,7 +77,7 @@ void compareMappings(host::Device& device, const cage::Cage& cage, GpuOptions op
     ASSERT_TRUE(narrow.valid() && wide.valid());
     narrow.evaluate();
     wide.evaluate();
-    for (uint32_t p = 0; p < narrow.output().patchCount; ++p) {
+    for (uint32_t p = 0; p < narrow.output().info.patchCount; ++p) {
         for (uint32_t s = 0; s < narrow.sampleCount(p); ++s) {
             bits.compare(narrow.vertex(0, p, s).position, wide.vertex(0, p, s).position);
         }
@@ -129,7 +129,7 @@ PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf
 inline ComparedBits borderBits(const cage::Cage& cage, const cage::Topology& topology, const PatchFaces& found,
                                const GpuSurface& gpu) {
     ComparedBits bits;
-    const uint32_t rate = gpu.output().rate;
+    const uint32_t rate = gpu.output().grid.rate;
     const auto onEdge = [&](uint32_t corner, uint32_t k) {
         const uint32_t f = topology.cornerFaces[corner], p = found.patches[f];
         const auto domain = static_cast<surface::Domain>(gpu.rangeOf(p).domain);

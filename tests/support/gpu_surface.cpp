@@ -131,9 +131,10 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     group.scheme = options.scheme;
     group.rate = options.rate;
     group.vertexFormat = options.format;
-    group.tangentMode = options.tangents;
-    group.cornerRule = options.corners;
-    group.creaseMode = options.creases;
+    const SupplePrepOptions prep{sizeof(prep), options.tangents, options.corners};
+    const SuppleBlendOptions blend{sizeof(blend), options.creases, 0.0f};
+    group.prep = &prep;
+    group.blend = &blend;
     if (!check(suppleCreateGroup(context_->handle(), &group, &group_), "suppleCreateGroup")) {
         return;
     }
@@ -143,17 +144,16 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
             return;
         }
     }
-    output_.structSize = sizeof(output_);
-    if (!check(suppleGetGroupOutput(context_->handle(), group_, &output_), "suppleGetGroupOutput")) {
+    if (!check(host::getGroupOutput(context_->handle(), group_, output_), "suppleGetGroupInfo")) {
         return;
     }
-    uint32_t count = output_.patchCount;
+    uint32_t count = output_.info.patchCount;
     patches_.resize(count);
     if (!check(suppleGetPatches(context_->handle(), group_, patches_.data(), &count), "suppleGetPatches")) {
         return;
     }
-    for (uint32_t r = 0; r < output_.drawRangeCount; ++r) {
-        ranges_.insert(ranges_.end(), output_.drawRanges[r].patchCount, r);
+    for (uint32_t r = 0; r < output_.grid.drawRangeCount; ++r) {
+        ranges_.insert(ranges_.end(), output_.grid.drawRanges[r].patchCount, r);
     }
     valid_ = true;
 }
@@ -174,13 +174,13 @@ void GpuSurface::evaluate() {
     ASSERT_TRUE(valid_);
     const Status status = context_->evaluate({&group_, 1});
     ASSERT_TRUE(status.ok()) << status.error().message;
-    const auto read = [&](const SuppleBufferView& view) {
+    const auto read = [&](const SuppleBufferRange& view) {
         Result<std::vector<std::byte>> bytes = device_->readBuffer(view);
         EXPECT_TRUE(bytes.ok());
         return bytes.ok() ? std::move(*bytes) : std::vector<std::byte>(view.size);
     };
-    rawVertices_ = read(output_.surfaceVertices);
-    const size_t stride = output_.surfaceVertices.stride;
+    rawVertices_ = read(output_.streams.vertices);
+    const size_t stride = output_.streams.vertices.stride;
     vertices_.resize(rawVertices_.size() / stride);
     for (size_t i = 0; i < vertices_.size(); ++i) {
         const std::byte* source = rawVertices_.data() + i * stride;
@@ -193,7 +193,7 @@ void GpuSurface::evaluate() {
             vertices_[i].normal = decodeOctahedral(packed);
         }
     }
-    const auto readVec4 = [&](const SuppleBufferView& view, std::vector<glm::vec3>& out) {
+    const auto readVec4 = [&](const SuppleBufferRange& view, std::vector<glm::vec3>& out) {
         if (view.buffer == VK_NULL_HANDLE) {
             return;
         }
@@ -203,8 +203,8 @@ void GpuSurface::evaluate() {
             std::memcpy(&out[i], bytes.data() + 16 * i, 12);
         }
     };
-    readVec4(output_.deformedCage, deformed_);
-    readVec4(output_.patchCoefficients, coefficients_);
+    readVec4(output_.info.deformedCage, deformed_);
+    readVec4(output_.info.patchCoefficients, coefficients_);
 }
 
 } // namespace supple::test

@@ -3,6 +3,7 @@
 
 #include "cage/character.h"
 #include "host/context.h"
+#include "host/group_output.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -56,7 +57,7 @@ public:
     [[nodiscard]] SuppleAsset asset() const { return asset_; }
     [[nodiscard]] SuppleGroup group() const { return group_; }
     [[nodiscard]] SuppleInstance instance(uint32_t index) const { return instances_[index]; }
-    [[nodiscard]] const SuppleGroupOutput& output() const { return output_; }
+    [[nodiscard]] const host::GroupOutput& output() const { return output_; }
     [[nodiscard]] const std::vector<SupplePatchInfo>& patches() const { return patches_; }
 
     /// Runs a frame and reads everything back.
@@ -66,33 +67,35 @@ public:
         glm::vec3 position, normal;
     };
     [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t sample) const {
-        return vertices_[size_t{instance} * output_.verticesPerInstance + vertexIndex(patch, sample)];
+        return vertices_[size_t{instance} * output_.grid.verticesPerInstance + vertexIndex(patch, sample)];
     }
     /// With SUPPLE_GROUP_INDEXED_MESH: of the mesh; what has patches below is then not to be asked.
     [[nodiscard]] const Vertex& sharedVertex(uint32_t instance, uint32_t vertex) const {
-        return vertices_[size_t{instance} * output_.verticesPerInstance + vertex];
+        return vertices_[size_t{instance} * output_.grid.verticesPerInstance + vertex];
     }
     /// Of a patch's sample among the surface vertices of an instance.
     [[nodiscard]] uint32_t vertexIndex(uint32_t patch, uint32_t sample) const {
         const SuppleDrawRange& range = rangeOf(patch);
         return range.firstVertex + (patch - range.firstPatch) * range.samplesPerPatch + sample;
     }
-    [[nodiscard]] const SuppleDrawRange& rangeOf(uint32_t patch) const { return output_.drawRanges[ranges_[patch]]; }
+    [[nodiscard]] const SuppleDrawRange& rangeOf(uint32_t patch) const {
+        return output_.grid.drawRanges[ranges_[patch]];
+    }
     [[nodiscard]] uint32_t sampleCount(uint32_t patch) const { return rangeOf(patch).samplesPerPatch; }
     /// Quad patches.
     [[nodiscard]] const Vertex& vertex(uint32_t instance, uint32_t patch, uint32_t i, uint32_t j) const {
-        return vertex(instance, patch, j * (output_.rate + 1) + i);
+        return vertex(instance, patch, j * (output_.grid.rate + 1) + i);
     }
     [[nodiscard]] glm::vec3 deformed(uint32_t instance, uint32_t cageVertex) const {
-        return deformed_[size_t{instance} * output_.cageVerticesPerInstance + cageVertex];
+        return deformed_[size_t{instance} * output_.info.cageVerticesPerInstance + cageVertex];
     }
     [[nodiscard]] std::vector<glm::vec3> deformedCage(uint32_t instance) const {
-        const auto first = deformed_.begin() + instance * ptrdiff_t{output_.cageVerticesPerInstance};
-        return {first, first + output_.cageVerticesPerInstance};
+        const auto first = deformed_.begin() + instance * ptrdiff_t{output_.info.cageVerticesPerInstance};
+        return {first, first + output_.info.cageVerticesPerInstance};
     }
     /// In the order of SupplePatchClass.
     [[nodiscard]] glm::vec3 coefficient(uint32_t instance, uint32_t patch, uint32_t k) const {
-        return coefficients_[(size_t{instance} * output_.patchCount + patch) * SUPPLE_PATCH_STRIDE + k];
+        return coefficients_[(size_t{instance} * output_.info.patchCount + patch) * SUPPLE_PATCH_STRIDE + k];
     }
     [[nodiscard]] const std::vector<std::byte>& rawVertices() const { return rawVertices_; }
 
@@ -104,7 +107,7 @@ private:
     SuppleAsset asset_{};
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
-    SuppleGroupOutput output_{};
+    host::GroupOutput output_{};
     std::vector<SupplePatchInfo> patches_;
     std::vector<uint32_t> ranges_; ///< per patch: its draw range
     std::vector<std::byte> rawVertices_;

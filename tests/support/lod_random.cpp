@@ -1,6 +1,7 @@
 #include "tests/support/lod_random.h"
 
 #include "tests/support/spirv_precise.h"
+#include "tools/common/inside_output.h"
 
 namespace supple::test {
 
@@ -101,7 +102,7 @@ std::optional<RandomLevels::Drawn> RandomLevels::draw(cage::Character character,
         testDevice()
             ->submitAndWait([&](VkCommandBuffer commands) { EXPECT_TRUE(context_->record(commands, record).ok()); })
             .ok());
-    Drawn drawn{readLodSurface(*testDevice(), group.output()), group.tables().patches};
+    Drawn drawn{readLodSurface(*testDevice(), tools::insideOutput(group)), group.tables().patches};
     EXPECT_TRUE(context_->destroyGroup(*id));
     return drawn;
 }

@@ -42,7 +42,7 @@ std::vector<std::array<uint32_t, 3>> side(const LodSurface& surface, const LodSu
     return samples;
 }
 
-std::vector<std::byte> readView(host::Device& device, const SuppleBufferView& view) {
+std::vector<std::byte> readView(host::Device& device, const SuppleBufferRange& view) {
     if (view.buffer == VK_NULL_HANDLE) {
         return {};
     }
@@ -51,8 +51,8 @@ std::vector<std::byte> readView(host::Device& device, const SuppleBufferView& vi
     return bytes.ok() ? std::move(*bytes) : std::vector<std::byte>(view.size);
 }
 
-std::vector<LodSurface::Patch> readPatches(host::Device& device, const SuppleGroupOutput& output) {
-    const auto buckets = as<std::array<uint32_t, 4>>(readView(device, output.lodBuckets));
+std::vector<LodSurface::Patch> readPatches(host::Device& device, const host::GroupOutput& output) {
+    const auto buckets = as<std::array<uint32_t, 4>>(readView(device, output.levels.buckets));
     uint32_t end = 0; // what lies behind, of the buffer, is other groups' or no one's
     for (const std::array<uint32_t, 4>& bucket : buckets) {
         end = std::max(end, bucket[2] > 0 ? bucket[0] + bucket[2] : 0);
@@ -61,12 +61,12 @@ std::vector<LodSurface::Patch> readPatches(host::Device& device, const SuppleGro
     if (end == 0) {
         return patches;
     }
-    SuppleBufferView used = output.lodPatches;
+    SuppleBufferRange used = output.levels.patches;
     used.size = VkDeviceSize{end} * sizeof(std::array<uint32_t, 16>);
-    EXPECT_LE(used.size, output.lodPatches.size);
+    EXPECT_LE(used.size, output.levels.patches.size);
     const auto records = as<std::array<uint32_t, 16>>(readView(device, used));
-    for (uint32_t d = 0; d < output.lodDrawCount; ++d) {
-        const SuppleLodDraw& draw = output.lodDraws[d];
+    for (uint32_t d = 0; d < output.levels.drawCount; ++d) {
+        const SuppleLevelDraw& draw = output.levels.draws[d];
         for (uint32_t p = 0; p < buckets[d][2]; ++p) {
             const std::array<uint32_t, 16>& record = records[buckets[d][0] + p];
             LodSurface::Patch& patch = patches.emplace_back();
@@ -92,24 +92,24 @@ LodSurface readLodSurface(const Crowd& crowd) {
     return readLodSurface(crowd.context().device(), crowd.output());
 }
 
-LodSurface readLodSurface(host::Device& device, const SuppleGroupOutput& output) {
-    const auto read = [&](const SuppleBufferView& view) { return readView(device, view); };
+LodSurface readLodSurface(host::Device& device, const host::GroupOutput& output) {
+    const auto read = [&](const SuppleBufferRange& view) { return readView(device, view); };
     LodSurface surface;
-    const std::vector<std::byte> vertices = read(output.surfaceVertices);
-    surface.positions = positionsOf(vertices, output.surfaceVertices.stride);
-    if (output.surfaceVertices.stride == 24) {
+    const std::vector<std::byte> vertices = read(output.streams.vertices);
+    surface.positions = positionsOf(vertices, output.streams.vertices.stride);
+    if (output.streams.vertices.stride == 24) {
         surface.normals.resize(surface.positions.size());
         for (size_t v = 0; v < surface.normals.size(); ++v) {
             std::memcpy(&surface.normals[v], vertices.data() + 24 * v + 12, sizeof(glm::vec3));
         }
     }
-    surface.previous = positionsOf(read(output.previousPositions), output.previousPositions.stride);
-    const auto indices = as<uint16_t>(read(output.gridIndices));
-    const auto commands = as<VkDrawIndexedIndirectCommand>(read(output.indirect));
-    EXPECT_EQ(commands.size(), output.lodDrawCount);
+    surface.previous = positionsOf(read(output.streams.previousPositions), output.streams.previousPositions.stride);
+    const auto indices = as<uint16_t>(read(output.indices()));
+    const auto commands = as<VkDrawIndexedIndirectCommand>(read(output.indirect()));
+    EXPECT_EQ(commands.size(), output.levels.drawCount);
     for (size_t d = 0; d < commands.size(); ++d) {
         const VkDrawIndexedIndirectCommand& command = commands[d];
-        const SuppleLodDraw& draw = output.lodDraws[d];
+        const SuppleLevelDraw& draw = output.levels.draws[d];
         for (uint32_t i = 0; i < command.instanceCount; ++i) {
             const uint32_t base = static_cast<uint32_t>(command.vertexOffset) + i * draw.verticesPerInstance;
             for (uint32_t k = 0; k < command.indexCount; k += 3) {
@@ -186,7 +186,7 @@ Sides matchSides(const LodSurface& surface) {
 }
 
 std::vector<surface::PatchInfo> patchesOf(const Crowd& crowd) {
-    std::vector<SupplePatchInfo> infos(crowd.output().patchCount);
+    std::vector<SupplePatchInfo> infos(crowd.output().info.patchCount);
     auto count = static_cast<uint32_t>(infos.size());
     EXPECT_EQ(suppleGetPatches(crowd.context().handle(), crowd.group(), infos.data(), &count), SUPPLE_OK);
     EXPECT_EQ(count, infos.size());

@@ -1,6 +1,7 @@
 // What a view drew of a group: its triangles as the draws' index buffers and indirect commands make them.
 #pragma once
 
+#include "host/group_output.h"
 #include "surface/scheme.h"
 #include "tests/support/crowd.h"
 
@@ -22,7 +23,7 @@ struct LodSurface {
     };
     std::vector<Patch> patches; ///< without the empty records
 };
-[[nodiscard]] LodSurface readLodSurface(host::Device& device, const SuppleGroupOutput& output);
+[[nodiscard]] LodSurface readLodSurface(host::Device& device, const host::GroupOutput& output);
 [[nodiscard]] LodSurface readLodSurface(const Crowd& crowd);
 /// The records alone: the vertices of many instances take long to read.
 [[nodiscard]] std::vector<LodSurface::Patch> readLodPatches(const Crowd& crowd);

@@ -130,29 +130,28 @@ SmallGroup createGroup(SuppleContext context, SuppleAsset asset, SuppleGroupDesc
     return made;
 }
 
-SuppleGroupOutput outputOf(SuppleContext context, SuppleGroup group) {
-    SuppleGroupOutput output{};
-    output.structSize = sizeof(output);
-    EXPECT_EQ(suppleGetGroupOutput(context, group, &output), SUPPLE_OK);
+host::GroupOutput outputOf(SuppleContext context, SuppleGroup group) {
+    host::GroupOutput output{};
+    EXPECT_EQ(host::getGroupOutput(context, group, output), SUPPLE_OK);
     return output;
 }
 
 std::vector<std::byte> surfaceBits(const LoggedContext& context, SuppleGroup group) {
-    const SuppleGroupOutput output = outputOf(context.handle(), group);
+    const host::GroupOutput output = outputOf(context.handle(), group);
     std::vector<std::byte> bits;
-    const auto append = [&](const SuppleBufferView& view, uint32_t count, uint32_t stride) {
+    const auto append = [&](const SuppleBufferRange& view, uint32_t count, uint32_t stride) {
         if (view.buffer == VK_NULL_HANDLE) {
             return;
         }
         const Result<std::vector<std::byte>> bytes = context.device().readBuffer(view);
         ASSERT_TRUE(bytes.ok());
-        for (uint32_t slot = 0; slot < output.capacity; ++slot) {
+        for (uint32_t slot = 0; slot < output.info.capacity; ++slot) {
             const auto first = bytes->begin() + static_cast<ptrdiff_t>(size_t{slot} * stride * view.stride);
             bits.insert(bits.end(), first, first + static_cast<ptrdiff_t>(size_t{count} * view.stride));
         }
     };
-    append(output.deformedCage, output.cageVertexCount, output.cageVerticesPerInstance);
-    append(output.surfaceVertices, output.vertexCount, output.verticesPerInstance);
+    append(output.info.deformedCage, output.info.cageVertexCount, output.info.cageVerticesPerInstance);
+    append(output.streams.vertices, output.grid.vertexCount, output.grid.verticesPerInstance);
     return bits;
 }
 

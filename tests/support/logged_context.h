@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/context.h"
+#include "host/group_output.h"
 
 #include <functional>
 #include <memory>
@@ -74,7 +75,7 @@ struct SmallGroup {
 /// `desc` but for structSize and asset; rate 0 is 2, capacity 0 is 1.
 [[nodiscard]] SmallGroup createGroup(SuppleContext context, SuppleAsset asset, SuppleGroupDesc desc = {});
 
-[[nodiscard]] SuppleGroupOutput outputOf(SuppleContext context, SuppleGroup group);
+[[nodiscard]] host::GroupOutput outputOf(SuppleContext context, SuppleGroup group);
 /// The deformed cages and surface vertices of all slots, without the padding between them.
 [[nodiscard]] std::vector<std::byte> surfaceBits(const LoggedContext& context, SuppleGroup group);
 

@@ -57,7 +57,7 @@ const GpuSurface::Vertex& PmPatches::onEdge(uint32_t instance, uint32_t corner, 
     const uint32_t f = mesh_.topology.cornerFaces[corner], m = mesh_.cage.sides(f);
     const uint32_t edge = (corner - mesh_.cage.faceStarts[f] + m - mesh_.firstCorners[f]) % m;
     const surface::Domain domain = surface::pm::domainOf(mesh_.classes[f]);
-    return gpu_.vertex(instance, patches_[f], surface::edgeSample(domain, gpu_.output().rate, edge, k));
+    return gpu_.vertex(instance, patches_[f], surface::edgeSample(domain, gpu_.output().grid.rate, edge, k));
 }
 
 bool PmPatches::shared(const cage::Topology::Edge& edge) const {
@@ -67,7 +67,7 @@ bool PmPatches::shared(const cage::Topology::Edge& edge) const {
 
 ComparedBits PmPatches::sharedBits(uint32_t instance, const cage::Topology::Edge& edge) const {
     ComparedBits bits;
-    const uint32_t rate = gpu_.output().rate;
+    const uint32_t rate = gpu_.output().grid.rate;
     for (uint32_t k = 0; k <= rate; ++k) {
         bits.compare(onEdge(instance, edge.corner, k).position, onEdge(instance, edge.twin, rate - k).position);
     }

@@ -1,5 +1,7 @@
 #include "tests/support/posed_group.h"
 
+#include "tools/common/inside_output.h"
+
 #include <cstring>
 #include <gtest/gtest.h>
 
@@ -60,13 +62,13 @@ void PosedGroup::deform() {
     const Status submitted = shared_.device.submitAndWait(
         [&](VkCommandBuffer commands) { EXPECT_TRUE(shared_.context->record(commands, record).ok()); });
     ASSERT_TRUE(submitted.ok()) << submitted.error().message;
-    const SuppleGroupOutput& output = group_->output();
-    const Result<std::vector<std::byte>> bytes = shared_.device.readBuffer(output.deformedCage);
+    const host::GroupOutput output = tools::insideOutput(*group_);
+    const Result<std::vector<std::byte>> bytes = shared_.device.readBuffer(output.info.deformedCage);
     ASSERT_TRUE(bytes.ok());
-    cages_.assign(output.capacity, std::vector<glm::vec3>(output.cageVertexCount));
-    for (uint32_t i = 0; i < output.capacity; ++i) {
-        for (uint32_t v = 0; v < output.cageVertexCount; ++v) {
-            std::memcpy(&cages_[i][v], bytes->data() + 16 * (size_t{i} * output.cageVerticesPerInstance + v), 12);
+    cages_.assign(output.info.capacity, std::vector<glm::vec3>(output.info.cageVertexCount));
+    for (uint32_t i = 0; i < output.info.capacity; ++i) {
+        for (uint32_t v = 0; v < output.info.cageVertexCount; ++v) {
+            std::memcpy(&cages_[i][v], bytes->data() + 16 * (size_t{i} * output.info.cageVerticesPerInstance + v), 12);
         }
     }
 }

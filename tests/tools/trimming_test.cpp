@@ -443,18 +443,17 @@ TEST_F(TrimmingTest, FaceCoordinatesAreTheirFaces) {
         SuppleInstance instance{};
         ASSERT_EQ(suppleCreateInstance(context_->handle(), group, &instance), SUPPLE_OK);
         ASSERT_TRUE(context_->evaluate({&group, 1}).ok());
-        SuppleGroupOutput output{};
-        output.structSize = sizeof(output);
-        ASSERT_EQ(suppleGetGroupOutput(context_->handle(), group, &output), SUPPLE_OK);
-        std::vector<SupplePatchInfo> patches(output.patchCount);
-        uint32_t count = output.patchCount;
+        host::GroupOutput output{};
+        ASSERT_EQ(host::getGroupOutput(context_->handle(), group, output), SUPPLE_OK);
+        std::vector<SupplePatchInfo> patches(output.info.patchCount);
+        uint32_t count = output.info.patchCount;
         ASSERT_EQ(suppleGetPatches(context_->handle(), group, patches.data(), &count), SUPPLE_OK);
-        ASSERT_EQ(output.faceUvs.stride, sizeof(glm::vec2));
-        const Result<std::vector<std::byte>> bytes = device_->readBuffer(output.faceUvs);
+        ASSERT_EQ(output.streams.faceUvs.stride, sizeof(glm::vec2));
+        const Result<std::vector<std::byte>> bytes = device_->readBuffer(output.streams.faceUvs);
         ASSERT_TRUE(bytes.ok());
         uint32_t wrong = 0;
-        for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
-            const SuppleDrawRange& range = output.drawRanges[r];
+        for (uint32_t r = 0; r < output.grid.drawRangeCount; ++r) {
+            const SuppleDrawRange& range = output.grid.drawRanges[r];
             for (uint32_t i = 0; i < range.patchCount * range.samplesPerPatch; ++i) {
                 glm::vec2 at;
                 std::memcpy(&at, bytes->data() + (range.firstVertex + i) * sizeof(at), sizeof(at));

@@ -64,7 +64,7 @@ Result<std::unique_ptr<Evaluated>> evaluated(host::Device& device, Workbench& wo
     return result;
 }
 
-Result<std::vector<float>> readFloats(host::Device& device, const SuppleBufferView& view) {
+Result<std::vector<float>> readFloats(host::Device& device, const SuppleBufferRange& view) {
     Result<std::vector<std::byte>> bytes = device.readBuffer(view);
     if (!bytes) {
         return bytes.error();
@@ -90,13 +90,13 @@ Result<std::vector<float>> bicubicCoefficients(host::Device& device, Workbench& 
     if (!frame) {
         return frame.error();
     }
-    const SuppleGroupOutput& output = workbench.output((*frame)->group);
-    Result<std::vector<float>> all = readFloats(device, output.patchCoefficients);
+    const host::GroupOutput& output = workbench.output((*frame)->group);
+    Result<std::vector<float>> all = readFloats(device, output.info.patchCoefficients);
     if (!all) {
         return all.error();
     }
     std::vector<float> bicubic;
-    for (uint32_t p = 0; p < output.patchCount; ++p) {
+    for (uint32_t p = 0; p < output.info.patchCount; ++p) {
         const auto first = all->begin() + ptrdiff_t{4} * SUPPLE_PATCH_STRIDE * p;
         bicubic.insert(bicubic.end(), first, first + 64);
     }
@@ -121,7 +121,7 @@ Result<std::vector<Agreement>> compareEvaluations(host::Device& device, Workbenc
         return frame.error();
     }
     const SuppleGroup group = (*frame)->group;
-    const Result<std::vector<float>> surface = readFloats(device, workbench.output(group).surfaceVertices);
+    const Result<std::vector<float>> surface = readFloats(device, workbench.output(group).streams.vertices);
     if (!surface) {
         return surface.error();
     }
@@ -162,16 +162,16 @@ Result<std::vector<Agreement>> comparePeers(host::Device& device, Workbench& wor
         return frame.error();
     }
     const SuppleGroup group = (*frame)->group;
-    const SuppleGroupOutput& output = workbench.output(group);
-    const Result<std::vector<float>> surface = readFloats(device, output.surfaceVertices);
+    const host::GroupOutput& output = workbench.output(group);
+    const Result<std::vector<float>> surface = readFloats(device, output.streams.vertices);
     if (!surface) {
         return surface.error();
     }
     // Orders differ, the places are the same: every sample of a face has one of the other's near it, both ways.
     const std::vector<uint32_t> faces = workbench.patchFaces(group);
     std::vector<std::vector<glm::vec3>> ours(quads.character.cage.faceCount());
-    for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
-        const SuppleDrawRange& range = output.drawRanges[r];
+    for (uint32_t r = 0; r < output.grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = output.grid.drawRanges[r];
         for (uint32_t p = 0; p < range.patchCount; ++p) {
             for (uint32_t s = 0; s < range.samplesPerPatch; ++s) {
                 const float* v = &(*surface)[size_t{6} * (range.firstVertex + p * range.samplesPerPatch + s)];

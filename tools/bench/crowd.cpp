@@ -63,18 +63,18 @@ public:
         return recorded ? submitted : recorded;
     }
 
-    [[nodiscard]] const SuppleGroupOutput& output() const { return workbench_.output(group_); }
-    [[nodiscard]] uint64_t vertices() const { return uint64_t{output().vertexCount} * output().capacity; }
+    [[nodiscard]] host::GroupOutput output() const { return workbench_.output(group_); }
+    [[nodiscard]] uint64_t vertices() const { return uint64_t{output().grid.vertexCount} * output().info.capacity; }
     [[nodiscard]] Result<std::unique_ptr<Replay>> replay(bool frame) const {
         return Replay::create(device_, [&](VkCommandBuffer commands) {
             frame ? workbench_.recordCompute(group_, commands) : workbench_.recordEvaluate(group_, commands);
         });
     }
     [[nodiscard]] Result<std::vector<std::byte>> verticesOf(uint32_t instance) const {
-        const VkDeviceSize stride = VkDeviceSize{output().verticesPerInstance} * kVertexBytes;
-        const SuppleBufferView& all = output().surfaceVertices;
+        const VkDeviceSize stride = VkDeviceSize{output().grid.verticesPerInstance} * kVertexBytes;
+        const SuppleBufferRange all = output().streams.vertices;
         return device_.readBuffer(all.buffer, all.offset + instance * stride,
-                                  VkDeviceSize{output().vertexCount} * kVertexBytes);
+                                  VkDeviceSize{output().grid.vertexCount} * kVertexBytes);
     }
 
 private:
@@ -105,7 +105,7 @@ Json shareOf(const Series& evaluate, const Series& fill, const Series& store) {
 }
 
 Result<Json> measureRow(host::Device& device, const CrowdDesc& desc, const Crowd& crowd) {
-    const bool one = crowd.output().capacity == 1;
+    const bool one = crowd.output().info.capacity == 1;
     std::vector<std::unique_ptr<Replay>> replays;
     std::vector<Contestant> contestants;
     std::unique_ptr<DeviceWrite> write;
@@ -145,9 +145,12 @@ Result<Json> measureRow(host::Device& device, const CrowdDesc& desc, const Crowd
     };
     const auto gigabytes = [&](const Series& series) { return kVertexBytes / median(clockOf(series)); };
     const Series &evaluate = (*all)[0], &frame = (*all)[1];
-    Json row{{"characters", crowd.output().capacity}, {"patches", crowd.output().patchCount},
-             {"vertices", crowd.vertices()},          {"clock", evaluate.gpu.empty() ? "wall" : "device timestamps"},
-             {"evaluateMs", milliseconds(evaluate)},  {"frameMs", milliseconds(frame)}};
+    Json row{{"characters", crowd.output().info.capacity},
+             {"patches", crowd.output().info.patchCount},
+             {"vertices", crowd.vertices()},
+             {"clock", evaluate.gpu.empty() ? "wall" : "device timestamps"},
+             {"evaluateMs", milliseconds(evaluate)},
+             {"frameMs", milliseconds(frame)}};
     if (!one) {
         const Series &fill = (*all)[2], &store = (*all)[3];
         row["evaluateGigabytesPerSecond"] = gigabytes(evaluate);
@@ -182,7 +185,7 @@ Result<Json> measureCrowd(host::Device& device, Workbench& workbench, const Crow
             if (!status) {
                 return status;
             }
-            const VkDeviceSize bytes = VkDeviceSize{one.output().verticesPerInstance} * kVertexBytes;
+            const VkDeviceSize bytes = VkDeviceSize{one.output().grid.verticesPerInstance} * kVertexBytes;
             characters = static_cast<uint32_t>(
                 std::clamp<VkDeviceSize>(deviceMemory(device) / kShareOfMemory / bytes, 2, wanted));
         }

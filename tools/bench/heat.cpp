@@ -123,7 +123,7 @@ Status Heat::addSubject(SuppleAsset asset, SuppleScheme scheme, const Variant& v
     const std::string name = tools::schemeName(scheme);
     if (&variant == &kPlainVariant) {
         schemes_.push_back(name);
-        points_ = workbench_.output(group).vertexCount;
+        points_ = workbench_.output(group).grid.vertexCount;
     }
     Status status = addReplay(variant.name(name, "evaluate"), points_,
                               [&](VkCommandBuffer commands) { workbench_.recordEvaluate(group, commands); });

@@ -2,6 +2,7 @@
 
 #include "runtime/context.h"
 #include "runtime/playback_desc.h"
+#include "tools/common/inside_output.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,8 +145,8 @@ void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
     group.tessellation().recordEvaluate(commands);
 }
 
-const SuppleGroupOutput& Workbench::output(SuppleGroup group) const {
-    return inside_->group(group).output();
+host::GroupOutput Workbench::output(SuppleGroup group) const {
+    return tools::insideOutput(inside_->group(group));
 }
 
 uint32_t Workbench::regularPatches(SuppleGroup group) const {
@@ -175,8 +176,9 @@ Workbench::StaticBytes Workbench::staticBytes(SuppleGroup id) const {
             bytes.tables = scheme->buffers.size(0);
         }
     }
-    bytes.indices = group.output().lodDraws != nullptr ? 0 : group.output().gridIndices.size; // a view has them for all
-    bytes.group = group.output().deviceBytes;
+    const host::GroupOutput out = output(id);
+    bytes.indices = out.grid.indices.size; // with levels the view has them for all
+    bytes.group = out.info.deviceBytes;
     return bytes;
 }
 

@@ -5,6 +5,7 @@
 #include "base/result.h"
 #include "cage/character.h"
 #include "host/device.h"
+#include "host/group_output.h"
 
 #include <cstdint>
 #include <memory>
@@ -43,7 +44,7 @@ public:
     /// from sampling their poses on. Groups without a view.
     void recordCompute(SuppleGroup group, VkCommandBuffer commands) const;
 
-    [[nodiscard]] const SuppleGroupOutput& output(SuppleGroup group) const;
+    [[nodiscard]] host::GroupOutput output(SuppleGroup group) const;
     /// The group's first patches that are plain bicubic ones.
     [[nodiscard]] uint32_t regularPatches(SuppleGroup group) const;
     /// The cage's face of every patch.

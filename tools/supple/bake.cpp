@@ -57,30 +57,30 @@ std::vector<std::vector<uint32_t>> gridFaces(const SuppleDrawRange& range, uint3
 }
 
 Status writeSurface(const std::string& path, const Evaluation& baked, const std::string& scheme, uint32_t askedRate) {
-    const SuppleGroupOutput& output = baked.output;
+    const host::GroupOutput& output = baked.output;
     const bool uvs = !baked.attributes.empty();
     TextFile file(path);
-    file.text("# supple bake: scheme ").text(scheme).text(", rate ").number(uint64_t{output.rate});
-    if (output.rate != askedRate) {
+    file.text("# supple bake: scheme ").text(scheme).text(", rate ").number(uint64_t{output.grid.rate});
+    if (output.grid.rate != askedRate) {
         file.text(" (").number(uint64_t{askedRate}).text(" asked for along an edge of the cage)");
     }
-    file.text(", ").number(uint64_t{output.patchCount}).text(" patches\n");
-    for (uint32_t r = 0; r < output.drawRangeCount; ++r) {
-        const SuppleDrawRange& range = output.drawRanges[r];
-        const std::vector<std::vector<uint32_t>> faces = gridFaces(range, output.rate, baked.gridIndices);
+    file.text(", ").number(uint64_t{output.info.patchCount}).text(" patches\n");
+    for (uint32_t r = 0; r < output.grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = output.grid.drawRanges[r];
+        const std::vector<std::vector<uint32_t>> faces = gridFaces(range, output.grid.rate, baked.gridIndices);
         for (uint64_t patch = range.firstPatch; patch < range.firstPatch + range.patchCount; ++patch) {
             const uint64_t samples = range.samplesPerPatch;
             const uint64_t first = range.firstVertex + (patch - range.firstPatch) * samples;
             file.text("g patch_").number(patch).text("\n");
             for (uint64_t i = first; i < first + samples; ++i) {
-                writeVector(file, "v", element<glm::vec3>(baked.surfaceVertices, output.surfaceVertices, i));
+                writeVector(file, "v", element<glm::vec3>(baked.surfaceVertices, output.streams.vertices, i));
             }
             for (uint64_t i = first; i < first + samples; ++i) {
                 writeVector(file, "vn",
-                            element<glm::vec3>(baked.surfaceVertices, output.surfaceVertices, i, sizeof(glm::vec3)));
+                            element<glm::vec3>(baked.surfaceVertices, output.streams.vertices, i, sizeof(glm::vec3)));
             }
             for (uint64_t i = first; uvs && i < first + samples; ++i) {
-                writeVector(file, "vt", element<glm::vec2>(baked.attributes, output.attributes, i));
+                writeVector(file, "vt", element<glm::vec2>(baked.attributes, output.streams.attributes, i));
             }
             for (const std::vector<uint32_t>& face : faces) {
                 file.text("f");
@@ -103,7 +103,7 @@ Status writeCage(const std::string& path, const Evaluation& baked, const cage::C
     TextFile file(path);
     file.text("# supple bake: deformed cage\n");
     for (uint32_t vertex = 0; vertex < cage.vertexCount(); ++vertex) {
-        writeVector(file, "v", element<glm::vec3>(baked.deformedCage, baked.output.deformedCage, vertex));
+        writeVector(file, "v", element<glm::vec3>(baked.deformedCage, baked.output.info.deformedCage, vertex));
     }
     for (const glm::vec2& uv : cage.cornerUvs) {
         writeVector(file, "vt", uv);
@@ -122,11 +122,11 @@ Status writeCage(const std::string& path, const Evaluation& baked, const cage::C
 }
 
 Status writePatches(const std::string& path, const Evaluation& baked, const std::string& scheme) {
-    const SuppleBufferView& view = baked.output.patchCoefficients;
+    const SuppleBufferRange& view = baked.output.info.patchCoefficients;
     TextFile file(path);
-    file.text("{\"scheme\":\"").text(scheme).text("\",\"rate\":").number(uint64_t{baked.output.rate});
+    file.text("{\"scheme\":\"").text(scheme).text("\",\"rate\":").number(uint64_t{baked.output.grid.rate});
     file.text(",\"patches\":[");
-    for (uint64_t patch = 0; patch < baked.output.patchCount; ++patch) {
+    for (uint64_t patch = 0; patch < baked.output.info.patchCount; ++patch) {
         const SupplePatchInfo& info = baked.patches[patch];
         file.text(patch == 0 ? "\n" : ",\n").text("{\"face\":").number(uint64_t{info.face});
         file.text(",\"class\":\"")

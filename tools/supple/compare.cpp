@@ -69,7 +69,7 @@ Sums measure(const Evaluation& evaluation, const LimitSurface& limit, const Batc
             batch.range->firstVertex + size_t{patch - batch.range->firstPatch} * batch.range->samplesPerPatch;
         const uint32_t face = evaluation.patches[patch].face;
         for (size_t i = first; i < first + batch.range->samplesPerPatch; ++i) {
-            const SuppleBufferView& view = evaluation.output.surfaceVertices;
+            const SuppleBufferRange& view = evaluation.output.streams.vertices;
             const auto position = element<glm::vec3>(evaluation.surfaceVertices, view, i);
             const auto normal = element<glm::vec3>(evaluation.surfaceVertices, view, i, sizeof(glm::vec3));
             sums.add(probe.measure(face, position, normal, i % kDoubted == 0), face);
@@ -82,7 +82,8 @@ Sums measure(const Evaluation& evaluation, const LimitSurface& limit, const Batc
 Sums measure(const Evaluation& evaluation, const LimitSurface& limit) {
     constexpr uint32_t kBatch = 256;
     std::vector<Batch> batches;
-    for (const SuppleDrawRange& range : std::span(evaluation.output.drawRanges, evaluation.output.drawRangeCount)) {
+    for (const SuppleDrawRange& range :
+         std::span(evaluation.output.grid.drawRanges, evaluation.output.grid.drawRangeCount)) {
         const uint32_t end = range.firstPatch + range.patchCount;
         for (uint32_t first = range.firstPatch; first < end; first += kBatch) {
             batches.push_back({&range, first, std::min(first + kBatch, end)});
@@ -110,8 +111,8 @@ Sums measure(const Evaluation& evaluation, const LimitSurface& limit) {
 
 std::vector<glm::dvec3> cagePositions(const Evaluation& evaluation) {
     std::vector<glm::dvec3> positions;
-    for (uint32_t v = 0; v < evaluation.output.cageVertexCount; ++v) {
-        positions.emplace_back(element<glm::vec3>(evaluation.deformedCage, evaluation.output.deformedCage, v));
+    for (uint32_t v = 0; v < evaluation.output.info.cageVertexCount; ++v) {
+        positions.emplace_back(element<glm::vec3>(evaluation.deformedCage, evaluation.output.info.deformedCage, v));
     }
     return positions;
 }
@@ -180,7 +181,7 @@ Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& f
         }
         const Sums sums = measure(*evaluation, *limit);
         comparison.measuringError = std::max(comparison.measuringError, sums.doubt);
-        deviation.patches = evaluation->output.patchCount;
+        deviation.patches = evaluation->output.info.patchCount;
         deviation.samples = sums.samples;
         deviation.max = std::max(sums.max, 0.0);
         deviation.mean = sums.sum / static_cast<double>(std::max<uint64_t>(sums.samples, 1));

@@ -6,7 +6,7 @@ namespace supple::tools {
 namespace {
 
 /// Reads a buffer of the group's output; one that the group was made without stays empty.
-Status readBack(host::Device& device, const SuppleBufferView& view, std::vector<std::byte>& bytes) {
+Status readBack(host::Device& device, const SuppleBufferRange& view, std::vector<std::byte>& bytes) {
     if (view.buffer == VK_NULL_HANDLE) {
         return success();
     }
@@ -31,7 +31,8 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFl
     desc.scheme = schemeOf(surface.scheme);
     desc.rate = surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
-    describeSurface(surface, desc);
+    SchemeOptions options;
+    describeSurface(surface, options, desc);
     SuppleGroup group{};
     Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
     SuppleInstance instance{};
@@ -47,22 +48,21 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFl
         status = context.evaluate(groups);
     }
     Evaluation result;
-    result.output.structSize = sizeof result.output;
     if (status) {
-        status = context.check(suppleGetGroupOutput(context.handle(), group, &result.output), "suppleGetGroupOutput");
+        status = context.check(host::getGroupOutput(context.handle(), group, result.output), "suppleGetGroupInfo");
     }
     if (status) {
-        uint32_t count = result.output.patchCount;
+        uint32_t count = result.output.info.patchCount;
         result.patches.resize(count);
         status =
             context.check(suppleGetPatches(context.handle(), group, result.patches.data(), &count), "suppleGetPatches");
     }
-    const std::pair<const SuppleBufferView*, std::vector<std::byte>*> buffers[] = {
-        {&result.output.surfaceVertices, &result.surfaceVertices},
-        {&result.output.attributes, &result.attributes},
-        {&result.output.gridIndices, &result.gridIndices},
-        {&result.output.patchCoefficients, &result.coefficients},
-        {&result.output.deformedCage, &result.deformedCage},
+    const std::pair<const SuppleBufferRange*, std::vector<std::byte>*> buffers[] = {
+        {&result.output.streams.vertices, &result.surfaceVertices},
+        {&result.output.streams.attributes, &result.attributes},
+        {&result.output.indices(), &result.gridIndices},
+        {&result.output.info.patchCoefficients, &result.coefficients},
+        {&result.output.info.deformedCage, &result.deformedCage},
     };
     for (const auto& [view, bytes] : buffers) {
         if (status) {

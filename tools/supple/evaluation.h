@@ -1,6 +1,7 @@
 // One instance evaluated on the device in one frame, and what it wrote read back.
 #pragma once
 
+#include "host/group_output.h"
 #include "tools/supple/session.h"
 
 #include <cstddef>
@@ -12,7 +13,7 @@ namespace supple::tools {
 
 /// `output` lives as long as the session's context.
 struct Evaluation {
-    SuppleGroupOutput output{};
+    host::GroupOutput output{};
     std::vector<SupplePatchInfo> patches;
     std::vector<std::byte> surfaceVertices; ///< SUPPLE_VERTEX_24
     std::vector<std::byte> attributes;      ///< these three are empty where the group was made without
@@ -23,7 +24,7 @@ struct Evaluation {
 
 /// The first floats of element `index` of a buffer that was read back.
 template <class Vec>
-[[nodiscard]] Vec element(const std::vector<std::byte>& bytes, const SuppleBufferView& view, size_t index,
+[[nodiscard]] Vec element(const std::vector<std::byte>& bytes, const SuppleBufferRange& view, size_t index,
                           size_t byteOffset = 0) {
     Vec value;
     std::memcpy(&value, bytes.data() + index * view.stride + byteOffset, sizeof value);

@@ -77,11 +77,13 @@ void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThresho
         ->capture_default_str();
 }
 
-void describeSurface(const SurfaceFlags& flags, SuppleGroupDesc& desc) {
-    desc.tangentMode = flags.tangents == "printed" ? SUPPLE_TANGENTS_PRINTED : SUPPLE_TANGENTS_DEFAULT;
-    desc.cornerRule = flags.corners == "smooth" ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP;
-    desc.creaseMode = creaseModeOf(flags.creases);
-    desc.sharpThreshold = flags.sharpThreshold;
+void describeSurface(const SurfaceFlags& flags, SchemeOptions& options, SuppleGroupDesc& desc) {
+    options.prep = {sizeof options.prep,
+                    flags.tangents == "printed" ? SUPPLE_TANGENTS_PRINTED : SUPPLE_TANGENTS_DEFAULT,
+                    flags.corners == "smooth" ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP};
+    options.blend = {sizeof options.blend, creaseModeOf(flags.creases), flags.sharpThreshold};
+    desc.prep = &options.prep;
+    desc.blend = &options.blend;
     desc.skinning = skinningOf(flags.skinning);
 }
 

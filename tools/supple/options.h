@@ -43,8 +43,14 @@ void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::str
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
 /// --creases and --sharp.
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold);
-/// The description's fields that --tangents, --corners, --creases, --sharp and --skinning set.
-void describeSurface(const SurfaceFlags& flags, SuppleGroupDesc& desc);
+/// What a description of a group points to.
+struct SchemeOptions {
+    SupplePrepOptions prep{};
+    SuppleBlendOptions blend{};
+};
+/// The description's fields that --tangents, --corners, --creases, --sharp and --skinning set. It then points to
+/// `options`.
+void describeSurface(const SurfaceFlags& flags, SchemeOptions& options, SuppleGroupDesc& desc);
 
 /// --creases: "cut" or "curve".
 [[nodiscard]] SuppleCreaseMode creaseModeOf(const std::string& name);

@@ -1,6 +1,7 @@
 #include "tools/supple/profile_stage.h"
 
 #include "host/camera.h"
+#include "host/group_output.h"
 #include "tools/supple/command.h"
 
 #include <algorithm>
@@ -116,7 +117,8 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     desc.capacity = instances;
     desc.scheme = schemeOf(scheme);
     desc.rate = options_.surface.rate;
-    describeSurface(options_.surface, desc);
+    SchemeOptions schemeOptions;
+    describeSurface(options_.surface, schemeOptions, desc);
     desc.poseSource = options_.plays() ? SUPPLE_POSES_PLAYBACK : SUPPLE_POSES_SET;
     desc.view = view_;
     SuppleGroup group{};
@@ -129,15 +131,14 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     if (status && options_.plays()) {
         status = startPlayback(subject);
     }
-    SuppleGroupOutput output{};
-    output.structSize = sizeof output;
+    host::GroupOutput output{};
     if (status) {
-        status = check(suppleGetGroupOutput(handle(), group, &output), "suppleGetGroupOutput");
+        status = check(host::getGroupOutput(handle(), group, output), "suppleGetGroupInfo");
     }
     run.instances += instances;
-    run.patches = std::max(run.patches, output.patchCount);
-    run.patchRate = output.rate;
-    run.deviceBytes += output.deviceBytes;
+    run.patches = std::max(run.patches, output.info.patchCount);
+    run.patchRate = output.info.tessellation == SUPPLE_TESSELLATION_NONE ? run.rate : output.grid.rate;
+    run.deviceBytes += output.info.deviceBytes;
     return status;
 }
 

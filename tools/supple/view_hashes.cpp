@@ -1,5 +1,7 @@
 #include "tools/supple/view_hashes.h"
 
+#include "host/group_output.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -34,11 +36,11 @@ struct Stream {
 
 class ViewReader {
 public:
-    ViewReader(host::Device& device, const SuppleGroupOutput& output, uint64_t group, std::vector<Line>& lines)
+    ViewReader(host::Device& device, const host::GroupOutput& output, uint64_t group, std::vector<Line>& lines)
         : device_(device), output_(output), group_(group), lines_(lines) {}
 
     Status read() {
-        for (const SuppleBufferView& view : {output_.surfaceVertices, output_.previousPositions}) {
+        for (const SuppleBufferRange& view : {output_.streams.vertices, output_.streams.previousPositions}) {
             if (view.buffer == VK_NULL_HANDLE) {
                 continue;
             }
@@ -48,12 +50,12 @@ public:
             }
             streams_.push_back({std::move(*bytes), view.stride});
         }
-        return output_.lodDrawCount > 0 ? readPatches() : readRates();
+        return output_.levels.drawCount > 0 ? readPatches() : readRates();
     }
 
 private:
     template <class T>
-    Result<std::vector<T>> elements(const SuppleBufferView& view) {
+    Result<std::vector<T>> elements(const SuppleBufferRange& view) {
         const Result<std::vector<std::byte>> bytes = device_.readBuffer(view);
         if (!bytes) {
             return bytes.error();
@@ -72,20 +74,20 @@ private:
     Status readPatches() {
         using Bucket = std::array<uint32_t, 4>;
         using Record = std::array<uint32_t, 16>; // patch, slot, first vertex, -, levels
-        const Result<std::vector<Bucket>> buckets = elements<Bucket>(output_.lodBuckets);
-        const Result<std::vector<Record>> records = elements<Record>(output_.lodPatches);
+        const Result<std::vector<Bucket>> buckets = elements<Bucket>(output_.levels.buckets);
+        const Result<std::vector<Record>> records = elements<Record>(output_.levels.patches);
         if (!buckets || !records) {
             return buckets ? records.error() : buckets.error();
         }
-        for (uint32_t draw = 0; draw < output_.lodDrawCount; ++draw) {
+        for (uint32_t draw = 0; draw < output_.levels.drawCount; ++draw) {
             const auto [firstPatch, firstVertex, patchCount, unused] = (*buckets)[draw];
             for (uint32_t i = 0; i < patchCount; ++i) {
                 const Record& record = (*records)[firstPatch + i];
                 Hash levels;
                 levels.add(&record[4], sizeof(Record) - 4 * sizeof(uint32_t));
                 Hash vertices;
-                addVertices(vertices, record[2], output_.lodDraws[draw].samplesPerPatch);
-                lines_.push_back({group_, record[1] & 0x0FFFFFFFu, record[0], output_.lodDraws[draw].capacity,
+                addVertices(vertices, record[2], output_.levels.draws[draw].samplesPerPatch);
+                lines_.push_back({group_, record[1] & 0x0FFFFFFFu, record[0], output_.levels.draws[draw].capacity,
                                   levels.value(), vertices.value()});
             }
         }
@@ -94,23 +96,23 @@ private:
 
     Status readRates() {
         const Result<std::vector<VkDrawIndexedIndirectCommand>> commands =
-            elements<VkDrawIndexedIndirectCommand>(output_.indirect);
+            elements<VkDrawIndexedIndirectCommand>(output_.indirect());
         if (!commands) {
             return commands.error();
         }
-        for (uint32_t r = 0; r < output_.rateCount; ++r) {
-            const SuppleRate& rate = output_.rates[r];
+        for (uint32_t r = 0; r < output_.grid.rateCount; ++r) {
+            const SuppleRate& rate = output_.grid.rates[r];
             const Result<std::vector<uint32_t>> slots = elements<uint32_t>(rate.instances);
             if (!slots) {
                 return slots.error();
             }
-            const uint32_t patches = output_.drawRanges[rate.firstDrawRange].patchCount;
+            const uint32_t patches = output_.grid.drawRanges[rate.firstDrawRange].patchCount;
             const uint32_t instances = (*commands)[rate.firstDrawRange].instanceCount / patches;
             for (uint32_t i = 0; i < instances; ++i) {
-                const size_t base = size_t{(*slots)[i]} * output_.verticesPerInstance;
+                const size_t base = size_t{(*slots)[i]} * output_.grid.verticesPerInstance;
                 Hash vertices;
                 for (uint32_t d = 0; d < rate.drawRangeCount; ++d) {
-                    const SuppleDrawRange& range = output_.drawRanges[rate.firstDrawRange + d];
+                    const SuppleDrawRange& range = output_.grid.drawRanges[rate.firstDrawRange + d];
                     addVertices(vertices, base + range.firstVertex, size_t{range.patchCount} * range.samplesPerPatch);
                 }
                 lines_.push_back({group_, (*slots)[i], 0, rate.rate, 0, vertices.value()});
@@ -120,7 +122,7 @@ private:
     }
 
     host::Device& device_;
-    const SuppleGroupOutput& output_;
+    const host::GroupOutput& output_;
     uint64_t group_;
     std::vector<Line>& lines_;
     std::vector<Stream> streams_;
@@ -131,10 +133,9 @@ private:
 Result<std::string> hashView(host::Context& context, std::span<const SuppleGroup> groups) {
     std::vector<Line> lines;
     for (size_t group = 0; group < groups.size(); ++group) {
-        SuppleGroupOutput output{};
-        output.structSize = sizeof output;
+        host::GroupOutput output{};
         Status status =
-            context.check(suppleGetGroupOutput(context.handle(), groups[group], &output), "suppleGetGroupOutput");
+            context.check(host::getGroupOutput(context.handle(), groups[group], output), "suppleGetGroupInfo");
         if (status) {
             status = ViewReader(context.device(), output, group, lines).read();
         }

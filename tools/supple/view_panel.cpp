@@ -124,8 +124,8 @@ void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     ImGui::SameLine();
     ImGui::Checkbox("cage only", &settings.cageFaces);
     ImGui::Checkbox("ground", &settings.ground);
-    const SuppleGroupOutput& output = stage.group().output();
-    ImGui::TextDisabled("%u patches, %u vertices", output.patchCount, output.vertexCount);
+    const host::GroupOutput& output = stage.group().output();
+    ImGui::TextDisabled("%u patches, %u vertices", output.info.patchCount, output.grid.vertexCount);
 }
 
 void buildTimings(const PanelState& state, const ViewStage& stage) {

@@ -75,37 +75,68 @@ private:
     SuppleContext handle_ = nullptr;
 };
 
-/// Owns a SuppleAsset. Its context must outlive it.
-class Asset {
+inline void destroy(SuppleContext context, SuppleAsset asset) {
+    suppleDestroyAsset(context, asset);
+}
+inline void destroy(SuppleContext context, SuppleGroup group) {
+    suppleDestroyGroup(context, group);
+}
+inline void destroy(SuppleContext context, SuppleView view) {
+    suppleDestroyView(context, view);
+}
+inline void destroy(SuppleContext context, SuppleInstance instance) {
+    suppleDestroyInstance(context, instance);
+}
+
+/// Owns a handle, or nothing. The context must outlive it.
+template <class Handle>
+class Owner {
 public:
-    Asset() = default;
-    Asset(Asset&& other) noexcept
+    Owner() = default; ///< owns nothing
+    /// Leaves nothing behind.
+    Owner(Owner&& other) noexcept
         : context_(std::exchange(other.context_, nullptr)), handle_(std::exchange(other.handle_, {})) {}
-    Asset& operator=(Asset&& other) noexcept {
+    /// Exchanges what the two own.
+    Owner& operator=(Owner&& other) noexcept {
         std::swap(context_, other.context_);
         std::swap(handle_, other.handle_);
         return *this;
     }
-    ~Asset() {
+    ~Owner() {
         if (context_ != nullptr) {
-            suppleDestroyAsset(context_, handle_);
+            destroy(context_, handle_);
         }
     }
 
-    /// Replaces what `out` held.
-    [[nodiscard]] static SuppleResult create(const Context& context, const SuppleAssetDesc& desc, Asset& out) {
-        SuppleAsset handle{};
-        const SuppleResult result = suppleCreateAsset(context.handle(), &desc, &handle);
+    [[nodiscard]] Handle handle() const { return handle_; }          ///< as the C functions take it
+    [[nodiscard]] SuppleContext context() const { return context_; } ///< null: it owns nothing
+
+protected:
+    /// Owns what create(handle) makes in its first argument, if that succeeds.
+    template <class Create>
+    [[nodiscard]] SuppleResult replace(SuppleContext context, Create&& create) {
+        Owner made;
+        const SuppleResult result = create(made.handle_);
         if (result == SUPPLE_OK) {
-            Asset created;
-            created.context_ = context.handle();
-            created.handle_ = handle;
-            out = std::move(created);
+            made.context_ = context;
+            *this = std::move(made);
         }
         return result;
     }
 
-    [[nodiscard]] SuppleAsset handle() const { return handle_; }
+    SuppleContext context_ = nullptr; ///< see context()
+    Handle handle_{};                 ///< see handle()
+};
+
+/// Owns a SuppleAsset. Its context must outlive it.
+class Asset : public Owner<SuppleAsset> {
+public:
+    /// Replaces what `out` held.
+    [[nodiscard]] static SuppleResult create(const Context& context, const SuppleAssetDesc& desc, Asset& out) {
+        return out.replace(context.handle(),
+                           [&](SuppleAsset& made) { return suppleCreateAsset(context.handle(), &desc, &made); });
+    }
+
     [[nodiscard]] SuppleResult info(SuppleAssetInfo& out) const {
         out = sized<SuppleAssetInfo>();
         return suppleGetAssetInfo(context_, handle_, &out);
@@ -137,44 +168,17 @@ public:
         out = sized<SuppleRootMotion>();
         return suppleGetRootMotion(context_, handle_, &pose, &out);
     }
-
-private:
-    SuppleContext context_ = nullptr;
-    SuppleAsset handle_{};
 };
 
 /// Owns a SuppleGroup. Its context must outlive it; the device memory goes once the frames that used it are complete.
-class Group {
+class Group : public Owner<SuppleGroup> {
 public:
-    Group() = default;
-    Group(Group&& other) noexcept
-        : context_(std::exchange(other.context_, nullptr)), handle_(std::exchange(other.handle_, {})) {}
-    Group& operator=(Group&& other) noexcept {
-        std::swap(context_, other.context_);
-        std::swap(handle_, other.handle_);
-        return *this;
-    }
-    ~Group() {
-        if (context_ != nullptr) {
-            suppleDestroyGroup(context_, handle_);
-        }
-    }
-
     /// Replaces what `out` held.
     [[nodiscard]] static SuppleResult create(const Context& context, const SuppleGroupDesc& desc, Group& out) {
-        SuppleGroup handle{};
-        const SuppleResult result = suppleCreateGroup(context.handle(), &desc, &handle);
-        if (result == SUPPLE_OK) {
-            Group created;
-            created.context_ = context.handle();
-            created.handle_ = handle;
-            out = std::move(created);
-        }
-        return result;
+        return out.replace(context.handle(),
+                           [&](SuppleGroup& made) { return suppleCreateGroup(context.handle(), &desc, &made); });
     }
 
-    [[nodiscard]] SuppleGroup handle() const { return handle_; }
-    [[nodiscard]] SuppleContext context() const { return context_; }
     [[nodiscard]] SuppleResult setRate(uint32_t rate) const { return suppleSetRate(context_, handle_, rate); }
     /// By which its instances play (SUPPLE_POSES_PLAYBACK).
     [[nodiscard]] SuppleResult setTime(double seconds) const { return suppleSetTime(context_, handle_, seconds); }
@@ -189,47 +193,36 @@ public:
         desc.morphMaskCount = static_cast<uint32_t>(morphs.size());
         return suppleSetMask(context_, handle_, &desc);
     }
-    [[nodiscard]] SuppleResult output(SuppleGroupOutput& out) const {
-        out = sized<SuppleGroupOutput>();
-        return suppleGetGroupOutput(context_, handle_, &out);
+    [[nodiscard]] SuppleResult info(SuppleGroupInfo& out) const {
+        out = sized<SuppleGroupInfo>();
+        return suppleGetGroupInfo(context_, handle_, &out);
     }
-
-private:
-    SuppleContext context_ = nullptr;
-    SuppleGroup handle_{};
+    [[nodiscard]] SuppleResult vertexStreams(SuppleVertexStreams& out) const {
+        out = sized<SuppleVertexStreams>();
+        return suppleGetVertexStreams(context_, handle_, &out);
+    }
+    [[nodiscard]] SuppleResult gridOutput(SuppleGridOutput& out) const {
+        out = sized<SuppleGridOutput>();
+        return suppleGetGridOutput(context_, handle_, &out);
+    }
+    [[nodiscard]] SuppleResult levelOutput(SuppleLevelOutput& out) const {
+        out = sized<SuppleLevelOutput>();
+        return suppleGetLevelOutput(context_, handle_, &out);
+    }
+    [[nodiscard]] SuppleResult instanceBounds(SuppleBufferRange& out) const {
+        return suppleGetInstanceBounds(context_, handle_, &out);
+    }
 };
 
 /// Owns a SuppleView. Its context must outlive it.
-class View {
+class View : public Owner<SuppleView> {
 public:
-    View() = default;
-    View(View&& other) noexcept
-        : context_(std::exchange(other.context_, nullptr)), handle_(std::exchange(other.handle_, {})) {}
-    View& operator=(View&& other) noexcept {
-        std::swap(context_, other.context_);
-        std::swap(handle_, other.handle_);
-        return *this;
-    }
-    ~View() {
-        if (context_ != nullptr) {
-            suppleDestroyView(context_, handle_);
-        }
-    }
-
     /// Replaces what `out` held.
     [[nodiscard]] static SuppleResult create(const Context& context, const SuppleViewDesc& desc, View& out) {
-        SuppleView handle{};
-        const SuppleResult result = suppleCreateView(context.handle(), &desc, &handle);
-        if (result == SUPPLE_OK) {
-            View created;
-            created.context_ = context.handle();
-            created.handle_ = handle;
-            out = std::move(created);
-        }
-        return result;
+        return out.replace(context.handle(),
+                           [&](SuppleView& made) { return suppleCreateView(context.handle(), &desc, &made); });
     }
 
-    [[nodiscard]] SuppleView handle() const { return handle_; }
     [[nodiscard]] SuppleResult setCamera(const SuppleCameraDesc& camera) const {
         return suppleSetCamera(context_, handle_, &camera);
     }
@@ -241,43 +234,18 @@ public:
         out = sized<SuppleViewStatistics>();
         return suppleGetViewStatistics(context_, handle_, &out);
     }
-
-private:
-    SuppleContext context_ = nullptr;
-    SuppleView handle_{};
 };
 
 /// Owns a SuppleInstance. Its context and its group must outlive it.
-class Instance {
+class Instance : public Owner<SuppleInstance> {
 public:
-    Instance() = default;
-    Instance(Instance&& other) noexcept
-        : context_(std::exchange(other.context_, nullptr)), handle_(std::exchange(other.handle_, {})) {}
-    Instance& operator=(Instance&& other) noexcept {
-        std::swap(context_, other.context_);
-        std::swap(handle_, other.handle_);
-        return *this;
-    }
-    ~Instance() {
-        if (context_ != nullptr) {
-            suppleDestroyInstance(context_, handle_);
-        }
-    }
-
     /// Replaces what `out` held.
     [[nodiscard]] static SuppleResult create(const Group& group, Instance& out) {
-        SuppleInstance handle{};
-        const SuppleResult result = suppleCreateInstance(group.context(), group.handle(), &handle);
-        if (result == SUPPLE_OK) {
-            Instance created;
-            created.context_ = group.context();
-            created.handle_ = handle;
-            out = std::move(created);
-        }
-        return result;
+        return out.replace(group.context(), [&](SuppleInstance& made) {
+            return suppleCreateInstance(group.context(), group.handle(), &made);
+        });
     }
 
-    [[nodiscard]] SuppleInstance handle() const { return handle_; }
     [[nodiscard]] SuppleResult setVisible(bool visible) const {
         return suppleSetVisible(context_, handle_, visible ? 1u : 0u);
     }
@@ -321,10 +289,6 @@ public:
     [[nodiscard]] SuppleResult setTransform(std::span<const float, 16> transform) const {
         return suppleSetTransform(context_, handle_, transform.data());
     }
-
-private:
-    SuppleContext context_ = nullptr;
-    SuppleInstance handle_{};
 };
 
 } // namespace supple

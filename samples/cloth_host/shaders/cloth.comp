@@ -31,7 +31,7 @@ struct Point {
 
 layout(set = 0, binding = 0, std430) readonly buffer Sheets { Sheet sheets[]; };
 layout(set = 0, binding = 1, std430) buffer Points { Point points[]; };
-/// SuppleGroupOutput.deformedCage
+/// SuppleGroupInfo.deformedCage
 layout(set = 0, binding = 2, std430) writeonly buffer DeformedCage { vec4 deformedCage[]; };
 
 shared vec4 place[128u * kPointsPerLane]; // w: 1 / mass, 0 where pinned
