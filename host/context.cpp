@@ -40,6 +40,7 @@ SuppleContextDesc contextDesc(const Device& device) {
     desc.device = device.handle();
     desc.queueFamily = device.queueFamily();
     desc.getInstanceProcAddr = device.getInstanceProcAddr();
+    desc.enabledFeatures = device.enabledFeatures();
     return desc;
 }
 

@@ -33,6 +33,16 @@ std::vector<VkExtensionProperties> instanceExtensions(const char* layer) {
     return extensions;
 }
 
+void addSurfaceExtensions(const std::vector<VkExtensionProperties>& available, std::vector<const char*>& extensions) {
+    // Drivers that are told of Wayland look for a compositor and complain on stderr where there is none.
+    const bool wayland = std::getenv("WAYLAND_DISPLAY") != nullptr;
+    for (const char* name : kSurfaceExtensions) {
+        const bool wanted = wayland || std::strcmp(name, "VK_KHR_wayland_surface") != 0;
+        if (wanted && hasExtension(available, name))
+            extensions.push_back(name);
+    }
+}
+
 bool hasLayer(std::string_view name) {
     uint32_t count = 0;
     vkEnumerateInstanceLayerProperties(&count, nullptr);
@@ -170,6 +180,16 @@ Error vulkanError(VkResult result, std::string_view what) {
     return Error{code, std::string(what) + ": " + vulkanResultName(result)};
 }
 
+namespace {
+
+Error instanceError(VkResult result) {
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+        return Error{ErrorCode::unsupported, "no Vulkan device: no driver is installed"};
+    return Error{ErrorCode::unsupported, vulkanError(result, "vkCreateInstance").message};
+}
+
+} // namespace
+
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     std::unique_ptr<Device> device(new Device());
     device->getInstanceProcAddr_ =
@@ -186,6 +206,8 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
 Device::~Device() {
     if (device_ != VK_NULL_HANDLE) {
         vkDeviceWaitIdle(device_);
+        for (; !atEnd_.empty(); atEnd_.pop_back())
+            atEnd_.back()();
         vkDestroyCommandPool(device_, commandPool_, nullptr);
         vkDestroyDevice(device_, nullptr);
     }
@@ -221,13 +243,7 @@ Status Device::createInstance(const DeviceOptions& options) {
     if (debugUtils_)
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (options.window) {
-        // Drivers that are told of Wayland look for a compositor and complain on stderr where there is none.
-        const bool wayland = std::getenv("WAYLAND_DISPLAY") != nullptr;
-        for (const char* name : kSurfaceExtensions) {
-            const bool wanted = wayland || std::strcmp(name, "VK_KHR_wayland_surface") != 0;
-            if (wanted && hasExtension(available, name))
-                extensions.push_back(name);
-        }
+        addSurfaceExtensions(available, extensions);
         if (!hasExtension(available, VK_KHR_SURFACE_EXTENSION_NAME))
             return Error{ErrorCode::unsupported, "this Vulkan cannot draw to windows (no VK_KHR_surface)"};
     }
@@ -253,26 +269,26 @@ Status Device::createInstance(const DeviceOptions& options) {
     info.ppEnabledLayerNames = layers.data();
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
-    if (const VkResult result = vkCreateInstance(&info, nullptr, &instance_); result != VK_SUCCESS) {
-        if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
-            return Error{ErrorCode::unsupported, "no Vulkan device: no driver is installed"};
-        Error error = vulkanError(result, "vkCreateInstance");
-        error.code = ErrorCode::unsupported;
-        return error;
-    }
-
+    if (const VkResult result = vkCreateInstance(&info, nullptr, &instance_); result != VK_SUCCESS)
+        return instanceError(result);
     if (options.validation) {
-        messengerInfo.pNext = nullptr;
-        const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-            vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
-        if (create == nullptr)
-            return Error{ErrorCode::unsupported, "validation asked for, but VK_EXT_debug_utils is missing"};
-        if (const VkResult result = create(instance_, &messengerInfo, nullptr, &messenger_); result != VK_SUCCESS)
-            return vulkanError(result, "vkCreateDebugUtilsMessengerEXT");
+        if (const Status status = createMessenger(); !status)
+            return status.error();
     }
     if (debugUtils_)
         setObjectName_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
             vkGetInstanceProcAddr(instance_, "vkSetDebugUtilsObjectNameEXT"));
+    return success();
+}
+
+Status Device::createMessenger() {
+    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+    if (create == nullptr)
+        return Error{ErrorCode::unsupported, "validation asked for, but VK_EXT_debug_utils is missing"};
+    const VkDebugUtilsMessengerCreateInfoEXT info = validation_->messengerInfo();
+    if (const VkResult result = create(instance_, &info, nullptr, &messenger_); result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateDebugUtilsMessengerEXT");
     return success();
 }
 
@@ -327,20 +343,20 @@ Status Device::createDevice(const DeviceOptions& options) {
         return Error{ErrorCode::unsupported, "no queue that does graphics and compute"};
     vkGetPhysicalDeviceMemoryProperties(physicalDevice_, &memoryProperties_);
 
-    SuppleRequirements requirements{};
-    requirements.structSize = sizeof requirements;
-    if (suppleQueryRequirements(instance_, physicalDevice_, vkGetInstanceProcAddr, &requirements) != SUPPLE_OK)
-        return Error{ErrorCode::unsupported, requirements.reason};
+    requirements_.structSize = sizeof requirements_;
+    if (suppleQueryRequirements(instance_, physicalDevice_, vkGetInstanceProcAddr, &requirements_) != SUPPLE_OK)
+        return Error{ErrorCode::unsupported, requirements_.reason};
     VkPhysicalDeviceFeatures supported{};
     vkGetPhysicalDeviceFeatures(physicalDevice_, &supported);
 
-    // Supple's features as they are, and what the tools' own drawing wants on top.
-    requirements.features13.dynamicRendering = VK_TRUE;
-    requirements.features13.synchronization2 = VK_TRUE;
-    requirements.features12.pNext = &requirements.features13;
-    auto features =
-        vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &requirements.features12);
-    features.features.samplerAnisotropy = supported.samplerAnisotropy;
+    // Supple's features as they are, and what the hosts' own drawing wants on top.
+    requirements_.features12.timelineSemaphore = VK_TRUE; // every Vulkan 1.3 device has it
+    requirements_.features13.dynamicRendering = VK_TRUE;
+    requirements_.features13.synchronization2 = VK_TRUE;
+    requirements_.features12.pNext = &requirements_.features13;
+    features_ =
+        vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &requirements_.features12);
+    features_.features.samplerAnisotropy = supported.samplerAnisotropy;
     anisotropy_ = supported.samplerAnisotropy == VK_TRUE;
 
     constexpr float kPriority = 1.0f;
@@ -351,7 +367,7 @@ Status Device::createDevice(const DeviceOptions& options) {
     std::vector<const char*> extensions;
     if (options.window)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-    auto info = vkStruct<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features);
+    auto info = vkStruct<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, enabledFeatures());
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());

@@ -1,5 +1,5 @@
-// The Vulkan objects of a host: instance, device, one queue, and the few helpers tools and tests need round them.
-// Supple borrows all this; nothing below tools/ includes it.
+// The Vulkan objects of a host: instance, device, one queue, and the few helpers tools, samples and tests need round
+// them. Supple borrows all this; no part of the library includes it.
 #pragma once
 
 #include "base/result.h"
@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 #include <vulkan/vulkan.h>
 
@@ -112,6 +113,8 @@ public:
     [[nodiscard]] bool hasDebugUtils() const { return debugUtils_; }
     [[nodiscard]] bool hasAnisotropy() const { return anisotropy_; }
 
+    /// The chain that vkCreateDevice was given, for SuppleContextDesc::enabledFeatures.
+    [[nodiscard]] const void* enabledFeatures() const { return &features_; }
     /// What suppleCreateContext is to be given: the option's function, or the loader's.
     [[nodiscard]] PFN_vkGetInstanceProcAddr getInstanceProcAddr() const { return getInstanceProcAddr_; }
 
@@ -122,6 +125,10 @@ public:
 
     [[nodiscard]] Result<Buffer> createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind);
     [[nodiscard]] Result<Image> createImage(const ImageDesc& desc);
+
+    /// Runs when the device goes, the last one first: for what lives as long as the device.
+    void atEnd(std::function<void()> destroy) { atEnd_.push_back(std::move(destroy)); }
+    void waitIdle() const { vkDeviceWaitIdle(device_); }
 
     /// Records into a fresh command buffer, submits it and waits for it.
     [[nodiscard]] Status submitAndWait(const std::function<void(VkCommandBuffer)>& record);
@@ -140,6 +147,7 @@ public:
 private:
     Device() = default;
     [[nodiscard]] Status createInstance(const DeviceOptions& options);
+    [[nodiscard]] Status createMessenger();
     [[nodiscard]] Status choosePhysicalDevice(const DeviceOptions& options);
     [[nodiscard]] Status createDevice(const DeviceOptions& options);
     [[nodiscard]] Result<VkDeviceMemory> allocate(const VkMemoryRequirements& requirements, MemoryKind kind);
@@ -152,10 +160,13 @@ private:
     VkPhysicalDevice physicalDevice_ = VK_NULL_HANDLE;
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceMemoryProperties memoryProperties_{};
+    SuppleRequirements requirements_{}; ///< the features that are enabled
+    VkPhysicalDeviceFeatures2 features_{};
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     uint32_t queueFamily_ = 0;
     VkCommandPool commandPool_ = VK_NULL_HANDLE;
+    std::vector<std::function<void()>> atEnd_;
     bool debugUtils_ = false;
     bool anisotropy_ = false;
 };

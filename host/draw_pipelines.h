@@ -1,4 +1,4 @@
-// The pipelines of shaders/draw and the layout they share.
+// The pipelines of host/shaders and the layout they have in common. They live as long as the device.
 #pragma once
 
 #include "host/device.h"
@@ -18,7 +18,6 @@ struct DrawFormats {
 class DrawPipelines {
 public:
     [[nodiscard]] static Result<std::unique_ptr<DrawPipelines>> create(Device& device, const DrawFormats& formats);
-    ~DrawPipelines();
     DrawPipelines(const DrawPipelines&) = delete;
     DrawPipelines& operator=(const DrawPipelines&) = delete;
 
@@ -43,7 +42,8 @@ private:
     explicit DrawPipelines(Device& device) : device_(device) {}
     [[nodiscard]] Status createLayouts();
     [[nodiscard]] Status createSampler(VkFormat shadowFormat);
-    [[nodiscard]] Status createPipelines(const DrawFormats& formats);
+    [[nodiscard]] Status createShadowPipelines(const DrawFormats& formats);
+    [[nodiscard]] Status createPicturePipelines(const DrawFormats& formats);
 
     Device& device_;
 };

@@ -35,5 +35,8 @@ private:
 
 /// Copies an image of 8-bit RGBA or BGRA in TRANSFER_SRC_OPTIMAL to the host, after all work submitted so far.
 [[nodiscard]] Result<Picture> readPicture(Device& device, VkImage image, VkExtent2D extent, VkFormat format);
+[[nodiscard]] inline Result<Picture> readPicture(Device& device, const Image& image) {
+    return readPicture(device, image.handle(), image.desc().extent, image.desc().format);
+}
 
 } // namespace supple::host

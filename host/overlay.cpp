@@ -74,7 +74,7 @@ Overlay::~Overlay() {
 
 Status Overlay::createRenderPass() {
     VkAttachmentDescription attachment{};
-    attachment.format = window_.format();
+    attachment.format = window_.swapchain().format();
     attachment.samples = VK_SAMPLE_COUNT_1_BIT;
     attachment.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
     attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
@@ -140,7 +140,7 @@ Status Overlay::startImGui() {
     info.DescriptorPool = pool_;
     // ImGui keeps vertex buffers for so many frames; it cares for nothing else of the swapchain.
     info.MinImageCount = 2;
-    info.ImageCount = kWindowFramesInFlight + 1;
+    info.ImageCount = kFramesInFlight + 1;
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     if (!ImGui_ImplVulkan_Init(&info, renderPass_))
         return Error{ErrorCode::vulkan, "ImGui does not take the device"};
@@ -160,13 +160,13 @@ void Overlay::destroyFramebuffers() {
 Status Overlay::createFramebuffers() {
     vkDeviceWaitIdle(device_.handle());
     destroyFramebuffers();
-    for (const VkImageView view : window_.views()) {
+    for (const VkImageView view : window_.swapchain().views()) {
         auto info = vkStruct<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
         info.renderPass = renderPass_;
         info.attachmentCount = 1;
         info.pAttachments = &view;
-        info.width = window_.extent().width;
-        info.height = window_.extent().height;
+        info.width = window_.swapchain().extent().width;
+        info.height = window_.swapchain().extent().height;
         info.layers = 1;
         VkFramebuffer framebuffer = VK_NULL_HANDLE;
         if (const VkResult result = vkCreateFramebuffer(device_.handle(), &info, nullptr, &framebuffer);
@@ -174,7 +174,7 @@ Status Overlay::createFramebuffers() {
             return vulkanError(result, "vkCreateFramebuffer");
         framebuffers_.push_back(framebuffer);
     }
-    generation_ = window_.generation();
+    generation_ = window_.swapchain().generation();
     return success();
 }
 
@@ -189,14 +189,14 @@ void Overlay::endPanels() {
 }
 
 Status Overlay::record(const WindowFrame& frame) {
-    if (generation_ != window_.generation()) {
+    if (generation_ != window_.swapchain().generation()) {
         if (const Status status = createFramebuffers(); !status)
             return status.error();
     }
     auto info = vkStruct<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
     info.renderPass = renderPass_;
     info.framebuffer = framebuffers_[frame.image];
-    info.renderArea = {{0, 0}, window_.extent()};
+    info.renderArea = {{0, 0}, window_.swapchain().extent()};
     vkCmdBeginRenderPass(frame.commands, &info, VK_SUBPASS_CONTENTS_INLINE);
     ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), frame.commands);
     vkCmdEndRenderPass(frame.commands);

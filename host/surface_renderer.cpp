@@ -99,7 +99,8 @@ size_t materialSet(const cage::Character& character, uint32_t material) {
     return std::min<size_t>(material, character.materials.size());
 }
 
-void setViewport(VkCommandBuffer commands, VkExtent2D extent, bool flipped) {
+/// Nothing is culled: open cages show their insides, and the shader tells the sides apart.
+void beginDrawing(VkCommandBuffer commands, VkExtent2D extent, bool flipped) {
     const auto width = static_cast<float>(extent.width);
     const auto height = static_cast<float>(extent.height);
     const VkViewport viewport = flipped ? VkViewport{0.0f, height, width, -height, 0.0f, 1.0f}
@@ -107,6 +108,7 @@ void setViewport(VkCommandBuffer commands, VkExtent2D extent, bool flipped) {
     const VkRect2D scissor{{0, 0}, extent};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &scissor);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
 }
 
 VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout) {
@@ -420,7 +422,7 @@ void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene
         info.layerCount = 1;
         info.pDepthAttachment = &depth;
         vkCmdBeginRendering(commands, &info);
-        setViewport(commands, extent, false);
+        beginDrawing(commands, extent, false);
         if (scene.cageFaces)
             drawCageFaces(commands, scene, light);
         else
@@ -465,7 +467,7 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     info.pColorAttachments = &color;
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
-    setViewport(commands, target.extent(), true);
+    beginDrawing(commands, target.extent(), true);
     if (scene.cageFaces)
         drawCageFaces(commands, scene, std::nullopt);
     else

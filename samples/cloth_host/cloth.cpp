@@ -1,6 +1,6 @@
 #include "cloth.h"
 
-#include "common/context.h"
+#include "host/must.h"
 
 #include "shaders/cloth_comp.h"
 
@@ -65,19 +65,19 @@ supple::Asset createGrid(const supple::Context& context) {
     desc.name = "sheet";
     desc.cage = &cage;
     supple::Asset asset;
-    sample::check(supple::Asset::create(context, desc, asset), "suppleCreateAsset");
+    must(supple::Asset::create(context, desc, asset), "suppleCreateAsset");
     return asset;
 }
 
 } // namespace
 
-Cloth::Cloth(sample::Device& device, uint32_t rate) {
+Cloth::Cloth(Device& device, uint32_t rate) {
     createSupple(device, rate);
     createSimulation(device);
 }
 
-void Cloth::createSupple(const sample::Device& device, uint32_t rate) {
-    context_ = sample::createContext(device);
+void Cloth::createSupple(const Device& device, uint32_t rate) {
+    context_ = mustCreateContext(device);
     asset_ = createGrid(context_);
 
     auto groupDesc = supple::sized<SuppleGroupDesc>();
@@ -86,15 +86,15 @@ void Cloth::createSupple(const sample::Device& device, uint32_t rate) {
     groupDesc.capacity = static_cast<uint32_t>(sheets_.size());
     groupDesc.rate = rate;
     groupDesc.poseSource = SUPPLE_POSES_CAGE_BUFFER; // the cage's vertices are the host's
-    sample::check(supple::Group::create(context_, groupDesc, group_), "suppleCreateGroup");
+    must(supple::Group::create(context_, groupDesc, group_), "suppleCreateGroup");
     for (supple::Instance& sheet : sheets_)
-        sample::check(supple::Instance::create(group_, sheet), "suppleCreateInstance");
-    sample::check(group_.info(info_), "suppleGetGroupInfo");
-    sample::check(group_.vertexStreams(streams_), "suppleGetVertexStreams");
-    sample::check(group_.gridOutput(grid_), "suppleGetGridOutput");
+        must(supple::Instance::create(group_, sheet), "suppleCreateInstance");
+    must(group_.info(info_), "suppleGetGroupInfo");
+    must(group_.vertexStreams(streams_), "suppleGetVertexStreams");
+    must(group_.gridOutput(grid_), "suppleGetGridOutput");
 }
 
-void Cloth::createSimulation(sample::Device& device) {
+void Cloth::createSimulation(Device& device) {
     // A flag on a pole, and a heavier banner under a crossbar, which has a little less room than the cloth is wide.
     const Sheet sheets[] = {{{-2.9f, 3.75f, 0.0f, 1.0f},
                              {1.0f, 0.0f, 0.0f, 1.0f},
@@ -104,27 +104,27 @@ void Cloth::createSimulation(sample::Device& device) {
                              {0.0f, -1.0f, 0.0f, 0.16f},
                              {0.90f, 0.0f, -0.436f, 0.0f},
                              {sheets_[1].handle().slot, 0, 0, 0}}};
-    sheetBuffer_ = sample::Buffer(device, sizeof sheets, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
+    sheetBuffer_ = must(device.createBuffer(sizeof sheets, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::upload));
     std::memcpy(sheetBuffer_.mapped(), sheets, sizeof sheets);
     constexpr VkDeviceSize kPointBytes = 2 * sizeof(glm::vec4);
-    pointBuffer_ = sample::Buffer(device, sheets_.size() * kColumns * kRows * kPointBytes,
-                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+    pointBuffer_ = must(device.createBuffer(sheets_.size() * kColumns * kRows * kPointBytes,
+                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::device));
 
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
     const VkDescriptorSetLayout setLayout =
-        sample::createSetLayout(device, {{0, kStorage, kCompute}, {1, kStorage, kCompute}, {2, kStorage, kCompute}});
-    layout_ = sample::createPipelineLayout(device, {setLayout}, sizeof(SimulationPush), kCompute);
-    pipeline_ = sample::createComputePipeline(device, layout_, cloth_comp);
-    sample::DescriptorPool pool(device, 1);
-    set_ = pool.allocate(setLayout);
-    pool.write(set_, {sample::storageBuffer(0, sheetBuffer_.handle(), 0, sheetBuffer_.size()),
-                      sample::storageBuffer(1, pointBuffer_.handle(), 0, pointBuffer_.size()),
-                      sample::storageBuffer(2, info_.deformedCage)});
+        must(createSetLayout(device, {{0, kStorage, kCompute}, {1, kStorage, kCompute}, {2, kStorage, kCompute}}));
+    layout_ = must(createPipelineLayout(device, {setLayout}, sizeof(SimulationPush), kCompute));
+    pipeline_ = must(createComputePipeline(device, layout_, cloth_comp));
+    DescriptorPool pool = must(DescriptorPool::create(device, 1));
+    set_ = must(pool.allocate(setLayout));
+    pool.write(set_,
+               {storageBuffer(0, sheetBuffer_.handle(), 0, sheetBuffer_.size()),
+                storageBuffer(1, pointBuffer_.handle(), 0, pointBuffer_.size()), storageBuffer(2, info_.deformedCage)});
 }
 
 void Cloth::beginFrame(uint64_t frame, uint64_t completed) const {
-    sample::check(context_.beginFrame(frame, completed), "suppleBeginFrame");
+    must(context_.beginFrame(frame, completed), "suppleBeginFrame");
 }
 
 void Cloth::simulate(VkCommandBuffer commands, double seconds) {
@@ -163,7 +163,7 @@ void Cloth::record(VkCommandBuffer commands, double seconds) {
     const SuppleSyncScope before{kDraws.stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                  kDraws.access | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
     const SuppleGroup groups[] = {group_.handle()};
-    sample::check(context_.record(commands, groups, before, kDraws), "suppleRecord");
+    must(context_.record(commands, groups, before, kDraws), "suppleRecord");
 }
 
 } // namespace cloth

@@ -3,7 +3,9 @@
 // SuppleGroupInfo.deformedCage.
 #pragma once
 
-#include "common/pipelines.h"
+#include "host/pipelines.h"
+
+#include <supple/supple.hpp>
 
 #include <glm/glm.hpp>
 
@@ -11,6 +13,8 @@
 #include <vector>
 
 namespace cloth {
+
+using namespace supple::host;
 
 inline constexpr uint32_t kColumns = 25; ///< of points, away from the pinned edge
 inline constexpr uint32_t kRows = 17;    ///< along it
@@ -26,7 +30,7 @@ struct Sheet {
 
 class Cloth {
 public:
-    Cloth(sample::Device& device, uint32_t rate);
+    Cloth(Device& device, uint32_t rate);
 
     void beginFrame(uint64_t frame, uint64_t completed) const;
     /// Moves the cloth by a frame, then lets Supple make the surface, for draws as vertex shader reads. All barriers
@@ -37,8 +41,8 @@ public:
     const SuppleGridOutput& grid() const { return grid_; }
 
 private:
-    void createSupple(const sample::Device& device, uint32_t rate);
-    void createSimulation(sample::Device& device);
+    void createSupple(const Device& device, uint32_t rate);
+    void createSimulation(Device& device);
     void simulate(VkCommandBuffer commands, double seconds);
 
     supple::Context context_;
@@ -49,8 +53,8 @@ private:
     SuppleVertexStreams streams_{};
     SuppleGridOutput grid_{};
 
-    sample::Buffer sheetBuffer_;
-    sample::Buffer pointBuffer_; ///< positions and velocities: the host's own
+    Buffer sheetBuffer_;
+    Buffer pointBuffer_; ///< positions and velocities: the host's own
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;

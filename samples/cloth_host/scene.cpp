@@ -1,6 +1,7 @@
 #include "scene.h"
 
-#include "common/rendering.h"
+#include "host/must.h"
+#include "host/rendering.h"
 #include "shaders/cloth_frag.h"
 #include "shaders/cloth_vert.h"
 #include "shaders/ground_frag.h"
@@ -43,24 +44,6 @@ const PolePush kPoles[] = {{{-2.93f, 0.0f, 0.0f, 0.035f}, {-2.93f, 3.95f, 0.0f, 
                            {{0.77f, 0.0f, 0.487f, 0.035f}, {0.77f, 3.80f, 0.487f, 0.0f}},
                            {{0.59f, 3.585f, 0.574f, 0.026f}, {2.48f, 3.585f, -0.341f, 0.0f}}};
 
-void imageBarrier(VkCommandBuffer commands, const sample::Image& image, SuppleSyncScope from, SuppleSyncScope to,
-                  VkImageLayout before, VkImageLayout after) {
-    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                        .srcStageMask = from.stages,
-                                        .srcAccessMask = from.access,
-                                        .dstStageMask = to.stages,
-                                        .dstAccessMask = to.access,
-                                        .oldLayout = before,
-                                        .newLayout = after,
-                                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .image = image.handle(),
-                                        .subresourceRange = {image.desc().aspect, 0, 1, 0, 1}};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 constexpr SuppleSyncScope kColorWrites{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                                        VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr SuppleSyncScope kDepthWrites{
@@ -75,13 +58,13 @@ SceneUniforms lookAtIt(VkExtent2D extent) {
     const glm::vec3 sun = glm::normalize(glm::vec3(-0.34f, 0.72f, 0.55f));
     constexpr float kHalf = 4.2f;
     SceneUniforms uniforms{};
-    glm::mat4 projection = glm::perspective(glm::radians(34.0f), size.x / size.y, 0.5f, 200.0f);
+    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(34.0f), size.x / size.y, 0.5f, 200.0f);
     projection[1][1] = -projection[1][1]; // Vulkan's y points down
     const glm::vec3 up{0.0f, 1.0f, 0.0f};
     uniforms.viewProjection = projection * glm::lookAt(eye, glm::vec3(-0.05f, 1.95f, 0.0f), up);
     const glm::vec3 middle{0.5f, 1.6f, -0.8f};
     uniforms.sunViewProjection =
-        glm::ortho(-kHalf, kHalf, -kHalf, kHalf, 0.0f, 20.0f) * glm::lookAt(middle + 10.0f * sun, middle, up);
+        glm::orthoRH_ZO(-kHalf, kHalf, -kHalf, kHalf, 0.0f, 20.0f) * glm::lookAt(middle + 10.0f * sun, middle, up);
     uniforms.eye = glm::vec4(eye, 1.0f);
     uniforms.sunDirection = glm::vec4(sun, 0.0f);
     uniforms.viewport = glm::vec4(size, 1.0f / size);
@@ -90,68 +73,69 @@ SceneUniforms lookAtIt(VkExtent2D extent) {
 
 } // namespace
 
-Scene::Scene(sample::Device& device, const Cloth& cloth, VkExtent2D extent) : cloth_(cloth) {
-    sunMap_ = sample::Image(device, {.extent = {kSunMapSize, kSunMapSize},
-                                     .format = kDepthFormat,
-                                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
-    color_ = sample::Image(
-        device,
-        {.extent = extent, .format = kColorFormat, .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, .samples = kSamples});
-    depth_ = sample::Image(device, {.extent = extent,
-                                    .format = kDepthFormat,
-                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                                    .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
-                                    .samples = kSamples});
-    picture_ = sample::Image(device, {.extent = extent,
-                                      .format = kColorFormat,
-                                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+Scene::Scene(Device& device, const Cloth& cloth, VkExtent2D extent) : cloth_(cloth) {
+    sunMap_ =
+        must(device.createImage({.format = kDepthFormat,
+                                 .extent = {kSunMapSize, kSunMapSize},
+                                 .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                 .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
+    color_ = must(device.createImage(
+        {.format = kColorFormat, .extent = extent, .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, .samples = kSamples}));
+    depth_ = must(device.createImage({.format = kDepthFormat,
+                                      .extent = extent,
+                                      .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                      .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                                      .samples = kSamples}));
+    picture_ =
+        must(device.createImage({.format = kColorFormat,
+                                 .extent = extent,
+                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}));
     const SceneUniforms uniforms = lookAtIt(extent);
-    uniforms_ = sample::Buffer(device, sizeof uniforms, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
+    uniforms_ = must(device.createBuffer(sizeof uniforms, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryKind::upload));
     std::memcpy(uniforms_.mapped(), &uniforms, sizeof uniforms);
 
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     const VkDescriptorSetLayout sceneLayout =
-        sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
-                                         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+        must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
+                                      {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}}));
     // The bindings of shaders/supple_surface.glsl; without previous positions, which are 2.
     const VkDescriptorSetLayout sheetLayout =
-        sample::createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                         {1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                         {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT}});
+        must(createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
     layout_ =
-        sample::createPipelineLayout(device, {sceneLayout, sheetLayout}, sizeof(PolePush), VK_SHADER_STAGE_VERTEX_BIT);
-    sample::DescriptorPool pool(device, 2);
-    sceneSet_ = pool.allocate(sceneLayout);
-    sheetSet_ = pool.allocate(sheetLayout);
-    pool.write(sceneSet_, {sample::uniformBuffer(0, uniforms_),
-                           sample::sampledImage(1, sunMap_, sample::createSampler(device, VK_FILTER_LINEAR, true))});
+        must(createPipelineLayout(device, {sceneLayout, sheetLayout}, sizeof(PolePush), VK_SHADER_STAGE_VERTEX_BIT));
+    DescriptorPool pool = must(DescriptorPool::create(device, 2));
+    sceneSet_ = must(pool.allocate(sceneLayout));
+    sheetSet_ = must(pool.allocate(sheetLayout));
+    pool.write(sceneSet_, {uniformBuffer(0, uniforms_),
+                           sampledImage(1, sunMap_, must(createSampler(device, VK_FILTER_LINEAR, true)))});
     const SuppleVertexStreams& streams = cloth.streams();
-    pool.write(sheetSet_, {sample::storageBuffer(0, cloth.info().instances), sample::storageBuffer(1, streams.vertices),
-                           sample::storageBuffer(3, streams.attributes)});
+    pool.write(sheetSet_, {storageBuffer(0, cloth.info().instances), storageBuffer(1, streams.vertices),
+                           storageBuffer(3, streams.attributes)});
 
-    sample::GraphicsDesc shadow{.layout = layout_, .depth = kDepthFormat, .depthBias = 1.0f, .depthBiasSlope = 2.0f};
+    GraphicsDesc shadow{.layout = layout_, .depth = kDepthFormat, .depthBias = 1.0f, .depthBiasSlope = 2.0f};
     shadow.vertexShader = cloth_vert;
-    sheetShadows_ = sample::createGraphicsPipeline(device, shadow);
+    sheetShadows_ = must(createGraphicsPipeline(device, shadow));
     shadow.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
     shadow.vertexShader = pole_vert;
-    poleShadows_ = sample::createGraphicsPipeline(device, shadow);
+    poleShadows_ = must(createGraphicsPipeline(device, shadow));
 
-    sample::GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat}, .depth = kDepthFormat, .samples = kSamples};
+    GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat}, .depth = kDepthFormat, .samples = kSamples};
     scene.vertexShader = cloth_vert;
     scene.fragmentShader = cloth_frag;
-    sheetPipeline_ = sample::createGraphicsPipeline(device, scene);
+    sheetPipeline_ = must(createGraphicsPipeline(device, scene));
     scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
     scene.vertexShader = pole_vert;
     scene.fragmentShader = pole_frag;
-    polePipeline_ = sample::createGraphicsPipeline(device, scene);
+    polePipeline_ = must(createGraphicsPipeline(device, scene));
     scene.vertexShader = ground_vert;
     scene.fragmentShader = ground_frag;
-    groundPipeline_ = sample::createGraphicsPipeline(device, scene);
+    groundPipeline_ = must(createGraphicsPipeline(device, scene));
     scene.depthWrite = false;
     scene.vertexShader = sky_vert;
     scene.fragmentShader = sky_frag;
-    skyPipeline_ = sample::createGraphicsPipeline(device, scene);
+    skyPipeline_ = must(createGraphicsPipeline(device, scene));
 }
 
 void Scene::drawSheets(VkCommandBuffer commands, VkPipeline pipeline, bool shadow) const {
@@ -182,23 +166,23 @@ void Scene::record(VkCommandBuffer commands) const {
     const VkDescriptorSet sets[] = {sceneSet_, sheetSet_};
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
 
-    imageBarrier(commands, sunMap_, kSampled, kDepthWrites, VK_IMAGE_LAYOUT_UNDEFINED,
-                 VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    imageBarrier(commands, sunMap_, {VK_IMAGE_LAYOUT_UNDEFINED, kSampled},
+                 {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepthWrites});
     VkRenderingAttachmentInfo depth =
-        sample::attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, {.depthStencil = {1.0f, 0}});
-    sample::beginRendering(commands, sunMap_.desc().extent, {}, depth);
+        attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, {.depthStencil = {1.0f, 0}});
+    beginRendering(commands, sunMap_.desc().extent, {}, depth);
     drawSheets(commands, sheetShadows_, true);
     drawPoles(commands, poleShadows_, true);
     vkCmdEndRendering(commands);
-    imageBarrier(commands, sunMap_, kDepthWrites, kSampled, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    imageBarrier(commands, sunMap_, {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepthWrites},
+                 {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kSampled});
 
-    imageBarrier(commands, color_, kColorWrites, kColorWrites, VK_IMAGE_LAYOUT_UNDEFINED,
-                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    imageBarrier(commands, picture_, kCopied, kColorWrites, VK_IMAGE_LAYOUT_UNDEFINED,
-                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    imageBarrier(commands, depth_, kDepthWrites, kDepthWrites, VK_IMAGE_LAYOUT_UNDEFINED,
-                 VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    imageBarrier(commands, color_, {VK_IMAGE_LAYOUT_UNDEFINED, kColorWrites},
+                 {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColorWrites});
+    imageBarrier(commands, picture_, {VK_IMAGE_LAYOUT_UNDEFINED, kCopied},
+                 {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColorWrites});
+    imageBarrier(commands, depth_, {VK_IMAGE_LAYOUT_UNDEFINED, kDepthWrites},
+                 {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepthWrites});
     const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                           .imageView = color_.view(),
                                           .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -209,7 +193,7 @@ void Scene::record(VkCommandBuffer commands) const {
                                           .storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE};
     depth.imageView = depth_.view();
     depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    sample::beginRendering(commands, picture_.desc().extent, {&color, 1}, depth);
+    beginRendering(commands, picture_.desc().extent, {&color, 1}, depth);
     drawSheets(commands, sheetPipeline_, false);
     vkCmdSetCullMode(commands, VK_CULL_MODE_FRONT_BIT);
     drawPoles(commands, polePipeline_, false);
@@ -219,8 +203,8 @@ void Scene::record(VkCommandBuffer commands) const {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, skyPipeline_);
     vkCmdDraw(commands, 3, 1, 0, 0);
     vkCmdEndRendering(commands);
-    imageBarrier(commands, picture_, kColorWrites, kCopied, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    imageBarrier(commands, picture_, {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColorWrites},
+                 {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopied});
 }
 
 } // namespace cloth

@@ -16,22 +16,22 @@ struct SceneUniforms {
 
 class Scene {
 public:
-    Scene(sample::Device& device, const Cloth& cloth, VkExtent2D extent);
+    Scene(Device& device, const Cloth& cloth, VkExtent2D extent);
 
     /// The whole frame after Supple's. The picture ends as a transfer source.
     void record(VkCommandBuffer commands) const;
-    const sample::Image& picture() const { return picture_; }
+    const Image& picture() const { return picture_; }
 
 private:
     void drawSheets(VkCommandBuffer commands, VkPipeline pipeline, bool shadow) const;
     void drawPoles(VkCommandBuffer commands, VkPipeline pipeline, bool shadow) const;
 
     const Cloth& cloth_;
-    sample::Image sunMap_;
-    sample::Image color_; ///< of several samples a pixel, resolved into the picture
-    sample::Image depth_;
-    sample::Image picture_;
-    sample::Buffer uniforms_;
+    Image sunMap_;
+    Image color_; ///< of several samples a pixel, resolved into the picture
+    Image depth_;
+    Image picture_;
+    Buffer uniforms_;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorSet sceneSet_ = VK_NULL_HANDLE;
     VkDescriptorSet sheetSet_ = VK_NULL_HANDLE;

@@ -1,7 +1,7 @@
 #include "crowd.h"
 
 #include "arcs.h"
-#include "common/context.h"
+#include "host/must.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -42,34 +42,34 @@ std::vector<Arc> arcs() {
 std::vector<char> readGlb(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file)
-        sample::fail(path + ": cannot be read");
+        fail(path + ": cannot be read");
     std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
     if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0)
-        sample::fail(path + ": is no GLB (.gltf is not read here)");
+        fail(path + ": is no GLB (.gltf is not read here)");
     return bytes;
 }
 
 /// Arcs are the last clips.
 void findArcs(Kind& kind) {
     SuppleAssetInfo info{};
-    sample::check(kind.asset.info(info), "suppleGetAssetInfo");
+    must(kind.asset.info(info), "suppleGetAssetInfo");
     kind.firstArc = info.clipCount - static_cast<uint32_t>(arcs().size());
     SuppleClipInfo clip{};
-    sample::check(kind.asset.clipInfo(kind.firstArc, clip), "suppleGetClipInfo");
+    must(kind.asset.clipInfo(kind.firstArc, clip), "suppleGetClipInfo");
     kind.duration = std::max(clip.duration, 0.1);
 }
 
 } // namespace
 
-Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
-    : context_(sample::createContext(device)), budget_(options.budget), backFaces_(options.backFaces) {
+Crowd::Crowd(const Device& device, const CrowdOptions& options)
+    : context_(mustCreateContext(device)), budget_(options.budget), backFaces_(options.backFaces) {
     const uint32_t count = options.count;
     auto viewDesc = supple::sized<SuppleViewDesc>();
     viewDesc.flags = SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;
     viewDesc.flags |= options.occlusion ? SUPPLE_VIEW_OCCLUSION : 0;
     viewDesc.flags |= options.backFaces ? SUPPLE_VIEW_BACK_FACES : 0;
     viewDesc.maxVertices = budget_;
-    sample::check(supple::View::create(context_, viewDesc, view_), "suppleCreateView");
+    must(supple::View::create(context_, viewDesc, view_), "suppleCreateView");
 
     for (size_t k = 0; k < kKinds; ++k) {
         Kind& kind = kinds_[k];
@@ -81,7 +81,7 @@ Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
         assetDesc.name = options.files[k].c_str();
         assetDesc.bytes = bytes.data();
         assetDesc.byteCount = bytes.size();
-        sample::check(supple::Asset::create(context_, assetDesc, kind.asset), "suppleCreateAsset");
+        must(supple::Asset::create(context_, assetDesc, kind.asset), "suppleCreateAsset");
         if (kind.walks)
             findArcs(kind);
 
@@ -91,9 +91,9 @@ Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
         desc.scheme = kDescs[k].scheme;
         desc.view = view_.handle();
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
-        sample::check(supple::Group::create(context_, desc, kind.group), "suppleCreateGroup");
-        sample::check(kind.group.vertexStreams(kind.streams), "suppleGetVertexStreams");
-        sample::check(kind.group.levelOutput(kind.levels), "suppleGetLevelOutput");
+        must(supple::Group::create(context_, desc, kind.group), "suppleCreateGroup");
+        must(kind.group.vertexStreams(kind.streams), "suppleGetVertexStreams");
+        must(kind.group.levelOutput(kind.levels), "suppleGetLevelOutput");
     }
 
     // Circles all over a square, a few steps from each other.
@@ -118,7 +118,7 @@ Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
         const auto arc = static_cast<uint32_t>(uniform(0.0f, static_cast<float>(all.size())));
         const float angle = uniform(0.0f, 6.2831853f), radius = all[arc].radius * kindDesc.size;
         supple::Instance& instance = instances_.emplace_back();
-        sample::check(supple::Instance::create(kind.group, instance), "suppleCreateInstance");
+        must(supple::Instance::create(kind.group, instance), "suppleCreateInstance");
 
         // All of it once. From then on the clip runs on the device, and where its root goes, the character goes.
         SupplePlaybackLayer layer{};
@@ -132,46 +132,46 @@ Crowd::Crowd(const sample::Device& device, const CrowdOptions& options)
         playback.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
         playback.layers = &layer;
         playback.layerCount = kind.walks ? 1 : 0;
-        sample::check(instance.setPlayback(playback), "suppleSetPlayback");
+        must(instance.setPlayback(playback), "suppleSetPlayback");
         const glm::vec3 place{centre.x + radius * std::sin(angle), 0.0f, centre.y + radius * std::cos(angle)};
         glm::mat4 transform = glm::translate(glm::mat4(1.0f), place);
         transform = glm::rotate(transform, angle + all[arc].turn * glm::half_pi<float>(), glm::vec3(0.0f, 1.0f, 0.0f));
         transform = glm::scale(transform, glm::vec3(kindDesc.size));
-        sample::check(instance.setTransform(std::span<const float, 16>(&transform[0][0], 16)), "suppleSetTransform");
+        must(instance.setTransform(std::span<const float, 16>(&transform[0][0], 16)), "suppleSetTransform");
     }
 }
 
 void Crowd::beginFrame(uint64_t frame, uint64_t completed) const {
-    sample::check(context_.beginFrame(frame, completed), "suppleBeginFrame");
+    must(context_.beginFrame(frame, completed), "suppleBeginFrame");
 }
 
 void Crowd::update(double time, const Camera& camera) const {
     for (const Kind& kind : kinds_)
-        sample::check(kind.group.setTime(time), "suppleSetTime");
+        must(kind.group.setTime(time), "suppleSetTime");
     auto desc = supple::sized<SuppleCameraDesc>();
     std::memcpy(desc.position, &camera.eye, sizeof desc.position);
     desc.pixelsPerUnit = camera.pixelsPerUnit;
     std::memcpy(desc.viewProjection, &camera.castersViewProjection, sizeof desc.viewProjection);
-    sample::check(view_.setCamera(desc), "suppleSetCamera");
+    must(view_.setCamera(desc), "suppleSetCamera");
 }
 
 void Crowd::setPyramid(const SuppleDepthPyramidDesc* pyramid) const {
-    sample::check(view_.setDepthPyramid(pyramid), "suppleSetDepthPyramid");
+    must(view_.setDepthPyramid(pyramid), "suppleSetDepthPyramid");
 }
 
-void Crowd::addToGraph(engine::Graph& graph, engine::Resource buffers, const engine::Resource* pyramid) const {
-    engine::Scope first{};
-    engine::Scope last{};
-    sample::check(suppleGetRecordScopes(&first, &last), "suppleGetRecordScopes");
-    std::vector<engine::Use> uses = {engine::writesWithin(buffers, first, last)};
+void Crowd::addToGraph(Graph& graph, Resource buffers, const Resource* pyramid) const {
+    Scope first{};
+    Scope last{};
+    must(suppleGetRecordScopes(&first, &last), "suppleGetRecordScopes");
+    std::vector<Use> uses = {writesWithin(buffers, first, last)};
     if (pyramid != nullptr)
-        uses.push_back(engine::reads(*pyramid, engine::kSampledInCompute, VK_IMAGE_LAYOUT_GENERAL));
+        uses.push_back(reads(*pyramid, kSampledInCompute, VK_IMAGE_LAYOUT_GENERAL));
     graph.add("supple", std::move(uses), [this](VkCommandBuffer commands) {
         std::array<SuppleGroup, kKinds> groups{};
         for (size_t k = 0; k < kKinds; ++k)
             groups[k] = kinds_[k].group.handle();
-        sample::check(context_.record(commands, groups, {}, {}, SUPPLE_RECORD_NO_ENTRY_BARRIER | SUPPLE_RECORD_TIMINGS),
-                      "suppleRecord");
+        must(context_.record(commands, groups, {}, {}, SUPPLE_RECORD_NO_ENTRY_BARRIER | SUPPLE_RECORD_TIMINGS),
+             "suppleRecord");
     });
 }
 

@@ -1,7 +1,9 @@
 // Supple in this sample: three kinds of characters, a view that they share, and the circles that everybody walks.
 #pragma once
 
-#include "common/graph.h"
+#include "host/graph.h"
+
+#include <supple/supple.hpp>
 
 #include <array>
 #include <glm/glm.hpp>
@@ -9,6 +11,8 @@
 #include <vector>
 
 namespace crowd {
+
+using namespace supple::host;
 
 inline constexpr size_t kKinds = 3;
 
@@ -44,7 +48,7 @@ inline constexpr float kWallAngle = 0.35f, kWallHeight = 4.0f;
 
 class Crowd {
 public:
-    Crowd(const sample::Device& device, const CrowdOptions& options);
+    Crowd(const Device& device, const CrowdOptions& options);
 
     void beginFrame(uint64_t frame, uint64_t completed) const;
     /// All there is to say a frame: where everybody is at a time of the walk, the device finds.
@@ -52,7 +56,7 @@ public:
     /// From now on what lies behind it is left out; null: nothing is.
     void setPyramid(const SuppleDepthPyramidDesc* pyramid) const;
     /// The graph's node. `pyramid`: read where there is one.
-    void addToGraph(engine::Graph& graph, engine::Resource buffers, const engine::Resource* pyramid) const;
+    void addToGraph(Graph& graph, Resource buffers, const Resource* pyramid) const;
 
     [[nodiscard]] const std::array<Kind, kKinds>& kinds() const { return kinds_; }
     [[nodiscard]] size_t size() const { return instances_.size(); }

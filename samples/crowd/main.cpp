@@ -1,9 +1,10 @@
 // A thousand characters of three kinds, drawn at levels of detail under one budget. See README.md.
 #include "scene.h"
 
-#include "common/options.h"
-#include "common/picture.h"
-#include "common/window.h"
+#include "host/draw_target.h"
+#include "host/must.h"
+#include "host/picture_options.h"
+#include "host/sdl_window.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -13,9 +14,9 @@
 
 namespace {
 
-using namespace engine;
+using namespace supple::host;
 
-struct Options : sample::PictureOptions {
+struct Options : PictureOptions {
     crowd::CrowdOptions crowd{.files = {SUPPLE_SAMPLE_ASSETS "/pip.glb", SUPPLE_SAMPLE_ASSETS "/pip_quads.glb",
                                         SUPPLE_SAMPLE_ASSETS "/pip_quads.glb"}};
     bool offscreen = false;
@@ -25,7 +26,7 @@ struct Options : sample::PictureOptions {
 Options readOptions(int argc, char** argv) {
     Options options;
     CLI::App app("A crowd at levels of detail under one budget", "supple_crowd");
-    sample::addPictureOptions(app, options);
+    addPictureOptions(app, options);
     app.remove_option(app.get_option("--rate"));
     app.get_option("--frames")->description("end after so many, a sixtieth of a second each; 0: with the window");
     app.get_option("--screenshot")->description("save the last frame as PNG; needs --frames");
@@ -44,7 +45,7 @@ Options readOptions(int argc, char** argv) {
         if (options.frames == 0 && (options.offscreen || !options.screenshot.empty()))
             throw CLI::RequiredError("--frames");
     });
-    sample::parse(app, argc, argv);
+    parse(app, argc, argv);
     return options;
 }
 
@@ -57,34 +58,31 @@ crowd::Camera cameraAt(double time, float reach, VkExtent2D extent) {
     camera.eye = {std::sin(angle) * (reach + 2.0f), height, std::cos(angle) * (reach + 2.0f)};
     const float fovY = glm::radians(38.0f);
     const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
-    glm::mat4 projection = glm::perspective(fovY, aspect, 0.1f, 400.0f);
+    glm::mat4 projection = glm::perspectiveRH_ZO(fovY, aspect, 0.1f, 400.0f);
     projection[1][1] = -projection[1][1]; // Vulkan's y points down
     const glm::mat4 view = glm::lookAt(camera.eye, glm::vec3(0.0f, -0.12f * reach, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
     camera.viewProjection = projection * view;
-    camera.castersViewProjection = glm::perspective(fovY + glm::radians(14.0f), aspect, 0.1f, 400.0f) * view;
+    camera.castersViewProjection = glm::perspectiveRH_ZO(fovY + glm::radians(14.0f), aspect, 0.1f, 400.0f) * view;
     camera.pixelsPerUnit = 0.5f * static_cast<float>(extent.height) / std::tan(0.5f * fovY);
     return camera;
 }
 
-void run(const Options& options) {
+std::shared_ptr<const ValidationLog> run(const Options& options) {
     std::unique_ptr<SdlWindow> window;
-    sample::DeviceOptions deviceOptions{.name = "supple_crowd"};
-    if (!options.offscreen) {
+    if (!options.offscreen)
         window = std::make_unique<SdlWindow>("Supple: a crowd", options.size);
-        deviceOptions.instanceExtensions = window->instanceExtensions();
-        deviceOptions.createSurface = [&](VkInstance instance) { return window->createSurface(instance); };
-    }
-    sample::Device device(deviceOptions);
+    const std::unique_ptr<Device> owner = mustCreateDevice(window != nullptr);
+    Device& device = *owner;
     Graph graph(device);
     const Resource buffers = graph.addBuffers();
     crowd::Crowd crowd(device, options.crowd);
     crowd::Scene scene(device, graph, crowd, options.crowd.wall, options.crowd.occlusion);
     std::unique_ptr<Swapchain> swapchain;
+    const Resource shown = graph.addImage();
     if (window)
-        swapchain = std::make_unique<Swapchain>(device, *window, graph);
-    sample::Frames frames(device);
+        swapchain = window->createSwapchain(device);
+    Frames frames(device);
 
-    sample::Buffer readback;
     VkExtent2D extent{};
     bool stale = true; // sizes must be looked at
     using Clock = std::chrono::steady_clock;
@@ -101,7 +99,7 @@ void run(const Options& options) {
         stale = stale || (window && window->takeResized());
         if (stale) {
             device.waitIdle();
-            if (swapchain && !swapchain->create()) {
+            if (swapchain && !must(swapchain->resize(window->drawableSize()))) {
                 SDL_Delay(50);
                 continue;
             }
@@ -118,7 +116,7 @@ void run(const Options& options) {
             last = now;
             ended = completed;
         }
-        if (swapchain && !swapchain->acquire(frames.nextSlot())) {
+        if (swapchain && !must(swapchain->acquire(frames.nextSlot()))) {
             stale = true;
             continue;
         }
@@ -142,7 +140,7 @@ void run(const Options& options) {
         const crowd::Camera camera = cameraAt(time, crowd.reach(), extent);
         crowd.update(time, camera);
         scene.update(slot, camera, report);
-        const engine::Resource pyramidUse = scene.pyramidUse();
+        const Resource pyramidUse = scene.pyramidUse();
         if (scene.pyramid() != nullptr) {
             const SuppleDepthPyramidDesc pyramid =
                 scene.pyramid()->desc(std::span<const float, 16>(&depthViewProjection[0][0], 16));
@@ -152,39 +150,33 @@ void run(const Options& options) {
         crowd.addToGraph(graph, buffers, hasDepth ? &pyramidUse : nullptr);
         hasDepth = scene.pyramid() != nullptr;
         scene.addToGraph(graph, slot, buffers, options.levels);
-        if (!options.screenshot.empty() && frames.frame() == options.frames) {
-            readback = sample::Buffer(device, VkDeviceSize{4} * extent.width * extent.height,
-                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
-            graph.add("screenshot",
-                      {reads(scene.pictureUse(), {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT},
-                             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)},
-                      [&](VkCommandBuffer copy) { sample::copyPicture(copy, scene.picture(), readback); });
-        }
+        if (!options.screenshot.empty() && frames.frame() == options.frames)
+            graph.add("screenshot", {reads(scene.pictureUse(), kCopied, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)},
+                      [](VkCommandBuffer) {}); // only the barrier
         if (swapchain)
-            swapchain->addToGraph(graph, scene.picture(), scene.pictureUse());
+            addPresent(graph, *swapchain, shown, scene.picture(), scene.pictureUse());
         graph.execute(commands, slot);
         hostMilliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
 
         if (swapchain) {
             frames.submit(swapchain->acquired(slot), Swapchain::kFirstUse, swapchain->drawn());
-            stale = !swapchain->present();
+            stale = !must(swapchain->present());
         } else {
             frames.submit();
         }
         time += options.frames != 0 ? 1.0 / 60.0 : std::min(1e-3 * frameMilliseconds, 0.1);
     }
     device.waitIdle();
-    if (readback.mapped() != nullptr)
-        sample::writePng(options.screenshot, extent.width, extent.height, readback.mapped());
+    if (!options.screenshot.empty() && frames.frame() == options.frames)
+        must(writePng(must(readPicture(device, scene.picture())), options.screenshot));
     for (const std::string& line : report)
         std::printf("%s\n", line.c_str());
+    return device.validation();
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    run(readOptions(argc, argv));
-    if (sample::validationMessages() != 0)
-        sample::fail("failed: " + std::to_string(sample::validationMessages()) + " validation messages");
+    mustBeSilent(*run(readOptions(argc, argv)));
     return 0;
 }

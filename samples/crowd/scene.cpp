@@ -1,6 +1,7 @@
 #include "scene.h"
 
-#include "common/rendering.h"
+#include "host/must.h"
+#include "host/rendering.h"
 #include "shaders/character_frag.h"
 #include "shaders/character_vert.h"
 #include "shaders/ground_frag.h"
@@ -19,8 +20,6 @@
 namespace crowd {
 
 namespace {
-
-using namespace engine;
 
 constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_UNORM;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
@@ -47,89 +46,86 @@ struct TextCorner { // of stb_easy_font
 
 } // namespace
 
-Scene::Scene(sample::Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid)
-    : crowd_(crowd), wall_(wall) {
+Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid) : crowd_(crowd), wall_(wall) {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    sunMap_ = sample::Image(device, {.extent = {kSunMapSize, kSunMapSize},
-                                     .format = kDepthFormat,
-                                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+    sunMap_ =
+        must(device.createImage({.format = kDepthFormat,
+                                 .extent = {kSunMapSize, kSunMapSize},
+                                 .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                 .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
     sunMapUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
     graph.setImage(sunMapUse_, sunMap_.handle());
     pictureUse_ = graph.addImage();
     depthUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
     if (pyramid) {
-        pyramid_ = std::make_unique<sample::DepthPyramid>(device);
+        pyramid_ = std::make_unique<DepthPyramid>(device);
         pyramidUse_ = graph.addImage();
     }
 
     const VkDescriptorSetLayout sceneLayout =
-        sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
-                                         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+        must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
+                                      {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}}));
     // The bindings of shaders/supple_surface.glsl at levels of detail: vertices, attributes, buckets, patches.
-    const VkDescriptorSetLayout kindLayout =
-        sample::createSetLayout(device, {{1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                         {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                         {4, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                         {5, kStorage, VK_SHADER_STAGE_VERTEX_BIT}});
-    const VkDescriptorSetLayout textLayout =
-        sample::createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT}});
-    layout_ = sample::createPipelineLayout(device, {sceneLayout, kindLayout}, sizeof(CharacterPush),
-                                           VK_SHADER_STAGE_VERTEX_BIT);
-    textLayout_ = sample::createPipelineLayout(device, {textLayout}, sizeof(glm::vec2), VK_SHADER_STAGE_VERTEX_BIT);
+    const VkDescriptorSetLayout kindLayout = must(createSetLayout(device, {{1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                                                           {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                                                           {4, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                                                           {5, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
+    const VkDescriptorSetLayout textLayout = must(createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
+    layout_ = must(
+        createPipelineLayout(device, {sceneLayout, kindLayout}, sizeof(CharacterPush), VK_SHADER_STAGE_VERTEX_BIT));
+    textLayout_ = must(createPipelineLayout(device, {textLayout}, sizeof(glm::vec2), VK_SHADER_STAGE_VERTEX_BIT));
 
-    sample::DescriptorPool pool(device, 2 * sample::kFramesInFlight + kKinds);
-    const VkSampler compare = sample::createSampler(device, VK_FILTER_LINEAR, true);
-    for (uint32_t slot = 0; slot < sample::kFramesInFlight; ++slot) {
-        uniforms_[slot] = sample::Buffer(device, sizeof(SceneUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
-        text_[slot] = sample::Buffer(device, kMaxTextBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
-        sceneSets_[slot] = pool.allocate(sceneLayout);
-        pool.write(sceneSets_[slot],
-                   {sample::uniformBuffer(0, uniforms_[slot]), sample::sampledImage(1, sunMap_, compare)});
-        textSets_[slot] = pool.allocate(textLayout);
-        pool.write(textSets_[slot], {sample::storageBuffer(0, text_[slot].handle(), 0, kMaxTextBytes)});
+    DescriptorPool pool = must(DescriptorPool::create(device, 2 * kFramesInFlight + kKinds));
+    const VkSampler compare = must(createSampler(device, VK_FILTER_LINEAR, true));
+    for (uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
+        uniforms_[slot] =
+            must(device.createBuffer(sizeof(SceneUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryKind::upload));
+        text_[slot] = must(device.createBuffer(kMaxTextBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::upload));
+        sceneSets_[slot] = must(pool.allocate(sceneLayout));
+        pool.write(sceneSets_[slot], {uniformBuffer(0, uniforms_[slot]), sampledImage(1, sunMap_, compare)});
+        textSets_[slot] = must(pool.allocate(textLayout));
+        pool.write(textSets_[slot], {storageBuffer(0, text_[slot].handle(), 0, kMaxTextBytes)});
     }
     for (size_t k = 0; k < kKinds; ++k) {
         const SuppleVertexStreams& streams = crowd.kinds()[k].streams;
         const SuppleLevelOutput& levels = crowd.kinds()[k].levels;
-        kindSets_[k] = pool.allocate(kindLayout);
-        pool.write(kindSets_[k],
-                   {sample::storageBuffer(1, streams.vertices), sample::storageBuffer(3, streams.attributes),
-                    sample::storageBuffer(4, levels.buckets), sample::storageBuffer(5, levels.patches)});
+        kindSets_[k] = must(pool.allocate(kindLayout));
+        pool.write(kindSets_[k], {storageBuffer(1, streams.vertices), storageBuffer(3, streams.attributes),
+                                  storageBuffer(4, levels.buckets), storageBuffer(5, levels.patches)});
     }
 
-    sunPipeline_ = sample::createGraphicsPipeline(device, {.layout = layout_,
-                                                           .vertexShader = character_vert,
-                                                           .depth = kDepthFormat,
-                                                           .depthBias = 1.0f,
-                                                           .depthBiasSlope = 1.5f});
-    sample::GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat}, .depth = kDepthFormat};
+    sunPipeline_ = must(createGraphicsPipeline(device, {.layout = layout_,
+                                                        .vertexShader = character_vert,
+                                                        .depth = kDepthFormat,
+                                                        .depthBias = 1.0f,
+                                                        .depthBiasSlope = 1.5f}));
+    GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat}, .depth = kDepthFormat};
     scene.vertexShader = character_vert;
     scene.fragmentShader = character_frag;
-    characterPipeline_ = sample::createGraphicsPipeline(device, scene);
+    characterPipeline_ = must(createGraphicsPipeline(device, scene));
     scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
     scene.vertexShader = ground_vert;
     scene.fragmentShader = ground_frag;
-    groundPipeline_ = sample::createGraphicsPipeline(device, scene);
+    groundPipeline_ = must(createGraphicsPipeline(device, scene));
     scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     scene.vertexShader = wall_vert;
-    wallPipeline_ = sample::createGraphicsPipeline(device, scene);
-    sample::GraphicsDesc text{
-        .layout = textLayout_, .colors = {kColorFormat}, .depth = kDepthFormat, .depthWrite = false};
+    wallPipeline_ = must(createGraphicsPipeline(device, scene));
+    GraphicsDesc text{.layout = textLayout_, .colors = {kColorFormat}, .depth = kDepthFormat, .depthWrite = false};
     text.vertexShader = text_vert;
     text.fragmentShader = text_frag;
-    textPipeline_ = sample::createGraphicsPipeline(device, text);
+    textPipeline_ = must(createGraphicsPipeline(device, text));
 }
 
-void Scene::resize(sample::Device& device, Graph& graph, VkExtent2D extent) {
-    picture_ = sample::Image(device, {.extent = extent,
-                                      .format = kColorFormat,
-                                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-    depth_ = sample::Image(device, {.extent = extent,
-                                    .format = kDepthFormat,
-                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                    .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+void Scene::resize(Device& device, Graph& graph, VkExtent2D extent) {
+    picture_ =
+        must(device.createImage({.format = kColorFormat,
+                                 .extent = extent,
+                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}));
+    depth_ = must(device.createImage({.format = kDepthFormat,
+                                      .extent = extent,
+                                      .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                      .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
     if (pyramid_) {
         pyramid_->resize(depth_);
         graph.setImage(pyramidUse_, pyramid_->image());
@@ -145,7 +141,7 @@ void Scene::update(uint32_t slot, const Camera& camera, const std::vector<std::s
     uniforms.viewProjection = camera.viewProjection;
     const float reach = 1.45f * crowd_.reach() + 2.0f;
     uniforms.sunViewProjection =
-        glm::ortho(-reach, reach, -reach, reach, 0.0f, 4.0f * reach) *
+        glm::orthoRH_ZO(-reach, reach, -reach, reach, 0.0f, 4.0f * reach) *
         glm::lookAt(2.0f * reach * kSunDirection, glm::vec3(0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
     uniforms.eye = glm::vec4(camera.eye, 1.0f);
     uniforms.sunDirection = glm::vec4(kSunDirection, 2.0f * reach / static_cast<float>(kSunMapSize));
@@ -202,9 +198,8 @@ void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint
         "sun",
         {reads(buffers, kDrawn), writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
         [this, slot](VkCommandBuffer commands) {
-            const VkRenderingAttachmentInfo depth =
-                sample::attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
-            sample::beginRendering(commands, sunMap_.desc().extent, {}, depth);
+            const VkRenderingAttachmentInfo depth = attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+            beginRendering(commands, sunMap_.desc().extent, {}, depth);
             drawCharacters(commands, slot, true, false);
             vkCmdEndRendering(commands);
         });
@@ -217,10 +212,9 @@ void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint
             const VkExtent2D extent = picture_.desc().extent;
             const VkClearValue haze{.color = {{0.85f, 0.87f, 0.89f, 1.0f}}};
             const VkRenderingAttachmentInfo color =
-                sample::attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, haze);
-            const VkRenderingAttachmentInfo depth =
-                sample::attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
-            sample::beginRendering(commands, extent, {&color, 1}, depth);
+                attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, haze);
+            const VkRenderingAttachmentInfo depth = attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+            beginRendering(commands, extent, {&color, 1}, depth);
             drawCharacters(commands, slot, false, paint);
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, groundPipeline_);
             vkCmdDraw(commands, 4, 1, 0, 0);

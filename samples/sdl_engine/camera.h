@@ -20,7 +20,7 @@ inline Camera cameraAt(double time, float aspect) {
     const glm::vec3 target{0.0f, 0.72f, 0.0f};
     Camera camera;
     camera.eye = target + 6.4f * glm::vec3(std::sin(around), 0.22f + 0.03f * std::sin(0.17f * t), std::cos(around));
-    glm::mat4 projection = glm::perspective(glm::radians(30.0f), aspect, 0.5f, 60.0f);
+    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(30.0f), aspect, 0.5f, 60.0f);
     projection[1][1] = -projection[1][1]; // Vulkan's y points down
     camera.viewProjection = projection * glm::lookAt(camera.eye, target, glm::vec3(0.0f, 1.0f, 0.0f));
     return camera;
@@ -38,7 +38,7 @@ inline Sun sunOverStage() {
     constexpr float kDepth = 14.0f;
     Sun sun{.direction = glm::normalize(glm::vec3(0.55f, 0.95f, 0.62f)), .width = 2.0f * kHalf, .depth = kDepth};
     const glm::vec3 middle{0.0f, 0.5f, 0.0f};
-    sun.viewProjection = glm::ortho(-kHalf, kHalf, -kHalf, kHalf, 0.0f, kDepth) *
+    sun.viewProjection = glm::orthoRH_ZO(-kHalf, kHalf, -kHalf, kHalf, 0.0f, kDepth) *
                          glm::lookAt(middle + sun.direction * (0.5f * kDepth), middle, glm::vec3(0.0f, 1.0f, 0.0f));
     return sun;
 }

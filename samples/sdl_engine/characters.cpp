@@ -1,6 +1,6 @@
 #include "characters.h"
 
-#include "common/context.h"
+#include "host/must.h"
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -31,15 +31,15 @@ CharacterGroup createGroup(const supple::Context& context, const supple::Asset& 
     desc.scheme = scheme;
     desc.rate = rate;
     CharacterGroup created;
-    sample::check(supple::Group::create(context, desc, created.group), "the character's surface");
-    sample::check(created.group.info(created.info), "suppleGetGroupInfo");
-    sample::check(created.group.vertexStreams(created.streams), "suppleGetVertexStreams");
-    sample::check(created.group.gridOutput(created.grid), "suppleGetGridOutput");
+    must(supple::Group::create(context, desc, created.group), "the character's surface");
+    must(created.group.info(created.info), "suppleGetGroupInfo");
+    must(created.group.vertexStreams(created.streams), "suppleGetVertexStreams");
+    must(created.group.gridOutput(created.grid), "suppleGetGridOutput");
     for (uint32_t i = 0; i < created.grid.drawRangeCount; ++i) {
         SuppleMaterialInfo material{};
         const uint32_t index = created.grid.drawRanges[i].material;
         if (index != SUPPLE_NO_MATERIAL)
-            sample::check(asset.materialInfo(index, material), "suppleGetMaterialInfo");
+            must(asset.materialInfo(index, material), "suppleGetMaterialInfo");
         created.doubleSided.push_back(index == SUPPLE_NO_MATERIAL || material.doubleSided != 0);
     }
     return created;
@@ -48,25 +48,25 @@ CharacterGroup createGroup(const supple::Context& context, const supple::Asset& 
 /// Layers are of clips; a character without any rests.
 void play(const supple::Instance& instance, std::span<const SuppleClipLayer> layers) {
     if (layers[0].clip == SUPPLE_REST_POSE)
-        sample::check(instance.setClipPose(SUPPLE_REST_POSE, 0.0), "suppleSetClipPose");
+        must(instance.setClipPose(SUPPLE_REST_POSE, 0.0), "suppleSetClipPose");
     else
-        sample::check(instance.setPose(layers), "suppleSetPose");
+        must(instance.setPose(layers), "suppleSetPose");
 }
 
 } // namespace
 
-Characters::Characters(const sample::Device& device, const std::string& path, uint32_t rate) {
-    context_ = sample::createContext(device);
+Characters::Characters(const Device& device, const std::string& path, uint32_t rate) {
+    context_ = mustCreateContext(device);
 
     std::ifstream stream(path, std::ios::binary);
     if (!stream)
-        sample::fail(path + " cannot be read");
+        fail(path + " cannot be read");
     const std::vector<char> file(std::istreambuf_iterator<char>(stream), {});
     auto assetDesc = supple::sized<SuppleAssetDesc>();
     assetDesc.name = path.c_str();
     assetDesc.bytes = file.data();
     assetDesc.byteCount = file.size();
-    sample::check(supple::Asset::create(context_, assetDesc, asset_), "suppleCreateAsset");
+    must(supple::Asset::create(context_, assetDesc, asset_), "suppleCreateAsset");
     walk_ = findClip("walk");
     joy_ = findClip("joy");
     idle_ = findClip("idle");
@@ -76,14 +76,14 @@ Characters::Characters(const sample::Device& device, const std::string& path, ui
 
     groups_[0] = createGroup(context_, asset_, SUPPLE_SCHEME_PM, 1, rate);
     groups_[1] = createGroup(context_, asset_, SUPPLE_SCHEME_CATMULL_CLARK, 2, rate);
-    sample::check(supple::Instance::create(groups_[0].group, walker_), "suppleCreateInstance");
-    sample::check(supple::Instance::create(groups_[1].group, leaper_), "suppleCreateInstance");
+    must(supple::Instance::create(groups_[0].group, walker_), "suppleCreateInstance");
+    must(supple::Instance::create(groups_[1].group, leaper_), "suppleCreateInstance");
 }
 
 /// The clip of that name; a character without it plays its first, one without clips rests.
 uint32_t Characters::findClip(const char* name) const {
     SuppleAssetInfo info{};
-    sample::check(asset_.info(info), "suppleGetAssetInfo");
+    must(asset_.info(info), "suppleGetAssetInfo");
     for (uint32_t i = 0; i < info.clipCount; ++i) {
         SuppleClipInfo clip{};
         if (asset_.clipInfo(i, clip) == SUPPLE_OK && std::strcmp(clip.name, name) == 0)
@@ -96,7 +96,7 @@ void Characters::place(const supple::Instance& instance, glm::vec3 position, flo
     glm::mat4 transform = glm::translate(glm::mat4(1.0f), position);
     transform = glm::rotate(transform, heading, glm::vec3(0.0f, 1.0f, 0.0f));
     transform = glm::scale(transform, glm::vec3(size));
-    sample::check(instance.setTransform(std::span<const float, 16>(&transform[0][0], 16)), "suppleSetTransform");
+    must(instance.setTransform(std::span<const float, 16>(&transform[0][0], 16)), "suppleSetTransform");
     footprints_.push_back({position, 0.55f * size});
 }
 
@@ -132,35 +132,35 @@ void Characters::update(double time) {
 
     if (leap != leap_) {
         if (leap_ >= 0) // he did not go there, he is there: no motion, and no smear
-            sample::check(leaper_.teleport(), "suppleTeleport");
+            must(leaper_.teleport(), "suppleTeleport");
         leap_ = leap;
         if (leap % 2 == 1) {
             guest_.emplace();
-            sample::check(supple::Instance::create(groups_[1].group, *guest_), "suppleCreateInstance");
+            must(supple::Instance::create(groups_[1].group, *guest_), "suppleCreateInstance");
         } else {
             guest_.reset(); // frames in flight still draw it; Supple waits for them
         }
     }
     if (guest_) {
-        sample::check(guest_->setClipPose(joy_, glm::max(at - 0.15, 0.0)), "suppleSetClipPose");
+        must(guest_->setClipPose(joy_, glm::max(at - 0.15, 0.0)), "suppleSetClipPose");
         place(*guest_, spot + glm::vec3(spot.x > 0.0f ? -1.15f : 1.1f, 0.0f, 0.35f), 0.0f, kGuestSize);
     }
 }
 
 void Characters::beginFrame(uint64_t frame, uint64_t completed) const {
-    sample::check(context_.beginFrame(frame, completed), "suppleBeginFrame");
+    must(context_.beginFrame(frame, completed), "suppleBeginFrame");
 }
 
 void Characters::addToGraph(Graph& graph, Resource buffers) const {
     Scope first{};
     Scope last{};
-    sample::check(suppleGetRecordScopes(&first, &last), "suppleGetRecordScopes");
+    must(suppleGetRecordScopes(&first, &last), "suppleGetRecordScopes");
     graph.add("supple", {writesWithin(buffers, first, last)}, [this](VkCommandBuffer commands) {
         const SuppleGroup groups[] = {groups_[0].group.handle(), groups_[1].group.handle()};
         // No `before`: the graph has waited for the draws of the last frame and for Supple's own passes. No `after`:
         // the graph's next barrier makes `last` visible to whom it knows.
-        sample::check(context_.record(commands, groups, {}, {}, SUPPLE_RECORD_NO_ENTRY_BARRIER | SUPPLE_RECORD_TIMINGS),
-                      "suppleRecord");
+        must(context_.record(commands, groups, {}, {}, SUPPLE_RECORD_NO_ENTRY_BARRIER | SUPPLE_RECORD_TIMINGS),
+             "suppleRecord");
     });
 }
 

@@ -3,13 +3,17 @@
 // joins.
 #pragma once
 
-#include "common/graph.h"
+#include "host/graph.h"
+
+#include <supple/supple.hpp>
 
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
 
 namespace engine {
+
+using namespace supple::host;
 
 /// One of the two groups as the passes draw it.
 struct CharacterGroup {
@@ -28,7 +32,7 @@ struct Footprint {
 
 class Characters {
 public:
-    Characters(const sample::Device& device, const std::string& path, uint32_t rate);
+    Characters(const Device& device, const std::string& path, uint32_t rate);
 
     /// Poses everybody for a time of the show. May create and destroy instances, so it comes after beginFrame.
     void update(double time);

@@ -1,9 +1,10 @@
 // A small engine with Supple in it. See README.md for what it shows; this file is the loop.
-#include "common/window.h"
 #include "taa.h"
 
-#include "common/options.h"
-#include "common/picture.h"
+#include "host/draw_target.h"
+#include "host/must.h"
+#include "host/picture_options.h"
+#include "host/sdl_window.h"
 
 #include <chrono>
 #include <cstdio>
@@ -16,7 +17,7 @@ namespace {
 
 using namespace engine;
 
-struct Options : sample::PictureOptions {
+struct Options : PictureOptions {
     std::string character = SUPPLE_SAMPLE_ASSETS "/pip.glb";
     double start = 0.0;
     bool offscreen = false;
@@ -26,7 +27,7 @@ Options readOptions(int argc, char** argv) {
     Options options;
     options.rate = 4;
     CLI::App app("A small engine with Supple in it", "supple_sdl_engine");
-    sample::addPictureOptions(app, options);
+    addPictureOptions(app, options);
     app.get_option("--frames")->description("end after so many, a sixtieth of a second each; 0: with the window");
     app.get_option("--screenshot")->description("save the last frame as PNG; needs --frames");
     app.add_flag("--offscreen", options.offscreen, "no window; needs --frames");
@@ -38,7 +39,7 @@ Options readOptions(int argc, char** argv) {
         if (options.frames == 0 && (options.offscreen || !options.screenshot.empty()))
             throw CLI::RequiredError("--frames");
     });
-    sample::parse(app, argc, argv);
+    parse(app, argc, argv);
     return options;
 }
 
@@ -72,34 +73,23 @@ private:
     std::map<std::string_view, std::pair<double, int>> sums_;
 };
 
-/// Copies the picture to memory that the host reads.
-void addReadback(Graph& graph, const Taa& taa, const sample::Buffer& buffer) {
-    graph.add("screenshot",
-              {reads(taa.pictureUse(), {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT},
-                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)},
-              [&](VkCommandBuffer commands) { sample::copyPicture(commands, taa.picture(), buffer); });
-}
-
-void run(const Options& options) {
+std::shared_ptr<const ValidationLog> run(const Options& options) {
     std::unique_ptr<SdlWindow> window;
-    sample::DeviceOptions deviceOptions{.name = "supple_sdl_engine"};
-    if (!options.offscreen) {
+    if (!options.offscreen)
         window = std::make_unique<SdlWindow>("Supple", options.size);
-        deviceOptions.instanceExtensions = window->instanceExtensions();
-        deviceOptions.createSurface = [&](VkInstance instance) { return window->createSurface(instance); };
-    }
-    sample::Device device(deviceOptions);
+    const std::unique_ptr<Device> owner = mustCreateDevice(window != nullptr);
+    Device& device = *owner;
     Graph graph(device);
     const Resource characterBuffers = graph.addBuffers();
     Characters characters(device, options.character, options.rate);
     Passes passes(device, graph, characters);
     Taa taa(device, graph);
     std::unique_ptr<Swapchain> swapchain;
+    const Resource shown = graph.addImage();
     if (window)
-        swapchain = std::make_unique<Swapchain>(device, *window, graph);
-    sample::Frames frames(device);
+        swapchain = window->createSwapchain(device);
+    Frames frames(device);
 
-    sample::Buffer readback;
     Averages averages;
     VkExtent2D extent{};
     bool stale = true; // sizes must be looked at
@@ -114,7 +104,7 @@ void run(const Options& options) {
         stale = stale || (window && window->takeResized());
         if (stale) {
             device.waitIdle();
-            if (swapchain && !swapchain->create()) {
+            if (swapchain && !must(swapchain->resize(window->drawableSize()))) {
                 SDL_Delay(50);
                 continue;
             }
@@ -124,7 +114,7 @@ void run(const Options& options) {
             stale = false;
         }
         frames.waitForRoom();
-        if (swapchain && !swapchain->acquire(frames.nextSlot())) {
+        if (swapchain && !must(swapchain->acquire(frames.nextSlot()))) {
             stale = true;
             continue;
         }
@@ -144,18 +134,16 @@ void run(const Options& options) {
         characters.addToGraph(graph, characterBuffers);
         passes.addToGraph(graph, slot, characterBuffers);
         taa.addToGraph(graph, passes.images());
-        if (!options.screenshot.empty() && frames.frame() == options.frames) {
-            readback = sample::Buffer(device, VkDeviceSize{4} * extent.width * extent.height,
-                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
-            addReadback(graph, taa, readback);
-        }
+        if (!options.screenshot.empty() && frames.frame() == options.frames)
+            graph.add("screenshot", {reads(taa.pictureUse(), kCopied, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)},
+                      [](VkCommandBuffer) {}); // only the barrier
         if (swapchain)
-            swapchain->addToGraph(graph, taa.picture(), taa.pictureUse());
+            addPresent(graph, *swapchain, shown, taa.picture(), taa.pictureUse());
         graph.execute(commands, slot);
 
         if (swapchain) {
             frames.submit(swapchain->acquired(slot), Swapchain::kFirstUse, swapchain->drawn());
-            stale = !swapchain->present();
+            stale = !must(swapchain->present());
         } else {
             frames.submit();
         }
@@ -167,17 +155,16 @@ void run(const Options& options) {
         time += options.frames != 0 ? 1.0 / 60.0 : std::min(seconds, 0.1);
     }
     device.waitIdle();
-    if (readback.mapped() != nullptr)
-        sample::writePng(options.screenshot, extent.width, extent.height, readback.mapped());
+    if (!options.screenshot.empty() && frames.frame() == options.frames)
+        must(writePng(must(readPicture(device, taa.picture())), options.screenshot));
     if (options.frames != 0)
         averages.print();
+    return device.validation();
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    run(readOptions(argc, argv));
-    if (sample::validationMessages() != 0)
-        sample::fail("failed: " + std::to_string(sample::validationMessages()) + " validation messages");
+    mustBeSilent(*run(readOptions(argc, argv)));
     return 0;
 }

@@ -1,6 +1,7 @@
 #include "passes.h"
 
-#include "common/rendering.h"
+#include "host/must.h"
+#include "host/rendering.h"
 #include "shaders/backdrop_frag.h"
 #include "shaders/backdrop_vert.h"
 #include "shaders/character_frag.h"
@@ -34,80 +35,80 @@ constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
 
 } // namespace
 
-Passes::Passes(sample::Device& device, Graph& graph, const Characters& characters)
+Passes::Passes(Device& device, Graph& graph, const Characters& characters)
     : characters_(characters), sun_(sunOverStage()) {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     const VkDescriptorSetLayout frameLayout =
-        sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
-                                         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
-                                         {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+        must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
+                                      {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                      {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}}));
     // The bindings of shaders/supple_surface.glsl.
     const VkDescriptorSetLayout groupLayout =
-        sample::createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
-                                         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
-                                         {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
-                                         {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}});
+        must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}}));
     layout_ =
-        sample::createPipelineLayout(device, {frameLayout, groupLayout}, sizeof(RangePush), VK_SHADER_STAGE_VERTEX_BIT);
+        must(createPipelineLayout(device, {frameLayout, groupLayout}, sizeof(RangePush), VK_SHADER_STAGE_VERTEX_BIT));
 
-    sunMap_ = sample::Image(device, {.extent = {kSunMapSize, kSunMapSize},
-                                     .format = kDepthFormat,
-                                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+    sunMap_ =
+        must(device.createImage({.format = kDepthFormat,
+                                 .extent = {kSunMapSize, kSunMapSize},
+                                 .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                 .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
     sunMapUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
     graph.setImage(sunMapUse_, sunMap_.handle());
     images_.colorUse = graph.addImage();
     images_.motionUse = graph.addImage();
     images_.depthUse = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
 
-    sample::DescriptorPool pool(device, 8);
-    const VkSampler compare = sample::createSampler(device, VK_FILTER_LINEAR, true);
-    const VkSampler plain = sample::createSampler(device, VK_FILTER_NEAREST);
-    for (uint32_t slot = 0; slot < sample::kFramesInFlight; ++slot) {
-        uniforms_[slot] = sample::Buffer(device, sizeof(FrameUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
-        frameSets_[slot] = pool.allocate(frameLayout);
-        pool.write(frameSets_[slot],
-                   {sample::uniformBuffer(0, uniforms_[slot]), sample::sampledImage(1, sunMap_, compare),
-                    sample::sampledImage(2, sunMap_, plain)});
+    DescriptorPool pool = must(DescriptorPool::create(device, 8));
+    const VkSampler compare = must(createSampler(device, VK_FILTER_LINEAR, true));
+    const VkSampler plain = must(createSampler(device, VK_FILTER_NEAREST));
+    for (uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
+        uniforms_[slot] =
+            must(device.createBuffer(sizeof(FrameUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryKind::upload));
+        frameSets_[slot] = must(pool.allocate(frameLayout));
+        pool.write(frameSets_[slot], {uniformBuffer(0, uniforms_[slot]), sampledImage(1, sunMap_, compare),
+                                      sampledImage(2, sunMap_, plain)});
     }
     for (std::size_t i = 0; i < groupSets_.size(); ++i) {
         const SuppleVertexStreams& streams = characters.groups()[i].streams;
-        groupSets_[i] = pool.allocate(groupLayout);
+        groupSets_[i] = must(pool.allocate(groupLayout));
         pool.write(groupSets_[i],
-                   {sample::storageBuffer(0, characters.groups()[i].info.instances),
-                    sample::storageBuffer(1, streams.vertices), sample::storageBuffer(2, streams.previousPositions),
-                    sample::storageBuffer(3, streams.attributes)});
+                   {storageBuffer(0, characters.groups()[i].info.instances), storageBuffer(1, streams.vertices),
+                    storageBuffer(2, streams.previousPositions), storageBuffer(3, streams.attributes)});
     }
 
-    shadowPipeline_ = sample::createGraphicsPipeline(device, {.layout = layout_,
-                                                              .vertexShader = character_shadow_vert,
-                                                              .depth = kDepthFormat,
-                                                              .depthBias = 1.0f,
-                                                              .depthBiasSlope = 1.5f});
-    sample::GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat, kMotionFormat}, .depth = kDepthFormat};
+    shadowPipeline_ = must(createGraphicsPipeline(device, {.layout = layout_,
+                                                           .vertexShader = character_shadow_vert,
+                                                           .depth = kDepthFormat,
+                                                           .depthBias = 1.0f,
+                                                           .depthBiasSlope = 1.5f}));
+    GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat, kMotionFormat}, .depth = kDepthFormat};
     scene.vertexShader = character_vert;
     scene.fragmentShader = character_frag;
-    characterPipeline_ = sample::createGraphicsPipeline(device, scene);
+    characterPipeline_ = must(createGraphicsPipeline(device, scene));
     scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
     scene.vertexShader = floor_vert;
     scene.fragmentShader = floor_frag;
-    floorPipeline_ = sample::createGraphicsPipeline(device, scene);
+    floorPipeline_ = must(createGraphicsPipeline(device, scene));
     scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     scene.depthWrite = false;
     scene.vertexShader = backdrop_vert;
     scene.fragmentShader = backdrop_frag;
-    backdropPipeline_ = sample::createGraphicsPipeline(device, scene);
+    backdropPipeline_ = must(createGraphicsPipeline(device, scene));
 }
 
-void Passes::resize(sample::Device& device, Graph& graph, VkExtent2D extent) {
+void Passes::resize(Device& device, Graph& graph, VkExtent2D extent) {
     constexpr VkImageUsageFlags kColor = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    images_.color = sample::Image(device, {.extent = extent, .format = kColorFormat, .usage = kColor});
-    images_.motion = sample::Image(device, {.extent = extent, .format = kMotionFormat, .usage = kColor});
+    images_.color = must(device.createImage({.format = kColorFormat, .extent = extent, .usage = kColor}));
+    images_.motion = must(device.createImage({.format = kMotionFormat, .extent = extent, .usage = kColor}));
     images_.depth =
-        sample::Image(device, {.extent = extent,
-                               .format = kDepthFormat,
-                               .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                               .aspect = VK_IMAGE_ASPECT_DEPTH_BIT});
+        must(device.createImage({.format = kDepthFormat,
+                                 .extent = extent,
+                                 .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                 .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
     graph.setImage(images_.colorUse, images_.color.handle());
     graph.setImage(images_.motionUse, images_.motion.handle());
     graph.setImage(images_.depthUse, images_.depth.handle());
@@ -171,8 +172,8 @@ void Passes::drawCharacters(VkCommandBuffer commands, VkPipeline pipeline, uint3
 }
 
 void Passes::drawShadows(VkCommandBuffer commands, uint32_t slot) const {
-    sample::beginRendering(commands, sunMap_.desc().extent, {},
-                           sample::attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar));
+    beginRendering(commands, sunMap_.desc().extent, {},
+                   attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar));
     drawCharacters(commands, shadowPipeline_, slot, false);
     vkCmdEndRendering(commands);
 }
@@ -180,12 +181,10 @@ void Passes::drawShadows(VkCommandBuffer commands, uint32_t slot) const {
 void Passes::drawScene(VkCommandBuffer commands, uint32_t slot) const {
     // The backdrop fills what nothing else does, so that colors need no clearing.
     const VkRenderingAttachmentInfo colors[] = {
-        sample::attachment(images_.color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, {},
-                           VK_ATTACHMENT_LOAD_OP_DONT_CARE),
-        sample::attachment(images_.motion, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, {},
-                           VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
-    sample::beginRendering(commands, images_.color.desc().extent, colors,
-                           sample::attachment(images_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar));
+        attachment(images_.color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, {}, VK_ATTACHMENT_LOAD_OP_DONT_CARE),
+        attachment(images_.motion, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, {}, VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
+    beginRendering(commands, images_.color.desc().extent, colors,
+                   attachment(images_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar));
     drawCharacters(commands, characterPipeline_, slot, true);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, floorPipeline_);

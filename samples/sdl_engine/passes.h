@@ -4,7 +4,7 @@
 #include "camera.h"
 #include "characters.h"
 
-#include "common/pipelines.h"
+#include "host/pipelines.h"
 
 namespace engine {
 
@@ -23,9 +23,9 @@ struct FrameUniforms {
 
 /// What the scene is drawn into, as large as the screen.
 struct SceneImages {
-    sample::Image color;
-    sample::Image motion;
-    sample::Image depth;
+    Image color;
+    Image motion;
+    Image depth;
     Resource colorUse;
     Resource motionUse;
     Resource depthUse;
@@ -33,10 +33,10 @@ struct SceneImages {
 
 class Passes {
 public:
-    Passes(sample::Device& device, Graph& graph, const Characters& characters);
+    Passes(Device& device, Graph& graph, const Characters& characters);
 
     /// Nothing may be in flight.
-    void resize(sample::Device& device, Graph& graph, VkExtent2D extent);
+    void resize(Device& device, Graph& graph, VkExtent2D extent);
     /// jitter: in pixels.
     void update(uint32_t slot, uint64_t frame, const Camera& camera, glm::vec2 jitter,
                 const std::vector<Footprint>& footprints);
@@ -52,10 +52,10 @@ private:
     const Characters& characters_;
     Sun sun_;
     SceneImages images_;
-    sample::Image sunMap_;
+    Image sunMap_;
     Resource sunMapUse_;
-    std::array<sample::Buffer, sample::kFramesInFlight> uniforms_;
-    std::array<VkDescriptorSet, sample::kFramesInFlight> frameSets_{};
+    std::array<Buffer, kFramesInFlight> uniforms_;
+    std::array<VkDescriptorSet, kFramesInFlight> frameSets_{};
     std::array<VkDescriptorSet, 2> groupSets_{};
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkPipeline shadowPipeline_ = VK_NULL_HANDLE;

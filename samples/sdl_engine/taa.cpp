@@ -1,5 +1,6 @@
 #include "taa.h"
 
+#include "host/must.h"
 #include "shaders/taa_comp.h"
 #include "shaders/tone_comp.h"
 
@@ -25,50 +26,48 @@ float halton(uint64_t index, uint64_t base) {
 
 } // namespace
 
-Taa::Taa(sample::Device& device, Graph& graph) : pool_(device, 4) {
+Taa::Taa(Device& device, Graph& graph) : pool_(must(DescriptorPool::create(device, 4))) {
     constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
     constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    const VkDescriptorSetLayout resolve = sample::createSetLayout(device, {{0, kSampled, kCompute},
-                                                                           {1, kSampled, kCompute},
-                                                                           {2, kSampled, kCompute},
-                                                                           {3, kSampled, kCompute},
-                                                                           {4, kStorage, kCompute}});
+    const VkDescriptorSetLayout resolve = must(createSetLayout(device, {{0, kSampled, kCompute},
+                                                                        {1, kSampled, kCompute},
+                                                                        {2, kSampled, kCompute},
+                                                                        {3, kSampled, kCompute},
+                                                                        {4, kStorage, kCompute}}));
     const VkDescriptorSetLayout tone =
-        sample::createSetLayout(device, {{0, kSampled, kCompute}, {1, kStorage, kCompute}});
-    resolveLayout_ = sample::createPipelineLayout(device, {resolve}, sizeof(ResolvePush), kCompute);
-    toneLayout_ = sample::createPipelineLayout(device, {tone}, sizeof(ResolvePush), kCompute);
-    resolvePipeline_ = sample::createComputePipeline(device, resolveLayout_, taa_comp);
-    tonePipeline_ = sample::createComputePipeline(device, toneLayout_, tone_comp);
-    linear_ = sample::createSampler(device, VK_FILTER_LINEAR);
-    nearest_ = sample::createSampler(device, VK_FILTER_NEAREST);
+        must(createSetLayout(device, {{0, kSampled, kCompute}, {1, kStorage, kCompute}}));
+    resolveLayout_ = must(createPipelineLayout(device, {resolve}, sizeof(ResolvePush), kCompute));
+    toneLayout_ = must(createPipelineLayout(device, {tone}, sizeof(ResolvePush), kCompute));
+    resolvePipeline_ = must(createComputePipeline(device, resolveLayout_, taa_comp));
+    tonePipeline_ = must(createComputePipeline(device, toneLayout_, tone_comp));
+    linear_ = must(createSampler(device, VK_FILTER_LINEAR));
+    nearest_ = must(createSampler(device, VK_FILTER_NEAREST));
     for (int i = 0; i < 2; ++i) {
         historyUses_[i] = graph.addImage();
-        resolveSets_[i] = pool_.allocate(resolve);
-        toneSets_[i] = pool_.allocate(tone);
+        resolveSets_[i] = must(pool_.allocate(resolve));
+        toneSets_[i] = must(pool_.allocate(tone));
     }
     pictureUse_ = graph.addImage();
 }
 
-void Taa::resize(sample::Device& device, Graph& graph, const SceneImages& scene) {
+void Taa::resize(Device& device, Graph& graph, const SceneImages& scene) {
     const VkExtent2D extent = scene.color.desc().extent;
     for (int i = 0; i < 2; ++i) {
-        histories_[i] = sample::Image(device, {.extent = extent,
-                                               .format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                               .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+        histories_[i] = must(device.createImage({.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                                 .extent = extent,
+                                                 .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}));
         graph.setImage(historyUses_[i], histories_[i].handle());
     }
-    picture_ = sample::Image(device, {.extent = extent,
-                                      .format = VK_FORMAT_R8G8B8A8_UNORM,
-                                      .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+    picture_ = must(device.createImage({.format = VK_FORMAT_R8G8B8A8_UNORM,
+                                        .extent = extent,
+                                        .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}));
     graph.setImage(pictureUse_, picture_.handle());
     for (int i = 0; i < 2; ++i) {
-        pool_.write(resolveSets_[i],
-                    {sample::sampledImage(0, scene.color, nearest_), sample::sampledImage(1, scene.motion, nearest_),
-                     sample::sampledImage(2, scene.depth, nearest_),
-                     sample::sampledImage(3, histories_[1 - i], linear_), sample::storageImage(4, histories_[i])});
-        pool_.write(toneSets_[i],
-                    {sample::sampledImage(0, histories_[i], nearest_), sample::storageImage(1, picture_)});
+        pool_.write(resolveSets_[i], {sampledImage(0, scene.color, nearest_), sampledImage(1, scene.motion, nearest_),
+                                      sampledImage(2, scene.depth, nearest_),
+                                      sampledImage(3, histories_[1 - i], linear_), storageImage(4, histories_[i])});
+        pool_.write(toneSets_[i], {sampledImage(0, histories_[i], nearest_), storageImage(1, picture_)});
     }
     hasHistory_ = false;
 }

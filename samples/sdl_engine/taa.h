@@ -8,31 +8,31 @@ namespace engine {
 
 class Taa {
 public:
-    Taa(sample::Device& device, Graph& graph);
+    Taa(Device& device, Graph& graph);
 
     /// Nothing may be in flight.
-    void resize(sample::Device& device, Graph& graph, const SceneImages& scene);
+    void resize(Device& device, Graph& graph, const SceneImages& scene);
     /// Where in the pixel this frame samples, -0.5..0.5: sixteen points of the Halton sequence.
     static glm::vec2 jitter(uint64_t frame);
     void addToGraph(Graph& graph, const SceneImages& scene);
 
     /// 8 bits, sRGB: to be shown or saved.
-    const sample::Image& picture() const { return picture_; }
+    const Image& picture() const { return picture_; }
     Resource pictureUse() const { return pictureUse_; }
 
 private:
-    sample::DescriptorPool pool_;
+    DescriptorPool pool_;
     VkSampler linear_ = VK_NULL_HANDLE;
     VkSampler nearest_ = VK_NULL_HANDLE;
     VkPipelineLayout resolveLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout toneLayout_ = VK_NULL_HANDLE;
     VkPipeline resolvePipeline_ = VK_NULL_HANDLE;
     VkPipeline tonePipeline_ = VK_NULL_HANDLE;
-    sample::Image histories_[2]; ///< one is read, the other written, in turn
+    Image histories_[2]; ///< one is read, the other written, in turn
     Resource historyUses_[2];
     VkDescriptorSet resolveSets_[2]{};
     VkDescriptorSet toneSets_[2]{};
-    sample::Image picture_;
+    Image picture_;
     Resource pictureUse_;
     uint32_t current_ = 0;
     bool hasHistory_ = false;

@@ -30,7 +30,7 @@ FLOORS = [line.split() for line in """
     runtime/include/
     runtime/
     host/
-    samples/common/ tools/common/ tools/reference/
+    tools/common/ tools/reference/
     samples/ tools/bench/ tools/creature/
     tools/supple/
     tests/
@@ -43,8 +43,7 @@ PUBLIC = ["runtime/include/", "shaders/supple_surface.glsl", "shaders/trim.glsl"
 ONLY = {
     **{room: PUBLIC for room in PUBLIC},
     "host/": [*PUBLIC, "base/", "cage/"],  # over the public API alone, as any host
-    "samples/common/": PUBLIC,
-    "samples/": [*PUBLIC, "host/", "samples/common/"],
+    "samples/": [*PUBLIC, "host/"],
     "tests/packaging/": PUBLIC,  # built against the installed library
 }
 
@@ -70,7 +69,7 @@ EXCEPTIONS = {
 GENERATED = re.compile(r"surface/kernels\.h$|shaders/\w+_(comp|vert|frag)\w*\.h$|bench_characters\.h$")
 
 # An include is looked up from the root, from these, and from the folder of the file that includes.
-INCLUDE_FOLDERS = ["", "runtime/include", "shaders", "samples"]
+INCLUDE_FOLDERS = ["", "runtime/include", "shaders"]
 
 SOURCES = (".h", ".hpp", ".c", ".cpp", ".glsl", ".comp", ".vert", ".frag")
 SKIPPED_FOLDERS = re.compile(r"\.|build|cmake-build|_|out$|docs$|cmake$")

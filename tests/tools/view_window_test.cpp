@@ -18,7 +18,7 @@ constexpr VkImageSubresourceRange kWholeImage{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0
 /// A cleared picture with a panel on it.
 Status drawFrame(Window& window, Overlay& overlay, const WindowFrame& frame, uint64_t number) {
     const SuppleSyncScope transfer{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    const VkImage image = window.image(frame.image);
+    const VkImage image = window.swapchain().image(frame.image);
     imageBarrier(frame.commands, image, kWholeImage,
                  {VK_IMAGE_LAYOUT_UNDEFINED, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0}},
                  {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, transfer});
@@ -60,10 +60,11 @@ TEST(WindowTest, SurvivesResizing) {
                     continue;
                 const Status status = drawFrame(**window, **overlay, **frame, ++number);
                 ASSERT_TRUE(status.ok()) << status.error().message;
-                fits = (*window)->extent().width == size.width && (*window)->extent().height == size.height;
+                fits = (*window)->swapchain().extent().width == size.width &&
+                       (*window)->swapchain().extent().height == size.height;
             }
         }
-        EXPECT_LE(number - (*window)->completedFrame(), kWindowFramesInFlight);
+        EXPECT_LE(number - (*window)->completedFrame(), kFramesInFlight);
         (*window)->waitIdle(number);
         EXPECT_EQ((*window)->completedFrame(), number);
     }

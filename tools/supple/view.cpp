@@ -59,7 +59,8 @@ private:
     [[nodiscard]] Status writeScreenshot() const;
     [[nodiscard]] double secondsSinceLast();
     [[nodiscard]] float aspect() const {
-        return static_cast<float>(window_->extent().width) / static_cast<float>(window_->extent().height);
+        return static_cast<float>(window_->swapchain().extent().width) /
+               static_cast<float>(window_->swapchain().extent().height);
     }
 
     const ViewOptions& options_;
@@ -93,18 +94,18 @@ Status Viewer::open(VkExtent2D size) {
         !status)
         return status.error();
     validation_ = device_->validation();
-    if (const Status status = keep(host::Context::create(*device_, {.mapping = mappingOf(flags),
-                                                                    .framesInFlight = host::kWindowFramesInFlight}),
-                                   context_);
+    if (const Status status = keep(
+            host::Context::create(*device_, {.mapping = mappingOf(flags), .framesInFlight = host::kFramesInFlight}),
+            context_);
         !status)
         return status.error();
     if (const Status status = keep(host::Window::create(*device_, "supple", size), window_); !status)
         return status.error();
     if (const Status status = keep(host::Overlay::create(*device_, *window_), overlay_); !status)
         return status.error();
-    const host::RendererOptions rendererOptions{.colorFormat = srgbFormat(window_->format()),
+    const host::RendererOptions rendererOptions{.colorFormat = srgbFormat(window_->swapchain().format()),
                                                 .quality = host::StudioQuality::interactive(device_->isCpu()),
-                                                .framesInFlight = host::kWindowFramesInFlight};
+                                                .framesInFlight = host::kFramesInFlight};
     if (const Status status = keep(host::SurfaceRenderer::create(*device_, rendererOptions), renderer_); !status)
         return status.error();
     if (const Status status = keep(ViewStage::create(*context_, *renderer_, options_.draw), stage_); !status)
@@ -161,15 +162,15 @@ Status Viewer::run() {
 }
 
 Status Viewer::fitTarget() {
-    if (targetGeneration_ == window_->generation())
+    if (targetGeneration_ == window_->swapchain().generation())
         return success();
     window_->waitIdle(context_->lastFrame());
-    Result<host::DrawTarget> target =
-        host::DrawTarget::create(*device_, window_->extent(), renderer_->samples(), srgbFormat(window_->format()));
+    Result<host::DrawTarget> target = host::DrawTarget::create(
+        *device_, window_->swapchain().extent(), renderer_->samples(), srgbFormat(window_->swapchain().format()));
     if (!target)
         return target.error();
     target_ = std::move(*target);
-    targetGeneration_ = window_->generation();
+    targetGeneration_ = window_->swapchain().generation();
     return success();
 }
 
@@ -204,9 +205,10 @@ Status Viewer::drawFrame(const host::WindowFrame& frame, bool readBack) {
     if (const Status status = overlay_->record(frame); !status)
         return status.error();
     if (readBack) {
-        if (!window_->canRead())
+        if (!window_->swapchain().canRead())
             return Error{ErrorCode::unsupported, "the window's pictures cannot be read back"};
-        const VkDeviceSize size = VkDeviceSize{4} * window_->extent().width * window_->extent().height;
+        const VkDeviceSize size =
+            VkDeviceSize{4} * window_->swapchain().extent().width * window_->swapchain().extent().height;
         Result<host::Buffer> buffer =
             device_->createBuffer(size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, host::MemoryKind::readback);
         if (!buffer)
@@ -218,7 +220,7 @@ Status Viewer::drawFrame(const host::WindowFrame& frame, bool readBack) {
 }
 
 void Viewer::copyToWindow(const host::WindowFrame& frame) const {
-    const VkImage image = window_->image(frame.image);
+    const VkImage image = window_->swapchain().image(frame.image);
     // The transfer stage is where the submission waits for the image.
     host::imageBarrier(frame.commands, image, kWholeImage,
                        {VK_IMAGE_LAYOUT_UNDEFINED, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0}},
@@ -226,7 +228,7 @@ void Viewer::copyToWindow(const host::WindowFrame& frame) const {
     VkImageCopy region{};
     region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.dstSubresource = region.srcSubresource;
-    region.extent = {window_->extent().width, window_->extent().height, 1};
+    region.extent = {window_->swapchain().extent().width, window_->swapchain().extent().height, 1};
     vkCmdCopyImage(frame.commands, target_.color().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
     host::imageBarrier(frame.commands, image, kWholeImage, {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, kCopyWrite},
@@ -234,12 +236,12 @@ void Viewer::copyToWindow(const host::WindowFrame& frame) const {
 }
 
 void Viewer::copyToHost(const host::WindowFrame& frame) const {
-    const VkImage image = window_->image(frame.image);
+    const VkImage image = window_->swapchain().image(frame.image);
     host::imageBarrier(frame.commands, image, kWholeImage, {VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, kCopyRead},
                        {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopyRead});
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = {window_->extent().width, window_->extent().height, 1};
+    region.imageExtent = {window_->swapchain().extent().width, window_->swapchain().extent().height, 1};
     vkCmdCopyImageToBuffer(frame.commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, screenshot_.handle(), 1,
                            &region);
     host::imageBarrier(frame.commands, image, kWholeImage, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopyRead},
@@ -248,10 +250,11 @@ void Viewer::copyToHost(const host::WindowFrame& frame) const {
 }
 
 Status Viewer::writeScreenshot() const {
-    host::Picture picture = host::Picture::blank(window_->extent().width, window_->extent().height);
+    host::Picture picture =
+        host::Picture::blank(window_->swapchain().extent().width, window_->swapchain().extent().height);
     std::memcpy(picture.rgba.data(), screenshot_.mapped(), picture.rgba.size());
     for (size_t i = 0; i < picture.rgba.size(); i += 4) {
-        if (window_->format() == VK_FORMAT_B8G8R8A8_UNORM)
+        if (window_->swapchain().format() == VK_FORMAT_B8G8R8A8_UNORM)
             std::swap(picture.rgba[i], picture.rgba[i + 2]);
         picture.rgba[i + 3] = 255;
     }

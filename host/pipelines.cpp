@@ -1,8 +1,8 @@
-#include "pipelines.h"
+#include "host/pipelines.h"
 
-namespace sample {
+namespace supple::host {
 
-VkDescriptorSetLayout createSetLayout(Device& device, std::initializer_list<Binding> bindings) {
+Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::initializer_list<Binding> bindings) {
     std::vector<VkDescriptorSetLayoutBinding> list;
     for (const Binding& binding : bindings)
         list.push_back({.binding = binding.binding,
@@ -13,13 +13,15 @@ VkDescriptorSetLayout createSetLayout(Device& device, std::initializer_list<Bind
                                                .bindingCount = static_cast<uint32_t>(list.size()),
                                                .pBindings = list.data()};
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    check(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
+    if (const VkResult result = vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout);
+        result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateDescriptorSetLayout");
     device.atEnd([handle = device.handle(), layout] { vkDestroyDescriptorSetLayout(handle, layout, nullptr); });
     return layout;
 }
 
-VkPipelineLayout createPipelineLayout(Device& device, std::initializer_list<VkDescriptorSetLayout> sets,
-                                      uint32_t pushBytes, VkShaderStageFlags pushStages) {
+Result<VkPipelineLayout> createPipelineLayout(Device& device, std::initializer_list<VkDescriptorSetLayout> sets,
+                                              uint32_t pushBytes, VkShaderStageFlags pushStages) {
     const VkPushConstantRange push{pushStages, 0, pushBytes};
     const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                           .setLayoutCount = static_cast<uint32_t>(sets.size()),
@@ -27,49 +29,78 @@ VkPipelineLayout createPipelineLayout(Device& device, std::initializer_list<VkDe
                                           .pushConstantRangeCount = pushBytes != 0 ? 1u : 0u,
                                           .pPushConstantRanges = &push};
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+    if (const VkResult result = vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout); result != VK_SUCCESS)
+        return vulkanError(result, "vkCreatePipelineLayout");
     device.atEnd([handle = device.handle(), layout] { vkDestroyPipelineLayout(handle, layout, nullptr); });
     return layout;
 }
 
 namespace {
 
-VkShaderModule createModule(const Device& device, std::span<const uint32_t> words) {
-    const VkShaderModuleCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = words.size_bytes(), .pCode = words.data()};
-    VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
-    return module;
-}
+/// A shader module for as long as a pipeline is being made of it.
+class ShaderModule {
+public:
+    ShaderModule(VkDevice device, std::span<const uint32_t> words) : device_(device) {
+        const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                            .codeSize = words.size_bytes(),
+                                            .pCode = words.data()};
+        if (!words.empty())
+            result = vkCreateShaderModule(device, &info, nullptr, &handle);
+    }
+    ~ShaderModule() { vkDestroyShaderModule(device_, handle, nullptr); }
+    ShaderModule(const ShaderModule&) = delete;
+    ShaderModule& operator=(const ShaderModule&) = delete;
 
-VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which, VkShaderModule module) {
+    VkShaderModule handle = VK_NULL_HANDLE;
+    VkResult result = VK_SUCCESS;
+
+private:
+    VkDevice device_;
+};
+
+VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which, const ShaderModule& module) {
     return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
             .stage = which,
-            .module = module,
+            .module = module.handle,
             .pName = "main"};
 }
 
 } // namespace
 
-VkPipeline createComputePipeline(Device& device, VkPipelineLayout layout, std::span<const uint32_t> shader) {
-    const VkShaderModule module = createModule(device, shader);
+Result<VkPipeline> createComputePipeline(Device& device, VkPipelineLayout layout, std::span<const uint32_t> shader) {
+    const ShaderModule module(device.handle(), shader);
+    if (module.result != VK_SUCCESS)
+        return vulkanError(module.result, "vkCreateShaderModule");
     const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                            .stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, module),
                                            .layout = layout};
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-          "vkCreateComputePipelines");
-    vkDestroyShaderModule(device.handle(), module, nullptr);
+    if (const VkResult result = vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
+        result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateComputePipelines");
     device.atEnd([handle = device.handle(), pipeline] { vkDestroyPipeline(handle, pipeline, nullptr); });
     return pipeline;
 }
 
-VkPipeline createGraphicsPipeline(Device& device, const GraphicsDesc& desc) {
-    const VkShaderModule vertex = createModule(device, desc.vertexShader);
-    std::vector<VkPipelineShaderStageCreateInfo> stages = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex)};
-    if (!desc.fragmentShader.empty())
-        stages.push_back(stage(VK_SHADER_STAGE_FRAGMENT_BIT, createModule(device, desc.fragmentShader)));
+namespace {
 
+/// What a pipeline begins and ends with: its shaders, and the pictures that it draws into.
+struct Ends {
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    std::vector<VkPipelineColorBlendAttachmentState> attachments;
+};
+
+VkPipelineColorBlendAttachmentState attachmentState(bool blend) {
+    return {.blendEnable = blend ? VK_TRUE : VK_FALSE,
+            .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+            .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+            .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+            .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+                              VK_COLOR_COMPONENT_A_BIT};
+}
+
+/// All that stands between shaders and pictures.
+Result<VkPipeline> createBetween(Device& device, const GraphicsDesc& desc, const Ends& ends) {
     const VkPipelineVertexInputStateCreateInfo vertexInput{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     const VkPipelineInputAssemblyStateCreateInfo assembly{
@@ -85,18 +116,17 @@ VkPipeline createGraphicsPipeline(Device& device, const GraphicsDesc& desc) {
         .depthBiasSlopeFactor = desc.depthBiasSlope,
         .lineWidth = 1.0f};
     const VkPipelineMultisampleStateCreateInfo multisample{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO, .rasterizationSamples = desc.samples};
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = desc.samples,
+        .alphaToCoverageEnable = desc.alphaToCoverage ? VK_TRUE : VK_FALSE};
     const VkPipelineDepthStencilStateCreateInfo depth{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
         .depthTestEnable = desc.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE,
         .depthWriteEnable = desc.depthWrite ? VK_TRUE : VK_FALSE,
         .depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
-    const std::vector<VkPipelineColorBlendAttachmentState> attachments(
-        desc.colors.size(), {.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                                               VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT});
     const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                    .attachmentCount = static_cast<uint32_t>(attachments.size()),
-                                                    .pAttachments = attachments.data()};
+                                                    .attachmentCount = static_cast<uint32_t>(ends.attachments.size()),
+                                                    .pAttachments = ends.attachments.data()};
     const VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
                                             VK_DYNAMIC_STATE_CULL_MODE};
     const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
@@ -108,8 +138,8 @@ VkPipeline createGraphicsPipeline(Device& device, const GraphicsDesc& desc) {
                                                   .depthAttachmentFormat = desc.depth};
     const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                             .pNext = &rendering,
-                                            .stageCount = static_cast<uint32_t>(stages.size()),
-                                            .pStages = stages.data(),
+                                            .stageCount = static_cast<uint32_t>(ends.stages.size()),
+                                            .pStages = ends.stages.data(),
                                             .pVertexInputState = &vertexInput,
                                             .pInputAssemblyState = &assembly,
                                             .pViewportState = &viewport,
@@ -120,15 +150,37 @@ VkPipeline createGraphicsPipeline(Device& device, const GraphicsDesc& desc) {
                                             .pDynamicState = &dynamic,
                                             .layout = desc.layout};
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-          "vkCreateGraphicsPipelines");
-    for (const VkPipelineShaderStageCreateInfo& used : stages)
-        vkDestroyShaderModule(device.handle(), used.module, nullptr);
+    if (const VkResult result =
+            vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
+        result != VK_SUCCESS)
+        return vulkanError(result, std::string("the pipeline ") + desc.name);
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), desc.name);
     device.atEnd([handle = device.handle(), pipeline] { vkDestroyPipeline(handle, pipeline, nullptr); });
     return pipeline;
 }
 
-VkSampler createSampler(Device& device, VkFilter filter, bool compare) {
+} // namespace
+
+Result<VkPipeline> createGraphicsPipeline(Device& device, const GraphicsDesc& desc) {
+    const ShaderModule vertex(device.handle(), desc.vertexShader);
+    const ShaderModule fragment(device.handle(), desc.fragmentShader);
+    for (const VkResult result : {vertex.result, fragment.result}) {
+        if (result != VK_SUCCESS)
+            return vulkanError(result, "vkCreateShaderModule");
+    }
+    const VkBool32 constant0 = desc.constant0 ? VK_TRUE : VK_FALSE;
+    const VkSpecializationMapEntry entry{0, 0, sizeof constant0};
+    const VkSpecializationInfo specialization{1, &entry, sizeof constant0, &constant0};
+    Ends ends{.stages = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex)},
+              .attachments = std::vector(desc.colors.size(), attachmentState(desc.blend))};
+    if (fragment.handle != VK_NULL_HANDLE)
+        ends.stages.push_back(stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment));
+    for (VkPipelineShaderStageCreateInfo& used : ends.stages)
+        used.pSpecializationInfo = &specialization;
+    return createBetween(device, desc, ends);
+}
+
+Result<VkSampler> createSampler(Device& device, VkFilter filter, bool compare) {
     const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                    .magFilter = filter,
                                    .minFilter = filter,
@@ -138,7 +190,8 @@ VkSampler createSampler(Device& device, VkFilter filter, bool compare) {
                                    .compareEnable = compare ? VK_TRUE : VK_FALSE,
                                    .compareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
     VkSampler sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+    if (const VkResult result = vkCreateSampler(device.handle(), &info, nullptr, &sampler); result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateSampler");
     device.atEnd([handle = device.handle(), sampler] { vkDestroySampler(handle, sampler, nullptr); });
     return sampler;
 }
@@ -164,7 +217,9 @@ Write storageImage(uint32_t binding, const Image& image) {
             VkDescriptorImageInfo{VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL}};
 }
 
-DescriptorPool::DescriptorPool(Device& device, uint32_t maxSets) : device_(device.handle()) {
+Result<DescriptorPool> DescriptorPool::create(Device& device, uint32_t maxSets) {
+    DescriptorPool pool;
+    pool.device_ = device.handle();
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, maxSets},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * maxSets},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * maxSets},
@@ -174,17 +229,20 @@ DescriptorPool::DescriptorPool(Device& device, uint32_t maxSets) : device_(devic
                                           .maxSets = maxSets,
                                           .poolSizeCount = 5,
                                           .pPoolSizes = sizes};
-    check(vkCreateDescriptorPool(device_, &info, nullptr, &pool_), "vkCreateDescriptorPool");
-    device.atEnd([handle = device_, pool = pool_] { vkDestroyDescriptorPool(handle, pool, nullptr); });
+    if (const VkResult result = vkCreateDescriptorPool(pool.device_, &info, nullptr, &pool.pool_); result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateDescriptorPool");
+    device.atEnd([pool] { vkDestroyDescriptorPool(pool.device_, pool.pool_, nullptr); });
+    return pool;
 }
 
-VkDescriptorSet DescriptorPool::allocate(VkDescriptorSetLayout layout) {
+Result<VkDescriptorSet> DescriptorPool::allocate(VkDescriptorSetLayout layout) {
     const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                            .descriptorPool = pool_,
                                            .descriptorSetCount = 1,
                                            .pSetLayouts = &layout};
     VkDescriptorSet set = VK_NULL_HANDLE;
-    check(vkAllocateDescriptorSets(device_, &info, &set), "vkAllocateDescriptorSets");
+    if (const VkResult result = vkAllocateDescriptorSets(device_, &info, &set); result != VK_SUCCESS)
+        return vulkanError(result, "vkAllocateDescriptorSets");
     return set;
 }
 
@@ -201,4 +259,4 @@ void DescriptorPool::write(VkDescriptorSet set, std::initializer_list<Write> wri
     vkUpdateDescriptorSets(device_, static_cast<uint32_t>(list.size()), list.data(), 0, nullptr);
 }
 
-} // namespace sample
+} // namespace supple::host

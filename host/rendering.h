@@ -1,11 +1,11 @@
-// Beginning to draw into images.
+// How drawing into images begins.
 #pragma once
 
-#include "common/device.h"
+#include "host/device.h"
 
 #include <span>
 
-namespace sample {
+namespace supple::host {
 
 /// Stored; cleared before, unless `load` says otherwise.
 VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkClearValue clear = {},
@@ -15,4 +15,4 @@ VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, V
 void beginRendering(VkCommandBuffer commands, VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colors,
                     const VkRenderingAttachmentInfo& depth);
 
-} // namespace sample
+} // namespace supple::host

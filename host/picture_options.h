@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace sample {
+namespace supple::host {
 
 struct PictureOptions {
     std::string screenshot;
@@ -41,4 +41,4 @@ inline void parse(CLI::App& app, int argc, char** argv) {
     }
 }
 
-} // namespace sample
+} // namespace supple::host

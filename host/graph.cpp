@@ -1,6 +1,8 @@
-#include "graph.h"
+#include "host/graph.h"
 
-namespace engine {
+#include "host/must.h"
+
+namespace supple::host {
 
 namespace {
 
@@ -24,12 +26,12 @@ Use writesWithin(Resource resource, Scope first, Scope last) {
     return {resource, first, last, VK_IMAGE_LAYOUT_UNDEFINED, false};
 }
 
-Graph::Graph(sample::Device& device) : device_(device) {
+Graph::Graph(Device& device) : device_(device) {
     for (VkQueryPool& pool : queries_) {
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                          .queryCount = kMaxPasses + 1};
-        sample::check(vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "vkCreateQueryPool");
+        must(vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "vkCreateQueryPool");
         device.atEnd([handle = device.handle(), pool] { vkDestroyQueryPool(handle, pool, nullptr); });
     }
 }
@@ -51,7 +53,7 @@ void Graph::setImage(Resource resource, VkImage image, Scope before) {
 
 void Graph::add(const char* name, std::vector<Use> uses, std::function<void(VkCommandBuffer)> record) {
     if (passes_.size() == kMaxPasses)
-        sample::fail("too many passes");
+        fail("too many passes");
     passes_.push_back({name, std::move(uses), std::move(record)});
 }
 
@@ -142,4 +144,27 @@ const std::vector<PassTime>& Graph::readTimes(uint32_t slot) {
     return times_;
 }
 
-} // namespace engine
+void addPresent(Graph& graph, const Swapchain& swapchain, Resource use, const Image& picture, Resource pictureUse) {
+    const VkImage image = swapchain.image(swapchain.index());
+    const VkExtent2D from = picture.desc().extent;
+    const VkExtent2D to = swapchain.extent();
+    graph.setImage(use, image, {Swapchain::kFirstUse, 0});
+    graph.add("present",
+              {reads(pictureUse, {VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT},
+                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
+               writes(use, {VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, true)},
+              [=, source = picture.handle()](VkCommandBuffer commands) {
+                  const VkImageBlit region{
+                      .srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                      .srcOffsets = {{}, {static_cast<int32_t>(from.width), static_cast<int32_t>(from.height), 1}},
+                      .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                      .dstOffsets = {{}, {static_cast<int32_t>(to.width), static_cast<int32_t>(to.height), 1}}};
+                  vkCmdBlitImage(commands, source, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image,
+                                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+              });
+    // No commands: only the barrier into the layout of what is shown. The semaphore of the submission does the rest.
+    graph.add("show", {reads(use, {}, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR)}, [](VkCommandBuffer) {});
+}
+
+} // namespace supple::host

@@ -1,12 +1,13 @@
 // A small render graph. Passes declare what they read and write and in which stages; the graph derives every barrier
-// from that, across frames too, and times the passes. Nobody else in this engine records a barrier, Supple included.
+// from that, across frames too, and times the passes. Nobody else records a barrier then, Supple included. What fails
+// here ends the process (host/must.h).
 #pragma once
 
-#include "device.h"
+#include "host/swapchain.h"
 
 #include <string>
 
-namespace engine {
+namespace supple::host {
 
 /// Stages and accesses on memory. Supple's own SuppleSyncScope is the same thing.
 using Scope = SuppleSyncScope;
@@ -40,6 +41,7 @@ inline constexpr Scope kDepthAttachment{
 inline constexpr Scope kSampledInFragment{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 inline constexpr Scope kSampledInCompute{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 inline constexpr Scope kStorageInCompute{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+inline constexpr Scope kCopied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 /// How a group's buffers are drawn from.
 inline constexpr Scope kDrawn{
     VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
@@ -52,7 +54,7 @@ struct PassTime {
 
 class Graph {
 public:
-    explicit Graph(sample::Device& device);
+    explicit Graph(Device& device);
 
     Resource addBuffers();
     Resource addImage(VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT);
@@ -84,12 +86,16 @@ private:
 
     void barriers(VkCommandBuffer commands, const Pass& pass);
 
-    sample::Device& device_;
+    Device& device_;
     std::vector<State> states_;
     std::vector<Pass> passes_;
-    VkQueryPool queries_[sample::kFramesInFlight]{};
-    std::vector<const char*> timed_[sample::kFramesInFlight];
+    VkQueryPool queries_[kFramesInFlight]{};
+    std::vector<const char*> timed_[kFramesInFlight];
     std::vector<PassTime> times_;
 };
 
-} // namespace engine
+/// Passes that copy the picture to the swapchain's image that was acquired and make it ready to be shown. `use`: of the
+/// image.
+void addPresent(Graph& graph, const Swapchain& swapchain, Resource use, const Image& picture, Resource pictureUse);
+
+} // namespace supple::host

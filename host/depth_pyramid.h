@@ -1,12 +1,13 @@
 // The depth pyramid of a depth picture, by shaders/supple_depth_pyramid.comp: what suppleSetDepthPyramid asks for.
+// What fails here ends the process (host/must.h).
 #pragma once
 
-#include "pipelines.h"
+#include "host/pipelines.h"
 
 #include <array>
 #include <span>
 
-namespace sample {
+namespace supple::host {
 
 /// Level 0 has half the picture's size: nothing that is drawn is hidden wrongly, and the largest level costs a quarter.
 class DepthPyramid {
@@ -40,4 +41,4 @@ private:
     std::vector<VkImageView> views_; ///< by level
 };
 
-} // namespace sample
+} // namespace supple::host

@@ -1,6 +1,6 @@
-#include "common/rendering.h"
+#include "host/rendering.h"
 
-namespace sample {
+namespace supple::host {
 
 VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkClearValue clear,
                                      VkAttachmentLoadOp load) {
@@ -29,4 +29,4 @@ void beginRendering(VkCommandBuffer commands, VkExtent2D extent, std::span<const
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
 }
 
-} // namespace sample
+} // namespace supple::host

@@ -1,20 +1,22 @@
-#include "depth_pyramid.h"
+#include "host/depth_pyramid.h"
+
+#include "host/must.h"
 
 #include "shaders/supple_depth_pyramid_comp.h"
 
 #include <algorithm>
 #include <bit>
 
-namespace sample {
+namespace supple::host {
 
-DepthPyramid::DepthPyramid(Device& device) : device_(device), pool_(device, kMaxLevels) {
+DepthPyramid::DepthPyramid(Device& device) : device_(device), pool_(must(DescriptorPool::create(device, kMaxLevels))) {
     const VkDescriptorSetLayout setLayout =
-        createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_SHADER_STAGE_COMPUTE_BIT},
-                                 {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_SHADER_STAGE_COMPUTE_BIT}});
-    layout_ = createPipelineLayout(device, {setLayout}, sizeof(uint32_t), VK_SHADER_STAGE_COMPUTE_BIT);
-    pipeline_ = createComputePipeline(device, layout_, supple_depth_pyramid_comp);
+        must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_SHADER_STAGE_COMPUTE_BIT},
+                                      {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_SHADER_STAGE_COMPUTE_BIT}}));
+    layout_ = must(createPipelineLayout(device, {setLayout}, sizeof(uint32_t), VK_SHADER_STAGE_COMPUTE_BIT));
+    pipeline_ = must(createComputePipeline(device, layout_, supple_depth_pyramid_comp));
     for (VkDescriptorSet& set : sets_)
-        set = pool_.allocate(setLayout);
+        set = must(pool_.allocate(setLayout));
 }
 
 DepthPyramid::~DepthPyramid() {
@@ -36,17 +38,17 @@ void DepthPyramid::resize(const Image& depth) {
     destroyViews();
     const VkExtent2D half{(depth.desc().extent.width + 1) / 2, (depth.desc().extent.height + 1) / 2};
     const auto levels = static_cast<uint32_t>(std::bit_width(std::max(half.width, half.height)));
-    image_ = Image(device_, {.extent = half,
-                             .format = VK_FORMAT_R32_SFLOAT,
-                             .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT,
-                             .mipLevels = std::min(levels, kMaxLevels)});
+    image_ = must(device_.createImage({.format = VK_FORMAT_R32_SFLOAT,
+                                       .extent = half,
+                                       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT,
+                                       .mipLevels = std::min(levels, kMaxLevels)}));
     for (uint32_t level = 0; level < image_.desc().mipLevels; ++level) {
         const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                          .image = image_.handle(),
                                          .viewType = VK_IMAGE_VIEW_TYPE_2D,
                                          .format = VK_FORMAT_R32_SFLOAT,
                                          .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, level, 1, 0, 1}};
-        check(vkCreateImageView(device_.handle(), &info, nullptr, &views_.emplace_back()), "vkCreateImageView");
+        must(vkCreateImageView(device_.handle(), &info, nullptr, &views_.emplace_back()), "vkCreateImageView");
         const VkDescriptorImageInfo from{VK_NULL_HANDLE, level == 0 ? depth.view() : views_[level - 1],
                                          level == 0 ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                                                     : VK_IMAGE_LAYOUT_GENERAL};
@@ -88,4 +90,4 @@ SuppleDepthPyramidDesc DepthPyramid::desc(std::span<const float, 16> viewProject
     return desc;
 }
 
-} // namespace sample
+} // namespace supple::host

@@ -1,0 +1,53 @@
+#include "host/must.h"
+
+#include "host/context.h"
+#include "host/frames.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace supple::host {
+
+void fail(const std::string& what, int exitCode) {
+    std::fprintf(stderr, "%s\n", what.c_str());
+    std::exit(exitCode);
+}
+
+void fail(const Error& error) {
+    fail(error.message, error.code == ErrorCode::unsupported ? 3 : 1);
+}
+
+void must(VkResult result, const char* what) {
+    if (result != VK_SUCCESS)
+        fail(vulkanError(result, what));
+}
+
+void must(SuppleResult result, const char* what) {
+    if (result != SUPPLE_OK)
+        fail(std::string(what) + ": " + suppleResultString(result));
+}
+
+std::unique_ptr<Device> mustCreateDevice(bool window) {
+    const char* value = std::getenv("SUPPLE_VALIDATION");
+    const bool validation = value != nullptr && *value != 0 && std::string_view(value) != "0";
+    return must(Device::create({.validation = validation, .window = window}));
+}
+
+supple::Context mustCreateContext(const Device& device) {
+    SuppleContextDesc desc = contextDesc(device);
+    desc.framesInFlight = kFramesInFlight;
+    desc.log = [](SuppleSeverity severity, SuppleMessage message, const char* text, void*) {
+        if (severity != SUPPLE_SEVERITY_INFO)
+            std::fprintf(stderr, "supple %d: %s\n", static_cast<int>(message), text);
+    };
+    supple::Context context;
+    must(supple::Context::create(desc, context), "suppleCreateContext");
+    return context;
+}
+
+void mustBeSilent(const ValidationLog& validation) {
+    if (validation.messageCount() != 0)
+        fail("failed: " + std::to_string(validation.messageCount()) + " validation messages");
+}
+
+} // namespace supple::host

@@ -1,0 +1,78 @@
+// Descriptor sets and pipelines, which live as long as the device.
+#pragma once
+
+#include "host/device.h"
+
+#include <initializer_list>
+#include <span>
+#include <variant>
+
+namespace supple::host {
+
+struct Binding {
+    uint32_t binding;
+    VkDescriptorType type;
+    VkShaderStageFlags stages;
+};
+
+[[nodiscard]] Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::initializer_list<Binding> bindings);
+
+/// One push constant range from byte 0, if pushBytes is not 0.
+[[nodiscard]] Result<VkPipelineLayout> createPipelineLayout(Device& device,
+                                                            std::initializer_list<VkDescriptorSetLayout> sets,
+                                                            uint32_t pushBytes, VkShaderStageFlags pushStages);
+
+[[nodiscard]] Result<VkPipeline> createComputePipeline(Device& device, VkPipelineLayout layout,
+                                                       std::span<const uint32_t> shader);
+
+/// For dynamic rendering, without vertex buffers; viewport, scissor and cull mode are dynamic (beginRendering sets
+/// them).
+struct GraphicsDesc {
+    const char* name = "";
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    std::span<const uint32_t> vertexShader;
+    std::span<const uint32_t> fragmentShader; ///< empty: depth only
+    bool constant0 = false;                   ///< of the specialization constant 0, where the shaders have one
+    std::vector<VkFormat> colors;
+    VkFormat depth = VK_FORMAT_UNDEFINED;
+    bool depthWrite = true;
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    bool alphaToCoverage = false;
+    bool blend = false; ///< over what is there, by alpha
+    float depthBias = 0.0f;
+    float depthBiasSlope = 0.0f;
+};
+
+[[nodiscard]] Result<VkPipeline> createGraphicsPipeline(Device& device, const GraphicsDesc& desc);
+
+/// Clamps to the edge; `compare`: of depths.
+[[nodiscard]] Result<VkSampler> createSampler(Device& device, VkFilter filter, bool compare = false);
+
+/// What a descriptor points at.
+struct Write {
+    uint32_t binding;
+    VkDescriptorType type;
+    std::variant<VkDescriptorBufferInfo, VkDescriptorImageInfo> what;
+};
+
+[[nodiscard]] Write uniformBuffer(uint32_t binding, const Buffer& buffer);
+[[nodiscard]] Write storageBuffer(uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size);
+[[nodiscard]] Write storageBuffer(uint32_t binding, const SuppleBufferRange& view);
+[[nodiscard]] Write sampledImage(uint32_t binding, const Image& image, VkSampler sampler,
+                                 VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+[[nodiscard]] Write storageImage(uint32_t binding, const Image& image);
+
+/// Sets are allocated once and may be written again while no frame that uses them is in flight.
+class DescriptorPool {
+public:
+    [[nodiscard]] static Result<DescriptorPool> create(Device& device, uint32_t maxSets);
+    [[nodiscard]] Result<VkDescriptorSet> allocate(VkDescriptorSetLayout layout);
+    void write(VkDescriptorSet set, std::initializer_list<Write> writes);
+
+private:
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+};
+
+} // namespace supple::host
