@@ -37,15 +37,15 @@ typedef struct SuppleClipLayer {
     uint32_t clip;
     uint32_t flags; /**< SuppleLayerFlags */
     SuppleLayerMode mode;
-    float weight;           /**< 0 leaves the layer out */
-    double time;            /**< seconds */
-    double previousTime;    /**< seconds; only suppleGetRootMotion uses it: the movement from here to time */
-    double referenceTime;   /**< ADDITIVE: seconds; 0 is the clip's first pose */
-    const float* jointMask; /**< optional: per joint a value 0..1 that multiplies the weight. Nodes that are no joints
-                             * follow the joint above them or, without one, the first joint below */
-    uint32_t jointMaskCount;
-    uint32_t morphMaskCount;
-    const float* morphMask; /**< optional: per morph target a value 0..1. Null: 0 if there is a jointMask, else 1 */
+    float weight;            /**< 0 leaves the layer out */
+    double time;             /**< seconds */
+    double previousTime;     /**< seconds; only suppleGetRootMotion uses it: the movement from here to time */
+    double referenceTime;    /**< ADDITIVE: seconds; 0 is the clip's first pose */
+    const float* jointMask;  /**< optional: per joint a value 0..1 that multiplies the weight. Nodes that are no joints
+                              * follow the joint above them or, without one, the first joint below */
+    uint32_t jointMaskCount; /**< the asset's jointCount; 0 if jointMask is null */
+    uint32_t morphMaskCount; /**< the asset's morphTargetCount; 0 if morphMask is null */
+    const float* morphMask;  /**< optional: per morph target a value 0..1. Null: 0 if there is a jointMask, else 1 */
 } SuppleClipLayer;
 
 /** Sets the entries of mask for joint and every joint below it to value, 0..1. The others stay. mask has jointCount
