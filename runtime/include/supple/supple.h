@@ -1,10 +1,11 @@
 /**
  * @file supple.h
- * Animated control cages to smooth surfaces, on Vulkan compute. C99.
+ * Turns animated control cages into smooth surfaces, on Vulkan compute. C99.
  *
- * Supple loads a character (glTF/GLB, OBJ or arrays), poses its instances, deforms the control cage, and evaluates a
- * smooth surface over it. It records all of this into the host's command buffer. The host gets surface vertices, grid
- * indices and indirect draw arguments. Every pass is measured.
+ * A control cage is the polygon mesh that a surface is made from. The host is the program that uses Supple. Supple
+ * loads a character (glTF/GLB, OBJ or arrays), poses its instances, deforms the cage, and evaluates a smooth surface
+ * over it. It records this work, as a sequence of passes, into the host's command buffer. The host gets surface
+ * vertices, indices and indirect draw arguments. Every pass can be timed. docs/glossary.md explains all words.
  *
  * Supple does not create a Vulkan instance or device, submit, wait, draw, decode images, open windows or link a loader.
  *
@@ -12,33 +13,41 @@
  * root motion, clips that the device plays) are for hosts that need them. This header includes both at its end.
  *
  * Structs
- *   - Structs begin with structSize, the sizeof of the caller's header. Zero in any other field means the default.
- *     Later versions add fields at the end only. Missing trailing fields read as zero. Unknown trailing fields must be
- *     zero, and come back as zero. Structs without structSize never change.
+ *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
+ *     fills. Zero in any other field of a description means the default. Later versions add fields at the end only.
+ *     Missing trailing fields read as zero. Unknown trailing fields must be zero, and come back as zero. Structs
+ *     without structSize never change.
  *   - Matrices are column-major float[16] for column vectors. Space is right-handed with +Y up, as in glTF. Angles are
  *     radians, times are seconds.
  *   - Pointers in a description are read during the call only, unless a comment says otherwise.
+ *   - Functions that fill an array take `out` and `count`. Before the call, *count is how many entries out has room
+ *     for. After it, *count is how many there are. If that is more, the result is SUPPLE_INCOMPLETE. If out is null,
+ *     only *count is set.
  *
  * Handles
- *   - A handle has an index and a generation. A stale or foreign handle gives SUPPLE_ERROR_ARGUMENT, never a crash.
- *   - You may destroy while frames are in flight. suppleBeginFrame frees the memory when you tell it that the last
- *     frame that used it is complete.
+ *   - Assets, groups, views and instances are checked in every call. A handle that is destroyed, or of another context,
+ *     gives SUPPLE_ERROR_ARGUMENT, never a crash. SuppleContext is a pointer: do not use it once it is destroyed.
+ *   - You may destroy them while frames in flight use them. suppleBeginFrame frees the memory when you tell it that the
+ *     last of these frames is complete.
  *
  * Errors
- *   - Functions return SUPPLE_OK or what went wrong. The log callback gets the reason in one line, with an id that is
- *     the same in all versions. A call that fails has done nothing, unless its comment says otherwise.
- *   - After SUPPLE_ERROR_DEVICE_LOST, every call that needs the device gives it again. Destroying still works.
+ *   - Errors are negative results. The log callback gets the reason in one line, with an id that is the same in all
+ *     versions. There may be no line for suppleQueryRequirements, a null context and SUPPLE_ERROR_HOST_MEMORY.
+ *   - A call that fails has done nothing, unless its comment says otherwise. suppleCreate... may set *out to null.
+ *   - Once a call has returned SUPPLE_ERROR_DEVICE_LOST, so does every later call that needs the device. Destroying
+ *     still works.
  *
  * Threads
- *   - One thread at a time uses a context and everything made from it. There are two exceptions between
- *     suppleBeginFrame calls. Functions that set and query instances may run at the same time for different groups. So
- *     may suppleRecord, for different groups into different command buffers, once suppleRecordUploads has been recorded
- *     for the frame. The log callback is then called from those threads.
+ *   - Only one thread at a time may use a context and everything made from it. There are two exceptions, both between
+ *     one suppleBeginFrame and the next. Functions that set and query instances may run at the same time for different
+ *     groups. Once suppleRecordUploads has been recorded for the frame, suppleRecord may run at the same time for
+ *     different groups, into different command buffers. The log callback must then expect calls from these threads at
+ *     the same time.
  *   - Different contexts are independent.
  *
  * Recording
- *   - creates no Vulkan object and allocates no memory. It binds the compute pipeline, descriptor set 0 and push
- *     constants of the given command buffer. The host rebinds its own compute state afterwards.
+ *   - Recording creates no Vulkan object and allocates no memory. It changes the compute pipeline, descriptor set 0
+ *     and the push constants of the given command buffer. The host must bind its own compute state again afterwards.
  */
 #ifndef SUPPLE_H
 #define SUPPLE_H
@@ -63,7 +72,7 @@
 extern "C" {
 #endif
 
-#define SUPPLE_VERSION_MAJOR 0 /**< rises when a host must be changed or built anew; the SONAME's number */
+#define SUPPLE_VERSION_MAJOR 0 /**< rises when hosts must be changed or compiled again; the SONAME's number */
 #define SUPPLE_VERSION_MINOR 2 /**< rises when something is added */
 #define SUPPLE_VERSION_PATCH 0
 /** One number that rises with every version. */
@@ -77,7 +86,7 @@ extern "C" {
 #define SUPPLE_NO_IMAGE 0xFFFFFFFFu
 #define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu
 #define SUPPLE_MAX_TRIM_TILES 1024u
-#define SUPPLE_MAX_RATE 64u            /**< segments along a patch edge */
+#define SUPPLE_MAX_RATE 64u            /**< see SuppleGroupDesc.rate */
 #define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u /**< see suppleBeginFrame */
 #define SUPPLE_MAX_TIMINGS 4096u       /**< entries per frame: passes x groups. Further entries are not timed */
 
@@ -87,7 +96,7 @@ typedef struct SuppleContext_T* SuppleContext;
 typedef struct SuppleAsset {
     uint64_t id; /**< 0 is never a valid handle */
 } SuppleAsset;
-/** Instances of one asset with one scheme and the same options. They go through each pass together. */
+/** Instances of one asset with one scheme (SuppleScheme) and the same options. They go through each pass together. */
 typedef struct SuppleGroup {
     uint64_t id; /**< 0 is never a valid handle */
 } SuppleGroup;
@@ -106,15 +115,15 @@ typedef struct SuppleInstance {
 typedef enum SuppleResult {
     SUPPLE_OK = 0,
     SUPPLE_NOT_READY = 1,          /**< there is no finished frame to report yet */
-    SUPPLE_INCOMPLETE = 2,         /**< the array was too small; it was filled as far as it went */
+    SUPPLE_INCOMPLETE = 2,         /**< the array was too small: it is full, and *count says how many there are */
     SUPPLE_ERROR_ARGUMENT = -1,    /**< a rule of this header was broken */
-    SUPPLE_ERROR_ASSET = -2,       /**< malformed file or cage, or the scheme cannot take it */
+    SUPPLE_ERROR_ASSET = -2,       /**< the file or cage is malformed, or the scheme cannot take it */
     SUPPLE_ERROR_UNSUPPORTED = -3, /**< the device lacks something that suppleQueryRequirements lists */
     SUPPLE_ERROR_LIMIT = -4,       /**< a limit of the device or of this header is exceeded */
     SUPPLE_ERROR_HOST_MEMORY = -5,
     SUPPLE_ERROR_DEVICE_MEMORY = -6,
     SUPPLE_ERROR_DEVICE_LOST = -7,
-    SUPPLE_ERROR_VULKAN = -8
+    SUPPLE_ERROR_VULKAN = -8 /**< a Vulkan call failed for another reason, which the log names */
 } SuppleResult;
 
 /** SUPPLE_VERSION of the library that is running. */
@@ -125,7 +134,7 @@ SUPPLE_API const char* suppleResultString(SuppleResult result);
 /** ERROR: the call failed. WARNING: something is left out, mended or over its budget. INFO: worth knowing. */
 typedef enum SuppleSeverity { SUPPLE_SEVERITY_INFO, SUPPLE_SEVERITY_WARNING, SUPPLE_SEVERITY_ERROR } SuppleSeverity;
 
-/** What a message is about. Numbers keep their meaning. New ones may come. */
+/** What a message is about. A number never changes its meaning. Later versions may add numbers. */
 typedef enum SuppleMessage {
     SUPPLE_MESSAGE_NULL_POINTER = 100,
     SUPPLE_MESSAGE_STRUCT_SIZE = 101,  /**< too small, or with fields in use that this library lacks */
@@ -163,14 +172,16 @@ typedef struct SuppleRequirements {
     char reason[256]; /**< the first thing that the device lacks; empty if it has all */
 } SuppleRequirements;
 
-/** Fills out. SUPPLE_OK: the device is suitable. SUPPLE_ERROR_UNSUPPORTED: out->reason says what it lacks. */
+/** SUPPLE_OK: the device is suitable. SUPPLE_ERROR_UNSUPPORTED: out->reason says what it lacks. Fills out in both
+ * cases. */
 SUPPLE_API SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physicalDevice,
                                                 PFN_vkGetInstanceProcAddr getInstanceProcAddr, SuppleRequirements* out);
 
 /* ---------------------------------------------------------------------------------------------------- context */
 
-/** How lanes share the work. AUTO: NARROW on CPU devices (one lane per patch, texel-buffer loads), WIDE on GPUs (many
- * lanes per patch, coefficients in workgroup memory). Positions agree bit for bit. */
+/** How lanes (shader invocations) share the work. NARROW: one lane per patch, texel-buffer loads. WIDE: many lanes per
+ * patch, coefficients in workgroup memory. AUTO: NARROW on CPU devices such as lavapipe, WIDE on GPUs. Both give the
+ * same positions, bit for bit. */
 typedef enum SuppleMapping {
     SUPPLE_MAPPING_AUTO = 0,
     SUPPLE_MAPPING_NARROW = 1,
@@ -180,26 +191,26 @@ typedef enum SuppleMapping {
 /** Options of a context. */
 typedef enum SuppleContextFlags {
     SUPPLE_CONTEXT_DEBUG_UTILS = 1,  /**< the host enabled VK_EXT_debug_utils: label passes, name objects */
-    SUPPLE_CONTEXT_ASYNC_COMPUTE = 2 /**< outputs go from queueFamily to drawQueueFamily */
+    SUPPLE_CONTEXT_ASYNC_COMPUTE = 2 /**< suppleRecord releases the outputs from queueFamily to drawQueueFamily */
 } SuppleContextFlags;
 
 /** A piece of the host's device memory. */
 typedef struct SuppleMemory {
     VkDeviceMemory memory;
     VkDeviceSize offset;
-    void* mapped;     /**< if HOST_VISIBLE was required: the byte at offset, mapped until freed. Else ignored */
+    void* mapped; /**< if HOST_VISIBLE was required: where the byte at offset is mapped until `free`. Else ignored */
     void* allocation; /**< the host's own, for example a VmaAllocation */
 } SuppleMemory;
 
-/** Where device memory comes from. Called on the calling thread while contexts, assets, groups and views are created
- * and destroyed, and by suppleBeginFrame; never while recording. */
+/** Where device memory comes from. Supple calls these functions on the thread that called it: when contexts, assets,
+ * groups and views are created or destroyed, and in suppleBeginFrame, but never while recording. */
 typedef struct SuppleMemoryCallbacks {
-    /** Fills out and returns VK_SUCCESS, or returns the reason. The memory is for buffers (linear). Its type must be in
-     * requirements->memoryTypeBits and have all of `required` and, if possible, `preferred`. name is for statistics,
-     * valid during the call. */
+    /** Fills out and returns VK_SUCCESS, or returns an error of vkAllocateMemory. The memory is for buffers (linear).
+     * Its type must be in requirements->memoryTypeBits and have all of `required` and, if possible, `preferred`. name
+     * is for the host's statistics, and valid during the call. */
     VkResult (*allocate)(const VkMemoryRequirements* requirements, VkMemoryPropertyFlags required,
                          VkMemoryPropertyFlags preferred, const char* name, SuppleMemory* out, void* user);
-    /** Called once per successful allocate. By then no buffer is bound to the memory and no frame uses it. */
+    /** Called once per successful allocate. By then the buffers in the memory are destroyed and no frame uses it. */
     void (*free)(const SuppleMemory* memory, void* user);
     void* user;
 } SuppleMemoryCallbacks;
@@ -208,10 +219,10 @@ typedef struct SuppleMemoryCallbacks {
 typedef struct SuppleContextDesc {
     uint32_t structSize;
     uint32_t flags; /**< SuppleContextFlags */
-    /** Borrowed, as all handles here: must outlive the context. */
+    /** Borrowed, as all Vulkan handles here: it must outlive the context. */
     VkInstance instance;
     VkPhysicalDevice physicalDevice;
-    /** Created with what suppleQueryRequirements asks for. */
+    /** It must have been created with what suppleQueryRequirements asks for. */
     VkDevice device;
     uint32_t queueFamily; /**< of the command buffers given to suppleRecord; must support compute */
     PFN_vkGetInstanceProcAddr getInstanceProcAddr;
@@ -221,31 +232,31 @@ typedef struct SuppleContextDesc {
     SuppleMapping mapping;
     SuppleLogFunction log; /**< optional */
     void* logUser;
-    /** Optional: the pNext chain that was given to vkCreateDevice. If a feature that Supple needs is not enabled in it,
-     * the call fails and names it, instead of undefined behaviour later. Read during the call. */
+    /** Optional: the pNext chain that was given to vkCreateDevice. If it does not enable a feature that Supple needs,
+     * the call fails and the log names the feature. If it is null, a missing feature is undefined behaviour later. */
     const void* enabledFeatures;
-    const SuppleMemoryCallbacks* memory; /**< optional; copied. Null: vkAllocateMemory */
+    const SuppleMemoryCallbacks* memory; /**< optional; copied. Null: Supple calls vkAllocateMemory */
     uint32_t drawQueueFamily;            /**< with SUPPLE_CONTEXT_ASYNC_COMPUTE: see suppleGetAcquireBarriers */
 } SuppleContextDesc;
 
-/** Loads the device's functions. Almost no pipeline is compiled here: see suppleCreateGroup. Errors: a requirement that
- * the device lacks or the host has not enabled, no compute in queueFamily, memory. */
+/** Loads the device's functions. suppleCreateGroup compiles almost all pipelines. Errors: the device lacks a
+ * requirement, the host has not enabled one, queueFamily has no compute, or memory is short. */
 SUPPLE_API SuppleResult suppleCreateContext(const SuppleContextDesc* desc, SuppleContext* out);
 /** Also frees all assets, groups and views. No command buffer that uses them may be pending. Null is allowed. */
 SUPPLE_API void suppleDestroyContext(SuppleContext context);
 
 /* ---------------------------------------------------------------------------------------------------- assets */
 
-/** P_m's own crease control. alpha belongs to the edge vertex -> toward, at its end `vertex`, and lies in (0, 1]: 2/3
- * is smooth, smaller is sharper. It overrides what follows from a crease's sharpness there. */
+/** Crease control for SUPPLE_SCHEME_PM alone. alpha applies to the edge from vertex to toward, at its end `vertex`. It
+ * lies in (0, 1]: 2/3 is smooth, smaller is sharper. It replaces what the sharpness of the edge would give there. */
 typedef struct SuppleCreaseScalar {
     uint32_t vertex;
     uint32_t toward;
     float alpha;
 } SuppleCreaseScalar;
 
-/** A control cage given as arrays (copied). Polygons are counter-clockwise seen from outside. Sharpness is that of
- * OpenSubdiv and USD: 0 is smooth, 10 and more infinitely sharp. */
+/** A control cage given as arrays, which are copied. Faces are counter-clockwise seen from outside. Sharpness is as in
+ * OpenSubdiv and USD: 0 is smooth, 10 and more is infinitely sharp. */
 typedef struct SuppleCageDesc {
     uint32_t structSize;
     uint32_t vertexCount;
@@ -263,45 +274,45 @@ typedef struct SuppleCageDesc {
     const float* cornerSharpnesses;
     uint32_t creaseScalarCount;
     const SuppleCreaseScalar* creaseScalars;
-    uint32_t holeCount; /**< faces that shape their neighbours but are not drawn */
+    uint32_t holeCount; /**< entries of holes: faces that shape their neighbours but are not drawn */
     const uint32_t* holes;
     const uint32_t* faceTrimTiles; /**< optional: per face a trim tile or SUPPLE_NO_TRIM_TILE; see SuppleTrimDomain */
 } SuppleCageDesc;
 
 /** Options of reading a file. */
 typedef enum SuppleAssetFlags {
-    SUPPLE_ASSET_PAIR_QUADS = 1 /**< plain triangles: merge consecutive pairs into quads */
+    SUPPLE_ASSET_PAIR_QUADS = 1 /**< plain triangles of a glTF file: merge consecutive pairs into quads */
 } SuppleAssetFlags;
 
 /** The content of a file, from the host's own file system. */
 typedef struct SuppleFileBytes {
     const void* bytes;
     size_t byteCount;
-    void* handle; /**< the host's */
+    void* handle; /**< the host's own, for release */
 } SuppleFileBytes;
 /** The host's file system: how the external files of an asset (buffers, images) are found. */
 typedef struct SuppleFiles {
     /** Fills out and returns non-zero, or returns 0 if there is no such file. The bytes must stay valid until release.
-     * path is relative to the asset and percent-decoded. It has forward slashes, and no "..", "." or scheme. Called on
-     * the thread that calls suppleCreateAsset, before that returns. */
+     * path is relative to the asset and percent-decoded. It has forward slashes, and no "..", "." or URI scheme. Supple
+     * calls both functions in suppleCreateAsset, on the thread that called it. */
     int (*read)(const char* path, SuppleFileBytes* out, void* user);
     void (*release)(SuppleFileBytes* bytes, void* user); /**< optional; called once per successful read */
     void* user;
 } SuppleFiles;
 
-/** Either a file in memory (bytes) or a cage as arrays. Everything is copied before the call returns. */
+/** Either a file in memory (`bytes`) or arrays (`cage`). Everything is copied before the call returns. */
 typedef struct SuppleAssetDesc {
     uint32_t structSize;
     uint32_t flags;    /**< SuppleAssetFlags */
     const char* name;  /**< optional; begins every message about the asset */
-    const void* bytes; /**< .glb or .gltf; .obj if `name` ends so */
+    const void* bytes; /**< a .glb or .gltf file, or an .obj file if `name` ends in .obj */
     size_t byteCount;
     const char* baseDirectory; /**< where the external files of a .gltf lie; null allows none */
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
     const SuppleCageDesc* cage;
 } SuppleAssetDesc;
 
-/** What an asset holds. Counts are those of the control cage after welding. */
+/** What an asset holds. Vertices that the file repeats because their UVs or normals differ are one cage vertex. */
 typedef struct SuppleAssetInfo {
     uint32_t structSize;
     uint32_t cageVertexCount;
@@ -310,7 +321,7 @@ typedef struct SuppleAssetInfo {
     uint32_t clipCount;
     uint32_t materialCount;
     uint32_t morphTargetCount;
-    float boundsMin[3]; /**< of the rest cage */
+    float boundsMin[3]; /**< of the cage's vertices in the bind pose */
     float boundsMax[3];
     uint32_t imageCount;
 } SuppleAssetInfo;
@@ -326,14 +337,14 @@ typedef struct SuppleClipInfo {
 typedef struct SuppleJointInfo {
     uint32_t structSize;
     const char* name; /**< lives as long as the asset */
-    uint32_t parent;  /**< the nearest joint above it, or SUPPLE_NO_JOINT */
+    uint32_t parent;  /**< the nearest joint above it in the node tree, or SUPPLE_NO_JOINT */
 } SuppleJointInfo;
 
 /** A morph target of the cage. */
 typedef struct SuppleMorphTargetInfo {
     uint32_t structSize;
     const char* name;     /**< lives as long as the asset; empty if the file has none */
-    float weight;         /**< the file's */
+    float weight;         /**< the weight that the file gives it */
     uint32_t vertexCount; /**< cage vertices that it moves */
 } SuppleMorphTargetInfo;
 
@@ -342,42 +353,43 @@ typedef struct SuppleMorphTargetInfo {
 typedef enum SuppleTrimDomain {
     SUPPLE_TRIM_NONE = 0, /**< the material is whole */
     SUPPLE_TRIM_UV = 1,   /**< the image lies on a UV set: SuppleVertexStreams.attributes or uvs1 */
-    SUPPLE_TRIM_FACE = 2  /**< the image is a strip of tiles; a face has one of them: SuppleVertexStreams.faceUvs */
+    SUPPLE_TRIM_FACE = 2  /**< the image is a strip of tiles; a face has one or none: SuppleVertexStreams.faceUvs */
 } SuppleTrimDomain;
 
-/** How a lookup outside of 0..1 goes on, as samplers have it. */
+/** What a texture lookup outside of 0..1 finds, as the address modes of Vulkan's samplers. */
 typedef enum SuppleWrap { SUPPLE_WRAP_REPEAT = 0, SUPPLE_WRAP_CLAMP = 1, SUPPLE_WRAP_MIRROR = 2 } SuppleWrap;
 
-/** Only what decides where the surface is. Shading is the host's. */
+/** Only what decides where the surface is. The host does all shading. */
 typedef struct SuppleMaterialInfo {
     uint32_t structSize;
     const char* name; /**< lives as long as the asset */
     uint32_t doubleSided;
-    /** The file's own trim. Without one, alphaMode MASK with a texture counts as a trim; the lookup is then multiplied
-     * by trimFactor and by the alpha of the color attribute. */
+    /** The trim that the file names. If it names none, alphaMode MASK with a texture is a trim: multiply what the
+     * lookup finds by trimFactor and by the alpha of the color attribute, then compare. */
     SuppleTrimDomain trimDomain;
-    uint32_t trimImage;   /**< or SUPPLE_NO_IMAGE */
+    uint32_t trimImage;   /**< index for suppleGetImageInfo, or SUPPLE_NO_IMAGE */
     uint32_t trimUvSet;   /**< 0 or 1 */
     uint32_t trimChannel; /**< 0..3: red, green, blue, alpha */
     float trimCutoff;
-    float trimFactor;       /**< 1; with MASK the alpha of the base color */
+    float trimFactor;       /**< 1; with MASK the alpha of the base color factor */
     uint32_t trimTiles;     /**< FACE: tiles in the image */
     SuppleWrap trimWrap[2]; /**< along u and v */
 } SuppleMaterialInfo;
 
-/** An image as the file holds it. Decoding is the host's. */
+/** An image as the file holds it. The host decodes it. */
 typedef struct SuppleImageInfo {
     uint32_t structSize;
-    const char* name;     /**< this and what follows live as long as the asset */
+    const char* name;     /**< all pointers here live as long as the asset */
     const char* mimeType; /**< "image/png", "image/jpeg" or empty */
     const void* bytes;    /**< null if the image is missing */
     size_t byteCount;
 } SuppleImageInfo;
 
-/** Refuses malformed files and arrays. What only a surface cannot take (a non-manifold edge, a face that is no quad) is
- * refused by suppleCreateGroup, so that the cage alone can still be used. */
+/** Fails if the file or the arrays are malformed. If only a scheme cannot take the cage (a non-manifold edge, a face
+ * that is no quad), suppleCreateGroup fails instead, so the cage alone can still be used (SUPPLE_SCHEME_CAGE). */
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
-/** The handle is dead at once. The asset's groups keep what they need. */
+/** The handle and all pointers that live as long as the asset are dead at once. The asset's groups keep what they
+ * need. */
 SUPPLE_API SuppleResult suppleDestroyAsset(SuppleContext context, SuppleAsset asset);
 /** Fills out. */
 SUPPLE_API SuppleResult suppleGetAssetInfo(SuppleContext context, SuppleAsset asset, SuppleAssetInfo* out);
@@ -411,9 +423,10 @@ typedef enum SuppleScheme {
     SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
 } SuppleScheme;
 
-/** DEFAULT scales the tangents of irregular vertices as docs/prep.md derives it. PRINTED does as the paper prints. */
+/** How SUPPLE_SCHEME_PREP scales the tangents at irregular vertices (of a valence other than 4). DEFAULT: as
+ * docs/prep.md derives it. PRINTED: as the paper prints it. */
 typedef enum SuppleTangentMode { SUPPLE_TANGENTS_DEFAULT = 0, SUPPLE_TANGENTS_PRINTED = 1 } SuppleTangentMode;
-/** A boundary vertex that has one face: SHARP passes through it, SMOOTH rounds it. */
+/** At a boundary vertex that has one face, the surface passes through the vertex (SHARP) or is rounded (SMOOTH). */
 typedef enum SuppleCornerRule { SUPPLE_CORNERS_SHARP = 0, SUPPLE_CORNERS_SMOOTH = 1 } SuppleCornerRule;
 /** Options of SUPPLE_SCHEME_PREP. */
 typedef struct SupplePrepOptions {
@@ -422,13 +435,14 @@ typedef struct SupplePrepOptions {
     SuppleCornerRule cornerRule;
 } SupplePrepOptions;
 
-/** What a sharp edge is. CUT: two sheets meet in it. CURVE: a narrow ridge, as in the paper. */
+/** What SUPPLE_SCHEME_BLEND makes of a sharp edge. CUT: a line in which two sheets meet. CURVE: a narrow ridge, as in
+ * the paper. */
 typedef enum SuppleCreaseMode { SUPPLE_CREASES_CUT = 0, SUPPLE_CREASES_CURVE = 1 } SuppleCreaseMode;
 /** Options of SUPPLE_SCHEME_BLEND. */
 typedef struct SuppleBlendOptions {
     uint32_t structSize;
     SuppleCreaseMode creaseMode;
-    float sharpThreshold; /**< edges of this sharpness and more are sharp; 0 = 1 */
+    float sharpThreshold; /**< edges of this sharpness and more are sharp, others smooth; 0 = 1 */
 } SuppleBlendOptions;
 
 /** Layout of a surface vertex. Positions have the same bits in both. */
@@ -438,12 +452,13 @@ typedef enum SuppleVertexFormat {
 } SuppleVertexFormat;
 
 /** How several joints move one vertex. DUAL_QUATERNION keeps the girth of a limb that twists or bends. Joints may scale
- * and shear. A vertex of one joint moves as with LINEAR. */
+ * and shear with both. A vertex that follows one joint alone moves the same with both. */
 typedef enum SuppleSkinning { SUPPLE_SKINNING_LINEAR = 0, SUPPLE_SKINNING_DUAL_QUATERNION = 1 } SuppleSkinning;
 
-/** Who deforms the instances. The host fills a BUFFER source on the device for all visible instances, in any frame it
- * likes: `before` of suppleRecord then names its writes, and its next writes wait for the compute shaders that
- * suppleRecord recorded. Supple's functions refuse what a source leaves to the host. */
+/** Who deforms the instances. With PALETTE_BUFFER and CAGE_BUFFER, the host writes a buffer on the device, for all
+ * visible instances, in any frame it likes. `before` of suppleRecord must then name these writes, and the host's next
+ * writes must wait for the compute shaders that suppleRecord recorded. Functions that set poses or transforms give
+ * SUPPLE_ERROR_ARGUMENT if the group's source does not go with them. */
 typedef enum SupplePoseSource {
     SUPPLE_POSES_SET = 0,            /**< suppleSetClipPose, suppleSetPose, suppleSetMatrixPose, ... */
     SUPPLE_POSES_PALETTE_BUFFER = 1, /**< SuppleGroupInfo.poses: joint palettes and morph weights */
@@ -460,8 +475,8 @@ typedef enum SuppleGroupFlags {
      * once. Positions have the same bits as in other groups. Along creases and boundaries, and with ATTRIBUTES along
      * their seams, each side has vertices of its own. See SuppleDrawRange. */
     SUPPLE_GROUP_INDEXED_MESH = 8,
-    /** Groups of a view: one level per instance instead of one per edge. It follows from the instance's bounds and from
-     * the longest edge and the sharpest bend of the cage's bind pose. */
+    /** Groups of a view: one level of detail per instance instead of one per edge. It is computed from the instance's
+     * bounds, and from the longest edge and the sharpest bend in the bind pose. */
     SUPPLE_GROUP_ONE_LEVEL = 32
 } SuppleGroupFlags;
 
@@ -473,81 +488,86 @@ typedef struct SuppleGroupDesc {
     uint32_t capacity; /**< instances that can exist at a time, 1 or more */
     SuppleScheme scheme;
     /** Segments along a patch edge, 1..SUPPLE_MAX_RATE; 0 = 8.
-     * CATMULL_CLARK and LOOP: segments along an edge of the cage, rounded up to a power of two. A patch has half of
-     * them, or a quarter if the cage of Catmull-Clark has faces that are no quads: see SuppleGridOutput.rate.
-     * BLEND on a cage with faces that are no quads: likewise, but rounded up to even. */
+     * CATMULL_CLARK and LOOP: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
+     * of them (SuppleGridOutput.rate). With CATMULL_CLARK, if the cage has faces that are no quads, it has a quarter.
+     * BLEND, if the cage has faces that are no quads: segments along an edge of the cage, rounded up to an even number.
+     * A patch edge has half of them. */
     uint32_t rate;
     SuppleVertexFormat vertexFormat;
     SuppleSkinning skinning;
     SupplePoseSource poseSource; /**< PALETTE_BUFFER needs linear skinning */
-    /** Optional: the group belongs to this view and is drawn at its levels of detail: see supple_view.h. vertexFormat
-     * and flags (except ONE_LEVEL) are then the view's. PREP, PM and BLEND have levels and take no rate:
-     * SuppleLevelOutput. With CATMULL_CLARK and LOOP every instance has the rate that its level asks for, and `rate` is
-     * the largest: SuppleGridOutput.rates. Their vertices are the group's own. They use none of the view's
+    /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags must then be
+     * 0 or ONE_LEVEL: the view's flags and vertexFormat apply. PREP, PM and BLEND ignore `rate` and have a
+     * SuppleLevelOutput. With CATMULL_CLARK and LOOP each instance gets the rate that its level asks for, at most
+     * `rate`: see SuppleGridOutput.rates. Their vertices are in the group's own memory. They use none of the view's
      * maxVertices, but count in SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
     const SuppleBlendOptions* blend; /**< the same */
 } SuppleGroupDesc;
 
-/** Creates a group without instances. Compiles the pipelines that no earlier group has needed: create one group of each
- * kind while loading, with a pipeline cache. Errors: a cage that the scheme cannot take, limits of the device or of the
- * view, memory. */
+/** Creates a group without instances. Compiles the pipelines that no earlier group of the context has needed, which may
+ * take long. So create one group of each kind while loading, with a pipeline cache. Errors: a cage that the scheme
+ * cannot take, limits of the device or of the view, memory. */
 SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGroupDesc* desc, SuppleGroup* out);
 /** Also destroys its instances. The handle is dead at once. The memory is freed when the frames that used the group are
  * complete (suppleBeginFrame). */
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
-/** Changes the rate from the next suppleRecord on; query suppleGetGridOutput anew. rate is at most the rate that the
- * group was created with. CATMULL_CLARK, LOOP, BLEND and SUPPLE_GROUP_INDEXED_MESH take that rate alone. Groups with
- * levels take none. */
+/** Changes the rate from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must be 1 to the rate
+ * that the group was created with. Groups of CATMULL_CLARK, LOOP or BLEND, or with SUPPLE_GROUP_INDEXED_MESH, cannot
+ * change it: they take only the rate that they were created with. Groups with levels take none. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
 /* ---------------------------------------------------------------------------------------------------- instances */
 
 /** Creates an instance in the bind pose, visible, with the identity transform. It gets the lowest free slot.
- * SUPPLE_ERROR_LIMIT: the group is full. Earlier frames may still read what a destroyed instance left in the slot; that
- * is not touched before they end. */
+ * SUPPLE_ERROR_LIMIT: the group is full. If frames in flight still read what a destroyed instance left in the slot, it
+ * is not overwritten before they end. */
 SUPPLE_API SuppleResult suppleCreateInstance(SuppleContext context, SuppleGroup group, SuppleInstance* out);
 /** The instance is gone from the next suppleRecord on. */
 SUPPLE_API SuppleResult suppleDestroyInstance(SuppleContext context, SuppleInstance instance);
-/** visible: 0 or 1. A hidden instance costs nothing on the device and is not drawn. What is set for it stays. */
+/** visible: 0 or 1. A hidden instance costs nothing on the device and is not drawn. Its pose and transform stay. */
 SUPPLE_API SuppleResult suppleSetVisible(SuppleContext context, SuppleInstance instance, uint32_t visible);
-/** The next suppleRecord treats the instance as new: its previous positions are its positions, so it has no motion.
+/** The next suppleRecord treats the instance as new: previous positions equal positions, so it has no motion.
  * Instances that were not visible in the group's last suppleRecord are new without this call. */
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
-/** Places an instance: an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices come out in
- * the space that it maps to. A mirroring transform turns the winding and with it the normals. */
+/** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
+ * are written in the space that it maps to. A mirroring transform reverses the winding and the normals. Errors: not
+ * finite, another last row, or the host fills the group's poses (SupplePoseSource). */
 SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance instance, const float* transform);
 
 /* ---------------------------------------------------------------------------------------------------- poses */
 
-/** Poses stand until they are set again. What crosses to the device: with SUPPLE_POSES_SET, the poses of the slots in
- * use, every frame. A pose is 48 bytes per joint; with dual quaternions, 64 bytes per joint and 48 more. Morph targets
- * add 4 bytes each, rounded up to 16. If instances came, went, were hidden, shown or teleported, then in this frame and
- * the next one 8 bytes per visible instance and 20 per draw range cross, too (with SUPPLE_CONTEXT_ASYNC_COMPUTE in
- * every frame). */
+/** A pose stays until it is set again. With SUPPLE_POSES_SET, every frame uploads the poses of the slots in use. A pose
+ * is 48 bytes per joint; with dual quaternions, 64 bytes per joint and 48 more. Morph targets add 4 bytes each, and the
+ * sum is rounded up to 16. If instances were created, destroyed, hidden, shown or teleported, this frame and the next
+ * one also upload 8 bytes per visible instance and 20 per draw range. With SUPPLE_CONTEXT_ASYNC_COMPUTE every frame
+ * uploads these. */
 
-/** Poses an instance from a clip at a time (clamped to the clip). clip may be SUPPLE_BIND_POSE or SUPPLE_REST_POSE.
- * What the clip does not animate is as in the rest pose. Layers of clips: suppleSetPose in supple_playback.h. */
+/** Poses an instance from a clip at a time in seconds, clamped to the clip. clip may also be SUPPLE_BIND_POSE or
+ * SUPPLE_REST_POSE, without a time. What the clip does not animate is as in the rest pose. suppleSetPose in
+ * supple_playback.h takes layers of clips. Errors: no such clip, time is not finite. */
 SUPPLE_API SuppleResult suppleSetClipPose(SuppleContext context, SuppleInstance instance, uint32_t clip, double time);
 /** Poses an instance from the host's own animation: jointCount model-space joint matrices (float[16] each), in the
- * order of the skin's joints. Supple applies the inverse bind matrices. Morph weights are the file's. */
+ * order of the skin's joints. Supple applies the inverse bind matrices. Morph weights are those of the rest pose.
+ * Errors: jointCount is not the asset's, a value is not finite. */
 SUPPLE_API SuppleResult suppleSetMatrixPose(SuppleContext context, SuppleInstance instance, const float* jointMatrices,
                                             uint32_t jointCount);
-/** Sets an instance's morph weights (morphTargetCount values). They stand, whatever its poses say. Null: the weights of
- * the poses again. */
+/** Sets an instance's morph weights (morphTargetCount values). They replace the weights of all its poses, until you
+ * pass null. Errors: morphTargetCount is not the asset's, a weight is not finite. */
 SUPPLE_API SuppleResult suppleSetMorphWeights(SuppleContext context, SuppleInstance instance, const float* weights,
                                               uint32_t morphTargetCount);
 
 /* ---------------------------------------------------------------------------------------------------- frame */
 
-/** Starts a frame. frame rises by at least one per call. completedFrame is the last frame whose command buffers have
- * all finished, 0 before the first; it never falls. frame - completedFrame must not exceed framesInFlight. Frees what
- * was destroyed and is no longer used, and reads finished timestamps. Never waits. */
+/** Starts a frame. frame is the host's number for it: 1 or more, and larger in every call. completedFrame is the last
+ * frame whose command buffers have all finished, or 0 if there is none. It must never fall, and frame - completedFrame
+ * must not exceed framesInFlight. Frees what was destroyed and is no longer used, and reads finished timestamps. Never
+ * waits. */
 SUPPLE_API SuppleResult suppleBeginFrame(SuppleContext context, uint64_t frame, uint64_t completedFrame);
-/** What was recorded since suppleBeginFrame will never be submitted (for example because the swapchain is lost). Its
- * uploads are due again, its instances have no motion. For suppleBeginFrame the frame counts as completed. Nothing can
- * be recorded until the next suppleBeginFrame. */
+/** Tells Supple that what was recorded since suppleBeginFrame will never be submitted (for example because the
+ * swapchain is lost). The next frame repeats its uploads, and its instances are then new (suppleTeleport). Count the
+ * frame as completed in suppleBeginFrame. Nothing can be recorded until the next suppleBeginFrame. */
 SUPPLE_API SuppleResult suppleCancelFrame(SuppleContext context);
 
 /** Stages and accesses on buffers, as in synchronization2. */
@@ -556,20 +576,20 @@ typedef struct SuppleSyncScope {
     VkAccessFlags2 access;
 } SuppleSyncScope;
 
-/** Records the upload of what was created since the last upload: static tables, and the barrier behind them.
- * suppleRecord does this too. Only hosts that call suppleRecord on several threads need this call, in a command buffer
- * that is submitted before the others. */
+/** Records the upload of the static tables of what was created since the last upload, and a barrier after it.
+ * suppleRecord does this too. Only hosts that call suppleRecord on several threads need this call. They record it into
+ * a command buffer that is submitted before the others. */
 SUPPLE_API SuppleResult suppleRecordUploads(SuppleContext context, VkCommandBuffer commandBuffer);
 
 /** Options of recording. */
 typedef enum SuppleRecordFlags {
     SUPPLE_RECORD_TIMINGS = 1, /**< write GPU timestamps round every pass */
-    /** The host's own barrier has waited for all earlier uses, Supple's too: see suppleGetRecordScopes. `before` is
-     * ignored. */
+    /** suppleRecord places no barrier before its passes and ignores `before`. The host's own barrier must wait for all
+     * earlier uses, also those by Supple: see suppleGetRecordScopes. */
     SUPPLE_RECORD_NO_ENTRY_BARRIER = 2
 } SuppleRecordFlags;
 
-/** What is recorded, and between which uses of the host's. */
+/** What suppleRecord records, and how the host uses the outputs before and after it. */
 typedef struct SuppleRecordDesc {
     uint32_t structSize;
     uint32_t flags; /**< SuppleRecordFlags */
@@ -577,35 +597,36 @@ typedef struct SuppleRecordDesc {
     uint32_t groupCount;
     SuppleSyncScope before; /**< earlier uses of the outputs (for example the last frame's vertex shader reads), and the
                              * host's writes into them (SupplePoseSource) */
-    SuppleSyncScope after;  /**< the coming uses of the outputs: all of Supple's writes become visible to them. If
-                             * stages = 0, no barrier follows the passes; the host places its own */
+    SuppleSyncScope after;  /**< the next uses of the outputs: all of Supple's writes become visible to them. If
+                             * stages = 0, no barrier follows the passes, and the host must place its own */
 } SuppleRecordDesc;
 
 /** Records the passes of the groups, outside a render pass, for the visible instances as they are set now. Each group
- * may be recorded once between suppleBeginFrame calls, and all groups of a view in one call. What is recorded must be
- * submitted once, in the order of recording, on one queue; else call suppleCancelFrame. If the call fails, nothing is
+ * may be recorded once per frame. Groups of one view must be recorded in one call. The host must submit what is
+ * recorded once, in the order of recording, on one queue, or else call suppleCancelFrame. If the call fails, nothing is
  * recorded. */
 SUPPLE_API SuppleResult suppleRecord(SuppleContext context, VkCommandBuffer commandBuffer,
                                      const SuppleRecordDesc* desc);
 
-/** For hosts whose frame graph places the barriers. `first`: the earliest accesses of suppleRecord's commands. `last`:
- * their writes. Either may be null. They are the same for every context and frame. */
+/** For hosts whose frame graph places the barriers. `first` gets the accesses of suppleRecord's commands that a barrier
+ * before them must cover, and `last` their writes. Either may be null. They are the same in every context and frame. */
 SUPPLE_API SuppleResult suppleGetRecordScopes(SuppleSyncScope* first, SuppleSyncScope* last);
 
 /** With SUPPLE_CONTEXT_ASYNC_COMPUTE, suppleRecord ends with barriers that release the outputs to drawQueueFamily. This
- * call gives the matching halves for the command buffer that draws: put them in one vkCmdPipelineBarrier2, behind a
- * semaphore wait for the compute submission. Call it after the frame's suppleRecord and before the next
- * suppleBeginFrame. Release nothing back, because every frame writes the outputs anew. But compute must wait, by a
- * semaphore, for the drawing of earlier frames.
- * use: the stages and accesses of the draws. Fills out with up to *count barriers and sets *count to their number. */
+ * call gives the matching acquire barriers. Record them with one vkCmdPipelineBarrier2 in the command buffer that
+ * draws, whose submission must wait for the compute submission's semaphore. Call it after the frame's suppleRecord and
+ * before the next suppleBeginFrame. Release nothing back, because every frame writes the outputs anew. But the compute
+ * submission must wait, by a semaphore, for the draws of earlier frames.
+ * use: the stages and accesses of the draws. Fills out and count. Errors: the context lacks that flag. */
 SUPPLE_API SuppleResult suppleGetAcquireBarriers(SuppleContext context, const SuppleGroup* groups, uint32_t groupCount,
                                                  SuppleSyncScope use, VkBufferMemoryBarrier2* out, uint32_t* count);
 
 /* ---------------------------------------------------------------------------------------------------- output */
 
-/** Where a group's buffers are. These calls need no frame; suppleRecord fills the buffers. Buffers are valid until the
- * group is destroyed. Data per instance lies at the instance's slot. Buffers have usage STORAGE, UNIFORM_TEXEL and
- * TRANSFER_SRC, and, as needed, TRANSFER_DST, VERTEX, INDEX or INDIRECT. */
+/** Where a group's buffers are. These calls may be made outside frames. suppleRecord fills the buffers. They are valid
+ * until the group is destroyed. Data per instance lies at the instance's slot. Buffers have usage STORAGE,
+ * UNIFORM_TEXEL and TRANSFER_SRC, and, as needed, TRANSFER_DST, VERTEX, INDEX or INDIRECT. Offsets and sizes are in
+ * bytes. */
 
 /** A part of one of Supple's buffers, to read, bind and copy from. */
 typedef struct SuppleBufferRange {
@@ -620,8 +641,8 @@ typedef enum SuppleTessellation {
     SUPPLE_TESSELLATION_NONE = 0,         /**< SUPPLE_SCHEME_CAGE: there are no surface vertices */
     SUPPLE_TESSELLATION_GRIDS = 1,        /**< a grid of samples per patch: SuppleGridOutput */
     SUPPLE_TESSELLATION_INDEXED_MESH = 2, /**< one mesh per instance: SuppleGridOutput */
-    SUPPLE_TESSELLATION_RATES = 3,        /**< views, subdivision: grids, a rate per instance: SuppleGridOutput */
-    SUPPLE_TESSELLATION_LEVELS = 4        /**< views, other schemes: SuppleLevelOutput in supple_view.h */
+    SUPPLE_TESSELLATION_RATES = 3, /**< subdivision in a view: grids, and a rate per instance: SuppleGridOutput */
+    SUPPLE_TESSELLATION_LEVELS = 4 /**< other schemes in a view: SuppleLevelOutput in supple_view.h */
 } SuppleTessellation;
 
 /** What every group has. */
@@ -638,8 +659,8 @@ typedef struct SuppleGroupInfo {
      * which takes a cage vertex from the bind pose to its place; then a float weight per morph target. Dual
      * quaternions: see shaders/shared/deform.h. Null with SUPPLE_POSES_CAGE_BUFFER. */
     SuppleBufferRange poses;
-    SuppleBufferRange
-        instances; /**< uint32 per visible instance (in a view: per instance seen): its slot, slots rising */
+    /** uint32 per visible instance (in a view: per instance that its camera sees): the slot, in rising order. */
+    SuppleBufferRange instances;
     /** SUPPLE_GROUP_PATCHES: float4 per coefficient, SUPPLE_PATCH_STRIDE per patch; see SupplePatchInfo. */
     SuppleBufferRange patchCoefficients;
     VkDeviceSize deviceBytes; /**< device memory that the group holds, without its share of the asset's tables */
@@ -648,17 +669,17 @@ typedef struct SuppleGroupInfo {
 /** Fills out. */
 SUPPLE_API SuppleResult suppleGetGroupInfo(SuppleContext context, SuppleGroup group, SuppleGroupInfo* out);
 
-/** The buffers of surface vertices: what a sample carries. SuppleGridOutput and SuppleLevelDraw say which vertex
- * belongs to which patch. The first two have a run of vertices per slot. The others are static: all instances of the
- * group use one run. In groups with levels all streams belong to the view: every frame writes them anew, one entry per
- * vertex. */
+/** The buffers of surface vertices. A surface vertex is made from a sample, which is a point of a patch's grid.
+ * SuppleGridOutput and SuppleLevelDraw say which vertex belongs to which patch. vertices and previousPositions have an
+ * entry per vertex of every slot. The others are static: an entry per vertex, which all instances of the group use. In
+ * groups with levels all streams belong to the view: every frame writes them anew, one entry per vertex. */
 typedef struct SuppleVertexStreams {
     uint32_t structSize;
     SuppleVertexFormat vertexFormat;
     SuppleBufferRange vertices; /**< in vertexFormat */
-    /** MOTION: float3, the vertex's position in the group's last suppleRecord before this one, at the rate of now. For
-     * new instances (suppleTeleport) it is the position of now. In frames that do not record the group nothing moves:
-     * do not read this. */
+    /** MOTION: float3, where the vertex was in the group's suppleRecord before the last one, at the present rate. For
+     * new instances (suppleTeleport) it is the present position. In frames that do not record the group, nothing has
+     * moved: do not read this. */
     SuppleBufferRange previousPositions;
     SuppleBufferRange attributes; /**< ATTRIBUTES: float2 uv, linear RGBA in 4 x unorm16 */
     SuppleBufferRange uvs1;       /**< ATTRIBUTES, if the cage has a second UV set: float2 */
@@ -670,13 +691,11 @@ typedef struct SuppleVertexStreams {
 /** Fills out. Errors: SUPPLE_TESSELLATION_NONE. */
 SUPPLE_API SuppleResult suppleGetVertexStreams(SuppleContext context, SuppleGroup group, SuppleVertexStreams* out);
 
-/** The shape that a patch is sampled over, R = rate. Samples are counted row by row. The patch's corners are the
- * domain's.
- * QUAD      (R+1)^2: (i, j) at j (R+1) + i, u = i/R from corner 0 to 1, v = j/R from corner 0 to 3
- * POLAR     the same samples; the row j = R is one point, corner 2
- * TRIANGLE  (R+1)(R+2)/2: rows j = 0..R from the edge 0-1 towards corner 2, each i = 0..R-j
- * PENTAGON  5 R(R+1)/2 + 1: for each edge s-(s+1) rows j = 0..R-1 from the edge towards the centre, each i = 0..R-j-1
- * (the row's last point is the next edge's first); then the centre
+/** The shape that a patch is sampled over. R is the rate. Samples are numbered row by row, from 0. Corner i of the
+ * patch is corner i of the domain. QUAD      (R+1)^2: (i, j) at j (R+1) + i, u = i/R from corner 0 to 1, v = j/R from
+ * corner 0 to 3 POLAR     the same samples; the row j = R is one point, corner 2 TRIANGLE  (R+1)(R+2)/2: rows j = 0..R
+ * from the edge 0-1 towards corner 2, each i = 0..R-j PENTAGON  5 R(R+1)/2 + 1: for each edge s-(s+1) rows j = 0..R-1
+ * from the edge towards the centre, each i = 0..R-j-1 (the row's last point is the next edge's first); then the centre
  * MESH      a whole instance: SUPPLE_TESSELLATION_INDEXED_MESH */
 typedef enum SuppleDomain {
     SUPPLE_DOMAIN_QUAD = 0,
@@ -690,9 +709,9 @@ typedef enum SuppleDomain {
  * firstPatch + i % patchCount of the instance in slot instances[i / patchCount].
  *
  * INDEXED_MESH: all triangles of one material. Draw instance i is the instance in slot instances[i], and an index is a
- * surface vertex within the instance. Shaders that pull vertices see one big patch: patchCount is 1, firstVertex and
- * firstPatch are 0, samplesPerPatch is the group's vertexCount. Triangles have the order of the patches of that
- * material (suppleGetPatches), and within a patch the order of its domain's grid. */
+ * surface vertex within the instance. To shaders that pull vertices, the mesh is one big patch: patchCount is 1,
+ * firstVertex and firstPatch are 0, samplesPerPatch is SuppleGridOutput.vertexCount. Triangles have the order of the
+ * patches of that material (suppleGetPatches), and within a patch the order of its domain's grid. */
 typedef struct SuppleDrawRange {
     uint32_t firstPatch;
     uint32_t patchCount;
@@ -709,21 +728,22 @@ typedef struct SuppleRate {
     uint32_t rate;               /**< segments along a patch edge: R of SuppleDomain */
     uint32_t firstDrawRange;     /**< in SuppleGridOutput.drawRanges */
     uint32_t drawRangeCount;     /**< the same at every rate of a group */
-    SuppleBufferRange instances; /**< uint32 per instance drawn at this rate: its slot, slots rising */
+    SuppleBufferRange instances; /**< uint32 per instance drawn at this rate: the slot, in rising order */
 } SuppleRate;
 
-/** Tessellation GRIDS, INDEXED_MESH and RATES: what is drawn. Valid until the group is destroyed or its rate is set. */
+/** Tessellation GRIDS, INDEXED_MESH and RATES: what is drawn. All of it, arrays too, is valid until the group is
+ * destroyed or its rate is set. */
 typedef struct SuppleGridOutput {
     uint32_t structSize;
     uint32_t rate;        /**< segments along a patch edge: R of SuppleDomain. RATES: the largest */
-    uint32_t vertexCount; /**< surface vertices per instance. RATES: of all rates, those of coarser ones first */
+    uint32_t vertexCount; /**< surface vertices per instance. RATES: the sum over all rates, coarser ones first */
     uint32_t verticesPerInstance; /**< >= vertexCount: slot k starts at vertex k * this */
     /** Vertex of (slot, patch, sample), with the patch's range r: slot * verticesPerInstance + r.firstVertex +
      * (patch - r.firstPatch) * r.samplesPerPatch + sample. INDEXED_MESH: slot * verticesPerInstance + index. */
     const SuppleDrawRange* drawRanges;
     uint32_t drawRangeCount;
     uint32_t rateCount;         /**< entries of rates */
-    const SuppleRate* rates;    /**< rates rising. RATES: each instance has one of them. Else one, with all ranges */
+    const SuppleRate* rates;    /**< in rising order. RATES: each instance is drawn at one. Else there is one entry */
     SuppleBufferRange indices;  /**< uint16; INDEXED_MESH: uint32. See SuppleDrawRange */
     SuppleBufferRange indirect; /**< VkDrawIndexedIndirectCommand per draw range, for the visible instances */
 } SuppleGridOutput;
@@ -731,7 +751,7 @@ typedef struct SuppleGridOutput {
 /** Fills out. Errors: the group has another tessellation (SuppleGroupInfo.tessellation). */
 SUPPLE_API SuppleResult suppleGetGridOutput(SuppleContext context, SuppleGroup group, SuppleGridOutput* out);
 
-/** Classes of patches, and their coefficients in order (docs/prep.md, docs/pm.md). */
+/** Classes of patches: how many coefficients a patch has, and their order (docs/prep.md, docs/pm.md). */
 typedef enum SupplePatchClass {
     SUPPLE_PATCH_REGULAR = 0,       /**< 16: bicubic, g[i + 4 j] */
     SUPPLE_PATCH_PERTURBED = 1,     /**< 32, p-rep: 16 g, then 16 h */
@@ -749,7 +769,7 @@ typedef enum SupplePatchClass {
 
 /** A patch, as the cage sees it. */
 typedef struct SupplePatchInfo {
-    uint32_t face; /**< source face of the cage. Faces of six and more sides are split, each part is a patch */
+    uint32_t face; /**< its face of the cage. A face of six or more sides is split: each part is a patch */
     SupplePatchClass patchClass;
     uint32_t cornerCount;
     uint32_t corners[SUPPLE_MAX_SIDES]; /**< cage vertices, corner i at corner i of the domain. Points that subdivision
@@ -757,7 +777,7 @@ typedef struct SupplePatchInfo {
     uint32_t coefficientCount;
 } SupplePatchInfo;
 
-/** Fills out with up to *count patches in device order, and sets *count to the number of patches. out may be null. */
+/** Fills out and count: patches of one instance, in the order of SuppleDrawRange.firstPatch. */
 SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup group, SupplePatchInfo* out,
                                          uint32_t* count);
 
@@ -765,40 +785,41 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
-    /** Static: upload, attributes, pose (up to three times), deform, vertex, assemble, patch, evaluate, motion. Groups
-     * of a view also have bounds (twice with OCCLUSION), list, level (twice), solve (once per view) and place. An entry
-     * `shortfall` is no pass: it follows solve in frames in which the view's budget was not enough
-     * (SuppleViewStatistics.shortfall), and only in those. It takes no time. */
+    /** A name in static storage: upload, attributes, pose (up to three times), deform, vertex, assemble, patch,
+     * evaluate, motion. Groups of a view also have bounds (twice with OCCLUSION), list, level (twice), solve (once per
+     * view) and place. An entry `shortfall` is no pass and takes no time. It follows solve only in frames in which the
+     * view's budget was not enough (SuppleViewStatistics.shortfall). */
     const char* pass;
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 if the queue has no timestamps */
     double gpuEnd;
-    double cpuRecord; /**< nanoseconds that the host spent on recording the pass */
-    /** Elements that the pass wrote, and bytes. Both are 0 if only the device knows, as in groups of a view:
-     * SuppleViewStatistics has what the whole view wrote. `shortfall`: instances that are missing, and bytes of surface
-     * vertices that lack; missing instances count at their coarsest. */
+    double cpuRecord; /**< nanoseconds of CPU time for recording the pass */
+    /** How many elements the pass wrote, and how many bytes. Both are 0 if only the device knows, as in groups of a
+     * view: SuppleViewStatistics has what the whole view wrote. `shortfall`: how many instances are missing, and how
+     * many bytes of surface vertices had no room. Missing instances count at their coarsest. */
     uint64_t points;
     uint64_t bytes; /**< see points */
 } SuppleTiming;
 
-/** The passes of the newest completed frame that was recorded with SUPPLE_RECORD_TIMINGS. SUPPLE_NOT_READY: there is
- * none. Never blocks. Fills out with up to *count entries and sets *count to their number. */
+/** The passes of the newest completed frame that was recorded with SUPPLE_RECORD_TIMINGS. Fills out and count.
+ * SUPPLE_NOT_READY: there is no such frame, and *count is 0. Never waits. */
 SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, SuppleTiming* out, uint32_t* count);
 
-/** How a pass keeps to its budget, since that was set. */
+/** How well a pass has kept to its budget since the budget was set. */
 typedef struct SuppleBudget {
     uint32_t structSize;
     double limit;            /**< nanoseconds of GPU time per frame */
-    double latest;           /**< the newest completed frame that was timed */
-    double worst;            /**< the largest */
+    double latest;           /**< nanoseconds in the newest completed frame that was timed */
+    double worst;            /**< nanoseconds in the slowest measured frame */
     uint64_t framesMeasured; /**< completed frames that were recorded with SUPPLE_RECORD_TIMINGS */
     uint64_t framesOver;     /**< measured frames above the limit */
 } SuppleBudget;
 
-/** Gives a pass (all groups together; null: all passes) a limit in nanoseconds of GPU time per frame. 0 removes it. If
- * a completed frame exceeds it and the frame before did not, there is a warning (SUPPLE_MESSAGE_BUDGET). The first
- * frame of a group also uploads its tables, so set budgets after it. */
+/** Gives a pass a limit in nanoseconds of GPU time per frame, for all groups together. pass is a name as in
+ * SuppleTiming, or null for all passes together. 0 removes the limit. If a measured frame exceeds it and the one before
+ * did not, Supple logs a warning (SUPPLE_MESSAGE_BUDGET). The first frame of a group also uploads its tables, so set
+ * budgets after it. Errors: no such pass; nanoseconds is negative or not finite. */
 SUPPLE_API SuppleResult suppleSetBudget(SuppleContext context, const char* pass, double nanoseconds);
 /** Fills out. SUPPLE_NOT_READY: the pass has no budget. */
 SUPPLE_API SuppleResult suppleGetBudget(SuppleContext context, const char* pass, SuppleBudget* out);

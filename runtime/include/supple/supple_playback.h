@@ -1,6 +1,6 @@
 /**
  * @file supple_playback.h
- * Layers of clips: poses that the CPU samples, root motion, and clips that the device plays. supple.h includes this
+ * Layers of clips: poses that the CPU computes, root motion, and clips that the device plays. supple.h includes this
  * header.
  */
 #ifndef SUPPLE_PLAYBACK_H
@@ -13,17 +13,17 @@ extern "C" {
 #endif
 
 #define SUPPLE_MAX_PLAYBACK_LAYERS 8u /**< see suppleSetPlayback */
-#define SUPPLE_MAX_MASKS 16u          /**< of a group: see suppleSetMask */
-#define SUPPLE_MAX_TIME 1e9           /**< seconds: times of playback lie between minus this and this */
+#define SUPPLE_MAX_MASKS 16u          /**< per group: see suppleSetMask */
+#define SUPPLE_MAX_TIME 1e9           /**< seconds: all times of playback must be within plus or minus this */
 
 /* ---------------------------------------------------------------------------------------------------- layers */
 
 /** How a layer changes the pose below it.
- * BLEND: the pose moves towards the clip's by the weight, 0..1: rotations along the shorter arc, all else straight.
- * Weight 1 replaces the pose, weight 0 leaves it, both to the bit.
- * ADDITIVE: adds the difference between the clip and its own pose at referenceTime, times the weight w, of any size and
- * sign: rotations in the joint's own frame, pose * (reference^-1 * clip)^w; scales as factors; translations and morph
- * weights as sums. */
+ * BLEND: interpolates from the pose to the clip's pose by the weight, 0..1. Rotations take the shorter arc, all else is
+ * linear. Weight 1 gives the clip's pose and weight 0 leaves the pose, both bit for bit.
+ * ADDITIVE: adds w times the difference between the clip's pose and its own pose at referenceTime. The weight w may
+ * have any size and sign. Rotations: pose * (reference^-1 * clip)^w, in the joint's own frame. Scales are multiplied,
+ * translations and morph weights are added. */
 typedef enum SuppleLayerMode { SUPPLE_LAYER_BLEND = 0, SUPPLE_LAYER_ADDITIVE = 1 } SuppleLayerMode;
 
 /** Options of a layer. */
@@ -31,27 +31,30 @@ typedef enum SuppleLayerFlags {
     SUPPLE_LAYER_LOOP = 1 /**< times wrap round at the clip's duration; else they are clamped to the clip */
 } SuppleLayerFlags;
 
-/** One clip of a pose. The bind and rest poses are no clips: a pose without layers is the rest pose. */
+/** One clip of a pose. SUPPLE_BIND_POSE and SUPPLE_REST_POSE are not allowed: a pose without layers is the rest pose.
+ */
 typedef struct SuppleClipLayer {
     uint32_t clip;
     uint32_t flags; /**< SuppleLayerFlags */
     SuppleLayerMode mode;
-    float weight;           /**< 0 leaves the layer out */
-    double time;            /**< seconds */
-    double previousTime;    /**< suppleGetRootMotion: the movement from here to time */
-    double referenceTime;   /**< ADDITIVE: 0 is the clip's first pose */
-    const float* jointMask; /**< optional: per joint a value 0..1 that multiplies the weight. Nodes that are no joints
-                             * follow the joint above them or, without one, the first joint below */
-    uint32_t jointMaskCount;
-    uint32_t morphMaskCount;
-    const float* morphMask; /**< optional: per morph target a value 0..1. Null: 0 if there is a jointMask, else 1 */
+    float weight;            /**< 0 leaves the layer out */
+    double time;             /**< seconds */
+    double previousTime;     /**< seconds; only suppleGetRootMotion uses it: the movement from here to time */
+    double referenceTime;    /**< ADDITIVE: seconds; 0 is the clip's first pose */
+    const float* jointMask;  /**< optional: per joint a value 0..1 that multiplies the weight. Nodes that are no joints
+                              * follow the joint above them or, without one, the first joint below */
+    uint32_t jointMaskCount; /**< the asset's jointCount; 0 if jointMask is null */
+    uint32_t morphMaskCount; /**< the asset's morphTargetCount; 0 if morphMask is null */
+    const float* morphMask;  /**< optional: per morph target a value 0..1. Null: 0 if there is a jointMask, else 1 */
 } SuppleClipLayer;
 
-/** Sets mask[joint], and mask of every joint below it, to value. The others stay. mask has jointCount values. */
+/** Sets the entries of mask for joint and every joint below it to value, 0..1. The others stay. mask has jointCount
+ * values, as many as the asset has joints. */
 SUPPLE_API SuppleResult suppleFillJointMask(SuppleContext context, SuppleAsset asset, uint32_t joint, float value,
                                             float* mask, uint32_t jointCount);
 
-/** Which part of the root's movement belongs to the character instead of the pose; in model space, where +Y is up. */
+/** Which parts of the root's movement are taken out of the pose, so that they can move the character's transform. Axes
+ * are those of model space, where +Y is up. */
 typedef enum SuppleRootMotionFlags {
     SUPPLE_ROOT_MOTION_GROUND = 1, /**< translation along x and z */
     SUPPLE_ROOT_MOTION_HEIGHT = 2, /**< translation along y */
@@ -60,8 +63,8 @@ typedef enum SuppleRootMotionFlags {
 
 /** Options of a pose. */
 typedef enum SupplePoseFlags {
-    /** rootJoint names the root. Else the root is the topmost node that clips move or turn; of several, the one above
-     * most joints. */
+    /** rootJoint is the root. Without this flag, the root is the topmost node that clips move or turn; if there are
+     * several, the one above most joints. */
     SUPPLE_POSE_ROOT_JOINT = 1
 } SupplePoseFlags;
 
@@ -72,12 +75,13 @@ typedef struct SupplePoseDesc {
     uint32_t flags; /**< SupplePoseFlags */
     const SuppleClipLayer* layers;
     uint32_t layerCount;
-    uint32_t rootMotion; /**< SuppleRootMotionFlags: taken out of every layer's clip; the root stays where the clip
-                          * starts */
-    uint32_t rootJoint;
+    uint32_t rootMotion; /**< SuppleRootMotionFlags: taken out of every layer's clip. In these parts the root stays
+                          * where the clip starts */
+    uint32_t rootJoint;  /**< with SUPPLE_POSE_ROOT_JOINT */
 } SupplePoseDesc;
 
-/** Poses an instance (SUPPLE_POSES_SET). The arrays are read during the call. */
+/** Poses an instance of a group with SUPPLE_POSES_SET. The pose stays until it is set again. The arrays are read during
+ * the call. Errors: a clip, joint, mask or weight is out of range, a time is not finite. */
 SUPPLE_API SuppleResult suppleSetPose(SuppleContext context, SuppleInstance instance, const SupplePoseDesc* pose);
 
 /** A movement of the root: first the turn, then the translation. */
@@ -88,44 +92,45 @@ typedef struct SuppleRootMotion {
     float transform[16]; /**< column-major: turns by yaw, then translates */
 } SuppleRootMotion;
 
-/** How far the root moves under pose, from every layer's previousTime to its time, in the character's frame at
- * previousTime: an instance placed by T comes to T * transform (suppleSetTransform). The movement goes on over the ends
- * of looping clips. BLEND layers blend their movements as their poses, by the mask's value at the root. ADDITIVE layers
- * add theirs. If the host sets the same pose, clip and host together move the character as the clip alone did. */
+/** How far the root moves in `pose`, from every layer's previousTime to its time. It needs no instance: the host passes
+ * the result on. If an instance's transform at previousTime was T, set T * out->transform (suppleSetTransform). With
+ * the same `pose` in suppleSetPose, the character then moves as the clip alone would move it. The movement continues
+ * over the ends of looping clips. BLEND layers blend their movements like their poses, by the mask's value at the root.
+ * ADDITIVE layers add theirs. */
 SUPPLE_API SuppleResult suppleGetRootMotion(SuppleContext context, SuppleAsset asset, const SupplePoseDesc* pose,
                                             SuppleRootMotion* out);
 
 /* ---------------------------------------------------------------------------------------------------- playback */
 
 /** One clip that an instance plays. T is the group's time (suppleSetTime). The clip's time is
- * offset + speed * (T - startTime). Without a fade, the weight is `weight`. With one, it goes straight from weight to
- * fadeWeight while T goes from fadeStart to fadeStart + fadeDuration. At every T the layer is the SuppleClipLayer of
- * that time and weight. */
+ * offset + speed * (T - startTime). Without a fade, the layer's weight is `weight`. With a fade, it is `weight` until T
+ * is fadeStart, then goes linearly to fadeWeight during fadeDuration, and stays there. At every T the layer acts as a
+ * SuppleClipLayer of that time and weight. */
 typedef struct SupplePlaybackLayer {
     uint32_t clip;
     uint32_t flags;       /**< SuppleLayerFlags */
     SuppleLayerMode mode; /**< as in SuppleClipLayer */
-    uint32_t mask;        /**< a mask of the group's (suppleSetMask); 0: none */
+    uint32_t mask;        /**< number of one of the group's masks (suppleSetMask); 0: none */
     float weight;         /**< 0 leaves the layer out */
     float fadeWeight;     /**< with a fade: where it ends */
     float fadeDuration;   /**< seconds; 0: no fade */
     float speed;          /**< seconds of the clip per second of T, -1000..1000; 0: the clip stands at offset */
     double startTime;     /**< T at which the clip is at offset */
     double offset;        /**< seconds of the clip */
-    double fadeStart;
-    double referenceTime; /**< ADDITIVE: 0 is the clip's first pose */
+    double fadeStart;     /**< T at which the fade starts */
+    double referenceTime; /**< ADDITIVE: seconds; 0 is the clip's first pose */
 } SupplePlaybackLayer;
 
 /** Options of playback. */
 typedef enum SupplePlaybackFlags {
     SUPPLE_PLAYBACK_ROOT_JOINT = 1, /**< as SUPPLE_POSE_ROOT_JOINT */
-    /** The instance moves by what rootMotion takes out of the first layer's clip: it is placed by T * M, where T is
-     * that of suppleSetTransform and M the movement since the layer's startTime, on over the ends of a looping clip.
-     * The layer's weight and mask make no difference. */
+    /** What rootMotion takes out of the first layer's clip moves the instance. It is placed by X * M: X is its
+     * transform (suppleSetTransform), M is the movement since the layer's startTime, which continues over the ends of a
+     * looping clip. The layer's weight and mask make no difference. */
     SUPPLE_PLAYBACK_TRAVEL = 2
 } SupplePlaybackFlags;
 
-/** Layers are applied in order to the rest pose, as those of SupplePoseDesc. */
+/** What an instance plays. Layers are applied in order to the rest pose, as in SupplePoseDesc. */
 typedef struct SupplePlaybackDesc {
     uint32_t structSize;
     uint32_t flags; /**< SupplePlaybackFlags */
@@ -136,26 +141,27 @@ typedef struct SupplePlaybackDesc {
 } SupplePlaybackDesc;
 
 /** Groups with SUPPLE_POSES_PLAYBACK: sets what an instance plays from the next suppleRecord on, until it is set again.
- * The array is read during the call. Poses then follow from the group's time alone, on the device. In a frame in which
- * nothing is set, nothing is uploaded, and the host's work is the same for any number of instances. suppleSetTransform
- * and suppleSetMorphWeights work as well. Poses agree with suppleSetPose's except for rounding (docs/playback.md). */
+ * The array is read during the call. The device then computes poses from the group's time alone. In a frame in which
+ * no playback is set, none is uploaded, and the CPU's work is the same for any number of instances. Such groups also
+ * take suppleSetTransform and suppleSetMorphWeights. Poses agree with those of suppleSetPose except for rounding
+ * (docs/playback.md). */
 SUPPLE_API SuppleResult suppleSetPlayback(SuppleContext context, SuppleInstance instance,
                                           const SupplePlaybackDesc* playback);
-/** Sets T, the time by which the instances of a group with SUPPLE_POSES_PLAYBACK play; 0 at first. It may rise or fall
- * by any amount. */
+/** Sets T, the time in seconds by which all instances of a group with SUPPLE_POSES_PLAYBACK play; 0 at first. It may
+ * rise or fall by any amount within SUPPLE_MAX_TIME. */
 SUPPLE_API SuppleResult suppleSetTime(SuppleContext context, SuppleGroup group, double seconds);
 
 /** A mask for the layers of a group's instances. */
 typedef struct SuppleMaskDesc {
     uint32_t structSize;
     uint32_t mask;          /**< its number, 1..SUPPLE_MAX_MASKS */
-    const float* jointMask; /**< as in SuppleClipLayer, and so the next; not both null */
-    const float* morphMask;
+    const float* jointMask; /**< as in SuppleClipLayer, copied; null only if morphMask is not */
+    const float* morphMask; /**< as in SuppleClipLayer, copied; null only if jointMask is not */
     uint32_t jointMaskCount;
     uint32_t morphMaskCount;
 } SuppleMaskDesc;
-/** Sets one of the masks of a group with SUPPLE_POSES_PLAYBACK. Set a mask before layers name it. If it is set again,
- * the layers that name it follow. */
+/** Sets one of the masks of a group with SUPPLE_POSES_PLAYBACK. Set a mask before a layer names it. If you set it
+ * again, the layers that name it use the new values. */
 SUPPLE_API SuppleResult suppleSetMask(SuppleContext context, SuppleGroup group, const SuppleMaskDesc* mask);
 
 #ifdef __cplusplus

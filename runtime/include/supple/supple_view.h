@@ -2,15 +2,16 @@
  * @file supple_view.h
  * Level of detail: views, cameras, budgets and culling. supple.h includes this header.
  *
- * A group that belongs to a view is drawn with as many triangles as the view's camera needs. Every edge has a
- * real-valued level, which both patches at it take from its boundary curve alone. So there are no cracks. Levels and
- * patterns move continuously, so there are no pops, and nothing changes while the camera only turns.
+ * A view is a camera with the groups it sees. Such a group is drawn with as many triangles as the camera needs. Every
+ * patch edge has a level, a real number that says how many segments it gets. Both patches at an edge compute the level
+ * from the edge's curve alone, so there are no cracks. Levels and samples change continuously, so there are no pops.
+ * Nothing changes while the camera only turns.
  *
- * All groups of a view write into the view's surface vertices. What they want in a frame is counted before anything is
- * written. If it does not fit, one continuous factor scales all levels down (docs/lod.md).
+ * All groups of a view write into the view's surface vertices. Before a frame writes any, it counts how many they want.
+ * If these do not fit, a factor that changes continuously scales all levels down (docs/lod.md).
  *
- * Subdivision has no real-valued levels. Each of its instances takes one of several rates, and changes from one to the
- * next at once.
+ * Subdivision (CATMULL_CLARK and LOOP) has no such levels per edge. Each instance is drawn at one of several rates, and
+ * jumps from one to the next, which may be seen.
  */
 #ifndef SUPPLE_VIEW_H
 #define SUPPLE_VIEW_H
@@ -32,11 +33,11 @@ typedef enum SuppleViewFlags {
     SUPPLE_VIEW_ATTRIBUTES = 2, /**< write surface attributes, every frame anew */
     SUPPLE_VIEW_UVS1 = 4,       /**< with ATTRIBUTES: second UV sets */
     SUPPLE_VIEW_FACE_UVS = 8,   /**< with ATTRIBUTES: where vertices lie in the trim tiles of their faces */
-    SUPPLE_VIEW_CULL = 16,      /**< instances that the camera does not see are deformed, but get no surface */
-    SUPPLE_VIEW_OCCLUSION = 32, /**< with CULL: neither do those behind a depth pyramid, see suppleSetDepthPyramid */
-    /** Leave out patches of PREP and PM that surely show the camera their backs, except those of double-sided
-     * materials. For hosts that draw counter-clockwise triangles only, and from this camera only. Patches of other
-     * schemes stay. */
+    SUPPLE_VIEW_CULL = 16,      /**< instances that the camera does not see are deformed, but get no vertices */
+    SUPPLE_VIEW_OCCLUSION = 32, /**< with CULL: nor do those that suppleSetDepthPyramid hides */
+    /** Leave out patches of PREP and PM that surely show the camera only their backs, unless their material is
+     * double-sided. Use it only if you draw front faces (counter-clockwise) alone, and from this camera alone. Patches
+     * of other schemes stay. */
     SUPPLE_VIEW_BACK_FACES = 64
 } SuppleViewFlags;
 
@@ -44,60 +45,64 @@ typedef enum SuppleViewFlags {
 typedef struct SuppleViewDesc {
     uint32_t structSize;
     uint32_t flags; /**< SuppleViewFlags */
-    /** Surface vertices per frame, of all groups; memory is reserved for them. 1024 to SUPPLE_MAX_VIEW_VERTICES. Each
-     * run of patches reserves 192 vertices of padding. suppleCreateGroup fails if none would remain.
-     * A view has room for 256 runs of patches. A group takes one run for each class of its patches, material and window
-     * of its instances, a window being as many as the device can bind of every buffer. CATMULL_CLARK and LOOP take no
-     * runs; a view has at most 256 groups of these. */
+    /** Surface vertices per frame, of all groups: 1024 to SUPPLE_MAX_VIEW_VERTICES. Their memory is reserved at once.
+     * A run of patches is the patches of a group that have one class (SupplePatchClass), one material and one window of
+     * instances. A window is as many instances as the device can bind of every buffer. Each run reserves 192 vertices
+     * of padding. A view has room for 256 runs. suppleCreateGroup fails if no vertices or no runs would remain.
+     * CATMULL_CLARK and LOOP take no runs, but a view has at most 256 groups of these. */
     uint32_t maxVertices;
     SuppleVertexFormat vertexFormat; /**< of all groups */
-    /** By priority, 0..1. Over budget, levels are multiplied by factor^elasticity: 1 scales fully, 0 protects. Where
-     * other priorities have come down to 2^-8 by theirs, all are scaled further down alike. All zero: 1, 1/2, 1/4, 0.
-     */
+    /** 0..1, by priority (suppleSetPriority). Over budget, levels are multiplied by factor^elasticity: 1 scales fully,
+     * 0 protects. If a factor of 2^-8 is not enough, all priorities are scaled further down alike. All zero means the
+     * default: 1, 1/2, 1/4, 0. */
     float elasticities[SUPPLE_PRIORITY_COUNT];
 } SuppleViewDesc;
 
 /** Creates a view without groups. */
 SUPPLE_API SuppleResult suppleCreateView(SuppleContext context, const SuppleViewDesc* desc, SuppleView* out);
 /** The handle is dead at once. The view's groups keep what they need. They are drawn and culled as before, from the
- * camera that was set last. The depth pyramid goes: from the next suppleRecord on nothing is occluded. */
+ * camera that was set last. The depth pyramid is dropped: from the next suppleRecord on it hides nothing. */
 SUPPLE_API SuppleResult suppleDestroyView(SuppleContext context, SuppleView view);
 
 /** Sets the priority of an instance of a view's group: 0..SUPPLE_PRIORITY_COUNT-1, 0 at first. It selects the
- * elasticity (SuppleViewDesc.elasticities). */
+ * elasticity (SuppleViewDesc.elasticities). With the default elasticities, priority 3 is scaled down last. Errors: the
+ * group belongs to no view. */
 SUPPLE_API SuppleResult suppleSetPriority(SuppleContext context, SuppleInstance instance, uint32_t priority);
 
 /* ---------------------------------------------------------------------------------------------------- camera */
 
 /** Options of a camera. */
 typedef enum SuppleCameraFlags {
-    SUPPLE_CAMERA_ORTHOGRAPHIC = 1 /**< pixelsPerUnit holds everywhere; position matters to `farthest` only */
+    SUPPLE_CAMERA_ORTHOGRAPHIC = 1 /**< pixelsPerUnit holds at every distance; only `farthest` uses position */
 } SuppleCameraFlags;
 
-/** From where levels are measured, and how fine they are. */
+/** From where levels are measured, and how fine they are. All values must be finite, and lengths not negative. */
 typedef struct SuppleCameraDesc {
     uint32_t structSize;
     uint32_t flags;      /**< SuppleCameraFlags */
     float position[3];   /**< in the space of the surface vertices */
-    float pixelsPerUnit; /**< of a unit length at unit distance: viewport height / (2 tan(field of view / 2)) */
-    float nearest;       /**< nothing counts as nearer than this, 0 = 0.01 */
-    float chordError;    /**< pixels between an edge and its segments, 0 = 0.25 */
+    float pixelsPerUnit; /**< above 0: pixels of a unit length at distance 1: viewport height / (2 tan(fovY / 2)) */
+    float nearest;       /**< a distance: nothing counts as nearer than this, 0 = 0.01 */
+    float chordError;    /**< pixels between an edge's curve and its segments, 0 = 0.25 */
     float smallestEdge;  /**< pixels: segments are not made shorter, 0 = 3 */
-    float edgeLength;    /**< pixels: segments have this length, whatever the error; 0: by the two above */
+    float edgeLength;    /**< pixels: segments have this length, whatever the error; 0: the two above decide */
     /** Surface vertices per frame, of all groups. Those of CATMULL_CLARK and LOOP count too, though they lie in the
-     * groups' own memory. The budget is at most the view's maxVertices and, like it, includes 192 per run of patches:
-     * if no more than these remain, no patches are drawn. 0: maxVertices, and CATMULL_CLARK and LOOP have no budget. */
+     * groups' own memory. The budget is at most the view's maxVertices. Like maxVertices it includes 192 per run of
+     * patches: if it is no more than these, no patches are drawn. 0: the budget is maxVertices, and CATMULL_CLARK and
+     * LOOP have none. */
     uint32_t vertexBudget;
-    /** CULL: what lies outside is not seen. Column-major, depth 0..w (or reversed, or without end). All zero:
-     * everything is inside. Shadow maps need a larger volume, with everything that casts a shadow into the picture. */
+    /** CULL: what lies outside its volume is not seen. Column-major, depth 0..w (also reversed, or with an infinite far
+     * plane). All zero: everything is inside. If you draw shadow maps, give a larger volume, which holds everything
+     * that casts a shadow into the picture. */
     float viewProjection[16];
     float farthest;       /**< CULL: what is farther from position is not seen; 0: no limit */
-    float smallestRadius; /**< CULL: pixels: what is smaller is not seen */
-    float direction[3];   /**< BACK_FACES with ORTHOGRAPHIC: where the camera looks, of any length; else not used */
+    float smallestRadius; /**< CULL: pixels; an instance with a smaller radius is not seen; 0: no limit */
+    float direction[3]; /**< BACK_FACES with ORTHOGRAPHIC: where the camera looks, of any length but 0; else not used */
 } SuppleCameraDesc;
 
-/** Moves a view's camera. It stands until it is set again. A view needs a camera before its groups are recorded. Shadow
- * passes and mirrors draw what the main camera chose: with other levels the surface would shadow itself. */
+/** Sets a view's camera, from the next suppleRecord on, until it is set again. A view needs a camera before its groups
+ * are recorded. Draw shadows and mirrors with the vertices that the main camera chose: with levels of its own, a
+ * shadow pass would make the surface shadow itself. */
 SUPPLE_API SuppleResult suppleSetCamera(SuppleContext context, SuppleView view, const SuppleCameraDesc* camera);
 
 /* ---------------------------------------------------------------------------------------------------- occlusion */
@@ -107,10 +112,10 @@ typedef enum SuppleDepthPyramidFlags {
     SUPPLE_DEPTH_REVERSED = 1 /**< near is 1, far is 0 */
 } SuppleDepthPyramidFlags;
 
-/** A depth picture and smaller ones of it, as the mip levels of an image. Mip level 0 has width x height texels. Each
- * further one has half as many, rounded down, at least 1. In a mip level of w x h texels, texel (x, y) holds the
- * farthest depth (the largest; REVERSED: the smallest) of everything that the rectangle from (x/w, y/h) to
- * ((x+1)/w, (y+1)/h) of the picture touches. Mip level 0 may be smaller than the picture.
+/** A depth picture and smaller copies of it, as the mip levels of an image. Mip level 0 has width x height texels, and
+ * may be smaller than the picture. Each further mip level has half the width and half the height, rounded down, at
+ * least 1. In a mip level of w x h texels, texel (x, y) holds the farthest depth (the largest; REVERSED: the smallest)
+ * of all pixels that the rectangle from (x/w, y/h) to ((x+1)/w, (y+1)/h) of the picture touches.
  * shaders/supple_depth_pyramid.comp makes one. */
 typedef struct SuppleDepthPyramidDesc {
     uint32_t structSize;
@@ -120,28 +125,29 @@ typedef struct SuppleDepthPyramidDesc {
                             * READ_ONLY_OPTIMAL */
     uint32_t width;        /**< of mip level 0 */
     uint32_t height;
-    uint32_t mipLevels;       /**< of imageView: 1 to as many as there can be; more of them find more hidden */
+    uint32_t mipLevels;       /**< of imageView: 1 to a full chain; with more of them, more is found hidden */
     float viewProjection[16]; /**< of the picture, as in SuppleCameraDesc; x and y -1..1 from texel 0 to the last */
 } SuppleDepthPyramidDesc;
 
-/** SUPPLE_VIEW_OCCLUSION: sets what can hide instances, from the next suppleRecord on, until it is set again. Null, as
- * at first: nothing hides. An instance is hidden if the box round its surface lies behind the pyramid everywhere. A box
- * that reaches out of the picture or behind the eye is never hidden. With the depth of the frame before, an instance
- * that comes into view appears a frame late. With the depth of this frame's occluders it does not.
+/** Views with SUPPLE_VIEW_OCCLUSION: sets the depths that can hide instances, from the next suppleRecord on, until it
+ * is set again. Null, as at first: nothing is hidden. An instance is hidden if the box round its surface lies behind
+ * these depths everywhere. A box that reaches out of the picture or behind the eye is never hidden. If the depths are
+ * those of the frame before, an instance that comes into view may appear a frame late. If they are those of this
+ * frame's occluders, it does not.
  *
- * The image is the host's. suppleRecord samples it in compute shaders only. `before` must name the writes into it (or
- * they come before the first scope of suppleGetRecordScopes), and the next writes must wait for compute shaders. When
- * it is sampled, queueFamily must own it, also with SUPPLE_CONTEXT_ASYNC_COMPUTE: share it concurrently, or transfer
- * it. The image and its image view must live until the frames that were recorded with them are complete; setting
- * another pyramid does not change that. Before you destroy them, set another pyramid, or null. */
+ * The image is the host's. suppleRecord reads it in compute shaders only. `before` of suppleRecord must name the writes
+ * into it (or the host's own barrier covers them: suppleGetRecordScopes), and the next writes must wait for compute
+ * shaders. queueFamily must own the image while it is read, also with SUPPLE_CONTEXT_ASYNC_COMPUTE: use concurrent
+ * sharing or transfer the ownership. The image and its image view must live until all frames that were recorded with
+ * them are complete, even if you set another pyramid. Before you destroy them, set another pyramid, or null. */
 SUPPLE_API SuppleResult suppleSetDepthPyramid(SuppleContext context, SuppleView view,
                                               const SuppleDepthPyramidDesc* pyramid);
 
 /* ---------------------------------------------------------------------------------------------------- levels */
 
-/** Grids of a view's patches; R is the capacity, odd.
+/** How the samples of a view's patches are numbered. R is the capacity (SuppleLevelDraw), an odd number.
  * QUAD   (R+1)^2 samples, as SUPPLE_DOMAIN_QUAD counts them; polar patches too
- * RINGS  of m sides: ring r = 0..(R-1)/2 has m (R - 2r) samples, side by side, from the border inwards */
+ * RINGS  of m sides: ring r = 0..(R-1)/2, from the border inwards, has m (R - 2r) samples, one side after another */
 typedef enum SuppleGrid {
     SUPPLE_GRID_QUAD = 0,
     SUPPLE_GRID_TRIANGLE_RINGS = 1,
@@ -155,15 +161,16 @@ typedef enum SuppleGrid {
 typedef struct SuppleLevelDraw {
     uint32_t material;        /**< index among the file's materials, or SUPPLE_NO_MATERIAL */
     SuppleGrid grid;          /**< how samples are numbered */
-    uint32_t capacity;        /**< segments along a side: for levels above the next smaller capacity, up to this */
+    uint32_t capacity;        /**< the most segments along a side; patches of lower levels are in draws of less */
     uint32_t samplesPerPatch; /**< surface vertices of one patch */
-    uint32_t
-        verticesPerInstance; /**< per draw instance, of whole patches. If the last ones are none, they are points */
+    /** Surface vertices of one draw instance, which is several whole patches. In the last draw instance the patches
+     * that are missing collapse to points. */
+    uint32_t verticesPerInstance;
 } SuppleLevelDraw;
 
-/** SUPPLE_TESSELLATION_LEVELS: what is drawn. Draw i has the i-th command of `indirect`. If no patch has the capacity
- * of a draw, it draws no instances. How many vertices are written, levels decide: SuppleViewStatistics has their sum.
- * Valid until the group is destroyed. */
+/** SUPPLE_TESSELLATION_LEVELS: what is drawn. For draw i, draw command i of `indirect`. If no patch has its capacity in
+ * a frame, the command draws no instances. Levels decide how many vertices are written: SuppleViewStatistics has the
+ * number. All of it, arrays too, is valid until the group is destroyed. */
 typedef struct SuppleLevelOutput {
     uint32_t structSize;
     uint32_t drawCount; /**< entries of draws, indirect and buckets */
@@ -179,9 +186,10 @@ typedef struct SuppleLevelOutput {
 /** Fills out. Errors: the group has another tessellation (SuppleGroupInfo.tessellation). */
 SUPPLE_API SuppleResult suppleGetLevelOutput(SuppleContext context, SuppleGroup group, SuppleLevelOutput* out);
 
-/** Bounds of the instances of a view's group. out gets a buffer of two float4 per slot: the least corner of a box round
- * the surface, and the level that the instance asks for as a whole; the greatest corner, and 1 if a cage vertex is not
- * finite, else 0. Errors: the group belongs to no view. */
+/** Bounds of the instances of a view's group. out gets a buffer of two float4 per slot, in the space of the surface
+ * vertices. The first has the least corner of a box round the surface, and in w the level that the instance asks for as
+ * a whole. The second has the greatest corner, and in w 1 if a cage vertex is not finite, else 0. Errors: the group
+ * belongs to no view. */
 SUPPLE_API SuppleResult suppleGetInstanceBounds(SuppleContext context, SuppleGroup group, SuppleBufferRange* out);
 
 /* ---------------------------------------------------------------------------------------------------- statistics */
@@ -189,24 +197,25 @@ SUPPLE_API SuppleResult suppleGetInstanceBounds(SuppleContext context, SuppleGro
 /** What a view drew. */
 typedef struct SuppleViewStatistics {
     uint32_t structSize;
-    /** 1: scaling down by elasticity is not enough. All priorities are then scaled further down alike. If even the
-     * coarsest levels do not fit, whole instances are missing, the smallest first. */
+    /** 1: scaling down by elasticity was not enough, so all priorities were scaled further down alike. If even the
+     * coarsest levels did not fit, whole instances are missing: of the priorities with the largest elasticity first,
+     * and in each the smallest first. 0: it was enough. */
     uint32_t shortfall;
     uint64_t frame; /**< of suppleBeginFrame */
-    float
-        levelScales[SUPPLE_PRIORITY_COUNT]; /**< by priority: the factor that levels were scaled by, 1 within budget */
+    /** By priority: the factor that levels were multiplied by; 1 within the budget. */
+    float levelScales[SUPPLE_PRIORITY_COUNT];
     uint32_t vertexCount;           /**< surface vertices written; CATMULL_CLARK and LOOP only with a vertexBudget */
-    uint32_t wantedVertexCount;     /**< what would be written without a budget, up to a few per cent more; missing
-                                     * instances count at their coarsest */
+    uint32_t wantedVertexCount;     /**< what would be written without a budget, or up to a few per cent more than that.
+                                     * Missing instances count at their coarsest */
     uint32_t patchCount;            /**< drawn */
     uint32_t instanceCount;         /**< visible instances of the view's groups */
     uint32_t drawnInstanceCount;    /**< those that are seen and not missing */
     uint32_t droppedInstanceCount;  /**< seen, but missing for lack of room */
-    uint32_t occludedInstanceCount; /**< not seen because of OCCLUSION alone */
+    uint32_t occludedInstanceCount; /**< hidden by the depth pyramid, and by nothing else */
     uint32_t backFaceCount;         /**< patches of drawn instances that BACK_FACES left out */
 } SuppleViewStatistics;
 
-/** Statistics of the newest completed frame. SUPPLE_NOT_READY: there is none. Never blocks. */
+/** Statistics of the newest completed frame that recorded the view. SUPPLE_NOT_READY: there is none. Never waits. */
 SUPPLE_API SuppleResult suppleGetViewStatistics(SuppleContext context, SuppleView view, SuppleViewStatistics* out);
 
 #ifdef __cplusplus
