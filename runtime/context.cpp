@@ -117,9 +117,6 @@ Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
                                            std::to_string(completedFrame) + ": the context keeps " +
                                            std::to_string(framesInFlight_) + " frames in flight"};
     }
-    frame_ = frame;
-    completedFrame_ = completedFrame;
-    frameOpen_ = true;
     // Before anything is freed: what was timed may be of views that go now.
     Status timed = timings.beginFrame(
         frame, completedFrame,
@@ -137,8 +134,14 @@ Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
                 log_(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_BUDGET, text, logUser_);
             }
         });
+    if (!timed) {
+        return timed;
+    }
+    frame_ = frame;
+    completedFrame_ = completedFrame;
+    frameOpen_ = true;
     retire(completedFrame);
-    return timed;
+    return success();
 }
 
 template <class F>

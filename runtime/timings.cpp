@@ -100,11 +100,14 @@ Status Timings::beginFrame(uint64_t frame, uint64_t completedFrame,
         }
         slot->frame = 0;
     }
+    if (!status) {
+        return status; // the frame has not begun
+    }
     current_ = slots_[frame % slots_.size()].get();
     current_->frame = frame;
     current_->count = 0;
     current_->timers.clear();
-    return status;
+    return success();
 }
 
 void Timings::cancelFrame() {

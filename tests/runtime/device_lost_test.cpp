@@ -18,6 +18,23 @@ void expectLost(LoggedContext& context, SuppleResult result, const char* call) {
     EXPECT_EQ(lines[0].message, SUPPLE_MESSAGE_DEVICE_LOST) << call << ": " << lines[0].text;
 }
 
+TEST(DeviceLost, AFrameWhoseTimestampsCannotBeReadHasNotBegun) {
+    wrappedVulkan();
+    const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+    ASSERT_NE(device, nullptr);
+    LoggedContext context(*device);
+    ASSERT_EQ(context.result(), SUPPLE_OK);
+    SuppleAsset asset{};
+    ASSERT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+    const SmallGroup small = createGroup(context.handle(), asset);
+    context.evaluate({&small.group, 1}, SUPPLE_RECORD_TIMINGS);
+
+    wrappedVulkan().queryFailure = VK_ERROR_OUT_OF_HOST_MEMORY;
+    EXPECT_EQ(suppleBeginFrame(context.handle(), 2, 1), SUPPLE_ERROR_HOST_MEMORY);
+    wrappedVulkan();
+    EXPECT_EQ(suppleBeginFrame(context.handle(), 2, 1), SUPPLE_OK) << "the same frame again";
+}
+
 TEST(DeviceLost, StaysLostForTheContextAndForNoOther) {
     enum class Where { createBuffer, allocateMemory, queryResults };
     wrappedVulkan();

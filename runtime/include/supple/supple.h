@@ -78,17 +78,17 @@ extern "C" {
 /** One number that rises with every version. */
 #define SUPPLE_VERSION (SUPPLE_VERSION_MAJOR * 1000000 + SUPPLE_VERSION_MINOR * 1000 + SUPPLE_VERSION_PATCH)
 
-#define SUPPLE_BIND_POSE 0xFFFFFFFFu   /**< clip index: the cage as modelled, without morph targets */
-#define SUPPLE_REST_POSE 0xFFFFFFFEu   /**< clip index: the file's node transforms and morph weights */
-#define SUPPLE_NO_MATERIAL 0xFFFFFFFFu /**< faces without a material */
-#define SUPPLE_NO_JOINT 0xFFFFFFFFu    /**< the parent of a root joint */
-#define SUPPLE_NO_VERTEX 0xFFFFFFFFu   /**< a patch corner that is no vertex of the cage */
-#define SUPPLE_NO_IMAGE 0xFFFFFFFFu
-#define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu
-#define SUPPLE_MAX_TRIM_TILES 1024u
-#define SUPPLE_MAX_RATE 64u            /**< see SuppleGroupDesc.rate */
-#define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u /**< see suppleBeginFrame */
-#define SUPPLE_MAX_TIMINGS 4096u       /**< entries per frame: passes x groups. Further entries are not timed */
+#define SUPPLE_BIND_POSE 0xFFFFFFFFu    /**< clip index: the cage as modelled, without morph targets */
+#define SUPPLE_REST_POSE 0xFFFFFFFEu    /**< clip index: the file's node transforms and morph weights */
+#define SUPPLE_NO_MATERIAL 0xFFFFFFFFu  /**< faces without a material */
+#define SUPPLE_NO_JOINT 0xFFFFFFFFu     /**< the parent of a root joint */
+#define SUPPLE_NO_VERTEX 0xFFFFFFFFu    /**< a patch corner that is no vertex of the cage */
+#define SUPPLE_NO_IMAGE 0xFFFFFFFFu     /**< a material without a trim image: see SuppleMaterialInfo */
+#define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu /**< a face that is not trimmed: see SuppleCageDesc.faceTrimTiles */
+#define SUPPLE_MAX_TRIM_TILES 1024u     /**< tiles in one trim image */
+#define SUPPLE_MAX_RATE 64u             /**< see SuppleGroupDesc.rate */
+#define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u  /**< see suppleBeginFrame */
+#define SUPPLE_MAX_TIMINGS 4096u        /**< entries per frame: passes x groups. Further entries are not timed */
 
 /** A context borrows the host's device. Assets, groups and views belong to one context. */
 typedef struct SuppleContext_T* SuppleContext;
@@ -157,7 +157,8 @@ typedef enum SuppleMessage {
     SUPPLE_MESSAGE_BUDGET = 500 /**< a pass took longer than suppleSetBudget allows */
 } SuppleMessage;
 
-/** Called on the thread that called Supple. text is one line, valid during the call. */
+/** Called on the thread that called Supple, before that call returns. It must not call Supple itself. text is one line
+ * of UTF-8, if the names in the file and in the host's descriptions are; it is valid during the call. */
 typedef void (*SuppleLogFunction)(SuppleSeverity severity, SuppleMessage message, const char* text, void* user);
 
 /* ---------------------------------------------------------------------------------------------------- device */
@@ -281,7 +282,9 @@ typedef struct SuppleCageDesc {
 
 /** Options of reading a file. */
 typedef enum SuppleAssetFlags {
-    SUPPLE_ASSET_PAIR_QUADS = 1 /**< plain triangles of a glTF file: merge consecutive pairs into quads */
+    /** Plain triangles of a glTF file: two triangles that follow each other become one quad if they share an edge, have
+     * the same UVs and colors along it, and face the same side. Polygons that the file lists are left as they are. */
+    SUPPLE_ASSET_PAIR_QUADS = 1
 } SuppleAssetFlags;
 
 /** The content of a file, from the host's own file system. */
@@ -538,7 +541,8 @@ SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance
 
 /* ---------------------------------------------------------------------------------------------------- poses */
 
-/** A pose stays until it is set again. With SUPPLE_POSES_SET, every frame uploads the poses of the slots in use. A pose
+/** A pose stays until it is set again. Instances may be created, posed and placed outside frames too, also before the
+ * first suppleBeginFrame. With SUPPLE_POSES_SET, every frame uploads the poses of the slots in use. A pose
  * is 48 bytes per joint; with dual quaternions, 64 bytes per joint and 48 more. Morph targets add 4 bytes each, and the
  * sum is rounded up to 16. If instances were created, destroyed, hidden, shown or teleported, this frame and the next
  * one also upload 8 bytes per visible instance and 20 per draw range. With SUPPLE_CONTEXT_ASYNC_COMPUTE every frame
@@ -692,11 +696,14 @@ typedef struct SuppleVertexStreams {
 SUPPLE_API SuppleResult suppleGetVertexStreams(SuppleContext context, SuppleGroup group, SuppleVertexStreams* out);
 
 /** The shape that a patch is sampled over. R is the rate. Samples are numbered row by row, from 0. Corner i of the
- * patch is corner i of the domain. QUAD      (R+1)^2: (i, j) at j (R+1) + i, u = i/R from corner 0 to 1, v = j/R from
- * corner 0 to 3 POLAR     the same samples; the row j = R is one point, corner 2 TRIANGLE  (R+1)(R+2)/2: rows j = 0..R
- * from the edge 0-1 towards corner 2, each i = 0..R-j PENTAGON  5 R(R+1)/2 + 1: for each edge s-(s+1) rows j = 0..R-1
- * from the edge towards the centre, each i = 0..R-j-1 (the row's last point is the next edge's first); then the centre
- * MESH      a whole instance: SUPPLE_TESSELLATION_INDEXED_MESH */
+ * patch is corner i of the domain.
+ * - QUAD: (R+1)^2 samples. Sample (i, j) is number j (R+1) + i. u = i/R runs from corner 0 to 1, v = j/R from corner 0
+ *   to 3.
+ * - POLAR: the same samples. The row j = R is one point, corner 2.
+ * - TRIANGLE: (R+1)(R+2)/2 samples. Rows j = 0..R go from the edge 0-1 towards corner 2, each with i = 0..R-j.
+ * - PENTAGON: 5 R(R+1)/2 + 1 samples. For each edge s-(s+1), rows j = 0..R-1 go from the edge towards the centre, each
+ *   with i = 0..R-j-1. The last point of a row is the first of the next edge's row. The centre comes last.
+ * - MESH: a whole instance, with SUPPLE_TESSELLATION_INDEXED_MESH. */
 typedef enum SuppleDomain {
     SUPPLE_DOMAIN_QUAD = 0,
     SUPPLE_DOMAIN_POLAR = 1,

@@ -126,7 +126,7 @@ typedef enum SupplePlaybackFlags {
     SUPPLE_PLAYBACK_ROOT_JOINT = 1, /**< as SUPPLE_POSE_ROOT_JOINT */
     /** What rootMotion takes out of the first layer's clip moves the instance. It is placed by X * M: X is its
      * transform (suppleSetTransform), M is the movement since the layer's startTime, which continues over the ends of a
-     * looping clip. The layer's weight and mask make no difference. */
+     * looping clip. The layer's mode, weight and mask make no difference. */
     SUPPLE_PLAYBACK_TRAVEL = 2
 } SupplePlaybackFlags;
 

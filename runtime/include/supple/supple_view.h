@@ -96,7 +96,8 @@ typedef struct SuppleCameraDesc {
      * that casts a shadow into the picture. */
     float viewProjection[16];
     float farthest;       /**< CULL: what is farther from position is not seen; 0: no limit */
-    float smallestRadius; /**< CULL: pixels; an instance with a smaller radius is not seen; 0: no limit */
+    float smallestRadius; /**< CULL: pixels; 0: no limit. An instance is not seen if the sphere round its
+                           * box (suppleGetInstanceBounds) has a smaller radius */
     float direction[3]; /**< BACK_FACES with ORTHOGRAPHIC: where the camera looks, of any length but 0; else not used */
 } SuppleCameraDesc;
 
@@ -126,7 +127,8 @@ typedef struct SuppleDepthPyramidDesc {
     uint32_t width;        /**< of mip level 0 */
     uint32_t height;
     uint32_t mipLevels;       /**< of imageView: 1 to a full chain; with more of them, more is found hidden */
-    float viewProjection[16]; /**< of the picture, as in SuppleCameraDesc; x and y -1..1 from texel 0 to the last */
+    float viewProjection[16]; /**< of the picture, as in SuppleCameraDesc: x and y are -1 at the outer edges of the
+                               * first texels, and 1 at those of the last ones */
 } SuppleDepthPyramidDesc;
 
 /** Views with SUPPLE_VIEW_OCCLUSION: sets the depths that can hide instances, from the next suppleRecord on, until it
@@ -177,10 +179,10 @@ typedef struct SuppleLevelOutput {
     const SuppleLevelDraw* draws;
     SuppleBufferRange indices;  /**< uint16, the view's */
     SuppleBufferRange indirect; /**< VkDrawIndexedIndirectCommand per draw */
-    SuppleBufferRange buckets; /**< four uint32 per draw: first entry of patches, first surface vertex, patch count, - .
-                                * Its offset and that of patches are multiples of 256 */
-    SuppleBufferRange patches; /**< 64 bytes per patch: uint32 patch (0xFFFFFFFF: none), slot in the low 28 bits, first
-                                * surface vertex, - ; then levels (docs/lod.md) */
+    SuppleBufferRange buckets;  /**< four uint32 per draw: first entry of patches, first surface vertex, patch count,
+                                 * unused. Its offset and that of patches are multiples of 256 */
+    SuppleBufferRange patches;  /**< 64 bytes per patch: uint32 patch (0xFFFFFFFF: none), slot in the low 28 bits, first
+                                 * surface vertex, unused; then levels (docs/lod.md) */
 } SuppleLevelOutput;
 
 /** Fills out. Errors: the group has another tessellation (SuppleGroupInfo.tessellation). */
