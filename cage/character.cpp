@@ -40,4 +40,8 @@ const char* weldSourceName(WeldSource source) {
     return "unknown";
 }
 
+uint32_t endFace(const Character& character, size_t part) {
+    return part + 1 < character.parts.size() ? character.parts[part + 1].firstFace : character.cage.faceCount();
+}
+
 } // namespace supple::cage

@@ -84,8 +84,9 @@ struct Skeleton {
     std::vector<uint32_t> parentsFirst; ///< permutation of the nodes; acyclic by the reader's check
 };
 
-/// Joint palette layout: joint j of the palette is node joints[j]; its matrix is global(node) * inverseBinds[j].
-/// An unskinned mesh becomes a skin of one joint, its own node, with the identity as inverse bind matrix.
+/// Joint palette layout: joint j of the palette is node joints[j]; its matrix is global(node) * inverseBinds[j]. The
+/// skins of all parts share it: a node that is bound with several matrices is several joints. A mesh without a skin is
+/// bound to its own node, with the identity as inverse bind matrix.
 struct Skin {
     std::vector<uint32_t> joints;
     std::vector<glm::mat4> inverseBinds; ///< same length as joints; identity where the file had none
@@ -107,14 +108,20 @@ enum class Interpolation { step, linear, cubicSpline };
 enum class ChannelPath { translation, rotation, scale, weights };
 
 /// One animated property of one node. values holds, per key, one value (step, linear) or in-tangent, value, out-tangent
-/// (cubicSpline); a value is 3 floats, 4 (x, y, z, w) for rotations, one a morph target for weights (whose node is the
-/// character's mesh node: channels of other nodes' weights are left out).
+/// (cubicSpline); a value is 3 floats, 4 (x, y, z, w) for rotations, one a morph target for weights. Those are of the
+/// part that the node carries; channels of other nodes' weights are left out.
 struct Channel {
     uint32_t node = 0;
     ChannelPath path = ChannelPath::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times; ///< seconds, strictly increasing, at least one
     std::vector<float> values;
+    uint32_t firstTarget = 0; ///< weights: of the targets that a value has a number for
+
+    /// Numbers of one value.
+    [[nodiscard]] size_t width() const {
+        return values.size() / (times.size() * (interpolation == Interpolation::cubicSpline ? 3 : 1));
+    }
 };
 
 struct Clip {
@@ -201,14 +208,25 @@ enum class WeldSource {
 };
 [[nodiscard]] const char* weldSourceName(WeldSource source);
 
+/// A mesh node of the scene. Its faces are those of the cage from firstFace to the next part's.
+struct Part {
+    std::string name;             ///< the node's, else the mesh's, else empty
+    uint32_t node = 0;            ///< index into Skeleton::nodes: carries the mesh
+    bool rigid = false;           ///< has no skin, and moves with its node
+    std::vector<uint32_t> joints; ///< of its skin, in the skin's order: places in the palette. Empty: the whole palette
+    uint32_t firstFace = 0;       ///< of the cage
+    uint32_t firstTarget = 0;     ///< its morph targets are Morphs::targets[firstTarget + i]; parts may share them
+    uint32_t targetCount = 0;
+    PolygonSource polygonSource = PolygonSource::arrays;
+    WeldSource weldSource = WeldSource::given;
+};
+
 struct Character {
     std::string name;      ///< file name or the host's name for it; begins every message about it
     std::string copyright; ///< as the file states it
     Cage cage;
-    PolygonSource polygonSource = PolygonSource::arrays;
-    WeldSource weldSource = WeldSource::given;
+    std::vector<Part> parts{1}; ///< one or more, in the order of the cage's faces
     Skeleton skeleton;
-    uint32_t meshNode = 0; ///< the node that carries the mesh
     Skin skin;
     SkinWeights weights;
     Morphs morphs;
@@ -217,7 +235,10 @@ struct Character {
     std::vector<Image> images;
     std::vector<std::string> warnings; ///< what was repaired or ignored, one line each
     uint32_t sourceVertexCount = 0;    ///< vertices before welding
-    uint32_t seamVertexCount = 0;      ///< vertices that welding merged away
+    uint32_t seamVertexCount = 0;      ///< vertices that welding merged away, between parts too
 };
+
+/// The face behind a part's last one.
+[[nodiscard]] uint32_t endFace(const Character& character, size_t part);
 
 } // namespace supple::cage

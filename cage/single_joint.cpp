@@ -9,7 +9,9 @@ void bindToOneJoint(Character& character, const std::string& nodeName) {
     character.skeleton.nodes.assign(1, {});
     character.skeleton.nodes[0].name = nodeName;
     character.skeleton.parentsFirst = {0};
-    character.meshNode = 0;
+    character.parts.resize(1);
+    character.parts[0].name = nodeName;
+    character.parts[0].rigid = true;
     character.skin.joints = {0};
     character.skin.inverseBinds = {glm::mat4(1.0f)};
     character.weights.starts.resize(vertexCount + 1);

@@ -159,7 +159,6 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
         return status.error();
     }
     character.name = name;
-    character.polygonSource = cage::PolygonSource::arrays;
     cage::bindToOneJoint(character, name);
     character.sourceVertexCount = desc.vertexCount;
     return character;

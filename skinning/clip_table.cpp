@@ -111,7 +111,8 @@ public:
             uint32_t weights = 0;
             for (const Channel& channel : clips[c].channels) {
                 if (channel.path == ChannelPath::weights) {
-                    weights = putChannel(channel, static_cast<uint32_t>(table_.targetCount));
+                    weights = weights == 0 ? putTargets() : weights;
+                    putWeights(channel, weights);
                 } else if (const uint32_t place = table_.places[channel.node]; place != cage::kNone) {
                     // Of several channels for one property the last one counts, as in sampleClip.
                     const uint32_t record = putChannel(channel, channel.path == ChannelPath::rotation ? 4 : 3);
@@ -141,6 +142,21 @@ private:
         std::ranges::transform(values, std::back_inserter(table_.words), bits);
         table_.words.resize((table_.words.size() + 3) / 4 * 4, 0u);
         return first;
+    }
+    /// An element per morph target, for putWeights(): no channel moves it yet.
+    uint32_t putTargets() {
+        const uint32_t first = next();
+        table_.words.resize(table_.words.size() + 4 * table_.targetCount, 0u);
+        return first;
+    }
+    void putWeights(const Channel& channel, uint32_t targets) {
+        const auto width = static_cast<uint32_t>(channel.width());
+        const uint32_t record = putChannel(channel, width);
+        for (uint32_t target = 0; target < width; ++target) {
+            const uint32_t element[] = {record, target, width, 0u};
+            std::ranges::copy(element, table_.words.begin() +
+                                           static_cast<ptrdiff_t>(4 * size_t{targets + channel.firstTarget + target}));
+        }
     }
     /// `width`: floats a value; four and three have an element each, others (morph weights) are packed.
     uint32_t putChannel(const Channel& channel, uint32_t width) {

@@ -117,9 +117,10 @@ void sampleTransform(const Channel& channel, double time, Transform& transform) 
 
 void sampleWeights(const Channel& channel, double time, std::span<double> weights) {
     const KeySpan span = findKeys(channel, time);
-    for (size_t target = 0; target < weights.size(); ++target) {
-        weights[target] = interpolate(
-            channel, span, [&](size_t k) { return static_cast<double>(channel.values[weights.size() * k + target]); });
+    const size_t width = channel.width();
+    for (size_t target = 0; target < width; ++target) {
+        weights[channel.firstTarget + target] = interpolate(
+            channel, span, [&](size_t k) { return static_cast<double>(channel.values[width * k + target]); });
     }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -76,9 +77,6 @@ Channel readChannel(const Document& document, const supple_tinygltf::Animation& 
         if (!std::isfinite(channel.times[k])) {
             refuse(item(input, k), "not finite");
         }
-        if (channel.times[k] < 0.0f) {
-            refuse(item(input, k), "negative time");
-        }
         if (k > 0 && !(channel.times[k] > channel.times[k - 1])) {
             refuse(item(input, k), "not later than the key before it");
         }
@@ -111,9 +109,30 @@ Channel readChannel(const Document& document, const supple_tinygltf::Animation& 
     return channel;
 }
 
+/// glTF knows no times before 0, and exporters write them.
+void beginAtFirstKey(Clip& clip, const std::string& element, Warnings& warnings) {
+    float first = 0.0f;
+    for (const Channel& channel : clip.channels) {
+        first = std::min(first, channel.times.front());
+    }
+    if (first == 0.0f) {
+        return;
+    }
+    warn(warnings, element, "keys before 0; its time begins at its first key, " + shortNumber(first) + " s");
+    for (Channel& channel : clip.channels) {
+        for (size_t k = 0; k < channel.times.size(); ++k) {
+            float& time = channel.times[k];
+            time = static_cast<float>(static_cast<double>(time) - static_cast<double>(first));
+            if (k > 0 && !(time > channel.times[k - 1])) { // rounded together
+                time = std::nextafter(channel.times[k - 1], std::numeric_limits<float>::infinity());
+            }
+        }
+    }
+}
+
 } // namespace
 
-std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, uint32_t meshNode, size_t targetCount,
+std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, std::span<const size_t> targetCounts,
                             Warnings& warnings) {
     const auto& animations = document.model.animations;
     std::vector<Clip> clips;
@@ -128,8 +147,8 @@ std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, 
         for (size_t k = 0; k < animation.channels.size(); ++k) {
             const auto& channel = animation.channels[k];
             const std::string& path = channel.target_path;
-            const bool ofMesh = channel.target_node == static_cast<int>(meshNode);
-            const std::optional<Output> kind = outputOf(path, ofMesh ? targetCount : 0);
+            const std::optional<Output> kind =
+                outputOf(path, channel.target_node < 0 ? 0 : targetCounts[static_cast<size_t>(channel.target_node)]);
             if (!kind) {
                 ++ignored[path];
                 continue;
@@ -148,13 +167,16 @@ std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, 
                 refuse(element, "the clips hold more than " + std::to_string(kMaxKeyFloats) + " numbers",
                        ErrorCode::limit);
             }
-            clip.duration = std::max(clip.duration, static_cast<double>(clip.channels.back().times.back()));
+        }
+        beginAtFirstKey(clip, at("animation", i), warnings);
+        for (const Channel& channel : clip.channels) {
+            clip.duration = std::max(clip.duration, static_cast<double>(channel.times.back()));
         }
         for (const auto& [path, count] : ignored) {
             warn(warnings, at("animation", i),
                  counted(count, "channel", "channels") + " of " +
                      (path == "pointer"   ? "KHR_animation_pointer or no node"
-                      : path == "weights" ? "weights of nodes without the mesh's morph targets"
+                      : path == "weights" ? "weights of nodes without morph targets"
                                           : path) +
                      " ignored");
         }

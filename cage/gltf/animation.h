@@ -7,13 +7,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace supple::cage::gltf {
 
-/// Channels of translation, rotation and scale, and of the weights of the mesh node's morph targets; others are left
-/// out with a warning. Throws Refusal.
-[[nodiscard]] std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, uint32_t meshNode,
-                                          size_t targetCount, Warnings& warnings);
+/// Channels of translation, rotation and scale, and of morph targets' weights; others are left out with a warning.
+/// `targetCounts`: per node, how many morph targets the part has that it carries. If a clip has keys before 0, it
+/// begins at its first key. Throws Refusal.
+[[nodiscard]] std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton,
+                                          std::span<const size_t> targetCounts, Warnings& warnings);
 
 } // namespace supple::cage::gltf

@@ -176,7 +176,7 @@ void fillTrimTiles(const Mesh& mesh, const Faces& faces, Cage& cage) {
 }
 
 /// Returns the cage vertex of each of the mesh's vertices, kNone for those without a face.
-std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Welding& welding, Character& out) {
+std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Welding& welding, PartCage& out) {
     Cage& cage = out.cage;
     std::vector<uint8_t> used(mesh.positions.size(), 0);
     for (const uint32_t v : faces.polygons.vertices) {
@@ -237,7 +237,8 @@ std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Weldi
 
 } // namespace
 
-void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& options, Character& out) {
+void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& options, PartCage& out,
+               Warnings& warnings) {
     Polygons sewn;
     for (const MeshPart& part : mesh.parts) {
         addSewingFaces(part, sewn);
@@ -248,30 +249,30 @@ void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& op
     }
     const auto unused = static_cast<size_t>(std::count(used.begin(), used.end(), uint8_t{0}));
     if (unused > 0) {
-        warn(out.warnings, mesh.element, counted(unused, "vertex has", "vertices have") + " no face; left out");
+        warn(warnings, mesh.element, counted(unused, "vertex has", "vertices have") + " no face; left out");
     }
 
-    auto [welding, weldSource] = weldMesh(document, mesh, sewn, out.warnings);
-    const Faces faces = recoverFaces(mesh, welding, options.pairQuads, out.warnings);
+    auto [welding, weldSource] = weldMesh(document, mesh, sewn, warnings);
+    const Faces faces = recoverFaces(mesh, welding, options.pairQuads, warnings);
     if (faces.polygons.faceCount() == 0) {
-        refuse(mesh.element, "no triangle is left");
+        return;
     }
     // What the file merges itself is the file's business.
     const uint32_t apart = weldSource == WeldSource::equality ? unweldDefects(faces.polygons, welding) : 0;
     if (apart > 0) {
-        warn(out.warnings, mesh.element,
+        warn(warnings, mesh.element,
              counted(apart, "welded vertex is", "welded vertices are") +
                  " taken apart again: faces do not fit together there");
     }
 
     // One part with polygons of its own names the source of all.
-    out.polygonSource = PolygonSource::triangles;
+    out.part.polygonSource = PolygonSource::triangles;
     for (const MeshPart& part : mesh.parts) {
-        out.polygonSource = std::min(out.polygonSource, sourceOf(part, options.pairQuads));
+        out.part.polygonSource = std::min(out.part.polygonSource, sourceOf(part, options.pairQuads));
     }
-    out.weldSource = weldSource;
+    out.part.weldSource = weldSource;
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
-    readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, out.warnings);
+    readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, warnings);
 }
 
 } // namespace supple::cage::gltf

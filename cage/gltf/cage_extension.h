@@ -1,5 +1,5 @@
-// SUPPLE_mesh_cage of a glTF file: a primitive's polygons, cage vertices, creases and holes. Private to cage/gltf/. All of
-// these throw Refusal.
+// SUPPLE_mesh_cage of a glTF file: a primitive's polygons, cage vertices, creases and holes. Private to cage/gltf/. All
+// of these throw Refusal.
 #pragma once
 
 #include "cage/gltf/document.h"

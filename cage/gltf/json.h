@@ -1,4 +1,5 @@
-// JSON of a glTF file: parsing within bounds and typed access that refuses instead of converting. Private to cage/gltf/.
+// JSON of a glTF file: parsing within bounds and typed access that refuses instead of converting. Private to
+// cage/gltf/.
 #pragma once
 
 #include <cstddef>

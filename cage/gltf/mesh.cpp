@@ -28,7 +28,7 @@ public:
         : document_(document), model_(document.model), jointCount_(jointCount), materials_(materials),
           quantized_(isUsed(document, "KHR_mesh_quantization")), warnings_(warnings) {}
 
-    Mesh read(uint32_t meshNode) && {
+    std::optional<Mesh> read(uint32_t meshNode) && {
         const auto meshIndex = static_cast<size_t>(model_.nodes[meshNode].mesh);
         const auto& mesh = model_.meshes[meshIndex];
         out_.index = meshIndex;
@@ -57,7 +57,7 @@ public:
             }
         }
         if (out_.parts.empty()) {
-            refuse(out_.element, "no primitive of TRIANGLES");
+            return std::nullopt;
         }
         findCageNumbers(mesh, numbers);
         for (size_t i = 0; i < numbers.size(); ++i) {
@@ -295,8 +295,8 @@ private:
 
 } // namespace
 
-Mesh readMesh(const Document& document, uint32_t meshNode, size_t jointCount, std::span<const Material> materials,
-              Warnings& warnings) {
+std::optional<Mesh> readMesh(const Document& document, uint32_t meshNode, size_t jointCount,
+                             std::span<const Material> materials, Warnings& warnings) {
     return MeshReader(document, jointCount, materials, warnings).read(meshNode);
 }
 

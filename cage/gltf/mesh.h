@@ -45,8 +45,9 @@ struct Mesh {
     std::vector<MeshPart> parts;                         ///< at least one
 };
 
-/// Primitives that are not triangles are left out with a warning. Throws Refusal.
-[[nodiscard]] Mesh readMesh(const Document& document, uint32_t meshNode, size_t jointCount,
-                            std::span<const Material> materials, Warnings& warnings);
+/// Primitives that are not triangles are left out with a warning; nothing comes back if no others are there. Throws
+/// Refusal.
+[[nodiscard]] std::optional<Mesh> readMesh(const Document& document, uint32_t meshNode, size_t jointCount,
+                                           std::span<const Material> materials, Warnings& warnings);
 
 } // namespace supple::cage::gltf

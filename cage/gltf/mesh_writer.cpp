@@ -1,6 +1,5 @@
 #include "cage/gltf/mesh_writer.h"
 
-#include "cage/corner_normals.h"
 #include "cage/message.h"
 #include "cage/ngon_fans.h"
 
@@ -44,10 +43,10 @@ bool hasUvTrim(const Material& material) {
 }
 
 /// glTF counts texture coordinates from 0 without gaps, and a texture needs those it names: zeros where there are none.
-CornerValues cornerValues(const Character& character) {
+CornerValues cornerValues(const Character& character, std::span<const glm::vec3> normals) {
     const Cage& cage = character.cage;
     CornerValues values;
-    values.normals = cornerNormals(cage);
+    values.normals.assign(normals.begin(), normals.end());
     values.uvs[0] = cage.cornerUvs;
     values.uvs[1] = cage.cornerUvs1;
     values.colors = cage.cornerColors;
@@ -79,7 +78,7 @@ CornerValues cornerValues(const Character& character) {
 }
 
 /// One primitive's faces and vertices.
-struct Part {
+struct Primitive {
     uint32_t material = kNone;
     std::vector<uint32_t> faces;        ///< of the cage
     Polygons polygons;                  ///< in glTF vertices
@@ -88,8 +87,8 @@ struct Part {
 };
 
 /// By material, in the order of their first faces.
-std::vector<Part> partsOf(const Cage& cage) {
-    std::vector<Part> parts;
+std::vector<Primitive> primitivesOf(const Cage& cage) {
+    std::vector<Primitive> parts;
     std::map<uint32_t, size_t> known;
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         const uint32_t material = cage.faceMaterials.empty() ? kNone : cage.faceMaterials[face];
@@ -102,7 +101,7 @@ std::vector<Part> partsOf(const Cage& cage) {
     return parts;
 }
 
-void splitVertices(const Cage& cage, const CornerValues& values, Part& part) {
+void splitVertices(const Cage& cage, const CornerValues& values, Primitive& part) {
     std::vector<uint32_t> corners;
     for (const uint32_t face : part.faces) {
         for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
@@ -154,10 +153,17 @@ void splitVertices(const Cage& cage, const CornerValues& values, Part& part) {
 
 class MeshWriter {
 public:
-    MeshWriter(const Character& character, bool skinned, Packer& packer)
-        : character_(character), cage_(character.cage), packer_(packer), values_(cornerValues(character)),
+    MeshWriter(const Character& character, std::span<const glm::vec3> normals, Packer& packer)
+        : character_(character), cage_(character.cage), packer_(packer), values_(cornerValues(character, normals)),
           creaseWritten_(cage_.creases.size(), 0), sharpWritten_(cage_.sharpVertices.size(), 0) {
-        if (skinned) {
+        const Part& part = character.parts[0];
+        jointCount_ = part.joints.empty() ? character.skin.joints.size() : part.joints.size();
+        jointPlaces_.resize(character.skin.joints.size());
+        std::iota(jointPlaces_.begin(), jointPlaces_.end(), 0u);
+        for (uint32_t j = 0; j < part.joints.size(); ++j) {
+            jointPlaces_[part.joints[j]] = j;
+        }
+        if (!part.rigid) {
             const auto& starts = character.weights.starts;
             for (size_t v = 0; v + 1 < starts.size(); ++v) {
                 skinSets_ = std::max(skinSets_, (starts[v + 1] - starts[v] + 3) / 4);
@@ -168,7 +174,7 @@ public:
     json write(GlbFile& file) {
         json mesh;
         json primitives = json::array();
-        for (Part& part : partsOf(cage_)) {
+        for (Primitive& part : primitivesOf(cage_)) {
             splitVertices(cage_, values_, part);
             primitives.push_back(writePrimitive(part));
             file.vertexCount += static_cast<uint32_t>(part.corners.size());
@@ -187,13 +193,12 @@ public:
                 mesh["extras"]["targetNames"] = std::move(names);
             }
         }
-        report(file.warnings);
         return mesh;
     }
 
 private:
     template <class Vec>
-    std::vector<Vec> gathered(const std::vector<Vec>& perCorner, const Part& part) const {
+    std::vector<Vec> gathered(const std::vector<Vec>& perCorner, const Primitive& part) const {
         std::vector<Vec> values;
         values.reserve(part.corners.size());
         for (const uint32_t corner : part.corners) {
@@ -202,7 +207,7 @@ private:
         return values;
     }
 
-    json writePrimitive(const Part& part) {
+    json writePrimitive(const Primitive& part) {
         std::vector<glm::vec3> positions;
         for (const uint32_t v : part.cageVertices) {
             positions.push_back(cage_.positions[v]);
@@ -252,8 +257,8 @@ private:
         return packer_.addIntegers("VEC4", integers, Component::u16, Target::vertices, true);
     }
 
-    void writeSkin(const Part& part, json& attributes) {
-        const Component component = character_.skin.joints.size() <= 256 ? Component::u8 : Component::u16;
+    void writeSkin(const Primitive& part, json& attributes) {
+        const Component component = jointCount_ <= 256 ? Component::u8 : Component::u16;
         for (uint32_t set = 0; set < skinSets_; ++set) {
             std::vector<uint32_t> joints;
             std::vector<float> weights;
@@ -262,7 +267,7 @@ private:
                                      .subspan(character_.weights.starts[v],
                                               character_.weights.starts[v + 1] - character_.weights.starts[v]);
                 for (size_t k = 4 * size_t{set}; k < 4 * size_t{set} + 4; ++k) {
-                    joints.push_back(k < own.size() ? own[k].joint : 0);
+                    joints.push_back(k < own.size() ? jointPlaces_[own[k].joint] : 0);
                     weights.push_back(k < own.size() ? own[k].weight : 0.0f);
                 }
             }
@@ -272,7 +277,7 @@ private:
         }
     }
 
-    json writeTargets(const Part& part) {
+    json writeTargets(const Primitive& part) {
         json targets = json::array();
         std::vector<glm::vec3> deltas(cage_.vertexCount(), glm::vec3(0.0f));
         for (const MorphTarget& target : character_.morphs.targets) {
@@ -307,7 +312,7 @@ private:
         return packer_.addIntegers("SCALAR", values, Packer::indexComponent(largest), Target::none);
     }
 
-    json writeExtension(const Part& part) {
+    json writeExtension(const Primitive& part) {
         std::vector<uint32_t> counts;
         for (const uint32_t face : part.faces) {
             counts.push_back(cage_.sides(face));
@@ -360,34 +365,21 @@ private:
         return extension;
     }
 
-    void report(Warnings& warnings) const {
-        const auto strays = static_cast<size_t>(std::count(creaseWritten_.begin(), creaseWritten_.end(), 0) +
-                                                std::count(sharpWritten_.begin(), sharpWritten_.end(), 0));
-        if (strays > 0) {
-            warn(warnings, "creases",
-                 counted(strays, "crease or sharp vertex is", "creases or sharp vertices are") +
-                     " not on a face of the cage; left out");
-        }
-        if (!cage_.creaseScalars.empty()) {
-            warn(warnings, "creases",
-                 counted(cage_.creaseScalars.size(), "crease scalar", "crease scalars") +
-                     " of P_m left out: SUPPLE_mesh_cage has no place for them");
-        }
-    }
-
     const Character& character_;
     const Cage& cage_;
     Packer& packer_;
     const CornerValues values_;
-    uint32_t skinSets_ = 0; ///< of four influences each
+    uint32_t skinSets_ = 0;             ///< of four influences each
+    size_t jointCount_ = 0;             ///< of the part's skin
+    std::vector<uint32_t> jointPlaces_; ///< per entry of the palette: its place in the part's skin
     std::vector<uint8_t> creaseWritten_;
     std::vector<uint8_t> sharpWritten_;
 };
 
 } // namespace
 
-json writeMesh(const Character& character, bool skinned, Packer& packer, GlbFile& file) {
-    return MeshWriter(character, skinned, packer).write(file);
+json writeMesh(const Character& character, std::span<const glm::vec3> normals, Packer& packer, GlbFile& file) {
+    return MeshWriter(character, normals, packer).write(file);
 }
 
 } // namespace supple::cage::gltf

@@ -3,7 +3,9 @@
 #include "cage/gltf/reader.h"
 #include "cage/refusal.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace supple::cage::gltf {
 namespace {
@@ -36,15 +38,11 @@ void orderParentsFirst(const Model& model, Skeleton& skeleton) {
     }
 }
 
-std::vector<uint32_t> nodesInSceneOrder(const Model& model) {
+std::vector<uint32_t> nodesOfScene(const Model& model, size_t scene) {
     std::vector<uint32_t> order;
     std::vector<uint8_t> seen(model.nodes.size(), 0);
-    std::vector<uint32_t> stack;
-    if (!model.scenes.empty()) {
-        const size_t scene = model.defaultScene >= 0 ? static_cast<size_t>(model.defaultScene) : 0;
-        const auto& roots = model.scenes[scene].nodes;
-        stack.assign(roots.rbegin(), roots.rend()); // the first on top
-    }
+    const auto& roots = model.scenes[scene].nodes;
+    std::vector<uint32_t> stack(roots.begin(), roots.end());
     while (!stack.empty()) {
         const uint32_t node = stack.back();
         stack.pop_back();
@@ -54,12 +52,7 @@ std::vector<uint32_t> nodesInSceneOrder(const Model& model) {
         seen[node] = 1;
         order.push_back(node);
         const auto& children = model.nodes[node].children;
-        stack.insert(stack.end(), children.rbegin(), children.rend());
-    }
-    for (uint32_t i = 0; i < seen.size(); ++i) {
-        if (seen[i] == 0) {
-            order.push_back(i);
-        }
+        stack.insert(stack.end(), children.begin(), children.end());
     }
     return order;
 }
@@ -121,36 +114,52 @@ Skeleton readSkeleton(const Document& document) {
     return skeleton;
 }
 
-uint32_t chooseMeshNode(const Document& document, Warnings& warnings) {
+bool isMirrored(const Skeleton& skeleton, uint32_t node) {
+    bool mirrored = false;
+    for (; node != kNone; node = skeleton.nodes[node].parent) {
+        const Node& from = skeleton.nodes[node];
+        const float sign =
+            from.hasMatrix ? glm::determinant(glm::mat3(from.matrix)) : from.scale.x * from.scale.y * from.scale.z;
+        mirrored = mirrored != (sign < 0.0f);
+    }
+    return mirrored;
+}
+
+std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint32_t> scene, Warnings& warnings) {
     const Model& model = document.model;
     if (model.meshes.empty()) {
         refuse("meshes", "none");
     }
-    uint32_t chosen = kNone;
-    size_t others = 0;
-    for (const uint32_t i : nodesInSceneOrder(model)) {
-        const auto& node = model.nodes[i];
-        if (node.mesh < 0) {
-            continue;
-        }
-        if (chosen == kNone) {
-            chosen = i;
-        } else if (node.skin >= 0 && model.nodes[chosen].skin < 0) {
-            chosen = i;
-            ++others;
-        } else {
-            ++others;
-        }
+    if (scene && *scene >= model.scenes.size()) {
+        refuse(at("scene", *scene), "the file has " + counted(model.scenes.size(), "scene", "scenes"));
     }
-    if (chosen == kNone) {
+    const auto hasNoMesh = [&](uint32_t node) { return model.nodes[node].mesh < 0; };
+    std::vector<uint32_t> all(model.nodes.size());
+    std::iota(all.begin(), all.end(), 0u);
+    std::erase_if(all, hasNoMesh);
+    if (all.empty()) {
         refuse("nodes", "none has a mesh");
     }
-    if (others > 0) {
-        warn(warnings, at("node", chosen),
-             "the mesh of this node is read; " +
-                 counted(others, "other node with a mesh is", "other nodes with meshes are") + " left out");
+    if (model.scenes.empty()) {
+        return all;
     }
-    return chosen;
+    const size_t chosen = scene ? *scene : model.defaultScene >= 0 ? static_cast<size_t>(model.defaultScene) : 0;
+    std::vector<uint32_t> nodes = nodesOfScene(model, chosen);
+    std::sort(nodes.begin(), nodes.end());
+    std::erase_if(nodes, hasNoMesh);
+    if (nodes.empty() && scene) {
+        refuse(at("scene", chosen), "no mesh");
+    }
+    if (nodes.empty()) {
+        warn(warnings, at("scene", chosen), "no mesh; all nodes of the file with meshes are read");
+        return all;
+    }
+    if (nodes.size() < all.size()) {
+        warn(warnings, at("scene", chosen),
+             counted(all.size() - nodes.size(), "node with a mesh is", "nodes with meshes are") +
+                 " not in this scene; left out");
+    }
+    return nodes;
 }
 
 } // namespace supple::cage::gltf

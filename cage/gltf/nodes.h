@@ -6,14 +6,21 @@
 #include "cage/message.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace supple::cage::gltf {
 
 [[nodiscard]] Skeleton readSkeleton(const Document& document);
 
-/// The first node with a mesh and a skin, in scene order, then node order; else the first with a mesh.
-[[nodiscard]] uint32_t chooseMeshNode(const Document& document, Warnings& warnings);
+/// The nodes with meshes of a scene, in the file's order; of the whole file if it has no scene, or no mesh in the
+/// scene. `scene`: the file's own choice, else the first, if it is not given.
+[[nodiscard]] std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint32_t> scene,
+                                                  Warnings& warnings);
+
+/// Whether what the node carries is mirrored at rest: the determinant of its global transform is negative.
+[[nodiscard]] bool isMirrored(const Skeleton& skeleton, uint32_t node);
 
 /// Makes the last row exactly 0 0 0 1; refuses a matrix in which it is something else.
 void makeAffine(glm::mat4& matrix, const std::string& element);

@@ -10,16 +10,105 @@
 #include "cage/gltf/skin.h"
 #include "cage/gltf/uri.h"
 #include "cage/message.h"
+#include "cage/parts.h"
 #include "cage/refusal.h"
+#include "cage/sew.h"
 
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace supple::cage {
 namespace gltf {
 namespace {
+
+// Nodes may share a mesh, and meshes accessors, so a small file can ask for much. Bounds for all parts together.
+constexpr uint64_t kMaxParts = 1u << 14;
+constexpr uint64_t kMaxVertices = 1u << 24;
+constexpr uint64_t kMaxCorners = 3u << 24;
+constexpr uint64_t kMaxDisplacements = 1u << 26;
+
+/// What has been read so far; refuses too much.
+class Amount {
+public:
+    void add(const PartCage& part) {
+        const std::string element = at("node", part.part.node);
+        add(parts_, 1, kMaxParts, "meshes", element);
+        add(vertices_, part.sourceVertexCount, kMaxVertices, "vertices", element);
+        add(corners_, part.cage.cornerCount(), kMaxCorners, "corners", element);
+        for (const MorphTarget& target : part.morphs.targets) {
+            add(displacements_, target.vertices.size(), kMaxDisplacements, "displacements of morph targets", element);
+        }
+    }
+
+private:
+    static void add(uint64_t& sum, uint64_t more, uint64_t most, const char* what, const std::string& element) {
+        sum += more;
+        if (sum > most) {
+            refuse(element, "with its mesh, there are more than " + std::to_string(most) + " " + what,
+                   ErrorCode::limit);
+        }
+    }
+    uint64_t parts_ = 0, vertices_ = 0, corners_ = 0, displacements_ = 0;
+};
+
+/// The mesh that a node carries, as it is before it joins the other parts. Its cage is empty if it has no faces: then a
+/// warning says why.
+PartCage readPart(const Document& document, uint32_t node, const GltfOptions& options, const Character& character,
+                  PaletteBuilder& palette, Warnings& warnings) {
+    const auto& from = document.model.nodes[node];
+    PartCage part;
+    part.part.name = from.name.empty() ? document.model.meshes[static_cast<size_t>(from.mesh)].name : from.name;
+    part.part.node = node;
+    part.part.rigid = from.skin < 0;
+    const Skin skin = readSkin(document, node);
+    const std::optional<Mesh> mesh = readMesh(document, node, skin.joints.size(), character.materials, warnings);
+    if (!mesh) {
+        return part;
+    }
+    part.morphs = readMorphs(document, node, mesh->morphs.targetCount(), warnings);
+    buildCage(document, *mesh, options, part, warnings);
+    if (part.cage.faceCount() == 0) {
+        warn(warnings, mesh->element, "no triangle is left");
+        return part;
+    }
+    if (part.part.rigid && isMirrored(character.skeleton, node)) {
+        reverseFaces(part.cage);
+    }
+    part.part.joints = palette.add(skin);
+    return part;
+}
+
+std::vector<PartCage> readParts(const Document& document, const GltfOptions& options, Character& character) {
+    const std::vector<uint32_t> nodes = findMeshNodes(document, options.scene, character.warnings);
+    PaletteBuilder palette(character.skin);
+    Amount amount;
+    std::vector<PartCage> parts;
+    std::set<std::string> said; // nodes may share a mesh
+    std::string whyEmpty;
+    for (const uint32_t node : nodes) {
+        Warnings warnings;
+        PartCage part = readPart(document, node, options, character, palette, warnings);
+        amount.add(part);
+        const bool isEmpty = part.cage.faceCount() == 0;
+        for (std::string& warning : warnings) {
+            if (said.insert(warning).second) {
+                whyEmpty += isEmpty ? (whyEmpty.empty() ? "" : "; ") + warning : "";
+                character.warnings.push_back(std::move(warning));
+            }
+        }
+        if (!isEmpty) {
+            parts.push_back(std::move(part));
+        }
+    }
+    if (parts.empty()) {
+        throw Refusal{ErrorCode::asset, "no triangles: " + whyEmpty};
+    }
+    return parts;
+}
 
 Character toCharacter(const Document& document, const GltfOptions& options) {
     Character character;
@@ -27,16 +116,18 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     warnings = document.warnings;
     character.copyright = document.model.asset.copyright;
     character.skeleton = readSkeleton(document);
-    const uint32_t meshNode = chooseMeshNode(document, warnings);
-    character.meshNode = meshNode;
-    character.skin = readSkin(document, meshNode);
     character.images = document.images;
     character.materials = readMaterials(document, warnings);
-    const Mesh mesh = readMesh(document, meshNode, character.skin.joints.size(), character.materials, warnings);
-    character.meshNode = meshNode;
-    character.morphs = readMorphs(document, meshNode, mesh.morphs.targetCount(), warnings);
-    buildCage(document, mesh, options, character);
-    character.clips = readClips(document, character.skeleton, meshNode, mesh.morphs.targetCount(), warnings);
+    std::vector<PartCage> parts = readParts(document, options, character);
+    std::vector<size_t> targetCounts(character.skeleton.nodes.size(), 0);
+    for (const PartCage& part : parts) {
+        targetCounts[part.part.node] = part.morphs.targets.size();
+    }
+    character.clips = readClips(document, character.skeleton, targetCounts, warnings);
+    joinParts(std::move(parts), character);
+    if (options.sewParts) {
+        sewParts(character);
+    }
     return character;
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,10 @@ inline constexpr uint32_t kMaxNodeDepth = 1024;
 using FileReader = std::function<Result<std::vector<std::byte>>(const std::string& path)>;
 
 struct GltfOptions {
+    /// Which scene's meshes are read: the file's own choice if it is not given.
+    std::optional<uint32_t> scene;
+    /// Sew parts together where their boundaries coincide.
+    bool sewParts = true;
     /// Merge consecutive triangles that share an edge into quads where the file carries no polygons.
     bool pairQuads = false;
     /// Where external buffers and images come from, instead of the folder given to readGltf().

@@ -1,4 +1,5 @@
-// The bytes a glTF file refers to: buffers, which it cannot do without, and images, which it can. Private to cage/gltf/.
+// The bytes a glTF file refers to: buffers, which it cannot do without, and images, which it can. Private to
+// cage/gltf/.
 #pragma once
 
 #include "cage/gltf/container.h"

@@ -1,9 +1,11 @@
 #include "cage/gltf/writer.h"
 
+#include "cage/corner_normals.h"
 #include "cage/gltf/image_header.h"
 #include "cage/gltf/mesh_writer.h"
 #include "cage/gltf/packer.h"
 #include "cage/message.h"
+#include "cage/parts.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -12,6 +14,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <numeric>
 #include <set>
 #include <span>
 #include <tuple>
@@ -40,26 +43,50 @@ json numbers(const glm::mat4& matrix) {
     return list;
 }
 
-/// A mesh without a skin reads as a skin of its own node alone (Skin).
-bool isSkinned(const Character& character) {
-    const Skin& skin = character.skin;
-    return skin.joints.size() != 1 || skin.joints[0] != character.meshNode || skin.inverseBinds[0] != glm::mat4(1.0f);
-}
+/// The skins that the parts have, each once: places in the palette.
+struct Skins {
+    std::vector<std::vector<uint32_t>> joints;
+    std::vector<size_t> ofPart; ///< rigid parts have none
+
+    explicit Skins(const Character& character) {
+        std::map<std::vector<uint32_t>, size_t> known;
+        for (const Part& part : character.parts) {
+            std::vector<uint32_t> own = part.joints;
+            if (own.empty()) {
+                own.resize(character.skin.joints.size());
+                std::iota(own.begin(), own.end(), 0u);
+            }
+            if (part.rigid) {
+                ofPart.push_back(0);
+                continue;
+            }
+            const auto [found, isNew] = known.try_emplace(own, joints.size());
+            if (isNew) {
+                joints.push_back(std::move(own));
+            }
+            ofPart.push_back(found->second);
+        }
+    }
+};
 
 /// glTF demands that the joints of a skin have a common root, and readers forgive its absence. Then the roots above
 /// them, else none.
-std::set<uint32_t> severalRoots(const Character& character) {
-    std::set<uint32_t> roots;
-    for (uint32_t node : character.skin.joints) {
-        while (character.skeleton.nodes[node].parent != kNone) {
-            node = character.skeleton.nodes[node].parent;
+std::set<uint32_t> severalRoots(const Character& character, const Skins& skins) {
+    std::set<uint32_t> gathered;
+    for (const std::vector<uint32_t>& joints : skins.joints) {
+        std::set<uint32_t> roots;
+        for (const uint32_t joint : joints) {
+            uint32_t node = character.skin.joints[joint];
+            while (character.skeleton.nodes[node].parent != kNone) {
+                node = character.skeleton.nodes[node].parent;
+            }
+            roots.insert(node);
         }
-        roots.insert(node);
+        if (roots.size() > 1) {
+            gathered.insert(roots.begin(), roots.end());
+        }
     }
-    if (roots.size() < 2) {
-        roots.clear();
-    }
-    return roots;
+    return gathered;
 }
 
 json writeNode(const Node& from) {
@@ -84,7 +111,7 @@ json writeNode(const Node& from) {
     return node;
 }
 
-void writeNodes(const Character& character, bool skinned, json& root, Warnings& warnings) {
+void writeNodes(const Character& character, const Skins& skins, json& root, Warnings& warnings) {
     const std::vector<Node>& from = character.skeleton.nodes;
     json nodes = json::array();
     for (const Node& node : from) {
@@ -92,7 +119,7 @@ void writeNodes(const Character& character, bool skinned, json& root, Warnings& 
     }
     json top = json::array();
     json common = json::array();
-    const std::set<uint32_t> gathered = skinned ? severalRoots(character) : std::set<uint32_t>();
+    const std::set<uint32_t> gathered = severalRoots(character, skins);
     for (size_t i = 0; i < from.size(); ++i) {
         if (from[i].parent != kNone) {
             nodes[from[i].parent]["children"].push_back(i);
@@ -108,21 +135,27 @@ void writeNodes(const Character& character, bool skinned, json& root, Warnings& 
         top.push_back(nodes.size());
         nodes.push_back({{"children", std::move(common)}});
     }
-    nodes[character.meshNode]["mesh"] = 0;
-    if (skinned) {
-        nodes[character.meshNode]["skin"] = 0;
+    for (size_t p = 0; p < character.parts.size(); ++p) {
+        nodes[character.parts[p].node]["mesh"] = p;
+        if (!character.parts[p].rigid) {
+            nodes[character.parts[p].node]["skin"] = skins.ofPart[p];
+        }
     }
     root["nodes"] = std::move(nodes);
     root["scenes"] = json::array({json::object({{"nodes", std::move(top)}})});
     root["scene"] = 0;
 }
 
-json writeSkin(const Skin& skin, Packer& packer) {
-    json written = {{"joints", skin.joints}};
-    const bool identities = std::all_of(skin.inverseBinds.begin(), skin.inverseBinds.end(),
-                                        [](const glm::mat4& matrix) { return matrix == glm::mat4(1.0f); });
-    if (!identities) {
-        const std::span<const float> values(&skin.inverseBinds[0][0][0], 16 * skin.inverseBinds.size());
+json writeSkin(const Skin& palette, std::span<const uint32_t> joints, Packer& packer) {
+    std::vector<uint32_t> nodes;
+    std::vector<glm::mat4> binds;
+    for (const uint32_t joint : joints) {
+        nodes.push_back(palette.joints[joint]);
+        binds.push_back(palette.inverseBinds[joint]);
+    }
+    json written = {{"joints", nodes}};
+    if (std::any_of(binds.begin(), binds.end(), [](const glm::mat4& m) { return m != glm::mat4(1.0f); })) {
+        const std::span<const float> values(&binds[0][0][0], 16 * binds.size());
         written["inverseBindMatrices"] = packer.addFloats("MAT4", values, Target::none);
     }
     return written;
@@ -260,7 +293,8 @@ private:
 
 class ClipWriter {
 public:
-    ClipWriter(Packer& packer, Warnings& warnings) : packer_(packer), warnings_(warnings) {}
+    ClipWriter(const std::vector<Part>& parts, Packer& packer, Warnings& warnings)
+        : parts_(parts), packer_(packer), warnings_(warnings) {}
 
     json write(const std::vector<Clip>& clips) {
         json animations = json::array();
@@ -272,8 +306,10 @@ public:
             json channels = json::array();
             json samplers = json::array();
             for (const Channel& channel : clip.channels) {
-                channels.push_back(
-                    {{"sampler", samplers.size()}, {"target", {{"node", channel.node}, {"path", pathOf(channel)}}}});
+                for (const uint32_t node : nodesOf(channel)) {
+                    channels.push_back(
+                        {{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", pathOf(channel)}}}});
+                }
                 samplers.push_back(writeSampler(clip, channel));
             }
             animations.push_back({{"name", clip.name}, {"channels", channels}, {"samplers", samplers}});
@@ -282,6 +318,18 @@ public:
     }
 
 private:
+    /// Those whose property the channel moves: parts may share morph targets.
+    [[nodiscard]] std::vector<uint32_t> nodesOf(const Channel& channel) const {
+        std::vector<uint32_t> nodes;
+        for (const Part& part : parts_) {
+            if (channel.path == ChannelPath::weights && part.targetCount > 0 &&
+                part.firstTarget == channel.firstTarget) {
+                nodes.push_back(part.node);
+            }
+        }
+        return channel.path == ChannelPath::weights ? nodes : std::vector<uint32_t>{channel.node};
+    }
+
     static const char* pathOf(const Channel& channel) {
         switch (channel.path) {
         case ChannelPath::translation:
@@ -337,15 +385,60 @@ private:
         }
     }
 
+    const std::vector<Part>& parts_;
     Packer& packer_;
     Warnings& warnings_;
     std::map<std::vector<float>, size_t> inputs_; ///< channels share their key times
 };
 
+void reportFeatures(const Cage& cage, Warnings& warnings) {
+    std::set<std::pair<uint32_t, uint32_t>> edges;
+    std::set<uint32_t> vertices;
+    for (uint32_t f = 0; f < cage.faceCount() && !(cage.creases.empty() && cage.sharpVertices.empty()); ++f) {
+        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
+            const uint32_t next = c + 1 < cage.faceStarts[f + 1] ? c + 1 : cage.faceStarts[f];
+            edges.insert(std::minmax(cage.faceVertices[c], cage.faceVertices[next]));
+            vertices.insert(cage.faceVertices[c]);
+        }
+    }
+    const auto strays = static_cast<size_t>(
+        std::count_if(cage.creases.begin(), cage.creases.end(),
+                      [&](const Crease& crease) { return edges.count(std::minmax(crease.a, crease.b)) == 0; }) +
+        std::count_if(cage.sharpVertices.begin(), cage.sharpVertices.end(),
+                      [&](const SharpVertex& sharp) { return vertices.count(sharp.vertex) == 0; }));
+    if (strays > 0) {
+        warn(warnings, "creases",
+             counted(strays, "crease or sharp vertex is", "creases or sharp vertices are") +
+                 " not on a face of the cage; left out");
+    }
+    if (!cage.creaseScalars.empty()) {
+        warn(warnings, "creases",
+             counted(cage.creaseScalars.size(), "crease scalar", "crease scalars") +
+                 " of P_m left out: SUPPLE_mesh_cage has no place for them");
+    }
+}
+
+/// One a part. Normals are those of the whole, so that sewn parts look as one.
+json writeMeshes(const Character& character, Packer& packer, GlbFile& file) {
+    const std::vector<glm::vec3> normals = cornerNormals(character.cage);
+    json meshes = json::array();
+    for (size_t p = 0; p < character.parts.size(); ++p) {
+        const Character part = takePart(character, p);
+        const uint32_t first = character.cage.faceStarts[character.parts[p].firstFace];
+        json mesh = writeMesh(part, std::span(normals).subspan(first, part.cage.cornerCount()), packer, file);
+        if (!part.parts[0].name.empty()) {
+            mesh["name"] = part.parts[0].name;
+        }
+        meshes.push_back(std::move(mesh));
+    }
+    reportFeatures(character.cage, file.warnings);
+    return meshes;
+}
+
 GlbFile toGlb(const Character& character) {
     GlbFile file;
     Packer packer;
-    const bool skinned = isSkinned(character);
+    const Skins skins(character);
 
     json root;
     root["asset"] = {{"version", "2.0"}, {"generator", "Supple"}};
@@ -353,18 +446,13 @@ GlbFile toGlb(const Character& character) {
         root["asset"]["copyright"] = character.copyright;
     }
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
-    writeNodes(character, skinned, root, file.warnings);
-    json mesh = writeMesh(character, skinned, packer, file);
-    const std::string& meshName = character.skeleton.nodes[character.meshNode].name;
-    if (!meshName.empty()) {
-        mesh["name"] = meshName;
-    }
-    root["meshes"] = json::array({std::move(mesh)});
-    if (skinned) {
-        root["skins"] = json::array({writeSkin(character.skin, packer)});
+    writeNodes(character, skins, root, file.warnings);
+    root["meshes"] = writeMeshes(character, packer, file);
+    for (const std::vector<uint32_t>& joints : skins.joints) {
+        root["skins"].push_back(writeSkin(character.skin, joints, packer));
     }
     MaterialWriter(character, packer, file.warnings).write(root);
-    json animations = ClipWriter(packer, file.warnings).write(character.clips);
+    json animations = ClipWriter(character.parts, packer, file.warnings).write(character.clips);
     if (!animations.empty()) {
         root["animations"] = std::move(animations);
     }

@@ -552,10 +552,9 @@ Result<Character> readObj(std::span<const std::byte> bytes, const std::string& n
     try {
         Character character;
         character.name = name;
-        character.polygonSource = PolygonSource::obj;
-        character.weldSource = WeldSource::given;
         ObjParser(character).parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
         bindToOneJoint(character, std::filesystem::path(name).stem().string());
+        character.parts[0].polygonSource = PolygonSource::obj;
         for (std::string& warning : character.warnings) {
             warning = oneLine(std::move(warning));
         }

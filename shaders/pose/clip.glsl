@@ -105,14 +105,15 @@ Affine localMatrix(uint node, Transform t) {
 }
 
 float clipMorphWeight(uint clip, vec2 time, uint target) {
-    uint record = table(push.clips + clip).y;
+    uint targets = table(push.clips + clip).y;
+    uvec4 entry = targets != 0u ? table(targets + target) : uvec4(0u); // (channel, place in a value, numbers of a value, 0)
     precise float weight = packedFloat(push.restWeights, target);
-    if (record != 0u) {
-        uvec4 channel = table(record);
+    if (entry.x != 0u) {
+        uvec4 channel = table(entry.x);
         KeySpan span = keysAt(channel, time);
         bool cubic = (channel.x & 3u) == kCubicKeys;
-        uint stride = push.morphCount;
-        uint own = (cubic ? 3u * span.key + 1u : span.key) * stride + target;
+        uint stride = entry.z;
+        uint own = (cubic ? 3u * span.key + 1u : span.key) * stride + entry.y;
         uint next = own + (cubic ? 3u : 1u) * stride;
         weight = packedFloat(channel.w, own);
         if (span.seconds > 0.0) {

@@ -8,9 +8,10 @@
 //   joint      kJointElements each, from `joints` on: the three rows of the inverse bind matrix; (node, 0, 0, 0)
 //   level      one element each, from `levels` on: (first node, end, 0, 0)
 //   weights    from `restWeights` on: the file's morph weights, four an element
-//   clip       one element each, from `clips` on: (first of its nodes' elements, channel of the morph weights or 0,
+//   clip       one element each, from `clips` on: (first of its nodes' elements, first of its targets' elements or 0,
 //              duration as a high and a low float)
 //   clip node  one element a node: channels of its translation, rotation and scale, or 0
+//   clip target  one element a morph target: (channel or 0, place in a value, numbers of a value, 0)
 //   channel    (4 * keys + interpolation, keys a second as a float, element of the key times, of the values); times four an
 //              element; a value is one element, morph weights are packed; a cubic spline has in-tangent, value, out-tangent a key
 //

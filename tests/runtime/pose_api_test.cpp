@@ -299,7 +299,7 @@ std::vector<std::byte> walkingTube() {
     tube.morphs.weights = {0.25f, 0.0f, 1.0f, -0.5f};
     tube.clips.push_back(
         clipOf({channel(1, cage::ChannelPath::translation, {0, 1, 2}, {0, 0, 0, -1, 0.5f, 0, -2, 0, 0}),
-                channel(tube.meshNode, cage::ChannelPath::weights, {0, 2}, {0, 0, 0, 0, 1, -1, 2, 0.5f})}));
+                channel(tube.parts[0].node, cage::ChannelPath::weights, {0, 2}, {0, 0, 0, 0, 1, -1, 2, 0.5f})}));
     tube.clips[0].name = "walk";
     const Result<cage::GlbFile> file = cage::writeGlb(tube);
     EXPECT_TRUE(file.ok());

@@ -47,7 +47,7 @@ cage::Character tubeWithClips() {
         for (size_t i = 0; i < times.size() * 5; ++i) {
             weights.push_back(noise());
         }
-        channels.push_back(channel(character.meshNode, ChannelPath::weights, times, weights));
+        channels.push_back(channel(character.parts[0].node, ChannelPath::weights, times, weights));
         character.clips.push_back(clipOf(std::move(channels)));
     }
     return character;
@@ -288,7 +288,7 @@ TEST(MorphWeights, AreSampledAsAnyProperty) {
     c.morphs.weights = {0.25f, 0.5f};
     const auto at = [&](std::vector<float> values, cage::Interpolation interpolation, double time) {
         const cage::Clip clip =
-            clipOf({channel(c.meshNode, ChannelPath::weights, {1, 3}, std::move(values), interpolation)});
+            clipOf({channel(c.parts[0].node, ChannelPath::weights, {1, 3}, std::move(values), interpolation)});
         Pose pose;
         sampleClip(c, clip, time, pose);
         return pose.morphWeights;

@@ -82,7 +82,7 @@ const std::vector<std::byte>& tubeFile() {
         tube.morphs.weights = {0.25f, 0.0f, 1.0f, -0.5f};
         tube.clips.push_back(
             clipOf({channel(1, cage::ChannelPath::translation, {0, 1, 2}, {0, 0, 0, -1, 0.5f, 0, -2, 0, 0}),
-                    channel(tube.meshNode, cage::ChannelPath::weights, {0, 2}, {0, 0, 0, 0, 1, -1, 2, 0.5f})}));
+                    channel(tube.parts[0].node, cage::ChannelPath::weights, {0, 2}, {0, 0, 0, 0, 1, -1, 2, 0.5f})}));
         tube.clips[0].name = "walk";
         constexpr uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 0, 0, 13, 'I',  'H',  'D',  'R', 0,
                                     0,    0,   1,   0,   0,    0,    1,    8,    6, 0, 0, 0,  0x1F, 0x15, 0xC4, 0x89};

@@ -35,7 +35,9 @@ void addSkeleton(cage::Character& character) {
         character.skin.joints.push_back(j);
         character.skin.inverseBinds.push_back(glm::translate(glm::mat4(1.0f), -jointPlace(j)));
     }
-    character.meshNode = kCrowdJoints;
+    character.parts.assign(1, {});
+    character.parts[0].node = kCrowdJoints;
+    character.parts[0].name = "mesh";
     character.skeleton.nodes.push_back({"mesh"});
     character.skeleton.parentsFirst.push_back(kCrowdJoints);
 }

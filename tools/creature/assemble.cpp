@@ -110,9 +110,9 @@ cage::Character assemble(const Cage& model, const Skeleton& skeleton, const std:
         inverse[3] = glm::vec4(rounded(-joint.rest), 1.0f);
         character.skin.inverseBinds.push_back(inverse);
     }
-    character.meshNode = static_cast<uint32_t>(character.skeleton.nodes.size());
+    character.parts[0].node = static_cast<uint32_t>(character.skeleton.nodes.size());
     cage::Node mesh;
-    mesh.name = "pip";
+    mesh.name = character.parts[0].name = "pip";
     character.skeleton.nodes.push_back(mesh);
     character.skeleton.parentsFirst.resize(character.skeleton.nodes.size());
     std::iota(character.skeleton.parentsFirst.begin(), character.skeleton.parentsFirst.end(), 0u);

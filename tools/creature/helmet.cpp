@@ -222,7 +222,8 @@ void addRig(Character& character, uint32_t shellVertices) {
     character.skeleton.nodes[1].translation = kPivot;
     character.skeleton.nodes[2].name = "helmet mesh";
     character.skeleton.parentsFirst = {0, 1, 2};
-    character.meshNode = 2;
+    character.parts[0].node = 2;
+    character.parts[0].name = "helmet mesh";
     character.skin.joints = {0, 1};
     character.skin.inverseBinds.assign(2, glm::mat4(1.0f));
     character.skin.inverseBinds[1][3] = glm::vec4(-kPivot, 1.0f);

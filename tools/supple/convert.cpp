@@ -63,7 +63,7 @@ void report(const ConvertOptions& options, const cage::Character& character, con
         std::printf("%-18s %s\n", label, printable(text).c_str());
     };
     line("written", options.output + ", " + std::to_string(glb.bytes.size()) + " bytes");
-    line("polygons from", cage::polygonSourceName(character.polygonSource));
+    line("polygons from", cage::polygonSourceName(character.parts[0].polygonSource));
     line("faces", std::to_string(cage.faceCount()));
     line("  by sides", bySides);
     line("vertices", std::to_string(cage.vertexCount()) + " (" + std::to_string(glb.vertexCount) + " in the GLB)");

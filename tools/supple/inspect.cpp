@@ -186,8 +186,8 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     const cage::Cage& cage = character.cage;
     Json json;
     json["file"] = options.file;
-    json["polygonSource"] = cage::polygonSourceName(character.polygonSource);
-    json["weldSource"] = cage::weldSourceName(character.weldSource);
+    json["polygonSource"] = cage::polygonSourceName(character.parts[0].polygonSource);
+    json["weldSource"] = cage::weldSourceName(character.parts[0].weldSource);
     json["vertices"] = cage.vertexCount();
     json["faces"] = cage.faceCount();
     json["corners"] = cage.cornerCount();
@@ -331,8 +331,8 @@ void printText(const InspectOptions& options, const cage::Character& character, 
                const Comparison* comparison) {
     const cage::Cage& cage = character.cage;
     printLine("file", options.file);
-    printLine("polygons from", cage::polygonSourceName(character.polygonSource));
-    printLine("welded by", cage::weldSourceName(character.weldSource));
+    printLine("polygons from", cage::polygonSourceName(character.parts[0].polygonSource));
+    printLine("welded by", cage::weldSourceName(character.parts[0].weldSource));
     printLine("vertices", std::to_string(cage.vertexCount()) + " (" + std::to_string(character.sourceVertexCount) +
                               " in the file, " + std::to_string(character.seamVertexCount) + " merged at seams)");
     printLine("faces", std::to_string(cage.faceCount()));

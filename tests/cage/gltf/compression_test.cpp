@@ -132,7 +132,7 @@ TEST(GltfCompression, MeshoptDecodesToTheSame) {
             EXPECT_LT(bytes.size(), strip().glb().size());
             const Character c = readWell(bytes);
             EXPECT_EQ(c.warnings, compressionWarning(extension, 7));
-            EXPECT_EQ(c.polygonSource, PolygonSource::ngonEncoding);
+            EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::ngonEncoding);
             EXPECT_EQ(c.cage.positions, plain.cage.positions);
             EXPECT_EQ(c.cage.faceVertices, plain.cage.faceVertices);
             EXPECT_EQ(c.cage.faceStarts, plain.cage.faceStarts);

@@ -39,9 +39,8 @@ TEST(GltfMotion, ForeignChannelsAreIgnoredByName) {
     b.more = replaced(b.more, R"("sampler":9)", R"("sampler":0)");
     const Character c = readWell(b.glb());
     ASSERT_EQ(c.clips[0].channels.size(), 2u);
-    EXPECT_EQ(c.warnings,
-              (Strings{"animation 0: 1 channel of KHR_animation_pointer or no node ignored",
-                       "animation 0: 1 channel of weights of nodes without the mesh's morph targets ignored"}));
+    EXPECT_EQ(c.warnings, (Strings{"animation 0: 1 channel of KHR_animation_pointer or no node ignored",
+                                   "animation 0: 1 channel of weights of nodes without morph targets ignored"}));
 }
 
 TEST(GltfMotion, ClipsKeepTheirNumbers) {
@@ -80,7 +79,7 @@ TEST(GltfMotion, KeysOfWeights) {
     for (size_t i = 0; i < 3; ++i) {
         ASSERT_EQ(c.clips[i].channels.size(), 1u);
         EXPECT_EQ(c.clips[i].channels[0].path, ChannelPath::weights);
-        EXPECT_EQ(c.clips[i].channels[0].node, c.meshNode);
+        EXPECT_EQ(c.clips[i].channels[0].node, c.parts[0].node);
         EXPECT_EQ(c.clips[i].duration, 2.0);
     }
     EXPECT_EQ(c.clips[0].channels[0].values, (std::vector<float>{0, 1, 0.5f, 0.25f, 1, 0}));
@@ -99,7 +98,7 @@ TEST(GltfMotion, MorphTargets) {
                  R"("targets":[{"POSITION":)" + dense + R"(},{"NORMAL":0,"TANGENT":0},{"POSITION":)" + dense + "}]");
     Character c = readWell(b.glb());
     EXPECT_EQ(c.warnings, Strings());
-    EXPECT_EQ(c.meshNode, 0u);
+    EXPECT_EQ(c.parts[0].node, 0u);
     ASSERT_EQ(c.morphs.targets.size(), 3u);
     EXPECT_EQ(c.morphs.targets[0].vertices, (std::vector<uint32_t>{0, 3})) << "only those that move";
     EXPECT_EQ(c.morphs.targets[0].deltas, (std::vector<glm::vec3>{{0, 0, 1}, {0, 2, 0}}));

@@ -167,13 +167,13 @@ std::vector<Nasty> nastyList() {
                 const std::string primitive =
                     R"({"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},"indices":3}]})";
                 b.meshes = "[" + primitive + "," + primitive + "]";
-                b.nodes = R"([{"mesh":1,"skin":0},{"children":[2]},{},{"mesh":0,"skin":0}])";
+                b.nodes = R"([{"mesh":1,"skin":0},{"children":[2,3]},{},{"mesh":0,"skin":0}])";
                 return b.glb();
             },
             [](const Character& c) {
-                EXPECT_EQ(c.meshNode, 0u);
-                EXPECT_EQ(c.warnings,
-                          (Strings{"node 0: the mesh of this node is read; 1 other node with a mesh is left out"}));
+                EXPECT_EQ(c.parts.size(), 2u);
+                EXPECT_EQ(c.skin.joints.size(), 2u);
+                EXPECT_EQ(c.warnings, Strings());
             }),
         loaded(
             "skinned mesh node with a transform of its own",
@@ -554,9 +554,12 @@ std::vector<Nasty> validatorShapes() {
             "animation: channel_duplicate_targets",
             [rotation] { return quadWith(rotation, rotation + "," + rotation); },
             "animation 0 channel 1: a second channel for rotation of node 2"),
-        refused(
+        loaded(
             "animation_data: invalid_input_values, negative", [] { return quadWithFloat(kTimes, 0, -1.0f); },
-            "animation 0 channel 0 input[0]: negative time"),
+            [](const Character& c) {
+                EXPECT_EQ(c.clips[0].duration, 3.0);
+                EXPECT_EQ(c.warnings, Strings{"animation 0: keys before 0; its time begins at its first key, -1 s"});
+            }),
         refused(
             "animation_data: invalid_input_values, not finite",
             [] { return quadWithFloat(kTimes, 2, std::numeric_limits<float>::infinity()); },

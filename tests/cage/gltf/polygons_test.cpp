@@ -71,8 +71,8 @@ TEST(GltfPolygons, CageExtension) {
         const Character c =
             readWell(patch.with(cageExtension({counts, corners, patch.list("holeIndices", {1, 2}, componentType)})));
         EXPECT_EQ(c.warnings, Strings());
-        EXPECT_EQ(c.polygonSource, PolygonSource::cageExtension);
-        EXPECT_EQ(c.weldSource, WeldSource::equality);
+        EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::cageExtension);
+        EXPECT_EQ(c.parts[0].weldSource, WeldSource::equality);
         EXPECT_EQ(facesOf(c), kPolygons);
         EXPECT_EQ(c.cage.holes, (std::vector<uint32_t>{1, 2}));
         EXPECT_TRUE(buildTopology(c.cage).ok());
@@ -152,7 +152,8 @@ TEST(GltfPolygons, CageExtensionRulesAreTheHosts) {
     const Character c = readWell(patch.with(cageExtension(
         {R"("scheme":"loop")", R"("interpolateBoundary":"none")", R"("faceVaryingLinearInterpolation":"all")",
          R"("triangleSubdivisionRule":"smooth")", R"("future":{"a":[1]})"})));
-    EXPECT_EQ(c.polygonSource, PolygonSource::triangles) << "an extension without polygons leaves them to others";
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::triangles)
+        << "an extension without polygons leaves them to others";
     EXPECT_EQ(c.warnings,
               (Strings{"mesh 0 primitive 0 SUPPLE_mesh_cage interpolateBoundary: \"none\" is not followed",
                        "mesh 0 primitive 0 SUPPLE_mesh_cage triangleSubdivisionRule: \"smooth\" is not followed"}));
@@ -208,7 +209,7 @@ TEST(GltfPolygons, CreasesByCageVertex) {
                "," + primitive(1, 5, "") + "]}]";
     const Character c = readWell(b);
     EXPECT_EQ(c.warnings, Strings());
-    EXPECT_EQ(c.weldSource, WeldSource::cageExtension);
+    EXPECT_EQ(c.parts[0].weldSource, WeldSource::cageExtension);
     EXPECT_EQ(c.cage.positions,
               (std::vector<glm::vec3>{{1, 0, 0}, {1, 1, 0}, {2, 1, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 0}}));
     EXPECT_EQ(facesOf(c), (Faces{{5, 0, 1, 4}, {1, 0, 3, 2}}));
@@ -283,7 +284,7 @@ TEST(GltfPolygons, MeshPolygon) {
         const Character c = readWell(patch.with(
             meshPolygon(patch, componentType, {0, 1, 4, 3, r, 1, 2, 5, 4, r, 3, 4, 5, 7, 6}, {0, 5, 10}, {0, 6, 12})));
         EXPECT_EQ(c.warnings, Strings());
-        EXPECT_EQ(c.polygonSource, PolygonSource::meshPolygon);
+        EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::meshPolygon);
         EXPECT_EQ(facesOf(c), kPolygons);
         // Some write no restart values between polygons, some one behind the last.
         EXPECT_EQ(facesOf(readWell(patch.with(meshPolygon(
@@ -297,7 +298,7 @@ TEST(GltfPolygons, MeshPolygonThatCannotBeUsed) {
     const std::string pierced =
         meshPolygon(patch, 5121, {0, 1, 4, 3, 255, 1, 2, 5, 255, 4, 5, 7, 255, 3, 4, 5, 7, 6}, {0, 5, 13}, {0, 6, 12});
     Character c = readWell(patch.with(pierced + R"(,"FB_ngon_encoding":{})"));
-    EXPECT_EQ(c.polygonSource, PolygonSource::ngonEncoding) << "the next source is used";
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::ngonEncoding) << "the next source is used";
     EXPECT_EQ(c.warnings,
               (Strings{"mesh 0 primitive 0 EXT_mesh_polygon: 1 polygon has a hole (first: polygon 1), which "
                        "no face of a cage can; not used"}));
@@ -308,7 +309,7 @@ TEST(GltfPolygons, MeshPolygonThatCannotBeUsed) {
     patch.b.more = "";
     c = readWell(
         patch.with(extension("EXT_mesh_polygon", {R"("triangleIndices":1)", R"("triangleIndicesOffsets":1)"})));
-    EXPECT_EQ(c.polygonSource, PolygonSource::triangles);
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::triangles);
     EXPECT_EQ(c.warnings, (Strings{"mesh 0 primitive 0 EXT_mesh_polygon: a form of the draft that is not understood, "
                                    "without count; not used"}));
 }
@@ -385,7 +386,7 @@ TEST(GltfPolygons, HiddenEdges) {
     };
     Character c = readWell(patch.with(visibility(kEdges)));
     EXPECT_EQ(c.warnings, Strings());
-    EXPECT_EQ(c.polygonSource, PolygonSource::hiddenEdges);
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::hiddenEdges);
     EXPECT_EQ(facesOf(c), kPolygons);
 
     // A silhouette edge is written once, and hidden where it is met again: no edge to merge across.
@@ -446,7 +447,7 @@ TEST(GltfPolygons, NgonEncodingWhereThePrimitiveCarriesIt) {
     const std::vector<uint32_t> quads = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
     GltfBuilder b = plainMesh(grid, quads, R"(,"extensions":{"FB_ngon_encoding":{}})");
     Character c = readWell(b.glb());
-    EXPECT_EQ(c.polygonSource, PolygonSource::ngonEncoding);
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::ngonEncoding);
     ASSERT_EQ(c.cage.faceCount(), 2u);
     EXPECT_EQ(face(c.cage, 0), (std::vector<uint32_t>{0, 1, 4, 3}));
     EXPECT_EQ(face(c.cage, 1), (std::vector<uint32_t>{1, 2, 5, 4}));
@@ -455,7 +456,7 @@ TEST(GltfPolygons, NgonEncodingWhereThePrimitiveCarriesIt) {
     b = plainMesh(grid, quads);
     b.more = R"(,"extensionsUsed":["FB_ngon_encoding"])";
     c = readWell(b.glb());
-    EXPECT_EQ(c.polygonSource, PolygonSource::triangles);
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::triangles);
     EXPECT_EQ(c.cage.faceCount(), 4u);
 }
 
@@ -464,7 +465,7 @@ TEST(GltfPolygons, PairingIsOptIn) {
     GltfBuilder b = plainMesh(grid, {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4});
     EXPECT_EQ(readWell(b.glb()).cage.faceCount(), 4u);
     const Character c = readWell(b.glb(), {.pairQuads = true});
-    EXPECT_EQ(c.polygonSource, PolygonSource::pairedTriangles);
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::pairedTriangles);
     ASSERT_EQ(c.cage.faceCount(), 2u);
     EXPECT_EQ(face(c.cage, 0), (std::vector<uint32_t>{0, 1, 4, 3}));
     EXPECT_EQ(face(c.cage, 1), (std::vector<uint32_t>{1, 2, 5, 4}));
@@ -484,7 +485,7 @@ TEST(GltfPolygons, EncodedPolygonsAreNeverPaired) {
     const GltfBuilder b =
         plainMesh({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 1, 2, 2, 3, 0}, R"(,"extensions":{"FB_ngon_encoding":{}})");
     const Character c = readWell(b.glb(), {.pairQuads = true});
-    EXPECT_EQ(c.polygonSource, PolygonSource::ngonEncoding);
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::ngonEncoding);
     EXPECT_EQ(c.cage.faceCount(), 2u);
 }
 
@@ -510,10 +511,10 @@ TEST(GltfPolygons, SourcesInOrder) {
             extensions.insert(0, extensions.empty() ? all[i] : all[i] + ",");
         }
         const Character c = readWell(patch.with(extensions), {.pairQuads = true});
-        EXPECT_EQ(c.polygonSource, sources[first]);
-        EXPECT_EQ(c.cage.faceCount(), faceCounts[first]) << polygonSourceName(c.polygonSource);
+        EXPECT_EQ(c.parts[0].polygonSource, sources[first]);
+        EXPECT_EQ(c.cage.faceCount(), faceCounts[first]) << polygonSourceName(c.parts[0].polygonSource);
     }
-    EXPECT_EQ(readWell(patch.with("")).polygonSource, PolygonSource::triangles);
+    EXPECT_EQ(readWell(patch.with("")).parts[0].polygonSource, PolygonSource::triangles);
 }
 
 TEST(GltfPolygons, EveryPrimitiveHasItsOwnSource) {
@@ -528,7 +529,7 @@ TEST(GltfPolygons, EveryPrimitiveHasItsOwnSource) {
                R"({"faceVertexCounts":3,"faceVertexIndices":4,"holeIndices":5}}}]}])";
     b.addIntegers("SCALAR", 5121, {0});
     const Character c = readWell(b);
-    EXPECT_EQ(c.polygonSource, PolygonSource::cageExtension) << "the best of them names the whole";
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::cageExtension) << "the best of them names the whole";
     EXPECT_EQ(facesOf(c), (Faces{{0, 1, 2}, {0, 2, 3}, {1, 4, 5, 2}}));
     EXPECT_EQ(c.cage.holes, (std::vector<uint32_t>{2}));
     EXPECT_TRUE(buildTopology(c.cage).ok());

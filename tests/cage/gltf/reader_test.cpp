@@ -15,7 +15,7 @@ TEST(GltfReader, SkinnedQuad) {
         const Character c = readWell(bytes);
         EXPECT_EQ(c.name, "t.glb");
         EXPECT_EQ(c.warnings, Strings());
-        EXPECT_EQ(c.polygonSource, PolygonSource::triangles);
+        EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::triangles);
         EXPECT_EQ(c.cage.vertexCount(), 4u);
         ASSERT_EQ(c.cage.faceCount(), 2u);
         EXPECT_EQ(face(c.cage, 0), (std::vector<uint32_t>{0, 1, 2}));
@@ -90,33 +90,6 @@ TEST(GltfReader, NameAndControlCharactersStayOnOneLine) {
 }
 
 // ---- which mesh -----------------------------------------------------------------------------------------------------
-
-TEST(GltfReader, SkinnedMeshComesBeforeOthers) {
-    GltfBuilder b = skinnedQuad();
-    const std::string primitive = R"({"attributes":{"POSITION":0},"indices":3})";
-    b.meshes =
-        R"([{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},"indices":3}]},{"primitives":[)" +
-        primitive + "," + primitive + "]}]";
-    b.nodes = R"([{"mesh":1},{"name":"root","children":[2]},{"name":"tip"},{"mesh":0,"skin":0}])";
-    b.more = replaced(b.more, R"("nodes":[0,1])", R"("nodes":[0,1,3])");
-    const Character c = readWell(b.glb());
-    EXPECT_EQ(c.cage.faceCount(), 2u);
-    EXPECT_EQ(c.skin.joints.size(), 2u);
-    EXPECT_EQ(c.warnings, (Strings{"node 3: the mesh of this node is read; 1 other node with a mesh is left out"}));
-}
-
-TEST(GltfReader, SceneOrderComesBeforeNodeOrder) {
-    GltfBuilder b = skinnedQuad();
-    b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":3}]},)"
-               R"({"primitives":[{"attributes":{"POSITION":0},"indices":3}]}])";
-    b.nodes = R"([{"mesh":0},{"mesh":1},{"children":[1]}])";
-    b.more = R"(,"scenes":[{"nodes":[0]},{"nodes":[2,0]}],"scene":1)";
-    EXPECT_EQ(readWell(b.glb()).skin.joints, std::vector<uint32_t>{1});
-    b.more = R"(,"scenes":[{"nodes":[0]},{"nodes":[2,0]}])";
-    EXPECT_EQ(readWell(b.glb()).skin.joints, std::vector<uint32_t>{0});
-    b.more = "";
-    EXPECT_EQ(readWell(b.glb()).skin.joints, std::vector<uint32_t>{0});
-}
 
 TEST(GltfReader, UnskinnedMeshHangsOnItsNode) {
     GltfBuilder b = skinnedQuad();

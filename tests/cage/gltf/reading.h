@@ -24,8 +24,9 @@ inline Character readWell(const GltfBuilder& b, const GltfOptions& options = {})
 }
 
 /// Why a wrong file is refused; "accepted" where it is not.
-inline std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code = ErrorCode::asset) {
-    const Result<Character> result = readGltf(bytes, "t.glb", "");
+inline std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code = ErrorCode::asset,
+                             const GltfOptions& options = {}) {
+    const Result<Character> result = readGltf(bytes, "t.glb", "", options);
     if (result.ok()) {
         return "accepted";
     }

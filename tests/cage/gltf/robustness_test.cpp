@@ -186,7 +186,7 @@ TEST(GltfRobustness, TheFilesThemselvesAreRight) {
 
     const Result<Character> cage = readGltf(cageFile(), "t.glb", "");
     ASSERT_TRUE(cage.ok()) << cage.error().message;
-    EXPECT_EQ(cage->polygonSource, PolygonSource::cageExtension);
+    EXPECT_EQ(cage->parts[0].polygonSource, PolygonSource::cageExtension);
     EXPECT_EQ(cage->cage.creases.size(), 1u);
     EXPECT_EQ(cage->cage.sharpVertices.size(), 1u);
     EXPECT_EQ(cage->cage.holes.size(), 1u);
@@ -195,14 +195,14 @@ TEST(GltfRobustness, TheFilesThemselvesAreRight) {
 
     const Result<Character> polygons = readGltf(polygonFile(), "t.glb", "");
     ASSERT_TRUE(polygons.ok()) << polygons.error().message;
-    EXPECT_EQ(polygons->polygonSource, PolygonSource::meshPolygon);
-    EXPECT_EQ(polygons->weldSource, WeldSource::meshManifold);
+    EXPECT_EQ(polygons->parts[0].polygonSource, PolygonSource::meshPolygon);
+    EXPECT_EQ(polygons->parts[0].weldSource, WeldSource::meshManifold);
     EXPECT_EQ(polygons->cage.vertexCount(), 6u);
     EXPECT_EQ(polygons->cage.faceCount(), 2u);
 
     const Result<Character> packed = readGltf(compressedFile(), "t.glb", "");
     ASSERT_TRUE(packed.ok()) << packed.error().message;
-    EXPECT_EQ(packed->weldSource, WeldSource::vertexAttribute);
+    EXPECT_EQ(packed->parts[0].weldSource, WeldSource::vertexAttribute);
     EXPECT_EQ(packed->clips[0].channels.size(), 2u);
 }
 

@@ -31,8 +31,8 @@ GltfBuilder withNumbers(const std::vector<float>& numbers) {
 TEST(GltfWeld, CageVertexAttribute) {
     EXPECT_EQ(readWell(withMesh(twoTriangles(), "")).cage.vertexCount(), 6u);
     const Character c = readWell(withNumbers({4, 3, 2, 2, 1, 0}));
-    EXPECT_EQ(c.weldSource, WeldSource::vertexAttribute);
-    EXPECT_STREQ(weldSourceName(c.weldSource), "_CAGE_VERTEX");
+    EXPECT_EQ(c.parts[0].weldSource, WeldSource::vertexAttribute);
+    EXPECT_STREQ(weldSourceName(c.parts[0].weldSource), "_CAGE_VERTEX");
     EXPECT_EQ(c.warnings, Strings());
     EXPECT_EQ(c.cage.sourceVertices, (std::vector<uint32_t>{5, 4, 2, 1, 0})) << "in the order of the numbers";
     EXPECT_EQ(c.cage.faceVertices, (std::vector<uint32_t>{4, 3, 2, 2, 1, 0}));
@@ -75,14 +75,14 @@ TEST(GltfWeld, NumbersComeFromAllPrimitivesOrNone) {
     const std::string extension = R"(,"extensions":{"SUPPLE_mesh_cage":{"cageVertices":4}})";
     b.meshes = R"([{"primitives":[)" + primitive(2, attribute, "") + "," + primitive(3, "", "") + "]}]";
     Character c = readWell(b);
-    EXPECT_EQ(c.weldSource, WeldSource::equality);
+    EXPECT_EQ(c.parts[0].weldSource, WeldSource::equality);
     EXPECT_EQ(c.warnings, (Strings{"mesh 0: _CAGE_VERTEX is not on all primitives; not used"}));
     b.meshes = R"([{"primitives":[)" + primitive(2, attribute, extension) + "," + primitive(3, attribute, "") + "]}]";
     EXPECT_EQ(messageOf(b), "t.glb: mesh 0 primitive 1: no cageVertices of SUPPLE_mesh_cage, which other primitives of "
                             "the mesh have");
     b.meshes = R"([{"primitives":[)" + primitive(2, attribute, extension) + "," + primitive(3, "", extension) + "]}]";
     c = readWell(b);
-    EXPECT_EQ(c.weldSource, WeldSource::cageExtension);
+    EXPECT_EQ(c.parts[0].weldSource, WeldSource::cageExtension);
     EXPECT_EQ(c.cage.vertexCount(), 5u);
     EXPECT_EQ(c.sourceVertexCount, 6u) << "primitives over the same accessors share their vertices";
 }
@@ -169,7 +169,7 @@ TEST(GltfWeld, Manifold) {
     const Result<Character> c = file.read();
     ASSERT_TRUE(c.ok()) << c.error().message;
     EXPECT_EQ(c->warnings, Strings());
-    EXPECT_EQ(c->weldSource, WeldSource::meshManifold);
+    EXPECT_EQ(c->parts[0].weldSource, WeldSource::meshManifold);
     EXPECT_EQ(c->cage.vertexCount(), 8u);
     EXPECT_EQ(c->sourceVertexCount, 24u);
     EXPECT_TRUE(buildTopology(c->cage).ok());
@@ -184,7 +184,7 @@ TEST(GltfWeld, Manifold) {
     // Where a tool has written the merged indices themselves, what they were is lost.
     const Result<Character> dense = file.read(false);
     ASSERT_TRUE(dense.ok()) << dense.error().message;
-    EXPECT_EQ(dense->weldSource, WeldSource::equality);
+    EXPECT_EQ(dense->parts[0].weldSource, WeldSource::equality);
     EXPECT_EQ(dense->warnings,
               (Strings{"mesh 0 EXT_mesh_manifold: its indices are not sparse, so what they were before "
                        "merging is lost; not used"}));
@@ -202,7 +202,7 @@ TEST(GltfWeld, ManifoldComesAfterNumbers) {
     }
     const Result<Character> c = file.read();
     ASSERT_TRUE(c.ok()) << c.error().message;
-    EXPECT_EQ(c->weldSource, WeldSource::vertexAttribute);
+    EXPECT_EQ(c->parts[0].weldSource, WeldSource::vertexAttribute);
     EXPECT_EQ(c->cage.vertexCount(), 24u);
 }
 

@@ -50,8 +50,8 @@ TEST(ObjReader, PolygonsOfAnySidesInTheFilesOrder) {
                                  "f 1 2 3 4 5\n"
                                  "f 2 6 3\n");
     EXPECT_EQ(c.warnings, Strings());
-    EXPECT_EQ(c.polygonSource, PolygonSource::obj);
-    EXPECT_EQ(c.weldSource, WeldSource::given);
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::obj);
+    EXPECT_EQ(c.parts[0].weldSource, WeldSource::given);
     EXPECT_EQ(c.cage.faceStarts, (std::vector<uint32_t>{0, 5, 8}));
     EXPECT_EQ(c.cage.faceVertices, (std::vector<uint32_t>{0, 1, 2, 3, 4, 1, 5, 2}));
     EXPECT_EQ(c.cage.faceMaterials, (std::vector<uint32_t>{kNone, kNone}));
@@ -269,7 +269,7 @@ TEST(ObjReader, DamagedFilesAreReadOrRefused) {
 TEST(CharacterReader, TellsTheFormatsApart) {
     const auto source = [](const std::vector<std::byte>& bytes, const std::string& name) {
         const Result<Character> result = readCharacter(bytes, name, "");
-        return result.ok() ? polygonSourceName(result->polygonSource) : result.error().message;
+        return result.ok() ? polygonSourceName(result->parts[0].polygonSource) : result.error().message;
     };
     EXPECT_EQ(source(toBytes(kSquare), "a.obj"), "OBJ");
     EXPECT_EQ(source(toBytes(kSquare), "some.folder/A.OBJ"), "OBJ");

@@ -1,0 +1,331 @@
+#include "cage/parts.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+
+namespace supple::cage {
+namespace {
+
+template <class T>
+void appendTo(std::vector<T>& all, const std::vector<T>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+/// An attribute that some parts lack: where others have it, they get `missing`.
+template <class T>
+void appendPadded(std::vector<T>& all, size_t before, const std::vector<T>& more, size_t count, const T& missing) {
+    if (all.empty() && more.empty()) {
+        return;
+    }
+    all.resize(before, missing);
+    appendTo(all, more);
+    all.resize(before + count, missing);
+}
+
+void appendCage(const Cage& from, uint32_t sourceVertices, Cage& cage) {
+    const uint32_t vertices = cage.vertexCount(), faces = cage.faceCount(), corners = cage.cornerCount();
+    const uint32_t moreFaces = from.faceCount(), moreCorners = from.cornerCount();
+    appendPadded(cage.cornerUvs, corners, from.cornerUvs, moreCorners, glm::vec2(0.0f));
+    appendPadded(cage.cornerUvs1, corners, from.cornerUvs1, moreCorners, glm::vec2(0.0f));
+    appendPadded(cage.cornerColors, corners, from.cornerColors, moreCorners, glm::vec4(1.0f));
+    appendPadded(cage.faceMaterials, faces, from.faceMaterials, moreFaces, kNone);
+    appendPadded(cage.faceTrimTiles, faces, from.faceTrimTiles, moreFaces, kNone);
+    appendTo(cage.positions, from.positions);
+    if (cage.faceStarts.empty()) {
+        cage.faceStarts.push_back(0);
+    }
+    for (uint32_t f = 0; f < moreFaces; ++f) {
+        cage.faceStarts.push_back(corners + from.faceStarts[f + 1]);
+    }
+    for (const uint32_t v : from.faceVertices) {
+        cage.faceVertices.push_back(vertices + v);
+    }
+    for (const uint32_t v : from.sourceVertices) {
+        cage.sourceVertices.push_back(sourceVertices + v);
+    }
+    for (const Crease& crease : from.creases) {
+        cage.creases.push_back({vertices + crease.a, vertices + crease.b, crease.sharpness});
+    }
+    for (const SharpVertex& sharp : from.sharpVertices) {
+        cage.sharpVertices.push_back({vertices + sharp.vertex, sharp.sharpness});
+    }
+    for (const CreaseScalar& scalar : from.creaseScalars) {
+        cage.creaseScalars.push_back({vertices + scalar.vertex, vertices + scalar.toward, scalar.alpha});
+    }
+    for (const uint32_t hole : from.holes) {
+        cage.holes.push_back(faces + hole);
+    }
+}
+
+void appendWeights(const PartCage& from, SkinWeights& weights) {
+    if (weights.starts.empty()) {
+        weights.starts.push_back(0);
+    }
+    const auto first = static_cast<uint32_t>(weights.influences.size());
+    for (size_t v = 1; v < from.weights.starts.size(); ++v) {
+        weights.starts.push_back(first + from.weights.starts[v]);
+    }
+    for (const Influence& influence : from.weights.influences) {
+        weights.influences.push_back({from.part.joints[influence.joint], influence.weight});
+    }
+}
+
+/// The clips' channels of the weights of each part's targets.
+using WeightChannels = std::vector<std::vector<const Channel*>>;
+
+WeightChannels weightChannels(const Character& character, std::span<const PartCage> parts) {
+    std::map<uint32_t, size_t> places;
+    for (size_t p = 0; p < parts.size(); ++p) {
+        places.emplace(parts[p].part.node, p);
+    }
+    WeightChannels channels(parts.size(), std::vector<const Channel*>(character.clips.size(), nullptr));
+    for (size_t c = 0; c < character.clips.size(); ++c) {
+        for (const Channel& channel : character.clips[c].channels) {
+            const auto found = places.find(channel.node);
+            if (channel.path == ChannelPath::weights && found != places.end()) {
+                channels[found->second][c] = &channel;
+            }
+        }
+    }
+    return channels;
+}
+
+bool moveAlike(std::span<const Channel* const> a, std::span<const Channel* const> b) {
+    for (size_t c = 0; c < a.size(); ++c) {
+        if ((a[c] == nullptr) != (b[c] == nullptr) ||
+            (a[c] != nullptr && (a[c]->interpolation != b[c]->interpolation || a[c]->times != b[c]->times ||
+                                 a[c]->values != b[c]->values))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Names that tell targets apart.
+std::vector<std::string> targetNames(const Morphs& morphs) {
+    std::vector<std::string> names;
+    for (const MorphTarget& target : morphs.targets) {
+        names.push_back(target.name);
+    }
+    std::vector<std::string> sorted = names;
+    std::sort(sorted.begin(), sorted.end());
+    const bool differ = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+    return differ && (sorted.empty() || !sorted.front().empty()) ? names : std::vector<std::string>();
+}
+
+/// Gives each part its run of the character's targets.
+void placeTargets(std::span<PartCage> parts, Character& character) {
+    const WeightChannels channels = weightChannels(character, parts);
+    std::multimap<std::vector<std::string>, size_t> named; // parts with runs of their own
+    for (size_t p = 0; p < parts.size(); ++p) {
+        Part& part = parts[p].part;
+        const Morphs& morphs = parts[p].morphs;
+        part.targetCount = static_cast<uint32_t>(morphs.targets.size());
+        part.firstTarget = static_cast<uint32_t>(character.morphs.targets.size());
+        if (part.targetCount == 0) {
+            part.firstTarget = 0;
+            continue;
+        }
+        const std::vector<std::string> names = targetNames(morphs);
+        const auto [first, last] = named.equal_range(names);
+        const auto same = std::find_if(first, last, [&](const auto& other) {
+            return parts[other.second].morphs.weights == morphs.weights &&
+                   moveAlike(channels[other.second], channels[p]);
+        });
+        if (!names.empty() && same != last) {
+            part.firstTarget = parts[same->second].part.firstTarget;
+            continue;
+        }
+        named.emplace(names, p);
+        for (const MorphTarget& target : morphs.targets) {
+            character.morphs.targets.push_back({target.name, {}, {}});
+        }
+        appendTo(character.morphs.weights, morphs.weights);
+    }
+}
+
+/// Channels tell which targets they move; those of targets that a channel before moves are left out.
+void placeChannels(std::span<const PartCage> parts, Character& character) {
+    std::map<uint32_t, uint32_t> firstTargets;
+    for (const PartCage& part : parts) {
+        firstTargets.emplace(part.part.node, part.part.firstTarget);
+    }
+    for (Clip& clip : character.clips) {
+        std::set<uint32_t> moved;
+        std::erase_if(clip.channels, [&](Channel& channel) {
+            if (channel.path != ChannelPath::weights) {
+                return false;
+            }
+            channel.firstTarget = firstTargets[channel.node];
+            return !moved.insert(channel.firstTarget).second;
+        });
+    }
+}
+
+void appendDisplacements(const PartCage& from, uint32_t firstVertex, Morphs& morphs) {
+    for (size_t t = 0; t < from.morphs.targets.size(); ++t) {
+        MorphTarget& target = morphs.targets[from.part.firstTarget + t];
+        for (const uint32_t v : from.morphs.targets[t].vertices) {
+            target.vertices.push_back(firstVertex + v);
+        }
+        appendTo(target.deltas, from.morphs.targets[t].deltas);
+    }
+}
+
+/// The faces with all that belongs to them and to their corners.
+void takeFaces(const Cage& from, uint32_t first, uint32_t last, Cage& cage) {
+    const uint32_t firstCorner = from.faceStarts[first], lastCorner = from.faceStarts[last];
+    for (uint32_t f = first; f <= last; ++f) {
+        cage.faceStarts.push_back(from.faceStarts[f] - firstCorner);
+    }
+    const auto take = [](const auto& values, auto& taken, uint32_t begin, uint32_t end) {
+        if (!values.empty()) {
+            taken.assign(values.begin() + begin, values.begin() + end);
+        }
+    };
+    take(from.faceVertices, cage.faceVertices, firstCorner, lastCorner);
+    take(from.cornerUvs, cage.cornerUvs, firstCorner, lastCorner);
+    take(from.cornerUvs1, cage.cornerUvs1, firstCorner, lastCorner);
+    take(from.cornerColors, cage.cornerColors, firstCorner, lastCorner);
+    take(from.faceMaterials, cage.faceMaterials, first, last);
+    take(from.faceTrimTiles, cage.faceTrimTiles, first, last);
+    for (const uint32_t hole : from.holes) {
+        if (hole >= first && hole < last) {
+            cage.holes.push_back(hole - first);
+        }
+    }
+}
+
+/// The creases on edges of the cage's faces, and its sharp vertices. `places`: of the vertices that were taken, or
+/// kNone.
+void takeFeatures(const Cage& from, std::span<const uint32_t> places, Cage& cage) {
+    std::set<std::pair<uint32_t, uint32_t>> edges;
+    for (uint32_t f = 0; f < cage.faceCount() && !(from.creases.empty() && from.creaseScalars.empty()); ++f) {
+        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
+            const uint32_t next = c + 1 < cage.faceStarts[f + 1] ? c + 1 : cage.faceStarts[f];
+            edges.insert(std::minmax(cage.faceVertices[c], cage.faceVertices[next]));
+        }
+    }
+    const auto isEdge = [&](uint32_t a, uint32_t b) {
+        return places[a] != kNone && places[b] != kNone && edges.count(std::minmax(places[a], places[b])) != 0;
+    };
+    for (const Crease& crease : from.creases) {
+        if (isEdge(crease.a, crease.b)) {
+            cage.creases.push_back({places[crease.a], places[crease.b], crease.sharpness});
+        }
+    }
+    for (const SharpVertex& sharp : from.sharpVertices) {
+        if (places[sharp.vertex] != kNone) {
+            cage.sharpVertices.push_back({places[sharp.vertex], sharp.sharpness});
+        }
+    }
+    for (const CreaseScalar& scalar : from.creaseScalars) {
+        if (isEdge(scalar.vertex, scalar.toward)) {
+            cage.creaseScalars.push_back({places[scalar.vertex], places[scalar.toward], scalar.alpha});
+        }
+    }
+}
+
+void takeTargets(const Character& character, size_t index, std::span<const uint32_t> places, Morphs& morphs) {
+    const Part& part = character.parts[index];
+    for (uint32_t t = part.firstTarget; t < part.firstTarget + part.targetCount; ++t) {
+        const MorphTarget& from = character.morphs.targets[t];
+        MorphTarget& target = morphs.targets.emplace_back(MorphTarget{from.name, {}, {}});
+        for (size_t i = 0; i < from.vertices.size(); ++i) {
+            if (places[from.vertices[i]] != kNone) {
+                target.vertices.push_back(places[from.vertices[i]]);
+                target.deltas.push_back(from.deltas[i]);
+            }
+        }
+        morphs.weights.push_back(character.morphs.weights[t]);
+    }
+}
+
+} // namespace
+
+std::vector<uint32_t> PaletteBuilder::add(const Skin& skin) {
+    std::map<Key, size_t> seen;
+    std::vector<uint32_t> places;
+    for (size_t j = 0; j < skin.joints.size(); ++j) {
+        Key key{skin.joints[j], {}};
+        std::memcpy(key.second.data(), &skin.inverseBinds[j][0][0], sizeof key.second);
+        std::vector<uint32_t>& known = known_[key];
+        const size_t nth = seen[key]++;
+        if (nth == known.size()) {
+            known.push_back(static_cast<uint32_t>(palette_->joints.size()));
+            palette_->joints.push_back(skin.joints[j]);
+            palette_->inverseBinds.push_back(skin.inverseBinds[j]);
+        }
+        places.push_back(known[nth]);
+    }
+    return places;
+}
+
+void reverseFaces(Cage& cage) {
+    const auto reverse = [&](auto& values) {
+        for (uint32_t f = 0; f < cage.faceCount() && !values.empty(); ++f) {
+            std::reverse(values.begin() + cage.faceStarts[f] + 1, values.begin() + cage.faceStarts[f + 1]);
+        }
+    };
+    reverse(cage.faceVertices);
+    reverse(cage.cornerUvs);
+    reverse(cage.cornerUvs1);
+    reverse(cage.cornerColors);
+}
+
+Character takePart(const Character& character, size_t index) {
+    const Cage& from = character.cage;
+    const uint32_t firstFace = character.parts[index].firstFace, lastFace = endFace(character, index);
+    const uint32_t firstCorner = from.faceStarts[firstFace], lastCorner = from.faceStarts[lastFace];
+    Character taken;
+    taken.name = character.name;
+    taken.parts = {character.parts[index]};
+    taken.parts[0].firstFace = taken.parts[0].firstTarget = 0;
+    taken.skeleton = character.skeleton;
+    taken.skin = character.skin;
+    taken.materials = character.materials;
+    takeFaces(from, firstFace, lastFace, taken.cage);
+
+    std::vector<uint32_t> vertices(from.faceVertices.begin() + firstCorner, from.faceVertices.begin() + lastCorner);
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::vector<uint32_t> places(from.vertexCount(), kNone);
+    taken.weights.starts.push_back(0);
+    for (const uint32_t v : vertices) {
+        places[v] = taken.cage.vertexCount();
+        taken.cage.positions.push_back(from.positions[v]);
+        const auto& influences = character.weights.influences;
+        taken.weights.influences.insert(taken.weights.influences.end(),
+                                        influences.begin() + character.weights.starts[v],
+                                        influences.begin() + character.weights.starts[v + 1]);
+        taken.weights.starts.push_back(static_cast<uint32_t>(taken.weights.influences.size()));
+    }
+    for (uint32_t& v : taken.cage.faceVertices) {
+        v = places[v];
+    }
+    takeFeatures(from, places, taken.cage);
+    takeTargets(character, index, places, taken.morphs);
+    return taken;
+}
+
+void joinParts(std::vector<PartCage> parts, Character& character) {
+    placeTargets(parts, character);
+    placeChannels(parts, character);
+    character.parts.clear();
+    for (PartCage& part : parts) {
+        part.part.firstFace = character.cage.faceCount();
+        appendDisplacements(part, character.cage.vertexCount(), character.morphs);
+        appendCage(part.cage, character.sourceVertexCount, character.cage);
+        appendWeights(part, character.weights);
+        character.sourceVertexCount += part.sourceVertexCount;
+        character.seamVertexCount += part.seamVertexCount;
+        character.parts.push_back(std::move(part.part));
+        part = {};
+    }
+}
+
+} // namespace supple::cage

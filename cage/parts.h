@@ -1,0 +1,50 @@
+// A character is put together from its parts: one cage, one palette, one list of morph targets for all of them.
+#pragma once
+
+#include "cage/character.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace supple::cage {
+
+/// What a reader has read of one mesh node. Vertices, faces and joints count from 0.
+struct PartCage {
+    Part part;
+    Cage cage;
+    SkinWeights weights; ///< of the joints of part.joints
+    Morphs morphs;       ///< targets of the part alone
+    uint32_t sourceVertexCount = 0;
+    uint32_t seamVertexCount = 0;
+};
+
+/// The palette of a character as skins are added. An entry is a node and an inverse bind matrix; skins share entries
+/// that are equal bit for bit, but the joints of one skin stay apart.
+class PaletteBuilder {
+public:
+    explicit PaletteBuilder(Skin& palette) : palette_(&palette) {}
+    /// The place of each of the skin's joints in the palette.
+    [[nodiscard]] std::vector<uint32_t> add(const Skin& skin);
+
+private:
+    using Key = std::pair<uint32_t, std::array<float, 16>>; ///< node, inverse bind matrix
+    Skin* palette_;
+    std::map<Key, std::vector<uint32_t>> known_; ///< its places
+};
+
+/// Turns the faces inside out, with all that belongs to their corners.
+void reverseFaces(Cage& cage);
+
+/// One part as a character of its own: its faces, vertices and morph targets; everything else as it was. Vertices keep
+/// their order.
+[[nodiscard]] Character takePart(const Character& character, size_t part);
+
+/// Puts the parts into the character, in their order: cage, weights, morph targets, counts. The character's clips tell
+/// which parts share their morph targets: those of equal names and weights that all clips move alike, as exporters
+/// write them when they cut a mesh. Channels of shared targets are left in once.
+void joinParts(std::vector<PartCage> parts, Character& character);
+
+} // namespace supple::cage

@@ -1,0 +1,260 @@
+#include "cage/sew.h"
+
+#include "cage/weld.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace supple::cage {
+namespace {
+
+/// Per cage vertex: whether it lies on an edge that has one face.
+std::vector<uint8_t> boundaryVertices(const Cage& cage) {
+    std::vector<std::pair<uint32_t, uint32_t>> edges;
+    edges.reserve(cage.cornerCount());
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
+            const uint32_t next = c + 1 < cage.faceStarts[f + 1] ? c + 1 : cage.faceStarts[f];
+            edges.push_back(std::minmax(cage.faceVertices[c], cage.faceVertices[next]));
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<uint8_t> boundary(cage.vertexCount(), 0);
+    for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        while (end < edges.size() && edges[end] == edges[begin]) {
+            ++end;
+        }
+        if (end - begin == 1) {
+            boundary[edges[begin].first] = boundary[edges[begin].second] = 1;
+        }
+    }
+    return boundary;
+}
+
+std::vector<uint32_t> partsOfVertices(const Character& character) {
+    const Cage& cage = character.cage;
+    std::vector<uint32_t> parts(cage.vertexCount(), 0);
+    for (uint32_t p = 0; p < character.parts.size(); ++p) {
+        const uint32_t begin = cage.faceStarts[character.parts[p].firstFace];
+        const uint32_t end = cage.faceStarts[endFace(character, p)];
+        for (uint32_t c = begin; c < end; ++c) {
+            parts[cage.faceVertices[c]] = p;
+        }
+    }
+    return parts;
+}
+
+/// The displacements of each vertex, by target.
+struct Displacements {
+    std::vector<uint32_t> starts;
+    std::vector<std::pair<uint32_t, glm::vec3>> deltas;
+
+    explicit Displacements(const Character& character) : starts(character.cage.vertexCount() + size_t{1}, 0) {
+        for (const MorphTarget& target : character.morphs.targets) {
+            for (const uint32_t v : target.vertices) {
+                ++starts[v + 1];
+            }
+        }
+        for (size_t v = 1; v < starts.size(); ++v) {
+            starts[v] += starts[v - 1];
+        }
+        deltas.resize(starts.back());
+        std::vector<uint32_t> next(starts.begin(), starts.end() - 1);
+        for (uint32_t t = 0; t < character.morphs.targets.size(); ++t) {
+            const MorphTarget& target = character.morphs.targets[t];
+            for (size_t i = 0; i < target.vertices.size(); ++i) {
+                deltas[next[target.vertices[i]]++] = {t, target.deltas[i]};
+            }
+        }
+    }
+    [[nodiscard]] std::span<const std::pair<uint32_t, glm::vec3>> of(uint32_t v) const {
+        return std::span(deltas).subspan(starts[v], starts[v + 1] - starts[v]);
+    }
+};
+
+/// An order of vertices in which those that agree in position, skin and morph targets are equal. -0 is 0.
+class Agreement {
+public:
+    explicit Agreement(const Character& character) : character_(&character), displacements_(character) {}
+
+    [[nodiscard]] int compare(uint32_t a, uint32_t b) const {
+        const auto& positions = character_->cage.positions;
+        if (const int order = compareVectors(positions[a], positions[b]); order != 0) {
+            return order;
+        }
+        const auto skinOf = [&](uint32_t v) {
+            const auto& starts = character_->weights.starts;
+            return std::span(character_->weights.influences).subspan(starts[v], starts[v + 1] - starts[v]);
+        };
+        const auto x = skinOf(a), y = skinOf(b);
+        if (x.size() != y.size()) {
+            return x.size() < y.size() ? -1 : 1;
+        }
+        for (size_t i = 0; i < x.size(); ++i) {
+            if (std::tie(x[i].joint, x[i].weight) != std::tie(y[i].joint, y[i].weight)) {
+                return std::tie(x[i].joint, x[i].weight) < std::tie(y[i].joint, y[i].weight) ? -1 : 1;
+            }
+        }
+        return compareMorphs(a, b);
+    }
+
+private:
+    [[nodiscard]] static int compareVectors(const glm::vec3& a, const glm::vec3& b) {
+        const auto order = [](const glm::vec3& p) { return std::tuple(p.x, p.y, p.z); };
+        return order(a) < order(b) ? -1 : order(b) < order(a) ? 1 : 0;
+    }
+    [[nodiscard]] int compareMorphs(uint32_t a, uint32_t b) const {
+        const auto x = displacements_.of(a), y = displacements_.of(b);
+        if (x.size() != y.size()) {
+            return x.size() < y.size() ? -1 : 1;
+        }
+        for (size_t i = 0; i < x.size(); ++i) {
+            if (x[i].first != y[i].first) {
+                return x[i].first < y[i].first ? -1 : 1;
+            }
+            if (const int order = compareVectors(x[i].second, y[i].second); order != 0) {
+                return order;
+            }
+        }
+        return 0;
+    }
+
+    const Character* character_;
+    Displacements displacements_;
+};
+
+/// Numbers the sets of vertices that may become one: on boundaries, of different parts, and only one of each part.
+/// Every other vertex is a set of its own.
+std::vector<uint32_t> candidatesOf(const Character& character) {
+    const std::vector<uint8_t> boundary = boundaryVertices(character.cage);
+    const std::vector<uint32_t> parts = partsOfVertices(character);
+    const Agreement agreement(character);
+    std::vector<uint32_t> order;
+    for (uint32_t v = 0; v < boundary.size(); ++v) {
+        if (boundary[v] != 0) {
+            order.push_back(v);
+        }
+    }
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+        const int compared = agreement.compare(a, b);
+        return compared != 0 ? compared < 0 : std::pair(parts[a], a) < std::pair(parts[b], b);
+    });
+    std::vector<uint32_t> candidates(boundary.size());
+    for (uint32_t v = 0; v < candidates.size(); ++v) {
+        candidates[v] = v;
+    }
+    for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        while (end < order.size() && agreement.compare(order[begin], order[end]) == 0) {
+            ++end;
+        }
+        for (size_t i = begin; i < end; ++i) {
+            const bool alone = (i == begin || parts[order[i - 1]] != parts[order[i]]) &&
+                               (i + 1 == end || parts[order[i + 1]] != parts[order[i]]);
+            if (alone) {
+                candidates[order[i]] = order[begin];
+            }
+        }
+    }
+    return candidates;
+}
+
+/// Takes the vertices out that are no longer there. `roots`: per vertex the one that stands for it.
+void mergeVertices(std::span<const uint32_t> roots, Character& character) {
+    Cage& cage = character.cage;
+    std::vector<uint32_t> places(roots.size(), kNone);
+    SkinWeights weights;
+    weights.starts.push_back(0);
+    uint32_t kept = 0;
+    for (uint32_t v = 0; v < roots.size(); ++v) {
+        if (roots[v] != v) {
+            continue;
+        }
+        places[v] = kept;
+        cage.positions[kept] = cage.positions[v];
+        cage.sourceVertices[kept] = cage.sourceVertices[v];
+        ++kept;
+        for (uint32_t i = character.weights.starts[v]; i < character.weights.starts[v + 1]; ++i) {
+            weights.influences.push_back(character.weights.influences[i]);
+        }
+        weights.starts.push_back(static_cast<uint32_t>(weights.influences.size()));
+    }
+    cage.positions.resize(kept);
+    cage.sourceVertices.resize(kept);
+    character.weights = std::move(weights);
+    const auto place = [&](uint32_t v) { return places[roots[v]]; };
+    for (uint32_t& v : cage.faceVertices) {
+        v = place(v);
+    }
+    for (MorphTarget& target : character.morphs.targets) {
+        MorphTarget moved{target.name, {}, {}};
+        for (size_t i = 0; i < target.vertices.size(); ++i) {
+            if (roots[target.vertices[i]] == target.vertices[i]) { // the others say the same
+                moved.vertices.push_back(place(target.vertices[i]));
+                moved.deltas.push_back(target.deltas[i]);
+            }
+        }
+        target = std::move(moved);
+    }
+    for (Crease& crease : cage.creases) {
+        crease.a = place(crease.a);
+        crease.b = place(crease.b);
+    }
+    for (SharpVertex& sharp : cage.sharpVertices) {
+        sharp.vertex = place(sharp.vertex);
+    }
+    for (CreaseScalar& scalar : cage.creaseScalars) {
+        scalar.vertex = place(scalar.vertex);
+        scalar.toward = place(scalar.toward);
+    }
+}
+
+/// Both parts may have named an edge or a vertex: the sharper counts. Of crease scalars the first counts.
+void mergeFeatures(Cage& cage) {
+    const auto unique = [](auto& list, auto key, auto before) {
+        std::stable_sort(list.begin(), list.end(), [&](const auto& x, const auto& y) {
+            return key(x) != key(y) ? key(x) < key(y) : before(x, y);
+        });
+        list.erase(
+            std::unique(list.begin(), list.end(), [&](const auto& x, const auto& y) { return key(x) == key(y); }),
+            list.end());
+    };
+    const auto sharper = [](const auto& x, const auto& y) { return x.sharpness > y.sharpness; };
+    unique(
+        cage.creases,
+        [](const Crease& c) {
+            return std::minmax({c.a, c.b});
+        },
+        sharper);
+    unique(
+        cage.sharpVertices, [](const SharpVertex& s) { return s.vertex; }, sharper);
+    unique(
+        cage.creaseScalars, [](const CreaseScalar& s) { return std::pair(s.vertex, s.toward); },
+        [](const CreaseScalar&, const CreaseScalar&) { return false; });
+}
+
+} // namespace
+
+uint32_t sewParts(Character& character) {
+    if (character.parts.size() < 2) {
+        return 0;
+    }
+    const Polygons faces{character.cage.faceStarts, character.cage.faceVertices};
+    Welding welding = weld(candidatesOf(character), faces);
+    unweldDefects(faces, welding);
+    uint32_t merged = 0;
+    for (uint32_t v = 0; v < welding.roots.size(); ++v) {
+        merged += welding.roots[v] != v ? 1 : 0;
+    }
+    if (merged > 0) {
+        mergeVertices(welding.roots, character);
+        mergeFeatures(character.cage);
+        character.seamVertexCount += merged;
+    }
+    return merged;
+}
+
+} // namespace supple::cage
