@@ -49,6 +49,7 @@ struct Cage {
     std::vector<glm::vec2> cornerUvs1;   ///< one per corner, or empty (TEXCOORD_1)
     std::vector<glm::vec4> cornerColors; ///< one per corner, or empty (COLOR_0, linear RGBA)
     std::vector<uint32_t> faceMaterials; ///< one per face: index into Character::materials or kNone; or empty
+    std::vector<uint32_t> faceParts;     ///< one per face: index into Character::parts; or empty, if there is one part
     std::vector<uint32_t> faceTrimTiles; ///< one per face: tile of its material's trim (Trim) or kNone; or empty
     /// One per corner, or empty: where it lies in its face's tile, in the form of tileCoordinates() (cage/trim.h). Not
     /// read from files: laid when a surface is built, which carries it as it does UVs.
@@ -212,7 +213,7 @@ enum class WeldSource {
 struct Part {
     std::string name;             ///< the node's, else the mesh's, else empty
     uint32_t node = 0;            ///< index into Skeleton::nodes: carries the mesh
-    bool rigid = false;           ///< has no skin, and moves with its node
+    bool rigid = false;           ///< all its vertices follow one joint
     std::vector<uint32_t> joints; ///< of its skin, in the skin's order: places in the palette. Empty: the whole palette
     uint32_t firstFace = 0;       ///< of the cage
     uint32_t firstTarget = 0;     ///< its morph targets are Morphs::targets[firstTarget + i]; parts may share them

@@ -245,6 +245,12 @@ void takeTargets(const Character& character, size_t index, std::span<const uint3
     }
 }
 
+bool isRigid(const SkinWeights& weights) {
+    return weights.influences.size() + 1 == weights.starts.size() &&
+           std::all_of(weights.influences.begin(), weights.influences.end(),
+                       [&](const Influence& i) { return i.joint == weights.influences.front().joint; });
+}
+
 } // namespace
 
 std::vector<uint32_t> PaletteBuilder::add(const Skin& skin) {
@@ -318,6 +324,7 @@ void joinParts(std::vector<PartCage> parts, Character& character) {
     character.parts.clear();
     for (PartCage& part : parts) {
         part.part.firstFace = character.cage.faceCount();
+        part.part.rigid = isRigid(part.weights);
         appendDisplacements(part, character.cage.vertexCount(), character.morphs);
         appendCage(part.cage, character.sourceVertexCount, character.cage);
         appendWeights(part, character.weights);

@@ -2,6 +2,7 @@
 
 #include "skinning/deform_pass.h"
 
+#include <algorithm>
 #include <span>
 #include <string>
 
@@ -26,6 +27,27 @@ Result<gpu::StaticBuffers> upload(const gpu::Device& device, const std::string& 
     return gpu::StaticBuffers::create(device, {&request, 1});
 }
 
+PartSummary summaryOf(const cage::Character& character, size_t part) {
+    const cage::Cage& cage = character.cage;
+    const uint32_t begin = character.parts[part].firstFace, end = cage::endFace(character, part);
+    PartSummary summary;
+    for (uint32_t f = begin; f < end; ++f) {
+        summary.materials.push_back(cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[f]);
+    }
+    std::sort(summary.materials.begin(), summary.materials.end());
+    summary.materials.erase(std::unique(summary.materials.begin(), summary.materials.end()), summary.materials.end());
+    summary.low = summary.high = cage.positions[cage.faceVertices[cage.faceStarts[begin]]];
+    for (uint32_t c = cage.faceStarts[begin]; c < cage.faceStarts[end]; ++c) {
+        summary.low = glm::min(summary.low, cage.positions[cage.faceVertices[c]]);
+        summary.high = glm::max(summary.high, cage.positions[cage.faceVertices[c]]);
+    }
+    if (character.parts[part].rigid) {
+        const uint32_t vertex = cage.faceVertices[cage.faceStarts[begin]];
+        summary.joint = character.weights.influences[character.weights.starts[vertex]].joint;
+    }
+    return summary;
+}
+
 } // namespace
 
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Character character) {
@@ -38,6 +60,14 @@ Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Ch
     asset->buffers = std::move(*buffers);
     asset->firstInfluences = table.firstInfluences;
     asset->rig = skinning::makeRig(character);
+    for (size_t part = 0; part < character.parts.size(); ++part) {
+        asset->parts.push_back(summaryOf(character, part));
+    }
+    if (character.parts.size() > 1) {
+        for (uint32_t part = 0; part < character.parts.size(); ++part) {
+            character.cage.faceParts.resize(cage::endFace(character, part), part);
+        }
+    }
     asset->character = std::move(character);
     return asset;
 }

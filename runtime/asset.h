@@ -21,8 +21,16 @@ struct SchemeTables {
     gpu::StaticBuffers buffers; ///< 0: the tables
 };
 
+/// What the API tells of a part beside cage::Part.
+struct PartSummary {
+    std::vector<uint32_t> materials; ///< that its faces have, rising
+    uint32_t joint = cage::kNone;    ///< that all its vertices follow
+    glm::vec3 low{0.0f}, high{0.0f}; ///< box of its cage vertices
+};
+
 struct Asset {
     cage::Character character;
+    std::vector<PartSummary> parts;
     gpu::StaticBuffers buffers;   ///< 0: the deform table
     uint32_t firstInfluences = 0; ///< skinning::DeformTable
     skinning::Rig rig;

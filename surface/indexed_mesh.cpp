@@ -301,13 +301,15 @@ void appendIndexedMesh(Tables& tables, bool attributes) {
 
 IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation) {
     std::vector<DrawRange> draws = tables.drawRanges;
-    std::stable_sort(draws.begin(), draws.end(),
-                     [](const DrawRange& a, const DrawRange& b) { return a.material < b.material; });
+    std::stable_sort(draws.begin(), draws.end(), [](const DrawRange& a, const DrawRange& b) {
+        return std::tie(a.material, a.part) < std::tie(b.material, b.part);
+    });
     IndexedMesh mesh;
     for (const DrawRange& draw : draws) {
         const auto first = static_cast<uint32_t>(mesh.indices.size());
-        if (mesh.ranges.empty() || mesh.ranges.back().material != draw.material) {
-            mesh.ranges.push_back({draw.material, first, 0});
+        if (mesh.ranges.empty() || mesh.ranges.back().part != draw.part ||
+            mesh.ranges.back().material != draw.material) {
+            mesh.ranges.push_back({draw.part, draw.material, first, 0});
         }
         const std::vector<uint16_t> grid = gridIndices(draw.domain, evaluation.rate);
         const std::vector<Place> places = placesOf(draw.domain, evaluation.rate);

@@ -22,16 +22,17 @@ namespace supple::surface {
 /// (surface/borders.h). `attributes`: the tables have corner attributes.
 void appendIndexedMesh(Tables& tables, bool attributes);
 
-/// The triangles of one instance, counter-clockwise seen from outside. They are sorted by material, then by patch;
-/// within a patch they have the order of gridIndices().
+/// The triangles of one instance, counter-clockwise seen from outside. They are sorted by material, then by part, then
+/// by patch; within a patch they have the order of gridIndices().
 struct IndexedMesh {
     struct Range {
+        uint32_t part = 0;
         uint32_t material = cage::kNone;
         uint32_t firstIndex = 0;
         uint32_t indexCount = 0;
     };
     std::vector<uint32_t> indices;
-    std::vector<Range> ranges; ///< in order of materials
+    std::vector<Range> ranges; ///< in that order
 };
 [[nodiscard]] IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation);
 

@@ -18,6 +18,7 @@ struct PatchInfo {
     PatchClass patchClass = PatchClass::regular;
     uint32_t cornerCount = 4;
     std::array<uint32_t, kMaxSides> corners{}; ///< cage vertices; cage::kNone where the scheme put a point of its own
+    uint32_t part = 0;                         ///< of the cage (cage::Cage::faceParts)
     uint32_t material = cage::kNone;
 };
 
@@ -59,11 +60,12 @@ struct PatchRange {
     uint32_t attributes = 0; ///< word at which the attribute numbers of its corners begin
 };
 
-/// Consecutive patches of one domain and material.
+/// Consecutive patches of one domain, material and part.
 struct DrawRange {
     Domain domain = Domain::quad;
     uint32_t firstPatch = 0;
     uint32_t patchCount = 0;
+    uint32_t part = 0;
     uint32_t material = cage::kNone;
 };
 
@@ -116,7 +118,7 @@ struct MeshTables {
 };
 
 /// The tables of a cage (shaders/shared/{surface,prep,pm,subdivision,blend}.h) and where everything lies in them. They
-/// depend on connectivity alone. Patches are ordered by class, then by material, then by face.
+/// depend on connectivity alone. Patches are ordered by class, then by material, part and face.
 struct Tables {
     std::vector<uint32_t> words; ///< a multiple of four
     uint32_t ring = 0;           ///< first word of the ring

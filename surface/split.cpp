@@ -168,6 +168,9 @@ void closeFace(Cage& to, const Cage& from, uint32_t face) {
     if (!from.faceMaterials.empty()) {
         to.faceMaterials.push_back(from.faceMaterials[face]);
     }
+    if (!from.faceParts.empty()) {
+        to.faceParts.push_back(from.faceParts[face]);
+    }
 }
 
 } // namespace supple::surface

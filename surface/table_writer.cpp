@@ -121,6 +121,7 @@ std::vector<DraftPatch> draftPatches(const DraftFaces& faces,
         DraftPatch& patch = patches.emplace_back();
         patch.facet = f;
         patch.info.face = faces.sourceFaces.empty() ? f : faces.sourceFaces[f];
+        patch.info.part = cage.faceParts.empty() ? 0 : cage.faceParts[f];
         patch.info.material = cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[f];
         patch.info.cornerCount = cage.sides(f);
         const uint32_t first = faces.firstCorners.empty() ? 0 : faces.firstCorners[f];
@@ -133,8 +134,8 @@ std::vector<DraftPatch> draftPatches(const DraftFaces& faces,
         patch.info.patchClass = classOf(patch);
     }
     const auto before = [](const DraftPatch& a, const DraftPatch& b) {
-        return std::tuple(a.info.patchClass, a.info.material, a.facet) <
-               std::tuple(b.info.patchClass, b.info.material, b.facet);
+        return std::tuple(a.info.patchClass, a.info.material, a.info.part, a.facet) <
+               std::tuple(b.info.patchClass, b.info.material, b.info.part, b.facet);
     };
     if (!std::is_sorted(patches.begin(), patches.end(), before)) { // which they mostly are
         std::sort(patches.begin(), patches.end(), before);
@@ -163,9 +164,9 @@ void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches
     for (const DraftPatch& patch : patches) {
         const Domain domain = domainOf(patch.info.patchClass);
         const auto index = static_cast<uint32_t>(tables.patches.size());
-        if (tables.drawRanges.empty() || tables.drawRanges.back().material != patch.info.material ||
-            tables.drawRanges.back().domain != domain) {
-            tables.drawRanges.push_back({domain, index, 0, patch.info.material});
+        if (tables.drawRanges.empty() || tables.drawRanges.back().part != patch.info.part ||
+            tables.drawRanges.back().material != patch.info.material || tables.drawRanges.back().domain != domain) {
+            tables.drawRanges.push_back({domain, index, 0, patch.info.part, patch.info.material});
         }
         ++tables.drawRanges.back().patchCount;
         tables.patches.push_back(patch.info);

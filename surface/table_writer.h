@@ -64,7 +64,7 @@ struct DraftFaces {
     std::span<const uint32_t> sourceFaces{}; ///< per face: the host's; empty: all are the host's
     std::span<const uint8_t> firstCorners{}; ///< per face: the corner that is corner 0 of its patch; empty: 0
 };
-/// The patches in device order: by class, then material, then facet.
+/// The patches in device order: by class, then material, part and facet.
 [[nodiscard]] std::vector<DraftPatch> draftPatches(const DraftFaces& faces,
                                                    const std::function<PatchClass(const DraftPatch&)>& classOf);
 

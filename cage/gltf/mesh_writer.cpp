@@ -153,7 +153,7 @@ void splitVertices(const Cage& cage, const CornerValues& values, Primitive& part
 
 class MeshWriter {
 public:
-    MeshWriter(const Character& character, std::span<const glm::vec3> normals, Packer& packer)
+    MeshWriter(const Character& character, bool skinned, std::span<const glm::vec3> normals, Packer& packer)
         : character_(character), cage_(character.cage), packer_(packer), values_(cornerValues(character, normals)),
           creaseWritten_(cage_.creases.size(), 0), sharpWritten_(cage_.sharpVertices.size(), 0) {
         const Part& part = character.parts[0];
@@ -163,7 +163,7 @@ public:
         for (uint32_t j = 0; j < part.joints.size(); ++j) {
             jointPlaces_[part.joints[j]] = j;
         }
-        if (!part.rigid) {
+        if (skinned) {
             const auto& starts = character.weights.starts;
             for (size_t v = 0; v + 1 < starts.size(); ++v) {
                 skinSets_ = std::max(skinSets_, (starts[v + 1] - starts[v] + 3) / 4);
@@ -378,8 +378,9 @@ private:
 
 } // namespace
 
-json writeMesh(const Character& character, std::span<const glm::vec3> normals, Packer& packer, GlbFile& file) {
-    return MeshWriter(character, normals, packer).write(file);
+json writeMesh(const Character& character, bool skinned, std::span<const glm::vec3> normals, Packer& packer,
+               GlbFile& file) {
+    return MeshWriter(character, skinned, normals, packer).write(file);
 }
 
 } // namespace supple::cage::gltf

@@ -114,17 +114,6 @@ Skeleton readSkeleton(const Document& document) {
     return skeleton;
 }
 
-bool isMirrored(const Skeleton& skeleton, uint32_t node) {
-    bool mirrored = false;
-    for (; node != kNone; node = skeleton.nodes[node].parent) {
-        const Node& from = skeleton.nodes[node];
-        const float sign =
-            from.hasMatrix ? glm::determinant(glm::mat3(from.matrix)) : from.scale.x * from.scale.y * from.scale.z;
-        mirrored = mirrored != (sign < 0.0f);
-    }
-    return mirrored;
-}
-
 std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint32_t> scene, Warnings& warnings) {
     const Model& model = document.model;
     if (model.meshes.empty()) {

@@ -19,9 +19,6 @@ namespace supple::cage::gltf {
 [[nodiscard]] std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint32_t> scene,
                                                   Warnings& warnings);
 
-/// Whether what the node carries is mirrored at rest: the determinant of its global transform is negative.
-[[nodiscard]] bool isMirrored(const Skeleton& skeleton, uint32_t node);
-
 /// Makes the last row exactly 0 0 0 1; refuses a matrix in which it is something else.
 void makeAffine(glm::mat4& matrix, const std::string& element);
 

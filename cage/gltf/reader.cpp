@@ -1,6 +1,7 @@
 #include "cage/gltf/reader.h"
 
 #include "cage/gltf/animation.h"
+#include "cage/gltf/bind_space.h"
 #include "cage/gltf/cage.h"
 #include "cage/gltf/document.h"
 #include "cage/gltf/material.h"
@@ -57,14 +58,12 @@ private:
 
 /// The mesh that a node carries, as it is before it joins the other parts. Its cage is empty if it has no faces: then a
 /// warning says why.
-PartCage readPart(const Document& document, uint32_t node, const GltfOptions& options, const Character& character,
-                  PaletteBuilder& palette, Warnings& warnings) {
+PartCage readPart(const Document& document, uint32_t node, const Skin& skin, const GltfOptions& options,
+                  const Character& character, Warnings& warnings) {
     const auto& from = document.model.nodes[node];
     PartCage part;
     part.part.name = from.name.empty() ? document.model.meshes[static_cast<size_t>(from.mesh)].name : from.name;
     part.part.node = node;
-    part.part.rigid = from.skin < 0;
-    const Skin skin = readSkin(document, node);
     const std::optional<Mesh> mesh = readMesh(document, node, skin.joints.size(), character.materials, warnings);
     if (!mesh) {
         return part;
@@ -73,25 +72,25 @@ PartCage readPart(const Document& document, uint32_t node, const GltfOptions& op
     buildCage(document, *mesh, options, part, warnings);
     if (part.cage.faceCount() == 0) {
         warn(warnings, mesh->element, "no triangle is left");
-        return part;
     }
-    if (part.part.rigid && isMirrored(character.skeleton, node)) {
-        reverseFaces(part.cage);
-    }
-    part.part.joints = palette.add(skin);
     return part;
 }
 
 std::vector<PartCage> readParts(const Document& document, const GltfOptions& options, Character& character) {
     const std::vector<uint32_t> nodes = findMeshNodes(document, options.scene, character.warnings);
+    std::vector<Skin> skins;
+    for (const uint32_t node : nodes) {
+        skins.push_back(readSkin(document, node));
+    }
+    const BindSpace bindSpace(document, character.skeleton, nodes, skins);
     PaletteBuilder palette(character.skin);
     Amount amount;
     std::vector<PartCage> parts;
     std::set<std::string> said; // nodes may share a mesh
     std::string whyEmpty;
-    for (const uint32_t node : nodes) {
+    for (size_t i = 0; i < nodes.size(); ++i) {
         Warnings warnings;
-        PartCage part = readPart(document, node, options, character, palette, warnings);
+        PartCage part = readPart(document, nodes[i], skins[i], options, character, warnings);
         amount.add(part);
         const bool isEmpty = part.cage.faceCount() == 0;
         for (std::string& warning : warnings) {
@@ -101,6 +100,8 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
             }
         }
         if (!isEmpty) {
+            bindSpace.place(part, skins[i]);
+            part.part.joints = palette.add(skins[i]);
             parts.push_back(std::move(part));
         }
     }

@@ -15,6 +15,7 @@
 #include <map>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <tuple>
@@ -46,7 +47,13 @@ json numbers(const glm::mat4& matrix) {
 /// The skins that the parts have, each once: places in the palette.
 struct Skins {
     std::vector<std::vector<uint32_t>> joints;
-    std::vector<size_t> ofPart; ///< rigid parts have none
+    std::vector<std::optional<size_t>> ofPart; ///< none: the part follows its own node, in whose space it is given
+
+    /// Only a single mesh reads as it was: others are taken to the bind pose.
+    static bool followsItsNode(const Character& character, const Part& part, uint32_t joint) {
+        return character.parts.size() == 1 && character.skin.joints[joint] == part.node &&
+               character.skin.inverseBinds[joint] == glm::mat4(1.0f);
+    }
 
     explicit Skins(const Character& character) {
         std::map<std::vector<uint32_t>, size_t> known;
@@ -56,8 +63,8 @@ struct Skins {
                 own.resize(character.skin.joints.size());
                 std::iota(own.begin(), own.end(), 0u);
             }
-            if (part.rigid) {
-                ofPart.push_back(0);
+            if (own.size() == 1 && followsItsNode(character, part, own[0])) {
+                ofPart.emplace_back();
                 continue;
             }
             const auto [found, isNew] = known.try_emplace(own, joints.size());
@@ -137,8 +144,8 @@ void writeNodes(const Character& character, const Skins& skins, json& root, Warn
     }
     for (size_t p = 0; p < character.parts.size(); ++p) {
         nodes[character.parts[p].node]["mesh"] = p;
-        if (!character.parts[p].rigid) {
-            nodes[character.parts[p].node]["skin"] = skins.ofPart[p];
+        if (skins.ofPart[p]) {
+            nodes[character.parts[p].node]["skin"] = *skins.ofPart[p];
         }
     }
     root["nodes"] = std::move(nodes);
@@ -419,13 +426,14 @@ void reportFeatures(const Cage& cage, Warnings& warnings) {
 }
 
 /// One a part. Normals are those of the whole, so that sewn parts look as one.
-json writeMeshes(const Character& character, Packer& packer, GlbFile& file) {
+json writeMeshes(const Character& character, const Skins& skins, Packer& packer, GlbFile& file) {
     const std::vector<glm::vec3> normals = cornerNormals(character.cage);
     json meshes = json::array();
     for (size_t p = 0; p < character.parts.size(); ++p) {
         const Character part = takePart(character, p);
         const uint32_t first = character.cage.faceStarts[character.parts[p].firstFace];
-        json mesh = writeMesh(part, std::span(normals).subspan(first, part.cage.cornerCount()), packer, file);
+        json mesh = writeMesh(part, skins.ofPart[p].has_value(),
+                              std::span(normals).subspan(first, part.cage.cornerCount()), packer, file);
         if (!part.parts[0].name.empty()) {
             mesh["name"] = part.parts[0].name;
         }
@@ -447,7 +455,7 @@ GlbFile toGlb(const Character& character) {
     }
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
     writeNodes(character, skins, root, file.warnings);
-    root["meshes"] = writeMeshes(character, packer, file);
+    root["meshes"] = writeMeshes(character, skins, packer, file);
     for (const std::vector<uint32_t>& joints : skins.joints) {
         root["skins"].push_back(writeSkin(character.skin, joints, packer));
     }

@@ -40,6 +40,10 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
     }
     cage::GltfOptions options;
     options.pairQuads = (desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0;
+    options.sewParts = (desc.flags & SUPPLE_ASSET_PARTS_APART) == 0;
+    if (desc.scene != 0) {
+        options.scene = desc.scene - 1;
+    }
     if (desc.files != nullptr) {
         options.readFile = [files = *desc.files](const std::string& path) { return readThrough(files, path); };
     }
@@ -65,7 +69,7 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
                           std::string(desc.name != nullptr ? desc.name : "asset") +
                               (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
         }
-        if ((desc.flags & ~uint32_t{SUPPLE_ASSET_PAIR_QUADS}) != 0) {
+        if ((desc.flags & ~uint32_t{SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_PARTS_APART}) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
         if (desc.files != nullptr && desc.files->read == nullptr) {
@@ -104,6 +108,7 @@ SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleA
             info.materialCount = static_cast<uint32_t>(character.materials.size());
             info.morphTargetCount = static_cast<uint32_t>(character.morphs.targets.size());
             info.imageCount = static_cast<uint32_t>(character.images.size());
+            info.partCount = static_cast<uint32_t>(character.parts.size());
             glm::vec3 low = character.cage.positions.front(), high = low;
             for (const glm::vec3& p : character.cage.positions) {
                 low = glm::min(low, p);
@@ -114,6 +119,29 @@ SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleA
                 info.boundsMax[axis] = high[axis];
             }
         });
+    });
+}
+
+SuppleResult suppleGetPartInfo(SuppleContext handle, SuppleAsset asset, uint32_t part, SupplePartInfo* out) {
+    return withAsset(handle, asset, "suppleGetPartInfo", [&](Context& context, const Asset& found) {
+        return describePart(context, "suppleGetPartInfo", "part", part, found.parts.size(), out,
+                            [&](SupplePartInfo& info) {
+                                const cage::Part& from = found.character.parts[part];
+                                const runtime::PartSummary& summary = found.parts[part];
+                                info.name = from.name.c_str();
+                                info.node = from.node;
+                                info.joint = summary.joint;
+                                info.firstFace = from.firstFace;
+                                info.faceCount = cage::endFace(found.character, part) - from.firstFace;
+                                info.firstMorphTarget = from.firstTarget;
+                                info.morphTargetCount = from.targetCount;
+                                info.materialCount = static_cast<uint32_t>(summary.materials.size());
+                                info.materials = summary.materials.data();
+                                for (int axis = 0; axis < 3; ++axis) {
+                                    info.boundsMin[axis] = summary.low[axis];
+                                    info.boundsMax[axis] = summary.high[axis];
+                                }
+                            });
     });
 }
 

@@ -36,7 +36,8 @@ Status IndexedMesh::begin() {
     const surface::IndexedMesh mesh = surface::indexedMesh(tables(), evaluation_);
     std::vector<SuppleDrawRange> draws;
     for (const surface::IndexedMesh::Range& from : mesh.ranges) {
-        draws.push_back({0, 1, from.material, SUPPLE_DOMAIN_MESH, vertexCount_, 0, from.firstIndex, from.indexCount});
+        draws.push_back(
+            {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertexCount_, 0, from.firstIndex, from.indexCount, from.part});
     }
     setDraws(std::move(draws));
     const std::span<const std::byte> bytes = std::as_bytes(std::span(mesh.indices));

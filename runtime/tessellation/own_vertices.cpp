@@ -161,6 +161,7 @@ void GridDraws::append(const surface::Tables& tables, size_t index, uint32_t& fi
         range.firstPatch = from.firstPatch;
         range.patchCount = from.patchCount;
         range.material = from.material;
+        range.part = from.part;
         range.samplesPerPatch = surface::sampleCount(from.domain, own.rate);
         range.firstVertex = firstVertex;
         range.firstIndex = grid.firstIndex;

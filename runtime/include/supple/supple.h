@@ -284,7 +284,10 @@ typedef struct SuppleCageDesc {
 typedef enum SuppleAssetFlags {
     /** Plain triangles of a glTF file: two triangles that follow each other become one quad if they share an edge, have
      * the same UVs and colors along it, and face the same side. Polygons that the file lists are left as they are. */
-    SUPPLE_ASSET_PAIR_QUADS = 1
+    SUPPLE_ASSET_PAIR_QUADS = 1,
+    /** Parts of a glTF file stay apart. Without this flag, parts are sewn together where their boundaries coincide in
+     * position, skin and morph targets, and the surface goes on smoothly from one to the other. */
+    SUPPLE_ASSET_PARTS_APART = 4
 } SuppleAssetFlags;
 
 /** The content of a file, from the host's own file system. */
@@ -313,9 +316,11 @@ typedef struct SuppleAssetDesc {
     const char* baseDirectory; /**< where the external files of a .gltf lie; null allows none */
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
     const SuppleCageDesc* cage;
+    uint32_t scene; /**< which scene of a glTF file: its number + 1; 0: the one that the file names, else the first */
 } SuppleAssetDesc;
 
-/** What an asset holds. Vertices that the file repeats because their UVs or normals differ are one cage vertex. */
+/** What an asset holds. The meshes of all nodes of the scene are parts of one character. Vertices that the file repeats
+ * because their UVs or normals differ are one cage vertex. */
 typedef struct SuppleAssetInfo {
     uint32_t structSize;
     uint32_t cageVertexCount;
@@ -327,7 +332,25 @@ typedef struct SuppleAssetInfo {
     float boundsMin[3]; /**< of the cage's vertices in the bind pose */
     float boundsMax[3];
     uint32_t imageCount;
+    uint32_t partCount; /**< 1 or more */
 } SuppleAssetInfo;
+
+/** A part of a character: what one node of a file carries as its mesh. OBJ files and arrays have one part. All parts
+ * have one cage, one skeleton and one pose. The faces of a part are a run of the cage's faces. */
+typedef struct SupplePartInfo {
+    uint32_t structSize;
+    const char* name;   /**< of the node, else of its mesh; may be empty. All pointers live as long as the asset */
+    uint32_t node;      /**< its number in the file */
+    uint32_t joint;     /**< the joint that all its vertices follow, or SUPPLE_NO_JOINT if they follow several */
+    uint32_t firstFace; /**< of the cage */
+    uint32_t faceCount;
+    uint32_t firstMorphTarget; /**< among the asset's. Parts that are always morphed alike share their targets */
+    uint32_t morphTargetCount;
+    uint32_t materialCount;    /**< entries of materials */
+    const uint32_t* materials; /**< that its faces have, in rising order; SUPPLE_NO_MATERIAL for faces without one */
+    float boundsMin[3];        /**< of its cage vertices in the bind pose */
+    float boundsMax[3];
+} SupplePartInfo;
 
 /** An animation clip. */
 typedef struct SuppleClipInfo {
@@ -396,6 +419,8 @@ SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAss
 SUPPLE_API SuppleResult suppleDestroyAsset(SuppleContext context, SuppleAsset asset);
 /** Fills out. */
 SUPPLE_API SuppleResult suppleGetAssetInfo(SuppleContext context, SuppleAsset asset, SuppleAssetInfo* out);
+/** Fills out. Parts have the order of the file's nodes. Errors: part is not below partCount. */
+SUPPLE_API SuppleResult suppleGetPartInfo(SuppleContext context, SuppleAsset asset, uint32_t part, SupplePartInfo* out);
 /** Fills out. Errors: clip is not below SuppleAssetInfo.clipCount. */
 SUPPLE_API SuppleResult suppleGetClipInfo(SuppleContext context, SuppleAsset asset, uint32_t clip, SuppleClipInfo* out);
 /** Fills out. Joints have the order of the file's skin. Errors: joint is not below jointCount. */
@@ -712,13 +737,13 @@ typedef enum SuppleDomain {
     SUPPLE_DOMAIN_MESH = 4
 } SuppleDomain;
 
-/** The patches of one domain and one material. Ranges follow each other without gaps. Draw instance i is patch
- * firstPatch + i % patchCount of the instance in slot instances[i / patchCount].
+/** The patches of one domain, one material and one part. Ranges follow each other without gaps. Draw instance i is
+ * patch firstPatch + i % patchCount of the instance in slot instances[i / patchCount].
  *
- * INDEXED_MESH: all triangles of one material. Draw instance i is the instance in slot instances[i], and an index is a
- * surface vertex within the instance. To shaders that pull vertices, the mesh is one big patch: patchCount is 1,
- * firstVertex and firstPatch are 0, samplesPerPatch is SuppleGridOutput.vertexCount. Triangles have the order of the
- * patches of that material (suppleGetPatches), and within a patch the order of its domain's grid. */
+ * INDEXED_MESH: all triangles of one material and one part. Draw instance i is the instance in slot instances[i], and
+ * an index is a surface vertex within the instance. To shaders that pull vertices, the mesh is one big patch:
+ * patchCount is 1, firstVertex and firstPatch are 0, samplesPerPatch is SuppleGridOutput.vertexCount. Triangles have
+ * the order of the patches of that range (suppleGetPatches), and within a patch the order of its domain's grid. */
 typedef struct SuppleDrawRange {
     uint32_t firstPatch;
     uint32_t patchCount;
@@ -728,6 +753,7 @@ typedef struct SuppleDrawRange {
     uint32_t firstVertex; /**< of the range, among the surface vertices of an instance */
     uint32_t firstIndex;  /**< in SuppleGridOutput.indices: the triangles of one patch, used by all of the range */
     uint32_t indexCount;
+    uint32_t part; /**< of the asset: suppleGetPartInfo */
 } SuppleDrawRange;
 
 /** What is drawn at one rate. Per draw range: bind `instances` and draw the range's command of `indirect`. */

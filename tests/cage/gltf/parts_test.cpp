@@ -46,6 +46,10 @@ TEST(GltfParts, EveryMeshNodeOfTheSceneIsAPart) {
     EXPECT_EQ(c.skin.joints, (std::vector<uint32_t>{1, 2, 4, 5}));
     EXPECT_EQ(c.skin.inverseBinds[1][3], glm::vec4(-1, 0, 0, 1));
     EXPECT_EQ(c.skin.inverseBinds[3], glm::mat4(1.0f));
+    // The plate hangs below the second joint, which is bound at (1, 0, 0): there it stands in the bind pose.
+    EXPECT_EQ(c.skin.inverseBinds[2][3], glm::vec4(-1, 0, 0, 1));
+    EXPECT_EQ(c.cage.positions[8], glm::vec3(1, 0, 0));
+    EXPECT_EQ(c.cage.positions[12], glm::vec3(0, 0, 0));
     for (uint32_t v = 0; v < 16; ++v) {
         const Influence& first = c.weights.influences[c.weights.starts[v]];
         EXPECT_EQ(first.joint, v < 8 ? (v % 4 == 3 ? 1u : 0u) : v < 12 ? 2u : 3u) << "vertex " << v;

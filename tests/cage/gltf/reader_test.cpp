@@ -96,7 +96,10 @@ TEST(GltfReader, UnskinnedMeshHangsOnItsNode) {
     b.nodes = R"([{},{"mesh":0,"scale":[-2,2,2]},{}])";
     const Character c = readWell(b.glb());
     EXPECT_EQ(c.skin.joints, std::vector<uint32_t>{1});
-    EXPECT_EQ(c.skin.inverseBinds[0], glm::mat4(1.0f));
+    // The node mirrors, so the faces are turned, and the cage is taken to where they are seen from outside.
+    EXPECT_EQ(c.skin.inverseBinds[0][0], glm::vec4(-0.5f, 0, 0, 0));
+    EXPECT_EQ(c.cage.positions[1], glm::vec3(-2, 0, 0));
+    EXPECT_EQ(face(c.cage, 0), (std::vector<uint32_t>{0, 2, 1}));
     EXPECT_EQ(c.weights.starts, (std::vector<uint32_t>{0, 1, 2, 3, 4}));
     for (const Influence& influence : c.weights.influences) {
         EXPECT_EQ(influence.joint, 0u);

@@ -1,0 +1,76 @@
+#include "cage/gltf/bind_space.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <cmath>
+
+namespace supple::cage::gltf {
+namespace {
+
+glm::dmat4 localOf(const Node& node) {
+    if (node.hasMatrix) {
+        return glm::dmat4(node.matrix);
+    }
+    return glm::translate(glm::dmat4(1.0), glm::dvec3(node.translation)) *
+           glm::mat4_cast(glm::normalize(glm::dquat(node.rotation))) *
+           glm::scale(glm::dmat4(1.0), glm::dvec3(node.scale));
+}
+
+/// Nodes are hidden by a scale of 0: then nothing is known of where their vertices stand.
+bool isUsable(const glm::dmat4& matrix) {
+    const double determinant = glm::determinant(glm::dmat3(matrix));
+    return std::isfinite(determinant) && std::abs(determinant) > 1e-30;
+}
+
+} // namespace
+
+BindSpace::BindSpace(const Document& document, const Skeleton& skeleton, std::span<const uint32_t> nodes,
+                     std::span<const Skin> skins)
+    : document_(document), skeleton_(skeleton), alone_(nodes.size() == 1) {
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        for (size_t j = 0; document.model.nodes[nodes[i]].skin >= 0 && j < skins[i].joints.size(); ++j) {
+            const glm::dmat4 bind(skins[i].inverseBinds[j]);
+            if (isUsable(bind)) {
+                joints_.emplace(skins[i].joints[j], glm::inverse(bind));
+            }
+        }
+    }
+}
+
+glm::dmat4 BindSpace::placeOf(uint32_t node) const {
+    glm::dmat4 place(1.0);
+    for (; node != kNone; node = skeleton_.nodes[node].parent) {
+        const auto joint = joints_.find(node);
+        if (joint != joints_.end()) {
+            return joint->second * place;
+        }
+        place = localOf(skeleton_.nodes[node]) * place;
+    }
+    return place;
+}
+
+void BindSpace::place(PartCage& part, Skin& skin) const {
+    if (document_.model.nodes[part.part.node].skin >= 0) {
+        return;
+    }
+    const glm::dmat4 place = placeOf(part.part.node);
+    const bool mirrored = glm::determinant(glm::dmat3(place)) < 0.0;
+    if (!isUsable(place) || (alone_ && !mirrored)) {
+        return;
+    }
+    for (glm::vec3& position : part.cage.positions) {
+        position = glm::vec3(place * glm::dvec4(position, 1.0));
+    }
+    for (MorphTarget& target : part.morphs.targets) {
+        for (glm::vec3& delta : target.deltas) {
+            delta = glm::vec3(glm::dmat3(place) * glm::dvec3(delta));
+        }
+    }
+    if (mirrored) {
+        reverseFaces(part.cage);
+    }
+    skin.inverseBinds[0] = glm::mat4(glm::inverse(place));
+}
+
+} // namespace supple::cage::gltf
