@@ -34,8 +34,8 @@ struct GltfOptions {
 
 /// Parses a glTF or GLB held in memory; docs/gltf.md says in full what is taken, repaired and refused.
 ///
-/// Which mesh: that of the first node with a mesh and a skin, in scene order, then node order; else of the first node
-/// with a mesh, which becomes a skin of one joint. All its TRIANGLES primitives make one cage. Its polygons are those
+/// Every node of the scene with a mesh is a part of the character. All TRIANGLES primitives of a mesh make its cage.
+/// Its polygons are those
 /// of the first PolygonSource that a primitive has, its vertices are welded by the first WeldSource that the mesh has.
 /// Cage vertices keep the order of the file's own numbers for them, or else of the POSITION elements they come from
 /// (those of all primitives, one after the other; primitives over the same accessors share them). Creases and sharp
@@ -45,9 +45,9 @@ struct GltfOptions {
 /// Repaired or left out with a line in Character::warnings: weights that do not sum to 1 beyond rounding (normalised),
 /// vertices whose weights are all zero (bound to the first joint they name, as three.js does), primitives that are not
 /// triangles, unused vertices, degenerate triangles, missing or unreadable images, entries of extras that make no
-/// sense, channels other than translation, rotation and scale, and weights of this mesh. Joint numbers of zero weights
-/// are not looked at. Everything else that glTF 2.0 forbids and that could change the shape or its motion is an error,
-/// and so is an extension named here whose data is malformed.
+/// sense, channels other than translation, rotation and scale, and weights of nodes without morph targets. Joint
+/// numbers of zero weights are not looked at. Everything else that glTF 2.0 forbids and that could change the shape or
+/// its motion is an error, and so is an extension named here whose data is malformed.
 ///
 /// `name` begins every error and becomes Character::name; warnings are without it. External buffers and images are
 /// looked up below `baseDirectory` (no "..", no absolute paths, no URL schemes but data:); an empty baseDirectory
