@@ -38,6 +38,7 @@ Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Ch
     asset->buffers = std::move(*buffers);
     asset->firstInfluences = table.firstInfluences;
     asset->rig = skinning::makeRig(character);
+    asset->jointFrames = skinning::jointFrames(character);
     asset->character = std::move(character);
     return asset;
 }
