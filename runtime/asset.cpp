@@ -68,6 +68,7 @@ Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Ch
             character.cage.faceParts.resize(cage::endFace(character, part), part);
         }
     }
+    asset->jointFrames = skinning::jointFrames(character);
     asset->character = std::move(character);
     return asset;
 }

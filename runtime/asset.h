@@ -5,6 +5,7 @@
 #include "cage/character.h"
 #include "gpu/static_buffers.h"
 #include "skinning/clip_table.h"
+#include "skinning/joints.h"
 #include "skinning/layers.h"
 #include "supple/supple.h"
 #include "surface/schemes.h"
@@ -34,6 +35,7 @@ struct Asset {
     gpu::StaticBuffers buffers;   ///< 0: the deform table
     uint32_t firstInfluences = 0; ///< skinning::DeformTable
     skinning::Rig rig;
+    skinning::JointFrames jointFrames;
     // Made for the first group that plays on the device:
     skinning::ClipTable clipTable; ///< `words` is emptied once it lies in the staging memory
     gpu::StaticBuffers clips;      ///< 0: the clip table

@@ -22,6 +22,7 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     const cage::Character& character = asset.character;
     targetCount_ = character.morphs.targets.size();
     palettes_.resize(size_t{instanceCount} * layout.jointCount);
+    joints_.resize(palettes_.size());
     if (layout.mode == skinning::SkinningMode::dualQuaternion) {
         rotations_.resize(palettes_.size());
     }
@@ -29,10 +30,7 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     hostWeights_.resize(instanceCount * targetCount_);
     hostWeighted_.resize(instanceCount, false);
     transforms_.assign(instanceCount, glm::mat4(1.0f));
-    nodes_.resize(character.skeleton.nodes.size());
-    for (skinning::Pose* pose : {&pose_, &scratch_.sample, &scratch_.reference}) {
-        skinning::restPose(character, *pose);
-    }
+    memory_ = skinning::PoseMemory(character);
     for (uint32_t instance = 0; instance < instanceCount; ++instance) {
         setBindPose(instance);
     }
@@ -48,6 +46,15 @@ std::span<skinning::Affine> HostPoses::palette(uint32_t instance) {
     return std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
 }
 
+std::span<glm::mat4> HostPoses::joints(uint32_t instance) {
+    return std::span(joints_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
+}
+
+glm::mat4 HostPoses::jointTransform(uint32_t instance, uint32_t joint) const {
+    return skinning::placedJoint(glm::dmat4(transforms_[instance]),
+                                 joints_[size_t{instance} * layout_.jointCount + joint]);
+}
+
 void HostPoses::finishPalette(uint32_t instance) {
     if (!rotations_.empty()) {
         skinning::jointRotations(
@@ -57,8 +64,10 @@ void HostPoses::finishPalette(uint32_t instance) {
 }
 
 void HostPoses::setPose(uint32_t instance) {
-    skinning::posePalette(asset_->character, pose_, nodes_, palette(instance));
-    std::transform(pose_.morphWeights.begin(), pose_.morphWeights.end(),
+    const skinning::Pose& pose = memory_.pose;
+    skinning::posePalette(asset_->character, pose, memory_.nodes, palette(instance));
+    skinning::jointTransforms(asset_->character.skin, memory_.nodes, joints(instance));
+    std::transform(pose.morphWeights.begin(), pose.morphWeights.end(),
                    poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_),
                    [](double weight) { return static_cast<float>(weight); });
     finishPalette(instance);
@@ -66,25 +75,27 @@ void HostPoses::setPose(uint32_t instance) {
 
 void HostPoses::setBindPose(uint32_t instance) {
     std::ranges::fill(palette(instance), skinning::toAffine(glm::mat4(1.0f)));
+    std::ranges::copy(asset_->jointFrames.bind, joints(instance).begin());
     std::fill_n(poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_), targetCount_, 0.0f);
     finishPalette(instance);
 }
 
 void HostPoses::setRestPose(uint32_t instance) {
-    skinning::restPose(asset_->character, pose_);
+    skinning::restPose(asset_->character, memory_.pose);
     setPose(instance);
 }
 
 void HostPoses::setClipPose(uint32_t instance, uint32_t clip, double time) {
-    skinning::sampleClip(asset_->character, asset_->character.clips[clip], time, pose_);
+    skinning::sampleClip(asset_->character, asset_->character.clips[clip], time, memory_.pose);
     setPose(instance);
 }
 
 void HostPoses::setLayers(uint32_t instance, const SupplePoseDesc& desc) {
     const skinning::RootSelection root = rootSelection(*asset_, desc);
-    skinning::restPose(asset_->character, pose_);
+    skinning::restPose(asset_->character, memory_.pose);
     for (uint32_t i = 0; i < desc.layerCount; ++i) {
-        skinning::applyLayer(asset_->character, asset_->rig, layerOf(*asset_, desc.layers[i]), root, scratch_, pose_);
+        skinning::applyLayer(asset_->character, asset_->rig, layerOf(*asset_, desc.layers[i]), root, memory_.scratch,
+                             memory_.pose);
     }
     setPose(instance);
 }
@@ -92,8 +103,10 @@ void HostPoses::setLayers(uint32_t instance, const SupplePoseDesc& desc) {
 void HostPoses::setMatrixPose(uint32_t instance, const float* jointMatrices) {
     const cage::Character& character = asset_->character;
     const std::span<skinning::Affine> target = palette(instance);
+    const std::span<glm::mat4> own = joints(instance);
     for (size_t j = 0; j < target.size(); ++j) {
-        target[j] = skinning::toAffine(glm::make_mat4(jointMatrices + 16 * j) * character.skin.inverseBinds[j]);
+        own[j] = glm::make_mat4(jointMatrices + 16 * j);
+        target[j] = skinning::toAffine(own[j] * character.skin.inverseBinds[j]);
     }
     std::copy(character.morphs.weights.begin(), character.morphs.weights.end(),
               poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_));

@@ -40,6 +40,9 @@ public:
     void setMorphWeights(uint32_t instance, const float* weights); ///< null: the pose's own again
     void setTransform(uint32_t instance, const glm::mat4& transform) { transforms_[instance] = transform; }
 
+    /// Where the joint is, as the instance is posed and placed now.
+    [[nodiscard]] glm::mat4 jointTransform(uint32_t instance, uint32_t joint) const;
+
     /// Writes the first `count` instances, instanceBytes() each, in the layout of shaders/shared/deform.h.
     void write(uint32_t count, std::byte* target) const;
 
@@ -47,21 +50,20 @@ private:
     void setPose(uint32_t instance); ///< from pose_
     void finishPalette(uint32_t instance);
     [[nodiscard]] std::span<skinning::Affine> palette(uint32_t instance);
+    [[nodiscard]] std::span<glm::mat4> joints(uint32_t instance);
 
     const Asset* asset_ = nullptr;
     skinning::PoseLayout layout_;
     size_t targetCount_ = 0;
     // One run an instance.
     std::vector<skinning::Affine> palettes_;
+    std::vector<glm::mat4> joints_;    ///< palettes_ before the inverse binds: of a singular one nothing leads back
     std::vector<glm::vec4> rotations_; ///< dual quaternions only
     std::vector<float> poseWeights_;   ///< morph weights of the pose
     std::vector<float> hostWeights_;   ///< and what the host set instead
     std::vector<bool> hostWeighted_;
     std::vector<glm::mat4> transforms_;
-    // Memory for putting one pose together.
-    skinning::Pose pose_;
-    skinning::LayerScratch scratch_;
-    std::vector<glm::mat4> nodes_;
+    skinning::PoseMemory memory_;
 };
 
 } // namespace supple::runtime

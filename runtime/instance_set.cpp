@@ -147,6 +147,10 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
     if (!deformSets_.empty()) {
         transfers.add(cages_.buffer());
     }
+    // What the host writes on the device is its own to hand over.
+    if (desc_.source == SUPPLE_POSES_SET || desc_.source == SUPPLE_POSES_PLAYBACK) {
+        transfers.add(palettes_.buffer());
+    }
     transfers.add(list_.buffer());
 }
 

@@ -1,5 +1,7 @@
 #include "runtime/playback.h"
 
+#include "skinning/joints.h"
+#include "skinning/played_pose.h"
 #include "skinning/split_time.h"
 
 #include <algorithm>
@@ -61,6 +63,9 @@ Result<Playback> Playback::create(const Desc& desc) {
 
     playback.states_.resize(size_t{desc.capacity} * push.stateStride * 4);
     playback.masks_.assign(size_t{kMaxMasks} * push.maskStride * 4, 1.0f);
+    playback.jointMasks_.assign(size_t{kMaxMasks} * push.jointCount, 1.0f);
+    playback.evaluated_.joints.resize(push.jointCount);
+    playback.evaluated_.memory = skinning::PoseMemory(desc.asset->character);
     playback.changed_.resize(desc.capacity, false);
     playback.changedSlots_.reserve(desc.capacity);
     playback.uploadedSlots_.reserve(desc.capacity);
@@ -168,7 +173,44 @@ void Playback::markChanged(uint32_t slot) {
     }
 }
 
+void Playback::forget(uint32_t slot) {
+    if (evaluated_.slot == slot) {
+        evaluated_.slot = kNoSlot;
+    }
+}
+
+void Playback::evaluate(uint32_t slot) {
+    const cage::Character& character = asset_->character;
+    const skinning::PlaybackState own = state(slot);
+    if (own.inBindPose()) {
+        std::ranges::copy(asset_->jointFrames.bind, evaluated_.joints.begin());
+        evaluated_.traveled = glm::dmat4(1.0);
+    } else {
+        skinning::PlaybackState::Layers layers;
+        const skinning::PlaybackDesc desc = own.read(asset_->clipTable, layers);
+        skinning::poseNodes(character, asset_->rig, desc, time_, jointMasks_, evaluated_.memory);
+        skinning::jointTransforms(character.skin, evaluated_.memory.nodes, evaluated_.joints);
+        evaluated_.traveled = skinning::toMatrix(skinning::traveledBy(character, desc, time_));
+    }
+    evaluated_.slot = slot;
+}
+
+glm::mat4 Playback::jointTransform(uint32_t slot, uint32_t joint) {
+    if (evaluated_.slot != slot) {
+        evaluate(slot);
+    }
+    return skinning::placedJoint(glm::dmat4(state(slot).transform()) * evaluated_.traveled, evaluated_.joints[joint]);
+}
+
+void Playback::setTime(double seconds) {
+    if (time_ != seconds) {
+        time_ = seconds;
+        evaluated_.slot = kNoSlot;
+    }
+}
+
 void Playback::reset(uint32_t slot) {
+    forget(slot);
     skinning::PlaybackState own = state(slot);
     own.setMorphWeights(nullptr, 0);
     own.setBindPose();
@@ -177,6 +219,7 @@ void Playback::reset(uint32_t slot) {
 }
 
 void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
+    forget(slot);
     state(slot).set(asset_->character, asset_->clipTable, desc);
     roots_ = roots_ || desc.root.axes != 0;
     for (const skinning::PlaybackLayer& layer : desc.layers) {
@@ -199,6 +242,13 @@ void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<c
     const size_t values = size_t{push_.maskStride} * 4;
     skinning::writeMask(asset_->clipTable, asset_->rig, joints, morphs,
                         std::span(masks_).subspan((mask - 1) * values, values));
+    const std::span<float> own = std::span(jointMasks_).subspan(size_t{mask - 1} * push_.jointCount, push_.jointCount);
+    if (joints.empty()) {
+        std::ranges::fill(own, 1.0f);
+    } else {
+        std::ranges::copy(joints, own.begin());
+    }
+    evaluated_.slot = kNoSlot;
     masksSet_[mask - 1] = true;
     masksChanged_ = true;
 }

@@ -6,6 +6,7 @@
 #include "gpu/memory.h"
 #include "runtime/asset.h"
 #include "skinning/deform_pass.h"
+#include "skinning/layers.h"
 #include "skinning/playback.h"
 #include "skinning/pose_pass.h"
 
@@ -43,11 +44,15 @@ public:
     void set(uint32_t slot, const skinning::PlaybackDesc& desc);
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setMorphWeights(uint32_t slot, const float* weights); ///< null: the clips' own again
-    void setTime(double seconds) { time_ = seconds; }
+    void setTime(double seconds);
 
     /// Masks are numbered from 1; a layer's mask must have been set.
     void setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs);
     [[nodiscard]] bool hasMask(uint32_t mask) const { return masksSet_[mask - 1]; }
+
+    /// Where the joint is at the group's time, computed on the CPU. The joints of the slot that was asked for last are
+    /// kept until what plays, the time or a mask changes.
+    [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint);
 
     /// What has changed since it was recorded last; the bytes of it.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
@@ -72,6 +77,8 @@ private:
     [[nodiscard]] VkDeviceSize stateBytes() const { return VkDeviceSize{push_.stateStride} * 16; }
     [[nodiscard]] skinning::PlaybackState state(uint32_t slot);
     void markChanged(uint32_t slot);
+    void evaluate(uint32_t slot); ///< into evaluated_
+    void forget(uint32_t slot);   ///< what plays there has changed
 
     const gpu::Device* device_ = nullptr;
     const skinning::PosePass* pass_ = nullptr;
@@ -86,6 +93,17 @@ private:
     std::vector<uint32_t> states_;
     std::vector<float> masks_;
     std::array<bool, shared::kMaxMasks> masksSet_{};
+
+    std::vector<float> jointMasks_; ///< one run a mask, one value a joint
+
+    static constexpr uint32_t kNoSlot = 0xFFFFFFFFu;
+    struct Evaluated {
+        uint32_t slot = kNoSlot;
+        glm::dmat4 traveled{1.0};
+        std::vector<glm::mat4> joints; ///< in model space
+        skinning::PoseMemory memory;
+    };
+    Evaluated evaluated_;
 
     std::vector<bool> changed_;           ///< by slot
     std::vector<uint32_t> changedSlots_;  ///< those, in any order

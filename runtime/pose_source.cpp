@@ -14,6 +14,9 @@ public:
     void reset(uint32_t slot) override { poses_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { poses_.setTransform(slot, transform); }
     void setMorphWeights(uint32_t slot, const float* weights) override { poses_.setMorphWeights(slot, weights); }
+    [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
+        return poses_.jointTransform(slot, joint);
+    }
     [[nodiscard]] HostPoses* host() override { return &poses_; }
 
     void plan(gpu::BufferPlan& staging) override {
@@ -52,6 +55,9 @@ public:
     void reset(uint32_t slot) override { playback_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { playback_.setTransform(slot, transform); }
     void setMorphWeights(uint32_t slot, const float* weights) override { playback_.setMorphWeights(slot, weights); }
+    [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
+        return playback_.jointTransform(slot, joint);
+    }
     [[nodiscard]] Playback* playback() override { return &playback_; }
 
     [[nodiscard]] Status create(const Buffers& buffers) override {

@@ -25,6 +25,8 @@ public:
     virtual void reset(uint32_t /*slot*/) {} ///< a new instance: bind pose, identity transform
     virtual void setTransform(uint32_t /*slot*/, const glm::mat4& /*transform*/) {}
     virtual void setMorphWeights(uint32_t /*slot*/, const float* /*weights*/) {} ///< null: the pose's own again
+    /// Where a joint is, as the next recording poses and places the instance.
+    [[nodiscard]] virtual glm::mat4 jointTransform(uint32_t /*slot*/, uint32_t /*joint*/) { return glm::mat4(1.0f); }
     [[nodiscard]] virtual HostPoses* host() { return nullptr; }
     [[nodiscard]] virtual Playback* playback() { return nullptr; }
 

@@ -11,9 +11,11 @@
 namespace supple::runtime {
 
 /// The size a struct had in the first version of the ABI (SOVERSION 0). A struct that grows gets a specialization with
-/// its old size. A new field must not lie where an older struct had padding.
+/// its old size. A new field must not lie where an older struct had padding, unless only Supple fills that struct.
 template <class T>
 inline constexpr size_t kFirstSize = sizeof(T);
+template <>
+inline constexpr size_t kFirstSize<SuppleJointInfo> = offsetof(SuppleJointInfo, restTransform);
 
 /// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with
 /// something in fields that this library does not know.

@@ -90,6 +90,12 @@ Rig makeRig(const cage::Character& character) {
     return rig;
 }
 
+PoseMemory::PoseMemory(const cage::Character& character) : nodes(character.skeleton.nodes.size()) {
+    for (Pose* own : {&pose, &scratch.sample, &scratch.reference}) {
+        restPose(character, *own);
+    }
+}
+
 void applyLayer(const cage::Character& character, const Rig& rig, const Layer& layer, const RootSelection& root,
                 LayerScratch& scratch, Pose& pose) {
     if (layer.weight == 0.0) {

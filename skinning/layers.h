@@ -41,6 +41,16 @@ struct LayerScratch {
     Pose sample, reference;
 };
 
+/// Memory for putting a pose of one character together.
+struct PoseMemory {
+    Pose pose;
+    LayerScratch scratch;
+    std::vector<glm::mat4> nodes; ///< one a node
+
+    PoseMemory() = default;
+    explicit PoseMemory(const cage::Character& character);
+};
+
 /// Applies one layer to `pose`, with the root motion of `root` taken out of the layer's clip. Weight 0 leaves bits as
 /// they are, and weight 1 of a blend gives the clip's. Blended: translations, scales and morph weights linearly,
 /// rotations along the shorter arc. Added: acc.translation + w (sample - reference); acc.rotation * (reference^-1 *

@@ -1,6 +1,5 @@
 #include "skinning/playback.h"
 
-#include "shaders/shared/pose.h"
 #include "skinning/pose.h"
 #include "skinning/split_time.h"
 
@@ -118,6 +117,48 @@ void PlaybackState::setMorphWeights(const float* weights, size_t count) {
     for (size_t i = 0; weights != nullptr && i < count; ++i) {
         words_[first + i] = bits(weights[i]);
     }
+}
+
+glm::vec4 PlaybackState::floats(uint32_t element) const {
+    glm::vec4 values;
+    for (uint32_t i = 0; i < 4; ++i) {
+        values[static_cast<int>(i)] = std::bit_cast<float>(words_[4 * size_t{element} + i]);
+    }
+    return values;
+}
+
+bool PlaybackState::inBindPose() const {
+    return (words_[1] & kStateBindPose) != 0;
+}
+
+glm::mat4 PlaybackState::transform() const {
+    return glm::transpose(glm::mat4(floats(1), floats(2), floats(3), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
+}
+
+PlaybackDesc PlaybackState::read(const ClipTable& table, Layers& layers) const {
+    for (uint32_t i = 0; i < words_[0]; ++i) {
+        const uint32_t first = kStateElements + i * kLayerElements;
+        const uint32_t* const ids = &words_[4 * size_t{first}];
+        const glm::vec4 begin = floats(first + 1), course = floats(first + 2), fade = floats(first + 3);
+        PlaybackLayer& layer = layers[i];
+        layer.clip = ids[0];
+        layer.loop = (ids[1] & kLayerLoops) != 0;
+        layer.mode = (ids[1] & kLayerAdds) != 0 ? LayerMode::additive : LayerMode::blend;
+        layer.mask = ids[2];
+        layer.start = joinedTime(begin.x, begin.y);
+        layer.offset = joinedTime(begin.z, begin.w);
+        layer.speed = course.x;
+        layer.weight = course.y;
+        layer.fadeWeight = course.z;
+        layer.fadeDuration = course.w;
+        layer.fadeStart = joinedTime(fade.x, fade.y);
+        layer.referenceTime = joinedTime(fade.z, fade.w);
+    }
+    PlaybackDesc desc;
+    desc.layers = {layers.data(), words_[0]};
+    desc.root = {words_[2] == kNoNode ? cage::kNone : table.nodes[words_[2]], words_[3]};
+    desc.travels = (words_[1] & kStateTravels) != 0;
+    return desc;
 }
 
 uint32_t maskElements(const ClipTable& table) {

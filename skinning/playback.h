@@ -2,10 +2,12 @@
 #pragma once
 
 #include "cage/character.h"
+#include "shaders/shared/pose.h"
 #include "skinning/clip_table.h"
 #include "skinning/layers.h"
 #include "skinning/root_motion.h"
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -46,10 +48,18 @@ public:
     void setTransform(const glm::mat4& transform);
     void setMorphWeights(const float* weights, size_t count); ///< null: the clips' own again
 
+    // What the device reads.
+    [[nodiscard]] bool inBindPose() const;
+    [[nodiscard]] glm::mat4 transform() const;
+    using Layers = std::array<PlaybackLayer, shared::kMaxPlaybackLayers>;
+    /// What was set; not of the bind pose. `layers` is memory for its layers. Offsets of loops lie within the clip.
+    [[nodiscard]] PlaybackDesc read(const ClipTable& table, Layers& layers) const;
+
     [[nodiscard]] static uint32_t elements(uint32_t morphCount);
 
 private:
     void put(uint32_t element, float x, float y, float z, float w);
+    [[nodiscard]] glm::vec4 floats(uint32_t element) const;
     void setTravel(const cage::Character& character, const PlaybackLayer& layer, const RootSelection& root);
 
     std::span<uint32_t> words_;

@@ -13,4 +13,8 @@ struct SplitTime {
     return {high, static_cast<float>(seconds - static_cast<double>(high))};
 }
 
+[[nodiscard]] inline double joinedTime(float high, float low) {
+    return static_cast<double>(high) + static_cast<double>(low);
+}
+
 } // namespace supple::skinning

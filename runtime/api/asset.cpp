@@ -162,6 +162,10 @@ SuppleResult suppleGetJointInfo(SuppleContext handle, SuppleAsset asset, uint32_
                             [&](SuppleJointInfo& info) {
                                 info.name = found.character.skeleton.nodes[joints[joint]].name.c_str();
                                 info.parent = found.rig.jointParents[joint];
+                                const skinning::JointFrames& frames = found.jointFrames;
+                                info.bindIsSingular = frames.bindIsSingular[joint];
+                                std::memcpy(info.restTransform, &frames.rest[joint], sizeof(info.restTransform));
+                                std::memcpy(info.bindTransform, &frames.bind[joint], sizeof(info.bindTransform));
                             });
     });
 }

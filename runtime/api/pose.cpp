@@ -1,6 +1,7 @@
 // supple.h, pose.
 #include "runtime/api/poses.h"
 
+#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
 using namespace supple;      // NOLINT
@@ -66,6 +67,23 @@ SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleInstance instance, 
             return refuse(context, ErrorCode::notFinite, kHere, "a joint matrix is not finite");
         }
         found.poses().host()->setMatrixPose(instance.slot, jointMatrices);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetJointTransform(SuppleContext handle, SuppleInstance instance, uint32_t joint, float* out) {
+    constexpr const char* kHere = "suppleGetJointTransform";
+    return withAnyPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        const size_t joints = found.asset().character.skin.joints.size();
+        if (joint >= joints) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "joint " + std::to_string(joint) + " of " + std::to_string(joints));
+        }
+        const glm::mat4 transform = found.poses().jointTransform(instance.slot, joint);
+        std::memcpy(out, glm::value_ptr(transform), sizeof(transform));
         return SUPPLE_OK;
     });
 }

@@ -328,6 +328,8 @@ TEST(Allocation, FramesTakeNoMemory) {
                         const glm::mat4 transform =
                             glm::translate(glm::mat4(1.0f), glm::vec3(0.01f * static_cast<float>(n)));
                         ok(suppleSetTransform(handle, instance, glm::value_ptr(transform)));
+                        float socket[16];
+                        ok(suppleGetJointTransform(handle, instance, i % 3, socket));
                     }
                     ok(suppleSetVisible(handle, group.instances[n % kCapacity], n % 2));
                     ok(suppleTeleport(handle, group.instances[(n + 1) % kCapacity]));

@@ -1,5 +1,5 @@
-// Every function of the public headers with every kind of wrong argument: the result, the one line that says why, and that
-// nothing else has happened: what the call was to fill is as it was, and the next frame has the bits it had.
+// Every function of the public headers with every kind of wrong argument: the result, the one line that says why, and
+// that nothing else has happened: what the call was to fill is as it was, and the next frame has the bits it had.
 #include "runtime/sized.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
@@ -1105,6 +1105,31 @@ void instances(Rows& r) {
     }
     for (const int at : {3, 7, 11, 15}) {
         transform("last row at " + std::to_string(at), at, 0.5f, SUPPLE_MESSAGE_OUT_OF_RANGE);
+    }
+    constexpr const char* kSocket = "suppleGetJointTransform";
+    r.instances(
+        kSocket,
+        [](World& w, SuppleContext c, SuppleInstance i) {
+            return suppleGetJointTransform(c, i, 0, w.plain<float>(16));
+        },
+        true);
+    r.refuse(kSocket, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetJointTransform(w.handle(), w.instance(), 0, nullptr); });
+    for (const uint32_t joint : {kJoints, SUPPLE_NO_JOINT}) {
+        r.refuse(kSocket, "joint " + std::to_string(joint), SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
+            return suppleGetJointTransform(w.handle(), w.instance(), joint, w.plain<float>(16));
+        });
+    }
+    for (const Phase phase : {Phase::fresh, Phase::recorded, Phase::cancelled}) {
+        for (SmallGroup World::*const group : {&World::spare, &World::played}) {
+            r.accept(
+                kSocket, "in phase " + std::to_string(static_cast<int>(phase)),
+                [=](World& w) {
+                    float transform[16];
+                    return suppleGetJointTransform(w.handle(), (w.*group).instances[0], kJoints - 1, transform);
+                },
+                phase);
+        }
     }
 }
 

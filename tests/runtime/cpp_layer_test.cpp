@@ -65,6 +65,10 @@ TEST(CppLayer, OwnsWhatItMakes) {
     const float mask[] = {0.5f};
     EXPECT_EQ(players.setMask(3, mask), SUPPLE_OK);
     EXPECT_EQ(players.setTime(1.5), SUPPLE_OK);
+    std::array<float, 16> socket{};
+    EXPECT_EQ(player.jointTransform(0, socket), SUPPLE_OK);
+    EXPECT_EQ(socket, identity);
+    EXPECT_EQ(instance.jointTransform(1, socket), SUPPLE_ERROR_ARGUMENT) << "it has one joint";
     EXPECT_EQ(player.setPlayback(std::span<const SupplePlaybackLayer>()), SUPPLE_OK) << "the rest pose";
     auto playback = supple::sized<SupplePlaybackDesc>();
     playback.rootMotion = SUPPLE_ROOT_MOTION_GROUND;

@@ -102,11 +102,12 @@ protected:
                             {.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_MOTION | SUPPLE_GROUP_PATCHES})
                     .group;
         const host::GroupOutput output = outputOf(context->handle(), group);
-        always = {output.streams.vertices.buffer, output.streams.previousPositions.buffer,
-                  output.info.deformedCage.buffer, output.info.instances.buffer, output.indirect().buffer};
+        always = {output.streams.vertices.buffer,  output.streams.previousPositions.buffer,
+                  output.info.deformedCage.buffer, output.info.poses.buffer,
+                  output.info.instances.buffer,    output.indirect().buffer};
         attributes = {output.streams.attributes.buffer, output.streams.uvs1.buffer, output.streams.faceUvs.buffer};
         indices = output.indices().buffer;
-        EXPECT_EQ(sorted(always).size(), 5u);
+        EXPECT_EQ(sorted(always).size(), 6u);
     }
     /// A frame of the groups, drawn from in a second submission; the buffers that change hands.
     std::vector<VkBuffer> handedOver(std::span<const SuppleGroup> groups) { return buffersOf(barriersOf(groups)); }
@@ -173,8 +174,9 @@ TEST_F(AsyncCompute, HandsOverWhatTheFrameWrote) {
     const SuppleGroup both[] = {group, second.group};
     const host::GroupOutput output = outputOf(context->handle(), second.group);
     std::vector<VkBuffer> buffers = wanted(false, false);
-    for (const VkBuffer buffer : {output.streams.vertices.buffer, output.info.deformedCage.buffer,
-                                  output.info.instances.buffer, output.indirect().buffer, output.indices().buffer}) {
+    for (const VkBuffer buffer :
+         {output.streams.vertices.buffer, output.info.deformedCage.buffer, output.info.poses.buffer,
+          output.info.instances.buffer, output.indirect().buffer, output.indices().buffer}) {
         buffers.push_back(buffer);
     }
     EXPECT_EQ(handedOver(both), sorted(buffers));

@@ -362,8 +362,14 @@ typedef struct SuppleClipInfo {
 /** A joint of the skin. */
 typedef struct SuppleJointInfo {
     uint32_t structSize;
-    const char* name; /**< lives as long as the asset */
-    uint32_t parent;  /**< the nearest joint above it in the node tree, or SUPPLE_NO_JOINT */
+    const char* name;        /**< lives as long as the asset */
+    uint32_t parent;         /**< the nearest joint above it in the node tree, or SUPPLE_NO_JOINT */
+    uint32_t bindIsSingular; /**< 0 or 1: the file's inverse bind matrix has no inverse, as with a scale of 0 */
+    /** Where the file's node transforms put the joint, in model space. SUPPLE_REST_POSE puts it there. */
+    float restTransform[16];
+    /** Where the joint is in the bind pose, in model space: the inverse of its inverse bind matrix. A joint whose
+     * inverse bind matrix is singular has no such place; then this is restTransform. */
+    float bindTransform[16];
 } SuppleJointInfo;
 
 /** A morph target of the cage. */
@@ -586,6 +592,22 @@ SUPPLE_API SuppleResult suppleSetMatrixPose(SuppleContext context, SuppleInstanc
  * pass null. Errors: morphTargetCount is not the asset's, a weight is not finite. */
 SUPPLE_API SuppleResult suppleSetMorphWeights(SuppleContext context, SuppleInstance instance, const float* weights,
                                               uint32_t morphTargetCount);
+
+/** Where a joint is, for what a character holds: out gets the joint's global transform (column-major float[16]). It is
+ * the instance's transform times the joint's matrix in model space, without the inverse bind matrix, so it maps from
+ * the joint's space to that of the surface vertices. It is what the next suppleRecord shows if nothing is set before
+ * it: call this after the frame's suppleSetPose, suppleSetTransform, suppleSetTime, ..., also of hidden instances and
+ * outside frames. In the bind pose the joint's matrix is SuppleJointInfo.bindTransform. After suppleSetMatrixPose it is
+ * the host's own, bit for bit if the instance's transform is the identity.
+ * Cost: with SUPPLE_POSES_SET a matrix product, because the pose is kept. With SUPPLE_POSES_PLAYBACK the CPU computes
+ * the whole pose that the device will compute, which costs what suppleSetPose costs with the same layers. The pose is
+ * kept for more joints of the same instance, until another instance of the group is asked for, or suppleSetPlayback,
+ * suppleSetTime or suppleSetMask changes it. So ask for all joints of one instance before the next one. Crowds read
+ * SuppleGroupInfo.poses on the device instead (docs/integration.md).
+ * Errors: joint is not below jointCount; the host fills the group's poses (PALETTE_BUFFER, CAGE_BUFFER), so only the
+ * device knows. */
+SUPPLE_API SuppleResult suppleGetJointTransform(SuppleContext context, SuppleInstance instance, uint32_t joint,
+                                                float* out);
 
 /* ---------------------------------------------------------------------------------------------------- frame */
 

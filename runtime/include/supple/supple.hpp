@@ -289,6 +289,9 @@ public:
     [[nodiscard]] SuppleResult setTransform(std::span<const float, 16> transform) const {
         return suppleSetTransform(context_, handle_, transform.data());
     }
+    [[nodiscard]] SuppleResult jointTransform(uint32_t joint, std::span<float, 16> out) const {
+        return suppleGetJointTransform(context_, handle_, joint, out.data());
+    }
 };
 
 } // namespace supple
