@@ -23,23 +23,34 @@ vec3 ringDiagonal(uint word, uint cageBase, vec3 p0) {
 }
 #include "shaders/surface/vertex.glsl"
 
-// (14), relative to p: a, b are the alphas of the edges to x and y.
-vec3 creasedFace(float a, float b, vec3 x, vec3 y, vec3 q) {
-    precise vec3 r = (((1.0 - a) * b) * 0.5 * x + (a * (1.0 - b)) * 0.5 * y) + (a * b * 0.25) * ((x + y) + q);
+// (14), relative to p: a, b are the alphas of the edges to x and y. `rim`: the weight of what is added between two sharp edges.
+vec3 creasedFace(float a, float b, float rim, vec3 x, vec3 y, vec3 q) {
+    precise vec3 r = (((1.0 - a) * b) * 0.5 * x + (a * (1.0 - b)) * 0.5 * y) + (a * b * 0.25) * ((x + y) + q) + rim * (x + y);
     return r;
+}
+
+// The tangent where an open sector ends, relative to p: its edge's alone, or that of the smooth curve through p.
+vec3 endTangent(vec3 spoke, bool joined, uint element, uint cageBase, vec3 p0) {
+    precise vec3 alone = spoke * (1.0 / 3.0);
+    uvec4 end = joined ? tableElement(element) : uvec4(0u);
+    if (end.x == 0u) return alone;
+    precise vec3 other = ringSpoke(tableWord(push.ring + end.x - 1u), cageBase) - p0;
+    precise vec3 through = uintBitsToFloat(end.y) * spoke - uintBitsToFloat(end.z) * other;
+    return through;
 }
 
 void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, vec3 p0, uint weights) {
     uvec4 header = tableElement(weights);
     bool open = (header.x & kOpenSector) != 0u, corner = (header.x & kCornerSector) != 0u;
-    uint facets = header.x & ~(kOpenSector | kCornerSector | kPinnedSector), edges = open ? facets + 1u : facets;
+    bool straight = (header.x & kStraightSector) != 0u, joined = (header.x & kJoinedSector) != 0u;
+    uint facets = header.x & kSectorFacets, edges = open ? facets + 1u : facets;
     float limitScale = uintBitsToFloat(header.y), tangentScale = uintBitsToFloat(header.z);
 
     // Sums over the edges inside: of f_j, and of e_j = (f_j + f_j-1) / 2 with cosines and sines.
     precise vec3 sum = vec3(0.0), cosines = vec3(0.0), sines = vec3(0.0);
     precise float sineSum = 0.0;
     vec3 firstSpoke = vec3(0.0), firstFace = vec3(0.0), lastSpoke = vec3(0.0), lastDiagonal = vec3(0.0), lastFace = vec3(0.0);
-    float firstAlpha = 0.0, lastAlpha = 0.0;
+    float firstAlpha = 0.0, lastAlpha = 0.0, lastRim = 0.0;
     for (uint k = 0u; k <= facets; ++k) { // a closed sector's last round is its first edge again
         uint j = k < edges ? k : 0u;
         uint word = tableWord(words + j);
@@ -49,7 +60,7 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
             firstSpoke = spoke;
             firstAlpha = w.x;
         } else {
-            vec3 f = creasedFace(lastAlpha, w.x, lastSpoke, spoke, lastDiagonal);
+            vec3 f = creasedFace(lastAlpha, w.x, lastRim, lastSpoke, spoke, lastDiagonal);
             sum = sum + f;
             if (k == 1u) {
                 firstFace = f;
@@ -65,13 +76,18 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
         lastSpoke = spoke;
         lastDiagonal = ringDiagonal(word, cageBase, p0);
         lastAlpha = w.x;
+        lastRim = w.w;
     }
     precise vec3 x, e1, e2;
+    vec3 first = vec3(0.0), last = vec3(0.0);
     if (open) {
+        first = endTangent(firstSpoke, joined, weights + 1u + edges, cageBase, p0);
+        last = endTangent(lastSpoke, joined, weights + 2u + edges, cageBase, p0);
         // Written as weightedFan sums it, so that both sides of a hard edge get the same bits.
         x = corner ? vec3(0.0) : (1.0 / 6.0) * firstSpoke + (1.0 / 6.0) * lastSpoke;
-        e1 = corner ? firstSpoke * (1.0 / 3.0) : (firstSpoke - lastSpoke) * (1.0 / 6.0);
-        e2 = corner ? lastSpoke * (1.0 / 3.0) : tangentScale * (sines - sineSum * x);
+        e1 = corner || straight ? first : (firstSpoke - lastSpoke) * (1.0 / 6.0);
+        e2 = corner ? last : tangentScale * (sines - sineSum * x);
+        if (straight) x = vec3(0.0);
     } else {
         vec4 w = uintBitsToFloat(tableElement(weights + 1u)); // edge 0 lies between the last facet and the first
         precise vec3 e = (lastFace + firstFace) * 0.5;
@@ -91,13 +107,11 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
             precise vec3 far = ringSpoke(tableWord(words + n), cageBase) - p0;
             float next = uintBitsToFloat(tableElement(weights + 1u + n).x);
             vec3 diagonal = ringDiagonal(tableWord(words + k), cageBase, p0);
-            storeOffset(face + k, creasedFace(w.x, next, near, far, diagonal), x);
+            storeOffset(face + k, creasedFace(w.x, next, w.w, near, far, diagonal), x);
             near = far;
         }
     }
     if (open) {
-        precise vec3 first = firstSpoke * (1.0 / 3.0);
-        precise vec3 last = lastSpoke * (1.0 / 3.0);
         storeOffset(tangent, first, x);
         storeOffset(tangent + facets, last, x);
     }

@@ -1,10 +1,12 @@
 #include "surface/pm/mesh.h"
 
 #include "base/within_memory.h"
+#include "surface/pm/corners.h"
 #include "surface/split.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace supple::surface::pm {
@@ -82,7 +84,28 @@ private:
                 corner.acrossBack = slot + next;
             }
         }
+        addRims(fan);
         mesh_.fans.push_back(fan);
+    }
+
+    /// 0 for an edge that is smooth, or whose alpha the cage gives, up to 1 for a sharp one. Ends of open fans are
+    /// cuts, and no edges of a rim.
+    [[nodiscard]] double sharpness(const Fan& fan, uint32_t j) const {
+        const uint32_t slot = fan.firstSlot + j;
+        const bool end = !fan.closed() && (j == 0 || j == fan.facets);
+        const bool given = mesh_.features.spokeAlphas[mesh_.slotSpokes[slot]] >= 0.0f;
+        return end || given ? 0.0 : 1.0 - mesh_.slotAlphas[slot] / kSmoothAlpha;
+    }
+
+    void addRims(const Fan& fan) {
+        for (uint32_t j = 0; j < fan.edges(); ++j) {
+            double rim = 1.0 / 6.0;
+            const uint32_t next = j + 1 < fan.edges() ? j + 1 : 0;
+            for (uint32_t k = 0; k < fan.edges(); ++k) {
+                rim *= k == j || k == next ? sharpness(fan, k) : 1.0 - sharpness(fan, k);
+            }
+            mesh_.slotRims.push_back(fan.creased && j < fan.facets ? rim : 0.0);
+        }
     }
 
     /// Alpha at this vertex of an edge inside a fan. The one hard edge at a dart's tip is as smooth as the others.
@@ -116,7 +139,7 @@ bool couldBeApex(const Mesh& mesh, uint32_t vertex) {
         const uint32_t next = cage::nextCorner(mesh.cage, facet, corner);
         for (const uint32_t outer : {next, cage::nextCorner(mesh.cage, facet, next)}) {
             const Fan& fan = mesh.fans[mesh.corners[outer].fan];
-            if (fan.valence() != 4 || fan.kind == FanKind::corner) {
+            if (!fan.angle().regular() || fan.kind == FanKind::corner || fan.kind == FanKind::straight) {
                 return false;
             }
         }
@@ -158,7 +181,7 @@ void classify(Mesh& mesh) {
             }
         } else if (sides == 4) {
             const bool regular = std::all_of(mesh.corners.begin() + first, mesh.corners.begin() + first + 4,
-                                             [&](const FacetCorner& c) { return mesh.fans[c.fan].valence() == 4; });
+                                             [&](const FacetCorner& c) { return mesh.fans[c.fan].angle().regular(); });
             mesh.classes[f] = regular ? PatchClass::regular : PatchClass::p4;
         }
     }
@@ -171,6 +194,7 @@ void fill(Mesh& mesh) {
     for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
         fans.add(v);
     }
+    shapeCorners(mesh);
     classify(mesh);
 }
 
@@ -222,6 +246,17 @@ Result<Mesh> build(const Cage& cage) {
 
 double alphaOfSharpness(double sharpness) {
     return kSmoothAlpha * std::exp2(-sharpness);
+}
+
+FacetAngle Fan::angle() const {
+    if (kind == FanKind::interior) {
+        return {1, facets};
+    }
+    if (kind != FanKind::corner) {
+        return {1, 2 * facets};
+    }
+    const uint32_t common = std::gcd(uint32_t{width}, 12 * facets);
+    return {width / common, 12 * facets / common};
 }
 
 Result<Mesh> buildMesh(const Cage& cage) {

@@ -1,7 +1,7 @@
 // The cage as P_m sees it: facets of three to five sides, fans between sharp edges, facet classes. Depends on
-// connectivity and sharpness; rest positions only decide which diagonals cut large faces. Built once per asset.
-// Paper: A. Myles, T. Ni, J. Peters, "Fast Parallel Construction of Smooth Surfaces from Meshes with Tri/Quad/Pent
-// Facets", SGP 2008; numbers in parentheses are its equations, in the corrected form of docs/pm.md.
+// connectivity and sharpness; rest positions only decide which diagonals cut large faces and how wide corners are.
+// Built once per asset. Paper: A. Myles, T. Ni, J. Peters, "Fast Parallel Construction of Smooth Surfaces from Meshes
+// with Tri/Quad/Pent Facets", SGP 2008; numbers in parentheses are its equations, in the corrected form of docs/pm.md.
 #pragma once
 
 #include "base/result.h"
@@ -10,6 +10,7 @@
 #include "surface/patch_class.h"
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -24,8 +25,30 @@ inline constexpr double kSmoothAlpha = 2.0 / 3.0;
 enum class FanKind : uint8_t {
     interior, ///< closed: the whole ring of an interior vertex with no sharp edge, or with one (the tip of a dart)
     crease,   ///< open: two sharp edges meet at the vertex and form a smooth boundary or crease
-    corner    ///< open: the surface interpolates the vertex
+    corner,   ///< open: the surface interpolates the vertex, and the two sharp edges span its tangent plane
+    straight  ///< open: the surface interpolates the vertex, and the two sharp edges are one smooth curve through it
 };
+
+/// What a facet takes of the whole turn round a vertex: `part` of `whole`. A regular one takes a quarter.
+struct FacetAngle {
+    uint32_t part = 1;
+    uint32_t whole = 4;
+
+    [[nodiscard]] bool regular() const { return 4 * part == whole; }
+    auto operator<=>(const FacetAngle&) const = default;
+};
+
+/// Where an open fan ends, at a sharp edge from p to A, its tangent is t = p + own (A - p) - other (B - p). With no
+/// partner it is (2 p + A) / 3. If the curve runs smoothly through a corner, B is the far vertex of its other edge.
+struct FanEnd {
+    uint32_t partner = cage::kNone; ///< the slot of an edge to B
+    double own = 1.0 / 3.0;
+    double other = 0.0;
+};
+
+/// The width of a fan that is a corner is a multiple of 30 degrees. As in the paper's corners it is a right angle,
+/// unless the rest pose says otherwise.
+inline constexpr uint32_t kRightAngle = 3;
 
 /// A fan of facets around a vertex. Facet j (0 <= j < facets) lies between edges j and j + 1, counter-clockwise. The
 /// edges and facets of all fans are numbered by slots: slot firstSlot + j stands for edge j and, if j < facets, for
@@ -39,13 +62,15 @@ struct Fan {
     /// The fan is closed and its vertex p is sharp (cage::SharpVertex). Its v, t and f are moved by p - v, so that
     /// the surface passes through the vertex. An open fan becomes a corner instead.
     bool pinned = false;
+    uint8_t width = kRightAngle;  ///< of a corner: between its two sharp edges, in twelfths of a turn
+    std::array<FanEnd, 2> ends{}; ///< of an open fan: at its first and at its last edge
 
     [[nodiscard]] bool closed() const { return kind == FanKind::interior; }
     [[nodiscard]] uint32_t edges() const { return closed() ? facets : facets + 1; }
-    /// N in cos(2 pi / N): q if closed, 2 q at creases, 4 q at corners.
-    [[nodiscard]] uint32_t valence() const {
-        return kind == FanKind::interior ? facets : kind == FanKind::crease ? 2 * facets : 4 * facets;
-    }
+    /// 1 / N in cos(2 pi / N): N is q if closed, 2 q at creases, 4 q at corners of a right angle.
+    [[nodiscard]] FacetAngle angle() const;
+    /// Whether an end follows a smooth curve through the vertex.
+    [[nodiscard]] bool joined() const { return ends[0].partner != cage::kNone || ends[1].partner != cage::kNone; }
 };
 
 /// Corner c of facet f at vertex v. Half-edge c runs from v to the next vertex of f.
@@ -67,8 +92,11 @@ struct Mesh {
     std::vector<Fan> fans;             ///< grouped by vertex, in vertex order
     std::vector<uint32_t> slotSpokes;  ///< per slot: the spoke of `topology` that is edge j
     std::vector<double> slotAlphas;    ///< per slot: alpha of edge j at this vertex; 2/3 where an open fan ends
-    std::vector<FacetCorner> corners;  ///< per corner of `cage`
-    std::vector<PatchClass> classes;   ///< per facet: regular, polar, p3, p4 or p5
+    /// Per slot: the weight of (X - p) + (Y - p) that f_j has beside (14); 0 unless facet j is alone on its side of a
+    /// semi-sharp crease.
+    std::vector<double> slotRims;
+    std::vector<FacetCorner> corners; ///< per corner of `cage`
+    std::vector<PatchClass> classes;  ///< per facet: regular, polar, p3, p4 or p5
     /// Per facet: the corner (0..sides-1) that is corner 0 of its patch; patch corner i is facet corner (first + i) %
     /// sides. It is 0 except for polar facets, because the last corner of a polar patch must be the apex.
     std::vector<uint8_t> firstCorners;

@@ -34,7 +34,7 @@ constexpr KindOfKernel kFacetKernels[] = {
 };
 
 uint32_t fanKind(const Fan& fan) {
-    if (fan.creased || fan.pinned) {
+    if (fan.creased || fan.pinned || fan.joined()) {
         return shared::kCreasedFan;
     }
     if (fan.closed() && fan.facets == 4) {
@@ -135,27 +135,33 @@ private:
         const uint32_t element = writer_.element();
         writer_.put({fan.facets | (fan.closed() ? 0u : shared::kOpenSector) |
                          (fan.kind == FanKind::corner ? shared::kCornerSector : 0u) |
-                         (fan.pinned ? shared::kPinnedSector : 0u),
+                         (fan.kind == FanKind::straight ? shared::kStraightSector : 0u) |
+                         (fan.pinned ? shared::kPinnedSector : 0u) | (fan.joined() ? shared::kJoinedSector : 0u),
                      floatBits(scales.limit), floatBits(scales.tangent), 0u});
         for (uint32_t j = 0; j < fan.edges(); ++j) {
-            const auto [cosine, sine] = turn(j, fan.valence());
-            writer_.putFloats({mesh_.slotAlphas[fan.firstSlot + j], cosine, sine, 0.0});
+            const auto [cosine, sine] = tangentTurn(fan, j);
+            writer_.putFloats({mesh_.slotAlphas[fan.firstSlot + j], cosine, sine, mesh_.slotRims[fan.firstSlot + j]});
+        }
+        for (size_t end = 0; fan.joined() && end < 2; ++end) {
+            const FanEnd& at = fan.ends[end];
+            const bool joined = at.partner != cage::kNone;
+            writer_.put({joined ? slots_[at.partner] + 1 : 0u, floatBits(at.own), floatBits(at.other), 0u});
         }
         return element;
     }
 
     void writeFans() {
         std::vector<uint32_t> weights(mesh_.fans.size(), 0);
-        std::map<std::pair<FanKind, uint32_t>, uint32_t> smooth;
+        std::map<std::tuple<FanKind, uint32_t, uint32_t>, uint32_t> smooth;
         for (uint32_t s = 0; s < weights.size(); ++s) {
             const Fan& fan = mesh_.fans[s];
             if (fanKind(fan) == shared::kCreasedFan) {
                 weights[s] = writeCreasedWeights(fan);
             } else if (fanKind(fan) != shared::kRegularFan) {
-                const auto [known, isNew] = smooth.try_emplace({fan.kind, fan.facets}, 0u);
+                const auto [known, isNew] = smooth.try_emplace({fan.kind, fan.facets, fan.width}, 0u);
                 if (isNew) {
-                    known->second = writeFanWeights(makeFanWeights(fan.kind, fan.facets),
-                                                    fan.closed() ? 0u : shared::kOpenSector, writer_);
+                    known->second =
+                        writeFanWeights(makeFanWeights(fan), fan.closed() ? 0u : shared::kOpenSector, writer_);
                 }
                 weights[s] = known->second;
             }
@@ -173,7 +179,7 @@ private:
     [[nodiscard]] EdgeClass edgeClass(const DraftPatch& patch, uint32_t i) const {
         const FacetCorner &a = corner(patch, i), &b = corner(patch, i + 1);
         return {patch.info.cornerCount,
-                {mesh_.fans[a.fan].valence(), mesh_.fans[b.fan].valence()},
+                {mesh_.fans[a.fan].angle(), mesh_.fans[b.fan].angle()},
                 mesh_.features.hard(mesh_.topology.cornerEdges[patch.cageCorners[i]]),
                 {a.across == cage::kNone, b.acrossBack == cage::kNone}};
     }
@@ -221,7 +227,7 @@ private:
         std::map<std::array<uint32_t, 3>, uint32_t> apexes;
         const auto apexWeights = [&](const DraftPatch& patch) -> std::array<uint32_t, 3> {
             const FacetCorner& apex = corner(patch, 2);
-            const double c = turn(1, mesh_.fans[apex.fan].valence()).first;
+            const double c = turn(1, mesh_.fans[apex.fan].facets).first;
             return {floatBits(c), floatBits(1.5 * mesh_.slotAlphas[apex.slot]),
                     floatBits(1.5 * mesh_.slotAlphas[apex.slotBack])};
         };
@@ -274,12 +280,12 @@ private:
         writer_.put(std::span(words).first(size_t{4} * SUPPLE_PM_RECORD_ELEMENTS(m)));
     }
 
-    /// A bit a corner whose fan is a crease of one facet: its two tangents lie on one line.
+    /// A bit a corner whose fan is one facet on a smooth curve: its two tangents lie on one line.
     [[nodiscard]] uint32_t singularCorners(const DraftPatch& patch) const {
         uint32_t bits = 0;
         for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
             const Fan& fan = mesh_.fans[corner(patch, i).fan];
-            bits |= fan.kind == FanKind::crease && fan.facets == 1 ? 1u << i : 0u;
+            bits |= fan.angle() == FacetAngle{1, 2} ? 1u << i : 0u;
         }
         return bits;
     }

@@ -9,19 +9,35 @@ FanScales fanScales(FanKind kind, uint32_t facets) {
     if (kind == FanKind::interior) {
         return {9.0 / (q * (q + 5.0)), 1.0 / (q * subdominant(facets))};
     }
-    return {0.0, kind == FanKind::crease ? 1.0 / (q * subdominant(2 * facets)) : 0.0};
+    return {0.0, kind == FanKind::corner ? 0.0 : 1.0 / (q * subdominant(2 * facets))};
 }
 
-FanWeights makeFanWeights(FanKind kind, uint32_t facets) {
-    const bool closed = kind == FanKind::interior;
-    const uint32_t edges = closed ? facets : facets + 1;
-    const uint32_t valence = Fan{.facets = facets, .kind = kind}.valence();
+CornerTurn cornerTurn(uint32_t j, uint32_t facets, uint32_t width) {
+    const auto [cosine, sine] = turn(j * width, 12 * facets);
+    const auto [wholeCosine, wholeSine] = turn(width, 12); // 0 and 1 of a right angle
+    return {cosine - wholeCosine / wholeSine * sine, sine / wholeSine};
+}
+
+std::pair<double, double> tangentTurn(const Fan& fan, uint32_t j) {
+    if (fan.kind == FanKind::corner) {
+        const CornerTurn at = cornerTurn(j, fan.facets, fan.width);
+        return {at.first, at.last};
+    }
+    const FacetAngle angle = fan.angle();
+    return turn(j * angle.part, angle.whole);
+}
+
+FanWeights makeFanWeights(const Fan& fan) {
+    const FanKind kind = fan.kind;
+    const uint32_t facets = fan.facets;
+    const bool closed = fan.closed();
+    const uint32_t edges = fan.edges();
     const FanScales scales = fanScales(kind, facets);
     FanWeights w;
     w.limitEdge = w.e1Edge = w.e2Edge = std::vector<double>(edges, 0.0);
     w.limitFace = w.e1Face = w.e2Face = std::vector<double>(facets, 0.0);
     for (uint32_t j = 0; j < edges; ++j) {
-        const auto [cosine, sine] = turn(j, valence);
+        const auto [cosine, sine] = tangentTurn(fan, j);
         w.cosines.push_back(cosine);
         w.sines.push_back(sine);
     }
@@ -65,7 +81,7 @@ EdgeFactors makeEdgeFactors(const EdgeClass& edge) {
     std::array<double, 2> chi{};
     double sines = 0.0;
     for (size_t k = 0; k < 2; ++k) {
-        const auto [cosine, sine] = turn(1, edge.valences[k]);
+        const auto [cosine, sine] = turn(edge.angles[k].part, edge.angles[k].whole);
         chi[k] = 1.0 + cosine;
         sines += sine;
     }

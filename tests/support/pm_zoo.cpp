@@ -1,5 +1,6 @@
 #include "tests/support/pm_zoo.h"
 
+#include "tests/support/chess_pieces.h"
 #include "tests/support/meshes.h"
 
 #include <algorithm>
@@ -177,6 +178,13 @@ const std::vector<PmCage>& pmZoo() {
             const cage::Cage open = withoutFaces(fanOverTriangles(n), {0});
             all.push_back({"fan over triangles " + std::to_string(n) + ", open", PmVariant::open,
                            withRandomAlphas(jittered(open, n), n)});
+        }
+        // Corners with inner edges, wide and straight, and rims.
+        for (const ChessPiece& piece : chessPieces()) {
+            if (piece.columns == 8) {
+                all.push_back({piece.name, PmVariant::creased, piece.cage});
+                all.push_back({piece.name + ", jittered", PmVariant::creased, jittered(piece.cage, ++seed)});
+            }
         }
         return all;
     }();

@@ -75,7 +75,7 @@ public:
         for (uint32_t j = 0; j < fan_.edges(); ++j) {
             const bool end = !fan_.closed() && (j == 0 || j == fan_.facets);
             // The ends belong to both sides of a hard edge: from the edge alone.
-            out.tangents[fan_.firstSlot + j] = p_ + (end ? spoke(j) * T(1.0 / 3.0) : (v_ - moved) + turned(j)); // (16)
+            out.tangents[fan_.firstSlot + j] = p_ + (end ? endTangent(j) : (v_ - moved) + turned(j)); // (16)
         }
         for (uint32_t j = 0; j < fan_.facets; ++j) {
             out.faceCoefficients[fan_.firstSlot + j] = p_ + (f_[j] - moved);
@@ -87,6 +87,16 @@ private:
 
     [[nodiscard]] Vec3<T> spoke(uint32_t j) const {
         return positions_[mesh_.topology.spokeVertices[spokeSlot(j)]] - p_;
+    }
+
+    /// Of a sharp edge that ends the fan, relative to p.
+    [[nodiscard]] Vec3<T> endTangent(uint32_t j) const {
+        const FanEnd& end = fan_.ends[j == 0 ? 0 : 1];
+        if (end.partner == kNone) {
+            return spoke(j) * T(1.0 / 3.0);
+        }
+        const Vec3<T> other = positions_[mesh_.topology.spokeVertices[mesh_.slotSpokes[end.partner]]] - p_;
+        return T(end.own) * spoke(j) - T(end.other) * other;
     }
 
     /// Q_j: the mean of the corners of facet j that are not the vertex or its neighbours; of a triangle, of these.
@@ -101,22 +111,23 @@ private:
         return sides == 3 ? (at(1) + at(2)) / T(2) : sides == 4 ? at(2) : (at(2) + at(3)) / T(2);
     }
 
-    /// (14), which is (13) where both alphas are 2/3.
+    /// (14), which is (13) where both alphas are 2/3, and between two semi-sharp edges the rim.
     [[nodiscard]] Vec3<T> faceCoefficient(uint32_t j, uint32_t next) const {
         const T a = T(mesh_.slotAlphas[fan_.firstSlot + j]);
         const T b = T(mesh_.slotAlphas[fan_.firstSlot + next]);
         const Vec3<T> x = spoke(j);
         const Vec3<T> y = spoke(next);
-        return ((T(1) - a) * b * x + a * (T(1) - b) * y) / T(2) + a * b * ((x + y) + farMean(j)) / T(4);
+        return ((T(1) - a) * b * x + a * (T(1) - b) * y) / T(2) + a * b * ((x + y) + farMean(j)) / T(4) +
+               T(mesh_.slotRims[fan_.firstSlot + j]) * (x + y);
     }
 
     [[nodiscard]] Vec3<T> turned(uint32_t j) const {
-        const uint32_t n = fan_.valence();
-        return tau1_ * T(cosine(j, n)) + tau2_ * T(sine(j, n));
+        const FacetAngle angle = fan_.angle();
+        return tau1_ * T(cosine(j * angle.part, angle.whole)) + tau2_ * T(sine(j * angle.part, angle.whole));
     }
 
     void closedFrame() {
-        const uint32_t n = fan_.valence();
+        const uint32_t n = fan_.facets;
         for (const Vec3<T>& f : f_) {
             v_ += f;
         }
@@ -133,17 +144,22 @@ private:
         const Vec3<T> a = spoke(0);
         const Vec3<T> b = spoke(fan_.facets);
         if (fan_.kind == FanKind::corner) {
-            tau1_ = a * T(1.0 / 3.0);
-            tau2_ = b * T(1.0 / 3.0);
+            // t_0 and t_q are given: tau2 is what makes t_q of (16).
+            tau1_ = endTangent(0);
+            tau2_ = (endTangent(fan_.facets) - tau1_ * T(cosine(fan_.width, 12))) / T(sine(fan_.width, 12));
             return;
         }
         v_ = (a + b) * T(1.0 / 6.0); // the same bits from both sides of a hard edge
         tau1_ = (a - b) * T(1.0 / 6.0);
-        const uint32_t n = fan_.valence();
+        const uint32_t n = 2 * fan_.facets;
         for (uint32_t j = 1; j < fan_.facets; ++j) {
             tau2_ += T(sine(j, n)) * (e_[j] - v_);
         }
         tau2_ *= T(1.0 / (fan_.facets * lambda(n)));
+        if (fan_.kind == FanKind::straight) {
+            v_ = Vec3<T>(T(0));
+            tau1_ = endTangent(0);
+        }
     }
 
     const Mesh& mesh_;
@@ -160,7 +176,7 @@ struct CornerView {
     CornerView(const Mesh& mesh, const Coefficients<T>& c, uint32_t corner) {
         const FacetCorner& at = mesh.corners[corner];
         const Fan& fan = mesh.fans[at.fan];
-        valence = fan.valence();
+        angle = fan.angle();
         v = c.limitPoints[at.fan];
         t0 = c.tangents[at.slot];
         t1 = c.tangents[at.slotBack];
@@ -174,7 +190,7 @@ struct CornerView {
         across(at.across, t0, e0, jump0);
         across(at.acrossBack, t1, e1, jump1);
     }
-    uint32_t valence;
+    FacetAngle angle;
     Vec3<T> v, f;
     // Towards the next and towards the previous corner:
     Vec3<T> t0, t1;
@@ -196,7 +212,7 @@ template <class T>
 void gatherPolar(const std::array<CornerView<T>, 3>& q, Patch<T>& patch) {
     const CornerView<T>& apex = q[2];
     patch.count = 13;
-    patch.apexCosine = T(cosine(1, apex.valence));
+    patch.apexCosine = T(cosine(apex.angle.part, apex.angle.whole));
     const Vec3<T> h02 = apex.t0;
     const Vec3<T> h32 = apex.t1;
     const T scale = T(1) / (T(2) + patch.apexCosine);
@@ -268,10 +284,10 @@ void gatherPm(const Mesh& mesh, uint32_t facet, std::span<const CornerView<T>> q
     for (uint32_t i = 0; i < m; ++i) {
         const CornerView<T>& a = q[i];
         const CornerView<T>& b = q[(i + 1) % m];
-        const double chi0 = 1.0 + cosine(1, a.valence);
-        const double chi1 = 1.0 + cosine(1, b.valence);
+        const double chi0 = 1.0 + cosine(a.angle.part, a.angle.whole);
+        const double chi1 = 1.0 + cosine(b.angle.part, b.angle.whole);
         const bool cut = mesh.features.hard(mesh.topology.cornerEdges[mesh.corner(facet, i)]);
-        const double sines = cut ? 2.0 : sine(1, a.valence) + sine(1, b.valence);
+        const double sines = cut ? 2.0 : sine(a.angle.part, a.angle.whole) + sine(b.angle.part, b.angle.whole);
         const T jump = T(3.0 / (8.0 * k.mu * sines));
         const Vec3<T> along = b.t1 - a.t0;
         coefficient(i, k300) = a.v;
@@ -440,7 +456,7 @@ Patch<T> gatherPatch(const Mesh& mesh, const Coefficients<T>& c, uint32_t facet)
     std::vector<CornerView<T>> corners;
     for (uint32_t i = 0; i < patch.sides; ++i) {
         corners.emplace_back(mesh, c, mesh.corner(facet, i));
-        patch.singularCorner[i] = corners.back().valence == 2;
+        patch.singularCorner[i] = corners.back().angle == FacetAngle{1, 2};
     }
     switch (patch.patchClass) {
     case PatchClass::regular:

@@ -109,13 +109,14 @@ TEST(PmMesh, sectorsOfTheZoo) {
             creased = creased || fan.creased;
         }
     }
-    EXPECT_EQ(kinds.size(), 3u);
+    EXPECT_EQ(kinds.size(), 4u);
     EXPECT_TRUE(pinned);
     EXPECT_TRUE(creased);
 }
 
 TEST(PmMesh, kindsOfSectors) {
     // Vertex 4 of a 2 x 2 grid has four facets; edges from it go to 1, 3, 5, 7.
+    using Kinds = std::multiset<std::pair<FanKind, uint32_t>>;
     const auto kindsAt4 = [](const std::vector<uint32_t>& hardTo, bool sharp) {
         cage::Cage cage = test::grid(2, 2);
         for (const uint32_t to : hardTo) {
@@ -125,22 +126,24 @@ TEST(PmMesh, kindsOfSectors) {
             cage.sharpVertices.push_back({4, cage::kHardSharpness});
         }
         const Mesh mesh = pmMesh(cage);
-        std::multiset<std::pair<FanKind, uint32_t>> kinds;
+        Kinds kinds;
         for (const Fan& fan : mesh.fans) {
             if (fan.vertex == 4) {
-                kinds.insert({fan.kind, fan.valence()});
+                EXPECT_EQ(fan.angle().part, 1u);
+                kinds.insert({fan.kind, fan.angle().whole});
             }
         }
         return kinds;
     };
-    using Kinds = std::multiset<std::pair<FanKind, uint32_t>>;
     EXPECT_EQ(kindsAt4({}, false), (Kinds{{FanKind::interior, 4}}));
     EXPECT_EQ(kindsAt4({}, true), (Kinds{{FanKind::interior, 4}}));
     EXPECT_EQ(kindsAt4({1}, false), (Kinds{{FanKind::interior, 4}}));
     EXPECT_EQ(kindsAt4({1, 7}, false), (Kinds{{FanKind::crease, 4}, {FanKind::crease, 4}}));
     EXPECT_EQ(kindsAt4({1, 3}, false), (Kinds{{FanKind::crease, 2}, {FanKind::crease, 6}}));
-    EXPECT_EQ(kindsAt4({1, 7}, true), (Kinds{{FanKind::corner, 8}, {FanKind::corner, 8}}));
-    EXPECT_EQ(kindsAt4({1, 3, 5}, false), (Kinds{{FanKind::corner, 4}, {FanKind::corner, 4}, {FanKind::corner, 8}}));
+    EXPECT_EQ(kindsAt4({1, 7}, true), (Kinds{{FanKind::straight, 4}, {FanKind::straight, 4}}));
+    // Between edges at a right angle a flag makes corners, of one facet and of three quarters of a turn.
+    EXPECT_EQ(kindsAt4({1, 3}, true), (Kinds{{FanKind::corner, 4}, {FanKind::corner, 4}}));
+    EXPECT_EQ(kindsAt4({1, 3, 5}, false), (Kinds{{FanKind::corner, 4}, {FanKind::corner, 4}, {FanKind::straight, 4}}));
     EXPECT_EQ(kindsAt4({1, 3, 5, 7}, false),
               (Kinds{{FanKind::corner, 4}, {FanKind::corner, 4}, {FanKind::corner, 4}, {FanKind::corner, 4}}));
 }

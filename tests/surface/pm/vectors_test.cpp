@@ -76,7 +76,7 @@ TEST_P(PmVectorFiles, fans) {
         const Fan& fan = mesh.fans[at.fan];
         EXPECT_EQ(fan.vertex, stored.vertex);
         EXPECT_EQ(fan.kind, stored.kind);
-        EXPECT_EQ(fan.valence(), stored.valence);
+        EXPECT_EQ(fan.angle(), (FacetAngle{1, stored.valence}));
         ASSERT_EQ(fan.facets, stored.faces.size());
         ASSERT_EQ(fan.edges(), stored.edges.size());
         EXPECT_TRUE(fan.closed() || at.shift == 0);
