@@ -48,6 +48,12 @@ struct Cage {
     std::vector<glm::vec2> cornerUvs;    ///< one per corner, or empty (TEXCOORD_0)
     std::vector<glm::vec2> cornerUvs1;   ///< one per corner, or empty (TEXCOORD_1)
     std::vector<glm::vec4> cornerColors; ///< one per corner, or empty (COLOR_0, linear RGBA)
+    /// One per corner, or empty: unit normals as the file has them (NORMAL, vn). A corner whose normal is zero has
+    /// none: it is flat, as its face. Subdivision surfaces have normals of their own and ignore these.
+    std::vector<glm::vec3> cornerNormals;
+    /// How the file cuts faces into triangles: three corners per triangle, sides - 2 triangles per face, face after
+    /// face. Empty if the file does not say: triangulate() (cage/triangulation.h) then cuts them.
+    std::vector<uint32_t> faceTriangles;
     std::vector<uint32_t> faceMaterials; ///< one per face: index into Character::materials or kNone; or empty
     std::vector<uint32_t> faceParts;     ///< one per face: index into Character::parts; or empty, if there is one part
     std::vector<uint32_t> faceTrimTiles; ///< one per face: tile of its material's trim (Trim) or kNone; or empty

@@ -7,9 +7,9 @@
 
 namespace supple::cage {
 
-/// One unit normal a corner: the mean of the face normals round its vertex, weighted by the corners' angles, over the
-/// faces that are joined to the corner's own across edges that are not infinitely sharp. Takes any cage, manifold or
-/// not.
+/// One unit normal a corner: the cage's own, if it has one. Otherwise it is the mean of the face normals round the
+/// corner's vertex, weighted by the corners' angles, over the faces of its smooth group (cage/smooth_groups.h). Takes
+/// any cage, manifold or not.
 [[nodiscard]] std::vector<glm::vec3> cornerNormals(const Cage& cage);
 
 } // namespace supple::cage

@@ -1,5 +1,8 @@
 #include "cage/parts.h"
 
+#include "cage/corner_normals.h"
+#include "cage/triangulation.h"
+
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -24,6 +27,24 @@ void appendPadded(std::vector<T>& all, size_t before, const std::vector<T>& more
     all.resize(before, missing);
     appendTo(all, more);
     all.resize(before + count, missing);
+}
+
+/// What the others have to say of normals and triangles, if one part says it.
+struct Shading {
+    bool normals = false;
+    bool triangles = false;
+};
+
+/// A part without normals of its own is then smoothed as a cage is.
+void appendShading(const Cage& from, Shading shading, Cage& cage) {
+    if (shading.normals) {
+        appendTo(cage.cornerNormals, from.cornerNormals.empty() ? cornerNormals(from) : from.cornerNormals);
+    }
+    if (shading.triangles) {
+        for (const uint32_t corner : triangulate(from)) {
+            cage.faceTriangles.push_back(cage.cornerCount() + corner);
+        }
+    }
 }
 
 void appendCage(const Cage& from, uint32_t sourceVertices, Cage& cage) {
@@ -191,6 +212,11 @@ void takeFaces(const Cage& from, uint32_t first, uint32_t last, Cage& cage) {
     take(from.cornerUvs, cage.cornerUvs, firstCorner, lastCorner);
     take(from.cornerUvs1, cage.cornerUvs1, firstCorner, lastCorner);
     take(from.cornerColors, cage.cornerColors, firstCorner, lastCorner);
+    take(from.cornerNormals, cage.cornerNormals, firstCorner, lastCorner);
+    take(from.faceTriangles, cage.faceTriangles, 3 * (firstCorner - 2 * first), 3 * (lastCorner - 2 * last));
+    for (uint32_t& corner : cage.faceTriangles) {
+        corner -= firstCorner;
+    }
     take(from.faceMaterials, cage.faceMaterials, first, last);
     take(from.faceTrimTiles, cage.faceTrimTiles, first, last);
     for (const uint32_t hole : from.holes) {
@@ -281,6 +307,18 @@ void reverseFaces(Cage& cage) {
     reverse(cage.cornerUvs);
     reverse(cage.cornerUvs1);
     reverse(cage.cornerColors);
+    reverse(cage.cornerNormals);
+    size_t triangle = 0;
+    for (uint32_t f = 0; f < cage.faceCount() && !cage.faceTriangles.empty(); ++f) {
+        const uint32_t start = cage.faceStarts[f];
+        for (uint32_t t = 2; t < cage.sides(f); ++t, triangle += 3) {
+            for (size_t k = 0; k < 3; ++k) {
+                uint32_t& corner = cage.faceTriangles[triangle + k];
+                corner = corner == start ? start : start + cage.faceStarts[f + 1] - corner;
+            }
+            std::swap(cage.faceTriangles[triangle + 1], cage.faceTriangles[triangle + 2]);
+        }
+    }
 }
 
 Character takePart(const Character& character, size_t index) {
@@ -321,11 +359,17 @@ Character takePart(const Character& character, size_t index) {
 void joinParts(std::vector<PartCage> parts, Character& character) {
     placeTargets(parts, character);
     placeChannels(parts, character);
+    Shading shading;
+    for (const PartCage& part : parts) {
+        shading.normals = shading.normals || !part.cage.cornerNormals.empty();
+        shading.triangles = shading.triangles || !part.cage.faceTriangles.empty();
+    }
     character.parts.clear();
     for (PartCage& part : parts) {
         part.part.firstFace = character.cage.faceCount();
         part.part.rigid = isRigid(part.weights);
         appendDisplacements(part, character.cage.vertexCount(), character.morphs);
+        appendShading(part.cage, shading, character.cage);
         appendCage(part.cage, character.sourceVertexCount, character.cage);
         appendWeights(part, character.weights);
         character.sourceVertexCount += part.sourceVertexCount;

@@ -95,6 +95,8 @@ public:
     /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
     /// more than one patch to (SuppleGridOutput::rate counts along a patch).
     [[nodiscard]] uint32_t edgeRate() const { return edgeRate_; }
+    /// SUPPLE_SCHEME_POLYGONS.
+    [[nodiscard]] bool isMesh() const { return mesh_; }
     /// Per patch: which of the colors of the view of patch classes it has.
     [[nodiscard]] const Buffer& patchClasses() const { return patchClasses_; }
     /// A coarser grid over the same samples: shadows need no more.
@@ -123,6 +125,7 @@ private:
     std::vector<bool> visible_; ///< per instance
     GroupOutput output_{};
     uint32_t edgeRate_ = 0;
+    bool mesh_ = false;
     Buffer patchClasses_;
     Buffer shadowIndices_;
     uint32_t shadowIndexCount_ = 0;

@@ -91,6 +91,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
             context.check(getGroupOutput(context.handle(), group->group_, group->output_), "suppleGetGroupInfo");
         !status)
         return status.error();
+    group->mesh_ = options.scheme == SUPPLE_SCHEME_POLYGONS;
     group->edgeRate_ = group->output_.grid.rate << halvings(options.scheme, figure.character().cage);
     // The renderer binds each output whole; a crowd larger than that would be drawn in windows of instances.
     const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;

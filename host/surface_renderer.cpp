@@ -99,6 +99,11 @@ size_t materialSet(const cage::Character& character, uint32_t material) {
     return std::min<size_t>(material, character.materials.size());
 }
 
+/// The scheme polygons has no grids to draw the lines of; the edges of the cage are its lines.
+bool isWireOfMesh(const Scene& scene) {
+    return scene.view == shared::kViewWire && scene.group->isMesh();
+}
+
 /// Nothing is culled: open cages show their insides, and the shader tells the sides apart.
 void beginDrawing(VkCommandBuffer commands, VkExtent2D extent, bool flipped) {
     const auto width = static_cast<float>(extent.width);
@@ -478,7 +483,7 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     }
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->backdrop);
     vkCmdDraw(commands, 3, 1, 0, 0);
-    if (scene.cageEdges)
+    if (scene.cageEdges || isWireOfMesh(scene))
         drawCageEdges(commands, scene);
     vkCmdEndRendering(commands);
     imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
@@ -583,7 +588,7 @@ void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene
 
 void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene) const {
     shared::DrawPush push = basePush(scene, 0);
-    push.baseColor = scene.cageFaces ? kCageEdgeColor : kOverlayEdgeColor;
+    push.baseColor = scene.cageFaces || isWireOfMesh(scene) ? kCageEdgeColor : kOverlayEdgeColor;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
     pushConstants(commands, push);
     vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->visibleCount(), 0, 0);

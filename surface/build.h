@@ -31,4 +31,10 @@ namespace blend {
 [[nodiscard]] float boundsMargin(const cage::Cage& cage);
 } // namespace blend
 
+namespace polygons {
+/// Takes any cage, manifold or not. Refuses one that is too large for 32-bit indices, with ErrorCode::limit.
+/// O(corners log corners).
+[[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+} // namespace polygons
+
 } // namespace supple::surface

@@ -282,6 +282,16 @@ std::vector<uint32_t> verticesOf(const Tables& tables, const Evaluation& evaluat
     return result;
 }
 
+/// Patches of one class are sorted by material and part.
+IndexedMesh triangleMesh(const Tables& tables) {
+    IndexedMesh mesh;
+    mesh.indices = tables.triangles.indices;
+    for (const DrawRange& draw : tables.drawRanges) {
+        mesh.ranges.push_back({draw.part, draw.material, 3 * draw.firstPatch, 3 * draw.patchCount});
+    }
+    return mesh;
+}
+
 } // namespace
 
 uint32_t interiorCount(Domain domain, uint32_t rate) {
@@ -300,6 +310,9 @@ void appendIndexedMesh(Tables& tables, bool attributes) {
 }
 
 IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation) {
+    if (!tables.triangles.indices.empty()) {
+        return triangleMesh(tables);
+    }
     std::vector<DrawRange> draws = tables.drawRanges;
     std::stable_sort(draws.begin(), draws.end(), [](const DrawRange& a, const DrawRange& b) {
         return std::tie(a.material, a.part) < std::tie(b.material, b.part);

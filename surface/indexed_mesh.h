@@ -1,6 +1,6 @@
-// The indexed mesh: an instance is one mesh in which patches share the samples on their borders. Its surface vertices
-// are the samples inside the patches, patch after patch; then those along edges, edge after edge; then those at
-// corners.
+// The indexed mesh: an instance is one mesh. The triangles of polygons are one as they are (Tables::triangles). Of
+// other schemes it is a mesh in which patches share the samples on their borders. Its surface vertices then are the
+// samples inside the patches, patch after patch; then those along edges, edge after edge; then those at corners.
 //
 // Two patches share the samples of an edge if they compute its border curve from the same coefficients and have the
 // same corner attributes at both ends. Likewise for a corner. Samples that merely lie in the same place are not shared,

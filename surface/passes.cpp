@@ -3,6 +3,7 @@
 #include "shaders/shared/subdivision.h"
 #include "surface/indexed_mesh.h"
 #include "surface/lod/steps.h"
+#include "surface/polygons/steps.h"
 #include "surface/steps.h"
 #include "surface/subdivision/steps.h"
 
@@ -87,8 +88,12 @@ static_assert(std::size(kLayouts) == kSetKinds);
 } // namespace
 
 uint64_t Evaluation::layOut(const Tables& tables, uint64_t first) {
-    uint64_t vertices = first;
     firstVertices.clear();
+    if (!tables.triangles.indices.empty()) {
+        firstVertices.push_back(static_cast<uint32_t>(first));
+        return first + tables.triangles.vertices.count;
+    }
+    uint64_t vertices = first;
     const bool shares = tables.hasIndexedMesh();
     for (const PatchRange& range : tables.ranges) {
         const Domain domain = domainOf(range.patchClass);
@@ -135,6 +140,7 @@ Result<Program> Passes::prepare(const Tables& tables, const Needs& needs, const 
     } else {
         addRanges(builder);
         subdivision::addSteps(builder);
+        polygons::addSteps(builder);
     }
     if (!builder.status()) {
         return builder.status().error();

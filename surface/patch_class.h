@@ -37,8 +37,9 @@ enum class PatchClass : uint32_t {
     p5 = shared::kP5Patch,
     catmullClark = shared::kCatmullClarkPatch, ///< subdivision: a face of the isolated level
     loop = shared::kLoopPatch,
-    blend = shared::kBlendPatch,          ///< blending surface: smooth all over
-    blendSharp = shared::kBlendSharpPatch ///< with creases, or without derivatives somewhere on its border
+    blend = shared::kBlendPatch,           ///< blending surface: smooth all over
+    blendSharp = shared::kBlendSharpPatch, ///< with creases, or without derivatives somewhere on its border
+    triangle = shared::kTrianglePatch      ///< polygons: a triangle of a face
 };
 
 struct PatchClassRow {
@@ -78,6 +79,7 @@ inline constexpr PatchClassRow kPatchClasses[] = {
      true},
     {"blend-sharp", Domain::quad, 0, 4, Kernel::blendEvaluate, Kernel::blendEvaluateLevels, Kernel::count,
      lod::Form::quad, true},
+    {"triangle", Domain::triangle},
 };
 
 [[nodiscard]] constexpr const PatchClassRow& rowOf(PatchClass patchClass) {

@@ -21,7 +21,7 @@ namespace supple::surface {
 enum class SetKind : uint32_t {
     construct,      ///< vertex, assemble, patch
     evaluate,       ///< evaluate and motion at a rate
-    subdivide,      ///< the same of fragments
+    subdivide,      ///< the same of fragments, and of the vertices of polygons
     evaluateLevels, ///< evaluate and motion at the levels of a view
     attributes,     ///< at a rate and at levels
     levels,         ///< level, solve, place

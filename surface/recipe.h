@@ -44,7 +44,8 @@ struct Options {
 
 } // namespace blend
 
-enum class SchemeId : uint32_t { prep = 1, pm = 2, catmullClark = 3, loop = 4, blend = 5 }; ///< values of SuppleScheme
+/// Values of SuppleScheme.
+enum class SchemeId : uint32_t { prep = 1, pm = 2, catmullClark = 3, loop = 4, blend = 5, polygons = 6 };
 
 struct Recipe {
     SchemeId scheme = SchemeId::pm;

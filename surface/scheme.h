@@ -117,13 +117,20 @@ struct MeshTables {
     std::vector<Patch> patches;
 };
 
-/// The tables of a cage (shaders/shared/{surface,prep,pm,subdivision,blend}.h) and where everything lies in them. They
-/// depend on connectivity alone. Patches are ordered by class, then by material, part and face.
+/// The scheme polygons draws triangles of the cage (shaders/shared/polygons.h). They are the patches, in their order,
+/// but nothing is evaluated per patch.
+struct Triangles {
+    Section vertices;              ///< one record per surface vertex
+    std::vector<uint32_t> indices; ///< three vertices per patch
+};
+
+/// The tables of a cage (shaders/shared/{surface,prep,pm,subdivision,blend,polygons}.h) and where everything lies in
+/// them. They depend on connectivity alone. Patches are ordered by class, then by material, part and face.
 struct Tables {
     std::vector<uint32_t> words; ///< a multiple of four
     uint32_t ring = 0;           ///< first word of the ring
     uint32_t poolStride = 0;     ///< coefficients per instance; a multiple of 256 bytes
-    uint32_t tangents = 0;       ///< first tangent in the pool
+    uint32_t tangents = 0;       ///< first tangent in the pool; polygons: the first tangent frame
     uint32_t faces = 0;          ///< first face coefficient in the pool
     uint32_t inner = 0;          ///< p-rep: first coefficient of the perturbed edges in the pool
     uint32_t edgeClasses = 0;    ///< p-rep, P_m: first element of the edge classes
@@ -134,6 +141,7 @@ struct Tables {
     uint32_t isolationSteps = 0;  ///< the cage is subdivided so often before patches are made of its faces
     uint32_t rate = 0;            ///< the only tessellation rate that the tables serve, along a patch edge; 0: all
     Fragments fragments;          ///< subdivision only
+    Triangles triangles;          ///< polygons only
     bool cornerNormals = false;   ///< p-rep with CornerRule::smooth: records have an element of corner normals
     std::vector<Construction> constructions;
     std::vector<PatchRange> ranges;

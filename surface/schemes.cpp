@@ -25,6 +25,9 @@ constexpr Scheme kSchemes[] = {
     {SchemeId::loop, "Loop", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, false,
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true, false, &blend::boundsMargin},
+    // Its vertices are the cage's.
+    {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, true,
+     [](const cage::Cage&) { return 0.0f; }},
 };
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
@@ -36,7 +39,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (tables->patches.empty()) {
         return Error{ErrorCode::asset, "every face is a hole: there is no surface"};
     }
-    if (!recipe.attributes && !tables->ranges.empty()) {
+    if (!recipe.attributes && tables->attributes > 0) {
         // They come last (finishTables).
         tables->words.resize(size_t{4} * tables->attributes);
         for (PatchRange& range : tables->ranges) {
@@ -53,7 +56,9 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
         if (!scheme.hasIndexedMesh) {
             return Error{ErrorCode::argument, std::string(scheme.name) + " has no indexed mesh"};
         }
-        appendIndexedMesh(*tables, recipe.attributes);
+        if (!scheme.isMesh()) {
+            appendIndexedMesh(*tables, recipe.attributes);
+        }
     }
     return tables;
 }
@@ -66,6 +71,8 @@ uint32_t Scheme::tableRate(uint32_t rate, bool lod) const {
         return std::bit_ceil(rate);
     case RateRule::one:
         return lod ? 0 : rate;
+    case RateRule::none:
+        return 1;
     default:
         return 0;
     }

@@ -13,9 +13,10 @@ namespace supple::surface {
 
 /// Which rates one set of tables serves.
 enum class RateRule : uint32_t {
-    any,     ///< all rates
-    one,     ///< one rate. It is even if the scheme subdivides the cage first
-    doubling ///< one rate, which is a power of two
+    any,      ///< all rates
+    one,      ///< one rate. It is even if the scheme subdivides the cage first
+    doubling, ///< one rate, which is a power of two
+    none      ///< there is nothing to tessellate: the rate is 1, whatever a group asks for
 };
 
 struct Scheme {
@@ -28,11 +29,13 @@ struct Scheme {
     const char* ratesInWords = ""; ///< for messages: how many segments an edge of the cage can have
     bool hasLevels = false;        ///< a view can draw its patches at real-valued levels. Otherwise each instance in a
                                    ///< view has one of several rates
-    bool hasIndexedMesh = false;   ///< patches can share the samples on their borders
+    bool hasIndexedMesh = false;   ///< patches can share the samples on their borders, or the scheme is a mesh
     /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
     /// sum of the negative weights of a sample.
     float (*boundsMargin)(const cage::Cage& cage) = nullptr;
 
+    /// Its tables list the triangles of a mesh (Tables::triangles): it is an indexed mesh in any case.
+    [[nodiscard]] bool isMesh() const { return rates == RateRule::none; }
     /// Recipe::rate for a group that asks for `rate` segments along an edge of the cage.
     [[nodiscard]] uint32_t tableRate(uint32_t rate, bool lod) const;
 };

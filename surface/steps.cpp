@@ -29,37 +29,6 @@ std::string atRate(const std::string& name, uint32_t rate) {
     return rate == 0 ? name : name + ", rate " + std::to_string(rate);
 }
 
-SurfacePush pushFor(const ProgramBuilder& builder, const Section& section) {
-    const Tables& tables = builder.tables;
-    const Evaluation& evaluation = builder.evaluation;
-    SurfacePush push{};
-    push.count = section.count;
-    push.firstCorner = evaluation.firstCornerVertex;
-    push.table = section.table;
-    push.ring = tables.ring;
-    push.cageStride = evaluation.cageStride;
-    push.poolStride = tables.poolStride;
-    push.tangents = tables.tangents;
-    push.faces = tables.faces;
-    push.inner = tables.inner;
-    push.attributes = tables.attributes;
-    push.attributeHalves = tables.attributeHalves ? 1 : 0;
-    push.edgeClasses = tables.edgeClasses;
-    push.rate = evaluation.rate;
-    push.patchCount = static_cast<uint32_t>(tables.patches.size());
-    push.verticesPerInstance = evaluation.verticesPerInstance;
-    push.pairs = firstPair(evaluation.rate);
-    push.patchesPerGroup = 1;
-    push.uvSets = tables.uvSets;
-    push.faceUvs = tables.faceUvs ? 1 : 0;
-    return push;
-}
-
-/// Attributes that are asked for and that the tables have, beside the first UV set and the color.
-uint32_t outputsOf(const ProgramBuilder& builder) {
-    return builder.tables.attributeOutputs() & builder.needs.attributeOutputs;
-}
-
 uint32_t cornerNormals(const ProgramBuilder& builder) {
     return builder.tables.cornerNormals ? 1 : 0;
 }
@@ -186,6 +155,36 @@ void addEdgeAttributes(ProgramBuilder& builder) {
 }
 
 } // namespace
+
+SurfacePush pushFor(const ProgramBuilder& builder, const Section& section) {
+    const Tables& tables = builder.tables;
+    const Evaluation& evaluation = builder.evaluation;
+    SurfacePush push{};
+    push.count = section.count;
+    push.firstCorner = evaluation.firstCornerVertex;
+    push.table = section.table;
+    push.ring = tables.ring;
+    push.cageStride = evaluation.cageStride;
+    push.poolStride = tables.poolStride;
+    push.tangents = tables.tangents;
+    push.faces = tables.faces;
+    push.inner = tables.inner;
+    push.attributes = tables.attributes;
+    push.attributeHalves = tables.attributeHalves ? 1 : 0;
+    push.edgeClasses = tables.edgeClasses;
+    push.rate = evaluation.rate;
+    push.patchCount = static_cast<uint32_t>(tables.patches.size());
+    push.verticesPerInstance = evaluation.verticesPerInstance;
+    push.pairs = firstPair(evaluation.rate);
+    push.patchesPerGroup = 1;
+    push.uvSets = tables.uvSets;
+    push.faceUvs = tables.faceUvs ? 1 : 0;
+    return push;
+}
+
+uint32_t outputsOf(const ProgramBuilder& builder) {
+    return builder.tables.attributeOutputs() & builder.needs.attributeOutputs;
+}
 
 gpu::Kernel ProgramBuilder::kernel(SetKind sets, Kernel which, std::initializer_list<gpu::Constant> constants,
                                    const std::string& name) {

@@ -59,6 +59,11 @@ private:
     Status status_ = success();
 };
 
+/// The push constants of a step on the records of a section.
+[[nodiscard]] shared::SurfacePush pushFor(const ProgramBuilder& builder, const Section& section);
+/// Attributes that are asked for and that the tables have, beside the first UV set and the color.
+[[nodiscard]] uint32_t outputsOf(const ProgramBuilder& builder);
+
 // Each adds what the tables and needs call for.
 void addConstructions(ProgramBuilder& builder);
 void addRanges(ProgramBuilder& builder); ///< patch, evaluate and attributes, at a rate

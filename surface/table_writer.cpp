@@ -9,9 +9,6 @@ namespace supple::surface {
 
 namespace {
 
-/// What a corner has, as the tables hold it.
-using CornerWords = std::array<uint32_t, 8>;
-
 /// Numbers what corners have, once for corners of a vertex that have the same.
 class CornerNumbers {
 public:
@@ -22,7 +19,7 @@ public:
 
     uint32_t of(uint32_t corner) {
         uint32_t& last = last_[alike_ ? 0 : cage_.faceVertices[corner]];
-        const CornerWords words = wordsOf(corner);
+        const CornerWords words = cornerWords(cage_, corner);
         uint32_t number = last;
         for (uint32_t tries = 0; number != cage::kNone && tries < kTries; ++tries, number = known_[number].before) {
             if (known_[number].words == words) {
@@ -45,20 +42,6 @@ private:
         uint32_t before = cage::kNone; ///< of the vertex
     };
 
-    [[nodiscard]] CornerWords wordsOf(uint32_t corner) const {
-        const auto uvOf = [&](const std::vector<glm::vec2>& uvs) {
-            return uvs.empty() ? glm::vec2(0.0f) : uvs[corner];
-        };
-        const glm::vec4 color = cage_.cornerColors.empty() ? glm::vec4(1.0f) : cage_.cornerColors[corner];
-        const auto unorm16 = [&](int channel) {
-            return static_cast<uint32_t>(std::clamp(color[channel], 0.0f, 1.0f) * 65535.0f + 0.5f);
-        };
-        const glm::vec2 uv = uvOf(cage_.cornerUvs), uv1 = uvOf(cage_.cornerUvs1), faceUv = uvOf(cage_.cornerFaceUvs);
-        const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
-        const uint32_t redGreen = unorm16(0) | unorm16(1) << 16, blueAlpha = unorm16(2) | unorm16(3) << 16;
-        return {bits(uv.x), bits(uv.y), redGreen, blueAlpha, bits(uv1.x), bits(uv1.y), bits(faceUv.x), bits(faceUv.y)};
-    }
-
     const cage::Cage& cage_;
     bool alike_;                 ///< corners have nothing
     std::vector<uint32_t> last_; ///< by vertex
@@ -67,9 +50,7 @@ private:
 
 void writeAttributes(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer,
                      Tables& tables) {
-    tables.uvSets = cage.cornerUvs1.empty() ? 1 : 2;
-    tables.faceUvs = !cage.cornerFaceUvs.empty();
-    const size_t elementWords = tables.uvSets == 2 || tables.faceUvs ? 8 : 4;
+    const size_t elementWords = noteAttributes(cage, tables);
     CornerNumbers known(cage);
     std::vector<uint32_t> numbers; // patch by patch
     numbers.reserve(cage.cornerCount());
@@ -101,6 +82,24 @@ void writeAttributes(const cage::Cage& cage, const std::vector<DraftPatch>& patc
 }
 
 } // namespace
+
+CornerWords cornerWords(const cage::Cage& cage, uint32_t corner) {
+    const auto uvOf = [&](const std::vector<glm::vec2>& uvs) { return uvs.empty() ? glm::vec2(0.0f) : uvs[corner]; };
+    const glm::vec4 color = cage.cornerColors.empty() ? glm::vec4(1.0f) : cage.cornerColors[corner];
+    const auto unorm16 = [&](int channel) {
+        return static_cast<uint32_t>(std::clamp(color[channel], 0.0f, 1.0f) * 65535.0f + 0.5f);
+    };
+    const glm::vec2 uv = uvOf(cage.cornerUvs), uv1 = uvOf(cage.cornerUvs1), faceUv = uvOf(cage.cornerFaceUvs);
+    const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
+    const uint32_t redGreen = unorm16(0) | unorm16(1) << 16, blueAlpha = unorm16(2) | unorm16(3) << 16;
+    return {bits(uv.x), bits(uv.y), redGreen, blueAlpha, bits(uv1.x), bits(uv1.y), bits(faceUv.x), bits(faceUv.y)};
+}
+
+uint32_t noteAttributes(const cage::Cage& cage, Tables& tables) {
+    tables.uvSets = cage.cornerUvs1.empty() ? 1 : 2;
+    tables.faceUvs = !cage.cornerFaceUvs.empty();
+    return tables.uvSets == 2 || tables.faceUvs ? 8 : 4;
+}
 
 bool Tables::has(Stage stage) const {
     return std::any_of(constructions.begin(), constructions.end(),
@@ -158,8 +157,7 @@ void countVertex(const KindOfKernel& kernel, uint32_t coefficients, TableWriter&
     tables.constructions.back().coefficients += coefficients;
 }
 
-void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables) {
-    writeAttributes(cage, patches, writer, tables);
+void listPatches(const std::vector<DraftPatch>& patches, Tables& tables) {
     tables.patches.reserve(patches.size());
     for (const DraftPatch& patch : patches) {
         const Domain domain = domainOf(patch.info.patchClass);
@@ -171,6 +169,11 @@ void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches
         ++tables.drawRanges.back().patchCount;
         tables.patches.push_back(patch.info);
     }
+}
+
+void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables) {
+    writeAttributes(cage, patches, writer, tables);
+    listPatches(patches, tables);
 }
 
 } // namespace supple::surface

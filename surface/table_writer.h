@@ -4,6 +4,7 @@
 #include "surface/scheme.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <functional>
 #include <initializer_list>
@@ -73,6 +74,15 @@ void countPatch(PatchClass patchClass, uint32_t patch, TableWriter& writer, Tabl
 /// Counts a vertex, whose record comes next, among those of its kernel in the vertex pass.
 void countVertex(const KindOfKernel& kernel, uint32_t coefficients, TableWriter& writer, Tables& tables);
 
+/// What a corner has besides its position, as the tables hold it (shaders/shared/surface.h): the first four words, all
+/// if there is a second UV set or a face UV.
+using CornerWords = std::array<uint32_t, 8>;
+[[nodiscard]] CornerWords cornerWords(const cage::Cage& cage, uint32_t corner);
+/// Notes in `tables` what corners of the cage have. Returns how many of their words are written: whole elements.
+uint32_t noteAttributes(const cage::Cage& cage, Tables& tables);
+
+/// Lists the patches and what is drawn. `patches` are in device order.
+void listPatches(const std::vector<DraftPatch>& patches, Tables& tables);
 /// Writes what every scheme's tables end with: corner attributes, draw ranges and the list of patches. `patches` are in
 /// device order, and tables.ranges has their classes; this fills in PatchRange::attributes.
 void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables);

@@ -62,6 +62,11 @@ void BindSpace::place(PartCage& part, Skin& skin) const {
     for (glm::vec3& position : part.cage.positions) {
         position = glm::vec3(place * glm::dvec4(position, 1.0));
     }
+    const glm::dmat3 normals = glm::transpose(glm::inverse(glm::dmat3(place)));
+    for (glm::vec3& normal : part.cage.cornerNormals) {
+        const glm::dvec3 placed = normals * glm::dvec3(normal);
+        normal = normal == glm::vec3(0.0f) ? normal : glm::vec3(glm::normalize(placed)); // zero: as the face
+    }
     for (MorphTarget& target : part.morphs.targets) {
         for (glm::vec3& delta : target.deltas) {
             delta = glm::vec3(glm::dmat3(place) * glm::dvec3(delta));

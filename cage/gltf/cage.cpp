@@ -4,12 +4,15 @@
 #include "cage/gltf/weld.h"
 #include "cage/polygons.h"
 #include "cage/refusal.h"
+#include "cage/triangulation.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace supple::cage::gltf {
@@ -149,6 +152,53 @@ void fillCorners(const Mesh& mesh, const Faces& faces, Cage& cage) {
     }
 }
 
+/// A part without normals has none of its own, and is flat as glTF says, unless it lists polygons and no part has
+/// normals: then what smooths a cage smooths it.
+void fillNormals(const Mesh& mesh, const Faces& faces, Cage& cage) {
+    const bool polygonsAlone = std::all_of(mesh.parts.begin(), mesh.parts.end(), [](const MeshPart& part) {
+        return part.normals.empty() && part.faces.polygons.faceCount() > 0;
+    });
+    if (polygonsAlone) {
+        return;
+    }
+    cage.cornerNormals.assign(faces.polygons.vertices.size(), glm::vec3(0.0f));
+    for (size_t f = 0; f < faces.parts.size(); ++f) {
+        const MeshPart& part = mesh.parts[faces.parts[f]];
+        for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1] && !part.normals.empty(); ++c) {
+            cage.cornerNormals[c] = part.normals[faces.polygons.vertices[c] - part.firstVertex];
+        }
+    }
+}
+
+/// How the file's triangles cut faces of more than three sides. Where they do not fit the face, ears are clipped.
+void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding, Cage& cage) {
+    if (cage.cornerCount() == 3 * cage.faceCount()) {
+        return;
+    }
+    std::vector<uint32_t> triangles;
+    std::vector<glm::vec3> corners;
+    std::optional<FileTriangles> known;
+    for (size_t f = 0; f < faces.parts.size(); ++f) {
+        if (f == 0 || faces.parts[f] != faces.parts[f - 1]) {
+            known.emplace(mesh.parts[faces.parts[f]].triangles, welding.roots);
+        }
+        const uint32_t start = faces.polygons.starts[f];
+        const auto polygon = std::span(faces.polygons.vertices).subspan(start, faces.polygons.starts[f + 1] - start);
+        const size_t first = triangles.size();
+        if (polygon.size() == 3 || !known->cut(polygon, triangles)) {
+            corners.clear();
+            for (const uint32_t v : polygon) {
+                corners.push_back(mesh.positions[v]);
+            }
+            clipEars(corners, triangles);
+        }
+        for (size_t i = first; i < triangles.size(); ++i) {
+            triangles[i] += start;
+        }
+    }
+    cage.faceTriangles = std::move(triangles);
+}
+
 /// A face's corners name one tile.
 void fillTrimTiles(const Mesh& mesh, const Faces& faces, Cage& cage) {
     if (std::all_of(mesh.parts.begin(), mesh.parts.end(), [](const MeshPart& p) { return p.trimTiles.empty(); })) {
@@ -214,6 +264,8 @@ std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Weldi
     }
     cage.holes = faces.holes;
     fillCorners(mesh, faces, cage);
+    fillNormals(mesh, faces, cage);
+    fillTriangles(mesh, faces, welding, cage);
     fillTrimTiles(mesh, faces, cage);
 
     out.weights.starts.push_back(0);

@@ -1,6 +1,7 @@
 #include "cage/gltf/mesh.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/normals.h"
 #include "cage/gltf/trim.h"
 #include "cage/refusal.h"
 
@@ -228,7 +229,17 @@ private:
         }
     }
 
-    /// Reads TEXCOORD_0, TEXCOORD_1 and COLOR_0. What is not finite becomes 0: it spoils a texture, not the shape.
+    void countAttributeFloats(size_t count, const std::string& name) {
+        attributeFloats_ += count;
+        if (attributeFloats_ > kMaxAttributeFloats) {
+            refuse(name,
+                   "the primitives' attributes hold more than " + std::to_string(kMaxAttributeFloats) + " numbers",
+                   ErrorCode::limit);
+        }
+    }
+
+    /// Reads TEXCOORD_0, TEXCOORD_1, NORMAL and COLOR_0. What is not finite becomes 0: it spoils a texture, not the
+    /// shape.
     void readCornerAttributes(const Primitive& primitive, const std::string& element, MeshPart& part) {
         const auto read = [&](const char* attribute, int type, uint32_t allowed) {
             std::vector<float> values;
@@ -239,12 +250,7 @@ private:
             const std::string name = element + " " + attribute;
             values = readFloats(document_, found->second, type, allowed, name);
             checkVertexCount(document_, found->second, part.vertexCount, name);
-            attributeFloats_ += values.size();
-            if (attributeFloats_ > kMaxAttributeFloats) {
-                refuse(name,
-                       "the primitives' attributes hold more than " + std::to_string(kMaxAttributeFloats) + " numbers",
-                       ErrorCode::limit);
-            }
+            countAttributeFloats(values.size(), name);
             size_t repaired = 0;
             for (float& value : values) {
                 if (!std::isfinite(value)) {
@@ -260,6 +266,8 @@ private:
         constexpr uint32_t kCore = kFloat | kNormalizedU8 | kNormalizedU16;
         part.uvs = read("TEXCOORD_0", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
         part.uvs1 = read("TEXCOORD_1", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
+        part.normals = readNormals(document_, primitive, part.vertexCount, element, warnings_);
+        countAttributeFloats(3 * part.normals.size(), element + " NORMAL");
         if (primitive.attributes.count("TEXCOORD_2") != 0) {
             warn(warnings_, element, "only TEXCOORD_0 and TEXCOORD_1 are read");
         }

@@ -158,6 +158,7 @@ struct TaggedHole {
 struct Corner {
     uint32_t vertex = 0;
     uint32_t uv = kNone;
+    uint32_t normal = kNone;
 };
 
 class ObjParser {
@@ -190,14 +191,15 @@ private:
             parsePosition(words);
         } else if (keyword == "vt") {
             parseUv(words);
+        } else if (keyword == "vn") {
+            parseNormal(words);
         } else if (keyword == "f") {
             parseFace(words);
         } else if (keyword == "usemtl") {
             parseMaterial(words);
         } else if (keyword == "t") {
             parseTag(words);
-        } else if (!keyword.empty() && keyword != "vn" && keyword != "vp" && keyword != "g" && keyword != "o" &&
-                   keyword != "s") {
+        } else if (!keyword.empty() && keyword != "vp" && keyword != "g" && keyword != "o" && keyword != "s") {
             ignore(std::string(keyword.substr(0, kMaxQuotedText)));
         }
     }
@@ -230,6 +232,28 @@ private:
         uvs_.emplace_back(u, 1.0f - v);
     }
 
+    void addFaultyNormal(size_t line) {
+        faultyNormals_.line = faultyNormals_.count++ == 0 ? line : faultyNormals_.line;
+    }
+
+    /// A cage needs no normals: one that is malformed becomes zero, which means none.
+    void parseNormal(Words& words) {
+        if (normals_.size() == kMaxCorners) {
+            refuse(lineName(line_), "more than " + std::to_string(kMaxCorners) + " normals", ErrorCode::limit);
+        }
+        glm::dvec3 normal(0.0);
+        bool sound = true;
+        for (int k = 0; k < 3; ++k) {
+            sound = parseWhole(words.next(), normal[k]) && sound;
+        }
+        const double length = glm::length(normal);
+        sound = sound && std::isfinite(length) && length > 0.0;
+        if (!sound) {
+            addFaultyNormal(line_);
+        }
+        normals_.emplace_back(sound ? normal / length : glm::dvec3(0.0));
+    }
+
     /// `count` elements stand before this line; later ones may be named too.
     uint32_t resolve(std::string_view word, size_t count, const char* what, const std::string& element) const {
         const int64_t index = toInteger(word, element);
@@ -254,6 +278,10 @@ private:
             const std::string_view uv = behind.substr(0, behind.find('/'));
             if (!uv.empty()) {
                 corner.uv = resolve(uv, uvs_.size(), "texture coordinate", element);
+            }
+            const std::string_view normal = behind.substr(std::min(uv.size() + 1, behind.size()));
+            if (!normal.empty()) {
+                corner.normal = resolve(normal, normals_.size(), "normal", element);
             }
             corners_.push_back(corner);
         }
@@ -334,7 +362,7 @@ private:
         }
     }
 
-    void checkCorners() const {
+    void checkCorners() {
         for (size_t f = 0; f < faceLines_.size(); ++f) {
             const auto check = [&](uint32_t corner, const char* what, uint32_t index, size_t count) {
                 if (index != kNone && index >= count) {
@@ -345,6 +373,10 @@ private:
             for (uint32_t c = faceStarts_[f]; c < faceStarts_[f + 1]; ++c) {
                 check(c, "vertex", corners_[c].vertex, positions_.size());
                 check(c, "texture coordinate", corners_[c].uv, uvs_.size());
+                if (corners_[c].normal != kNone && corners_[c].normal >= normals_.size()) {
+                    addFaultyNormal(faceLines_[f]);
+                    corners_[c].normal = kNone;
+                }
             }
         }
     }
@@ -353,6 +385,8 @@ private:
     void buildFaces() {
         Cage& cage = out_.cage;
         const bool uvs = std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.uv != kNone; });
+        const bool normals =
+            std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.normal != kNone; });
         std::vector<size_t> seenIn(positions_.size(), kNowhere);
         size_t repeats = 0;
         size_t firstRepeat = 0;
@@ -373,6 +407,10 @@ private:
                 cage.faceVertices.push_back(corners_[c].vertex);
                 if (uvs) {
                     cage.cornerUvs.push_back(corners_[c].uv == kNone ? glm::vec2(0.0f) : uvs_[corners_[c].uv]);
+                }
+                if (normals) {
+                    const uint32_t normal = corners_[c].normal;
+                    cage.cornerNormals.push_back(normal == kNone ? glm::vec3(0.0f) : normals_[normal]);
                 }
             }
             cage.faceStarts.push_back(cage.cornerCount());
@@ -497,6 +535,12 @@ private:
     }
 
     void reportIgnored() {
+        if (faultyNormals_.count > 0) {
+            warn(out_.warnings, lineName(faultyNormals_.line),
+                 counted(faultyNormals_.count, "normal is missing or no direction",
+                         "normals are missing or no directions, this being the first") +
+                     "; the faces' own instead");
+        }
         const auto report = [&](const Ignored& ignored, const std::string& what) {
             warn(out_.warnings, lineName(ignored.line),
                  what + " ignored" +
@@ -529,10 +573,12 @@ private:
     std::unordered_map<std::string, uint32_t> materials_;
     std::map<std::string, Ignored> ignored_;
     Ignored others_;
+    Ignored faultyNormals_;
 
     // As the file has them.
     std::vector<glm::vec3> positions_;
     std::vector<glm::vec2> uvs_;
+    std::vector<glm::vec3> normals_;
     std::vector<Corner> corners_;
     std::vector<uint32_t> faceStarts_{0};
     std::vector<uint32_t> faceMaterials_;

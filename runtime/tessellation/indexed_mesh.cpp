@@ -1,7 +1,5 @@
-// One mesh per instance (SUPPLE_GROUP_INDEXED_MESH): samples on the borders of patches are stored once, and an index
-// buffer with one draw range per material draws it all.
-#include "surface/indexed_mesh.h"
-
+// One mesh per instance (SUPPLE_GROUP_INDEXED_MESH, SUPPLE_SCHEME_POLYGONS): samples on the borders of patches are
+// stored once, and an index buffer with one draw range per material draws it all.
 #include "runtime/tessellation/one_rate.h"
 
 namespace supple::runtime {
@@ -10,7 +8,7 @@ namespace {
 
 class IndexedMesh final : public OneRate {
 public:
-    explicit IndexedMesh(const TessellationDesc& desc) : OneRate(desc) { indexBytes_ = sizeof(uint32_t); }
+    explicit IndexedMesh(const TessellationDesc& desc) : OneRate(desc) {}
     [[nodiscard]] Status begin();
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_INDEXED_MESH; }
     [[nodiscard]] Status setRate(uint32_t rate) override;
@@ -21,27 +19,17 @@ Status IndexedMesh::begin() {
     if (!status) {
         return status;
     }
-    const uint64_t vertices = evaluation_.layOut(tables());
-    status = setVertexCount(vertices);
-    const uint32_t mostIndex = desc_.device->limits.maxDrawIndexedIndexValue;
-    if (status && vertices > mostIndex) {
-        return Error{ErrorCode::limit, desc_.asset->character.name + ": " + std::to_string(vertices) +
-                                           " vertices of a mesh; an index of this device is at most " +
-                                           std::to_string(mostIndex)};
-    }
+    status = setVertexCount(evaluation_.layOut(tables()));
     status = status ? prepare() : status;
     if (!status) {
         return status;
     }
-    const surface::IndexedMesh mesh = surface::indexedMesh(tables(), evaluation_);
-    std::vector<SuppleDrawRange> draws;
-    for (const surface::IndexedMesh::Range& from : mesh.ranges) {
-        draws.push_back(
-            {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertexCount_, 0, from.firstIndex, from.indexCount, from.part});
+    Result<std::vector<std::byte>> indices = layOutMesh(evaluation_, vertexCount_);
+    if (!indices) {
+        return indices.error();
     }
-    setDraws(std::move(draws));
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(mesh.indices));
-    indexData_.assign(bytes.begin(), bytes.end());
+    indexData_ = std::move(*indices);
+    setDraws(std::move(draws_));
     return success();
 }
 

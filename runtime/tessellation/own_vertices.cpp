@@ -1,6 +1,7 @@
 #include "runtime/tessellation/own_vertices.h"
 
 #include "surface/grid.h"
+#include "surface/indexed_mesh.h"
 
 #include <algorithm>
 
@@ -35,6 +36,23 @@ void OwnVertices::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     streams_.plan(device, wanted_, static_cast<SuppleVertexFormat>(needs().vertexFormat), vertexCount_,
                   evaluation_.verticesPerInstance, desc_.group.capacity);
     attributes_.renew(wanted_.has(Stream::attributes));
+}
+
+Result<std::vector<std::byte>> OwnVertices::layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices) {
+    const uint32_t mostIndex = desc_.device->limits.maxDrawIndexedIndexValue;
+    if (vertices > mostIndex) {
+        return Error{ErrorCode::limit, desc_.asset->character.name + ": " + std::to_string(vertices) +
+                                           " vertices of a mesh; an index of this device is at most " +
+                                           std::to_string(mostIndex)};
+    }
+    indexBytes_ = sizeof(uint32_t);
+    const surface::IndexedMesh mesh = surface::indexedMesh(tables(), evaluation);
+    for (const surface::IndexedMesh::Range& from : mesh.ranges) {
+        draws_.push_back(
+            {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertices, 0, from.firstIndex, from.indexCount, from.part});
+    }
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(mesh.indices));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
 Status OwnVertices::createIndices(std::span<const std::byte> indices) {

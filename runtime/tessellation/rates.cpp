@@ -1,5 +1,5 @@
 // Groups of a view whose scheme subdivides: each instance has one of several rates, by the level that its bounds ask
-// for.
+// for. The scheme polygons has one rate, of which an instance is one mesh.
 //
 // All rates share the isolated mesh, and with it the coefficient pools and all that comes before evaluation. Each has
 // its own tables, program, draw ranges and list of instances, and a place in every instance's vertices. So the
@@ -52,11 +52,12 @@ private:
         uint32_t vertices = 0; ///< of an instance
     };
     [[nodiscard]] Status buildRates();
+    [[nodiscard]] Status layOutDraws();
     [[nodiscard]] const Culling& culling() const { return static_cast<const Culling&>(*visibility_); }
     void recordRates(VkCommandBuffer commandBuffer, bool previous) const;
 
-    std::vector<Rate> own_; ///< rising; the last one's tables are scheme_
-    GridDraws grids_;
+    std::vector<Rate> own_;            ///< rising; the last one's tables are scheme_
+    std::vector<std::byte> indexData_; ///< of the index buffer, until that is made
     bool joined_ = false;
 };
 
@@ -83,18 +84,37 @@ Status Rates::begin() {
             return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
         }
         rate.program = std::move(*program);
-        grids_.addRate(tables(), rate.evaluation.rate);
     }
     // Construction is that of the finest rate, and the same for all.
     program_.vertex = own_.back().program.vertex;
     program_.assemble = own_.back().program.assemble;
+    status = layOutDraws();
+    return status ? desc_.bounds->prepareRates() : status;
+}
+
+Status Rates::layOutDraws() {
+    if (surface::schemeOf(scheme_->recipe.scheme).isMesh()) {
+        const Rate& only = own_.front();
+        Result<std::vector<std::byte>> indices = layOutMesh(only.evaluation, only.vertices);
+        if (!indices) {
+            return indices.error();
+        }
+        indexData_ = std::move(*indices);
+        rates_.push_back({only.evaluation.rate, 0, static_cast<uint32_t>(draws_.size()), {}});
+        return success();
+    }
+    GridDraws grids;
+    for (const Rate& rate : own_) {
+        grids.addRate(tables(), rate.evaluation.rate);
+    }
+    indexData_ = grids.takeIndices();
     uint32_t firstVertex = 0;
     for (size_t r = 0; r < own_.size(); ++r) {
         const auto first = static_cast<uint32_t>(draws_.size());
-        grids_.append(tables(), r, firstVertex, draws_);
+        grids.append(tables(), r, firstVertex, draws_);
         rates_.push_back({own_[r].evaluation.rate, first, static_cast<uint32_t>(draws_.size()) - first, {}});
     }
-    return desc_.bounds->prepareRates();
+    return success();
 }
 
 Status Rates::buildRates() {
@@ -142,7 +162,8 @@ Culling::Needs Rates::cullingNeeds() const {
 }
 
 Status Rates::createSets(const InstanceSet& instances, const Visibility& visibility) {
-    Status status = createIndices(grids_.takeIndices());
+    Status status = createIndices(indexData_);
+    indexData_ = {};
     status = status ? OwnVertices::createSets(instances, visibility) : status;
     for (Rate& rate : own_) {
         status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;

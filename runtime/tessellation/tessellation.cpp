@@ -63,10 +63,12 @@ Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDes
     const surface::SchemeId scheme = desc.group.scheme == SUPPLE_SCHEME_AUTO
                                          ? surface::Recipe().scheme
                                          : static_cast<surface::SchemeId>(desc.group.scheme);
+    const surface::Scheme& row = surface::schemeOf(scheme);
     if (desc.view != nullptr) {
-        return surface::schemeOf(scheme).hasLevels ? makeLevels(desc) : makeRates(desc);
+        return row.hasLevels ? makeLevels(desc) : makeRates(desc);
     }
-    return (desc.group.flags & SUPPLE_GROUP_INDEXED_MESH) != 0 ? makeIndexedMesh(desc) : makeFixedRate(desc);
+    const bool indexed = row.isMesh() || (desc.group.flags & SUPPLE_GROUP_INDEXED_MESH) != 0;
+    return indexed ? makeIndexedMesh(desc) : makeFixedRate(desc);
 }
 
 Tessellation::Tessellation(TessellationDesc desc)
@@ -89,14 +91,15 @@ Status Tessellation::buildTables() {
     const surface::Tables& own = tables();
     const surface::Scheme& scheme = surface::schemeOf(scheme_->recipe.scheme);
     const bool hasCoefficients =
-        std::all_of(own.ranges.begin(), own.ranges.end(),
-                    [](const surface::PatchRange& range) { return surface::rowOf(range.patchClass).coefficients > 0; });
+        !own.ranges.empty() && std::all_of(own.ranges.begin(), own.ranges.end(), [](const surface::PatchRange& range) {
+            return surface::rowOf(range.patchClass).coefficients > 0;
+        });
     if ((desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0 && !hasCoefficients) {
         return Error{ErrorCode::argument,
                      desc_.asset->character.name + ": " + scheme.name + " has no patch coefficients"};
     }
     const uint32_t taken = own.rate << own.isolationSteps;
-    if (own.rate != 0 && taken != askedRate_) {
+    if (own.rate != 0 && taken != askedRate_ && !scheme.isMesh()) {
         rateNote_ = "rate " + std::to_string(askedRate_) + ": " + scheme.name + " has " + scheme.ratesInWords +
                     " segments an edge of the cage, here " + std::to_string(taken);
     }

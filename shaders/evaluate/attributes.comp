@@ -21,7 +21,8 @@ layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes
 layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1[]; };
 layout(set = 0, binding = kFaceUvBinding, std430) writeonly buffer FaceUvs { vec2 faceUvs[]; };
 
-const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ? 4u : kDomain == kEdgeDomain ? 2u : 3u;
+const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ? 4u : kDomain == kEdgeDomain ? 2u
+                      : kDomain == kVertexDomain ? 1u : 3u;
 
 // Linear on triangles, bilinear on quads; pentagons are linear between an edge and the centre, the mean of the corners;
 // on polar patches the corner at the apex takes over linearly.
@@ -225,6 +226,12 @@ void main() {
     if (id >= push.count) return;
     if (kDomain == kEdgeDomain) {
         storeOnEdge(id);
+        return;
+    }
+    if (kDomain == kVertexDomain) {
+        Corners c;
+        loadCorner(c, 0u, push.attributes + cornerElements() * id);
+        store(push.firstVertex + id, atCorner(c, 0u));
         return;
     }
     uint patchIndex = id / push.samples;

@@ -64,13 +64,15 @@ SUPPLE_SHARED_CONST kCatmullClarkPatch = 6u;
 SUPPLE_SHARED_CONST kLoopPatch = 7u;
 SUPPLE_SHARED_CONST kBlendPatch = 8u;
 SUPPLE_SHARED_CONST kBlendSharpPatch = 9u;
+SUPPLE_SHARED_CONST kTrianglePatch = 10u;
 
 // Domains; values of SuppleDomain.
 SUPPLE_SHARED_CONST kQuadDomain = 0u;
 SUPPLE_SHARED_CONST kPolarDomain = 1u;
 SUPPLE_SHARED_CONST kTriangleDomain = 2u;
 SUPPLE_SHARED_CONST kPentagonDomain = 3u;
-SUPPLE_SHARED_CONST kEdgeDomain = 4u; // none of a patch: attributes of an indexed mesh along edges
+SUPPLE_SHARED_CONST kEdgeDomain = 4u;   // none of a patch: attributes of an indexed mesh along edges
+SUPPLE_SHARED_CONST kVertexDomain = 5u; // none of a patch: attributes of the vertices of polygons
 
 // What evaluation writes a sample.
 SUPPLE_SHARED_CONST kVertex16 = 0u;       // position, octahedral normal in 2 x snorm16

@@ -19,12 +19,12 @@ FLOORS = [line.split() for line in """
     shaders/surface/ shaders/pose/ shaders/deform/
     shaders/lod/
     shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/
-    shaders/prep/ shaders/pm/ shaders/subdivision/ shaders/blend/
+    shaders/prep/ shaders/pm/ shaders/subdivision/ shaders/blend/ shaders/polygons/
     gpu/ cage/
     cage/gltf/ cage/obj/
     cage/formats/
     skinning/ surface/
-    surface/lod/ surface/prep/ surface/pm/ surface/subdivision/ surface/blend/
+    surface/lod/ surface/prep/ surface/pm/ surface/subdivision/ surface/blend/ surface/polygons/
     surface/passes.
     surface/schemes.
     runtime/include/

@@ -145,6 +145,8 @@ std::vector<MotionCase> motionCases() {
                                       {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, subdivisionRate},
                                       {"Loop", SUPPLE_SCHEME_LOOP, subdivisionRate},
                                       {"Blend", SUPPLE_SCHEME_BLEND, 4},
+                                      {"Polygons", SUPPLE_SCHEME_POLYGONS, 1},
+                                      {"Polygons", SUPPLE_SCHEME_POLYGONS, 1}, // in both formats
                                       {"PrepShared", SUPPLE_SCHEME_PREP, 3},
                                       {"PmShared", SUPPLE_SCHEME_PM, 3}};
             for (MotionCase c : own) {

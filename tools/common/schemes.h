@@ -10,14 +10,16 @@ struct Scheme {
     const char* name;
     SuppleScheme scheme;
     bool coefficients; ///< its patches have coefficients to read (SUPPLE_GROUP_PATCHES)
+    bool smooth;       ///< a smooth surface, sampled in grids
 };
 
 /// "auto" chooses the first.
-inline constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM, true},
-                                      {"prep", SUPPLE_SCHEME_PREP, true},
-                                      {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK, false},
-                                      {"loop", SUPPLE_SCHEME_LOOP, false},
-                                      {"blend", SUPPLE_SCHEME_BLEND, false}};
+inline constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM, true, true},
+                                      {"prep", SUPPLE_SCHEME_PREP, true, true},
+                                      {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK, false, true},
+                                      {"loop", SUPPLE_SCHEME_LOOP, false, true},
+                                      {"blend", SUPPLE_SCHEME_BLEND, false, true},
+                                      {"polygons", SUPPLE_SCHEME_POLYGONS, false, false}};
 
 [[nodiscard]] constexpr const char* schemeName(SuppleScheme scheme) {
     for (const Scheme& known : kSchemes) {

@@ -6,9 +6,11 @@
 #include "tools/supple/text_file.h"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstring>
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 
 namespace supple::tools {
 namespace {
@@ -56,46 +58,89 @@ std::vector<std::vector<uint32_t>> gridFaces(const SuppleDrawRange& range, uint3
     return faces;
 }
 
-Status writeSurface(const std::string& path, const Evaluation& baked, const std::string& scheme, uint32_t askedRate) {
-    const host::GroupOutput& output = baked.output;
-    const bool uvs = !baked.attributes.empty();
-    TextFile file(path);
-    file.text("# supple bake: scheme ").text(scheme).text(", rate ").number(uint64_t{output.grid.rate});
-    if (output.grid.rate != askedRate) {
-        file.text(" (").number(uint64_t{askedRate}).text(" asked for along an edge of the cage)");
+/// The elements `first` .. `first + count - 1` of the surface's streams.
+void writeVertices(TextFile& file, const Evaluation& baked, uint64_t first, uint64_t count) {
+    const SuppleBufferRange& view = baked.output.streams.vertices;
+    for (uint64_t i = first; i < first + count; ++i) {
+        writeVector(file, "v", element<glm::vec3>(baked.surfaceVertices, view, i));
     }
-    file.text(", ").number(uint64_t{output.info.patchCount}).text(" patches\n");
-    for (uint32_t r = 0; r < output.grid.drawRangeCount; ++r) {
-        const SuppleDrawRange& range = output.grid.drawRanges[r];
-        const std::vector<std::vector<uint32_t>> faces = gridFaces(range, output.grid.rate, baked.gridIndices);
+    for (uint64_t i = first; i < first + count; ++i) {
+        writeVector(file, "vn", element<glm::vec3>(baked.surfaceVertices, view, i, sizeof(glm::vec3)));
+    }
+    for (uint64_t i = first; !baked.attributes.empty() && i < first + count; ++i) {
+        writeVector(file, "vt", element<glm::vec2>(baked.attributes, baked.output.streams.attributes, i));
+    }
+}
+
+/// `vertices` of the surface, counted from 0 through the whole file.
+void writeFace(TextFile& file, const Evaluation& baked, std::span<const uint64_t> vertices) {
+    file.text("f");
+    for (const uint64_t vertex : vertices) {
+        file.text(" ").number(vertex + 1).text("/"); // OBJ counts from 1
+        if (!baked.attributes.empty()) {
+            file.number(vertex + 1);
+        }
+        file.text("/").number(vertex + 1);
+    }
+    file.text("\n");
+}
+
+/// One group per material, over the vertices of the whole mesh.
+void writeMesh(TextFile& file, const Evaluation& baked) {
+    const SuppleGridOutput& grid = baked.output.grid;
+    writeVertices(file, baked, 0, grid.vertexCount);
+    for (const SuppleDrawRange& range : std::span(grid.drawRanges, grid.drawRangeCount)) {
+        file.text("g material_");
+        if (range.material == SUPPLE_NO_MATERIAL) {
+            file.text("none\n");
+        } else {
+            file.number(uint64_t{range.material}).text("\n");
+        }
+        for (size_t i = range.firstIndex; i < size_t{range.firstIndex} + range.indexCount; i += 3) {
+            uint32_t corners[3];
+            std::memcpy(corners, baked.gridIndices.data() + i * sizeof(uint32_t), sizeof corners);
+            writeFace(file, baked, std::array<uint64_t, 3>{corners[0], corners[1], corners[2]});
+        }
+    }
+}
+
+/// One group per patch, each with its vertices.
+void writePatchGrids(TextFile& file, const Evaluation& baked) {
+    const SuppleGridOutput& grid = baked.output.grid;
+    for (const SuppleDrawRange& range : std::span(grid.drawRanges, grid.drawRangeCount)) {
+        const std::vector<std::vector<uint32_t>> faces = gridFaces(range, grid.rate, baked.gridIndices);
         for (uint64_t patch = range.firstPatch; patch < range.firstPatch + range.patchCount; ++patch) {
             const uint64_t samples = range.samplesPerPatch;
             const uint64_t first = range.firstVertex + (patch - range.firstPatch) * samples;
             file.text("g patch_").number(patch).text("\n");
-            for (uint64_t i = first; i < first + samples; ++i) {
-                writeVector(file, "v", element<glm::vec3>(baked.surfaceVertices, output.streams.vertices, i));
-            }
-            for (uint64_t i = first; i < first + samples; ++i) {
-                writeVector(file, "vn",
-                            element<glm::vec3>(baked.surfaceVertices, output.streams.vertices, i, sizeof(glm::vec3)));
-            }
-            for (uint64_t i = first; uvs && i < first + samples; ++i) {
-                writeVector(file, "vt", element<glm::vec2>(baked.attributes, output.streams.attributes, i));
-            }
+            writeVertices(file, baked, first, samples);
             for (const std::vector<uint32_t>& face : faces) {
-                file.text("f");
+                std::vector<uint64_t> vertices;
                 for (const uint32_t sample : face) {
-                    const uint64_t index = first + sample + 1; // OBJ counts from 1, through all groups
-                    file.text(" ").number(index).text("/");
-                    if (uvs) {
-                        file.number(index);
-                    }
-                    file.text("/").number(index);
+                    vertices.push_back(first + sample);
                 }
-                file.text("\n");
+                writeFace(file, baked, vertices);
             }
         }
     }
+}
+
+Status writeSurface(const std::string& path, const Evaluation& baked, const std::string& scheme, uint32_t askedRate) {
+    const host::GroupOutput& output = baked.output;
+    const bool mesh = output.info.tessellation == SUPPLE_TESSELLATION_INDEXED_MESH;
+    TextFile file(path);
+    file.text("# supple bake: scheme ").text(scheme);
+    if (mesh) {
+        file.text(", ").number(uint64_t{output.info.patchCount}).text(" triangles\n");
+        writeMesh(file, baked);
+        return file.close();
+    }
+    file.text(", rate ").number(uint64_t{output.grid.rate});
+    if (output.grid.rate != askedRate) {
+        file.text(" (").number(uint64_t{askedRate}).text(" asked for along an edge of the cage)");
+    }
+    file.text(", ").number(uint64_t{output.info.patchCount}).text(" patches\n");
+    writePatchGrids(file, baked);
     return file.close();
 }
 

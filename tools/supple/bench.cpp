@@ -144,7 +144,9 @@ void bindBench(CLI::App& app, int& exitCode) {
     bindDevice(*command, flags->device);
     std::vector<std::string> schemeNames;
     for (const Scheme& known : kSchemes) {
-        schemeNames.emplace_back(known.name);
+        if (known.smooth) {
+            schemeNames.emplace_back(known.name);
+        }
     }
     command->add_option("FILE", options.files, "Characters to measure as well");
     command->add_option("--cages", options.cages, "Built-in cages to measure, or none")

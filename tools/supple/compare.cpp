@@ -155,6 +155,9 @@ Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& f
     Comparison comparison;
     std::optional<LimitSurface> limit;
     for (const Scheme& scheme : kSchemes) {
+        if (!scheme.smooth) {
+            continue; // its vertices are the cage's
+        }
         SchemeDeviation deviation;
         deviation.scheme = scheme.name;
         SurfaceFlags flags = surface;

@@ -454,6 +454,9 @@ typedef enum SuppleScheme {
     /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
      * vertices. Edges are either sharp or smooth. */
     SUPPLE_SCHEME_BLEND = 5,
+    /** No smooth surface: the file's own triangles, deformed, with the file's normals. Takes any cage, manifold or not.
+     * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
+    SUPPLE_SCHEME_POLYGONS = 6,
     SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
 } SuppleScheme;
 
@@ -505,9 +508,9 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients, for inspection */
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
     SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
-    /** PREP and PM without a view: an instance is one indexed mesh, which stores samples on the borders of patches
-     * once. Positions have the same bits as in other groups. Along creases and boundaries, and with ATTRIBUTES along
-     * their seams, each side has vertices of its own. See SuppleDrawRange. */
+    /** PREP and PM without a view (POLYGONS has it in any case): an instance is one indexed mesh, which stores samples
+     * on the borders of patches once. Positions have the same bits as in other groups. Along creases and boundaries,
+     * and with ATTRIBUTES along their seams, each side has vertices of its own. See SuppleDrawRange. */
     SUPPLE_GROUP_INDEXED_MESH = 8,
     /** Groups of a view: one level of detail per instance instead of one per edge. It is computed from the instance's
      * bounds, and from the longest edge and the sharpest bend in the bind pose. */
@@ -525,7 +528,7 @@ typedef struct SuppleGroupDesc {
      * CATMULL_CLARK and LOOP: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
      * of them (SuppleGridOutput.rate). With CATMULL_CLARK, if the cage has faces that are no quads, it has a quarter.
      * BLEND, if the cage has faces that are no quads: segments along an edge of the cage, rounded up to an even number.
-     * A patch edge has half of them. */
+     * A patch edge has half of them. POLYGONS ignores it: the rate is 1. */
     uint32_t rate;
     SuppleVertexFormat vertexFormat;
     SuppleSkinning skinning;
@@ -533,8 +536,9 @@ typedef struct SuppleGroupDesc {
     /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags must then be
      * 0 or ONE_LEVEL: the view's flags and vertexFormat apply. PREP, PM and BLEND ignore `rate` and have a
      * SuppleLevelOutput. With CATMULL_CLARK and LOOP each instance gets the rate that its level asks for, at most
-     * `rate`: see SuppleGridOutput.rates. Their vertices are in the group's own memory. They use none of the view's
-     * maxVertices, but count in SuppleCameraDesc.vertexBudget. */
+     * `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of these
+     * three are in the group's own memory. They use none of the view's maxVertices, but count in
+     * SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
     const SuppleBlendOptions* blend; /**< the same */
@@ -548,8 +552,8 @@ SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGro
  * complete (suppleBeginFrame). */
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
 /** Changes the rate from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must be 1 to the rate
- * that the group was created with. Groups of CATMULL_CLARK, LOOP or BLEND, or with SUPPLE_GROUP_INDEXED_MESH, cannot
- * change it: they take only the rate that they were created with. Groups with levels take none. */
+ * that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND or POLYGONS, or with SUPPLE_GROUP_INDEXED_MESH,
+ * cannot change it: they take only the rate that they were created with. Groups with levels take none. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
 /* ---------------------------------------------------------------------------------------------------- instances */
@@ -692,7 +696,9 @@ typedef enum SuppleTessellation {
     SUPPLE_TESSELLATION_NONE = 0,         /**< SUPPLE_SCHEME_CAGE: there are no surface vertices */
     SUPPLE_TESSELLATION_GRIDS = 1,        /**< a grid of samples per patch: SuppleGridOutput */
     SUPPLE_TESSELLATION_INDEXED_MESH = 2, /**< one mesh per instance: SuppleGridOutput */
-    SUPPLE_TESSELLATION_RATES = 3, /**< subdivision in a view: grids, and a rate per instance: SuppleGridOutput */
+    /** Subdivision in a view: grids, and a rate per instance. POLYGONS in a view: one mesh per instance, and one rate.
+     * SuppleGridOutput. */
+    SUPPLE_TESSELLATION_RATES = 3,
     SUPPLE_TESSELLATION_LEVELS = 4 /**< other schemes in a view: SuppleLevelOutput in supple_view.h */
 } SuppleTessellation;
 
@@ -750,7 +756,7 @@ SUPPLE_API SuppleResult suppleGetVertexStreams(SuppleContext context, SuppleGrou
  * - TRIANGLE: (R+1)(R+2)/2 samples. Rows j = 0..R go from the edge 0-1 towards corner 2, each with i = 0..R-j.
  * - PENTAGON: 5 R(R+1)/2 + 1 samples. For each edge s-(s+1), rows j = 0..R-1 go from the edge towards the centre, each
  *   with i = 0..R-j-1. The last point of a row is the first of the next edge's row. The centre comes last.
- * - MESH: a whole instance, with SUPPLE_TESSELLATION_INDEXED_MESH. */
+ * - MESH: a whole instance, with SUPPLE_TESSELLATION_INDEXED_MESH or SUPPLE_SCHEME_POLYGONS. */
 typedef enum SuppleDomain {
     SUPPLE_DOMAIN_QUAD = 0,
     SUPPLE_DOMAIN_POLAR = 1,
@@ -762,8 +768,8 @@ typedef enum SuppleDomain {
 /** The patches of one domain, one material and one part. Ranges follow each other without gaps. Draw instance i is
  * patch firstPatch + i % patchCount of the instance in slot instances[i / patchCount].
  *
- * INDEXED_MESH: all triangles of one material and one part. Draw instance i is the instance in slot instances[i], and
- * an index is a surface vertex within the instance. To shaders that pull vertices, the mesh is one big patch:
+ * SUPPLE_DOMAIN_MESH: all triangles of one material and one part. Draw instance i is the instance in slot instances[i],
+ * and an index is a surface vertex within the instance. To shaders that pull vertices, the mesh is one big patch:
  * patchCount is 1, firstVertex and firstPatch are 0, samplesPerPatch is SuppleGridOutput.vertexCount. Triangles have
  * the order of the patches of that range (suppleGetPatches), and within a patch the order of its domain's grid. */
 typedef struct SuppleDrawRange {
@@ -794,12 +800,12 @@ typedef struct SuppleGridOutput {
     uint32_t vertexCount; /**< surface vertices per instance. RATES: the sum over all rates, coarser ones first */
     uint32_t verticesPerInstance; /**< >= vertexCount: slot k starts at vertex k * this */
     /** Vertex of (slot, patch, sample), with the patch's range r: slot * verticesPerInstance + r.firstVertex +
-     * (patch - r.firstPatch) * r.samplesPerPatch + sample. INDEXED_MESH: slot * verticesPerInstance + index. */
+     * (patch - r.firstPatch) * r.samplesPerPatch + sample. MESH: slot * verticesPerInstance + index. */
     const SuppleDrawRange* drawRanges;
     uint32_t drawRangeCount;
     uint32_t rateCount;         /**< entries of rates */
     const SuppleRate* rates;    /**< in rising order. RATES: each instance is drawn at one. Else there is one entry */
-    SuppleBufferRange indices;  /**< uint16; INDEXED_MESH: uint32. See SuppleDrawRange */
+    SuppleBufferRange indices;  /**< uint16, of meshes uint32: see `stride` and SuppleDrawRange */
     SuppleBufferRange indirect; /**< VkDrawIndexedIndirectCommand per draw range, for the visible instances */
 } SuppleGridOutput;
 
@@ -817,14 +823,16 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_CATMULL_CLARK = 6, /**< none: a face of the cage once (or twice) subdivided */
     SUPPLE_PATCH_LOOP = 7,          /**< none */
     SUPPLE_PATCH_BLEND = 8,         /**< none: a face of the cage, or of the subdivided cage */
-    SUPPLE_PATCH_BLEND_SHARP = 9    /**< none: with sharp edges */
+    SUPPLE_PATCH_BLEND_SHARP = 9,   /**< none: with sharp edges */
+    SUPPLE_PATCH_TRIANGLE = 10      /**< none, POLYGONS: a triangle, as it is */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5
 
 /** A patch, as the cage sees it. */
 typedef struct SupplePatchInfo {
-    uint32_t face; /**< its face of the cage. A face of six or more sides is split: each part is a patch */
+    uint32_t face; /**< its face of the cage. A face of six or more sides, with POLYGONS of four, is split: each part is
+                    * a patch */
     SupplePatchClass patchClass;
     uint32_t cornerCount;
     uint32_t corners[SUPPLE_MAX_SIDES]; /**< cage vertices, corner i at corner i of the domain. Points that subdivision

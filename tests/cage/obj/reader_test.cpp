@@ -42,6 +42,23 @@ const std::string kSquare = kFourVertices + "f 1 2 3 4\n";
 /// Two quads side by side: vertices 0 1 2 / 3 4 5, edge 1-4 between them.
 const std::string kTwoQuads = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nf 1 2 5 4\nf 2 3 6 5\n";
 
+TEST(ObjReader, ReadsNormals) {
+    const std::string normals = "vn 0 0 3\nvn 0 1 0\n";
+    const Character c = readWell(kFourVertices + "vt 0 0\n" + normals + "f 1//1 2/1/2 3/1/-2 4\n");
+    const std::vector<glm::vec3> wanted = {{0, 0, 1}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+    EXPECT_EQ(c.cage.cornerNormals, wanted);
+    EXPECT_TRUE(c.warnings.empty());
+    EXPECT_TRUE(readWell(kSquare + normals).cage.cornerNormals.empty()) << "no face has one";
+}
+
+TEST(ObjReader, RepairsNormalsAndNamesThem) {
+    const Character c = readWell(kFourVertices + "vn 0 0 0\nvn nan 0 1\nvn 1 2\nvn x y z\nf 1//1 2//2 3//3 4//9\n");
+    EXPECT_EQ(c.cage.cornerNormals, std::vector<glm::vec3>(4, glm::vec3(0.0f)));
+    ASSERT_EQ(c.warnings.size(), 1u);
+    EXPECT_EQ(c.warnings[0],
+              "line 5: 5 normals are missing or no directions, this being the first; the faces' own instead");
+}
+
 TEST(ObjReader, PolygonsOfAnySidesInTheFilesOrder) {
     const Character c = readWell("# a house\n"
                                  "o house\n"

@@ -1,0 +1,100 @@
+#include "cage/smooth_groups.h"
+
+#include "cage/topology.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace supple::cage {
+namespace {
+
+/// cos(1 degree). Exporters write the same normal twice on the two sides of a seam, but may round it differently.
+constexpr float kAgree = 0.99984770f;
+
+using Edge = std::pair<uint32_t, uint32_t>; ///< smaller vertex first
+
+/// A face's side, and its corners at the edge's smaller and larger vertex.
+struct Side {
+    Edge edge;
+    uint32_t atSmaller = 0;
+    uint32_t atLarger = 0;
+};
+
+std::vector<Side> sidesOf(const Cage& cage) {
+    std::vector<Side> sides;
+    sides.reserve(cage.cornerCount());
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
+            const uint32_t next = nextCorner(cage, face, corner);
+            const uint32_t a = cage.faceVertices[corner];
+            const uint32_t b = cage.faceVertices[next];
+            sides.push_back(a < b ? Side{{a, b}, corner, next} : Side{{b, a}, next, corner});
+        }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+        return std::tie(x.edge, x.atSmaller) < std::tie(y.edge, y.atSmaller);
+    });
+    return sides;
+}
+
+std::vector<Edge> hardEdges(const Cage& cage) {
+    std::vector<Edge> edges;
+    for (const Crease& crease : cage.creases) {
+        if (crease.sharpness >= kHardSharpness) {
+            edges.emplace_back(std::minmax(crease.a, crease.b));
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+/// Sets of corners, each known by its smallest one.
+class Sets {
+public:
+    explicit Sets(uint32_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
+    uint32_t find(uint32_t corner) {
+        while (parents_[corner] != corner) {
+            parents_[corner] = parents_[parents_[corner]];
+            corner = parents_[corner];
+        }
+        return corner;
+    }
+    void unite(uint32_t a, uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parents_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<uint32_t> parents_;
+};
+
+} // namespace
+
+std::vector<uint32_t> smoothGroups(const Cage& cage) {
+    Sets sets(cage.cornerCount());
+    const std::vector<Side> sides = sidesOf(cage);
+    const std::vector<Edge> hard = hardEdges(cage);
+    const bool authored = !cage.cornerNormals.empty();
+    const auto unite = [&](uint32_t a, uint32_t b) {
+        if (!authored || glm::dot(cage.cornerNormals[a], cage.cornerNormals[b]) >= kAgree) {
+            sets.unite(a, b);
+        }
+    };
+    for (size_t i = 1; i < sides.size(); ++i) {
+        const Side& side = sides[i];
+        if (sides[i - 1].edge == side.edge && (authored || !std::binary_search(hard.begin(), hard.end(), side.edge))) {
+            unite(sides[i - 1].atSmaller, side.atSmaller);
+            unite(sides[i - 1].atLarger, side.atLarger);
+        }
+    }
+    std::vector<uint32_t> groups(cage.cornerCount());
+    for (uint32_t corner = 0; corner < cage.cornerCount(); ++corner) {
+        groups[corner] = sets.find(corner);
+    }
+    return groups;
+}
+
+} // namespace supple::cage

@@ -1,0 +1,32 @@
+// Polygons, evaluation: surface vertices from the frames of cage vertices. One invocation per surface vertex and instance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#define POOL_READ_ONLY
+#define PUSH_CONSTANTS SubdivisionPush
+#include "shaders/shared/subdivision.h"
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/surface/cage.glsl"
+#include "shaders/evaluate/surface_vertex.glsl"
+#include "shaders/polygons/vector.glsl"
+#include "shaders/shared/polygons.h"
+
+void main() {
+    uint item = itemOfLane(), index = elementOf(item), entry = entryOf(item), instance = entry & kInstanceSlotMask;
+    uvec4 record = tableElement(push.records + index);
+    uint frame = instance * push.poolStride + record.x, vertex = instance * push.verticesPerInstance + push.firstVertex + index;
+    if (kVertexFormat == kVertexPosition) {
+        // In a view, instances without a past come from today's frames, which are bound in the place of the cage.
+        bool isNew = push.today != 0u && (entry & kInstanceIsNew) != 0u;
+        vec3 position;
+        if (isNew) position = cageVertex(frame);
+        else position = poolVector(frame);
+        storeSurfaceVertex(vertex, position, vec3(0.0));
+        return;
+    }
+    vec3 coordinates = uintBitsToFloat(record.yzw);
+    vec3 z = poolVector(frame + kFrameNormal), x = poolVector(frame + kFrameTangent), y = crossProduct(z, x);
+    precise vec3 normal = (coordinates.x * x + coordinates.y * y) + coordinates.z * z;
+    storeSurfaceVertex(vertex, poolVector(frame), normal);
+}

@@ -1,0 +1,205 @@
+#include "cage/triangulation.h"
+#include "shaders/shared/polygons.h"
+#include "surface/build.h"
+#include "surface/polygons/frames.h"
+#include "surface/table_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace supple::surface::polygons {
+
+namespace {
+
+constexpr KindOfKernel kFaceKernels[] = {{Kernel::polygonsFace, shared::kShortFaces, "supple polygons, faces"},
+                                         {Kernel::polygonsFace, shared::kLongFaces, "supple polygons, long faces"}};
+constexpr KindOfKernel kFrameKernel{Kernel::polygonsFrame, 0, "supple polygons, frames"};
+constexpr uint32_t kMostShortSides = 4;
+
+/// The triangles that are drawn, in device order: by material, then as the cage has them.
+std::vector<DraftPatch> draftTriangles(const cage::Cage& cage) {
+    const std::vector<uint32_t> corners = cage::triangulate(cage);
+    std::vector<DraftPatch> patches;
+    patches.reserve(corners.size() / 3);
+    auto hole = cage.holes.begin();
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        if (hole != cage.holes.end() && *hole == face) {
+            ++hole;
+            continue;
+        }
+        const size_t first = size_t{3} * (cage.faceStarts[face] - size_t{2} * face);
+        for (size_t t = first; t < first + size_t{3} * (cage.sides(face) - 2); t += 3) {
+            DraftPatch& patch = patches.emplace_back();
+            patch.facet = patch.info.face = face;
+            patch.info.patchClass = PatchClass::triangle;
+            patch.info.cornerCount = 3;
+            patch.info.material = cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[face];
+            for (size_t k = 0; k < 3; ++k) {
+                patch.cageCorners[k] = corners[t + k];
+                patch.info.corners[k] = cage.faceVertices[corners[t + k]];
+            }
+        }
+    }
+    std::stable_sort(patches.begin(), patches.end(),
+                     [](const DraftPatch& a, const DraftPatch& b) { return a.info.material < b.info.material; });
+    return patches;
+}
+
+/// What tells surface vertices apart.
+struct Vertex {
+    uint32_t frame = 0;
+    std::array<uint32_t, 3> normal{}; ///< its coordinates in the frame, as bits
+    CornerWords attributes{};
+
+    bool operator==(const Vertex&) const = default;
+};
+
+/// Numbers surface vertices in the order in which triangles come to them.
+class VertexNumbers {
+public:
+    explicit VertexNumbers(size_t frames) : last_(frames, cage::kNone) {}
+
+    uint32_t of(const Vertex& vertex) {
+        uint32_t number = last_[vertex.frame];
+        for (uint32_t tries = 0; number != cage::kNone && tries < kTries; ++tries, number = before_[number]) {
+            if (vertices[number] == vertex) {
+                return number;
+            }
+        }
+        before_.push_back(last_[vertex.frame]);
+        vertices.push_back(vertex);
+        return last_[vertex.frame] = static_cast<uint32_t>(vertices.size() - 1);
+    }
+
+    std::vector<Vertex> vertices;
+
+private:
+    static constexpr uint32_t kTries = 8; ///< a frame of many thousand corners may not cost their square
+    std::vector<uint32_t> last_;          ///< by frame
+    std::vector<uint32_t> before_;        ///< of the same frame
+};
+
+class Builder {
+public:
+    Builder(const cage::Cage& cage, Frames frames) : cage_(cage), frames_(std::move(frames)), writer_(tables_.words) {}
+
+    Tables build() {
+        tables_.rate = 1;
+        tables_.tangents = cage_.faceCount();
+        tables_.poolStride = poolStrideFor(firstElement(frames_.frames.size()));
+        writeFaces();
+        writeFrames();
+        writeVertices(draftTriangles(cage_));
+        return std::move(tables_);
+    }
+
+private:
+    /// In the pool.
+    [[nodiscard]] uint32_t firstElement(size_t frame) const {
+        return static_cast<uint32_t>(cage_.faceCount() + shared::kFrameElements * frame);
+    }
+    [[nodiscard]] const uint32_t* verticesOf(uint32_t face) const {
+        return cage_.faceVertices.data() + cage_.faceStarts[face];
+    }
+
+    /// Short faces first: their areas lie in the pool in the order of their records, those of others where these say.
+    void writeFaces() {
+        std::vector<uint32_t> longFaces;
+        faceNumbers_.resize(cage_.faceCount());
+        uint32_t number = 0;
+        Construction shortFaces{Stage::vertex, kFaceKernels[0], {writer_.element(), 0}, 0};
+        for (uint32_t face = 0; face < cage_.faceCount(); ++face) {
+            const uint32_t sides = cage_.sides(face);
+            if (sides > kMostShortSides) {
+                longFaces.push_back(face);
+                continue;
+            }
+            const uint32_t* v = verticesOf(face);
+            faceNumbers_[face] = number++;
+            if (sides == 3) {
+                writer_.put({v[0], v[1], v[0], v[2]});
+            } else {
+                writer_.put({v[0], v[2], v[1], v[3]});
+            }
+        }
+        shortFaces.section.count = shortFaces.coefficients = number;
+        tables_.constructions.push_back(shortFaces);
+
+        std::vector<uint32_t> firstWords;
+        for (const uint32_t face : longFaces) {
+            firstWords.push_back(static_cast<uint32_t>(tables_.words.size()));
+            writer_.put(std::span(verticesOf(face), cage_.sides(face)));
+        }
+        const auto count = static_cast<uint32_t>(longFaces.size());
+        tables_.constructions.push_back({Stage::vertex, kFaceKernels[1], {writer_.element(), count}, count});
+        for (size_t i = 0; i < longFaces.size(); ++i) {
+            faceNumbers_[longFaces[i]] = number++;
+            writer_.put({firstWords[i], cage_.sides(longFaces[i]), faceNumbers_[longFaces[i]], 0});
+        }
+    }
+
+    void writeFrames() {
+        const uint32_t firstWord = 4 * writer_.element();
+        for (const uint32_t face : frames_.faces) {
+            writer_.put({faceNumbers_[face]});
+        }
+        const auto count = static_cast<uint32_t>(frames_.frames.size());
+        tables_.constructions.push_back(
+            {Stage::assemble, kFrameKernel, {writer_.element(), count}, shared::kFrameElements * count});
+        for (const Frame& frame : frames_.frames) {
+            writer_.put({frame.vertex, frame.toward, firstWord + frame.firstFace, frame.faceCount});
+        }
+    }
+
+    [[nodiscard]] Vertex vertexOf(uint32_t corner) const {
+        Vertex vertex{frames_.cornerFrames[corner], {}, cornerWords(cage_, corner)};
+        glm::dvec3 normal(0.0, 0.0, 1.0);
+        if (!cage_.cornerNormals.empty() && cage_.cornerNormals[corner] != glm::vec3(0.0f)) {
+            normal = glm::transpose(frames_.frames[vertex.frame].axes) * glm::dvec3(cage_.cornerNormals[corner]);
+        }
+        for (int k = 0; k < 3; ++k) {
+            vertex.normal[static_cast<size_t>(k)] = floatBits(normal[k]);
+        }
+        return vertex;
+    }
+
+    void writeVertices(const std::vector<DraftPatch>& patches) {
+        VertexNumbers numbers(frames_.frames.size());
+        for (const DraftPatch& patch : patches) {
+            for (size_t k = 0; k < 3; ++k) {
+                tables_.triangles.indices.push_back(numbers.of(vertexOf(patch.cageCorners[k])));
+            }
+        }
+        tables_.triangles.vertices = {writer_.element(), static_cast<uint32_t>(numbers.vertices.size())};
+        for (const Vertex& vertex : numbers.vertices) {
+            writer_.put({firstElement(vertex.frame), vertex.normal[0], vertex.normal[1], vertex.normal[2]});
+        }
+        tables_.attributes = writer_.element();
+        const uint32_t words = noteAttributes(cage_, tables_);
+        for (const Vertex& vertex : numbers.vertices) {
+            writer_.put(std::span(vertex.attributes).first(words));
+        }
+        listPatches(patches, tables_);
+    }
+
+    const cage::Cage& cage_;
+    const Frames frames_;
+    std::vector<uint32_t> faceNumbers_; ///< per face: its place in the pool
+    Tables tables_;
+    TableWriter writer_;
+};
+
+} // namespace
+
+Result<Tables> build(const Recipe&, const cage::Cage& cage) {
+    // Every corner may have a frame, and a record with attributes.
+    if (cage.cornerCount() > std::numeric_limits<uint32_t>::max() / 32) {
+        return Error{ErrorCode::limit, std::to_string(cage.cornerCount()) + " corners: polygons takes " +
+                                           std::to_string(std::numeric_limits<uint32_t>::max() / 32)};
+    }
+    return Builder(cage, makeFrames(cage)).build();
+}
+
+} // namespace supple::surface::polygons
