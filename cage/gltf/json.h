@@ -1,4 +1,5 @@
-// JSON of a glTF file: parsing within bounds and typed access that refuses instead of converting. Private to cage/gltf/.
+// JSON of a glTF file: parsing within bounds and typed access that refuses instead of converting. Private to
+// cage/gltf/.
 #pragma once
 
 #include <cstddef>
@@ -47,5 +48,15 @@ void checkIndexArray(const json& object, const char* key, const std::string& ele
 /// An array of finite numbers, `length` of them where it is given.
 void checkNumbers(const json& object, const char* key, const std::string& element, std::optional<size_t> length);
 void checkString(const json& object, const char* key, const std::string& element);
+
+/// An array of the vector's components.
+template <class Vec>
+[[nodiscard]] json numbers(const Vec& vector) {
+    json list = json::array();
+    for (int k = 0; k < vector.length(); ++k) {
+        list.push_back(static_cast<double>(vector[k]));
+    }
+    return list;
+}
 
 } // namespace supple::cage::gltf
