@@ -152,12 +152,41 @@ struct Morphs {
 /// Encoded image bytes as the file holds them; decoding is the host's.
 struct Image {
     std::string name;
-    std::string mimeType; ///< "image/png", "image/jpeg" or empty
+    std::string mimeType; ///< "image/png", "image/jpeg", "image/webp", "image/ktx2", what else the file says, or empty
     std::vector<std::byte> bytes;
 };
 
 enum class AlphaMode { opaque, mask, blend };
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
+/// As glTF has them. `any`: the file leaves it to the host.
+enum class Filter {
+    any,
+    nearest,
+    linear,
+    nearestMipmapNearest,
+    linearMipmapNearest,
+    nearestMipmapLinear,
+    linearMipmapLinear
+};
+
+/// A texture as a material uses it: an image, how it is sampled, and where it lies.
+struct Texture {
+    uint32_t image = kNone;          ///< index into Character::images; kNone: no texture
+    uint32_t alternateImage = kNone; ///< the same picture as KTX2 or WebP, where `image` is in a core format
+    uint32_t uvSet = 0;              ///< 0: cornerUvs, 1: cornerUvs1
+    Wrap wrapU = Wrap::repeat;
+    Wrap wrapV = Wrap::repeat;
+    Filter magFilter = Filter::any; ///< any, nearest or linear
+    Filter minFilter = Filter::any;
+    // KHR_texture_transform: with c and s the cosine and sine of the rotation, (u, v) is looked up at
+    // offset + (c * scale.x * u + s * scale.y * v, -s * scale.x * u + c * scale.y * v).
+    glm::vec2 offset{0.0f};
+    float rotation = 0.0f; ///< radians
+    glm::vec2 scale{1.0f};
+
+    [[nodiscard]] bool exists() const { return image != kNone; }
+    bool operator==(const Texture&) const = default;
+};
 
 /// What the coordinates are that a trim's image is looked up at.
 enum class TrimDomain {
@@ -168,24 +197,30 @@ enum class TrimDomain {
 /// Takes parts of the surface away: where a channel of an image is below the cutoff (docs/trimming.md).
 struct Trim {
     TrimDomain domain = TrimDomain::uv;
-    uint32_t image = kNone; ///< index into Character::images
-    uint32_t uvSet = 0;     ///< domain uv: 0: cornerUvs, 1: cornerUvs1
-    uint32_t channel = 0;   ///< 0..3: red, green, blue, alpha
+    Texture texture;      ///< domain face: its UV set and its transform are not used
+    uint32_t channel = 0; ///< 0..3: red, green, blue, alpha
     float cutoff = 0.5f;
     uint32_t tiles = 0; ///< domain face: equal tiles of the image, side by side
-    Wrap wrapU = Wrap::repeat;
-    Wrap wrapV = Wrap::repeat;
 
     bool operator==(const Trim&) const = default;
 };
 
+/// The core material of glTF 2.0; what is not said is glTF's default. Factors are linear and multiply their textures.
 struct Material {
     std::string name;
     glm::vec4 baseColorFactor{1.0f};
-    uint32_t baseColorImage = kNone; ///< index into Character::images
-    uint32_t baseColorUvSet = 0;     ///< 0: cornerUvs, 1: cornerUvs1
-    Wrap wrapU = Wrap::repeat;
-    Wrap wrapV = Wrap::repeat;
+    Texture baseColorTexture; ///< sRGB; alpha linear
+    float metallicFactor = 1.0f;
+    float roughnessFactor = 1.0f;
+    Texture metallicRoughnessTexture; ///< green: roughness, blue: metallic
+    Texture normalTexture;            ///< tangent space, +Y up
+    float normalScale = 1.0f;
+    Texture occlusionTexture; ///< red
+    float occlusionStrength = 1.0f;
+    Texture emissiveTexture; ///< sRGB
+    glm::vec3 emissiveFactor{0.0f};
+    float emissiveStrength = 1.0f; ///< KHR_materials_emissive_strength: multiplies the factor
+    bool unlit = false;            ///< KHR_materials_unlit: the base color alone is shown
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;

@@ -21,16 +21,13 @@ glm::vec2 placeInTile(uint32_t corner, uint32_t sides) {
 } // namespace
 
 std::optional<Trim> trimOf(const Material& material) {
-    if (material.trim || material.alphaMode != AlphaMode::mask || material.baseColorImage == kNone) {
+    if (material.trim || material.alphaMode != AlphaMode::mask || !material.baseColorTexture.exists()) {
         return material.trim;
     }
     Trim trim;
-    trim.image = material.baseColorImage;
-    trim.uvSet = material.baseColorUvSet;
+    trim.texture = material.baseColorTexture;
     trim.channel = 3;
     trim.cutoff = material.alphaCutoff;
-    trim.wrapU = material.wrapU;
-    trim.wrapV = material.wrapV;
     return trim;
 }
 

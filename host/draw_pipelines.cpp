@@ -66,7 +66,9 @@ Status DrawPipelines::createLayouts() {
         {shared::kCageEdgeBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
     };
     const std::initializer_list<Binding> material = {
+        {shared::kMaterialBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | kFragment},
         {shared::kBaseColorBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+        {shared::kMetallicRoughnessBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
         {shared::kTrimBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
     };
     for (const Status& status :

@@ -1,10 +1,11 @@
-// A character for drawing: Supple's asset, the tables that draw its cage, its materials' pictures; and a
-// group made of it.
+// A character for drawing: Supple's asset, its clips and materials, the tables that draw its cage; and a group made of
+// it.
 #pragma once
 
-#include "cage/character.h"
+#include "host/cage_mesh.h"
 #include "host/camera.h"
 #include "host/context.h"
+#include "host/figure_materials.h"
 #include "host/group_output.h"
 
 #include <memory>
@@ -19,12 +20,17 @@ public:
     struct CageRange {
         uint32_t firstCorner = 0; ///< three corners a triangle
         uint32_t cornerCount = 0;
-        uint32_t material = cage::kNone;
+        uint32_t material = SUPPLE_NO_MATERIAL;
+    };
+    struct Clip {
+        std::string name;
+        double duration = 0.0; ///< seconds
     };
 
-    /// Takes the asset, also where it fails. `path` begins the messages. The context must outlive the figure.
-    [[nodiscard]] static Result<std::unique_ptr<Figure>> create(Context& context, SuppleAsset asset,
-                                                                cage::Character character, const std::string& path);
+    /// Takes the asset, also where it fails; `cage` is its cage. `path` begins the messages. The context must outlive
+    /// the figure.
+    [[nodiscard]] static Result<std::unique_ptr<Figure>> create(Context& context, SuppleAsset asset, CageMesh cage,
+                                                                const std::string& path);
     ~Figure();
     Figure(const Figure&) = delete;
     Figure& operator=(const Figure&) = delete;
@@ -32,15 +38,14 @@ public:
     [[nodiscard]] Context& context() const { return context_; }
     [[nodiscard]] SuppleAsset asset() const { return asset_; }
     [[nodiscard]] const std::string& path() const { return path_; }
-    [[nodiscard]] const cage::Character& character() const { return character_; }
+    [[nodiscard]] const CageMesh& cage() const { return cage_; }
+    [[nodiscard]] const std::vector<Clip>& clips() const { return clips_; }
+    /// 0 for the bind pose.
     [[nodiscard]] double clipDuration(uint32_t clip) const;
+    [[nodiscard]] const FigureMaterials& materials() const { return materials_; }
 
     /// Luminance of the base color over the cage's faces: linear, 0..1.
     [[nodiscard]] float averageAlbedo() const { return averageAlbedo_; }
-    /// One a material, and one white one at the end for what has none.
-    [[nodiscard]] const std::vector<Image>& baseColors() const { return baseColors_; }
-    /// As the base colors; without an image where a material has no trim of its own (cage::Material::trim).
-    [[nodiscard]] const std::vector<Image>& trims() const { return trims_; }
     [[nodiscard]] const std::vector<CageRange>& cageRanges() const { return cageRanges_; }
     [[nodiscard]] const Buffer& cageCorners() const { return cageCorners_; }
     [[nodiscard]] const Buffer& cageEdges() const { return cageEdges_; }
@@ -51,15 +56,16 @@ private:
     /// What shaders/cage_face.glsl reads; fills cageRanges_.
     [[nodiscard]] std::vector<uint32_t> cageCornerWords();
     [[nodiscard]] Status uploadCage();
-    [[nodiscard]] Status uploadBaseColors();
-    [[nodiscard]] Status uploadTrims();
+    [[nodiscard]] Status readClips();
+    /// Over the cage's faces by their rest area.
+    [[nodiscard]] float averageLuminance() const;
 
     Context& context_;
     std::string path_;
-    cage::Character character_;
+    CageMesh cage_;
     SuppleAsset asset_{};
-    std::vector<Image> baseColors_;
-    std::vector<Image> trims_;
+    std::vector<Clip> clips_;
+    FigureMaterials materials_;
     std::vector<CageRange> cageRanges_;
     Buffer cageCorners_;
     Buffer cageEdges_;

@@ -32,7 +32,7 @@ std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
 }
 
 /// How often an edge of the cage is halved before patches begin.
-uint32_t halvings(SuppleScheme scheme, const cage::Cage& cage) {
+uint32_t halvings(SuppleScheme scheme, const CageMesh& cage) {
     if (scheme != SUPPLE_SCHEME_CATMULL_CLARK && scheme != SUPPLE_SCHEME_BLEND) {
         return scheme == SUPPLE_SCHEME_LOOP ? 1 : 0;
     }
@@ -92,7 +92,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
         !status)
         return status.error();
     group->mesh_ = options.scheme == SUPPLE_SCHEME_POLYGONS;
-    group->edgeRate_ = group->output_.grid.rate << halvings(options.scheme, figure.character().cage);
+    group->edgeRate_ = group->output_.grid.rate << halvings(options.scheme, figure.cage());
     // The renderer binds each output whole; a crowd larger than that would be drawn in windows of instances.
     const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;
     for (const SuppleBufferRange& view : {group->output_.streams.vertices, group->output_.info.deformedCage}) {

@@ -1,6 +1,6 @@
 #include "host/surface_renderer.h"
 
-#include "cage/trim.h"
+#include "host/material_uniforms.h"
 #include "host/vk_struct.h"
 
 #include <algorithm>
@@ -38,65 +38,14 @@ void bindGridIndices(VkCommandBuffer commands, const GroupOutput& output) {
                          indices.stride == 4 ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_UINT16);
 }
 
-/// What the group and the picture say, not the material.
-constexpr uint32_t kLastingFlags = shared::kDrawVertex24 | shared::kDrawAttributes | shared::kDrawCoverage;
-
-void applyTrim(const cage::Character& character, const cage::Material& material, shared::DrawPush& push) {
-    const bool mask = !material.trim && material.alphaMode == cage::AlphaMode::mask;
-    if (!material.trim && !mask)
-        return;
-    // A mask without a texture is one too: of the alphas that multiply a white one.
-    const cage::Trim trim = cage::trimOf(material).value_or(cage::Trim{.channel = 3, .cutoff = material.alphaCutoff});
-    push.flags |= shared::kDrawTrim;
-    if (mask)
-        push.flags |= shared::kDrawTrimAlpha;
-    if (trim.domain == cage::TrimDomain::face)
-        push.flags |= shared::kDrawTrimFace;
-    if (trim.uvSet == 1 && !character.cage.cornerUvs1.empty())
-        push.flags |= shared::kDrawTrimUv1;
-    push.alphaCutoff = trim.cutoff;
-    push.trimChannel = trim.channel;
-    push.trimTiles = static_cast<float>(std::max(trim.tiles, 1u));
-}
-
-void applyMaterial(const cage::Character& character, uint32_t index, shared::DrawPush& push) {
-    push.flags &= kLastingFlags;
-    push.baseColor = glm::vec4(1.0f);
-    if (index >= character.materials.size())
-        return;
-    const cage::Material& material = character.materials[index];
-    push.baseColor = material.baseColorFactor;
-    push.alphaCutoff = material.alphaCutoff;
-    if (material.baseColorUvSet == 1 && !character.cage.cornerUvs1.empty())
-        push.flags |= shared::kDrawUv1;
-    if (material.doubleSided)
-        push.flags |= shared::kDrawDoubleSided;
-    if (material.alphaMode == cage::AlphaMode::mask && !material.trim)
-        push.flags |= shared::kDrawMask;
-    if (material.alphaMode == cage::AlphaMode::blend)
-        push.flags |= shared::kDrawTranslucent;
-    applyTrim(character, material, push);
-}
-
 /// How a material stands in the light's way.
 enum class Shadow { none, solid, trimmed };
 
-Shadow shadowOf(const cage::Character& character, uint32_t index) {
-    if (index >= character.materials.size())
-        return Shadow::solid;
-    const cage::Material& material = character.materials[index];
-    if (material.alphaMode == cage::AlphaMode::blend)
+Shadow shadowOf(const SuppleMaterialInfo& material) {
+    if (material.alphaMode == SUPPLE_ALPHA_BLEND)
         return Shadow::none;
-    return material.trim || material.alphaMode == cage::AlphaMode::mask ? Shadow::trimmed : Shadow::solid;
-}
-
-/// The cage casts its shadow without holes, or none.
-bool isSolid(const cage::Character& character, uint32_t material) {
-    return material >= character.materials.size() || character.materials[material].alphaMode == cage::AlphaMode::opaque;
-}
-
-size_t materialSet(const cage::Character& character, uint32_t material) {
-    return std::min<size_t>(material, character.materials.size());
+    return material.trimDomain != SUPPLE_TRIM_NONE || material.alphaMode == SUPPLE_ALPHA_MASK ? Shadow::trimmed
+                                                                                              : Shadow::solid;
 }
 
 /// The scheme polygons has no grids to draw the lines of; the edges of the cage are its lines.
@@ -125,15 +74,49 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout) {
     return info;
 }
 
-VkSamplerAddressMode addressMode(cage::Wrap wrap) {
+VkSamplerAddressMode addressMode(SuppleWrap wrap) {
     switch (wrap) {
-    case cage::Wrap::clampToEdge:
+    case SUPPLE_WRAP_CLAMP:
         return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    case cage::Wrap::mirroredRepeat:
+    case SUPPLE_WRAP_MIRROR:
         return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
     default:
         return VK_SAMPLER_ADDRESS_MODE_REPEAT;
     }
+}
+
+/// Anisotropic where the file leaves it to the host.
+VkSamplerCreateInfo samplerInfo(const SuppleTextureInfo& texture, const Device& device) {
+    const auto isOneOf = [&](std::initializer_list<SuppleFilter> filters) {
+        return std::find(filters.begin(), filters.end(), texture.minFilter) != filters.end();
+    };
+    auto info = vkStruct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+    info.magFilter = texture.magFilter == SUPPLE_FILTER_NEAREST ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+    info.minFilter =
+        isOneOf({SUPPLE_FILTER_NEAREST, SUPPLE_FILTER_NEAREST_MIPMAP_NEAREST, SUPPLE_FILTER_NEAREST_MIPMAP_LINEAR})
+            ? VK_FILTER_NEAREST
+            : VK_FILTER_LINEAR;
+    info.mipmapMode = isOneOf({SUPPLE_FILTER_NEAREST_MIPMAP_NEAREST, SUPPLE_FILTER_LINEAR_MIPMAP_NEAREST})
+                          ? VK_SAMPLER_MIPMAP_MODE_NEAREST
+                          : VK_SAMPLER_MIPMAP_MODE_LINEAR;
+    // The fixed level that Vulkan's reference gives for OpenGL's filters without mip levels.
+    info.maxLod = isOneOf({SUPPLE_FILTER_NEAREST, SUPPLE_FILTER_LINEAR}) ? 0.25f : VK_LOD_CLAMP_NONE;
+    info.anisotropyEnable =
+        device.hasAnisotropy() && info.minFilter == VK_FILTER_LINEAR && info.magFilter == VK_FILTER_LINEAR ? VK_TRUE
+                                                                                                           : VK_FALSE;
+    info.maxAnisotropy = std::min(8.0f, device.properties().limits.maxSamplerAnisotropy);
+    info.addressModeU = addressMode(texture.wrap[0]);
+    info.addressModeV = addressMode(texture.wrap[1]);
+    return info;
+}
+
+VkWriteDescriptorSet descriptorWrite(VkDescriptorSet set, uint32_t slot, VkDescriptorType type) {
+    auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstSet = set;
+    write.dstBinding = slot;
+    write.descriptorCount = 1;
+    write.descriptorType = type;
+    return write;
 }
 
 } // namespace
@@ -143,6 +126,7 @@ FigureBinding& FigureBinding::operator=(FigureBinding&& other) noexcept {
     std::swap(pool_, other.pool_);
     std::swap(figure_, other.figure_);
     std::swap(materials_, other.materials_);
+    std::swap(uniforms_, other.uniforms_);
     std::swap(samplers_, other.samplers_);
     return *this;
 }
@@ -250,7 +234,8 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
 Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
     FigureBinding binding;
     binding.device_ = device_.handle();
-    if (const Status status = allocateSets(binding, static_cast<uint32_t>(group.figure().baseColors().size())); !status)
+    if (const Status status = allocateSets(binding, static_cast<uint32_t>(group.figure().materials().infos().size()));
+        !status)
         return status.error();
     writeFigureSet(binding, group);
     if (const Status status = writeMaterialSets(binding, group.figure()); !status)
@@ -259,8 +244,10 @@ Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
 }
 
 Status SurfaceRenderer::allocateSets(FigureBinding& binding, uint32_t materialCount) const {
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * materialCount}};
+    const VkDescriptorPoolSize sizes[] = {
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, materialCount},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FigureMaterials::kSlotCount * materialCount}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     poolInfo.maxSets = 1 + materialCount;
     poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
@@ -307,56 +294,68 @@ void SurfaceRenderer::writeFigureSet(const FigureBinding& binding, const FigureG
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
     };
     for (const auto& [slot, info] : buffers) {
-        auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-        write.dstSet = binding.figure_;
-        write.dstBinding = slot;
-        write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        VkWriteDescriptorSet write = descriptorWrite(binding.figure_, slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
         write.pBufferInfo = &info;
         vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
     }
 }
 
 Status SurfaceRenderer::writeMaterialSets(FigureBinding& binding, const Figure& figure) const {
-    const cage::Character& character = figure.character();
+    if (const Status status = writeMaterialUniforms(binding, figure); !status)
+        return status.error();
+    const FigureMaterials& materials = figure.materials();
     for (size_t i = 0; i < binding.materials_.size(); ++i) {
-        const cage::Material material = i < character.materials.size() ? character.materials[i] : cage::Material{};
-        // A mask's trim is its base color; of what has none, nothing is looked up.
-        const cage::Trim trim = cage::trimOf(material).value_or(cage::Trim{});
-        const Image& trimImage = material.trim ? figure.trims()[i] : figure.baseColors()[i];
-        if (const Status status = writeTexture(binding, i, shared::kBaseColorBinding, figure.baseColors()[i],
-                                               addressMode(material.wrapU), addressMode(material.wrapV));
-            !status)
-            return status.error();
-        if (const Status status = writeTexture(binding, i, shared::kTrimBinding, trimImage, addressMode(trim.wrapU),
-                                               addressMode(trim.wrapV));
-            !status)
-            return status.error();
+        const SuppleMaterialInfo& info = materials.infos()[i];
+        const struct {
+            uint32_t slot;
+            const Image& image;
+            const SuppleTextureInfo& texture;
+        } textures[] = {
+            {shared::kBaseColorBinding, materials.texture(i, FigureMaterials::kBaseColor), info.baseColor},
+            {shared::kMetallicRoughnessBinding, materials.texture(i, FigureMaterials::kMetallicRoughness),
+             info.metallicRoughness},
+            {shared::kTrimBinding, materials.texture(i, FigureMaterials::kTrim), info.trim},
+        };
+        for (const auto& [slot, image, texture] : textures) {
+            if (const Status status = writeTexture(binding, i, slot, image, texture); !status)
+                return status.error();
+        }
+    }
+    return success();
+}
+
+Status SurfaceRenderer::writeMaterialUniforms(FigureBinding& binding, const Figure& figure) const {
+    const VkDeviceSize alignment = device_.properties().limits.minUniformBufferOffsetAlignment;
+    constexpr VkDeviceSize kSize = sizeof(shared::MaterialUniforms);
+    const VkDeviceSize stride = (kSize + alignment - 1) / alignment * alignment;
+    Result<Buffer> uniforms = device_.createBuffer(stride * binding.materials_.size(),
+                                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryKind::upload);
+    if (!uniforms)
+        return uniforms.error();
+    binding.uniforms_ = std::move(*uniforms);
+    const bool uv1 = !figure.cage().uvSets[1].empty();
+    for (size_t i = 0; i < binding.materials_.size(); ++i) {
+        const shared::MaterialUniforms values = materialUniforms(figure.materials().infos()[i], uv1);
+        std::memcpy(static_cast<std::byte*>(binding.uniforms_.mapped()) + stride * i, &values, kSize);
+        const VkDescriptorBufferInfo described{binding.uniforms_.handle(), stride * i, kSize};
+        VkWriteDescriptorSet write =
+            descriptorWrite(binding.materials_[i], shared::kMaterialBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
+        write.pBufferInfo = &described;
+        vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
     }
     return success();
 }
 
 Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, uint32_t slot, const Image& image,
-                                     VkSamplerAddressMode wrapU, VkSamplerAddressMode wrapV) const {
-    auto info = vkStruct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
-    info.magFilter = VK_FILTER_LINEAR;
-    info.minFilter = VK_FILTER_LINEAR;
-    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
-    info.maxLod = VK_LOD_CLAMP_NONE;
-    info.anisotropyEnable = device_.hasAnisotropy() ? VK_TRUE : VK_FALSE;
-    info.maxAnisotropy = std::min(8.0f, device_.properties().limits.maxSamplerAnisotropy);
-    info.addressModeU = wrapU;
-    info.addressModeV = wrapV;
+                                     const SuppleTextureInfo& texture) const {
+    const VkSamplerCreateInfo info = samplerInfo(texture, device_);
     VkSampler sampler = VK_NULL_HANDLE;
     if (const VkResult result = vkCreateSampler(device_.handle(), &info, nullptr, &sampler); result != VK_SUCCESS)
         return vulkanError(result, "vkCreateSampler");
     binding.samplers_.push_back(sampler);
     const VkDescriptorImageInfo described{sampler, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-    write.dstSet = binding.materials_[material];
-    write.dstBinding = slot;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    VkWriteDescriptorSet write =
+        descriptorWrite(binding.materials_[material], slot, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     write.pImageInfo = &described;
     vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
     return success();
@@ -493,7 +492,6 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
 shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, uint32_t light) const {
     const GroupOutput& output = scene.group->output();
     shared::DrawPush push{};
-    push.baseColor = glm::vec4(1.0f);
     push.rate = output.grid.rate;
     push.verticesPerInstance = output.grid.verticesPerInstance;
     push.cageVerticesPerInstance = output.info.cageVerticesPerInstance;
@@ -510,7 +508,7 @@ shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, uint32_t light) c
 
 void SurfaceRenderer::bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const {
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
-                            &scene.binding->materials_[materialSet(scene.group->figure().character(), material)], 0,
+                            &scene.binding->materials_[scene.group->figure().materials().indexOf(material)], 0,
                             nullptr);
 }
 
@@ -521,22 +519,20 @@ void SurfaceRenderer::pushConstants(VkCommandBuffer commands, const shared::Draw
 
 void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
     const GroupOutput& output = scene.group->output();
-    const cage::Character& character = scene.group->figure().character();
+    const FigureMaterials& materials = scene.group->figure().materials();
     shared::DrawPush push = basePush(scene, light);
     VkPipeline bound = VK_NULL_HANDLE;
     for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.grid.drawRanges[i];
-        const Shadow shadow = shadowOf(character, range.material);
+        const Shadow shadow = shadowOf(materials.of(range.material));
         if (shadow == Shadow::none)
             continue;
         const VkPipeline wanted = shadow == Shadow::solid ? pipelines_->surfaceShadow : pipelines_->surfaceShadowTrim;
         if (bound != wanted)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
         bound = wanted;
-        if (shadow == Shadow::trimmed) {
-            applyMaterial(character, range.material, push);
+        if (shadow == Shadow::trimmed)
             bindMaterial(commands, scene, range.material);
-        }
         applyRange(range, push);
         pushConstants(commands, push);
         const uint32_t patches = range.patchCount * scene.group->visibleCount();
@@ -552,7 +548,6 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
 
 void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) const {
     const GroupOutput& output = scene.group->output();
-    const cage::Character& character = scene.group->figure().character();
     shared::DrawPush push = basePush(scene, 0);
     const bool vertexLit = device_.isCpu() && scene.group->edgeRate() >= kVertexLitRate;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
@@ -560,7 +555,6 @@ void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) 
     bindGridIndices(commands, output);
     for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.grid.drawRanges[i];
-        applyMaterial(character, range.material, push);
         applyRange(range, push);
         pushConstants(commands, push);
         bindMaterial(commands, scene, range.material);
@@ -571,13 +565,13 @@ void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) 
 }
 
 void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const {
-    const cage::Character& character = scene.group->figure().character();
+    const FigureMaterials& materials = scene.group->figure().materials();
     shared::DrawPush push = basePush(scene, light.value_or(0));
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, light ? pipelines_->cageShadow : pipelines_->cageFace);
     for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
-        if (light && !isSolid(character, range.material))
+        // The cage casts its shadow without holes, or none.
+        if (light && materials.of(range.material).alphaMode != SUPPLE_ALPHA_OPAQUE)
             continue;
-        applyMaterial(character, range.material, push);
         push.primitive = range.firstCorner;
         pushConstants(commands, push);
         if (!light)
@@ -588,7 +582,7 @@ void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene
 
 void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene) const {
     shared::DrawPush push = basePush(scene, 0);
-    push.baseColor = scene.cageFaces || isWireOfMesh(scene) ? kCageEdgeColor : kOverlayEdgeColor;
+    push.lineColor = scene.cageFaces || isWireOfMesh(scene) ? kCageEdgeColor : kOverlayEdgeColor;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
     pushConstants(commands, push);
     vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->visibleCount(), 0, 0);

@@ -38,7 +38,8 @@ private:
     VkDevice device_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet figure_ = VK_NULL_HANDLE;
-    std::vector<VkDescriptorSet> materials_; ///< as Figure::baseColors
+    std::vector<VkDescriptorSet> materials_; ///< as FigureMaterials::infos()
+    Buffer uniforms_;                        ///< of all materials
     std::vector<VkSampler> samplers_;
 };
 
@@ -86,8 +87,9 @@ private:
     [[nodiscard]] Status allocateSets(FigureBinding& binding, uint32_t materialCount) const;
     void writeFigureSet(const FigureBinding& binding, const FigureGroup& group) const;
     [[nodiscard]] Status writeMaterialSets(FigureBinding& binding, const Figure& figure) const;
+    [[nodiscard]] Status writeMaterialUniforms(FigureBinding& binding, const Figure& figure) const;
     [[nodiscard]] Status writeTexture(FigureBinding& binding, size_t material, uint32_t slot, const Image& image,
-                                      VkSamplerAddressMode wrapU, VkSamplerAddressMode wrapV) const;
+                                      const SuppleTextureInfo& texture) const;
     void writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene) const;
     void recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const;

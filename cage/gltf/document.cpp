@@ -2,9 +2,11 @@
 
 #include "cage/gltf/container.h"
 #include "cage/gltf/json.h"
+#include "cage/gltf/look_extensions.h"
 #include "cage/gltf/meshopt.h"
 #include "cage/gltf/resources.h"
 #include "cage/gltf/structure.h"
+#include "cage/gltf/texture.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -71,7 +73,7 @@ bool isComplete(const supple_tinygltf::Model& model, const json& root) {
 /// integers silently, and does not bound memory. So the checked document is written out again, without all that the
 /// model is not asked for, and tinygltf parses that.
 supple_tinygltf::Model toModel(json& root) {
-    for (const char* key : {"buffers", "images", "cameras", "extensions"}) {
+    for (const char* key : {"buffers", "images", "samplers", "textures", "materials", "cameras", "extensions"}) {
         root.erase(key);
     }
     if (const auto accessors = root.find("accessors"); accessors != root.end()) {
@@ -120,6 +122,8 @@ Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFi
     decodeMeshopt(root, document);
     checkStructure(root, document.buffers);
     loadImages(table(root, "images"), table(root, "bufferViews"), readFile, document);
+    document.textures = readTextures(root, document.warnings);
+    nameUnreadLook(root, document.warnings);
     document.meshes = table(root, "meshes");
     document.materials = table(root, "materials");
     document.model = toModel(root);

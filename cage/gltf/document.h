@@ -15,11 +15,13 @@
 namespace supple::cage::gltf {
 
 struct Document {
-    /// Everything but buffers, images, cameras, bounds of accessors and top-level extensions: these tinygltf never
-    /// sees. Every index is in range, and every array of numbers has its right length and finite members.
+    /// Everything but buffers, images, textures, materials, cameras, bounds of accessors and top-level extensions:
+    /// these tinygltf never sees. Every index is in range, and every array of numbers has its right length and finite
+    /// members.
     supple_tinygltf::Model model;
     json meshes;    ///< as the file has them: with the extensions and extras that the model lacks, unchecked
     json materials; ///< likewise
+    std::vector<Texture> textures;                   ///< see readTextures()
     std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each, or none
     std::vector<Image> images;                       ///< same indices as the file's; bytes empty where missing
     std::vector<std::string> warnings;

@@ -57,17 +57,29 @@ std::optional<ImageSize> jpegSize(std::span<const std::byte> bytes) {
 } // namespace
 
 const char* imageType(std::span<const std::byte> bytes) {
-    return startsWith(bytes, {0x89, 'P', 'N', 'G'}) ? "image/png"
-           : startsWith(bytes, {0xFF, 0xD8, 0xFF})  ? "image/jpeg"
-                                                    : nullptr;
+    if (startsWith(bytes, {0x89, 'P', 'N', 'G'})) {
+        return "image/png";
+    }
+    if (startsWith(bytes, {0xFF, 0xD8, 0xFF})) {
+        return "image/jpeg";
+    }
+    if (bytes.size() >= 12 && startsWith(bytes, {'R', 'I', 'F', 'F'}) &&
+        startsWith(bytes.subspan(8), {'W', 'E', 'B', 'P'})) {
+        return "image/webp";
+    }
+    return startsWith(bytes, {0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB}) ? "image/ktx2" : nullptr;
+}
+
+bool isCoreImage(std::span<const std::byte> bytes) {
+    const char* type = imageType(bytes);
+    return type != nullptr && (std::string_view(type) == "image/png" || std::string_view(type) == "image/jpeg");
 }
 
 std::optional<ImageSize> imageSize(std::span<const std::byte> bytes) {
-    const char* type = imageType(bytes);
-    if (type == nullptr) {
+    if (!isCoreImage(bytes)) {
         return std::nullopt;
     }
-    if (std::string_view(type) == "image/jpeg") {
+    if (std::string_view(imageType(bytes)) == "image/jpeg") {
         return jpegSize(bytes);
     }
     // Eight bytes of signature, then the chunk IHDR: length, name, width, height.

@@ -49,4 +49,14 @@ void checkIndexArray(const json& object, const char* key, const std::string& ele
 void checkNumbers(const json& object, const char* key, const std::string& element, std::optional<size_t> length);
 void checkString(const json& object, const char* key, const std::string& element);
 
+/// An array of the vector's components.
+template <class Vec>
+[[nodiscard]] json numbers(const Vec& vector) {
+    json list = json::array();
+    for (int k = 0; k < vector.length(); ++k) {
+        list.push_back(static_cast<double>(vector[k]));
+    }
+    return list;
+}
+
 } // namespace supple::cage::gltf

@@ -1,73 +1,160 @@
 #include "cage/gltf/material.h"
 
+#include "cage/gltf/texture.h"
 #include "cage/gltf/trim.h"
+#include "cage/refusal.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace supple::cage::gltf {
 namespace {
 
-using supple_tinygltf::Model;
+constexpr float kUnbounded = std::numeric_limits<float>::max();
 
-Wrap wrapOf(int value) {
-    return value == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clampToEdge
-           : value == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirroredRepeat
-                                                            : Wrap::repeat;
+struct Range {
+    float low = 0.0f;
+    float high = 1.0f;
+};
+
+float clamped(float value, Range range, const std::string& element, Warnings& warnings) {
+    const float inside = std::clamp(value, range.low, range.high);
+    if (inside != value) {
+        warn(warnings, element, shortNumber(value) + " is out of range; " + shortNumber(inside) + " taken");
+    }
+    return inside;
 }
+
+/// One material of the file.
+class MaterialReader {
+public:
+    MaterialReader(const Document& document, size_t index, Warnings& warnings)
+        : document_(document), from_(document.materials[index]), element_(at("material", index)), warnings_(warnings) {}
+
+    Material read() {
+        material_.name = stringMember(from_, "name", element_);
+        material_.doubleSided = readFlag("doubleSided");
+        readAlpha();
+        if (const json* pbr = objectMember(from_, "pbrMetallicRoughness", element_)) {
+            readColor(*pbr, "baseColorFactor", material_.baseColorFactor);
+            material_.baseColorTexture = readTexture(*pbr, "baseColorTexture");
+            material_.metallicFactor = readNumber(*pbr, "metallicFactor", 1.0f, {});
+            material_.roughnessFactor = readNumber(*pbr, "roughnessFactor", 1.0f, {});
+            material_.metallicRoughnessTexture = readTexture(*pbr, "metallicRoughnessTexture");
+        }
+        material_.normalTexture = readTexture(from_, "normalTexture");
+        if (const json* normal = member(from_, "normalTexture")) {
+            material_.normalScale = readNumber(*normal, "scale", 1.0f, {-kUnbounded, kUnbounded}, " normalTexture");
+        }
+        material_.occlusionTexture = readTexture(from_, "occlusionTexture");
+        if (const json* occlusion = member(from_, "occlusionTexture")) {
+            material_.occlusionStrength = readNumber(*occlusion, "strength", 1.0f, {}, " occlusionTexture");
+        }
+        readEmission();
+        material_.unlit = hasExtension(from_, "KHR_materials_unlit");
+        return std::move(material_);
+    }
+
+private:
+    void readAlpha() {
+        const std::string mode = stringMember(from_, "alphaMode", element_);
+        if (mode == "MASK") {
+            material_.alphaMode = AlphaMode::mask;
+        } else if (mode == "BLEND") {
+            material_.alphaMode = AlphaMode::blend;
+        } else if (!mode.empty() && mode != "OPAQUE") {
+            warn(warnings_, element_ + " alphaMode", quoted(mode) + " is unknown; opaque");
+        }
+        material_.alphaCutoff = readNumber(from_, "alphaCutoff", 0.5f, {0.0f, kUnbounded});
+    }
+
+    void readEmission() {
+        readColor(from_, "emissiveFactor", material_.emissiveFactor);
+        material_.emissiveTexture = readTexture(from_, "emissiveTexture");
+        constexpr const char* kName = "KHR_materials_emissive_strength";
+        if (!hasExtension(from_, kName)) {
+            return;
+        }
+        if (const json* extension = objectMember(from_.at("extensions"), kName, element_)) {
+            material_.emissiveStrength = readNumber(*extension, "emissiveStrength", 1.0f, {0.0f, kUnbounded});
+        }
+    }
+
+    bool readFlag(const char* key) {
+        const json* value = member(from_, key);
+        if (value != nullptr && !value->is_boolean()) {
+            refuse(within(element_, key), "not a boolean");
+        }
+        return value != nullptr && value->get<bool>();
+    }
+
+    float readNumber(const json& object, const char* key, float fallback, Range range, const char* part = "") {
+        const json* value = member(object, key);
+        if (value == nullptr) {
+            return fallback;
+        }
+        const std::string place = within(element_ + part, key);
+        if (!value->is_number() || !isFiniteFloat(*value)) {
+            refuse(place, "not a finite number");
+        }
+        return clamped(value->get<float>(), range, place, warnings_);
+    }
+
+    template <class Color>
+    void readColor(const json& object, const char* key, Color& color) {
+        checkNumbers(object, key, element_, static_cast<size_t>(Color::length()));
+        if (const json* values = member(object, key)) {
+            for (int k = 0; k < Color::length(); ++k) {
+                const auto channel = static_cast<size_t>(k);
+                color[k] =
+                    clamped((*values)[channel].get<float>(), {}, item(within(element_, key), channel), warnings_);
+            }
+        }
+    }
+
+    Texture readTexture(const json& object, const char* key) {
+        const json* info = objectMember(object, key, element_);
+        if (info == nullptr) {
+            return {};
+        }
+        const std::string place = within(element_, key);
+        Texture texture = readTextureInfo(document_, *info, place);
+        if (texture.uvSet > 1) {
+            warn(warnings_, place,
+                 "texCoord " + std::to_string(texture.uvSet) + ": only TEXCOORD_0 and TEXCOORD_1 are read; left out");
+            return {};
+        }
+        if (texture.image == kNone && texture.alternateImage == kNone) {
+            warn(warnings_, at("texture", info->at("index").get<size_t>()),
+                 "no image in a format that is read; left out");
+            return {};
+        }
+        // An image without bytes has a warning of its own.
+        const auto present = [&](uint32_t image) {
+            return image != kNone && !document_.images[image].bytes.empty() ? image : kNone;
+        };
+        const uint32_t core = present(texture.image);
+        const uint32_t extension = present(texture.alternateImage);
+        texture.image = core != kNone ? core : extension;
+        texture.alternateImage = core != kNone ? extension : kNone;
+        return texture.exists() ? texture : Texture{};
+    }
+
+    const Document& document_;
+    const json& from_;
+    const std::string element_;
+    Warnings& warnings_;
+    Material material_;
+};
 
 } // namespace
 
-WrapModes wrapModesOf(const Document& document, size_t texture) {
-    const int sampler = document.model.textures[texture].sampler;
-    if (sampler < 0) {
-        return {};
-    }
-    const auto& modes = document.model.samplers[static_cast<size_t>(sampler)];
-    return {wrapOf(modes.wrapS), wrapOf(modes.wrapT)};
-}
-
 std::vector<Material> readMaterials(const Document& document, Warnings& warnings) {
-    const Model& model = document.model;
     std::vector<Material> materials;
-    for (size_t i = 0; i < model.materials.size(); ++i) {
-        const auto& from = model.materials[i];
-        Material material;
-        material.name = from.name;
-        const auto& pbr = from.pbrMetallicRoughness;
-        for (int k = 0; k < 4; ++k) {
-            material.baseColorFactor[k] = static_cast<float>(pbr.baseColorFactor[static_cast<size_t>(k)]);
-        }
-        material.doubleSided = from.doubleSided;
-        material.alphaCutoff = static_cast<float>(from.alphaCutoff);
-        if (from.alphaMode == "MASK") {
-            material.alphaMode = AlphaMode::mask;
-        } else if (from.alphaMode == "BLEND") {
-            material.alphaMode = AlphaMode::blend;
-        } else if (!from.alphaMode.empty() && from.alphaMode != "OPAQUE") {
-            warn(warnings, at("material", i) + " alphaMode", quoted(from.alphaMode) + " is unknown; opaque");
-        }
-        if (pbr.baseColorTexture.index >= 0) {
-            const auto& texture = model.textures[static_cast<size_t>(pbr.baseColorTexture.index)];
-            const int uvSet = pbr.baseColorTexture.texCoord;
-            if (pbr.baseColorTexture.extensions.count("KHR_texture_transform") != 0) {
-                warn(warnings, at("material", i) + " baseColorTexture", "KHR_texture_transform is ignored");
-            }
-            if (uvSet != 0 && uvSet != 1) {
-                warn(warnings, at("material", i) + " baseColorTexture",
-                     "texCoord " + std::to_string(uvSet) + ": only TEXCOORD_0 and TEXCOORD_1 are read; left out");
-            } else if (texture.source < 0) {
-                warn(warnings, at("texture", static_cast<size_t>(pbr.baseColorTexture.index)),
-                     "no image in a core format; left out");
-            } else if (!document.images[static_cast<size_t>(texture.source)].bytes.empty()) {
-                material.baseColorImage = static_cast<uint32_t>(texture.source);
-                material.baseColorUvSet = static_cast<uint32_t>(uvSet);
-            }
-            const WrapModes wrap = wrapModesOf(document, static_cast<size_t>(pbr.baseColorTexture.index));
-            material.wrapU = wrap.u;
-            material.wrapV = wrap.v;
-        }
-        material.trim = readTrim(document, i, warnings);
-        materials.push_back(std::move(material));
+    for (size_t i = 0; i < document.materials.size(); ++i) {
+        materials.push_back(MaterialReader(document, i, warnings).read());
+        materials.back().trim = readTrim(document, i, warnings);
     }
     return materials;
 }

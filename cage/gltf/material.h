@@ -9,15 +9,9 @@
 
 namespace supple::cage::gltf {
 
-struct WrapModes {
-    Wrap u = Wrap::repeat;
-    Wrap v = Wrap::repeat;
-};
-/// Of a texture of the file.
-[[nodiscard]] WrapModes wrapModesOf(const Document& document, size_t texture);
-
-/// What a material has beyond cage::Material is left out, some of it with a warning. Throws Refusal for a trim that is
-/// not right.
+/// Textures that are missing or lie on a UV set that is not read are left out, numbers beyond their range are clamped,
+/// extensions that are not read are named: all with a warning. Throws Refusal for what has the wrong type, indices out
+/// of range, and a trim that is not right.
 [[nodiscard]] std::vector<Material> readMaterials(const Document& document, Warnings& warnings);
 
 } // namespace supple::cage::gltf

@@ -1,5 +1,6 @@
 #include "cage/gltf/mesh_writer.h"
 
+#include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/ngon_fans.h"
 
@@ -38,8 +39,14 @@ bool hasFaceTrim(const Material& material) {
     return material.trim && material.trim->domain == TrimDomain::face;
 }
 
-bool hasUvTrim(const Material& material) {
-    return material.trim && material.trim->domain == TrimDomain::uv;
+/// How many its textures and its trim need.
+size_t uvSetsOf(const Material& material) {
+    size_t sets = 0;
+    for (const Texture* texture : texturesOf(material)) {
+        sets = std::max(sets, texture->exists() ? size_t{texture->uvSet} + 1 : 0);
+    }
+    const bool trimmed = material.trim && material.trim->domain == TrimDomain::uv;
+    return std::max(sets, trimmed ? size_t{material.trim->texture.uvSet} + 1 : 0);
 }
 
 /// glTF counts texture coordinates from 0 without gaps, and a texture needs those it names: zeros where there are none.
@@ -52,13 +59,8 @@ CornerValues cornerValues(const Character& character, std::span<const glm::vec3>
     values.colors = cage.cornerColors;
     size_t sets = !cage.cornerUvs1.empty() ? 2 : !cage.cornerUvs.empty() ? 1 : 0;
     for (const uint32_t material : cage.faceMaterials) {
-        if (material != kNone && character.materials[material].baseColorImage != kNone) {
-            sets = std::max(sets, size_t{character.materials[material].baseColorUvSet} + 1);
-        }
-    }
-    for (const uint32_t material : cage.faceMaterials) {
-        if (material != kNone && hasUvTrim(character.materials[material])) {
-            sets = std::max(sets, size_t{character.materials[material].trim->uvSet} + 1);
+        if (material != kNone) {
+            sets = std::max(sets, uvSetsOf(character.materials[material]));
         }
     }
     for (size_t set = 0; set < sets; ++set) {

@@ -1,5 +1,6 @@
 #include "cage/gltf/resources.h"
 
+#include "cage/gltf/image_header.h"
 #include "cage/gltf/uri.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
@@ -103,13 +104,9 @@ void loadImages(const json& images, const json& views, const FileReader& readFil
                 }
             }
         }
-        if (image.mimeType.empty() && image.bytes.size() >= 4) {
-            const uint32_t magic = readU32(image.bytes, 0);
-            if (magic == 0x474E5089u) {
-                image.mimeType = "image/png";
-            } else if ((magic & 0xFFFFFFu) == 0xFFD8FFu) {
-                image.mimeType = "image/jpeg";
-            }
+        const char* type = imageType(image.bytes);
+        if (image.mimeType.empty() && type != nullptr) {
+            image.mimeType = type;
         }
         document.images.push_back(std::move(image));
     }

@@ -1,5 +1,6 @@
 #include "cage/gltf/structure.h"
 
+#include "cage/gltf/look_extensions.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 
@@ -30,7 +31,8 @@ void checkAsset(const json& root) {
     }
 }
 
-/// Extensions a file may require. (Of the two that allow restart values, lines and strips alone make use.)
+/// Extensions a file may require, besides kLookExtensions. (Of the two that allow restart values, lines and strips
+/// alone make use.)
 constexpr std::array<std::string_view, 10> kUnderstood{
     "SUPPLE_mesh_cage",           "EXT_mesh_polygon",
     "FB_ngon_encoding",           "EXT_mesh_primitive_edge_visibility",
@@ -57,7 +59,8 @@ void checkExtensions(const json& root) {
     }
     for (const json& entry : *required) {
         const std::string name = entry.get<std::string>();
-        if (std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end()) {
+        if (std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end() ||
+            std::find(kLookExtensions.begin(), kLookExtensions.end(), name) != kLookExtensions.end()) {
             continue;
         }
         if (name == "KHR_draco_mesh_compression") {
@@ -334,44 +337,6 @@ void checkAnimations(json& root) {
     }
 }
 
-void checkMaterials(const json& root) {
-    const json& materials = table(root, "materials");
-    const json& textures = table(root, "textures");
-    const json& samplers = table(root, "samplers");
-    const size_t imageCount = table(root, "images").size();
-    for (size_t i = 0; i < materials.size(); ++i) {
-        const std::string element = at("material", i);
-        checkString(materials[i], "name", element);
-        checkString(materials[i], "alphaMode", element);
-        checkNumbers(materials[i], "emissiveFactor", element, 3);
-        const json* cutoff = member(materials[i], "alphaCutoff");
-        if (cutoff != nullptr && (!cutoff->is_number() || !isFiniteFloat(*cutoff))) {
-            refuse(element + " alphaCutoff", "not a finite number");
-        }
-        const json* pbr = objectMember(materials[i], "pbrMetallicRoughness", element);
-        if (pbr == nullptr) {
-            continue;
-        }
-        checkNumbers(*pbr, "baseColorFactor", element, 4);
-        if (const json* texture = objectMember(*pbr, "baseColorTexture", element)) {
-            checkIndexMember(*texture, "index", element + " baseColorTexture", "texture", textures.size(), true);
-            if (unsignedMember(*texture, "texCoord", element + " baseColorTexture", 0) >
-                std::numeric_limits<int>::max()) {
-                refuse(element + " baseColorTexture texCoord", "out of range");
-            }
-        }
-    }
-    for (size_t i = 0; i < textures.size(); ++i) {
-        checkIndexMember(textures[i], "source", at("texture", i), "image", imageCount);
-        checkIndexMember(textures[i], "sampler", at("texture", i), "sampler", samplers.size());
-    }
-    for (size_t i = 0; i < samplers.size(); ++i) {
-        for (const char* key : {"wrapS", "wrapT"}) {
-            unsignedMember(samplers[i], key, at("sampler", i), 10497);
-        }
-    }
-}
-
 } // namespace
 
 void checkHeader(const json& root) {
@@ -385,7 +350,6 @@ void checkStructure(json& root, std::span<const std::span<const std::byte>> buff
     checkNodes(root);
     checkMeshes(root);
     checkAnimations(root);
-    checkMaterials(root);
 }
 
 } // namespace supple::cage::gltf

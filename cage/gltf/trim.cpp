@@ -2,7 +2,7 @@
 
 #include "cage/gltf/accessors.h"
 #include "cage/gltf/image_header.h"
-#include "cage/gltf/material.h"
+#include "cage/gltf/texture.h"
 #include "cage/refusal.h"
 #include "cage/trim.h"
 
@@ -13,21 +13,30 @@
 namespace supple::cage::gltf {
 namespace {
 
-/// The image behind the trim's texture: one that a host can decode.
-uint32_t imageOf(const Document& document, const json& texture, const std::string& element) {
-    const auto index = texture.at("index").get<size_t>();
-    const int source = document.model.textures[index].source;
-    if (source < 0) {
-        refuse(element, at("texture", index) + " has no image in a core format");
+/// The trim's texture, with an image that a host can decode.
+Texture textureOf(const Document& document, const json& info, TrimDomain domain, const std::string& element) {
+    Texture texture = readTextureInfo(document, info, element);
+    if (texture.uvSet > 1) {
+        refuse(element, "texCoord " + std::to_string(texture.uvSet) + ": only TEXCOORD_0 and TEXCOORD_1 are read");
     }
-    const auto image = static_cast<size_t>(source);
-    if (document.images[image].bytes.empty()) {
-        refuse(element, at("image", image) + " is missing");
+    if (texture.image == kNone) {
+        refuse(element, at("texture", info.at("index").get<size_t>()) + " has no image in a core format");
     }
-    if (imageType(document.images[image].bytes) == nullptr) {
-        refuse(element, at("image", image) + " is neither PNG nor JPEG");
+    const std::vector<std::byte>& bytes = document.images[texture.image].bytes;
+    if (bytes.empty()) {
+        refuse(element, at("image", texture.image) + " is missing");
     }
-    return static_cast<uint32_t>(image);
+    if (!isCoreImage(bytes)) {
+        refuse(element, at("image", texture.image) + " is neither PNG nor JPEG");
+    }
+    texture.alternateImage = kNone;
+    if (domain == TrimDomain::face) {
+        if (hasExtension(info, "KHR_texture_transform")) {
+            refuse(element, "KHR_texture_transform on tiles of faces");
+        }
+        texture.uvSet = 0;
+    }
+    return texture;
 }
 
 float cutoffOf(const json& trim, const std::string& element) {
@@ -101,23 +110,13 @@ std::optional<Trim> readTrim(const Document& document, size_t material, Warnings
         refuse(element, "no texture");
     }
     const std::string textureElement = element + " texture";
-    checkIndexMember(*texture, "index", textureElement, "texture", document.model.textures.size(), true);
     Trim read;
     read.domain = domainOf(*trim, element);
-    const uint64_t uvSet = unsignedMember(*texture, "texCoord", textureElement, 0);
-    if (uvSet > 1) {
-        refuse(textureElement, "texCoord " + std::to_string(uvSet) + ": only TEXCOORD_0 and TEXCOORD_1 are read");
-    }
-    read.image = imageOf(document, *texture, textureElement);
-    const WrapModes wrap = wrapModesOf(document, texture->at("index").get<size_t>());
-    read.wrapU = wrap.u;
-    read.wrapV = wrap.v;
+    read.texture = textureOf(document, *texture, read.domain, textureElement);
     read.channel = channelOf(*trim, element);
     read.cutoff = cutoffOf(*trim, element);
     if (read.domain == TrimDomain::face) {
-        read.tiles = tilesOf(document, *trim, read.image, element);
-    } else {
-        read.uvSet = static_cast<uint32_t>(uvSet);
+        read.tiles = tilesOf(document, *trim, read.texture.image, element);
     }
     return read;
 }
@@ -131,8 +130,8 @@ void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& p
     const Trim& trim = *materials[material].trim;
     const std::string whose = "the trim of " + at("material", material);
     if (trim.domain == TrimDomain::uv) {
-        if ((trim.uvSet == 0 ? part.uvs : part.uvs1).empty()) {
-            refuse(part.element, "no TEXCOORD_" + std::to_string(trim.uvSet) + ", on which " + whose + " lies");
+        if ((trim.texture.uvSet == 0 ? part.uvs : part.uvs1).empty()) {
+            refuse(part.element, "no TEXCOORD_" + std::to_string(trim.texture.uvSet) + ", on which " + whose + " lies");
         }
         return;
     }

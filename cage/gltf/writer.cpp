@@ -1,7 +1,7 @@
 #include "cage/gltf/writer.h"
 
 #include "cage/corner_normals.h"
-#include "cage/gltf/image_header.h"
+#include "cage/gltf/material_writer.h"
 #include "cage/gltf/mesh_writer.h"
 #include "cage/gltf/packer.h"
 #include "cage/message.h"
@@ -9,7 +9,6 @@
 #include "cage/refusal.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -18,7 +17,6 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <tuple>
 #include <utility>
 
 namespace supple::cage {
@@ -27,16 +25,7 @@ namespace {
 
 using Target = Packer::Target;
 
-template <class Vec>
-json numbers(const Vec& vector) {
-    json list = json::array();
-    for (int k = 0; k < vector.length(); ++k) {
-        list.push_back(static_cast<double>(vector[k]));
-    }
-    return list;
-}
-
-json numbers(const glm::mat4& matrix) {
+json matrixNumbers(const glm::mat4& matrix) {
     json list = json::array();
     for (int k = 0; k < 16; ++k) {
         list.push_back(static_cast<double>(matrix[k / 4][k % 4]));
@@ -102,7 +91,7 @@ json writeNode(const Node& from) {
         node["name"] = from.name;
     }
     if (from.hasMatrix) {
-        node["matrix"] = numbers(from.matrix);
+        node["matrix"] = matrixNumbers(from.matrix);
         return node;
     }
     if (from.translation != glm::vec3(0.0f)) {
@@ -167,136 +156,6 @@ json writeSkin(const Skin& palette, std::span<const uint32_t> joints, Packer& pa
     }
     return written;
 }
-
-class MaterialWriter {
-public:
-    MaterialWriter(const Character& character, Packer& packer, Warnings& warnings)
-        : character_(character), packer_(packer), warnings_(warnings) {}
-
-    void write(json& root) {
-        json materials = json::array();
-        for (const Material& material : character_.materials) {
-            materials.push_back(writeMaterial(material));
-        }
-        for (auto [key, list] : {std::pair("materials", &materials),
-                                 {"textures", &textures_},
-                                 {"samplers", &samplers_},
-                                 {"images", &images_}}) {
-            if (!list->empty()) {
-                root[key] = std::move(*list);
-            }
-        }
-    }
-
-private:
-    json writeMaterial(const Material& from) {
-        json material = json::object();
-        if (!from.name.empty()) {
-            material["name"] = from.name;
-        }
-        // Supple reads colors alone. glTF's own defaults are a rough metal, which few characters are made of.
-        json& surface = material["pbrMetallicRoughness"] = {{"metallicFactor", 0.0}, {"roughnessFactor", 0.6}};
-        if (from.baseColorFactor != glm::vec4(1.0f)) {
-            surface["baseColorFactor"] = numbers(glm::clamp(from.baseColorFactor, 0.0f, 1.0f));
-        }
-        const uint32_t image = from.baseColorImage != kNone ? writeImage(from.baseColorImage) : kNone;
-        if (image != kNone) {
-            surface["baseColorTexture"] = {{"index", writeTexture(image, from.wrapU, from.wrapV)}};
-            if (from.baseColorUvSet != 0) {
-                surface["baseColorTexture"]["texCoord"] = from.baseColorUvSet;
-            }
-        }
-        if (from.alphaMode == AlphaMode::mask) {
-            material["alphaMode"] = "MASK";
-            material["alphaCutoff"] = std::max(static_cast<double>(from.alphaCutoff), 0.0);
-        } else if (from.alphaMode == AlphaMode::blend) {
-            material["alphaMode"] = "BLEND";
-        }
-        if (from.doubleSided) {
-            material["doubleSided"] = true;
-        }
-        if (from.trim) {
-            writeTrim(*from.trim, material);
-        }
-        return material;
-    }
-
-    void writeTrim(const Trim& from, json& material) {
-        const uint32_t image = writeImage(from.image);
-        if (image == kNone) {
-            return;
-        }
-        constexpr std::array kChannels{"r", "g", "b", "a"};
-        json trim = {{"texture", {{"index", writeTexture(image, from.wrapU, from.wrapV)}}},
-                     {"channel", kChannels[from.channel]},
-                     {"cutoff", from.cutoff}};
-        if (from.domain == TrimDomain::face) {
-            trim["domain"] = "face";
-            trim["tiles"] = from.tiles;
-        } else {
-            trim["domain"] = "uv";
-            trim["texture"]["texCoord"] = from.uvSet;
-        }
-        material["extras"] = {{"trim", std::move(trim)}};
-    }
-
-    /// glTF's image, kNone where it cannot be one.
-    uint32_t writeImage(uint32_t index) {
-        const auto [known, isNew] = writtenImages_.try_emplace(index, kNone);
-        if (!isNew) {
-            return known->second;
-        }
-        const Image& from = character_.images[index];
-        const char* type = imageType(from.bytes);
-        if (type == nullptr) {
-            warn(warnings_, at("image", index), "is neither PNG nor JPEG; left out");
-            return kNone;
-        }
-        json image = {{"bufferView", packer_.addBytes(from.bytes)}, {"mimeType", type}};
-        if (!from.name.empty()) {
-            image["name"] = from.name;
-        }
-        known->second = static_cast<uint32_t>(images_.size());
-        images_.push_back(std::move(image));
-        return known->second;
-    }
-
-    size_t writeTexture(uint32_t image, Wrap wrapU, Wrap wrapV) {
-        const auto [known, isNew] = writtenTextures_.try_emplace({image, wrapU, wrapV}, textures_.size());
-        if (isNew) {
-            json texture = {{"source", image}};
-            const auto [sampler, isNewSampler] = writtenSamplers_.try_emplace({wrapU, wrapV}, samplers_.size());
-            if (isNewSampler) {
-                samplers_.push_back({{"wrapS", wrapValue(wrapU)}, {"wrapT", wrapValue(wrapV)}});
-            }
-            texture["sampler"] = sampler->second;
-            textures_.push_back(std::move(texture));
-        }
-        return known->second;
-    }
-
-    static int wrapValue(Wrap wrap) {
-        switch (wrap) {
-        case Wrap::clampToEdge:
-            return 33071;
-        case Wrap::mirroredRepeat:
-            return 33648;
-        case Wrap::repeat:
-            break;
-        }
-        return 10497;
-    }
-
-    const Character& character_;
-    Packer& packer_;
-    Warnings& warnings_;
-    json textures_ = json::array();
-    json samplers_ = json::array();
-    json images_ = json::array();
-    std::map<uint32_t, uint32_t> writtenImages_;
-    std::map<std::tuple<uint32_t, Wrap, Wrap>, size_t> writtenTextures_;
-    std::map<std::pair<Wrap, Wrap>, size_t> writtenSamplers_;
-};
 
 class ClipWriter {
 public:
@@ -459,7 +318,7 @@ GlbFile toGlb(const Character& character) {
     for (const std::vector<uint32_t>& joints : skins.joints) {
         root["skins"].push_back(writeSkin(character.skin, joints, packer));
     }
-    MaterialWriter(character, packer, file.warnings).write(root);
+    writeMaterials(character, packer, root, file.warnings);
     json animations = ClipWriter(character.parts, packer, file.warnings).write(character.clips);
     if (!animations.empty()) {
         root["animations"] = std::move(animations);

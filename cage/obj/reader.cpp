@@ -1,5 +1,6 @@
 #include "cage/obj/reader.h"
 
+#include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 #include "cage/single_joint.h"
@@ -298,7 +299,7 @@ private:
         const std::string name(words.tail());
         const auto [known, isNew] = materials_.try_emplace(name, static_cast<uint32_t>(out_.materials.size()));
         if (isNew) {
-            out_.materials.emplace_back().name = name;
+            out_.materials.push_back(namedMaterial(name));
         }
         material_ = known->second;
     }

@@ -8,5 +8,5 @@ layout(location = 0) out vec4 outColor;
 
 void main() {
     float coverage = lineCoverage(abs(inAcross), 0.75 * frame.pixelScale);
-    outColor = vec4(push.baseColor.rgb, push.baseColor.a * coverage);
+    outColor = vec4(push.lineColor.rgb, push.lineColor.a * coverage);
 }

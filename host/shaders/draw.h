@@ -28,8 +28,10 @@ SUPPLE_HOST_CONST kSurfaceUv1Binding = 6u;
 SUPPLE_HOST_CONST kSurfaceFaceUvBinding = 7u;
 SUPPLE_HOST_CONST kInstancesBinding = 8u;
 // Set 2, the material.
-SUPPLE_HOST_CONST kBaseColorBinding = 0u;
-SUPPLE_HOST_CONST kTrimBinding = 1u;
+SUPPLE_HOST_CONST kMaterialBinding = 0u;
+SUPPLE_HOST_CONST kBaseColorBinding = 1u;
+SUPPLE_HOST_CONST kMetallicRoughnessBinding = 2u;
+SUPPLE_HOST_CONST kTrimBinding = 3u;
 
 SUPPLE_HOST_CONST kMaxLights = 40u;
 
@@ -48,17 +50,21 @@ SUPPLE_HOST_CONST kDrawPentagon = 3u;
 SUPPLE_HOST_CONST kDrawMesh = 4u;
 
 // DrawPush::flags
-SUPPLE_HOST_CONST kDrawVertex24 = 1u;    // surface vertices of 24 bytes
-SUPPLE_HOST_CONST kDrawDoubleSided = 2u; // back faces are meant to be seen
-SUPPLE_HOST_CONST kDrawMask = 4u;        // cage: alpha below the cutoff is a hole
-SUPPLE_HOST_CONST kDrawTranslucent = 8u; // alpha is coverage
-SUPPLE_HOST_CONST kDrawAttributes = 16u; // the group has UV and color
-SUPPLE_HOST_CONST kDrawUv1 = 32u;        // the material's texture lies on the second UV set
-SUPPLE_HOST_CONST kDrawTrim = 64u;       // surface: where the trim's texture is below the cutoff is a hole
-SUPPLE_HOST_CONST kDrawTrimUv1 = 128u;   // it lies on the second UV set
-SUPPLE_HOST_CONST kDrawTrimFace = 256u;  // it is a strip of tiles, one a face
-SUPPLE_HOST_CONST kDrawTrimAlpha = 512u; // base color and vertex alpha multiply it
-SUPPLE_HOST_CONST kDrawCoverage = 1024u; // alpha becomes coverage of the pixel's samples
+SUPPLE_HOST_CONST kDrawVertex24 = 1u;   // surface vertices of 24 bytes
+SUPPLE_HOST_CONST kDrawAttributes = 2u; // the group has UV and color
+SUPPLE_HOST_CONST kDrawCoverage = 4u;   // alpha becomes coverage of the pixel's samples
+
+// MaterialUniforms::flags
+SUPPLE_HOST_CONST kMaterialDoubleSided = 1u;           // back faces are meant to be seen
+SUPPLE_HOST_CONST kMaterialMask = 2u;                  // cage: alpha below the cutoff is a hole
+SUPPLE_HOST_CONST kMaterialTranslucent = 4u;           // alpha is coverage
+SUPPLE_HOST_CONST kMaterialUv1 = 8u;                   // the base color lies on the second UV set
+SUPPLE_HOST_CONST kMaterialMetallicRoughness = 16u;    // there is such a texture
+SUPPLE_HOST_CONST kMaterialMetallicRoughnessUv1 = 32u; // it lies on the second UV set
+SUPPLE_HOST_CONST kMaterialTrim = 64u;       // surface: where the trim's texture is below the cutoff is a hole
+SUPPLE_HOST_CONST kMaterialTrimUv1 = 128u;   // it lies on the second UV set
+SUPPLE_HOST_CONST kMaterialTrimFace = 256u;  // it is a strip of tiles, one a face
+SUPPLE_HOST_CONST kMaterialTrimAlpha = 512u; // base color and vertex alpha multiply it
 
 // Which part of the rig a light belongs to; in Light::color.w.
 SUPPLE_HOST_CONST kLightKey = 0u;
@@ -95,7 +101,7 @@ struct FrameUniforms {
 };
 
 struct DrawPush {
-    vec4 baseColor;
+    vec4 lineColor;
     uint firstPatch;
     uint patchCount; // of the draw range
     uint domain;     // SuppleDomain
@@ -106,11 +112,29 @@ struct DrawPush {
     uint cageVerticesPerInstance;
     uint view;
     uint flags;
-    float alphaCutoff; // and the trim's
-    uint light;        // whose shadow map is being drawn
-    uint primitive;    // first cage corner or edge of the draw
-    uint trimChannel;
+    uint light;     // whose shadow map is being drawn
+    uint primitive; // first cage corner or edge of the draw
+};
+
+// Of a texture on texture coordinates (x, y): it is looked up at (dot(u.xyz, (x, y, 1)), dot(v.xyz, (x, y, 1))).
+struct TexturePlace {
+    vec4 u;
+    vec4 v;
+};
+
+struct MaterialUniforms {
+    vec4 baseColor;
+    TexturePlace baseColorPlace;
+    TexturePlace metallicRoughnessPlace;
+    TexturePlace trimPlace;
+    float metallic;
+    float roughness;
+    float cutoff; // the trim's, or the mask's
     float trimTiles;
+    uint flags;
+    uint trimChannel;
+    uint unused0;
+    uint unused1;
 };
 
 // One corner of a triangle of a cage face; three in a row make the triangle.
@@ -118,9 +142,11 @@ struct CageCorner {
     uint vertex;    // cage vertex
     uint faceStart; // the face's vertices in the list behind the corners' buffer: see cage_face.vert
     uint faceSides;
-    uint color; // RGBA8
-    float u;
-    float v;
+    uint color;       // RGBA8
+    float baseColorU; // texture coordinates, before the material's transforms
+    float baseColorV;
+    float metallicRoughnessU;
+    float metallicRoughnessV;
 };
 
 #ifdef __cplusplus

@@ -23,16 +23,16 @@ float lightVisibility(uint light, vec3 position) {
 
 /// GGX with Schlick's Fresnel and the Hammon approximation of the joint Smith term (PBR Diffuse Lighting for GGX+Smith
 /// Microsurfaces, GDC 2017); times n.l.
-float glossy(vec3 n, vec3 v, vec3 l, float roughness, float f0) {
+vec3 glossy(vec3 n, vec3 v, vec3 l, float roughness, vec3 f0) {
     vec3 h = normalize(v + l);
     float nh = clamp(dot(n, h), 0.0, 1.0), nl = clamp(dot(n, l), 0.0, 1.0);
     float nv = clamp(abs(dot(n, v)), 1e-3, 1.0), vh = clamp(dot(v, h), 0.0, 1.0);
     float a = roughness * roughness, a2 = a * a;
     float d = nh * nh * (a2 - 1.0) + 1.0;
     float distribution = a2 / (kPi * d * d);
-    float fresnel = f0 + (1.0 - f0) * pow(1.0 - vh, 5.0);
+    vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - vh, 5.0);
     float visibility = 0.5 / mix(2.0 * nl * nv, nl + nv, a);
-    return distribution * fresnel * visibility * nl;
+    return fresnel * (distribution * visibility * nl);
 }
 
 /// What a mirror would show: a broad soft box overhead, the horizon, the floor. Only for sheen.
@@ -79,6 +79,7 @@ float softLambert(float nl) {
 struct Material {
     vec3 albedo;
     float roughness;
+    float metallic;
 };
 
 /// Radiance towards the eye, before the tone curve. n faces the viewer's side of the surface.
@@ -88,12 +89,15 @@ vec3 studioShade(Material material, Incident light, vec3 n, vec3 v) {
     float down = 0.5 - 0.5 * n.y;
     vec3 diffuse = keyLight * softLambert(dot(n, key)) + rimLight * softLambert(dot(n, rim)) + light.sky +
                    frame.bounce.rgb * down * mix(0.35, 1.0, light.open);
-    vec3 specular = kPi * (keyLight * glossy(n, v, key, material.roughness, 0.04) +
-                           rimLight * glossy(n, v, rim, material.roughness, 0.04));
+    // A metal reflects in its color, and nothing leaves it diffusely.
+    vec3 f0 = mix(vec3(0.04), material.albedo, material.metallic);
+    float roughness = max(material.roughness, 0.1); // lamps are no points
+    vec3 specular =
+        kPi * (keyLight * glossy(n, v, key, roughness, f0) + rimLight * glossy(n, v, rim, roughness, f0));
     float nv = clamp(dot(n, v), 0.0, 1.0);
-    float fresnel = 0.04 + 0.96 * pow(1.0 - nv, 5.0) * (1.0 - 0.6 * material.roughness);
+    vec3 fresnel = f0 + (1.0 - f0) * (pow(1.0 - nv, 5.0) * (1.0 - 0.6 * roughness));
     vec3 sheen = studioReflection(reflect(-v, n)) * fresnel * mix(0.15, 1.0, light.open) * 0.9;
-    return material.albedo * diffuse + specular + sheen;
+    return material.albedo * (1.0 - material.metallic) * diffuse + specular + sheen;
 }
 
 /// A filmic curve: Narkowicz's fit of the ACES reference, which keeps blacks firm and rolls highlights off.

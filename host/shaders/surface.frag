@@ -3,14 +3,15 @@
 #include "frame.glsl"
 #include "studio.glsl"
 #include "lines.glsl"
+#include "material.glsl"
+#include "material_textures.glsl"
 #include "surface_trim.glsl"
 
 layout(set = 1, binding = kPatchClassBinding, std430) readonly buffer PatchClasses { uint patchClasses[]; };
-layout(set = 2, binding = kBaseColorBinding) uniform sampler2D baseColorTexture;
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
-layout(location = 2) in vec2 inUv;
+layout(location = 2) in vec4 inUv;
 layout(location = 3) in vec4 inColor;
 layout(location = 4) in vec3 inGrid; // see surface.vert
 layout(location = 5) flat in uint inPatch;
@@ -76,14 +77,15 @@ void main() {
     if (back)
         n = -n;
 
-    vec4 base = push.baseColor * inColor * texture(baseColorTexture, inUv);
-    float alpha = (push.flags & kDrawTranslucent) != 0u ? base.a : 1.0;
+    vec4 base = baseColorAt(inUv.xy, inColor);
+    vec2 metallicRoughness = metallicRoughnessAt(inUv.zw);
+    float alpha = materialHas(kMaterialTranslucent) ? base.a : 1.0;
     vec3 segments = fwidth(inGrid);
-    if ((push.flags & kDrawTrim) != 0u) {
+    if (materialHas(kMaterialTrim)) {
         float value = trimValue(inTrim);
         if ((push.flags & kDrawCoverage) != 0u)
-            alpha *= suppleTrimCoverage(value, push.alphaCutoff);
-        else if (suppleTrimmed(value, push.alphaCutoff))
+            alpha *= suppleTrimCoverage(value, materialData.cutoff);
+        else if (suppleTrimmed(value, materialData.cutoff))
             discard;
     }
 
@@ -93,16 +95,17 @@ void main() {
     } else if (push.view == kViewZebra) {
         color = zebra(n, v);
     } else {
-        Material material = Material(base.rgb, 0.42);
+        Material material = Material(base.rgb, metallicRoughness.y, metallicRoughness.x);
         if (push.view == kViewWire || (push.view == kViewPatches && push.domain == kDrawMesh)) {
-            material = Material(kClay, 0.55);
+            material = Material(kClay, 0.55, 0.0);
         } else if (push.view == kViewPatches) {
             float vary = patchHash(inPatch) - 0.5;
             material.albedo = fromSrgb(kClassColors[patchClasses[inPatch]] / 255.0) * (1.0 + 0.34 * vary);
             material.roughness = 0.5;
+            material.metallic = 0.0;
         }
         // The inside of a skin that is not meant to be seen: still there, but plainly inside.
-        if (back && (push.flags & kDrawDoubleSided) == 0u)
+        if (back && !materialHas(kMaterialDoubleSided))
             material.albedo *= 0.35;
         Incident light;
         if (kLightPerVertex)

@@ -3,11 +3,12 @@
 #include "frame.glsl"
 #include "studio.glsl"
 #include "surface_input.glsl"
+#include "material.glsl"
 #include "surface_attributes.glsl"
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
-layout(location = 2) out vec2 outUv;
+layout(location = 2) out vec4 outUv; // of the base color; of metallic and roughness
 layout(location = 3) out vec4 outColor;
 layout(location = 4) out vec3 outGrid; // in segments: see gridPosition
 layout(location = 5) flat out uint outPatch;
@@ -43,10 +44,12 @@ void main() {
     outNormal = surfaceNormal(word);
     outPatch = drawnPatch();
     outGrid = gridPosition(gl_VertexIndex);
-    outUv = vec2(0.0);
+    outUv = vec4(0.0);
     outColor = vec4(1.0);
     if ((push.flags & kDrawAttributes) != 0u) {
-        outUv = surfaceUv((push.flags & kDrawUv1) != 0u);
+        outUv.xy = placed(materialData.baseColorPlace, surfaceUv(materialHas(kMaterialUv1)));
+        if (materialHas(kMaterialMetallicRoughness))
+            outUv.zw = placed(materialData.metallicRoughnessPlace, surfaceUv(materialHas(kMaterialMetallicRoughnessUv1)));
         outColor = surfaceColor();
     }
     outTrim = surfaceTrim();

@@ -1,4 +1,4 @@
-// What a surface vertex has that no pose changes. See surface_input.glsl.
+// What a surface vertex has that no pose changes. See surface_input.glsl and material.glsl.
 layout(set = 1, binding = kSurfaceAttributeBinding, std430) readonly buffer Attributes { uvec4 attributes[]; };
 layout(set = 1, binding = kSurfaceUv1Binding, std430) readonly buffer Uvs1 { vec2 uvs1[]; };
 layout(set = 1, binding = kSurfaceFaceUvBinding, std430) readonly buffer FaceUvs { vec2 faceUvs[]; };
@@ -13,8 +13,9 @@ vec4 surfaceColor() {
 
 /// Where the trim is looked up (UV or face UV), and what multiplies it.
 vec3 surfaceTrim() {
-    if ((push.flags & kDrawTrim) == 0u) return vec3(0.0);
-    vec2 at = (push.flags & kDrawTrimFace) != 0u ? faceUvs[surfaceVertex()]
-                                                 : surfaceUv((push.flags & kDrawTrimUv1) != 0u);
-    return vec3(at, (push.flags & kDrawTrimAlpha) != 0u ? push.baseColor.a * surfaceColor().a : 1.0);
+    if (!materialHas(kMaterialTrim)) return vec3(0.0);
+    vec2 at = materialHas(kMaterialTrimFace)
+                  ? faceUvs[surfaceVertex()]
+                  : placed(materialData.trimPlace, surfaceUv(materialHas(kMaterialTrimUv1)));
+    return vec3(at, materialHas(kMaterialTrimAlpha) ? materialData.baseColor.a * surfaceColor().a : 1.0);
 }

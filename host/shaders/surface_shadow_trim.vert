@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
 #include "surface_input.glsl"
+#include "material.glsl"
 #include "surface_attributes.glsl"
 
 layout(location = 0) out vec3 outTrim;

@@ -3,7 +3,9 @@
 #include "cage/trim.h"
 #include "runtime/api/entry.h"
 
+#include <cstddef>
 #include <cstring>
+#include <optional>
 
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
@@ -13,7 +15,16 @@ namespace {
 static_assert(SUPPLE_WRAP_REPEAT == static_cast<int>(cage::Wrap::repeat) &&
               SUPPLE_WRAP_CLAMP == static_cast<int>(cage::Wrap::clampToEdge) &&
               SUPPLE_WRAP_MIRROR == static_cast<int>(cage::Wrap::mirroredRepeat));
+static_assert(SUPPLE_FILTER_ANY == static_cast<int>(cage::Filter::any) &&
+              SUPPLE_FILTER_LINEAR_MIPMAP_LINEAR == static_cast<int>(cage::Filter::linearMipmapLinear));
+static_assert(SUPPLE_ALPHA_OPAQUE == static_cast<int>(cage::AlphaMode::opaque) &&
+              SUPPLE_ALPHA_MASK == static_cast<int>(cage::AlphaMode::mask) &&
+              SUPPLE_ALPHA_BLEND == static_cast<int>(cage::AlphaMode::blend));
+static_assert(SUPPLE_NO_IMAGE == cage::kNone);
 static_assert(SUPPLE_MAX_TRIM_TILES == cage::kMaxTrimTiles);
+// A struct within a struct can never grow, and no field may come to lie where there was padding.
+static_assert(sizeof(SuppleTextureInfo) == 12 * sizeof(uint32_t));
+static_assert(sizeof(SuppleMaterialInfo) == offsetof(SuppleMaterialInfo, trim) + sizeof(SuppleTextureInfo));
 
 Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::string& path) {
     SuppleFileBytes found{};
@@ -49,6 +60,62 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
     }
     return cage::readCharacter({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name,
                                desc.baseDirectory != nullptr ? desc.baseDirectory : "", options);
+}
+
+SuppleTextureInfo toTextureInfo(const cage::Texture& from) {
+    SuppleTextureInfo info{};
+    info.image = from.image;
+    info.alternateImage = from.alternateImage;
+    info.uvSet = from.uvSet;
+    info.wrap[0] = static_cast<SuppleWrap>(from.wrapU);
+    info.wrap[1] = static_cast<SuppleWrap>(from.wrapV);
+    info.magFilter = static_cast<SuppleFilter>(from.magFilter);
+    info.minFilter = static_cast<SuppleFilter>(from.minFilter);
+    for (int axis = 0; axis < 2; ++axis) {
+        info.offset[axis] = from.offset[axis];
+        info.scale[axis] = from.scale[axis];
+    }
+    info.rotation = from.rotation;
+    return info;
+}
+
+void tellTrim(const cage::Material& from, SuppleMaterialInfo& info) {
+    const std::optional<cage::Trim> trim = cage::trimOf(from);
+    info.trim = toTextureInfo(trim ? trim->texture : cage::Texture{});
+    if (!trim) {
+        return;
+    }
+    info.trimDomain = trim->domain == cage::TrimDomain::face ? SUPPLE_TRIM_FACE : SUPPLE_TRIM_UV;
+    info.trimChannel = trim->channel;
+    info.trimCutoff = trim->cutoff;
+    info.trimFactor = from.trim ? 1.0f : from.baseColorFactor.a;
+    info.trimAlpha = from.trim ? 0 : 1;
+    info.trimTiles = trim->tiles;
+}
+
+void tell(const cage::Material& from, SuppleMaterialInfo& info) {
+    info.name = from.name.c_str();
+    info.alphaMode = static_cast<SuppleAlphaMode>(from.alphaMode);
+    info.alphaCutoff = from.alphaCutoff;
+    info.doubleSided = from.doubleSided ? 1 : 0;
+    info.unlit = from.unlit ? 1 : 0;
+    for (int channel = 0; channel < 4; ++channel) {
+        info.baseColorFactor[channel] = from.baseColorFactor[channel];
+    }
+    for (int channel = 0; channel < 3; ++channel) {
+        info.emissiveFactor[channel] = from.emissiveFactor[channel];
+    }
+    info.emissiveStrength = from.emissiveStrength;
+    info.metallicFactor = from.metallicFactor;
+    info.roughnessFactor = from.roughnessFactor;
+    info.normalScale = from.normalScale;
+    info.occlusionStrength = from.occlusionStrength;
+    info.baseColor = toTextureInfo(from.baseColorTexture);
+    info.metallicRoughness = toTextureInfo(from.metallicRoughnessTexture);
+    info.normal = toTextureInfo(from.normalTexture);
+    info.occlusion = toTextureInfo(from.occlusionTexture);
+    info.emissive = toTextureInfo(from.emissiveTexture);
+    tellTrim(from, info);
 }
 
 } // namespace
@@ -188,24 +255,7 @@ SuppleResult suppleGetMaterialInfo(SuppleContext handle, SuppleAsset asset, uint
     return withAsset(handle, asset, "suppleGetMaterialInfo", [&](Context& context, const Asset& found) {
         const auto& materials = found.character.materials;
         return describePart(context, "suppleGetMaterialInfo", "material", material, materials.size(), out,
-                            [&](SuppleMaterialInfo& info) {
-                                const cage::Material& from = materials[material];
-                                info.name = from.name.c_str();
-                                info.doubleSided = from.doubleSided ? 1 : 0;
-                                info.trimImage = SUPPLE_NO_IMAGE;
-                                if (const auto trim = cage::trimOf(from)) {
-                                    const bool face = trim->domain == cage::TrimDomain::face;
-                                    info.trimDomain = face ? SUPPLE_TRIM_FACE : SUPPLE_TRIM_UV;
-                                    info.trimImage = trim->image;
-                                    info.trimUvSet = trim->uvSet;
-                                    info.trimChannel = trim->channel;
-                                    info.trimCutoff = trim->cutoff;
-                                    info.trimFactor = from.trim ? 1.0f : from.baseColorFactor.a;
-                                    info.trimTiles = trim->tiles;
-                                    info.trimWrap[0] = static_cast<SuppleWrap>(trim->wrapU);
-                                    info.trimWrap[1] = static_cast<SuppleWrap>(trim->wrapV);
-                                }
-                            });
+                            [&](SuppleMaterialInfo& info) { tell(materials[material], info); });
     });
 }
 

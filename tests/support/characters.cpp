@@ -1,8 +1,11 @@
 #include "tests/support/characters.h"
 
+#include "cage/materials.h"
+
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <utility>
 
 namespace supple::cage::test {
 namespace {
@@ -147,6 +150,21 @@ void expectSameMotion(const Character& a, const Character& b) {
     }
 }
 
+/// But for the numbers of their images, which writers give anew.
+void expectSameTexture(const Character& a, const Texture& x, const Character& b, const Texture& y) {
+    Texture numbered = y;
+    numbered.image = x.image;
+    numbered.alternateImage = x.alternateImage;
+    EXPECT_TRUE(x == numbered);
+    for (const auto& [from, to] : {std::pair(x.image, y.image), {x.alternateImage, y.alternateImage}}) {
+        ASSERT_EQ(from == kNone, to == kNone);
+        if (from != kNone) {
+            EXPECT_EQ(a.images[from].name, b.images[to].name);
+            EXPECT_EQ(a.images[from].bytes, b.images[to].bytes);
+        }
+    }
+}
+
 void expectSameMaterials(const Character& a, const Character& b) {
     ASSERT_EQ(a.materials.size(), b.materials.size());
     for (size_t i = 0; i < a.materials.size(); ++i) {
@@ -155,29 +173,29 @@ void expectSameMaterials(const Character& a, const Character& b) {
         const Material& y = b.materials[i];
         EXPECT_EQ(x.name, y.name);
         EXPECT_EQ(x.baseColorFactor, y.baseColorFactor);
+        EXPECT_EQ(x.metallicFactor, y.metallicFactor);
+        EXPECT_EQ(x.roughnessFactor, y.roughnessFactor);
+        EXPECT_EQ(x.normalScale, y.normalScale);
+        EXPECT_EQ(x.occlusionStrength, y.occlusionStrength);
+        EXPECT_EQ(x.emissiveFactor, y.emissiveFactor);
+        EXPECT_EQ(x.emissiveStrength, y.emissiveStrength);
+        EXPECT_EQ(x.unlit, y.unlit);
         EXPECT_EQ(x.alphaMode, y.alphaMode);
         if (x.alphaMode == AlphaMode::mask) {
             EXPECT_EQ(x.alphaCutoff, y.alphaCutoff);
         }
         EXPECT_EQ(x.doubleSided, y.doubleSided);
+        for (size_t k = 0; k < texturesOf(x).size(); ++k) {
+            SCOPED_TRACE("texture " + std::to_string(k));
+            expectSameTexture(a, *texturesOf(x)[k], b, *texturesOf(y)[k]);
+        }
         ASSERT_EQ(x.trim.has_value(), y.trim.has_value());
         if (x.trim) {
-            Trim numbered = *y.trim; // images are numbered anew
-            EXPECT_EQ(a.images[x.trim->image].bytes, b.images[y.trim->image].bytes);
-            numbered.image = x.trim->image;
+            expectSameTexture(a, x.trim->texture, b, y.trim->texture);
+            Trim numbered = *y.trim;
+            numbered.texture = x.trim->texture;
             EXPECT_TRUE(*x.trim == numbered);
         }
-        ASSERT_EQ(x.baseColorImage == kNone, y.baseColorImage == kNone);
-        if (x.baseColorImage == kNone) {
-            continue;
-        }
-        EXPECT_EQ(x.baseColorUvSet, y.baseColorUvSet);
-        EXPECT_EQ(x.wrapU, y.wrapU);
-        EXPECT_EQ(x.wrapV, y.wrapV);
-        const Image& from = a.images[x.baseColorImage];
-        const Image& to = b.images[y.baseColorImage];
-        EXPECT_EQ(from.name, to.name);
-        EXPECT_EQ(from.bytes, to.bytes);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "tests/support/logged_context.h"
 
 #include "cage/gltf/writer.h"
+#include "cage/materials.h"
 #include "tests/support/rigged_tube.h"
 
 #include <algorithm>
@@ -93,9 +94,8 @@ const std::vector<std::byte>& tubeFile() {
             image.bytes.push_back(std::byte{b});
         }
         tube.images.push_back(image);
-        cage::Material material;
-        material.name = "skin";
-        material.baseColorImage = 0;
+        cage::Material material = cage::namedMaterial("skin");
+        material.baseColorTexture.image = 0;
         tube.materials.push_back(material);
         tube.cage.faceMaterials.assign(tube.cage.faceCount(), 0);
         const Result<cage::GlbFile> file = cage::writeGlb(tube);

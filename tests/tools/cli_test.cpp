@@ -207,15 +207,31 @@ TEST_F(Cli, InspectCountsACube) {
     EXPECT_NE(text.out.find("accepted"), std::string::npos);
 }
 
+/// A texture without a transform as inspect tells it.
+Json textureJson(uint32_t image, const char* wrap) {
+    return {{"image", image},
+            {"alternateImage", nullptr},
+            {"uvSet", 0},
+            {"wrap", Json::array({wrap, wrap})},
+            {"magFilter", "ANY"},
+            {"minFilter", "ANY"},
+            {"offset", Json::array({0.0, 0.0})},
+            {"rotation", 0.0},
+            {"scale", Json::array({1.0, 1.0})}};
+}
+
 TEST_F(Cli, InspectTellsTrims) {
     const std::string helmet = std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb";
     const Json materials = Json::parse(run("inspect " + helmet + " --json").out)["materials"];
     ASSERT_EQ(materials.size(), 3u);
     EXPECT_FALSE(materials[0].contains("trim"));
-    EXPECT_EQ(materials[1]["trim"],
-              Json({{"domain", "uv"}, {"image", 0}, {"uvSet", 0}, {"channel", "r"}, {"cutoff", 0.5}}));
-    EXPECT_EQ(materials[2]["trim"]["image"], 1);
-    EXPECT_NE(run("inspect " + helmet).out.find("visor  trimmed on UV set 0, image 1, channel r below 0.5"),
+    EXPECT_EQ(
+        materials[1]["trim"],
+        Json({{"domain", "uv"}, {"texture", textureJson(0, "CLAMP_TO_EDGE")}, {"channel", "r"}, {"cutoff", 0.5}}));
+    EXPECT_EQ(materials[2]["trim"]["texture"]["image"], 1);
+    EXPECT_NE(run("inspect " + helmet)
+                  .out.find("visor  base color 0.8 0.55 0.18 1  metallic 0  roughness 0.6  double-sided  trimmed on UV "
+                            "set 0, image 1, channel r below 0.5"),
               std::string::npos);
 
     // All faces share tile 0.
@@ -236,9 +252,14 @@ TEST_F(Cli, InspectTellsTrims) {
     writeText(file("lace.gltf"), gltf.dump());
     const Outcome lace = run("inspect lace.gltf --json");
     ASSERT_EQ(lace.exitCode, 0) << lace.err;
-    EXPECT_EQ(Json::parse(lace.out)["materials"][0]["trim"],
-              Json({{"domain", "face"}, {"image", 0}, {"tiles", 4}, {"channel", "a"}, {"cutoff", 0.25}}));
-    EXPECT_NE(run("inspect lace.gltf").out.find("lace  trimmed on faces' tiles, 4 in image 0, channel a below 0.25"),
+    EXPECT_EQ(Json::parse(lace.out)["materials"][0]["trim"], Json({{"domain", "face"},
+                                                                   {"texture", textureJson(0, "REPEAT")},
+                                                                   {"tiles", 4},
+                                                                   {"channel", "a"},
+                                                                   {"cutoff", 0.25}}));
+    EXPECT_NE(run("inspect lace.gltf")
+                  .out.find("lace  base color 1 1 1 1  metallic 1  roughness 1  trimmed on faces' tiles, 4 in image 0, "
+                            "channel a below 0.25"),
               std::string::npos);
 }
 

@@ -275,7 +275,7 @@ TEST_F(RenderTest, PositionsReadBackAreThoseOfVerticesAlone) {
     const glm::mat4 transform = glm::translate(glm::mat4(1.0f), aside);
     ASSERT_EQ(suppleSetTransform(context_->handle(), (*group)->instance(1), &transform[0][0]), SUPPLE_OK);
     evaluate(**group);
-    const std::vector<glm::vec3>& rest = (*helmet)->character().cage.positions;
+    const std::vector<glm::vec3>& rest = (*helmet)->cage().positions;
     ASSERT_GT((*group)->output().info.cageVerticesPerInstance, rest.size()) << "a cage that leaves room";
     const Result<std::vector<glm::vec3>> cage = (*group)->readCage();
     ASSERT_TRUE(cage.ok());
@@ -307,8 +307,11 @@ std::vector<uint8_t> fileBytes(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// A cube of six quads, every side with the whole of the picture on it.
-std::string texturedCube(const std::filesystem::path& directory, const Picture& picture) {
+const std::string kPainted = R"({"pbrMetallicRoughness":{"metallicFactor":0,"baseColorTexture":{"index":0}}})";
+
+/// A cube of six quads, every side with the whole of the picture on it, texture 0 of the material and the sampler.
+std::string texturedCube(const std::filesystem::path& directory, const Picture& picture, const std::string& material,
+                         const std::string& sampler) {
     const std::filesystem::path png = directory / "texture.png";
     EXPECT_TRUE(writePng(picture, png.string()).ok());
     std::vector<float> floats; // 24 positions, then 24 UVs
@@ -340,9 +343,9 @@ std::string texturedCube(const std::filesystem::path& directory, const Picture& 
         R"({"asset":{"version":"2.0"},"extensionsUsed":["FB_ngon_encoding"],"scene":0,"scenes":[{"nodes":[0]}],)"
         R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,)"
         R"("material":0,"extensions":{"FB_ngon_encoding":{}}}]}],)"
-        R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{"source":0}],)"
-        R"("images":[{"uri":"data:image/png;base64,)" +
-        base64(fileBytes(png)) +
+        R"("materials":[)" +
+        material + R"(],"textures":[{"source":0,"sampler":0}],"samplers":[)" + sampler +
+        R"(],"images":[{"uri":"data:image/png;base64,)" + base64(fileBytes(png)) +
         R"("}],"accessors":[{"bufferView":0,"componentType":5126,"count":24,"type":"VEC3","min":[-1,-1,-1],)"
         R"("max":[1,1,1]},{"bufferView":1,"componentType":5126,"count":24,"type":"VEC2"},)"
         R"({"bufferView":2,"componentType":5123,"count":36,"type":"SCALAR"}],)"
@@ -355,30 +358,127 @@ std::string texturedCube(const std::filesystem::path& directory, const Picture& 
     return file.string();
 }
 
-TEST_F(RenderTest, TexturesLieWhereTheirUvsPutThem) {
-    const std::filesystem::path directory =
-        std::filesystem::temp_directory_path() / ("supple_render_" + std::to_string(std::random_device()()));
-    std::filesystem::create_directories(directory);
-    Picture picture = Picture::blank(16, 16); // the left half red, the right half blue
-    for (uint32_t y = 0; y < 16; ++y) {
-        for (uint32_t x = 0; x < 16; ++x)
-            picture.pixel(x, y)[x < 8 ? 0 : 2] = 230;
-    }
-    Result<std::unique_ptr<Figure>> cube = openFigure(*context_, texturedCube(directory, picture));
-    std::filesystem::remove_all(directory);
-    ASSERT_TRUE(cube.ok()) << cube.error().message;
-    Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(**cube, {.rate = 8});
-    ASSERT_TRUE(group.ok()) << group.error().message;
-    evaluate(**group);
-    // On the +Z side the picture's U runs along +X.
-    Scene scene = frontScene(**group, 0.0f);
-    for (const bool cage : {false, true}) {
+/// The cube, evaluated, from its +Z side: there the picture's U runs along +X and its V down.
+class CubeTest : public RenderTest {
+protected:
+    Picture look(const Picture& picture, bool cage, const std::string& material = kPainted,
+                 const std::string& sampler = "{}") {
+        const std::filesystem::path directory =
+            std::filesystem::temp_directory_path() / ("supple_render_" + std::to_string(std::random_device()()));
+        std::filesystem::create_directories(directory);
+        Result<std::unique_ptr<Figure>> cube =
+            openFigure(*context_, texturedCube(directory, picture, material, sampler));
+        std::filesystem::remove_all(directory);
+        EXPECT_TRUE(cube.ok()) << cube.error().message;
+        Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(**cube, {.rate = 8});
+        EXPECT_TRUE(group.ok()) << group.error().message;
+        evaluate(**group);
+        Scene scene = frontScene(**group, 0.0f);
         scene.cageFaces = cage;
-        const Picture seen = draw(**group, scene);
-        const uint8_t* left = seen.pixel(kSize.width * 2 / 5, kSize.height / 2);
-        const uint8_t* right = seen.pixel(kSize.width * 3 / 5, kSize.height / 2);
-        EXPECT_GT(left[0], left[2] + 60) << "red to the left";
-        EXPECT_GT(right[2], right[0] + 60) << "blue to the right";
+        scene.camera.distance *= 1.5f; // the cage is larger
+        return draw(**group, scene);
+    }
+
+    /// The left half red, the right half blue.
+    static Picture halves() {
+        Picture picture = Picture::blank(16, 16);
+        for (uint32_t y = 0; y < 16; ++y) {
+            for (uint32_t x = 0; x < 16; ++x)
+                picture.pixel(x, y)[x < 8 ? 0 : 2] = 230;
+        }
+        return picture;
+    }
+
+    /// 'r', 'b' or '?' at a place near the middle.
+    static char colorAt(const Picture& seen, float x, float y) {
+        const uint8_t* pixel =
+            seen.pixel(static_cast<uint32_t>(x * kSize.width), static_cast<uint32_t>(y * kSize.height));
+        const int redder = int{pixel[0]} - int{pixel[2]};
+        return redder > 40 ? 'r' : redder < -40 ? 'b' : '?';
+    }
+
+    /// Of the cage's side in the middle row, at these fractions of its width.
+    static std::string colorsAlong(const Picture& seen, std::initializer_list<float> places) {
+        float left = 1.0f, right = 0.0f;
+        for (uint32_t x = 0; x < kSize.width; ++x) {
+            const float at = (static_cast<float>(x) + 0.5f) / kSize.width;
+            if (colorAt(seen, at, 0.5f) != '?') {
+                left = std::min(left, at);
+                right = std::max(right, at);
+            }
+        }
+        EXPECT_GT(right - left, 0.2f);
+        std::string colors;
+        for (const float place : places)
+            colors += colorAt(seen, left + place * (right - left), 0.5f);
+        return colors;
+    }
+
+    /// The base color with a transform.
+    static std::string transformed(const std::string& transform) {
+        return R"({"pbrMetallicRoughness":{"metallicFactor":0,"baseColorTexture":{"index":0,"extensions":)"
+               R"({"KHR_texture_transform":)" +
+               transform + "}}}}";
+    }
+};
+
+TEST_F(CubeTest, TexturesLieWhereTheirUvsPutThem) {
+    for (const bool cage : {false, true}) {
+        const Picture seen = look(halves(), cage);
+        EXPECT_EQ(colorAt(seen, 0.45f, 0.5f), 'r') << "to the left";
+        EXPECT_EQ(colorAt(seen, 0.55f, 0.5f), 'b') << "to the right";
+    }
+}
+
+TEST_F(CubeTest, TexturesAreTransformed) {
+    for (const bool cage : {false, true}) {
+        SCOPED_TRACE(cage ? "cage" : "surface");
+        const Picture mirrored = look(halves(), cage, transformed(R"({"scale":[-1,1],"offset":[1,0]})"));
+        EXPECT_EQ(colorAt(mirrored, 0.45f, 0.5f), 'b');
+        EXPECT_EQ(colorAt(mirrored, 0.55f, 0.5f), 'r');
+        // Counter-clockwise by a right angle: what was looked up to the right now is further up.
+        const Picture turned = look(halves(), cage, transformed(R"({"rotation":1.5707963267948966,"offset":[0,1]})"));
+        EXPECT_EQ(colorAt(turned, 0.5f, 0.44f), 'r') << "up";
+        EXPECT_EQ(colorAt(turned, 0.5f, 0.56f), 'b') << "down";
+    }
+}
+
+TEST_F(CubeTest, TexturesWrapAsTheirSamplersSay) {
+    const std::string twice = transformed(R"({"scale":[2,1]})");
+    const auto seen = [&](const char* wrap) {
+        const Picture picture = look(halves(), true, twice, std::string(R"({"magFilter":9728,"wrapS":)") + wrap + "}");
+        return colorsAlong(picture, {0.1f, 0.4f, 0.6f, 0.9f});
+    };
+    EXPECT_EQ(seen("10497"), "rbrb") << "repeat";
+    EXPECT_EQ(seen("33071"), "rbbb") << "clamp to edge";
+    EXPECT_EQ(seen("33648"), "rbbr") << "mirrored repeat";
+}
+
+TEST_F(CubeTest, MetalAndRoughnessAreTheTexturesTimesTheFactors) {
+    Picture picture = Picture::blank(4, 4); // roughness 1, metallic 0.5
+    for (uint32_t y = 0; y < 4; ++y) {
+        for (uint32_t x = 0; x < 4; ++x) {
+            picture.pixel(x, y)[1] = 255;
+            picture.pixel(x, y)[2] = 128;
+        }
+    }
+    const auto seen = [&](bool cage, const std::string& surface) {
+        return look(picture, cage, R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},)" + surface + "}}");
+    };
+    const auto difference = [](const Picture& a, const Picture& b) {
+        int most = 0;
+        for (size_t i = 0; i < a.rgba.size(); ++i)
+            most = std::max(most, std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
+        return most;
+    };
+    const std::string texture = R"(,"metallicRoughnessTexture":{"index":0})";
+    for (const bool cage : {false, true}) {
+        SCOPED_TRACE(cage ? "cage" : "surface");
+        const Picture half = seen(cage, R"("metallicFactor":0.5019608,"roughnessFactor":0.5)");
+        const Picture looked = seen(cage, R"("metallicFactor":1,"roughnessFactor":0.5)" + texture);
+        EXPECT_LE(difference(half, looked), 1) << "green and blue are numbers, not sRGB colors";
+        EXPECT_GT(difference(half, seen(cage, R"("metallicFactor":1,"roughnessFactor":0.5)")), 20);
+        EXPECT_GT(difference(half, seen(cage, R"("metallicFactor":0.5019608,"roughnessFactor":0.15)")), 10);
     }
 }
 

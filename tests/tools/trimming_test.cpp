@@ -1,6 +1,7 @@
 // Trimmed surfaces: the contour is where the image says, to the pixel, for every scheme and at every rate; light falls
 // through the holes; multisampling covers what the contour leaves. Drawn under the validation layer.
 #include "cage/gltf/writer.h"
+#include "cage/materials.h"
 #include "cage/single_joint.h"
 #include "host/surface_renderer.h"
 #include "tests/tools/validated_device.h"
@@ -93,10 +94,12 @@ glm::vec3 curved(glm::vec2 at) {
     return {p.x, p.y, -0.35f * glm::dot(p, p)};
 }
 
+constexpr cage::Texture kClamped{.image = 0, .wrapU = cage::Wrap::clampToEdge, .wrapV = cage::Wrap::clampToEdge};
+
 cage::Character sheet(const std::function<glm::vec3(glm::vec2)>& place) {
     cage::Character character;
     addSheet(character.cage, 0, place);
-    character.materials.resize(1);
+    character.materials = {cage::namedMaterial("")};
     cage::bindToOneJoint(character, "sheet");
     return character;
 }
@@ -105,8 +108,7 @@ cage::Character sheet(const std::function<glm::vec3(glm::vec2)>& place) {
 cage::Character trimmedSheet(const std::function<glm::vec3(glm::vec2)>& place, const Distance& contour) {
     cage::Character character = sheet(place);
     character.images = {{"trim", "image/png", imageOf({contour})}};
-    character.materials[0].trim =
-        cage::Trim{.image = 0, .wrapU = cage::Wrap::clampToEdge, .wrapV = cage::Wrap::clampToEdge};
+    character.materials[0].trim = cage::Trim{.texture = kClamped};
     return character;
 }
 
@@ -280,7 +282,7 @@ TEST_F(TrimmingTest, FacesHaveTilesInEveryScheme) {
     const std::vector<Distance> tiles = {[](glm::vec2) { return 1.0f; }, [](glm::vec2 at) { return circle(at, 0.35f); },
                                          [](glm::vec2 at) { return at.y - 0.6f; }};
     character.images = {{"strip", "image/png", imageOf(tiles)}};
-    character.materials[0].trim = cage::Trim{.domain = cage::TrimDomain::face, .image = 0, .tiles = 3};
+    character.materials[0].trim = cage::Trim{.domain = cage::TrimDomain::face, .texture = {.image = 0}, .tiles = 3};
     for (uint32_t f = 0; f < character.cage.faceCount(); ++f) {
         character.cage.faceTrimTiles.push_back(f % 4 == 3 ? cage::kNone : f % 4);
     }
@@ -310,13 +312,12 @@ TEST_F(TrimmingTest, AMaskDrawsAsTheTrim) {
     cage::Material& material = mask.materials[0];
     material.trim.reset();
     material.alphaMode = cage::AlphaMode::mask;
-    material.baseColorImage = 0;
-    material.wrapU = material.wrapV = cage::Wrap::clampToEdge;
+    material.baseColorTexture = kClamped;
     EXPECT_EQ(differentPixels(draw(trim, {}, front()), draw(mask, {}, front())), 0u);
 
     // The trim wins, whatever the mask would take away.
     mask.materials[0].trim = trim.materials[0].trim;
-    mask.materials[0].trim->image = 1;
+    mask.materials[0].trim->texture.image = 1;
     mask.materials[0].baseColorFactor.a = 0.0f;
     mask.images.push_back(trim.images[0]);
     EXPECT_EQ(differentPixels(draw(trim, {}, front()), draw(mask, {}, front())), 0u);
@@ -361,10 +362,10 @@ TEST_F(TrimmingTest, LightFallsThroughHoles) {
                  [](glm::vec2 at) { return glm::vec3(3.0f * at.x - 1.5f, 1.2f, 3.0f * at.y - 1.5f); });
         addSheet(character.cage, 1,
                  [](glm::vec2 at) { return glm::vec3(6.0f * at.x - 3.0f, 0.0f, 6.0f * at.y - 3.0f); });
-        character.materials.resize(2);
+        character.materials.assign(2, cage::namedMaterial(""));
         if (trimmed) {
             character.images = {{"trim", "image/png", imageOf({kCircle})}};
-            character.materials[0].trim = cage::Trim{.image = 0};
+            character.materials[0].trim = cage::Trim{.texture = {.image = 0}};
         }
         cage::bindToOneJoint(character, "sheets");
         return character;
@@ -484,15 +485,16 @@ TEST_F(TrimmingTest, HostsAreToldWhatTheyNeed) {
     EXPECT_STREQ(material.name, "shell");
     EXPECT_EQ(material.doubleSided, 1u);
     EXPECT_EQ(material.trimDomain, SUPPLE_TRIM_UV);
-    EXPECT_EQ(material.trimImage, 0u);
-    EXPECT_EQ(material.trimUvSet, 0u);
+    EXPECT_EQ(material.trim.image, 0u);
+    EXPECT_EQ(material.trim.uvSet, 0u);
     EXPECT_EQ(material.trimChannel, 2u);
     EXPECT_EQ(material.trimCutoff, 0.25f);
     EXPECT_EQ(material.trimFactor, 1.0f);
-    EXPECT_EQ(material.trimWrap[0], SUPPLE_WRAP_CLAMP);
+    EXPECT_EQ(material.trimAlpha, 0u);
+    EXPECT_EQ(material.trim.wrap[0], SUPPLE_WRAP_CLAMP);
     SuppleImageInfo image{};
     image.structSize = sizeof(image);
-    ASSERT_EQ(suppleGetImageInfo(context_->handle(), figure->asset(), material.trimImage, &image), SUPPLE_OK);
+    ASSERT_EQ(suppleGetImageInfo(context_->handle(), figure->asset(), material.trim.image, &image), SUPPLE_OK);
     EXPECT_STREQ(image.mimeType, "image/png");
     ASSERT_EQ(image.byteCount, character.images[0].bytes.size());
     EXPECT_EQ(std::memcmp(image.bytes, character.images[0].bytes.data(), image.byteCount), 0);

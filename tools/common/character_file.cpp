@@ -65,16 +65,24 @@ Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
 }
 
 Result<uint32_t> findClip(const cage::Character& character, const std::string& nameOrIndex) {
+    std::vector<std::string> names;
+    for (const cage::Clip& clip : character.clips) {
+        names.push_back(clip.name);
+    }
+    return findClip(character.name, names, nameOrIndex);
+}
+
+Result<uint32_t> findClip(const std::string& owner, const std::vector<std::string>& clips,
+                          const std::string& nameOrIndex) {
     if (nameOrIndex.empty()) {
         return SUPPLE_BIND_POSE;
     }
-    const std::vector<cage::Clip>& clips = character.clips;
     std::string names;
     for (uint32_t i = 0; i < clips.size(); ++i) {
-        if (clips[i].name == nameOrIndex) {
+        if (clips[i] == nameOrIndex) {
             return i;
         }
-        names += (i == 0 ? "" : ", ") + std::to_string(i) + " " + clips[i].name;
+        names += (i == 0 ? "" : ", ") + std::to_string(i) + " " + clips[i];
     }
     uint32_t index = 0;
     const char* const last = nameOrIndex.data() + nameOrIndex.size();
@@ -83,7 +91,7 @@ Result<uint32_t> findClip(const cage::Character& character, const std::string& n
         return index;
     }
     return Error{ErrorCode::argument,
-                 character.name + ": no clip \"" + nameOrIndex + "\"; it has " + (names.empty() ? "none" : names)};
+                 owner + ": no clip \"" + nameOrIndex + "\"; it has " + (names.empty() ? "none" : names)};
 }
 
 } // namespace supple::host

@@ -25,5 +25,8 @@ struct CharacterFile {
 
 /// The clip of that name, else of that index; SUPPLE_BIND_POSE for an empty text. The error lists the clips there are.
 [[nodiscard]] Result<uint32_t> findClip(const cage::Character& character, const std::string& nameOrIndex);
+/// Likewise among the clips of those names, of a character called `owner`.
+[[nodiscard]] Result<uint32_t> findClip(const std::string& owner, const std::vector<std::string>& clips,
+                                        const std::string& nameOrIndex);
 
 } // namespace supple::host

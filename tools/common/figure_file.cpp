@@ -2,17 +2,40 @@
 
 #include "tools/common/character_file.h"
 
+#include <utility>
+
 namespace supple::host {
 
+namespace {
+
+CageMesh meshOf(cage::Cage cage) {
+    static_assert(cage::kNone == SUPPLE_NO_MATERIAL);
+    return {std::move(cage.positions),
+            std::move(cage.faceStarts),
+            std::move(cage.faceVertices),
+            std::move(cage.faceMaterials),
+            {std::move(cage.cornerUvs), std::move(cage.cornerUvs1)},
+            std::move(cage.cornerColors)};
+}
+
+} // namespace
+
 Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path, bool pairQuads) {
-    // Supple keeps what it computes with; materials, pictures and the cage's faces are the host's to draw.
+    // Supple hands out no faces of the cage: to draw them, a host keeps its own.
     Result<CharacterFile> file = readCharacterFile(path, pairQuads);
     if (!file)
         return file.error();
     const Result<SuppleAsset> asset = createAsset(context, *file);
     if (!asset)
         return asset.error();
-    return Figure::create(context, *asset, std::move(file->character), path);
+    return Figure::create(context, *asset, meshOf(std::move(file->character.cage)), path);
+}
+
+Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex) {
+    std::vector<std::string> names;
+    for (const Figure::Clip& clip : figure.clips())
+        names.push_back(clip.name);
+    return findClip(figure.path(), names, nameOrIndex);
 }
 
 } // namespace supple::host

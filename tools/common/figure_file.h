@@ -9,4 +9,7 @@ namespace supple::host {
 [[nodiscard]] Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path,
                                                          bool pairQuads = false);
 
+/// As findClip() of tools/common/character_file.h.
+[[nodiscard]] Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex);
+
 } // namespace supple::host

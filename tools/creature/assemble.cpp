@@ -1,5 +1,7 @@
 #include "assemble.h"
 
+#include "cage/materials.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -126,9 +128,7 @@ cage::Character assemble(const Cage& model, const Skeleton& skeleton, const std:
     for (const Clip& clip : clips) {
         character.clips.push_back(assembleClip(clip, skeleton));
     }
-    cage::Material skin;
-    skin.name = "skin";
-    character.materials.push_back(skin);
+    character.materials.push_back(cage::namedMaterial("skin"));
     return character;
 }
 

@@ -2,6 +2,7 @@
 // the face, and a visor before it with slits and breathing holes that turns up. All holes are trims.
 
 #include "cage/gltf/writer.h"
+#include "cage/materials.h"
 #include "cage/procedural.h"
 
 #include <algorithm>
@@ -274,13 +275,14 @@ Character makeHelmet() {
     character.materials.resize(3);
     const char* names[] = {"shell", "front", "visor"};
     for (uint32_t m = 0; m < 3; ++m) {
-        character.materials[m].name = names[m];
+        character.materials[m] = namedMaterial(names[m]);
         character.materials[m].doubleSided = true;
         character.materials[m].baseColorFactor =
             m == kVisor ? glm::vec4(0.80f, 0.55f, 0.18f, 1.0f) : glm::vec4(0.10f, 0.20f, 0.34f, 1.0f);
     }
     for (const uint32_t m : {kFront, kVisor}) {
-        character.materials[m].trim = Trim{.image = m - 1, .wrapU = Wrap::clampToEdge, .wrapV = Wrap::clampToEdge};
+        character.materials[m].trim =
+            Trim{.texture = {.image = m - 1, .wrapU = Wrap::clampToEdge, .wrapV = Wrap::clampToEdge}};
     }
     return character;
 }

@@ -1,6 +1,6 @@
 #include "tools/supple/contact_sheet.h"
 
-#include "tools/common/character_file.h"
+#include "tools/common/figure_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/render_stage.h"
 #include "tools/supple/sheet_style.h"
@@ -38,13 +38,13 @@ struct Layout {
 Result<std::vector<uint32_t>> chosenClips(const host::Figure& figure, const std::vector<std::string>& names) {
     std::vector<uint32_t> clips;
     for (const std::string& name : names) {
-        const Result<uint32_t> clip = host::findClip(figure.character(), name);
+        const Result<uint32_t> clip = host::findClip(figure, name);
         if (!clip)
             return clip.error();
         clips.push_back(*clip);
     }
     if (names.empty()) {
-        for (uint32_t i = 0; i < figure.character().clips.size(); ++i)
+        for (uint32_t i = 0; i < figure.clips().size(); ++i)
             clips.push_back(i);
     }
     if (clips.empty())
@@ -53,7 +53,7 @@ Result<std::vector<uint32_t>> chosenClips(const host::Figure& figure, const std:
 }
 
 std::string clipName(const host::Figure& figure, uint32_t clip) {
-    return clip == SUPPLE_BIND_POSE ? "bind pose" : printable(figure.character().clips[clip].name);
+    return clip == SUPPLE_BIND_POSE ? "bind pose" : printable(figure.clips()[clip].name);
 }
 
 /// Times without the clip's end, which in a cycle is its beginning again.

@@ -1,12 +1,12 @@
 // supple inspect: what a character file holds, and which schemes take it. Needs no device; --compare, which evaluates
 // every scheme's surface, does.
 #include "cage/topology.h"
-#include "cage/trim.h"
 #include "surface/schemes.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/compare.h"
 #include "tools/supple/folds.h"
+#include "tools/supple/inspect_materials.h"
 #include "tools/supple/options.h"
 
 #include <CLI/CLI.hpp>
@@ -130,26 +130,6 @@ nlohmann::ordered_json toJson(const Histogram& histogram) {
     return json;
 }
 
-/// As in material.extras.trim.
-std::string channelName(uint32_t channel) {
-    return std::string(1, "rgba"[channel]);
-}
-
-nlohmann::ordered_json toJson(const cage::Trim& trim) {
-    const bool face = trim.domain == cage::TrimDomain::face;
-    nlohmann::ordered_json json;
-    json["domain"] = face ? "face" : "uv";
-    json["image"] = trim.image;
-    if (face) {
-        json["tiles"] = trim.tiles;
-    } else {
-        json["uvSet"] = trim.uvSet;
-    }
-    json["channel"] = channelName(trim.channel);
-    json["cutoff"] = trim.cutoff;
-    return json;
-}
-
 /// What is compared is written as fractions of the extent, and in asset units beside them.
 nlohmann::ordered_json toJson(const InspectOptions& options, const Comparison& comparison) {
     using Json = nlohmann::ordered_json;
@@ -219,14 +199,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     }
     json["materials"] = Json::array();
     for (const cage::Material& material : character.materials) {
-        Json entry = {{"name", material.name}};
-        if (material.baseColorImage != cage::kNone) {
-            entry["baseColorImage"] = material.baseColorImage;
-        }
-        if (const std::optional<cage::Trim> trim = cage::trimOf(material)) {
-            entry["trim"] = toJson(*trim);
-        }
-        json["materials"].push_back(std::move(entry));
+        json["materials"].push_back(toJson(material));
     }
     json["images"] = Json::array();
     for (const cage::Image& image : character.images) {
@@ -263,16 +236,6 @@ std::string toText(const Histogram& histogram) {
         text += (text.empty() ? "" : ", ") + std::to_string(value) + ": " + std::to_string(count);
     }
     return text.empty() ? "none" : text;
-}
-
-std::string toText(const cage::Trim& trim) {
-    char cutoff[32];
-    std::snprintf(cutoff, sizeof cutoff, "%.3g", static_cast<double>(trim.cutoff));
-    const std::string where = trim.domain == cage::TrimDomain::face
-                                  ? "faces' tiles, " + std::to_string(trim.tiles) + " in image "
-                                  : "UV set " + std::to_string(trim.uvSet) + ", image ";
-    return "trimmed on " + where + std::to_string(trim.image) + ", channel " + channelName(trim.channel) + " below " +
-           cutoff;
 }
 
 std::string percent(uint64_t part, uint64_t whole) {
@@ -359,8 +322,7 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     }
     printLine("materials", std::to_string(character.materials.size()));
     for (const cage::Material& material : character.materials) {
-        const std::optional<cage::Trim> trim = cage::trimOf(material);
-        printLine("", trim ? material.name + "  " + toText(*trim) : material.name);
+        printLine("", toText(material));
     }
     printLine("images", std::to_string(character.images.size()));
     for (const cage::Image& image : character.images) {

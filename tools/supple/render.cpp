@@ -1,6 +1,6 @@
 #include "tools/supple/render.h"
 
-#include "tools/common/character_file.h"
+#include "tools/common/figure_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/render_stage.h"
 #include "tools/supple/sheet_style.h"
@@ -38,7 +38,7 @@ Result<Shown> open(Session& session, const RenderOptions& options, const std::st
         return opened.error();
     shown.stage = std::move(*opened);
     Stage& stage = *shown.stage;
-    const Result<uint32_t> clip = host::findClip(stage.figure().character(), options.clip);
+    const Result<uint32_t> clip = host::findClip(stage.figure(), options.clip);
     if (!clip)
         return clip.error();
     const bool cage = scheme == "cage";

@@ -71,7 +71,7 @@ void buildFiles(const PanelState& state, PanelWishes& wishes) {
 
 void buildPlayback(ViewStage& stage) {
     ViewSettings& settings = stage.settings;
-    const std::vector<cage::Clip>& clips = stage.figure().character().clips;
+    const std::vector<host::Figure::Clip>& clips = stage.figure().clips();
     const auto clipName = [&](uint32_t clip) {
         return clip < clips.size() ? printable(clips[clip].name) : std::string("bind pose");
     };

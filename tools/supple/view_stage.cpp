@@ -47,14 +47,14 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     Result<std::unique_ptr<host::Figure>> figure = host::openFigure(context_, file, pairQuads_);
     if (!figure)
         return figure.error();
-    const Result<uint32_t> chosen = host::findClip((*figure)->character(), clip);
+    const Result<uint32_t> chosen = host::findClip(**figure, clip);
     if (!chosen)
         return chosen.error();
     Result<std::unique_ptr<host::FigureGroup>> group = createGroup(**figure, static_cast<uint32_t>(settings.rate));
     if (!group)
         return group.error();
     std::vector<ClipTime> poses;
-    const auto clipCount = static_cast<uint32_t>((*figure)->character().clips.size());
+    const auto clipCount = static_cast<uint32_t>((*figure)->clips().size());
     for (uint32_t i = 0; i < clipCount; ++i) {
         const std::vector<ClipTime> times = spreadTimes(**figure, i, kMeasuredPoses);
         poses.insert(poses.end(), times.begin(), times.end());

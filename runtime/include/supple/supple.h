@@ -391,28 +391,85 @@ typedef enum SuppleTrimDomain {
 /** What a texture lookup outside of 0..1 finds, as the address modes of Vulkan's samplers. */
 typedef enum SuppleWrap { SUPPLE_WRAP_REPEAT = 0, SUPPLE_WRAP_CLAMP = 1, SUPPLE_WRAP_MIRROR = 2 } SuppleWrap;
 
-/** Only what decides where the surface is. The host does all shading. */
+/** How texels become a value. The first word is the filter within a mip level; the second chooses between mip levels.
+ */
+typedef enum SuppleFilter {
+    SUPPLE_FILTER_ANY = 0, /**< the file leaves it to the host */
+    SUPPLE_FILTER_NEAREST = 1,
+    SUPPLE_FILTER_LINEAR = 2,
+    SUPPLE_FILTER_NEAREST_MIPMAP_NEAREST = 3,
+    SUPPLE_FILTER_LINEAR_MIPMAP_NEAREST = 4,
+    SUPPLE_FILTER_NEAREST_MIPMAP_LINEAR = 5,
+    SUPPLE_FILTER_LINEAR_MIPMAP_LINEAR = 6
+} SuppleFilter;
+
+/** A texture of a material: an image, how it is sampled, and where it lies on the surface. A surface vertex with the
+ * texture coordinates (u, v) of `uvSet` looks the image up at
+ *
+ *     offset[0] + cos(rotation) * scale[0] * u + sin(rotation) * scale[1] * v
+ *     offset[1] - sin(rotation) * scale[0] * u + cos(rotation) * scale[1] * v
+ *
+ * (0, 0) is the upper left corner of the image. This is glTF's KHR_texture_transform; without it the offset and the
+ * rotation are 0 and the scales 1. */
+typedef struct SuppleTextureInfo {
+    uint32_t image; /**< index for suppleGetImageInfo, or SUPPLE_NO_IMAGE: no texture, everything else is default.
+                     * PNG or JPEG if the file has one of these; else look at SuppleImageInfo.mimeType */
+    uint32_t alternateImage; /**< the same picture as KTX2 or WebP, or SUPPLE_NO_IMAGE */
+    uint32_t uvSet;          /**< 0 or 1: SuppleVertexStreams.attributes or uvs1 */
+    SuppleWrap wrap[2];      /**< along u and v */
+    SuppleFilter magFilter;  /**< ANY, NEAREST or LINEAR */
+    SuppleFilter minFilter;  /**< ANY leaves mip levels to the host as well */
+    float offset[2];         /**< 1 is the whole width or height of the image */
+    float rotation;          /**< radians */
+    float scale[2];          /**< of u and v, before the rotation */
+} SuppleTextureInfo;
+
+/** What alpha does: baseColorFactor[3], times the alpha of the texture, times that of the color attribute. */
+typedef enum SuppleAlphaMode {
+    SUPPLE_ALPHA_OPAQUE = 0, /**< nothing */
+    SUPPLE_ALPHA_MASK = 1,   /**< the surface exists where alpha is at least alphaCutoff; see trimDomain */
+    SUPPLE_ALPHA_BLEND = 2   /**< coverage */
+} SuppleAlphaMode;
+
+/** A material as the file describes it: the metallic-roughness model of glTF 2.0. The host does all shading.
+ *
+ * Factors are linear. A texture multiplies its factor; without a texture the factor stands alone. Images of base color
+ * and emission hold sRGB colors (their alpha is linear). All other images hold linear numbers. The color attribute
+ * (COLOR_0, SuppleVertexStreams.attributes) multiplies the base color. */
 typedef struct SuppleMaterialInfo {
     uint32_t structSize;
     const char* name; /**< lives as long as the asset */
-    uint32_t doubleSided;
-    /** The trim that the file names. If it names none, alphaMode MASK with a texture is a trim: multiply what the
-     * lookup finds by trimFactor and by the alpha of the color attribute, then compare. */
-    SuppleTrimDomain trimDomain;
-    uint32_t trimImage;   /**< index for suppleGetImageInfo, or SUPPLE_NO_IMAGE */
-    uint32_t trimUvSet;   /**< 0 or 1 */
-    uint32_t trimChannel; /**< 0..3: red, green, blue, alpha */
-    float trimCutoff;
-    float trimFactor;       /**< 1; with MASK the alpha of the base color factor */
-    uint32_t trimTiles;     /**< FACE: tiles in the image */
-    SuppleWrap trimWrap[2]; /**< along u and v */
+    SuppleAlphaMode alphaMode;
+    float alphaCutoff;                   /**< MASK */
+    uint32_t doubleSided;                /**< 1: both sides are seen, and the normal of the back is turned round */
+    uint32_t unlit;                      /**< 1: the base color is shown as it is (KHR_materials_unlit) */
+    float baseColorFactor[4];            /**< RGBA, 0..1 */
+    float metallicFactor;                /**< 0..1: 0 is a dielectric, 1 a metal */
+    float roughnessFactor;               /**< 0..1: perceptual; its square is the alpha of GGX */
+    float normalScale;                   /**< multiplies x and y of the normal that the texture gives */
+    float occlusionStrength;             /**< 0..1: ambient light is multiplied by 1 + strength * (texture - 1) */
+    float emissiveFactor[3];             /**< RGB, 0..1 */
+    float emissiveStrength;              /**< 0 and more; multiplies emissiveFactor (KHR_materials_emissive_strength) */
+    SuppleTextureInfo baseColor;         /**< RGBA, sRGB */
+    SuppleTextureInfo metallicRoughness; /**< green: roughness; blue: metallic */
+    SuppleTextureInfo normal;            /**< in tangent space: 2 * RGB - 1, +Y up in the image */
+    SuppleTextureInfo occlusion;         /**< red */
+    SuppleTextureInfo emissive;          /**< RGB, sRGB */
+    SuppleTrimDomain trimDomain;         /**< the trim that the file names; else alphaMode MASK with a texture */
+    uint32_t trimChannel;                /**< 0..3: red, green, blue, alpha */
+    float trimCutoff;                    /**< the surface stays where the value is at least this */
+    float trimFactor;   /**< multiplies the lookup before the test: 1, or the alpha of baseColorFactor */
+    uint32_t trimAlpha; /**< 1: the trim is alphaMode MASK, and the alpha of the color attribute multiplies it too */
+    uint32_t trimTiles; /**< FACE: tiles in the image */
+    SuppleTextureInfo trim; /**< linear numbers. FACE: uvSet and the transform are not used */
 } SuppleMaterialInfo;
 
 /** An image as the file holds it. The host decodes it. */
 typedef struct SuppleImageInfo {
     uint32_t structSize;
     const char* name;     /**< all pointers here live as long as the asset */
-    const char* mimeType; /**< "image/png", "image/jpeg" or empty */
+    const char* mimeType; /**< "image/png", "image/jpeg", "image/webp", "image/ktx2", whatever else the file says, or
+                           * empty if neither the file nor the first bytes tell */
     const void* bytes;    /**< null if the image is missing */
     size_t byteCount;
 } SuppleImageInfo;

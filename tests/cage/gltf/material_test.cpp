@@ -1,108 +1,273 @@
-// Materials and images of a glTF file, and the files that images and buffers lie in.
+// Materials of a glTF file: every field, glTF's defaults, what is repaired, what is refused.
+#include "cage/materials.h"
 #include "tests/cage/gltf/reading.h"
 
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
+#include <string>
 
 namespace supple::cage {
 namespace {
 
 using namespace test;
 
-TEST(GltfMaterial, Materials) {
+const std::string kImages =
+    R"("images":[{"uri":"data:image/png;base64,iVBORw0KGgo=","name":"face"},{"uri":"data:;base64,UklGRi4uLi5XRUJQ"},)"
+    R"({"uri":"data:;base64,q0tUWCAyMLs="},{"uri":"gone.png"}])";
+
+/// The quad, and the file's materials and textures besides the images above.
+GltfBuilder quadWith(const std::string& materials, const std::string& textures = "", const std::string& more = "") {
     GltfBuilder b = skinnedQuad();
-    b.meshes = replaced(b.meshes, R"("mode":4)", R"("material":0)");
-    b.more += R"(,"materials":[{"name":"skin","alphaMode":"MASK","alphaCutoff":0.25,"doubleSided":true,)"
-              R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,1,0,1],"baseColorTexture":{"index":0}}},)"
-              R"({"alphaMode":"BLEND"},{"alphaMode":"GLASS"},)"
-              R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":2}}}],)"
-              R"("textures":[{"source":1,"sampler":0},{"source":0}],"samplers":[{"wrapS":33071,"wrapT":33648}],)"
-              R"("images":[{"uri":"gone.png"},{"uri":"data:image/png;base64,iVBORw0KGgo=","name":"face"}])";
-    const Character c = readWell(b.glb());
-    ASSERT_EQ(c.materials.size(), 4u);
-    EXPECT_EQ(c.materials[0].name, "skin");
-    EXPECT_EQ(c.materials[0].baseColorFactor, glm::vec4(0.5f, 1, 0, 1));
-    EXPECT_EQ(c.materials[0].baseColorImage, 1u);
-    EXPECT_EQ(c.materials[0].wrapU, Wrap::clampToEdge);
-    EXPECT_EQ(c.materials[0].wrapV, Wrap::mirroredRepeat);
-    EXPECT_EQ(c.materials[0].alphaMode, AlphaMode::mask);
-    EXPECT_EQ(c.materials[0].alphaCutoff, 0.25f);
-    EXPECT_TRUE(c.materials[0].doubleSided);
-    EXPECT_EQ(c.materials[1].alphaMode, AlphaMode::blend);
-    EXPECT_EQ(c.materials[1].alphaCutoff, 0.5f);
-    EXPECT_EQ(c.materials[1].baseColorFactor, glm::vec4(1.0f));
-    EXPECT_EQ(c.materials[2].alphaMode, AlphaMode::opaque);
-    EXPECT_EQ(c.materials[3].baseColorImage, kNone) << "its image is missing";
-    EXPECT_EQ(c.cage.faceMaterials, (std::vector<uint32_t>{0, 0}));
-    ASSERT_EQ(c.images.size(), 2u);
-    EXPECT_TRUE(c.images[0].bytes.empty());
-    EXPECT_EQ(c.images[1].name, "face");
-    EXPECT_EQ(c.images[1].mimeType, "image/png");
-    EXPECT_EQ(c.images[1].bytes.size(), 8u);
-    EXPECT_EQ(c.warnings,
-              (Strings{"image 0 uri: \"gone.png\": external files are not allowed for an asset read from memory; "
-                       "left out",
-                       "material 2 alphaMode: \"GLASS\" is unknown; opaque",
-                       "material 3 baseColorTexture: texCoord 2: only TEXCOORD_0 and TEXCOORD_1 are read; left out"}));
+    b.more += R"(,"materials":[)" + materials + R"(],"textures":[)" + textures + "]," + kImages + more;
+    return b;
 }
 
-TEST(GltfMaterial, ImagesFromBufferViewsAndFiles) {
-    namespace fs = std::filesystem;
-    const fs::path folder = fs::path(testing::TempDir()) / ("supple_gltf_images_" + std::to_string(getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder / "textures");
-    std::ofstream(folder / "textures" / "a b.jpg", std::ios::binary) << "\xFF\xD8\xFF\xE0 not really";
-    GltfBuilder b = skinnedQuad();
-    const int view = b.addIntegers("SCALAR", 5121, {0x89, 'P', 'N', 'G', 1, 2, 3});
-    b.more += R"(,"images":[{"bufferView":)" + std::to_string(view) +
-              R"(},{"uri":"textures/a%20b.jpg"},{"uri":"../a.png"},{"uri":"textures/none.png"}])";
-    const auto bytes = b.glb();
-    std::ofstream(folder / "t.glb", std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    const Result<Character> c = readGltfFile((folder / "t.glb").string());
-    ASSERT_TRUE(c.ok()) << c.error().message;
-    ASSERT_EQ(c->images.size(), 4u);
-    EXPECT_EQ(c->images[0].bytes.size(), 7u);
-    EXPECT_EQ(c->images[0].mimeType, "image/png");
-    EXPECT_EQ(c->images[1].bytes.size(), 15u);
-    EXPECT_EQ(c->images[1].mimeType, "image/jpeg");
-    EXPECT_EQ(c->warnings, (Strings{"image 2 uri: \"../a.png\": path leaves the asset's folder; left out",
-                                    "image 3 uri: \"textures/none.png\": no such file; left out"}));
-    fs::remove_all(folder);
+Material only(const GltfBuilder& b) {
+    const Character c = readWell(b);
+    EXPECT_EQ(c.materials.size(), 1u);
+    return c.materials.empty() ? Material{} : c.materials[0];
 }
 
-// ---- files of the host ----------------------------------------------------------------------------------------------
+/// The warnings but for the one of the missing image.
+Strings warningsOf(const GltfBuilder& b) {
+    Strings warnings = readWell(b).warnings;
+    EXPECT_FALSE(warnings.empty());
+    EXPECT_EQ(warnings.front().rfind("image 3 uri", 0), 0u) << warnings.front();
+    warnings.erase(warnings.begin());
+    return warnings;
+}
 
-TEST(GltfMaterial, FilesComeFromTheHost) {
-    GltfBuilder b = skinnedQuad();
-    b.more += R"(,"images":[{"uri":"./tex/a%20b.png"},{"uri":"../up.png"},{"uri":"none.png"}])";
-    std::vector<std::string> asked;
-    GltfOptions options;
-    options.readFile = [&](const std::string& path) -> Result<std::vector<std::byte>> {
-        asked.push_back(path);
-        if (path == "none.png") {
-            return Error{ErrorCode::io, "not in this archive"};
+TEST(GltfMaterial, EveryField) {
+    const GltfBuilder b = quadWith(
+        R"({"name":"skin","alphaMode":"MASK","alphaCutoff":0.25,"doubleSided":true,"pbrMetallicRoughness":)"
+        R"({"baseColorFactor":[0.5,1,0,0.75],"baseColorTexture":{"index":0},"metallicFactor":0.125,)"
+        R"("roughnessFactor":0.375,"metallicRoughnessTexture":{"index":1,"texCoord":1}},)"
+        R"("normalTexture":{"index":2,"scale":-1.5},"occlusionTexture":{"index":3,"strength":0.625},)"
+        R"("emissiveTexture":{"index":0,"texCoord":1,"extensions":{"KHR_texture_transform":)"
+        R"({"offset":[0.5,-2],"rotation":1.5,"scale":[2,-0.25],"texCoord":0}}},"emissiveFactor":[1,0.5,0.25],)"
+        R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":12},"KHR_materials_unlit":{}}})",
+        R"({"source":0,"sampler":0},{"source":0,"sampler":1,"extensions":{"EXT_texture_webp":{"source":1}}},)"
+        R"({"extensions":{"KHR_texture_basisu":{"source":2}}},{"extensions":{"EXT_texture_webp":{"source":1}}})",
+        R"(,"samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728,"minFilter":9985},{}],"extensionsUsed":)"
+        R"(["KHR_texture_transform","KHR_materials_emissive_strength","KHR_materials_unlit"],"extensionsRequired":)"
+        R"(["KHR_texture_basisu","EXT_texture_webp","KHR_texture_transform"])");
+    EXPECT_EQ(warningsOf(b), Strings());
+    const Material m = only(b);
+    EXPECT_EQ(m.name, "skin");
+    EXPECT_EQ(m.alphaMode, AlphaMode::mask);
+    EXPECT_EQ(m.alphaCutoff, 0.25f);
+    EXPECT_TRUE(m.doubleSided);
+    EXPECT_TRUE(m.unlit);
+    EXPECT_EQ(m.baseColorFactor, glm::vec4(0.5f, 1, 0, 0.75f));
+    EXPECT_EQ(m.metallicFactor, 0.125f);
+    EXPECT_EQ(m.roughnessFactor, 0.375f);
+    EXPECT_EQ(m.normalScale, -1.5f);
+    EXPECT_EQ(m.occlusionStrength, 0.625f);
+    EXPECT_EQ(m.emissiveFactor, glm::vec3(1, 0.5f, 0.25f));
+    EXPECT_EQ(m.emissiveStrength, 12.0f);
+    Texture sampled{.image = 0,
+                    .wrapU = Wrap::clampToEdge,
+                    .wrapV = Wrap::mirroredRepeat,
+                    .magFilter = Filter::nearest,
+                    .minFilter = Filter::linearMipmapNearest};
+    EXPECT_TRUE(m.baseColorTexture == sampled);
+    EXPECT_TRUE(m.metallicRoughnessTexture == (Texture{.image = 0, .alternateImage = 1, .uvSet = 1}));
+    EXPECT_TRUE(m.normalTexture == Texture{.image = 2}) << "an image of an extension alone";
+    EXPECT_TRUE(m.occlusionTexture == Texture{.image = 1});
+    sampled.offset = {0.5f, -2.0f};
+    sampled.rotation = 1.5f;
+    sampled.scale = {2.0f, -0.25f};
+    EXPECT_TRUE(m.emissiveTexture == sampled) << "the transform's texCoord wins";
+
+    const Character c = readWell(b);
+    EXPECT_EQ(c.images[0].mimeType, "image/png");
+    EXPECT_EQ(c.images[1].mimeType, "image/webp") << "by its first bytes";
+    EXPECT_EQ(c.images[2].mimeType, "image/ktx2");
+    EXPECT_EQ(c.images[2].bytes.size(), 8u) << "still encoded";
+}
+
+TEST(GltfMaterial, DefaultsAreTheSpecifications) {
+    for (const char* material : {"{}", R"({"pbrMetallicRoughness":{}})"}) {
+        const Material m = only(quadWith(material));
+        EXPECT_EQ(m.name, "");
+        EXPECT_EQ(m.alphaMode, AlphaMode::opaque);
+        EXPECT_EQ(m.alphaCutoff, 0.5f);
+        EXPECT_FALSE(m.doubleSided);
+        EXPECT_FALSE(m.unlit);
+        EXPECT_EQ(m.baseColorFactor, glm::vec4(1.0f));
+        EXPECT_EQ(m.metallicFactor, 1.0f);
+        EXPECT_EQ(m.roughnessFactor, 1.0f);
+        EXPECT_EQ(m.normalScale, 1.0f);
+        EXPECT_EQ(m.occlusionStrength, 1.0f);
+        EXPECT_EQ(m.emissiveFactor, glm::vec3(0.0f));
+        EXPECT_EQ(m.emissiveStrength, 1.0f);
+        for (const Texture* texture : texturesOf(m)) {
+            EXPECT_TRUE(*texture == Texture{});
         }
-        return path == "quad.bin" ? b.binary() : std::vector<std::byte>(3);
-    };
-    Result<Character> c = readGltf(toBytes(b.json("quad.bin")), "t.gltf", "/nowhere", options);
-    ASSERT_TRUE(c.ok()) << c.error().message;
-    EXPECT_EQ(asked, (Strings{"quad.bin", "./tex/a b.png", "none.png"})) << "decoded, and only what may be asked for";
-    EXPECT_EQ(c->images[0].bytes.size(), 3u);
-    EXPECT_EQ(c->warnings, (Strings{"image 1 uri: \"../up.png\": path leaves the asset's folder; left out",
-                                    "image 2 uri: \"none.png\": not in this archive; left out"}));
+        EXPECT_FALSE(m.trim);
+    }
+    const Material m = only(quadWith(R"({"normalTexture":{"index":0},"occlusionTexture":{"index":0},)"
+                                     R"("extensions":{"KHR_materials_emissive_strength":{}}})",
+                                     R"({"source":0})"));
+    EXPECT_EQ(m.normalScale, 1.0f);
+    EXPECT_EQ(m.occlusionStrength, 1.0f);
+    EXPECT_EQ(m.emissiveStrength, 1.0f);
+    const Texture plain = m.normalTexture;
+    EXPECT_EQ(plain.image, 0u);
+    EXPECT_EQ(plain.alternateImage, kNone);
+    EXPECT_EQ(plain.uvSet, 0u);
+    EXPECT_EQ(plain.wrapU, Wrap::repeat);
+    EXPECT_EQ(plain.wrapV, Wrap::repeat);
+    EXPECT_EQ(plain.magFilter, Filter::any);
+    EXPECT_EQ(plain.minFilter, Filter::any);
+    EXPECT_EQ(plain.offset, glm::vec2(0.0f));
+    EXPECT_EQ(plain.rotation, 0.0f);
+    EXPECT_EQ(plain.scale, glm::vec2(1.0f));
+}
 
-    options.readFile = [](const std::string&) -> Result<std::vector<std::byte>> {
-        return Error{ErrorCode::io, "offline"};
+TEST(GltfMaterial, EveryFilterAndWrapMode) {
+    const std::pair<int, Filter> filters[] = {
+        {9728, Filter::nearest},
+        {9729, Filter::linear},
+        {9984, Filter::nearestMipmapNearest},
+        {9985, Filter::linearMipmapNearest},
+        {9986, Filter::nearestMipmapLinear},
+        {9987, Filter::linearMipmapLinear},
     };
-    c = readGltf(toBytes(b.json("quad.bin")), "t.gltf", "", options);
-    ASSERT_FALSE(c.ok());
-    EXPECT_EQ(c.error().code, ErrorCode::io);
-    EXPECT_EQ(c.error().message, "t.gltf: buffer 0 uri: \"quad.bin\": offline");
-    EXPECT_EQ(readGltf(toBytes(b.json("../quad.bin")), "t.gltf", "", options).error().message,
-              "t.gltf: buffer 0 uri: \"../quad.bin\": path leaves the asset's folder");
+    const std::string material = R"({"emissiveTexture":{"index":0}})";
+    for (const auto& [number, filter] : filters) {
+        const std::string text = std::to_string(number);
+        EXPECT_EQ(only(quadWith(material, R"({"source":0,"sampler":0})", R"(,"samplers":[{"minFilter":)" + text + "}]"))
+                      .emissiveTexture.minFilter,
+                  filter);
+    }
+    const Texture linear = only(quadWith(material, R"({"source":0,"sampler":0})",
+                                         R"(,"samplers":[{"magFilter":9729,"wrapS":33648,"wrapT":10497}])"))
+                               .emissiveTexture;
+    EXPECT_EQ(linear.magFilter, Filter::linear);
+    EXPECT_EQ(linear.wrapU, Wrap::mirroredRepeat);
+    EXPECT_EQ(linear.wrapV, Wrap::repeat);
+
+    const GltfBuilder odd = quadWith(material, R"({"source":0,"sampler":0})",
+                                     R"(,"samplers":[{"magFilter":9987,"minFilter":1,"wrapS":10498,"wrapT":0}])");
+    EXPECT_EQ(warningsOf(odd),
+              (Strings{"sampler 0 wrapS: 10498 is unknown; repeat", "sampler 0 wrapT: 0 is unknown; repeat",
+                       "sampler 0 magFilter: 9987 is unknown; left to the host",
+                       "sampler 0 minFilter: 1 is unknown; left to the host"}));
+    EXPECT_TRUE(only(odd).emissiveTexture == Texture{.image = 0});
+}
+
+TEST(GltfMaterial, WhatCannotBeUsedIsLeftOutByName) {
+    const GltfBuilder b =
+        quadWith(R"({"alphaMode":"GLASS","alphaCutoff":-1,"pbrMetallicRoughness":{"baseColorFactor":[2,-0.5,0,1],)"
+                 R"("metallicFactor":1e30,"roughnessFactor":-3,"baseColorTexture":{"index":0,"texCoord":77},)"
+                 R"("metallicRoughnessTexture":{"index":1}},"normalTexture":{"index":2},"occlusionTexture":{"index":0,)"
+                 R"("strength":1.5,"extensions":{"KHR_texture_transform":{"texCoord":2}}},"emissiveFactor":[0,0,9],)"
+                 R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":-2}}})",
+                 R"({"source":0},{},{"source":3},{"source":3,"extensions":{"EXT_texture_webp":{"source":1}}})");
+    EXPECT_EQ(warningsOf(b),
+              (Strings{"material 0 alphaMode: \"GLASS\" is unknown; opaque",
+                       "material 0 alphaCutoff: -1 is out of range; 0 taken",
+                       "material 0 baseColorFactor[0]: 2 is out of range; 1 taken",
+                       "material 0 baseColorFactor[1]: -0.5 is out of range; 0 taken",
+                       "material 0 baseColorTexture: texCoord 77: only TEXCOORD_0 and TEXCOORD_1 are read; left out",
+                       "material 0 metallicFactor: 1e+30 is out of range; 1 taken",
+                       "material 0 roughnessFactor: -3 is out of range; 0 taken",
+                       "texture 1: no image in a format that is read; left out",
+                       "material 0 occlusionTexture: texCoord 2: only TEXCOORD_0 and TEXCOORD_1 are read; left out",
+                       "material 0 occlusionTexture strength: 1.5 is out of range; 1 taken",
+                       "material 0 emissiveFactor[2]: 9 is out of range; 1 taken",
+                       "material 0 emissiveStrength: -2 is out of range; 0 taken"}));
+    const Material m = only(b);
+    EXPECT_EQ(m.alphaMode, AlphaMode::opaque);
+    EXPECT_EQ(m.baseColorFactor, glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(m.metallicFactor, 1.0f);
+    EXPECT_EQ(m.emissiveStrength, 0.0f);
+    for (const Texture* texture : texturesOf(m)) {
+        EXPECT_TRUE(*texture == Texture{}) << "the missing image has a warning of its own";
+    }
+    // Of two images for one texture the other one stands in.
+    const Material replaced = only(
+        quadWith(R"({"normalTexture":{"index":0}})", R"({"source":3,"extensions":{"EXT_texture_webp":{"source":1}}})"));
+    EXPECT_TRUE(replaced.normalTexture == Texture{.image = 1});
+}
+
+TEST(GltfMaterial, UnreadExtensionsAreNamedOnceAKind) {
+    GltfBuilder b =
+        quadWith(R"({"extensions":{"KHR_materials_clearcoat":{},"KHR_materials_ior":{"ior":1.4}}},)"
+                 R"({"extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":{"index":99}}},)"
+                 R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"ACME_noise":{}}}}},)"
+                 R"({"extensions":{"KHR_materials_clearcoat":7}})",
+                 R"({"source":0,"extensions":{"EXT_texture_avif":{"source":0}}})",
+                 R"(,"extensionsUsed":["KHR_materials_clearcoat","KHR_materials_sheen"])");
+    b.meshes = replaced(b.meshes, R"("mode":4)", R"("extensions":{"KHR_materials_variants":{}})");
+    EXPECT_EQ(warningsOf(b),
+              (Strings{"material 1 baseColorTexture: ACME_noise is not read", "texture 0: EXT_texture_avif is not read",
+                       "material 0: KHR_materials_clearcoat is not read, here and in 2 other places",
+                       "material 0: KHR_materials_ior is not read", "mesh 0: KHR_materials_variants is not read"}))
+        << "what is declared and not there is nothing to name";
+    EXPECT_EQ(messageOf(quadWith("", "", R"(,"extensionsRequired":["KHR_materials_clearcoat"])")),
+              "t.glb: extensionsRequired: KHR_materials_clearcoat is not supported");
+}
+
+TEST(GltfMaterial, Refusals) {
+    const auto material = [](const std::string& text) { return messageOf(quadWith("{" + text + "}", "{}")); };
+    const auto pbr = [&](const std::string& text) { return material(R"("pbrMetallicRoughness":{)" + text + "}"); };
+    const auto transform = [&](const std::string& text) {
+        return material(R"("normalTexture":{"index":0,"extensions":{"KHR_texture_transform":)" + text + "}}");
+    };
+    EXPECT_EQ(material(R"("name":7)"), "t.glb: material 0 name: not a string");
+    EXPECT_EQ(material(R"("alphaMode":1)"), "t.glb: material 0 alphaMode: not a string");
+    EXPECT_EQ(material(R"("alphaCutoff":"x")"), "t.glb: material 0 alphaCutoff: not a finite number");
+    EXPECT_EQ(material(R"("doubleSided":1)"), "t.glb: material 0 doubleSided: not a boolean");
+    EXPECT_EQ(material(R"("emissiveFactor":[1,1])"), "t.glb: material 0 emissiveFactor: 2 numbers instead of 3");
+    EXPECT_EQ(material(R"("emissiveFactor":[1,1,"1"])"), "t.glb: material 0 emissiveFactor: not all numbers");
+    EXPECT_EQ(material(R"("pbrMetallicRoughness":[])"), "t.glb: material 0 pbrMetallicRoughness: not an object");
+    EXPECT_EQ(pbr(R"("baseColorFactor":[1,1,1])"), "t.glb: material 0 baseColorFactor: 3 numbers instead of 4");
+    EXPECT_EQ(pbr(R"("baseColorFactor":[1,1,1,1e300])"), "t.glb: material 0 baseColorFactor: not finite");
+    EXPECT_EQ(pbr(R"("metallicFactor":1e300)"), "t.glb: material 0 metallicFactor: not a finite number");
+    EXPECT_EQ(pbr(R"("roughnessFactor":[1])"), "t.glb: material 0 roughnessFactor: not a finite number");
+    EXPECT_EQ(pbr(R"("baseColorTexture":4)"), "t.glb: material 0 baseColorTexture: not an object");
+    EXPECT_EQ(pbr(R"("metallicRoughnessTexture":{})"), "t.glb: material 0 metallicRoughnessTexture: index is missing");
+    EXPECT_EQ(material(R"("normalTexture":{"index":1})"),
+              "t.glb: material 0 normalTexture index: texture 1 is out of range: the file has 1");
+    EXPECT_EQ(material(R"("normalTexture":{"index":0,"scale":true})"),
+              "t.glb: material 0 normalTexture scale: not a finite number");
+    EXPECT_EQ(material(R"("occlusionTexture":{"index":0,"texCoord":-1})"),
+              "t.glb: material 0 occlusionTexture texCoord: -1 is negative");
+    EXPECT_EQ(material(R"("emissiveTexture":{"index":0,"texCoord":0.5})"),
+              "t.glb: material 0 emissiveTexture texCoord: not an integer");
+    EXPECT_EQ(material(R"("extensions":{"KHR_materials_emissive_strength":3})"),
+              "t.glb: material 0 KHR_materials_emissive_strength: not an object");
+    EXPECT_EQ(transform("[]"), "t.glb: material 0 normalTexture KHR_texture_transform: not an object");
+    EXPECT_EQ(transform(R"({"offset":[1]})"),
+              "t.glb: material 0 normalTexture KHR_texture_transform offset: 1 numbers instead of 2");
+    EXPECT_EQ(transform(R"({"scale":[1,-1e39]})"),
+              "t.glb: material 0 normalTexture KHR_texture_transform scale: not finite");
+    EXPECT_EQ(transform(R"({"rotation":"a"})"),
+              "t.glb: material 0 normalTexture KHR_texture_transform rotation: not a finite number");
+    EXPECT_EQ(transform(R"({"texCoord":"a"})"),
+              "t.glb: material 0 normalTexture KHR_texture_transform texCoord: not an integer");
+    // JSON has no infinity; a number that is none any more is no JSON.
+    EXPECT_EQ(pbr(R"("metallicFactor":1e999)").rfind("t.glb: JSON: number overflow", 0), 0u)
+        << pbr(R"("metallicFactor":1e999)");
+}
+
+TEST(GltfMaterial, RefusalsOfTextures) {
+    const auto texture = [](const std::string& text, const std::string& more = "") {
+        return messageOf(quadWith("", text, more));
+    };
+    EXPECT_EQ(texture(R"({"source":4})"), "t.glb: texture 0 source: image 4 is out of range: the file has 4");
+    EXPECT_EQ(texture(R"({"sampler":0})"), "t.glb: texture 0 sampler: sampler 0 is out of range: the file has 0");
+    EXPECT_EQ(texture(R"({"extensions":{"EXT_texture_webp":{"source":9}}})"),
+              "t.glb: texture 0 EXT_texture_webp source: image 9 is out of range: the file has 4");
+    EXPECT_EQ(texture(R"({"extensions":{"KHR_texture_basisu":1}})"),
+              "t.glb: texture 0 KHR_texture_basisu: not an object");
+    EXPECT_EQ(texture("3"), "t.glb: textures 0: not an object");
+    EXPECT_EQ(texture("{}", R"(,"samplers":[{"wrapS":"x"}])"), "t.glb: sampler 0 wrapS: not an integer");
+    EXPECT_EQ(texture("{}", R"(,"samplers":[{"minFilter":-1}])"), "t.glb: sampler 0 minFilter: -1 is negative");
+    GltfBuilder view = skinnedQuad();
+    view.more += R"(,"images":[{"bufferView":9}])";
+    EXPECT_EQ(messageOf(view), "t.glb: image 0 bufferView: bufferView 9 is out of range: the file has 9");
 }
 
 } // namespace

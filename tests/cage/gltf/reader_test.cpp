@@ -284,9 +284,8 @@ TEST(GltfReader, TwoUvSets) {
     ASSERT_EQ(c.cage.cornerUvs1.size(), 6u);
     EXPECT_EQ(c.cage.cornerUvs1[1], glm::vec2(1, 0));
     EXPECT_EQ(c.cage.cornerUvs1[4], glm::vec2(1, 1));
-    EXPECT_EQ(c.materials[0].baseColorUvSet, 1u);
-    EXPECT_EQ(c.warnings, (Strings{"material 0 baseColorTexture: KHR_texture_transform is ignored",
-                                   "mesh 0 primitive 0: only TEXCOORD_0 and TEXCOORD_1 are read"}));
+    EXPECT_EQ(c.materials[0].baseColorTexture.uvSet, 1u);
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0 primitive 0: only TEXCOORD_0 and TEXCOORD_1 are read"}));
 }
 
 } // namespace

@@ -529,29 +529,5 @@ TEST(GltfRefusals, Animations) {
     EXPECT_EQ(withFloat(kTranslations, 8, kNan), "t.glb: animation 0 channel 1 output[2]: not finite");
 }
 
-TEST(GltfRefusals, Materials) {
-    const auto with = [](const std::string& more) {
-        GltfBuilder b = skinnedQuad();
-        b.more += more;
-        return messageOf(b.glb());
-    };
-    EXPECT_EQ(with(R"(,"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1]}}])"),
-              "t.glb: material 0 baseColorFactor: 3 numbers instead of 4");
-    EXPECT_EQ(with(R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])"),
-              "t.glb: material 0 baseColorTexture index: texture 0 is out of range: the file has 0");
-    EXPECT_EQ(with(R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{}}}])"),
-              "t.glb: material 0 baseColorTexture: index is missing");
-    EXPECT_EQ(with(R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":4294967296}}}],)"
-                   R"("textures":[{}])"),
-              "t.glb: material 0 baseColorTexture texCoord: out of range");
-    EXPECT_EQ(with(R"(,"textures":[{"source":0}])"),
-              "t.glb: texture 0 source: image 0 is out of range: the file has 0");
-    EXPECT_EQ(with(R"(,"textures":[{"sampler":0}])"),
-              "t.glb: texture 0 sampler: sampler 0 is out of range: the file has 0");
-    EXPECT_EQ(with(R"(,"images":[{"bufferView":9}])"),
-              "t.glb: image 0 bufferView: bufferView 9 is out of range: the file has 9");
-    EXPECT_EQ(with(R"(,"materials":[{"alphaCutoff":"x"}])"), "t.glb: material 0 alphaCutoff: not a finite number");
-}
-
 } // namespace
 } // namespace supple::cage

@@ -60,12 +60,22 @@ TEST(GltfTrim, IsReadFromExtras) {
         readWell(trimmed(R"({"texture":{"index":0,"texCoord":1},"channel":"g","cutoff":0.25})", R"(,"TEXCOORD_1":8)"));
     ASSERT_EQ(c.materials.size(), 1u);
     ASSERT_TRUE(c.materials[0].trim);
-    EXPECT_TRUE(*c.materials[0].trim ==
-                (Trim{TrimDomain::uv, 0, 1, 1, 0.25f, 0, Wrap::clampToEdge, Wrap::mirroredRepeat}));
+    const Texture sampled{.image = 0, .uvSet = 1, .wrapU = Wrap::clampToEdge, .wrapV = Wrap::mirroredRepeat};
+    EXPECT_TRUE(*c.materials[0].trim == (Trim{.texture = sampled, .channel = 1, .cutoff = 0.25f}));
     EXPECT_TRUE(c.cage.faceTrimTiles.empty());
 
     const Character plain = readWell(trimmed(R"({"texture":{"index":5}})"));
-    EXPECT_TRUE(*plain.materials[0].trim == (Trim{TrimDomain::uv, 4, 0, 0, 0.5f, 0, Wrap::repeat, Wrap::repeat}));
+    EXPECT_TRUE(*plain.materials[0].trim == (Trim{.texture = {.image = 4}}));
+}
+
+TEST(GltfTrim, MayBeTransformed) {
+    const std::string transform =
+        R"("extensions":{"KHR_texture_transform":{"offset":[0.5,0],"rotation":1.5,"scale":[2,3],"texCoord":1}})";
+    const Character c = readWell(trimmed(R"({"texture":{"index":5,)" + transform + R"(}})", R"(,"TEXCOORD_1":8)"));
+    const Texture placed{.image = 4, .uvSet = 1, .offset = {0.5f, 0.0f}, .rotation = 1.5f, .scale = {2.0f, 3.0f}};
+    EXPECT_TRUE(c.materials[0].trim->texture == placed);
+    EXPECT_EQ(messageOf(tiled(R"({"domain":"face","texture":{"index":0,)" + transform + R"(}})", {0, 0, 0, 0})),
+              "t.glb: material 0 extras.trim texture: KHR_texture_transform on tiles of faces");
 }
 
 TEST(GltfTrim, WinsOverTheMask) {
@@ -74,19 +84,19 @@ TEST(GltfTrim, WinsOverTheMask) {
     const Material both = readWell(trimmed(R"({"texture":{"index":0},"channel":"a"})", "", mask)).materials[0];
     EXPECT_EQ(both.alphaMode, AlphaMode::mask);
     ASSERT_TRUE(trimOf(both));
-    EXPECT_EQ(trimOf(both)->image, 0u);
+    EXPECT_EQ(trimOf(both)->texture.image, 0u);
     EXPECT_EQ(trimOf(both)->cutoff, 0.5f);
 
     const Material alone = readWell(trimmed("null", R"(,"TEXCOORD_1":8)", mask)).materials[0];
     EXPECT_FALSE(alone.trim);
     ASSERT_TRUE(trimOf(alone));
-    EXPECT_TRUE(*trimOf(alone) == (Trim{TrimDomain::uv, 4, 1, 3, 0.75f, 0, Wrap::repeat, Wrap::repeat}));
+    EXPECT_TRUE(*trimOf(alone) == (Trim{.texture = {.image = 4, .uvSet = 1}, .channel = 3, .cutoff = 0.75f}));
 
     Material opaque = alone;
     opaque.alphaMode = AlphaMode::opaque;
     EXPECT_FALSE(trimOf(opaque));
     Material untextured = alone;
-    untextured.baseColorImage = kNone;
+    untextured.baseColorTexture = {};
     EXPECT_FALSE(trimOf(untextured)) << "nothing to look up: the alpha is one number";
 }
 

@@ -185,19 +185,41 @@ Character richCharacter() {
 
     c.materials.resize(2);
     c.materials[0].name = "painted";
-    c.materials[0].baseColorImage = 1;
-    c.materials[0].baseColorUvSet = 1;
-    c.materials[0].wrapU = Wrap::clampToEdge;
-    c.materials[0].wrapV = Wrap::mirroredRepeat;
+    c.materials[0].baseColorTexture = {.image = 1,
+                                       .uvSet = 1,
+                                       .wrapU = Wrap::clampToEdge,
+                                       .wrapV = Wrap::mirroredRepeat,
+                                       .magFilter = Filter::nearest,
+                                       .minFilter = Filter::linearMipmapNearest,
+                                       .offset = {0.25f, -1.0f},
+                                       .rotation = 0.5f,
+                                       .scale = {2.0f, 0.75f}};
+    c.materials[0].metallicRoughnessTexture = {.image = 1, .alternateImage = 2, .minFilter = Filter::linear};
+    c.materials[0].metallicFactor = 0.25f;
+    c.materials[0].roughnessFactor = 0.75f;
+    c.materials[0].normalTexture = {.image = 3, .offset = {0.5f, 0.0f}};
+    c.materials[0].normalScale = -2.0f;
+    c.materials[0].occlusionTexture = {.image = 1};
+    c.materials[0].occlusionStrength = 0.5f;
+    c.materials[0].emissiveTexture = {.image = 2};
+    c.materials[0].emissiveFactor = {1.0f, 0.5f, 0.25f};
+    c.materials[0].emissiveStrength = 8.0f;
+    c.materials[1].unlit = true;
     c.materials[0].alphaMode = AlphaMode::mask;
     c.materials[0].alphaCutoff = 0.25f;
     c.materials[0].doubleSided = true;
     c.materials[1].baseColorFactor = {0.1f, 0.2f, 0.3f, 0.4f};
     c.materials[1].alphaMode = AlphaMode::blend;
-    c.materials[0].trim = {TrimDomain::uv, 1, 1, 2, 0.375f, 0, Wrap::clampToEdge, Wrap::repeat};
-    c.materials[1].trim = {TrimDomain::face, 1, 0, 3, 0.25f, 5, Wrap::repeat, Wrap::repeat};
+    c.materials[0].trim = {.texture = {.image = 1, .uvSet = 1, .wrapU = Wrap::clampToEdge, .scale = {3.0f, 3.0f}},
+                           .channel = 2,
+                           .cutoff = 0.375f};
+    c.materials[1].trim = {
+        .domain = TrimDomain::face, .texture = {.image = 1}, .channel = 3, .cutoff = 0.25f, .tiles = 5};
     cage.faceTrimTiles = {kNone, kNone, 4, kNone, kNone};
-    c.images = {{"unused", "image/png", onePixelPng()}, {"pixel", "image/png", onePixelPng()}};
+    c.images = {{"unused", "image/png", onePixelPng()},
+                {"pixel", "image/png", onePixelPng()},
+                {"small", "image/webp", toBytes("RIFF....WEBP")},
+                {"compressed", "image/ktx2", toBytes("\xABKTX 20\xBB")}};
     return c;
 }
 
@@ -209,14 +231,17 @@ TEST(GltfWriter, EverythingComesBack) {
     EXPECT_EQ(again.parts[0].polygonSource, PolygonSource::cageExtension);
     EXPECT_EQ(again.parts[0].weldSource, WeldSource::cageExtension);
     expectSame(character, again);
-    EXPECT_EQ(again.images.size(), 1u) << "what no material uses is left out";
+    EXPECT_EQ(again.images.size(), 3u) << "what no material uses is left out";
     EXPECT_TRUE(writeWell(again) == bytes) << "a file that was written is written again byte by byte";
 }
 
 TEST(GltfWriter, TheExtensionByHand) {
     const Glb glb(writeWell(richCharacter()));
-    EXPECT_EQ(glb.root["extensionsUsed"], json({"FB_ngon_encoding", "SUPPLE_mesh_cage"}));
-    EXPECT_FALSE(glb.root.contains("extensionsRequired"));
+    EXPECT_EQ(glb.root["extensionsUsed"],
+              json({"FB_ngon_encoding", "SUPPLE_mesh_cage", "EXT_texture_webp", "KHR_materials_emissive_strength",
+                    "KHR_materials_unlit", "KHR_texture_basisu", "KHR_texture_transform"}));
+    EXPECT_EQ(glb.root["extensionsRequired"], json({"EXT_texture_webp", "KHR_texture_basisu"}))
+        << "textures with nothing but these";
     ASSERT_EQ(glb.root["meshes"][0]["primitives"].size(), 3u);
     EXPECT_EQ(glb.primitive(0)["material"], 0);
     EXPECT_EQ(glb.primitive(1)["material"], 1);
@@ -300,15 +325,14 @@ TEST(GltfWriter, MaterialsMayAlternate) {
 TEST(GltfWriter, TexturesGetTheCoordinatesTheyName) {
     Character character = readObjWell("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl m\nf 1 2 3 4\n");
     character.images = {{"", "", onePixelPng()}};
-    character.materials[0].baseColorImage = 0;
-    character.materials[0].baseColorUvSet = 1;
+    character.materials[0].baseColorTexture = {.image = 0, .uvSet = 1};
     const Glb glb(writeWell(character));
     EXPECT_EQ(glb.floats(glb.primitive(0)["attributes"]["TEXCOORD_0"]), std::vector<float>(8, 0.0f));
     EXPECT_EQ(glb.floats(glb.primitive(0)["attributes"]["TEXCOORD_1"]), std::vector<float>(8, 0.0f));
     EXPECT_EQ(glb.root["images"][0]["mimeType"], "image/png");
 
-    character.images[0].bytes = toBytes("RIFF....WEBP");
-    const Glb without(writeWell(character, {"image 0: is neither PNG nor JPEG; left out"}));
+    character.images[0].bytes = toBytes("GIF89a");
+    const Glb without(writeWell(character, {"image 0: is neither PNG, JPEG, WebP nor KTX2; left out"}));
     EXPECT_FALSE(without.root.contains("images"));
     EXPECT_FALSE(without.root.contains("textures"));
 }

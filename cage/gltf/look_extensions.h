@@ -1,0 +1,21 @@
+// Extensions of a glTF file that change how a surface looks. Private to cage/gltf/.
+#pragma once
+
+#include "cage/gltf/json.h"
+#include "cage/message.h"
+
+#include <array>
+#include <string_view>
+
+namespace supple::cage::gltf {
+
+/// Those that the reader looks into.
+inline constexpr std::array<std::string_view, 5> kLookExtensions{
+    "KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_materials_unlit", "EXT_texture_webp",
+    "KHR_texture_basisu"};
+
+/// Names every other one that a material, a textureInfo, a texture or a sampler has, and KHR_materials_variants: each
+/// once, where it is met first. The document must be checked.
+void nameUnreadLook(const json& root, Warnings& warnings);
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,15 @@
+// Writes a character's materials into a glTF document. Private to cage/gltf/.
+#pragma once
+
+#include "cage/character.h"
+#include "cage/gltf/json.h"
+#include "cage/gltf/packer.h"
+#include "cage/message.h"
+
+namespace supple::cage::gltf {
+
+/// Adds materials, textures, samplers and the images that these use, and names the extensions among those used. Images
+/// in no format that glTF knows are left out, with a warning.
+void writeMaterials(const Character& character, Packer& packer, json& root, Warnings& warnings);
+
+} // namespace supple::cage::gltf

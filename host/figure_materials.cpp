@@ -1,0 +1,136 @@
+#include "host/figure_materials.h"
+
+#include <cmath>
+#include <cstdio>
+#include <span>
+
+namespace supple::host {
+
+namespace {
+
+float linearFromSrgb(float x) {
+    return x < 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+}
+
+/// In linear light, from every few pixels.
+glm::vec3 averageColorOf(const Picture& picture) {
+    glm::vec3 sum(0.0f);
+    float count = 0.0f;
+    const size_t pixels = picture.rgba.size() / 4;
+    const size_t step = std::max<size_t>(pixels / 4096, 1);
+    for (size_t i = 0; i < pixels; i += step) {
+        for (int channel = 0; channel < 3; ++channel)
+            sum[channel] +=
+                linearFromSrgb(static_cast<float>(picture.rgba[i * 4 + static_cast<size_t>(channel)]) / 255.0f);
+        count += 1.0f;
+    }
+    return sum / std::max(count, 1.0f);
+}
+
+/// What the tools paint faces with that have no material.
+SuppleMaterialInfo whiteClay() {
+    SuppleMaterialInfo info{};
+    info.structSize = sizeof info;
+    info.name = "";
+    std::fill(std::begin(info.baseColorFactor), std::end(info.baseColorFactor), 1.0f);
+    info.roughnessFactor = 0.42f;
+    for (SuppleTextureInfo* texture : {&info.baseColor, &info.metallicRoughness, &info.trim}) {
+        texture->image = SUPPLE_NO_IMAGE;
+        texture->scale[0] = texture->scale[1] = 1.0f;
+    }
+    return info;
+}
+
+} // namespace
+
+Status FigureMaterials::load(Context& context, SuppleAsset asset, const std::string& path) {
+    SuppleAssetInfo assetInfo{};
+    assetInfo.structSize = sizeof assetInfo;
+    if (const Status status =
+            context.check(suppleGetAssetInfo(context.handle(), asset, &assetInfo), "suppleGetAssetInfo");
+        !status)
+        return status.error();
+    for (uint32_t i = 0; i < assetInfo.materialCount; ++i) {
+        SuppleMaterialInfo info{};
+        info.structSize = sizeof info;
+        if (const Status status =
+                context.check(suppleGetMaterialInfo(context.handle(), asset, i, &info), "suppleGetMaterialInfo");
+            !status)
+            return status.error();
+        infos_.push_back(info);
+    }
+    infos_.push_back(whiteClay());
+    return loadTextures(context, asset, path);
+}
+
+Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const std::string& path) {
+    Picture white = Picture::blank(1, 1);
+    std::fill(white.rgba.begin(), white.rgba.end(), uint8_t{255});
+    if (const Result<size_t> first = upload(context.device(), white, TextureKind::color); !first)
+        return first.error();
+    for (const SuppleMaterialInfo& info : infos_) {
+        std::array<size_t, kSlotCount>& slots = slots_.emplace_back();
+        const TextureKind trimKind = info.trimAlpha != 0                   ? TextureKind::color
+                                     : info.trimDomain == SUPPLE_TRIM_FACE ? TextureKind::tiles
+                                                                           : TextureKind::data;
+        const bool ownTrim = info.trimDomain != SUPPLE_TRIM_NONE && info.trimAlpha == 0;
+        const struct {
+            Slot slot;
+            uint32_t image;
+            TextureKind kind;
+            bool required;
+        } wanted[] = {{kBaseColor, info.baseColor.image, TextureKind::color, false},
+                      {kMetallicRoughness, info.metallicRoughness.image, TextureKind::data, false},
+                      {kTrim, info.trim.image, trimKind, ownTrim}};
+        for (const auto& [slot, image, kind, required] : wanted) {
+            const Result<size_t> texture = load(context, asset, path, image, kind, required);
+            if (!texture)
+                return texture.error();
+            slots[slot] = *texture;
+        }
+    }
+    return success();
+}
+
+Result<size_t> FigureMaterials::load(Context& context, SuppleAsset asset, const std::string& path, uint32_t image,
+                                     TextureKind kind, bool required) {
+    if (image == SUPPLE_NO_IMAGE)
+        return size_t{0};
+    const auto [known, isNew] = known_.try_emplace({image, kind}, 0);
+    if (!isNew)
+        return known->second;
+    SuppleImageInfo info{};
+    info.structSize = sizeof info;
+    if (const Status status =
+            context.check(suppleGetImageInfo(context.handle(), asset, image, &info), "suppleGetImageInfo");
+        !status)
+        return status.error();
+    const Result<Picture> picture = decodePicture(std::span(static_cast<const std::byte*>(info.bytes), info.byteCount),
+                                                  path + (required ? ": trim image " : ": image ") + info.name);
+    if (!picture && required)
+        return picture.error();
+    if (!picture) {
+        // A picture that cannot be read takes nothing from the shape: draw without it, but say so.
+        std::fprintf(stderr, "warning: %s\n", picture.error().message.c_str());
+        return known->second;
+    }
+    Result<size_t> uploaded = upload(context.device(), *picture, kind);
+    if (uploaded)
+        known->second = *uploaded;
+    return uploaded;
+}
+
+Result<size_t> FigureMaterials::upload(Device& device, const Picture& picture, TextureKind kind) {
+    Result<Image> image = uploadTexture(device, picture, kind);
+    if (!image)
+        return image.error();
+    textures_.push_back({std::move(*image), averageColorOf(picture)});
+    return textures_.size() - 1;
+}
+
+glm::vec3 FigureMaterials::averageColor(size_t index) const {
+    const float* factor = infos_[index].baseColorFactor;
+    return glm::vec3(factor[0], factor[1], factor[2]) * textures_[slots_[index][kBaseColor]].average;
+}
+
+} // namespace supple::host

@@ -1,0 +1,56 @@
+// What a figure's materials look like: as Supple tells them, with their images decoded and on the device.
+#pragma once
+
+#include "host/context.h"
+#include "host/texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace supple::host {
+
+class FigureMaterials {
+public:
+    /// The textures that are drawn with.
+    enum Slot : uint32_t { kBaseColor, kMetallicRoughness, kTrim, kSlotCount };
+
+    /// `path` begins the messages. An image that cannot be read counts as white, with a warning on stderr; only a
+    /// trim's is an error, because it is part of the shape.
+    [[nodiscard]] Status load(Context& context, SuppleAsset asset, const std::string& path);
+
+    /// One a material, and one more at the end for what has none.
+    [[nodiscard]] const std::vector<SuppleMaterialInfo>& infos() const { return infos_; }
+    /// Of infos(); `material` may be SUPPLE_NO_MATERIAL.
+    [[nodiscard]] size_t indexOf(uint32_t material) const { return std::min<size_t>(material, infos_.size() - 1); }
+    [[nodiscard]] const SuppleMaterialInfo& of(uint32_t material) const { return infos_[indexOf(material)]; }
+    /// White where the material of infos() has no such texture.
+    [[nodiscard]] const Image& texture(size_t index, Slot slot) const { return textures_[slots_[index][slot]].image; }
+    /// The base color's mean: factor times texture, linear.
+    [[nodiscard]] glm::vec3 averageColor(size_t index) const;
+
+private:
+    struct Texture {
+        Image image;
+        glm::vec3 average{1.0f}; ///< in linear light
+    };
+
+    [[nodiscard]] Status loadTextures(Context& context, SuppleAsset asset, const std::string& path);
+    /// Which of textures_ an image became.
+    [[nodiscard]] Result<size_t> load(Context& context, SuppleAsset asset, const std::string& path, uint32_t image,
+                                      TextureKind kind, bool required);
+    [[nodiscard]] Result<size_t> upload(Device& device, const Picture& picture, TextureKind kind);
+
+    std::vector<SuppleMaterialInfo> infos_;
+    std::vector<std::array<size_t, kSlotCount>> slots_; ///< one of infos_: which of textures_
+    std::vector<Texture> textures_;                     ///< the first one is white
+    std::map<std::pair<uint32_t, TextureKind>, size_t> known_;
+};
+
+} // namespace supple::host

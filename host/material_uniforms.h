@@ -1,0 +1,13 @@
+// What shaders are told of a material.
+#pragma once
+
+#include "host/shaders/draw.h"
+
+#include <supple/supple.h>
+
+namespace supple::host {
+
+/// `uv1`: there is a second UV set to look anything up on.
+[[nodiscard]] shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, bool uv1);
+
+} // namespace supple::host
