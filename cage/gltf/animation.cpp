@@ -76,9 +76,6 @@ Channel readChannel(const Document& document, const supple_tinygltf::Animation& 
         if (!std::isfinite(channel.times[k])) {
             refuse(item(input, k), "not finite");
         }
-        if (channel.times[k] < 0.0f) {
-            refuse(item(input, k), "negative time");
-        }
         if (k > 0 && !(channel.times[k] > channel.times[k - 1])) {
             refuse(item(input, k), "not later than the key before it");
         }
@@ -124,6 +121,7 @@ std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, 
         Clip clip;
         clip.name = animation.name.empty() ? "clip_" + std::to_string(i) : animation.name;
         std::map<std::string, size_t> ignored;
+        Found early;
         std::set<std::pair<int, std::string>> targets;
         for (size_t k = 0; k < animation.channels.size(); ++k) {
             const auto& channel = animation.channels[k];
@@ -149,6 +147,14 @@ std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, 
                        ErrorCode::limit);
             }
             clip.duration = std::max(clip.duration, static_cast<double>(clip.channels.back().times.back()));
+            if (clip.channels.back().times.front() < 0.0f) {
+                early.add([&] { return at("channel", k); });
+            }
+        }
+        if (early.count > 0) {
+            warn(warnings, at("animation", i),
+                 early.told("channel has keys before 0", "channels have keys before 0") +
+                     "; the clip begins at 0, between the keys around it");
         }
         for (const auto& [path, count] : ignored) {
             warn(warnings, at("animation", i),

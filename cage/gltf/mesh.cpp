@@ -57,7 +57,7 @@ public:
             }
         }
         if (out_.parts.empty()) {
-            refuse(out_.element, "no primitive of TRIANGLES");
+            refuse(out_.element, nameOfNoTriangles(mesh));
         }
         findCageNumbers(mesh, numbers);
         for (size_t i = 0; i < numbers.size(); ++i) {
@@ -68,6 +68,27 @@ public:
     }
 
 private:
+    /// What a mesh without TRIANGLES is.
+    static std::string nameOfNoTriangles(const supple_tinygltf::Mesh& mesh) {
+        const auto any = [&](int first, int last) {
+            return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                               [&](const Primitive& p) { return p.mode >= first && p.mode <= last; });
+        };
+        const bool points = any(TINYGLTF_MODE_POINTS, TINYGLTF_MODE_POINTS);
+        const bool lines = any(TINYGLTF_MODE_LINE, TINYGLTF_MODE_LINE_STRIP);
+        if (mesh.primitives.empty()) {
+            return "empty: no primitives, so there is no surface";
+        }
+        if (any(TINYGLTF_MODE_TRIANGLE_STRIP, TINYGLTF_MODE_TRIANGLE_FAN)) {
+            return "no primitive of TRIANGLES";
+        }
+        return std::string("nothing but ") +
+               (points && lines ? "points and lines"
+                : points        ? "points"
+                                : "lines") +
+               ": no primitive of TRIANGLES, so there is no surface";
+    }
+
     /// Accessors of position, cage numbers, joints, weights and morph targets: what makes a vertex.
     using Stream = std::tuple<int, int, std::vector<int>, std::vector<int>, std::vector<int>>;
 

@@ -11,6 +11,7 @@
 #include "cage/gltf/uri.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
+#include "cage/repair.h"
 
 #include <exception>
 #include <filesystem>
@@ -58,6 +59,9 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
         Character character =
             gltf::toCharacter(gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder), options);
         character.name = name;
+        if (const Status sound = reportDamages(character, options.strict); !sound) {
+            return sound.error();
+        }
         for (std::string& warning : character.warnings) {
             warning = oneLine(std::move(warning));
         }

@@ -36,10 +36,11 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
         if (!runtime::readSized(*desc.cage, cage)) {
             return Error{ErrorCode::structSize, "suppleCreateAsset: cage->structSize is wrong"};
         }
-        return runtime::characterFromArrays(cage, name);
+        return runtime::characterFromArrays(cage, name, (desc.flags & SUPPLE_ASSET_STRICT) != 0);
     }
     cage::GltfOptions options;
     options.pairQuads = (desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0;
+    options.strict = (desc.flags & SUPPLE_ASSET_STRICT) != 0;
     if (desc.files != nullptr) {
         options.readFile = [files = *desc.files](const std::string& path) { return readThrough(files, path); };
     }
@@ -65,7 +66,7 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
                           std::string(desc.name != nullptr ? desc.name : "asset") +
                               (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
         }
-        if ((desc.flags & ~uint32_t{SUPPLE_ASSET_PAIR_QUADS}) != 0) {
+        if ((desc.flags & ~uint32_t{SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_STRICT}) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
         if (desc.files != nullptr && desc.files->read == nullptr) {
@@ -104,6 +105,7 @@ SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleA
             info.materialCount = static_cast<uint32_t>(character.materials.size());
             info.morphTargetCount = static_cast<uint32_t>(character.morphs.targets.size());
             info.imageCount = static_cast<uint32_t>(character.images.size());
+            info.sourceVertices = character.cage.sourceVertices.data();
             glm::vec3 low = character.cage.positions.front(), high = low;
             for (const glm::vec3& p : character.cage.positions) {
                 low = glm::min(low, p);

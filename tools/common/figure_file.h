@@ -2,11 +2,12 @@
 #pragma once
 
 #include "host/figure.h"
+#include "tools/common/character_file.h"
 
 namespace supple::host {
 
 /// The context must outlive the figure.
 [[nodiscard]] Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path,
-                                                         bool pairQuads = false);
+                                                         const ReadFlags& flags = {});
 
 } // namespace supple::host

@@ -256,7 +256,9 @@ typedef struct SuppleCreaseScalar {
 } SuppleCreaseScalar;
 
 /** A control cage given as arrays, which are copied. Faces are counter-clockwise seen from outside. Sharpness is as in
- * OpenSubdiv and USD: 0 is smooth, 10 and more is infinitely sharp. */
+ * OpenSubdiv and USD: 0 is smooth, 10 and more is infinitely sharp. What no surface can be built on, such as three
+ * faces on an edge, is repaired with a warning for each kind (docs/gltf.md): unless SUPPLE_ASSET_STRICT is set, see
+ * SuppleAssetInfo.sourceVertices. */
 typedef struct SuppleCageDesc {
     uint32_t structSize;
     uint32_t vertexCount;
@@ -279,9 +281,12 @@ typedef struct SuppleCageDesc {
     const uint32_t* faceTrimTiles; /**< optional: per face a trim tile or SUPPLE_NO_TRIM_TILE; see SuppleTrimDomain */
 } SuppleCageDesc;
 
-/** Options of reading a file. */
+/** Options of reading a file or arrays. */
 typedef enum SuppleAssetFlags {
-    SUPPLE_ASSET_PAIR_QUADS = 1 /**< plain triangles of a glTF file: merge consecutive pairs into quads */
+    SUPPLE_ASSET_PAIR_QUADS = 1, /**< plain triangles of a glTF file: merge consecutive pairs into quads */
+    /** Refuse a damaged cage instead of repairing it. The message has one line for each kind of damage, which counts it
+     * and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
+    SUPPLE_ASSET_STRICT = 2
 } SuppleAssetFlags;
 
 /** The content of a file, from the host's own file system. */
@@ -324,6 +329,11 @@ typedef struct SuppleAssetInfo {
     float boundsMin[3]; /**< of the cage's vertices in the bind pose */
     float boundsMax[3];
     uint32_t imageCount;
+    /** cageVertexCount entries, which live as long as the asset: the number that each vertex of the cage had in the
+     * arrays, among the v lines of an OBJ file, or among the vertices of a glTF mesh. A repair may leave vertices out
+     * and add copies behind all others: those who write the deformed cage themselves (SUPPLE_POSES_CAGE_BUFFER) put
+     * vertex sourceVertices[i] in place i. */
+    const uint32_t* sourceVertices;
 } SuppleAssetInfo;
 
 /** An animation clip. */
@@ -385,8 +395,10 @@ typedef struct SuppleImageInfo {
     size_t byteCount;
 } SuppleImageInfo;
 
-/** Fails if the file or the arrays are malformed. If only a scheme cannot take the cage (a non-manifold edge, a face
- * that is no quad), suppleCreateGroup fails instead, so the cage alone can still be used (SUPPLE_SCHEME_CAGE). */
+/** Fails if the file or the arrays are malformed; the message has one line for each kind of fault. A cage that is only
+ * damaged (three faces on an edge, flipped faces) is repaired, with a warning in the log for each kind, or refused with
+ * SUPPLE_ASSET_STRICT. If only a scheme cannot take the cage (a face that is no quad), suppleCreateGroup fails instead,
+ * so the cage alone can still be used (SUPPLE_SCHEME_CAGE). */
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
 /** The handle and all pointers that live as long as the asset are dead at once. The asset's groups keep what they
  * need. */

@@ -381,7 +381,8 @@ TEST(GltfRefusals, Mesh) {
     EXPECT_EQ(withJson(R"("POSITION":0)", R"("POSITION":9)"),
               "t.glb: mesh 0 primitive 0 POSITION: accessor 9 is out of range: the file has 9");
     EXPECT_EQ(withJson(R"("mode":4)", R"("mode":7)"), "t.glb: mesh 0 primitive 0 mode: not in 0..6");
-    EXPECT_EQ(withJson(R"("mode":4)", R"("mode":1)"), "t.glb: mesh 0: no primitive of TRIANGLES");
+    EXPECT_EQ(withJson(R"("mode":4)", R"("mode":1)"),
+              "t.glb: mesh 0: nothing but lines: no primitive of TRIANGLES, so there is no surface");
     EXPECT_EQ(withJson(R"("mode":4)", R"("material":0)"),
               "t.glb: mesh 0 primitive 0 material: material 0 is out of range: the file has 0");
     EXPECT_EQ(withFloat(kPositions, 4, kNan), "t.glb: mesh 0 primitive 0 POSITION[1]: not finite");
@@ -520,7 +521,6 @@ TEST(GltfRefusals, Animations) {
     EXPECT_EQ(messageOf(packGlb(weights, w.binary())),
               "t.glb: animation 0 channel 0 output: 3 elements for 3 keys of 2 morph targets");
     EXPECT_EQ(withFloat(kTimes, 1, kNan), "t.glb: animation 0 channel 0 input[1]: not finite");
-    EXPECT_EQ(withFloat(kTimes, 0, -1.0f), "t.glb: animation 0 channel 0 input[0]: negative time");
     EXPECT_EQ(withFloat(kTimes, 1, 0.0f), "t.glb: animation 0 channel 0 input[1]: not later than the key before it");
     EXPECT_EQ(withFloat(kTimes, 2, 0.5f), "t.glb: animation 0 channel 0 input[2]: not later than the key before it");
     EXPECT_EQ(withFloat(kRotations, 5, kInf), "t.glb: animation 0 channel 0 output[1]: not finite");
