@@ -263,6 +263,12 @@ struct Part {
     WeldSource weldSource = WeldSource::given;
 };
 
+/// One kind of damage of a cage that its reader has repaired.
+struct Damage {
+    std::string found;  ///< "mesh 0: 2 edges have three or more faces, the first is edge (3, 4)"
+    std::string repair; ///< what was done: "cut into sheets"
+};
+
 struct Character {
     std::string name;      ///< file name or the host's name for it; begins every message about it
     std::string copyright; ///< as the file states it
@@ -276,6 +282,7 @@ struct Character {
     std::vector<Material> materials;
     std::vector<Image> images;
     std::vector<std::string> warnings; ///< what was repaired or ignored, one line each
+    std::vector<Damage> damages;       ///< what a strict reader refuses; it is among the warnings too
     uint32_t sourceVertexCount = 0;    ///< vertices before welding
     uint32_t seamVertexCount = 0;      ///< vertices that welding merged away, between parts too
 };

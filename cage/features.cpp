@@ -1,5 +1,7 @@
 #include "cage/features.h"
 
+#include "cage/message.h"
+
 #include <algorithm>
 
 namespace supple::cage {
@@ -9,6 +11,29 @@ namespace {
 float atLeastZero(float sharpness) {
     return sharpness > 0.0f ? sharpness : 0.0f;
 }
+
+/// What is not used, one line for each kind.
+struct Unused {
+    Found creases;
+    Found vertices;
+    Found scalars;
+    Found alphas;
+
+    [[nodiscard]] std::vector<std::string> told() const {
+        std::vector<std::string> lines;
+        const auto tell = [&](const Found& found) {
+            if (found.count > 0) {
+                lines.push_back(found.first +
+                                (found.count > 1 ? ", and " + std::to_string(found.count - 1) + " more like it" : ""));
+            }
+        };
+        tell(creases);
+        tell(vertices);
+        tell(scalars);
+        tell(alphas);
+        return lines;
+    }
+};
 
 std::string noSuchEdge(const std::string& what) {
     return what + ": the cage has no such edge";
@@ -30,6 +55,7 @@ uint32_t spokeAt(const Cage& cage, const Topology& topology, uint32_t edge, uint
 
 Features buildFeatures(const Cage& cage, const Topology& topology) {
     Features features;
+    Unused unused;
     features.edgeSharpness.assign(topology.edges.size(), 0.0f);
     features.vertexSharpness.assign(cage.vertexCount(), 0.0f);
     features.spokeAlphas.assign(topology.spokeVertices.size(), -1.0f);
@@ -41,8 +67,9 @@ Features buildFeatures(const Cage& cage, const Topology& topology) {
     for (const Crease& crease : cage.creases) {
         const uint32_t edge = findEdge(cage, topology, crease.a, crease.b);
         if (edge == kNone) {
-            features.unused.push_back(
-                noSuchEdge("crease (" + std::to_string(crease.a) + ", " + std::to_string(crease.b) + ")"));
+            unused.creases.add([&] {
+                return noSuchEdge("crease (" + std::to_string(crease.a) + ", " + std::to_string(crease.b) + ")");
+            });
             continue;
         }
         float& sharpness = features.edgeSharpness[edge];
@@ -50,8 +77,10 @@ Features buildFeatures(const Cage& cage, const Topology& topology) {
     }
     for (const SharpVertex& sharp : cage.sharpVertices) {
         if (sharp.vertex >= cage.vertexCount()) {
-            features.unused.push_back("sharp vertex " + std::to_string(sharp.vertex) + ": the cage has only " +
-                                      std::to_string(cage.vertexCount()) + " vertices");
+            unused.vertices.add([&] {
+                return "sharp vertex " + std::to_string(sharp.vertex) + ": the cage has only " +
+                       std::to_string(cage.vertexCount()) + " vertices";
+            });
             continue;
         }
         float& sharpness = features.vertexSharpness[sharp.vertex];
@@ -62,15 +91,16 @@ Features buildFeatures(const Cage& cage, const Topology& topology) {
             "crease scalar " + std::to_string(scalar.vertex) + " -> " + std::to_string(scalar.toward);
         const uint32_t edge = findEdge(cage, topology, scalar.vertex, scalar.toward);
         if (edge == kNone) {
-            features.unused.push_back(noSuchEdge(name));
+            unused.scalars.add([&] { return noSuchEdge(name); });
             continue;
         }
         if (!(scalar.alpha >= 0.0f && scalar.alpha <= 1.0f)) {
-            features.unused.push_back(name + ": " + std::to_string(scalar.alpha) + " is not between 0 and 1");
+            unused.alphas.add([&] { return name + ": " + std::to_string(scalar.alpha) + " is not between 0 and 1"; });
             continue;
         }
         features.spokeAlphas[spokeAt(cage, topology, edge, scalar.vertex)] = scalar.alpha;
     }
+    features.unused = unused.told();
     return features;
 }
 

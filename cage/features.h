@@ -13,7 +13,7 @@ struct Features {
     std::vector<float> edgeSharpness;   ///< per edge of the topology; boundary edges have kHardSharpness
     std::vector<float> vertexSharpness; ///< per vertex
     std::vector<float> spokeAlphas;     ///< per spoke slot: the cage's crease scalar there, -1 where it gives none
-    /// What names no edge or vertex of the cage, or no scalar, one line each; the rest is used.
+    /// What names no edge or vertex of the cage, or no scalar, one line for each kind; the rest is used.
     std::vector<std::string> unused;
 
     [[nodiscard]] bool hard(uint32_t edge) const { return edgeSharpness[edge] >= kHardSharpness; }

@@ -40,6 +40,10 @@ std::string oneLine(std::string text) {
     return text;
 }
 
+std::string Found::told(const char* one, const char* many) const {
+    return counted(count, one, many) + (count == 1 ? ": " : ", the first is ") + first;
+}
+
 void warn(Warnings& warnings, const std::string& element, const std::string& reason) {
     warnings.push_back(element + ": " + reason);
 }

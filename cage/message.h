@@ -21,6 +21,22 @@ namespace supple::cage {
 /// Messages are one line, whatever a file calls its parts.
 [[nodiscard]] std::string oneLine(std::string text);
 
+/// One kind of fault or damage: how often it was found, and where first.
+struct Found {
+    size_t count = 0;
+    std::string first;
+
+    /// `name` gives the name of the place, and is called for the first one alone.
+    template <class Name>
+    void add(Name&& name) {
+        if (count++ == 0) {
+            first = name();
+        }
+    }
+    /// "1 face is empty: face 3", "12 faces are empty, the first is face 3"
+    [[nodiscard]] std::string told(const char* one, const char* many) const;
+};
+
 /// What was repaired or left out, as "element: reason"; who shows it puts the character's name in front.
 using Warnings = std::vector<std::string>;
 void warn(Warnings& warnings, const std::string& element, const std::string& reason);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct PartCage {
     Morphs morphs;       ///< targets of the part alone
     uint32_t sourceVertexCount = 0;
     uint32_t seamVertexCount = 0;
+    std::vector<Damage> damages;
+    std::string whyEmpty; ///< why the cage has no faces
 };
 
 /// The palette of a character as skins are added. An entry is a node and an inverse bind matrix; skins share entries

@@ -49,7 +49,9 @@ struct Asset {
     [[nodiscard]] Status makeClips(const gpu::Device& device);
 };
 
-/// A character without skeleton or clips from the host's arrays: one joint, every vertex bound to it.
-[[nodiscard]] Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const std::string& name);
+/// A character without skeleton or clips from the host's arrays: one joint, every vertex bound to it. A damaged cage is
+/// repaired, or refused if `strict`.
+[[nodiscard]] Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const std::string& name,
+                                                          bool strict);
 
 } // namespace supple::runtime

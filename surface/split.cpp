@@ -1,5 +1,7 @@
 #include "surface/split.h"
 
+#include "cage/message.h"
+
 #include <algorithm>
 #include <glm/glm.hpp>
 #include <map>
@@ -33,8 +35,10 @@ public:
                 return added;
             }
         }
-        if (splits_ > rule_.listed) {
-            out_.notes.push_back("and " + std::to_string(splits_ - rule_.listed) + rule_.others);
+        if (splits_.count > 0) {
+            const std::string sides = " more than " + std::to_string(rule_.mostSides) + " sides";
+            out_.notes.push_back(splits_.told(("face has" + sides).c_str(), ("faces have" + sides).c_str()) +
+                                 "; split into " + rule_.parts);
         }
         return success();
     }
@@ -102,8 +106,8 @@ private:
         for (const std::vector<uint32_t>& part : cut.parts) {
             addPart(face, *start, part);
         }
-        if (sides > rule_.mostSides && ++splits_ <= rule_.listed) {
-            out_.notes.push_back(name() + ": split into " + rule_.note(sides, *start));
+        if (sides > rule_.mostSides) {
+            splits_.add([&] { return "face " + std::to_string(face); });
         }
         return success();
     }
@@ -128,7 +132,7 @@ private:
     SplitCage& out_;
     std::map<uint32_t, FaceCut> cuts_; ///< by number of sides
     std::set<Diagonal> diagonals_;     ///< laid so far
-    uint32_t splits_ = 0;
+    cage::Found splits_;
 };
 
 } // namespace

@@ -25,10 +25,7 @@ struct SplitRule {
     /// A start corner is possible if none of its diagonals is an edge already. The possible one with the shortest
     /// diagonals in the rest pose is taken, the first one if several are equal; or simply the first one.
     bool shortest = false;
-    const char* parts = "";                                        ///< for messages: "quads"
-    std::string (*note)(uint32_t sides, uint32_t start) = nullptr; ///< "a quad and a pentagon"
-    uint32_t listed = 0xFFFFFFFFu;                                 ///< so many faces get a note of their own
-    const char* others = "";                                       ///< for the note on the rest
+    const char* parts = ""; ///< for messages: "quads"
 };
 
 /// A cage with the vertices of the given one. Its faces have the order of those they came from, and their corner
@@ -37,7 +34,7 @@ struct SplitCage {
     cage::Cage cage;
     cage::Topology topology;
     std::vector<uint32_t> sourceFaces; ///< per face: the given face it came from
-    std::vector<std::string> notes;    ///< "face 12 has 7 sides: split into a quad and a pentagon"
+    std::vector<std::string> notes;    ///< "2 faces have more than 5 sides, the first is face 12; split into quads"
 };
 
 /// Refuses what cage::buildTopology refuses, and a face without a possible start corner. Without a rule every face

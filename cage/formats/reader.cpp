@@ -30,7 +30,7 @@ Result<Character> readCharacter(std::span<const std::byte> bytes, const std::str
                                 const std::string& baseDirectory, const GltfOptions& options) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (isNamedObj(name) && !startsAsGltf(text)) {
-        return readObj(bytes, name);
+        return readObj(bytes, name, options.strict);
     }
     return readGltf(bytes, name, baseDirectory, options);
 }

@@ -4,6 +4,7 @@
 #include "cage/gltf/weld.h"
 #include "cage/polygons.h"
 #include "cage/refusal.h"
+#include "cage/repair.h"
 #include "cage/triangulation.h"
 
 #include <algorithm>
@@ -86,14 +87,16 @@ struct Faces {
     std::vector<uint32_t> holes;
 };
 
-Faces recoverFaces(const Mesh& mesh, const Welding& welding, bool pairQuads, Warnings& warnings) {
+Faces recoverFaces(const Mesh& mesh, const Welding& welding, bool pairQuads, Warnings& warnings,
+                   std::vector<Damage>& damages) {
     Faces faces;
     for (size_t p = 0; p < mesh.parts.size(); ++p) {
         const MeshPart& part = mesh.parts[p];
         const Polygons own = recoverPolygons(mesh, part, welding.roots, pairQuads);
         if (own.degenerateTriangles > 0) {
-            warn(warnings, part.element,
-                 counted(own.degenerateTriangles, "triangle", "triangles") + " with a repeated vertex left out");
+            damages.push_back({part.element + ": " + counted(own.degenerateTriangles, "triangle", "triangles") +
+                                   " with a repeated vertex",
+                               "left out"});
         }
         if (own.recutRuns > 0) {
             warn(warnings, part.element,
@@ -304,27 +307,33 @@ void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& op
         warn(warnings, mesh.element, counted(unused, "vertex has", "vertices have") + " no face; left out");
     }
 
-    auto [welding, weldSource] = weldMesh(document, mesh, sewn, warnings);
-    const Faces faces = recoverFaces(mesh, welding, options.pairQuads, warnings);
+    MeshWelding welded = weldMesh(document, mesh, sewn, warnings);
+    Welding& welding = welded.welding;
+    const Faces faces = recoverFaces(mesh, welding, options.pairQuads, warnings, out.damages);
     if (faces.polygons.faceCount() == 0) {
         return;
     }
     // What the file merges itself is the file's business.
-    const uint32_t apart = weldSource == WeldSource::equality ? unweldDefects(faces.polygons, welding) : 0;
+    const uint32_t apart = welded.source == WeldSource::equality ? unweldDefects(faces.polygons, welding) : 0;
     if (apart > 0) {
         warn(warnings, mesh.element,
              counted(apart, "welded vertex is", "welded vertices are") +
                  " taken apart again: faces do not fit together there");
     }
 
+    joinSeams(mesh, faces.polygons, welded, warnings, out.damages);
+
     // One part with polygons of its own names the source of all.
     out.part.polygonSource = PolygonSource::triangles;
     for (const MeshPart& part : mesh.parts) {
         out.part.polygonSource = std::min(out.part.polygonSource, sourceOf(part, options.pairQuads));
     }
-    out.part.weldSource = weldSource;
+    out.part.weldSource = welded.source;
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
     readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, warnings);
+    if (const Status repaired = repairCage(out.cage, out.weights, out.morphs, mesh.element, out.damages); !repaired) {
+        throw Refusal{repaired.error().code, repaired.error().message};
+    }
 }
 
 } // namespace supple::cage::gltf

@@ -303,6 +303,26 @@ private:
 
 } // namespace
 
+std::string nameOfNoTriangles(const supple_tinygltf::Mesh& mesh) {
+    const auto any = [&](int first, int last) {
+        return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                           [&](const Primitive& p) { return p.mode >= first && p.mode <= last; });
+    };
+    const bool points = any(TINYGLTF_MODE_POINTS, TINYGLTF_MODE_POINTS);
+    const bool lines = any(TINYGLTF_MODE_LINE, TINYGLTF_MODE_LINE_STRIP);
+    if (mesh.primitives.empty()) {
+        return "empty: no primitives, so there is no surface";
+    }
+    if (any(TINYGLTF_MODE_TRIANGLE_STRIP, TINYGLTF_MODE_TRIANGLE_FAN)) {
+        return "no primitive of TRIANGLES";
+    }
+    return std::string("nothing but ") +
+           (points && lines ? "points and lines"
+            : points        ? "points"
+                            : "lines") +
+           ": no primitive of TRIANGLES, so there is no surface";
+}
+
 std::optional<Mesh> readMesh(const Document& document, uint32_t meshNode, size_t jointCount,
                              std::span<const Material> materials, Warnings& warnings) {
     return MeshReader(document, jointCount, materials, warnings).read(meshNode);

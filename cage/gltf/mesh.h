@@ -51,4 +51,7 @@ struct Mesh {
 [[nodiscard]] std::optional<Mesh> readMesh(const Document& document, uint32_t meshNode, size_t jointCount,
                                            std::span<const Material> materials, Warnings& warnings);
 
+/// What a mesh without TRIANGLES is.
+[[nodiscard]] std::string nameOfNoTriangles(const supple_tinygltf::Mesh& mesh);
+
 } // namespace supple::cage::gltf

@@ -13,6 +13,7 @@
 #include "cage/message.h"
 #include "cage/parts.h"
 #include "cage/refusal.h"
+#include "cage/repair.h"
 #include "cage/sew.h"
 
 #include <exception>
@@ -66,12 +67,14 @@ PartCage readPart(const Document& document, uint32_t node, const Skin& skin, con
     part.part.node = node;
     const std::optional<Mesh> mesh = readMesh(document, node, skin.joints.size(), character.materials, warnings);
     if (!mesh) {
+        const auto index = static_cast<size_t>(from.mesh);
+        part.whyEmpty = at("mesh", index) + ": " + nameOfNoTriangles(document.model.meshes[index]);
         return part;
     }
     part.morphs = readMorphs(document, node, mesh->morphs.targetCount(), warnings);
     buildCage(document, *mesh, options, part, warnings);
     if (part.cage.faceCount() == 0) {
-        warn(warnings, mesh->element, "no triangle is left");
+        part.whyEmpty = mesh->element + ": no triangle is left";
     }
     return part;
 }
@@ -87,26 +90,38 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
     Amount amount;
     std::vector<PartCage> parts;
     std::set<std::string> said; // nodes may share a mesh
-    std::string whyEmpty;
+    std::set<std::string> whyEmpty;
     for (size_t i = 0; i < nodes.size(); ++i) {
         Warnings warnings;
         PartCage part = readPart(document, nodes[i], skins[i], options, character, warnings);
         amount.add(part);
-        const bool isEmpty = part.cage.faceCount() == 0;
         for (std::string& warning : warnings) {
             if (said.insert(warning).second) {
-                whyEmpty += isEmpty ? (whyEmpty.empty() ? "" : "; ") + warning : "";
                 character.warnings.push_back(std::move(warning));
             }
         }
-        if (!isEmpty) {
-            bindSpace.place(part, skins[i]);
-            part.part.joints = palette.add(skins[i]);
-            parts.push_back(std::move(part));
+        for (Damage& damage : part.damages) {
+            if (said.insert(damage.found).second) {
+                character.damages.push_back(std::move(damage));
+            }
         }
+        if (part.cage.faceCount() == 0) {
+            whyEmpty.insert(part.whyEmpty);
+            continue;
+        }
+        bindSpace.place(part, skins[i]);
+        part.part.joints = palette.add(skins[i]);
+        parts.push_back(std::move(part));
+    }
+    std::string reasons;
+    for (const std::string& reason : whyEmpty) {
+        reasons += (reasons.empty() ? "" : "; ") + reason;
     }
     if (parts.empty()) {
-        throw Refusal{ErrorCode::asset, "no triangles: " + whyEmpty};
+        throw Refusal{ErrorCode::asset, reasons};
+    }
+    for (const std::string& reason : whyEmpty) {
+        character.warnings.push_back(reason + "; left out");
     }
     return parts;
 }
@@ -150,6 +165,9 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
         Character character =
             gltf::toCharacter(gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder), options);
         character.name = name;
+        if (const Status sound = reportDamages(character, options.strict); !sound) {
+            return sound.error();
+        }
         for (std::string& warning : character.warnings) {
             warning = oneLine(std::move(warning));
         }

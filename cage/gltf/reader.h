@@ -28,6 +28,8 @@ struct GltfOptions {
     bool sewParts = true;
     /// Merge consecutive triangles that share an edge into quads where the file carries no polygons.
     bool pairQuads = false;
+    /// Refuse a damaged cage instead of repairing it (cage/repair.h). The error has one line for each kind of damage.
+    bool strict = false;
     /// Where external buffers and images come from, instead of the folder given to readGltf().
     FileReader readFile;
 };

@@ -78,8 +78,8 @@ struct Disagreements {
     }
 };
 
-/// Numbers the sets of vertices with equal position, skin and morphs; warns where only the position is equal.
-std::vector<uint32_t> candidateSets(const Mesh& mesh, const Polygons& faces, Warnings& warnings) {
+/// Numbers the sets of vertices with equal position, skin and morphs, and finds where only the position is equal.
+std::vector<uint32_t> candidateSets(const Mesh& mesh, const Polygons& faces, MeshWelding& out) {
     std::vector<uint32_t> order = faces.vertices;
     std::sort(order.begin(), order.end());
     order.erase(std::unique(order.begin(), order.end()), order.end());
@@ -90,9 +90,9 @@ std::vector<uint32_t> candidateSets(const Mesh& mesh, const Polygons& faces, War
         return by != 0 ? by < 0 : a < b;
     });
     std::vector<uint32_t> sets(mesh.positions.size(), 0);
+    out.places.assign(mesh.positions.size(), 0);
     uint32_t set = 0;
-    Disagreements skins;
-    Disagreements morphs;
+    uint32_t place = 0;
     for (size_t i = 0; i < order.size(); ++i) {
         if (i > 0) {
             const uint32_t a = order[i - 1];
@@ -101,21 +101,14 @@ std::vector<uint32_t> candidateSets(const Mesh& mesh, const Polygons& faces, War
             const bool sameSkin = samePosition && compareSkins(mesh, a, b) == 0;
             const bool same = sameSkin && compareMorphs(mesh, a, b) == 0;
             set += same ? 0 : 1;
+            place += samePosition ? 0 : 1;
             if (samePosition && !same) {
-                (sameSkin ? morphs : skins).add(a, b);
+                out.disagreements.push_back({std::min(a, b), std::max(a, b), !sameSkin});
             }
         }
         sets[order[i]] = set;
+        out.places[order[i]] = place;
     }
-    const auto report = [&](const Disagreements& found, const std::string& what) {
-        if (found.count > 0) {
-            warn(warnings, mesh.element,
-                 counted(found.count, "vertex agrees", "vertices agree") + " with another in position but not in " +
-                     what + found.firstNamed() + "; kept apart");
-        }
-    };
-    report(skins, "skin");
-    report(morphs, "morph targets");
     return sets;
 }
 
@@ -274,7 +267,44 @@ MeshWelding weldMesh(const Document& document, const Mesh& mesh, const Polygons&
     if (const auto pairs = pairsOfManifold(document, mesh, warnings)) {
         return {weldAsGiven(mesh, *pairs, WeldSource::meshManifold, warnings), WeldSource::meshManifold};
     }
-    return {weld(candidateSets(mesh, faces, warnings), faces), WeldSource::equality};
+    MeshWelding found{{}, WeldSource::equality, {}, {}};
+    found.welding = weld(candidateSets(mesh, faces, found), faces);
+    return found;
+}
+
+void joinSeams(const Mesh& mesh, const Polygons& faces, MeshWelding& welded, Warnings& warnings,
+               std::vector<Damage>& damages) {
+    if (welded.disagreements.empty()) {
+        return;
+    }
+    std::vector<uint32_t>& roots = welded.welding.roots;
+    Polygons cageFaces = faces;
+    for (uint32_t& vertex : cageFaces.vertices) {
+        vertex = roots[vertex];
+    }
+    Welding seams = weld(welded.places, cageFaces);
+    unweldDefects(cageFaces, seams);
+    for (uint32_t& root : roots) {
+        root = seams.roots[root];
+    }
+    Disagreements joined[2]; // in morph targets; in skin
+    Disagreements apart[2];
+    for (const MeshWelding::Disagreement& pair : welded.disagreements) {
+        (roots[pair.a] == roots[pair.b] ? joined : apart)[pair.inSkin ? 1 : 0].add(pair.a, pair.b);
+    }
+    for (const bool inSkin : {true, false}) {
+        const auto told = [&](const Disagreements& found) {
+            return counted(found.count, "vertex agrees", "vertices agree") + " with another in position but not in " +
+                   (inSkin ? "skin" : "morph targets") + found.firstNamed();
+        };
+        if (const Disagreements& found = joined[inSkin ? 1 : 0]; found.count > 0) {
+            damages.push_back(
+                {mesh.element + ": " + told(found) + " along a seam", "joined, as the first vertex of each has it"});
+        }
+        if (const Disagreements& found = apart[inSkin ? 1 : 0]; found.count > 0) {
+            warn(warnings, mesh.element, told(found) + "; kept apart");
+        }
+    }
 }
 
 } // namespace supple::cage::gltf

@@ -3,6 +3,7 @@
 #include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
+#include "cage/repair.h"
 #include "cage/single_joint.h"
 
 #include <algorithm>
@@ -175,7 +176,7 @@ public:
             parseLine(lines.line());
         }
         if (faceLines_.empty()) {
-            refuse("file", "no faces");
+            refuse("file", nameOfNoFaces());
         }
         checkCorners();
         buildFaces();
@@ -196,6 +197,12 @@ private:
             parseNormal(words);
         } else if (keyword == "f") {
             parseFace(words);
+        } else if (keyword == "p") {
+            points_ = true;
+            ignore("p");
+        } else if (keyword == "l") {
+            lines_ = true;
+            ignore("l");
         } else if (keyword == "usemtl") {
             parseMaterial(words);
         } else if (keyword == "t") {
@@ -286,10 +293,6 @@ private:
             }
             corners_.push_back(corner);
         }
-        const size_t sides = corners_.size() - first;
-        if (sides < 3) {
-            refuse(lineName(line_), "a face of " + counted(sides, "corner", "corners"));
-        }
         faceStarts_.push_back(static_cast<uint32_t>(corners_.size()));
         faceMaterials_.push_back(material_);
         faceLines_.push_back(line_);
@@ -363,67 +366,55 @@ private:
         }
     }
 
+    /// Refuses with the first corner that is out of range, of each kind, and how many more there are.
     void checkCorners() {
+        Found vertices;
+        Found uvs;
         for (size_t f = 0; f < faceLines_.size(); ++f) {
-            const auto check = [&](uint32_t corner, const char* what, uint32_t index, size_t count) {
+            const auto check = [&](uint32_t corner, const char* what, uint32_t index, size_t count, Found& found) {
                 if (index != kNone && index >= count) {
-                    refuse(cornerName(faceLines_[f], corner - faceStarts_[f]),
-                           std::string(what) + " " + std::to_string(index + 1) + " of " + std::to_string(count));
+                    found.add([&] {
+                        return cornerName(faceLines_[f], corner - faceStarts_[f]) + ": " + what + " " +
+                               std::to_string(index + 1) + " of " + std::to_string(count);
+                    });
                 }
             };
             for (uint32_t c = faceStarts_[f]; c < faceStarts_[f + 1]; ++c) {
-                check(c, "vertex", corners_[c].vertex, positions_.size());
-                check(c, "texture coordinate", corners_[c].uv, uvs_.size());
+                check(c, "vertex", corners_[c].vertex, positions_.size(), vertices);
+                check(c, "texture coordinate", corners_[c].uv, uvs_.size(), uvs);
                 if (corners_[c].normal != kNone && corners_[c].normal >= normals_.size()) {
                     addFaultyNormal(faceLines_[f]);
                     corners_[c].normal = kNone;
                 }
             }
         }
+        std::string reasons;
+        for (const Found& found : {vertices, uvs}) {
+            if (found.count > 0) {
+                reasons += (reasons.empty() ? "" : "; ") + found.first +
+                           (found.count > 1 ? ", and " + std::to_string(found.count - 1) + " more like it" : "");
+            }
+        }
+        if (!reasons.empty()) {
+            throw Refusal{ErrorCode::asset, reasons};
+        }
     }
 
-    /// Faces of the cage, and where the file's went.
     void buildFaces() {
         Cage& cage = out_.cage;
         const bool uvs = std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.uv != kNone; });
         const bool normals =
             std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.normal != kNone; });
-        std::vector<size_t> seenIn(positions_.size(), kNowhere);
-        size_t repeats = 0;
-        size_t firstRepeat = 0;
-        cage.faceStarts.push_back(0);
-        for (size_t f = 0; f < faceLines_.size(); ++f) {
-            bool repeated = false;
-            for (uint32_t c = faceStarts_[f]; c < faceStarts_[f + 1]; ++c) {
-                repeated = repeated || seenIn[corners_[c].vertex] == f;
-                seenIn[corners_[c].vertex] = f;
+        cage.faceStarts = faceStarts_;
+        cage.faceMaterials = faceMaterials_;
+        for (const Corner& corner : corners_) {
+            cage.faceVertices.push_back(corner.vertex);
+            if (uvs) {
+                cage.cornerUvs.push_back(corner.uv == kNone ? glm::vec2(0.0f) : uvs_[corner.uv]);
             }
-            if (repeated) {
-                firstRepeat = repeats++ == 0 ? faceLines_[f] : firstRepeat;
-                cageFaces_.push_back(kNone);
-                continue;
+            if (normals) {
+                cage.cornerNormals.push_back(corner.normal == kNone ? glm::vec3(0.0f) : normals_[corner.normal]);
             }
-            cageFaces_.push_back(cage.faceCount());
-            for (uint32_t c = faceStarts_[f]; c < faceStarts_[f + 1]; ++c) {
-                cage.faceVertices.push_back(corners_[c].vertex);
-                if (uvs) {
-                    cage.cornerUvs.push_back(corners_[c].uv == kNone ? glm::vec2(0.0f) : uvs_[corners_[c].uv]);
-                }
-                if (normals) {
-                    const uint32_t normal = corners_[c].normal;
-                    cage.cornerNormals.push_back(normal == kNone ? glm::vec3(0.0f) : normals_[normal]);
-                }
-            }
-            cage.faceStarts.push_back(cage.cornerCount());
-            cage.faceMaterials.push_back(faceMaterials_[f]);
-        }
-        if (repeats > 0) {
-            warn(out_.warnings, lineName(firstRepeat),
-                 counted(repeats, "face repeats a vertex", "faces repeat a vertex, this being the first") +
-                     "; left out");
-        }
-        if (cage.faceCount() == 0) {
-            refuse("file", "no face is left");
         }
     }
 
@@ -483,10 +474,7 @@ private:
         }
 
         for (const TaggedHole& tag : holes_) {
-            const uint32_t face = cageFaces_[checkedIndex(tag.face, cageFaces_.size(), "hole", "face", tag.line)];
-            if (face != kNone) {
-                cage.holes.push_back(face);
-            }
+            cage.holes.push_back(checkedIndex(tag.face, faceLines_.size(), "hole", "face", tag.line));
         }
         std::sort(cage.holes.begin(), cage.holes.end());
         cage.holes.erase(std::unique(cage.holes.begin(), cage.holes.end()), cage.holes.end());
@@ -556,12 +544,18 @@ private:
         }
     }
 
+    /// What a file without faces is.
+    [[nodiscard]] std::string nameOfNoFaces() const {
+        const char* what = lines_ ? (points_ ? "points and lines" : "lines") : "points";
+        return (positions_.empty() ? std::string("empty") : std::string("nothing but ") + what) +
+               ": no faces, so there is no surface";
+    }
+
     static std::string cornerName(size_t line, size_t corner) {
         return lineName(line) + ": face corner " + std::to_string(corner + 1);
     }
 
     static constexpr int64_t kEdgeAndCorner = 1; ///< OpenSubdiv's shapes: 0 none, 1 edges and corners, 2 edges
-    static constexpr size_t kNowhere = ~size_t{0};
 
     struct Ignored {
         size_t line = 0; ///< the first
@@ -570,6 +564,8 @@ private:
 
     Character& out_;
     size_t line_ = 0;
+    bool points_ = false; ///< there are statements p
+    bool lines_ = false;  ///< l
     uint32_t material_ = kNone;
     std::unordered_map<std::string, uint32_t> materials_;
     std::map<std::string, Ignored> ignored_;
@@ -587,12 +583,11 @@ private:
     std::vector<TaggedCrease> creases_;
     std::vector<TaggedCorner> sharpVertices_;
     std::vector<TaggedHole> holes_;
-    std::vector<uint32_t> cageFaces_; ///< per face of the file; kNone where left out
 };
 
 } // namespace
 
-Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name) {
+Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name, bool strict) {
     const auto failure = [&](ErrorCode code, const std::string& message) {
         return Error{code, oneLine(name + ": " + message)};
     };
@@ -600,6 +595,14 @@ Result<Character> readObj(std::span<const std::byte> bytes, const std::string& n
         Character character;
         character.name = name;
         ObjParser(character).parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        if (const Status repaired =
+                repairCage(character.cage, character.weights, character.morphs, "file", character.damages);
+            !repaired) {
+            return failure(repaired.error().code, repaired.error().message);
+        }
+        if (const Status sound = reportDamages(character, strict); !sound) {
+            return sound.error();
+        }
         bindToOneJoint(character, std::filesystem::path(name).stem().string());
         character.parts[0].polygonSource = PolygonSource::obj;
         for (std::string& warning : character.warnings) {

@@ -19,11 +19,13 @@ namespace supple::cage {
 /// or one an edge), corner, hole. Groups and smoothing groups mean nothing to a cage and are skipped.
 ///
 /// Left out with a line in Character::warnings: vertices without a face (Cage::sourceVertices tells what is left),
-/// faces that repeat a vertex, normals that are no directions, creases that are not edges, vertex colors, points and
-/// lines, boundary rules other than sharp corners, statements and tags of other kinds.
+/// normals that are no directions, creases that are not edges, vertex colors, points and lines, boundary rules other
+/// than sharp corners, statements and tags of other kinds.
 ///
 /// `name` begins every error and becomes Character::name; warnings are without it. Never throws. Errors are one line:
 /// "cube.obj: line 12: face corner 3: vertex 99 of 8".
-[[nodiscard]] Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name);
+/// A damaged cage is repaired (cage/repair.h), or refused if `strict`: then the error has one line for each kind of
+/// damage.
+[[nodiscard]] Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name, bool strict = false);
 
 } // namespace supple::cage

@@ -47,10 +47,11 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
         if (!runtime::readSized(*desc.cage, cage)) {
             return Error{ErrorCode::structSize, "suppleCreateAsset: cage->structSize is wrong"};
         }
-        return runtime::characterFromArrays(cage, name);
+        return runtime::characterFromArrays(cage, name, (desc.flags & SUPPLE_ASSET_STRICT) != 0);
     }
     cage::GltfOptions options;
     options.pairQuads = (desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0;
+    options.strict = (desc.flags & SUPPLE_ASSET_STRICT) != 0;
     options.sewParts = (desc.flags & SUPPLE_ASSET_PARTS_APART) == 0;
     if (desc.scene != 0) {
         options.scene = desc.scene - 1;
@@ -136,7 +137,8 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
                           std::string(desc.name != nullptr ? desc.name : "asset") +
                               (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
         }
-        if ((desc.flags & ~uint32_t{SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_PARTS_APART}) != 0) {
+        constexpr uint32_t kFlags = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART;
+        if ((desc.flags & ~kFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
         if (desc.files != nullptr && desc.files->read == nullptr) {
@@ -176,6 +178,7 @@ SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleA
             info.morphTargetCount = static_cast<uint32_t>(character.morphs.targets.size());
             info.imageCount = static_cast<uint32_t>(character.images.size());
             info.partCount = static_cast<uint32_t>(character.parts.size());
+            info.sourceVertices = character.cage.sourceVertices.data();
             glm::vec3 low = character.cage.positions.front(), high = low;
             for (const glm::vec3& p : character.cage.positions) {
                 low = glm::min(low, p);

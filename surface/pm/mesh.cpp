@@ -216,17 +216,8 @@ FaceCut zigzagCut(uint32_t sides) {
 }
 
 /// P_m has no patch for more than five sides.
-constexpr SplitRule kZigzag{.mostSides = kMaxSides,
-                            .cut = zigzagCut,
-                            .startCorners = 256,
-                            .shortest = true,
-                            .parts = "quads",
-                            .note = [](uint32_t sides, uint32_t) {
-                                const bool pentagon = sides % 2 != 0;
-                                const uint32_t quads = (sides - 4) / 2 + (pentagon ? 0 : 1);
-                                return (quads == 1 ? "a quad" : std::to_string(quads) + " quads") +
-                                       (pentagon ? " and a pentagon" : "");
-                            }};
+constexpr SplitRule kZigzag{
+    .mostSides = kMaxSides, .cut = zigzagCut, .startCorners = 256, .shortest = true, .parts = "quads and pentagons"};
 
 Result<Mesh> build(const Cage& cage) {
     Result<SplitCage> split = splitFaces(cage, &kZigzag);

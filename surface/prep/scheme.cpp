@@ -1,4 +1,5 @@
 // p-rep as a scheme: the tables of shaders/shared/{surface,prep}.h.
+#include "cage/message.h"
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
 #include "surface/build.h"
@@ -232,11 +233,16 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!topology) {
         return topology.error();
     }
+    cage::Found others;
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         if (cage.sides(face) != 4) {
-            return Error{ErrorCode::asset, "face " + std::to_string(face) + " has " + std::to_string(cage.sides(face)) +
-                                               " sides: p-rep takes quads only"};
+            others.add([&] {
+                return "face " + std::to_string(face) + " with " + std::to_string(cage.sides(face)) + " sides";
+            });
         }
+    }
+    if (others.count > 0) {
+        return Error{ErrorCode::asset, "p-rep takes quads only: " + others.told("face is none", "faces are none")};
     }
     SpokeLimits spokes;
     for (uint32_t v = 0; v < cage.vertexCount(); ++v) {

@@ -26,17 +26,7 @@ FaceCut fanCut(uint32_t sides) {
     return cut;
 }
 
-constexpr SplitRule kTriangles{.mostSides = 3,
-                               .cut = fanCut,
-                               .startCorners = 64,
-                               .parts = "a fan of triangles",
-                               .note =
-                                   [](uint32_t sides, uint32_t start) {
-                                       return std::to_string(sides - 2) + " triangles" +
-                                              (start > 0 ? " from corner " + std::to_string(start) : "");
-                                   },
-                               .listed = 16,
-                               .others = " more faces of four and more sides: split into triangles"};
+constexpr SplitRule kTriangles{.mostSides = 3, .cut = fanCut, .startCorners = 64, .parts = "triangles"};
 
 /// Cuts the isolated mesh into fragments, by the topology of its parent.
 class FragmentBuilder : StepPoints {

@@ -53,7 +53,7 @@ struct Mesh {
     /// h. In a facet corner 0 is c0.
     std::vector<uint32_t> sectorFaces;
     std::vector<float> spokeSharpness; ///< at the isolated level
-    std::vector<std::string> notes;    ///< what was changed: "face 12 has 4 sides: split into 2 triangles"
+    std::vector<std::string> notes;    ///< what was changed, one line each
 };
 
 /// Refuses what cage::buildTopology refuses, with the same message. Loop splits faces of four and more sides into fans

@@ -94,13 +94,10 @@ TEST(Features, whatIsNotInTheCageIsNamed) {
     cage.creaseScalars = {{0, 7, 0.5f}, {0, 1, 1.5f}, {0, 2, -0.25f}, {1, 0, nan}, {0, 4, 1.0f}, {4, 0, 0.0f}};
     const Built built = build(cage);
     EXPECT_EQ(built.features.unused,
-              (std::vector<std::string>{
-                  "crease (0, 7): the cage has no such edge", "crease (0, 99): the cage has no such edge",
-                  "crease (4294967295, 0): the cage has no such edge", "crease (2, 2): the cage has no such edge",
-                  "sharp vertex 8: the cage has only 8 vertices", "crease scalar 0 -> 7: the cage has no such edge",
-                  "crease scalar 0 -> 1: 1.500000 is not between 0 and 1",
-                  "crease scalar 0 -> 2: -0.250000 is not between 0 and 1",
-                  "crease scalar 1 -> 0: nan is not between 0 and 1"}));
+              (std::vector<std::string>{"crease (0, 7): the cage has no such edge, and 3 more like it",
+                                        "sharp vertex 8: the cage has only 8 vertices",
+                                        "crease scalar 0 -> 7: the cage has no such edge",
+                                        "crease scalar 0 -> 1: 1.500000 is not between 0 and 1, and 2 more like it"}));
     EXPECT_EQ(sharpness(cage, built, 0, 1), 5.0f); // the rest is used
     EXPECT_EQ(built.features.vertexSharpness[0], 10.0f);
     uint32_t given = 0;

@@ -32,26 +32,26 @@ Result<std::vector<std::byte>> readFile(const std::string& path) {
 
 } // namespace
 
-Result<CharacterFile> readCharacterFile(const std::string& path, bool pairQuads) {
+Result<CharacterFile> readCharacterFile(const std::string& path, const ReadFlags& flags) {
     Result<std::vector<std::byte>> bytes = readFile(path);
     if (!bytes) {
         return bytes.error();
     }
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const std::string directory = parent.empty() ? "." : parent.string();
-    Result<cage::Character> character = cage::readCharacter(*bytes, path, directory, {.pairQuads = pairQuads});
+    Result<cage::Character> character =
+        cage::readCharacter(*bytes, path, directory, {.pairQuads = flags.pairQuads, .strict = flags.strict});
     if (!character) {
         return character.error();
     }
-    return CharacterFile{path, directory, pairQuads, std::move(*bytes), std::move(*character)};
+    return CharacterFile{path, directory, flags, std::move(*bytes), std::move(*character)};
 }
 
 Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
     SuppleAssetDesc desc{};
     desc.structSize = sizeof desc;
-    if (file.pairQuads) {
-        desc.flags |= SUPPLE_ASSET_PAIR_QUADS;
-    }
+    desc.flags |= file.flags.pairQuads ? SUPPLE_ASSET_PAIR_QUADS : 0u;
+    desc.flags |= file.flags.strict ? SUPPLE_ASSET_STRICT : 0u;
     desc.name = file.path.c_str();
     desc.bytes = file.bytes.data();
     desc.byteCount = file.bytes.size();

@@ -12,14 +12,20 @@
 
 namespace supple::host {
 
+/// How a file is read.
+struct ReadFlags {
+    bool pairQuads = false; ///< SUPPLE_ASSET_PAIR_QUADS
+    bool strict = false;    ///< SUPPLE_ASSET_STRICT
+};
+
 struct CharacterFile {
     std::string path;
     std::string directory; ///< where its external buffers and images lie
-    bool pairQuads = false;
+    ReadFlags flags;
     std::vector<std::byte> bytes;
     cage::Character character; ///< called as the path
 };
-[[nodiscard]] Result<CharacterFile> readCharacterFile(const std::string& path, bool pairQuads = false);
+[[nodiscard]] Result<CharacterFile> readCharacterFile(const std::string& path, const ReadFlags& flags = {});
 
 [[nodiscard]] Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file);
 

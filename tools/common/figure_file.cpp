@@ -20,9 +20,9 @@ CageMesh meshOf(cage::Cage cage) {
 
 } // namespace
 
-Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path, bool pairQuads) {
+Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path, const ReadFlags& flags) {
     // Supple hands out no faces of the cage: to draw them, a host keeps its own.
-    Result<CharacterFile> file = readCharacterFile(path, pairQuads);
+    Result<CharacterFile> file = readCharacterFile(path, flags);
     if (!file)
         return file.error();
     const Result<SuppleAsset> asset = createAsset(context, *file);

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "host/figure.h"
+#include "tools/common/character_file.h"
 
 namespace supple::host {
 
 /// The context must outlive the figure.
 [[nodiscard]] Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path,
-                                                         bool pairQuads = false);
+                                                         const ReadFlags& flags = {});
 
 /// As findClip() of tools/common/character_file.h.
 [[nodiscard]] Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex);

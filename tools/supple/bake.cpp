@@ -195,7 +195,7 @@ Status writePatches(const std::string& path, const Evaluation& baked, const std:
 }
 
 int runBake(const BakeOptions& options) {
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.pairQuads);
+    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
     if (!file) {
         return fail(kExitBadInput, file.error().message);
     }

@@ -13,7 +13,11 @@ std::string printable(std::string_view text) {
 }
 
 int fail(ExitCode code, std::string_view reason) {
-    std::fprintf(stderr, "supple: %s\n", printable(reason).c_str());
+    for (size_t begin = 0; begin <= reason.size();) {
+        const size_t end = std::min(reason.find('\n', begin), reason.size());
+        std::fprintf(stderr, "supple: %s\n", printable(reason.substr(begin, end - begin)).c_str());
+        begin = end + 1;
+    }
     return code;
 }
 

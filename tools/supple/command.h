@@ -19,7 +19,7 @@ enum ExitCode : int {
     kExitNoDevice = 3, ///< no device, none of that name, or it lacks something Supple needs
 };
 
-/// Prints "supple: reason" as one line on stderr and returns `code`.
+/// Prints "supple: reason" on stderr, once for each line of the reason, and returns `code`.
 int fail(ExitCode code, std::string_view reason);
 
 /// The same for an Error; ErrorCode::unsupported becomes kExitNoDevice.

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct ConvertOptions {
     std::string file;
     std::string output;
-    bool pairQuads = false;
+    host::ReadFlags reading;
 };
 
 /// Cage vertices whose corners do not agree in texture coordinates or color.
@@ -104,7 +104,7 @@ Status writeWhole(const std::string& path, const std::vector<std::byte>& bytes) 
 }
 
 int runConvert(const ConvertOptions& options) {
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.pairQuads);
+    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.reading);
     if (!file) {
         return fail(file.error());
     }
@@ -135,8 +135,7 @@ void bindConvert(CLI::App& app, int& exitCode) {
         ->required()
         ->check(CLI::Validator(glbName, ""))
         ->type_name("OUT.glb");
-    command->add_flag("--pair-quads", options->pairQuads,
-                      "Merge consecutive triangle pairs of plain triangles to quads");
+    bindReading(*command, options->reading);
     command->callback([options, &exitCode] {
         std::error_code ignored;
         if (fs::equivalent(options->file, options->output, ignored)) {

@@ -23,7 +23,7 @@ struct InspectOptions {
     std::string file;
     bool json = false;
     bool compare = false;
-    SurfaceFlags surface; ///< of its fields those that --compare has flags for; pairQuads always
+    SurfaceFlags surface; ///< of its fields those that --compare has flags for; `reading` always
     std::string clip;     ///< name or index; empty: the bind pose
     double time = 0.0;
     DeviceFlags device;
@@ -350,7 +350,7 @@ void printText(const InspectOptions& options, const cage::Character& character, 
 }
 
 int runInspect(const InspectOptions& options) {
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.pairQuads);
+    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
     if (!file) {
         return fail(kExitBadInput, file.error().message);
     }
@@ -387,8 +387,7 @@ void bindInspect(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("inspect", "What a character file holds, and which schemes take it");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_flag("--json", options->json, "Print JSON");
-    command->add_flag("--pair-quads", options->surface.pairQuads,
-                      "Merge consecutive triangle pairs of plain triangles to quads");
+    bindReading(*command, options->surface.reading);
     command->add_flag("--compare", options->compare,
                       "Also evaluate every scheme that takes the cage, and say how far its surface is from the "
                       "Catmull-Clark limit");

@@ -33,6 +33,11 @@ SuppleMapping mappingOf(const DeviceFlags& flags) {
                                      : SUPPLE_MAPPING_AUTO;
 }
 
+void bindReading(CLI::App& command, host::ReadFlags& reading) {
+    command.add_flag("--pair-quads", reading.pairQuads, "Merge consecutive triangle pairs of plain triangles to quads");
+    command.add_flag("--strict", reading.strict, "Refuse a damaged cage, and name all damage, instead of repairing it");
+}
+
 void bindRate(CLI::App& command, uint32_t& rate) {
     command
         .add_option("--rate", rate,
@@ -42,7 +47,7 @@ void bindRate(CLI::App& command, uint32_t& rate) {
         ->capture_default_str();
 }
 
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, bool& pairQuads,
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadFlags& reading,
                 const std::vector<std::string>& extraSchemes) {
     std::vector<std::string> names{"auto"};
     for (const Scheme& known : kSchemes) {
@@ -54,11 +59,11 @@ void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::str
     command.add_option("--skinning", skinning, "How joints move the cage")
         ->check(CLI::IsMember({"linear", "dual-quaternion"}))
         ->capture_default_str();
-    command.add_flag("--pair-quads", pairQuads, "Merge consecutive triangle pairs of plain triangles to quads");
+    bindReading(command, reading);
 }
 
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes) {
-    bindScheme(command, flags.scheme, flags.rate, flags.skinning, flags.pairQuads, extraSchemes);
+    bindScheme(command, flags.scheme, flags.rate, flags.skinning, flags.reading, extraSchemes);
     command.add_option("--tangents", flags.tangents, "Tangent length at extraordinary vertices")
         ->check(CLI::IsMember({"default", "printed"}))
         ->capture_default_str();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/result.h"
+#include "tools/common/character_file.h"
 #include "tools/common/schemes.h"
 
 #include <cstdint>
@@ -26,6 +27,9 @@ void bindDevice(CLI::App& command, std::string& device, std::string& mapping, bo
 void bindDevice(CLI::App& command, DeviceFlags& flags);
 [[nodiscard]] SuppleMapping mappingOf(const DeviceFlags& flags);
 
+/// --pair-quads and --strict.
+void bindReading(CLI::App& command, host::ReadFlags& reading);
+
 /// --scheme, --rate and how the surface is built.
 struct SurfaceFlags {
     std::string scheme = "auto";
@@ -35,10 +39,10 @@ struct SurfaceFlags {
     std::string creases = "cut";
     float sharpThreshold = 1.0f;
     std::string skinning = "linear";
-    bool pairQuads = false;
+    host::ReadFlags reading;
 };
 /// `extraSchemes`: what --scheme also takes here, such as "cage".
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, bool& pairQuads,
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadFlags& reading,
                 const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
 /// --creases and --sharp.

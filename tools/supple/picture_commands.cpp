@@ -32,7 +32,7 @@ CLI::Validator sizeValidator() {
 }
 
 void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::string>& extraSchemes = {"cage"}) {
-    bindScheme(command, draw.scheme, draw.rate, draw.skinning, draw.pairQuads, extraSchemes);
+    bindScheme(command, draw.scheme, draw.rate, draw.skinning, draw.reading, extraSchemes);
     bindSharpEdges(command, draw.creases, draw.sharpThreshold);
     command.add_flag("--shared-samples", draw.sharedSamples,
                      "One mesh whose patches share the samples on their borders (prep, pm); without lines of patches");

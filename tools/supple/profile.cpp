@@ -325,7 +325,7 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
 int runProfile(const ProfileOptions& options) {
     std::vector<host::CharacterFile> files;
     for (const std::string& path : options.files) {
-        Result<host::CharacterFile> file = host::readCharacterFile(path, options.surface.pairQuads);
+        Result<host::CharacterFile> file = host::readCharacterFile(path, options.surface.reading);
         if (!file) {
             return fail(kExitBadInput, file.error().message);
         }

@@ -2,6 +2,8 @@
 // check them and answer kExitUsage.
 #pragma once
 
+#include "tools/common/character_file.h"
+
 #include <cstdint>
 #include <string>
 
@@ -17,10 +19,10 @@ struct DrawOptions {
     std::string view = "shaded";     ///< shaded | wire | patches | normals | zebra
     bool cageOverlay = false;        ///< the cage's edges drawn over the surface
     bool ground = true;              ///< a floor that takes shadows
-    double yaw = 35.0;      ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
-    double pitch = 12.0;    ///< degrees; positive looks down
-    bool pairQuads = false; ///< SUPPLE_ASSET_PAIR_QUADS
-    std::string device;     ///< name part or index; empty takes the best
+    double yaw = 35.0;   ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
+    double pitch = 12.0; ///< degrees; positive looks down
+    host::ReadFlags reading;
+    std::string device;           ///< name part or index; empty takes the best
     std::string mapping = "auto"; ///< auto | narrow | wide
     bool validate = false;        ///< run under the validation layer; its messages make the command fail
 };

@@ -73,7 +73,7 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
                                            const DrawOptions& options) {
     std::unique_ptr<Stage> stage(new Stage(session));
     host::Device& device = *session.device;
-    Result<std::unique_ptr<host::Figure>> figure = host::openFigure(*session.context, file, options.pairQuads);
+    Result<std::unique_ptr<host::Figure>> figure = host::openFigure(*session.context, file, options.reading);
     if (!figure)
         return figure.error();
     stage->figure_ = std::move(*figure);

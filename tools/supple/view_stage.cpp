@@ -35,7 +35,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->skinning_ = skinningOf(options.skinning);
     stage->creaseMode_ = creaseModeOf(options.creases);
     stage->sharpThreshold_ = options.sharpThreshold;
-    stage->pairQuads_ = options.pairQuads;
+    stage->reading_ = options.reading;
     stage->sharedSamples_ = options.sharedSamples;
     stage->settings.rate = static_cast<int>(stage->offeredRate(options.rate));
     stage->startYaw_ = radians(options.yaw);
@@ -44,7 +44,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
 }
 
 Status ViewStage::open(const std::string& file, const std::string& clip, float aspect) {
-    Result<std::unique_ptr<host::Figure>> figure = host::openFigure(context_, file, pairQuads_);
+    Result<std::unique_ptr<host::Figure>> figure = host::openFigure(context_, file, reading_);
     if (!figure)
         return figure.error();
     const Result<uint32_t> chosen = host::findClip(**figure, clip);

@@ -81,7 +81,7 @@ private:
     SuppleSkinning skinning_ = SUPPLE_SKINNING_LINEAR;
     SuppleCreaseMode creaseMode_ = SUPPLE_CREASES_CUT;
     float sharpThreshold_ = 1.0f;
-    bool pairQuads_ = false;
+    host::ReadFlags reading_;
     bool sharedSamples_ = false;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;

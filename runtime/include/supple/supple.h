@@ -257,7 +257,9 @@ typedef struct SuppleCreaseScalar {
 } SuppleCreaseScalar;
 
 /** A control cage given as arrays, which are copied. Faces are counter-clockwise seen from outside. Sharpness is as in
- * OpenSubdiv and USD: 0 is smooth, 10 and more is infinitely sharp. */
+ * OpenSubdiv and USD: 0 is smooth, 10 and more is infinitely sharp. What no surface can be built on, such as three
+ * faces on an edge, is repaired with a warning for each kind (docs/gltf.md): unless SUPPLE_ASSET_STRICT is set, see
+ * SuppleAssetInfo.sourceVertices. */
 typedef struct SuppleCageDesc {
     uint32_t structSize;
     uint32_t vertexCount;
@@ -280,11 +282,14 @@ typedef struct SuppleCageDesc {
     const uint32_t* faceTrimTiles; /**< optional: per face a trim tile or SUPPLE_NO_TRIM_TILE; see SuppleTrimDomain */
 } SuppleCageDesc;
 
-/** Options of reading a file. */
+/** Options of reading a file or arrays. */
 typedef enum SuppleAssetFlags {
     /** Plain triangles of a glTF file: two triangles that follow each other become one quad if they share an edge, have
      * the same UVs and colors along it, and face the same side. Polygons that the file lists are left as they are. */
     SUPPLE_ASSET_PAIR_QUADS = 1,
+    /** Refuse a damaged cage instead of repairing it. The message has one line for each kind of damage, which counts it
+     * and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
+    SUPPLE_ASSET_STRICT = 2,
     /** Parts of a glTF file stay apart. Without this flag, parts are sewn together where their boundaries coincide in
      * position, skin and morph targets, and the surface goes on smoothly from one to the other. */
     SUPPLE_ASSET_PARTS_APART = 4
@@ -333,6 +338,11 @@ typedef struct SuppleAssetInfo {
     float boundsMax[3];
     uint32_t imageCount;
     uint32_t partCount; /**< 1 or more */
+    /** cageVertexCount entries, which live as long as the asset: the number that each vertex of the cage had in the
+     * arrays, among the v lines of an OBJ file, or among the vertices of a glTF mesh. A repair may leave vertices out
+     * and add copies behind all others: those who write the deformed cage themselves (SUPPLE_POSES_CAGE_BUFFER) put
+     * vertex sourceVertices[i] in place i. */
+    const uint32_t* sourceVertices;
 } SuppleAssetInfo;
 
 /** A part of a character: what one node of a file carries as its mesh. OBJ files and arrays have one part. All parts
@@ -474,8 +484,10 @@ typedef struct SuppleImageInfo {
     size_t byteCount;
 } SuppleImageInfo;
 
-/** Fails if the file or the arrays are malformed. If only a scheme cannot take the cage (a non-manifold edge, a face
- * that is no quad), suppleCreateGroup fails instead, so the cage alone can still be used (SUPPLE_SCHEME_CAGE). */
+/** Fails if the file or the arrays are malformed; the message has one line for each kind of fault. A cage that is only
+ * damaged (three faces on an edge, flipped faces) is repaired, with a warning in the log for each kind, or refused with
+ * SUPPLE_ASSET_STRICT. If only a scheme cannot take the cage (a face that is no quad), suppleCreateGroup fails instead,
+ * so the cage alone can still be used (SUPPLE_SCHEME_CAGE). */
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
 /** The handle and all pointers that live as long as the asset are dead at once. The asset's groups keep what they
  * need. */

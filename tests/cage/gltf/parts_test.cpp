@@ -95,10 +95,14 @@ TEST(GltfParts, PartsWithoutTrianglesAreNamed) {
     b.meshes = replaced(b.meshes, R"("name":"plate","primitives":[{)", R"("name":"plate","primitives":[{"mode":0,)");
     const Character c = readWell(b.glb());
     EXPECT_EQ(c.parts.size(), 2u);
-    EXPECT_EQ(c.warnings, Strings{"mesh 1 primitive 0: POINTS instead of TRIANGLES; left out"}) << "once";
+    EXPECT_EQ(c.warnings, (Strings{"mesh 1 primitive 0: POINTS instead of TRIANGLES; left out",
+                                   "mesh 1: nothing but points: no primitive of TRIANGLES, so there is no surface; "
+                                   "left out"}))
+        << "once";
     b.nodes = R"([{"mesh":1},{"children":[2]},{}])";
     b.more = "";
-    EXPECT_EQ(messageOf(b.glb()), "t.glb: no triangles: mesh 1 primitive 0: POINTS instead of TRIANGLES; left out");
+    EXPECT_EQ(messageOf(b.glb()),
+              "t.glb: mesh 1: nothing but points: no primitive of TRIANGLES, so there is no surface");
 }
 
 TEST(GltfParts, AFaultInAnyPartIsTheFiles) {

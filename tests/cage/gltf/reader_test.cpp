@@ -160,7 +160,7 @@ TEST(GltfReader, UnusedVerticesAndDegenerateTrianglesGo) {
     EXPECT_EQ(c.cage.faceCount(), 1u);
     EXPECT_EQ(c.seamVertexCount, 0u);
     EXPECT_EQ(c.warnings, (Strings{"mesh 0: 1 vertex has no face; left out",
-                                   "mesh 0 primitive 0: 2 triangles with a repeated vertex left out"}));
+                                   "mesh 0 primitive 0: 2 triangles with a repeated vertex; left out"}));
 }
 
 // ---- accessors ------------------------------------------------------------------------------------------------------

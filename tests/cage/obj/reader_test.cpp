@@ -168,7 +168,8 @@ TEST(ObjReader, UnusedVerticesGoAndTagsFollow) {
     EXPECT_EQ(c.cage.sharpVertices[0].vertex, 3u);
     EXPECT_EQ(c.cage.holes, (std::vector<uint32_t>{0}));
     EXPECT_EQ(c.warnings,
-              (Strings{"line 7: 1 face repeats a vertex; left out", "file: 2 vertices have no face; left out"}));
+              (Strings{"file: 2 vertices have no face; left out",
+                       "file: 1 face has fewer than three different vertices or bounds nothing: face 0; left out"}));
 }
 
 TEST(ObjReader, SaysWhatItLeavesOut) {
@@ -191,15 +192,24 @@ TEST(ObjReader, SaysWhatItLeavesOut) {
 }
 
 TEST(ObjReader, RefusalsNameLineElementAndReason) {
-    expectRefused("", "file: no faces");
-    expectRefused(kFourVertices, "file: no faces");
+    expectRefused("", "file: empty: no faces, so there is no surface");
+    expectRefused(kFourVertices, "file: nothing but points: no faces, so there is no surface");
+    expectRefused(kFourVertices + "p 1 2\n", "file: nothing but points: no faces, so there is no surface");
+    expectRefused(kFourVertices + "l 1 2\n", "file: nothing but lines: no faces, so there is no surface");
+    expectRefused(kFourVertices + "p 1\nl 1 2\n",
+                  "file: nothing but points and lines: no faces, so there is no surface");
     expectRefused("v 0 0\n", "line 1: position: a number is missing");
     expectRefused("v 0 0 nan\n", "line 1: position: \"nan\" is not a finite number");
     expectRefused("v 0 -inf 0\n", "line 1: position: \"-inf\" is not a finite number");
     expectRefused("v 0 1e39 0\n", "line 1: position: \"1e39\" is not a finite number");
     expectRefused("v 0 0,5 0\n", "line 1: position: \"0,5\" is not a finite number");
     expectRefused("vt 1 x\n", "line 1: texture coordinate: \"x\" is not a finite number");
-    expectRefused(kFourVertices + "f 1 2\n", "line 5: a face of 2 corners");
+    expectRefused(kFourVertices + "f 1 2\n", "file: no face is left: all have fewer than three different vertices or "
+                                             "bound nothing");
+    expectRefused(
+        kFourVertices + "vt 0 0\nf 1 2 99\nf 1/2 2/1 98/7\n",
+        "line 6: face corner 3: vertex 99 of 4, and 1 more like it; line 7: face corner 1: texture coordinate "
+        "2 of 1, and 1 more like it");
     expectRefused(kFourVertices + "f 1 2 99\n", "line 5: face corner 3: vertex 99 of 4");
     expectRefused(kFourVertices + "f 1 0 2\n", "line 5: face corner 2: vertex 0 of 4");
     expectRefused(kFourVertices + "f -5 1 2\n", "line 5: face corner 1: vertex -5 of 4");
@@ -210,7 +220,8 @@ TEST(ObjReader, RefusalsNameLineElementAndReason) {
     expectRefused(kFourVertices + "f 1 2 4294967297\n", "line 5: face corner 3: vertex 4294967297 of 4");
     expectRefused(kFourVertices + "f 1 2 99999999999999999999\n",
                   "line 5: face corner 3: \"99999999999999999999\" is not an index");
-    expectRefused(kFourVertices + "f 1 1 2\n", "file: no face is left");
+    expectRefused(kFourVertices + "f 1 1 2\n", "file: no face is left: all have fewer than three different vertices or "
+                                               "bound nothing");
     expectRefused(kFourVertices + "f 1 2 " + std::string(100, '\x01') + "\n",
                   "line 5: face corner 3: \"" + std::string(40, '?') + "...\" is not an index");
 
@@ -295,7 +306,7 @@ TEST(CharacterReader, TellsTheFormatsApart) {
     EXPECT_EQ(source(test::skinnedQuad().embedded(), "a.obj"), "triangles");
     EXPECT_EQ(source(test::skinnedQuad().embedded(), ""), "triangles");
     EXPECT_EQ(source(toBytes(kSquare), "a.glb").rfind("a.glb: ", 0), 0u);
-    EXPECT_EQ(source(toBytes(""), "a.obj"), "a.obj: file: no faces");
+    EXPECT_EQ(source(toBytes(""), "a.obj"), "a.obj: file: empty: no faces, so there is no surface");
 }
 
 TEST(ObjReader, SharedMeshes) {

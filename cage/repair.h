@@ -1,0 +1,31 @@
+// Repairs what no surface can be built on: a cage that buildTopology() (cage/topology.h) refuses becomes one that it
+// takes. docs/gltf.md tells what is done about each kind of damage.
+#pragma once
+
+#include "base/result.h"
+#include "cage/character.h"
+
+#include <string>
+
+namespace supple::cage {
+
+/// Leaves a cage that buildTopology() takes as it is, bit by bit. In any other one
+///  - vertices without a face, faces that bound nothing, and faces that are there twice are left out;
+///  - faces that pass a vertex twice are cut into simple loops;
+///  - faces turned against those they are joined to are turned round;
+///  - edges of three and more faces are cut into sheets, vertices of several fans into one each. The copies come behind
+///    all other vertices, in the order of the vertices they repeat. Cage::sourceVertices says which these are;
+///  - inner vertices of two faces are merged away (cage/repair/folds.h).
+/// All other faces keep their order and corners; materials, tiles, holes, creases, influences and displacements follow.
+/// `weights` may be empty (`starts` has no entry): nothing is bound yet.
+///
+/// Adds one entry for each kind of damage to `damages`, which begins with `element` ("mesh 0") and counts as the cage
+/// was given. Refuses a cage of which no face is left. Indices must be in range. O(corners log corners).
+[[nodiscard]] Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const std::string& element,
+                                std::vector<Damage>& damages);
+
+/// What a reader does at its end with the damage it found and repaired: a warning for each kind; or, if it is `strict`,
+/// a refusal that names all kinds, one per line, each beginning with the character's name.
+[[nodiscard]] Status reportDamages(Character& character, bool strict);
+
+} // namespace supple::cage

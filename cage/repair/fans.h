@@ -1,0 +1,21 @@
+// One vertex for each fan of faces. Private to cage/repair.
+#pragma once
+
+#include "cage/repair/draft.h"
+
+namespace supple::cage::repair {
+
+struct FanDamage {
+    Found bowTies;           ///< vertices of several fans that no cut edge explains
+    size_t copiesAtCuts = 0; ///< vertices added at the ends of cut edges
+};
+
+/// Gives every fan of faces a vertex of its own: the one with the lowest corner keeps the vertex, each other one gets a
+/// copy. Copies come in the order of the vertices, then of the fans' lowest corners. Where a fan passes a neighbour
+/// twice, so that two edges would have the same ends, it is cut into two fans there: `twins` changes so that each of
+/// these closes.
+///
+/// `twins` joins sides that run against each other. `atCut`: per vertex, see SheetDamage. O(corners).
+void separateFans(Draft& draft, std::vector<uint32_t>& twins, const std::vector<uint8_t>& atCut, FanDamage& damage);
+
+} // namespace supple::cage::repair

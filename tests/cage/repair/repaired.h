@@ -1,0 +1,68 @@
+// A cage, damaged and repaired, with what was said about it.
+#pragma once
+
+#include "cage/repair.h"
+#include "cage/topology.h"
+#include "tests/support/meshes.h"
+
+#include <gtest/gtest.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace supple::cage::test {
+
+using supple::test::Polygons;
+using supple::test::polygonsOf;
+using Strings = std::vector<std::string>;
+using Indices = std::vector<uint32_t>;
+
+struct Repaired {
+    Cage cage;
+    SkinWeights weights;
+    Morphs morphs;
+    Strings found;   ///< "cage: 1 edge ..."
+    Strings repairs; ///< what was done about each
+    std::string refusal;
+};
+
+/// Repairs a cage that has damage, and checks that a topology can be built of what comes out. Vertex i of the cage was
+/// vertex sourceVertices[i]; a skin is bound if there is one.
+inline Repaired repaired(Cage cage, SkinWeights weights = {}, Morphs morphs = {}) {
+    EXPECT_FALSE(buildTopology(cage).ok()) << "there is no damage";
+    Repaired result{std::move(cage), std::move(weights), std::move(morphs), {}, {}, {}};
+    result.cage.sourceVertices.clear();
+    for (uint32_t v = 0; v < result.cage.vertexCount(); ++v) {
+        result.cage.sourceVertices.push_back(v);
+    }
+    std::vector<Damage> damages;
+    const Status status = repairCage(result.cage, result.weights, result.morphs, "cage", damages);
+    for (const Damage& damage : damages) {
+        result.found.push_back(damage.found);
+        result.repairs.push_back(damage.repair);
+    }
+    if (!status) {
+        result.refusal = status.error().message;
+        return result;
+    }
+    const Result<Topology> topology = buildTopology(result.cage);
+    EXPECT_TRUE(topology.ok()) << topology.error().message;
+    EXPECT_EQ(result.cage.sourceVertices.size(), result.cage.positions.size());
+    return result;
+}
+
+inline Repaired repaired(std::vector<glm::vec3> positions, const Polygons& polygons) {
+    return repaired(supple::test::makeCage(std::move(positions), polygons));
+}
+
+/// So many vertices, no three on a line.
+inline std::vector<glm::vec3> points(uint32_t count) {
+    std::vector<glm::vec3> positions;
+    for (uint32_t i = 0; i < count; ++i) {
+        const auto x = static_cast<float>(i);
+        positions.emplace_back(x, x * x, 0.3f * x * x * x);
+    }
+    return positions;
+}
+
+} // namespace supple::cage::test
