@@ -32,7 +32,7 @@ Result<std::vector<std::byte>> readFile(const std::string& path) {
 
 } // namespace
 
-Result<CharacterFile> readCharacterFile(const std::string& path, const ReadFlags& flags) {
+Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptions& flags) {
     Result<std::vector<std::byte>> bytes = readFile(path);
     if (!bytes) {
         return bytes.error();
@@ -40,7 +40,11 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadFlags
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const std::string directory = parent.empty() ? "." : parent.string();
     Result<cage::Character> character =
-        cage::readCharacter(*bytes, path, directory, {.pairQuads = flags.pairQuads, .strict = flags.strict});
+        cage::readCharacter(*bytes, path, directory,
+                            {.scene = flags.scene,
+                             .sewParts = !flags.partsApart,
+                             .pairQuads = flags.pairQuads,
+                             .strict = flags.strict});
     if (!character) {
         return character.error();
     }
@@ -50,8 +54,11 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadFlags
 Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
     SuppleAssetDesc desc{};
     desc.structSize = sizeof desc;
-    desc.flags |= file.flags.pairQuads ? SUPPLE_ASSET_PAIR_QUADS : 0u;
-    desc.flags |= file.flags.strict ? SUPPLE_ASSET_STRICT : 0u;
+    const auto flag = [&](bool wanted, SuppleAssetFlags value) { desc.flags |= wanted ? uint32_t{value} : 0u; };
+    flag(file.flags.pairQuads, SUPPLE_ASSET_PAIR_QUADS);
+    flag(file.flags.strict, SUPPLE_ASSET_STRICT);
+    flag(file.flags.partsApart, SUPPLE_ASSET_PARTS_APART);
+    desc.scene = file.flags.scene ? *file.flags.scene + 1 : 0;
     desc.name = file.path.c_str();
     desc.bytes = file.bytes.data();
     desc.byteCount = file.bytes.size();

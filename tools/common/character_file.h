@@ -7,25 +7,28 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace supple::host {
 
 /// How a file is read.
-struct ReadFlags {
+struct ReadOptions {
     bool pairQuads = false; ///< SUPPLE_ASSET_PAIR_QUADS
     bool strict = false;    ///< SUPPLE_ASSET_STRICT
+    bool partsApart = false; ///< SUPPLE_ASSET_PARTS_APART
+    std::optional<uint32_t> scene; ///< the file's own choice if it is not given
 };
 
 struct CharacterFile {
     std::string path;
     std::string directory; ///< where its external buffers and images lie
-    ReadFlags flags;
+    ReadOptions flags;
     std::vector<std::byte> bytes;
     cage::Character character; ///< called as the path
 };
-[[nodiscard]] Result<CharacterFile> readCharacterFile(const std::string& path, const ReadFlags& flags = {});
+[[nodiscard]] Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptions& flags = {});
 
 [[nodiscard]] Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file);
 

@@ -20,7 +20,7 @@ CageMesh meshOf(cage::Cage cage) {
 
 } // namespace
 
-Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path, const ReadFlags& flags) {
+Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path, const ReadOptions& flags) {
     // Supple hands out no faces of the cage: to draw them, a host keeps its own.
     Result<CharacterFile> file = readCharacterFile(path, flags);
     if (!file)

@@ -8,7 +8,7 @@ namespace supple::host {
 
 /// The context must outlive the figure.
 [[nodiscard]] Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path,
-                                                         const ReadFlags& flags = {});
+                                                         const ReadOptions& flags = {});
 
 /// As findClip() of tools/common/character_file.h.
 [[nodiscard]] Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex);

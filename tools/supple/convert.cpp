@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct ConvertOptions {
     std::string file;
     std::string output;
-    host::ReadFlags reading;
+    host::ReadOptions reading;
 };
 
 /// Cage vertices whose corners do not agree in texture coordinates or color.

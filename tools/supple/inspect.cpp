@@ -7,6 +7,7 @@
 #include "tools/supple/compare.h"
 #include "tools/supple/folds.h"
 #include "tools/supple/inspect_materials.h"
+#include "tools/supple/inspect_parts.h"
 #include "tools/supple/options.h"
 
 #include <CLI/CLI.hpp>
@@ -168,6 +169,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     json["file"] = options.file;
     json["polygonSource"] = cage::polygonSourceName(character.parts[0].polygonSource);
     json["weldSource"] = cage::weldSourceName(character.parts[0].weldSource);
+    json["parts"] = partsToJson(character);
     json["vertices"] = cage.vertexCount();
     json["faces"] = cage.faceCount();
     json["corners"] = cage.cornerCount();
@@ -199,7 +201,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     }
     json["materials"] = Json::array();
     for (const cage::Material& material : character.materials) {
-        json["materials"].push_back(toJson(material));
+        json["materials"].push_back(tools::toJson(material));
     }
     json["images"] = Json::array();
     for (const cage::Image& image : character.images) {
@@ -294,6 +296,10 @@ void printText(const InspectOptions& options, const cage::Character& character, 
                const Comparison* comparison) {
     const cage::Cage& cage = character.cage;
     printLine("file", options.file);
+    printLine("parts", std::to_string(character.parts.size()));
+    for (const std::string& line : partLines(character)) {
+        printLine("", line);
+    }
     printLine("polygons from", cage::polygonSourceName(character.parts[0].polygonSource));
     printLine("welded by", cage::weldSourceName(character.parts[0].weldSource));
     printLine("vertices", std::to_string(cage.vertexCount()) + " (" + std::to_string(character.sourceVertexCount) +
@@ -322,7 +328,7 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     }
     printLine("materials", std::to_string(character.materials.size()));
     for (const cage::Material& material : character.materials) {
-        printLine("", toText(material));
+        printLine("", tools::toText(material));
     }
     printLine("images", std::to_string(character.images.size()));
     for (const cage::Image& image : character.images) {

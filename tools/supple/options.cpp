@@ -33,8 +33,10 @@ SuppleMapping mappingOf(const DeviceFlags& flags) {
                                      : SUPPLE_MAPPING_AUTO;
 }
 
-void bindReading(CLI::App& command, host::ReadFlags& reading) {
+void bindReading(CLI::App& command, host::ReadOptions& reading) {
     command.add_flag("--pair-quads", reading.pairQuads, "Merge consecutive triangle pairs of plain triangles to quads");
+    command.add_option("--scene", reading.scene, "Read this scene of a glTF file, counted from 0");
+    command.add_flag("--parts-apart", reading.partsApart, "Do not sew parts together where their boundaries coincide");
     command.add_flag("--strict", reading.strict, "Refuse a damaged cage, and name all damage, instead of repairing it");
 }
 
@@ -47,7 +49,7 @@ void bindRate(CLI::App& command, uint32_t& rate) {
         ->capture_default_str();
 }
 
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadFlags& reading,
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadOptions& reading,
                 const std::vector<std::string>& extraSchemes) {
     std::vector<std::string> names{"auto"};
     for (const Scheme& known : kSchemes) {

@@ -27,8 +27,8 @@ void bindDevice(CLI::App& command, std::string& device, std::string& mapping, bo
 void bindDevice(CLI::App& command, DeviceFlags& flags);
 [[nodiscard]] SuppleMapping mappingOf(const DeviceFlags& flags);
 
-/// --pair-quads and --strict.
-void bindReading(CLI::App& command, host::ReadFlags& reading);
+/// --pair-quads, --scene, --parts-apart and --strict.
+void bindReading(CLI::App& command, host::ReadOptions& reading);
 
 /// --scheme, --rate and how the surface is built.
 struct SurfaceFlags {
@@ -39,10 +39,10 @@ struct SurfaceFlags {
     std::string creases = "cut";
     float sharpThreshold = 1.0f;
     std::string skinning = "linear";
-    host::ReadFlags reading;
+    host::ReadOptions reading;
 };
 /// `extraSchemes`: what --scheme also takes here, such as "cage".
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadFlags& reading,
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadOptions& reading,
                 const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
 /// --creases and --sharp.

@@ -21,7 +21,7 @@ struct DrawOptions {
     bool ground = true;              ///< a floor that takes shadows
     double yaw = 35.0;   ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
     double pitch = 12.0; ///< degrees; positive looks down
-    host::ReadFlags reading;
+    host::ReadOptions reading;
     std::string device;           ///< name part or index; empty takes the best
     std::string mapping = "auto"; ///< auto | narrow | wide
     bool validate = false;        ///< run under the validation layer; its messages make the command fail

@@ -81,7 +81,7 @@ private:
     SuppleSkinning skinning_ = SUPPLE_SKINNING_LINEAR;
     SuppleCreaseMode creaseMode_ = SUPPLE_CREASES_CUT;
     float sharpThreshold_ = 1.0f;
-    host::ReadFlags reading_;
+    host::ReadOptions reading_;
     bool sharedSamples_ = false;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
