@@ -31,11 +31,11 @@ public:
 
     Status run() {
         numberVertices();
-        for (const auto step : {&Remapper::mapWeights, &Remapper::mapMorphs}) {
-            if (Status status = (this->*step)(); !status) {
-                return status;
-            }
+        if (Status status = checkCopies(); !status) {
+            return status;
         }
+        mapWeights();
+        mapMorphs();
         mapFaces();
         mapVertices();
         findCopiedEdges();
@@ -71,17 +71,32 @@ private:
         }
     }
 
-    static Status checkCopied(size_t before, size_t after) {
-        if (after > before + kMaxCopiedValues) {
+    /// Refuses what would take much memory, before any of it is copied.
+    [[nodiscard]] Status checkCopies() const {
+        size_t influences = 0;
+        size_t displacements = 0;
+        const auto copies = [&](uint32_t vertex) {
+            const size_t successors = successors_.of(vertex).size();
+            return successors > 0 ? successors - 1 : 0;
+        };
+        for (uint32_t v = 0; v + 1 < weights_.starts.size(); ++v) {
+            influences += copies(v) * (weights_.starts[v + 1] - weights_.starts[v]);
+        }
+        for (const MorphTarget& target : morphs_.targets) {
+            for (const uint32_t vertex : target.vertices) {
+                displacements += copies(vertex);
+            }
+        }
+        if (std::max(influences, displacements) > kMaxCopiedValues) {
             return Error{ErrorCode::limit, "repairing it would copy more than " + std::to_string(kMaxCopiedValues) +
                                                " influences or displacements"};
         }
         return success();
     }
 
-    Status mapWeights() {
+    void mapWeights() {
         if (weights_.starts.empty()) {
-            return success();
+            return;
         }
         SkinWeights mapped;
         mapped.starts.push_back(0);
@@ -89,30 +104,19 @@ private:
             const auto begin = weights_.influences.begin();
             mapped.influences.insert(mapped.influences.end(), begin + weights_.starts[source],
                                      begin + weights_.starts[source + 1]);
-            if (Status status = checkCopied(weights_.influences.size(), mapped.influences.size()); !status) {
-                return status;
-            }
             mapped.starts.push_back(static_cast<uint32_t>(mapped.influences.size()));
         }
         weights_ = std::move(mapped);
-        return success();
     }
 
-    Status mapMorphs() {
-        size_t before = 0;
-        size_t after = 0;
+    void mapMorphs() {
         for (MorphTarget& target : morphs_.targets) {
             std::vector<std::pair<uint32_t, size_t>> entries; // vertex, entry of the target
-            before += target.vertices.size();
             for (size_t i = 0; i < target.vertices.size(); ++i) {
                 for (const uint32_t vertex : successors_.of(target.vertices[i])) {
                     entries.emplace_back(vertex, i);
                 }
-                if (Status status = checkCopied(before, after + entries.size()); !status) {
-                    return status;
-                }
             }
-            after += entries.size();
             std::sort(entries.begin(), entries.end());
             MorphTarget mapped{target.name, {}, {}};
             for (const auto& [vertex, i] : entries) {
@@ -121,7 +125,6 @@ private:
             }
             target = std::move(mapped);
         }
-        return success();
     }
 
     template <class Values>

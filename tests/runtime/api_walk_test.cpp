@@ -540,7 +540,7 @@ void createAsset(Rows& r) {
     spoiled("neither bytes nor cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.bytes = nullptr; });
     spoiled("bytes and cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.cage = &kNoCage; });
-    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 2; });
+    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 4; });
     spoiled("files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER,
             [](Desc& d) { d.files = &kNoRead; });
     spoiled("no bytes", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount = 0; });
@@ -551,7 +551,7 @@ void createAsset(Rows& r) {
     static const float kNanPositions[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, kNan, 0, 2, 1, 0};
     static const float kInfinitePositions[] = {0, 0, 0, 1, kInfinity, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
     static const uint32_t kCounts[] = {4, 4}, kIndices[] = {0, 1, 4, 3, 1, 2, 5, 4}, kFar[] = {0, 1, 4, 3, 1, 2, 6, 4};
-    static const uint32_t kTwoSided[] = {2, 4}, kTiles[] = {0, SUPPLE_MAX_TRIM_TILES}, kHoles[] = {2};
+    static const uint32_t kTwoSided[] = {2, 2}, kTiles[] = {0, SUPPLE_MAX_TRIM_TILES}, kHoles[] = {2};
     static const SuppleCreaseScalar kScalar{1, 4, kNan};
     const auto cageDesc = [](World&) {
         SuppleCageDesc desc{};
@@ -600,7 +600,7 @@ void createAsset(Rows& r) {
     malformed("NaN position", [](Cage& d) { d.positions = kNanPositions; });
     malformed("infinite position", [](Cage& d) { d.positions = kInfinitePositions; });
     malformed("vertex index", [](Cage& d) { d.faceVertexIndices = kFar; });
-    malformed("face of two sides", [](Cage& d) { d.faceVertexCounts = kTwoSided; });
+    malformed("faces of two sides alone", [](Cage& d) { d.faceVertexCounts = kTwoSided; });
     malformed("trim tile", [](Cage& d) { d.faceTrimTiles = kTiles; });
     malformed("hole", [](Cage& d) {
         d.holeCount = 1;

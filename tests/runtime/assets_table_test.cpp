@@ -1,5 +1,5 @@
-// Every mesh and character that lies beside the repository under P_m: taken with which patches, or refused with which
-// words; and what is taken, evaluated on the device.
+// Every mesh and character that lies beside the repository under P_m: which patches it gets, whether its cage is
+// repaired before, and what comes of it on the device.
 #include "tests/support/pm_gpu.h"
 #include "tests/support/shared_assets.h"
 #include "tools/common/character_file.h"
@@ -17,61 +17,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file below ../shared/assets, and how the line begins that says why P_m does not take it.
-struct Refusal {
-    const char* file;
-    const char* message;
-};
-
-/// By reason; every message begins with the edge, vertex or face.
-const std::vector<std::pair<const char*, std::vector<Refusal>>>& refusals() {
-    static const std::vector<std::pair<const char*, std::vector<Refusal>>> list = {
-        {"more than two faces at an edge",
-         {{"characters/llama_nonmanifold.glb", "edge (303, 304): four faces meet here: 140, 141, 316, 317"},
-          {"meshes/opensubdiv/catmark_fan.obj", "edge (7, 8): three faces meet here: 2, 5, 9"},
-          {"meshes/opensubdiv/catmark_nonman_edge100.obj", "edge (200, 201): 100 faces meet here: 0, 1, 2, 3,"},
-          {"meshes/opensubdiv/catmark_nonman_edges.obj", "edge (7, 8): three faces meet here: 2, 5, 9"},
-          {"meshes/opensubdiv/catmark_val2_nonman.obj", "edge (0, 1): four faces meet here: 0, 1, 2, 3"},
-          {"meshes/opensubdiv/loop_nonman_edge100.obj", "edge (100, 101): 100 faces meet here: 0, 1, 2, 3,"},
-          {"meshes/opensubdiv/loop_nonman_edges.obj", "edge (7, 8): three faces meet here: 1, 10, 17"},
-          {"meshes/opensubdiv/loop_val2_interior.obj", "edge (10, 11): four faces meet here: 6, 7, 8, 9"},
-          {"meshes/shortsword_nonmanifold_ngons.obj", "edge (1, 4): four faces meet here: 40, 41, 42, 44"}}},
-        {"faces turned against each other",
-         {{"khronos/BoxAnimated.gltf", "edge (1, 2): flipped orientation: faces 0 and 1 run along it"}}},
-        {"several fans at a vertex",
-         {{"khronos/asset-generator/Animation_Skin/Animation_Skin_09.gltf", "vertex 2: several separate fans"},
-          {"meshes/opensubdiv/catmark_gregory_test4.obj", "vertex 4: several separate fans"},
-          {"meshes/opensubdiv/catmark_nonman_verts.obj", "vertex 1: several separate fans"},
-          {"meshes/opensubdiv/loop_nonman_verts.obj", "vertex 1: several separate fans"}}},
-        {"interior valence 2",
-         {{"characters/suzanne.glb", "vertex 137: interior valence 2, between faces 142 and 143"},
-          {"meshes/opensubdiv/catmark_gregory_test8.obj", "vertex 1: interior valence 2, between faces 0 and 3"},
-          {"meshes/opensubdiv/catmark_val2_back2back.obj", "vertex 0: interior valence 2, between faces 0 and 1"},
-          {"meshes/opensubdiv/catmark_val2_foldover.obj", "vertex 1: interior valence 2, between faces 0 and 2"},
-          {"meshes/opensubdiv/catmark_val2_interior.obj", "vertex 16: interior valence 2, between faces 8 and 9"},
-          {"meshes/suzanne.obj", "vertex 137: interior valence 2, between faces 142 and 143"}}}};
+/// Files below ../shared/assets with a damaged cage, by the first kind of damage that is told.
+const std::map<std::string, std::vector<const char*>>& damaged() {
+    static const std::map<std::string, std::vector<const char*>> list = {
+        {"three or more faces",
+         {"characters/llama_nonmanifold.glb", "khronos/BoxAnimated.gltf", "meshes/opensubdiv/catmark_fan.obj",
+          "meshes/opensubdiv/catmark_nonman_edge100.obj", "meshes/opensubdiv/loop_nonman_edge100.obj",
+          "meshes/shortsword_nonmanifold_ngons.obj"}},
+        {"fewer than three different vertices",
+         {"meshes/opensubdiv/catmark_nonman_edges.obj", "meshes/opensubdiv/loop_nonman_edges.obj"}},
+        {"twice",
+         {"meshes/opensubdiv/catmark_nonman_quadpole360.obj", "meshes/opensubdiv/catmark_nonman_quadpole64.obj",
+          "meshes/opensubdiv/catmark_nonman_quadpole8.obj", "meshes/opensubdiv/catmark_val2_back2back.obj",
+          "meshes/opensubdiv/catmark_val2_nonman.obj", "meshes/opensubdiv/loop_val2_interior.obj"}},
+        {"no single fan",
+         {"khronos/asset-generator/Animation_Skin/Animation_Skin_09.gltf",
+          "meshes/opensubdiv/catmark_gregory_test4.obj", "meshes/opensubdiv/catmark_nonman_verts.obj",
+          "meshes/opensubdiv/loop_nonman_verts.obj"}},
+        {"two faces only",
+         {"characters/suzanne.glb", "meshes/opensubdiv/catmark_gregory_test8.obj",
+          "meshes/opensubdiv/catmark_val2_foldover.obj", "meshes/opensubdiv/catmark_val2_interior.obj",
+          "meshes/suzanne.obj"}}};
     return list;
-}
-
-/// Files with faces that repeat a vertex: the reader leaves these faces out and says so, the rest is a cage like
-/// others.
-const std::map<std::string, uint32_t>& degenerateFaces() {
-    static const std::map<std::string, uint32_t> counts = {{"meshes/opensubdiv/catmark_nonman_edges.obj", 14},
-                                                           {"meshes/opensubdiv/catmark_nonman_quadpole360.obj", 360},
-                                                           {"meshes/opensubdiv/catmark_nonman_quadpole64.obj", 64},
-                                                           {"meshes/opensubdiv/catmark_nonman_quadpole8.obj", 8},
-                                                           {"meshes/opensubdiv/loop_nonman_edges.obj", 4}};
-    return counts;
-}
-
-uint32_t degenerateFacesOf(const cage::Character& character) {
-    for (const std::string& warning : character.warnings) { // "line 21: 8 faces repeat a vertex, ..."
-        const size_t end = warning.find(" faces repeat a vertex");
-        if (end != std::string::npos) {
-            return static_cast<uint32_t>(std::stoul(warning.substr(warning.rfind(' ', end - 1) + 1)));
-        }
-    }
-    return 0;
 }
 
 /// "12 regular, 8 p3".
@@ -129,21 +96,20 @@ void evaluate(const cage::Cage& cage, const surface::pm::Mesh& mesh, Totals& tot
     totals.hard.add(hard);
 }
 
-TEST(AssetsTable, TakenOrRefusedByName) {
+TEST(AssetsTable, AllAreTaken) {
     const fs::path assets = sharedFolder();
     const std::vector<std::string> paths = filesBelow(assets, {".obj", ".glb", ".gltf"});
     if (paths.empty()) {
         GTEST_SKIP() << "all shared assets left out: " << assets << " is not present";
     }
     const ValidationGuard guard;
-    std::map<std::string, std::pair<const char*, const char*>> expected; // file -> reason, message
-    for (const auto& [reason, files] : refusals()) {
-        for (const Refusal& refusal : files) {
-            expected[refusal.file] = {reason, refusal.message};
+    std::map<std::string, std::string> expected; // file -> kind
+    for (const auto& [kind, files] : damaged()) {
+        for (const char* file : files) {
+            expected[file] = kind;
         }
     }
-    std::map<const char*, uint32_t> refused;
-    std::map<std::string, uint32_t> degenerate;
+    std::map<std::string, uint32_t> repaired;
     uint32_t shapes = 0;
     uint32_t accepted = 0;
     Totals totals;
@@ -158,40 +124,30 @@ TEST(AssetsTable, TakenOrRefusedByName) {
         shapes += name.starts_with("meshes/opensubdiv/") ? 1 : 0;
         const Result<host::CharacterFile> file = host::readCharacterFile(path);
         ASSERT_TRUE(file.ok()) << file.error().message;
-        const uint32_t leftOut = degenerateFacesOf(file->character);
-        if (leftOut > 0) {
-            degenerate[name] = leftOut;
+        const cage::Character& character = file->character;
+        if (!character.damages.empty()) {
+            const std::string& found = character.damages.front().found;
+            EXPECT_NE(found.find(expected.contains(name) ? expected[name] : "no damage"), std::string::npos) << found;
+            ++repaired[expected[name]];
+            expected.erase(name);
         }
-        const std::string without = leftOut > 0 ? "; " + std::to_string(leftOut) + " degenerate faces left out" : "";
-        const cage::Cage& cage = file->character.cage;
+        const cage::Cage& cage = character.cage;
         const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(cage);
-        if (!mesh.ok()) {
-            const std::string& message = mesh.error().message;
-            std::printf("%-66s REFUSED %s%s\n", name.c_str(), message.c_str(), without.c_str());
-            const auto found = expected.find(name);
-            if (found == expected.end()) {
-                ADD_FAILURE() << "should be taken: " << message;
-                continue;
-            }
-            EXPECT_EQ(message.rfind(found->second.second, 0), 0u) << message;
-            ++refused[found->second.first];
-            expected.erase(found);
-            continue;
-        }
+        ASSERT_TRUE(mesh.ok()) << mesh.error().message;
         ++accepted;
-        std::printf("%-66s %s%s\n", name.c_str(), patchCounts(*mesh).c_str(), without.c_str());
+        std::printf("%-66s %s%s\n", name.c_str(), patchCounts(*mesh).c_str(),
+                    character.damages.empty() ? "" : "; repaired");
         ASSERT_NO_FATAL_FAILURE(evaluate(cage, *mesh, totals));
     }
-    for (const auto& [file, refusal] : expected) {
-        ADD_FAILURE() << file << " should be refused: " << refusal.first << ": " << refusal.second;
+    for (const auto& [file, kind] : expected) {
+        ADD_FAILURE() << file << " should be damaged: " << kind;
     }
-    EXPECT_EQ(degenerate, degenerateFaces());
     EXPECT_GE(shapes, 115u);
 
     std::printf("%zu files (%u of OpenSubdiv's shapes), %u taken, %u of several parts left out\n", paths.size(), shapes,
                 accepted, leftAside);
-    for (const auto& [reason, files] : refusals()) {
-        std::printf("%u refused: %s\n", refused[reason], reason);
+    for (const auto& [kind, count] : repaired) {
+        std::printf("%u repaired: %s\n", count, kind.c_str());
     }
     std::printf(
         "rate 3 on the device: %llu samples, %llu not finite; %llu border samples on smooth edges, %llu differ; "

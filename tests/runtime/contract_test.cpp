@@ -12,6 +12,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace supple::test {
 namespace {
@@ -508,23 +509,84 @@ TEST(Contract, CagesAreRefusedByName) {
         const Status status = (*created)->check(result, "create");
         return status.ok() ? std::string() : status.error().message;
     };
-    cage::Cage flipped = cube();
-    std::swap(flipped.faceVertices[1], flipped.faceVertices[3]);
     cage::Cage nan = cube();
     nan.positions[3].y = std::nanf("");
     cage::Cage range = cube();
     range.faceVertices[5] = 99;
     const std::pair<const char*, std::string> cases[] = {{"pentagons for p-rep", refusal(prism(5), SUPPLE_SCHEME_PREP)},
-                                                         {"flipped face", refusal(flipped)},
                                                          {"NaN position", refusal(nan)},
                                                          {"index out of range", refusal(range)}};
     for (const auto& [name, message] : cases) {
         std::printf("%-22s %s\n", name, message.c_str());
     }
     EXPECT_NE(cases[0].second.find("5 sides"), std::string::npos) << cases[0].second;
-    EXPECT_NE(cases[1].second.find("edge"), std::string::npos) << cases[1].second;
-    EXPECT_NE(cases[2].second.find("vertex 3"), std::string::npos) << cases[2].second;
-    EXPECT_NE(cases[3].second.find("99"), std::string::npos) << cases[3].second;
+    EXPECT_NE(cases[1].second.find("vertex 3"), std::string::npos) << cases[1].second;
+    EXPECT_NE(cases[2].second.find("99"), std::string::npos) << cases[2].second;
+
+    // All kinds of faults at once, one line each.
+    range.positions[3].y = range.positions[5].x = std::nanf("");
+    range.holes = {77};
+    EXPECT_NE(refusal(range).find("shape.cage: 2 positions are not finite, the first is vertex 3\n"
+                                  "shape.cage: 1 corner names no vertex: vertex 99 of 8 in face 1\n"
+                                  "shape.cage: 1 hole is no face: hole 0, face 77 of 6"),
+              std::string::npos)
+        << refusal(range);
+}
+
+TEST(Contract, DamagedArraysAreRepairedOrRefused) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    host::ContextOptions contextOptions;
+    contextOptions.printWarnings = false;
+    Result<std::unique_ptr<host::Context>> created = host::Context::create(*device, contextOptions);
+    ASSERT_TRUE(created.ok());
+    const SuppleContext context = (*created)->handle();
+    // A cube with a flipped face, a fin on one of its edges, and a vertex without a face.
+    cage::Cage damaged = cube();
+    std::swap(damaged.faceVertices[1], damaged.faceVertices[3]);
+    damaged.positions.insert(damaged.positions.end(), {{5, 5, 5}, {0, 0, 9}});
+    damaged.faceVertices.insert(damaged.faceVertices.end(), {damaged.faceVertices[8], damaged.faceVertices[9], 9});
+    damaged.faceStarts.push_back(damaged.cornerCount());
+    const host::CageArrays arrays(damaged);
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.name = "shape.cage";
+    desc.cage = &arrays.desc;
+    desc.flags = SUPPLE_ASSET_STRICT;
+    SuppleAsset asset{};
+    EXPECT_EQ(suppleCreateAsset(context, &desc, &asset), SUPPLE_ERROR_ASSET);
+    const Status status = (*created)->check(SUPPLE_ERROR_ASSET, "create");
+    for (const char* kind : {"shape.cage: cage: 1 vertex has no face: vertex 8\n",
+                             "shape.cage: cage: 1 edge has three or more faces: edge ",
+                             "\nshape.cage: cage: 1 face is "
+                             "turned against its neighbours: "
+                             "face 0"}) {
+        EXPECT_NE(status.error().message.find(kind), std::string::npos) << status.error().message;
+    }
+
+    desc.flags = 0;
+    ASSERT_EQ(suppleCreateAsset(context, &desc, &asset), SUPPLE_OK);
+    SuppleAssetInfo info{};
+    info.structSize = sizeof(info);
+    ASSERT_EQ(suppleGetAssetInfo(context, asset, &info), SUPPLE_OK);
+    EXPECT_EQ(info.faceCount, 7u);
+    ASSERT_EQ(info.cageVertexCount, 11u) << "without vertex 8, with two copies";
+    for (uint32_t v = 0; v < 9; ++v) {
+        EXPECT_EQ(info.sourceVertices[v], v < 8 ? v : 9u);
+    }
+    EXPECT_LT(info.sourceVertices[9], info.sourceVertices[10]);
+    EXPECT_EQ(std::set<uint32_t>({info.sourceVertices[9], info.sourceVertices[10]}),
+              std::set<uint32_t>({damaged.faceVertices[8], damaged.faceVertices[9]}));
+    for (const SuppleScheme scheme :
+         {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND}) {
+        SuppleGroupDesc groupDesc{};
+        groupDesc.structSize = sizeof(groupDesc);
+        groupDesc.asset = asset;
+        groupDesc.capacity = 1;
+        groupDesc.scheme = scheme;
+        SuppleGroup group{};
+        EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_OK) << scheme;
+    }
 }
 
 TEST(Contract, LargeGroupsAreWindowsOfInstances) {

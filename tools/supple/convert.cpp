@@ -2,6 +2,7 @@
 #include "cage/gltf/writer.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
+#include "tools/supple/options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -26,7 +26,6 @@ struct Expected {
     uint32_t sourceVertices, vertices, faces, quads;
     size_t joints, clips;
     const char* polygons; ///< name of the polygon source
-    const char* topology; ///< "" or the beginning of why the cage is no manifold
     std::vector<std::string> warnings;
 };
 
@@ -35,37 +34,46 @@ const char* const kTriangles = "triangles";
 
 const std::vector<Expected>& expectations() {
     static const std::vector<Expected> list = {
-        {"characters/dragon.glb", 554, 554, 614, 462, 27, 3, kNgons, "", {}},
-        {"characters/eagle.glb", 768, 768, 784, 728, 24, 2, kNgons, "", {}},
-        {"characters/horse.glb", 347, 347, 375, 287, 28, 3, kNgons, "", {}},
-        {"characters/knight.glb", 480, 480, 551, 391, 31, 4, kNgons, "", {}},
-        {"characters/llama_nonmanifold.glb", 332, 332, 352, 306, 24, 1, kNgons, "edge (303, 304): four faces", {}},
-        {"characters/man_casual_quads.glb", 3980, 3980, 3966, 3966, 31, 3, kNgons, "", {}},
-        {"characters/mh_body_13k_infl8.glb", 13380, 13380, 13378, 13378, 163, 2, kNgons, "", {}},
-        {"characters/mh_female1605.glb", 1605, 1605, 1584, 1584, 53, 3, kNgons, "", {}},
-        {"characters/mh_female1605_morph.glb", 1605, 1605, 1584, 1584, 53, 1, kNgons, "", {}},
-        {"characters/mh_proxy741.glb", 741, 741, 730, 730, 163, 2, kNgons, "", {}},
-        {"characters/pawn_creased.glb", 601, 601, 588, 588, 5, 1, kNgons, "", {}},
-        {"characters/rook_creased.glb", 768, 768, 777, 733, 5, 1, kNgons, "", {}},
-        {"characters/shark.glb", 324, 324, 328, 284, 8, 1, kNgons, "", {}},
-        {"characters/snake.glb", 815, 815, 822, 788, 15, 2, kNgons, "", {}},
-        {"characters/spot.glb", 188, 188, 180, 160, 12, 2, kNgons, "", {}},
-        {"characters/spot_uvsplit.glb", 267, 188, 180, 160, 12, 2, kNgons, "", {}},
+        {"characters/dragon.glb", 554, 554, 614, 462, 27, 3, kNgons, {}},
+        {"characters/eagle.glb", 768, 768, 784, 728, 24, 2, kNgons, {}},
+        {"characters/horse.glb", 347, 347, 375, 287, 28, 3, kNgons, {}},
+        {"characters/knight.glb", 480, 480, 551, 391, 31, 4, kNgons, {}},
+        {"characters/llama_nonmanifold.glb",
+         332,
+         333,
+         352,
+         306,
+         24,
+         1,
+         kNgons,
+         {"mesh 0: 1 edge has three or more faces: edge (303, 304) of faces 140, 141, 316, 317; cut into sheets, 1 "
+          "vertex "
+          "repeated"}},
+        {"characters/man_casual_quads.glb", 3980, 3980, 3966, 3966, 31, 3, kNgons, {}},
+        {"characters/mh_body_13k_infl8.glb", 13380, 13380, 13378, 13378, 163, 2, kNgons, {}},
+        {"characters/mh_female1605.glb", 1605, 1605, 1584, 1584, 53, 3, kNgons, {}},
+        {"characters/mh_female1605_morph.glb", 1605, 1605, 1584, 1584, 53, 1, kNgons, {}},
+        {"characters/mh_proxy741.glb", 741, 741, 730, 730, 163, 2, kNgons, {}},
+        {"characters/pawn_creased.glb", 601, 601, 588, 588, 5, 1, kNgons, {}},
+        {"characters/rook_creased.glb", 768, 768, 777, 733, 5, 1, kNgons, {}},
+        {"characters/shark.glb", 324, 324, 328, 284, 8, 1, kNgons, {}},
+        {"characters/snake.glb", 815, 815, 822, 788, 15, 2, kNgons, {}},
+        {"characters/spot.glb", 188, 188, 180, 160, 12, 2, kNgons, {}},
+        {"characters/spot_uvsplit.glb", 267, 188, 180, 160, 12, 2, kNgons, {}},
         {"characters/suzanne.glb",
          507,
-         507,
-         500,
-         468,
+         506,
+         499,
+         467,
          6,
          1,
          kNgons,
-         "vertex 137: interior valence 2",
-         {"mesh 0: 2 vertices agree with another in position but not in skin (first: vertices 15 and 114); kept "
-          "apart"}},
-        {"characters/trex_ngons.glb", 912, 912, 838, 626, 29, 2, kNgons, "", {}},
-        {"characters/velociraptor.glb", 626, 626, 664, 576, 29, 4, kNgons, "", {}},
-        {"khronos/CesiumMan.glb", 3273, 2338, 4672, 0, 19, 1, kTriangles, "", {}},
-        {"khronos/Fox.glb", 1728, 290, 576, 0, 24, 3, kTriangles, "", {}},
+         {"mesh 0: 2 vertices agree with another in position but not in skin (first: vertices 15 and 114); kept apart",
+          "mesh 0: 1 inner vertex has two faces only: vertex 137 between faces 142 and 143; dissolved"}},
+        {"characters/trex_ngons.glb", 912, 912, 838, 626, 29, 2, kNgons, {}},
+        {"characters/velociraptor.glb", 626, 626, 664, 576, 29, 4, kNgons, {}},
+        {"khronos/CesiumMan.glb", 3273, 2338, 4672, 0, 19, 1, kTriangles, {}},
+        {"khronos/Fox.glb", 1728, 290, 576, 0, 24, 3, kTriangles, {}},
         {"khronos/RiggedFigure_2017_unnormalised_weights.glb",
          370,
          130,
@@ -74,41 +82,40 @@ const std::vector<Expected>& expectations() {
          19,
          1,
          kTriangles,
-         "",
          {"mesh 0 WEIGHTS: normalised: they do not sum to 1 at 31 vertices, largest deviation 0.8"}},
-        {"khronos/RiggedSimple.glb", 96, 96, 188, 0, 2, 1, kTriangles, "", {}},
-        {"khronos/SimpleSkin.gltf", 10, 10, 8, 0, 2, 1, kTriangles, "", {}},
-        {"khronos/BoxAnimated.gltf", 320, 242, 254, 0, 2, 1, kTriangles, "edge (14, 0): flipped orientation", {}},
-        {"khronos/InterpolationTest.gltf", 220, 76, 110, 0, 10, 9, kTriangles, "", {}},
-        {"khronos/MorphStressTest.gltf", 1528, 1224, 2412, 0, 1, 3, kTriangles, "", {}},
-        {"khronos/SimpleMorph/SimpleMorph.gltf", 3, 3, 1, 0, 1, 1, kTriangles, "", {}},
-        {"khronos/AnimatedMorphCube/AnimatedMorphCube.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Node/Animation_Node_00.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Node/Animation_Node_01.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Node/Animation_Node_02.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Node/Animation_Node_03.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Node/Animation_Node_04.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Node/Animation_Node_05.gltf", 24, 8, 12, 0, 1, 1, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Skin/Animation_Skin_00.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Skin/Animation_Skin_01.gltf", 6, 6, 4, 0, 2, 1, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Skin/Animation_Skin_02.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Skin/Animation_Skin_03.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Skin/Animation_Skin_04.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_Skin/Animation_Skin_07.gltf", 10, 10, 8, 0, 5, 0, kTriangles, "", {}},
+        {"khronos/RiggedSimple.glb", 96, 96, 188, 0, 2, 1, kTriangles, {}},
+        {"khronos/SimpleSkin.gltf", 10, 10, 8, 0, 2, 1, kTriangles, {}},
+        {"khronos/BoxAnimated.gltf", 320, 258, 254, 0, 2, 1, kTriangles, {}},
+        {"khronos/InterpolationTest.gltf", 220, 76, 110, 0, 10, 9, kTriangles, {}},
+        {"khronos/MorphStressTest.gltf", 1528, 1224, 2412, 0, 1, 3, kTriangles, {}},
+        {"khronos/SimpleMorph/SimpleMorph.gltf", 3, 3, 1, 0, 1, 1, kTriangles, {}},
+        {"khronos/AnimatedMorphCube/AnimatedMorphCube.gltf", 24, 8, 12, 0, 1, 1, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_00.gltf", 24, 8, 12, 0, 1, 1, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_01.gltf", 24, 8, 12, 0, 1, 1, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_02.gltf", 24, 8, 12, 0, 1, 1, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_03.gltf", 24, 8, 12, 0, 1, 1, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_04.gltf", 24, 8, 12, 0, 1, 1, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Node/Animation_Node_05.gltf", 24, 8, 12, 0, 1, 1, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_00.gltf", 6, 6, 4, 0, 2, 0, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_01.gltf", 6, 6, 4, 0, 2, 1, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_02.gltf", 6, 6, 4, 0, 2, 0, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_03.gltf", 6, 6, 4, 0, 2, 0, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_04.gltf", 6, 6, 4, 0, 2, 0, kTriangles, {}},
+        {"khronos/asset-generator/Animation_Skin/Animation_Skin_07.gltf", 10, 10, 8, 0, 5, 0, kTriangles, {}},
         {"khronos/asset-generator/Animation_Skin/Animation_Skin_09.gltf",
          13,
-         13,
+         16,
          10,
          0,
          4,
          0,
          kTriangles,
-         "vertex 2: several separate fans",
-         {}},
-        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_00.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_01.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
-        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_03.gltf", 6, 6, 4, 0, 2, 0, kTriangles, "", {}},
+         {"mesh 0: 3 vertices have faces that are no single fan, the first is vertex 2 of 2 fans; one vertex for each "
+          "fan"}},
+        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_00.gltf", 6, 6, 4, 0, 2, 0, kTriangles, {}},
+        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_01.gltf", 6, 6, 4, 0, 2, 0, kTriangles, {}},
+        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", 6, 6, 4, 0, 2, 0, kTriangles, {}},
+        {"khronos/asset-generator/Animation_SkinType/Animation_SkinType_03.gltf", 6, 6, 4, 0, 2, 0, kTriangles, {}},
     };
     return list;
 }
@@ -124,7 +131,9 @@ TEST(SharedAssets, ReadAsExpected) {
         const Character& c = *result;
         EXPECT_EQ(c.sourceVertexCount, expected.sourceVertices);
         EXPECT_EQ(c.cage.vertexCount(), expected.vertices);
-        EXPECT_EQ(c.seamVertexCount, expected.sourceVertices - expected.vertices);
+        if (c.damages.empty()) {
+            EXPECT_EQ(c.seamVertexCount, expected.sourceVertices - expected.vertices);
+        }
         EXPECT_EQ(c.cage.faceCount(), expected.faces);
         uint32_t quads = 0;
         for (uint32_t f = 0; f < c.cage.faceCount(); ++f)
@@ -138,11 +147,7 @@ TEST(SharedAssets, ReadAsExpected) {
             EXPECT_FALSE(image.bytes.empty());
 
         const Result<Topology> topology = buildTopology(c.cage);
-        const std::string fault = topology.ok() ? "" : topology.error().message;
-        if (*expected.topology == '\0')
-            EXPECT_EQ(fault, "");
-        else
-            EXPECT_EQ(fault.rfind(expected.topology, 0), 0u) << fault;
+        EXPECT_TRUE(topology.ok()) << topology.error().message;
     }
 }
 
