@@ -29,12 +29,11 @@ enum class FanKind : uint8_t {
     straight  ///< open: the surface interpolates the vertex, and the two sharp edges are one smooth curve through it
 };
 
-/// What a facet takes of the whole turn round a vertex: `part` of `whole`. A regular one takes a quarter.
+/// What a facet takes of the whole turn round a vertex: `part` of `whole`.
 struct FacetAngle {
     uint32_t part = 1;
     uint32_t whole = 4;
 
-    [[nodiscard]] bool regular() const { return 4 * part == whole; }
     auto operator<=>(const FacetAngle&) const = default;
 };
 
@@ -69,6 +68,8 @@ struct Fan {
     [[nodiscard]] uint32_t edges() const { return closed() ? facets : facets + 1; }
     /// 1 / N in cos(2 pi / N): N is q if closed, 2 q at creases, 4 q at corners of a right angle.
     [[nodiscard]] FacetAngle angle() const;
+    /// A fan as in a bicubic B-spline: N = 4, and t_j = e_j on all inner edges.
+    [[nodiscard]] bool regular() const;
     /// Whether an end follows a smooth curve through the vertex.
     [[nodiscard]] bool joined() const { return ends[0].partner != cage::kNone || ends[1].partner != cage::kNone; }
 };
