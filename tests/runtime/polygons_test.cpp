@@ -1,5 +1,6 @@
 // The scheme polygons on the device: against the file read a second way and skinned plainly, against its own frames in
 // double, and its contract.
+#include "cage/gltf/writer.h"
 #include "cage/procedural.h"
 #include "cage/triangulation.h"
 #include "surface/polygons/frames.h"
