@@ -399,8 +399,8 @@ cage::Character noisyTube(uint32_t joints, uint32_t targets) {
             }
         }
         if (targets > 0) {
-            channels.push_back(
-                noisyChannel(noise, tube.parts[0].node, cage::ChannelPath::weights, kKinds[kind % 3], 5, duration, targets));
+            channels.push_back(noisyChannel(noise, tube.parts[0].node, cage::ChannelPath::weights, kKinds[kind % 3], 5,
+                                            duration, targets));
         }
         tube.clips.push_back(clipOf(std::move(channels)));
         tube.clips.back().name = "clip " + std::to_string(kind);
