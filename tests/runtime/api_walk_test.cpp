@@ -908,7 +908,7 @@ void groups(Rows& r) {
           {kBlendSize, SUPPLE_CREASES_CUT, kNan});
     blend("blend, structSize 0", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_STRUCT_SIZE, {});
     prep("prep, structSize 0", {});
-    for (const int value : {6, 99, 101, -1}) {
+    for (const int value : {7, 99, 101, -1}) {
         range("scheme " + std::to_string(value), [=](Desc& d) { d.scheme = static_cast<SuppleScheme>(value); });
     }
     for (const int value : {3, -1}) {

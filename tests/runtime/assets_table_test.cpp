@@ -23,7 +23,8 @@ const std::map<std::string, std::vector<const char*>>& damaged() {
         {"three or more faces",
          {"characters/llama_nonmanifold.glb", "meshes/opensubdiv/catmark_fan.obj",
           "meshes/opensubdiv/catmark_nonman_edge100.obj", "meshes/opensubdiv/loop_nonman_edge100.obj",
-          "meshes/shortsword_nonmanifold_ngons.obj"}},
+          "meshes/shortsword_nonmanifold_ngons.obj", "whole/bat.glb"}},
+        {"with a repeated vertex", {"whole/RobotExpressive.glb"}},
         {"turned against their neighbours", {"khronos/BoxAnimated.gltf"}},
         {"fewer than three different vertices",
          {"meshes/opensubdiv/catmark_nonman_edges.obj", "meshes/opensubdiv/loop_nonman_edges.obj"}},
@@ -38,7 +39,7 @@ const std::map<std::string, std::vector<const char*>>& damaged() {
         {"two faces only",
          {"characters/suzanne.glb", "meshes/opensubdiv/catmark_gregory_test8.obj",
           "meshes/opensubdiv/catmark_val2_foldover.obj", "meshes/opensubdiv/catmark_val2_interior.obj",
-          "meshes/suzanne.obj"}}};
+          "meshes/suzanne.obj", "whole/triceratops.glb"}}};
     return list;
 }
 
