@@ -37,12 +37,15 @@ struct FacetAngle {
     auto operator<=>(const FacetAngle&) const = default;
 };
 
-/// Where an open fan ends, at a sharp edge from p to A, its tangent is t = p + own (A - p) - other (B - p). With no
-/// partner it is (2 p + A) / 3. If the curve runs smoothly through a corner, B is the far vertex of its other edge.
+/// Where an open fan ends, at a sharp edge from p to A, its tangent is t = p + own (A - p) - other (B - p). As a rule
+/// it is (2 p + A) / 3. At corners it may be shorter. If the curve runs smoothly through a corner, B is the far vertex
+/// of its other edge. All fans that end at this edge have the same numbers.
 struct FanEnd {
     uint32_t partner = cage::kNone; ///< the slot of an edge to B
     double own = 1.0 / 3.0;
     double other = 0.0;
+
+    bool operator==(const FanEnd&) const = default;
 };
 
 /// The width of a fan that is a corner is a multiple of 30 degrees. As in the paper's corners it is a right angle,
@@ -70,8 +73,8 @@ struct Fan {
     [[nodiscard]] FacetAngle angle() const;
     /// A fan as in a bicubic B-spline: N = 4, and t_j = e_j on all inner edges.
     [[nodiscard]] bool regular() const;
-    /// Whether an end follows a smooth curve through the vertex.
-    [[nodiscard]] bool joined() const { return ends[0].partner != cage::kNone || ends[1].partner != cage::kNone; }
+    /// Whether both ends are as a rule.
+    [[nodiscard]] bool plainEnds() const { return ends[0] == FanEnd{} && ends[1] == FanEnd{}; }
 };
 
 /// Corner c of facet f at vertex v. Half-edge c runs from v to the next vertex of f.
