@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace supple::surface::polygons {
@@ -35,6 +36,7 @@ std::vector<DraftPatch> draftTriangles(const cage::Cage& cage) {
             patch.facet = patch.info.face = face;
             patch.info.patchClass = PatchClass::triangle;
             patch.info.cornerCount = 3;
+            patch.info.part = cage.faceParts.empty() ? 0 : cage.faceParts[face];
             patch.info.material = cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[face];
             for (size_t k = 0; k < 3; ++k) {
                 patch.cageCorners[k] = corners[t + k];
@@ -43,7 +45,9 @@ std::vector<DraftPatch> draftTriangles(const cage::Cage& cage) {
         }
     }
     std::stable_sort(patches.begin(), patches.end(),
-                     [](const DraftPatch& a, const DraftPatch& b) { return a.info.material < b.info.material; });
+                     [](const DraftPatch& a, const DraftPatch& b) {
+                         return std::tie(a.info.material, a.info.part) < std::tie(b.info.material, b.info.part);
+                     });
     return patches;
 }
 

@@ -540,7 +540,7 @@ void createAsset(Rows& r) {
     spoiled("neither bytes nor cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.bytes = nullptr; });
     spoiled("bytes and cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.cage = &kNoCage; });
-    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 4; });
+    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 8; });
     spoiled("files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER,
             [](Desc& d) { d.files = &kNoRead; });
     spoiled("no bytes", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount = 0; });
@@ -633,6 +633,7 @@ void assetGetters(Rows& r) {
                      [=](World& w) { return get(w.handle(), w.mine.asset, index, w.template watched<T>(sizeof(T))); });
         }
     };
+    part("suppleGetPartInfo", 1, &suppleGetPartInfo);
     part("suppleGetClipInfo", kClips, &suppleGetClipInfo);
     part("suppleGetJointInfo", kJoints, &suppleGetJointInfo);
     part("suppleGetMorphTargetInfo", kTargets, &suppleGetMorphTargetInfo);
@@ -907,7 +908,7 @@ void groups(Rows& r) {
           {kBlendSize, SUPPLE_CREASES_CUT, kNan});
     blend("blend, structSize 0", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_STRUCT_SIZE, {});
     prep("prep, structSize 0", {});
-    for (const int value : {6, 99, 101, -1}) {
+    for (const int value : {7, 99, 101, -1}) {
         range("scheme " + std::to_string(value), [=](Desc& d) { d.scheme = static_cast<SuppleScheme>(value); });
     }
     for (const int value : {3, -1}) {

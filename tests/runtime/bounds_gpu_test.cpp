@@ -193,7 +193,8 @@ public:
             return views.back().get();
         };
         const auto count = static_cast<uint32_t>(windows.size());
-        Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(device_, pass_.boundsLayout(), count, "test");
+        Result<gpu::DescriptorPoolHandle> pool =
+            gpu::createDescriptorPool(device_, pass_.boundsLayout(), count, "test");
         Result<gpu::DescriptorPoolHandle> listPool = gpu::createDescriptorPool(device_, pass_.listLayout(), 1, "test");
         EXPECT_TRUE(pool.ok() && listPool.ok());
         Result<VkDescriptorSet> listSet = gpu::allocateSet(device_, pass_.listLayout(), listPool->get(), "test");

@@ -1,5 +1,6 @@
 // The scheme polygons on the device: against the file read a second way and skinned plainly, against its own frames in
 // double, and its contract.
+#include "cage/gltf/writer.h"
 #include "cage/procedural.h"
 #include "cage/triangulation.h"
 #include "surface/polygons/frames.h"
@@ -278,9 +279,9 @@ TEST(Polygons, CharactersArePlainlySkinned) {
         ASSERT_TRUE(gpu.valid());
         EXPECT_EQ(gpu.output().info.tessellation, SUPPLE_TESSELLATION_INDEXED_MESH);
         const std::vector<uint32_t> files = fileVertices(gpu, character.cage, *plain);
+        gpu.evaluate(); // which uploads the indices
         const std::vector<uint32_t> indices = indicesOf(gpu.output());
         ASSERT_EQ(files.size(), indices.size());
-        gpu.evaluate();
         const double bind = compareBindNormals(gpu, *plain, files, indices);
         EXPECT_LE(bind, 0.05);
         PoseErrors errors;

@@ -39,12 +39,9 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
     }
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const std::string directory = parent.empty() ? "." : parent.string();
-    Result<cage::Character> character =
-        cage::readCharacter(*bytes, path, directory,
-                            {.scene = flags.scene,
-                             .sewParts = !flags.partsApart,
-                             .pairQuads = flags.pairQuads,
-                             .strict = flags.strict});
+    Result<cage::Character> character = cage::readCharacter(
+        *bytes, path, directory,
+        {.scene = flags.scene, .sewParts = !flags.partsApart, .pairQuads = flags.pairQuads, .strict = flags.strict});
     if (!character) {
         return character.error();
     }

@@ -15,9 +15,9 @@ namespace supple::host {
 
 /// How a file is read.
 struct ReadOptions {
-    bool pairQuads = false; ///< SUPPLE_ASSET_PAIR_QUADS
-    bool strict = false;    ///< SUPPLE_ASSET_STRICT
-    bool partsApart = false; ///< SUPPLE_ASSET_PARTS_APART
+    bool pairQuads = false;        ///< SUPPLE_ASSET_PAIR_QUADS
+    bool strict = false;           ///< SUPPLE_ASSET_STRICT
+    bool partsApart = false;       ///< SUPPLE_ASSET_PARTS_APART
     std::optional<uint32_t> scene; ///< the file's own choice if it is not given
 };
 

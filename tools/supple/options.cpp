@@ -49,8 +49,8 @@ void bindRate(CLI::App& command, uint32_t& rate) {
         ->capture_default_str();
 }
 
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadOptions& reading,
-                const std::vector<std::string>& extraSchemes) {
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning,
+                host::ReadOptions& reading, const std::vector<std::string>& extraSchemes) {
     std::vector<std::string> names{"auto"};
     for (const Scheme& known : kSchemes) {
         names.emplace_back(known.name);

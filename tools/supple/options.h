@@ -42,8 +42,8 @@ struct SurfaceFlags {
     host::ReadOptions reading;
 };
 /// `extraSchemes`: what --scheme also takes here, such as "cage".
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadOptions& reading,
-                const std::vector<std::string>& extraSchemes = {});
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning,
+                host::ReadOptions& reading, const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
 /// --creases and --sharp.
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold);

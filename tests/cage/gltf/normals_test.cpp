@@ -42,7 +42,7 @@ TEST(GltfNormals, HostileOnesAreRepairedAndNamed) {
     EXPECT_NEAR(glm::length(normals[2]), 1.0f, 1e-6f);
     ASSERT_EQ(c.warnings.size(), 1u);
     EXPECT_EQ(c.warnings[0], "mesh 0 primitive 0 NORMAL: 3 normals are zero or not finite; the faces' own instead");
-    EXPECT_EQ(messageOf(square({0, 0, 1})), "t.glb: mesh 0 primitive 0 NORMAL: 1 elements, but 4 POSITION elements");
+    EXPECT_EQ(messageOf(square({0, 0, 1})), "t.glb: mesh 0 primitive 0 NORMAL: 1 element for 4 vertices");
 }
 
 TEST(GltfNormals, WithoutThemTrianglesAreFlat) {
