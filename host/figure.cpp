@@ -47,6 +47,8 @@ Result<std::unique_ptr<Figure>> Figure::create(Context& context, SuppleAsset ass
     figure->path_ = path;
     if (const Status status = figure->readClips(); !status)
         return status.error();
+    if (const Status status = figure->readMorphTargets(); !status)
+        return status.error();
     if (const Status status = figure->materials_.load(context, asset, path); !status)
         return status.error();
     if (const Status status = figure->uploadCage(); !status)
@@ -79,6 +81,25 @@ Status Figure::readClips() {
             !status)
             return status.error();
         clips_.push_back({clip.name, clip.duration});
+    }
+    return success();
+}
+
+Status Figure::readMorphTargets() {
+    SuppleAssetInfo asset{};
+    asset.structSize = sizeof asset;
+    if (const Status status =
+            context_.check(suppleGetAssetInfo(context_.handle(), asset_, &asset), "suppleGetAssetInfo");
+        !status)
+        return status.error();
+    for (uint32_t i = 0; i < asset.morphTargetCount; ++i) {
+        SuppleMorphTargetInfo target{};
+        target.structSize = sizeof target;
+        if (const Status status = context_.check(suppleGetMorphTargetInfo(context_.handle(), asset_, i, &target),
+                                                 "suppleGetMorphTargetInfo");
+            !status)
+            return status.error();
+        morphTargets_.push_back({target.name, target.weight});
     }
     return success();
 }

@@ -15,6 +15,8 @@ namespace supple::runtime {
 template <class T>
 inline constexpr size_t kFirstSize = sizeof(T);
 template <>
+inline constexpr size_t kFirstSize<SuppleAssetDesc> = offsetof(SuppleAssetDesc, scene);
+template <>
 inline constexpr size_t kFirstSize<SuppleJointInfo> = offsetof(SuppleJointInfo, restTransform);
 
 /// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with

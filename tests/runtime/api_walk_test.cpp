@@ -543,6 +543,26 @@ void createAsset(Rows& r) {
     spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 8; });
     spoiled("files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER,
             [](Desc& d) { d.files = &kNoRead; });
+    static const SuppleClipFile kNoBytes{};
+    static const uint8_t kOne[] = {'{'};
+    static const SuppleClipFile kBroken{"clips.glb", kOne, 1, nullptr, nullptr};
+    static const SuppleClipFile kNoReader{"clips.glb", kOne, 1, nullptr, &kNoRead};
+    const auto clipFile = [&](const char* what, SuppleResult result, int message, const SuppleClipFile* file) {
+        spoiled(what, result, message, [file](Desc& d) {
+            d.clipFiles = file;
+            d.clipFileCount = 1;
+        });
+    };
+    clipFile("clipFiles null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER, nullptr);
+    clipFile("clipFiles: bytes null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER, &kNoBytes);
+    clipFile("clipFiles: files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER, &kNoReader);
+    clipFile("clipFiles: malformed", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, &kBroken);
+    spoiled("clipFiles and cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) {
+        d.bytes = nullptr;
+        d.cage = &kNoCage;
+        d.clipFiles = &kBroken;
+        d.clipFileCount = 1;
+    });
     spoiled("no bytes", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount = 0; });
     spoiled("half the file", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount /= 2; });
 

@@ -16,6 +16,8 @@ namespace {
 
 constexpr const char* kViewNames[] = {"shaded", "wire", "patches", "normals", "zebra"};
 constexpr float kRadiansPerPixel = 0.0085f;
+constexpr float kListHeight = 150.0f; ///< of a list that may be long; longer ones scroll
+const ImVec4 kFailureColor(1.0f, 0.5f, 0.4f, 1.0f);
 
 /// Dragging and scrolling that the panel does not want.
 void moveCamera(ViewStage& stage) {
@@ -52,7 +54,9 @@ void handleKeys(ViewStage& stage, float aspect, PanelWishes& wishes) {
 }
 
 void buildFiles(const PanelState& state, PanelWishes& wishes) {
-    const auto shortName = [&](size_t i) { return std::filesystem::path(state.files[i]).filename().string(); };
+    const auto shortName = [&](size_t i) {
+        return std::filesystem::path(state.files[i]).filename().string() + (state.refused[i] ? " (refused)" : "");
+    };
     if (state.files.size() == 1) {
         ImGui::TextUnformatted(shortName(0).c_str());
         return;
@@ -128,6 +132,47 @@ void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     ImGui::TextDisabled("%u patches, %u vertices", output.info.patchCount, output.grid.vertexCount);
 }
 
+/// The height that a list takes, of which more scrolls.
+float listHeight(float whole) {
+    return std::min(whole + ImGui::GetStyle().WindowPadding.y, kListHeight);
+}
+
+void buildMorphs(ViewStage& stage) {
+    const std::vector<host::NamedTargets>& morphs = stage.morphs();
+    if (morphs.empty() || !ImGui::CollapsingHeader("morph targets"))
+        return;
+    const float rows = static_cast<float>(morphs.size()) * ImGui::GetFrameHeightWithSpacing();
+    if (ImGui::BeginChild("##morphs", ImVec2(0.0f, listHeight(rows)))) {
+        for (size_t i = 0; i < morphs.size(); ++i) {
+            float weight = stage.morphWeight(morphs[i]);
+            ImGui::PushID(static_cast<int>(i));
+            if (ImGui::SliderFloat(printable(morphs[i].name).c_str(), &weight, 0.0f, 1.0f))
+                stage.setMorphWeight(morphs[i], weight);
+            ImGui::PopID();
+        }
+    }
+    ImGui::EndChild();
+    if (!stage.settings.morphWeights.empty() && ImGui::Button("as the clip has them"))
+        stage.settings.morphWeights.clear();
+}
+
+void buildWarnings(const ViewStage& stage) {
+    const std::vector<std::string>& warnings = stage.warnings();
+    const std::string title = "warnings (" + std::to_string(warnings.size()) + ")###warnings";
+    if (warnings.empty() || !ImGui::CollapsingHeader(title.c_str(), ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    const float width = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
+    float height = 0.0f;
+    for (const std::string& warning : warnings)
+        height +=
+            ImGui::CalcTextSize(printable(warning).c_str(), nullptr, false, width).y + ImGui::GetStyle().ItemSpacing.y;
+    if (ImGui::BeginChild("##warnings", ImVec2(0.0f, listHeight(height)))) {
+        for (const std::string& warning : warnings)
+            ImGui::TextWrapped("%s", printable(warning).c_str());
+    }
+    ImGui::EndChild();
+}
+
 void buildTimings(const PanelState& state, const ViewStage& stage) {
     double sum = 0.0;
     double longest = 1e-6;
@@ -160,12 +205,14 @@ PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect) 
         buildPlayback(stage);
         ImGui::Separator();
         buildSurface(stage, wishes);
+        buildMorphs(stage);
+        buildWarnings(stage);
         if (state.timings) {
             ImGui::Separator();
             buildTimings(state, stage);
         }
         if (!state.message.empty()) {
-            ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
+            ImGui::PushStyleColor(ImGuiCol_Text, kFailureColor);
             ImGui::TextWrapped("%s", printable(state.message).c_str());
             ImGui::PopStyleColor();
         }
