@@ -341,7 +341,7 @@ std::pair<nlohmann::json, Bytes> unpack(const Bytes& glb) {
 /// Studios ship it so: one file with the character, another with its animations and the skeleton alone.
 TEST(GltfClips, ACharacterCutInTwoIsTheSame) {
     std::vector<std::string> paths =
-        sharedAssets({"whole/RobotExpressive.glb", "whole/studio_spider.glb", "whole/studio_goblin.glb",
+        supple::test::sharedAssets({"whole/RobotExpressive.glb", "whole/studio_spider.glb", "whole/studio_goblin.glb",
                       "whole/kaykit_Knight.glb", "characters/knight.glb", "characters/mh_female1605_morph.glb"});
     paths.push_back(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
     for (const std::string& path : paths) {
