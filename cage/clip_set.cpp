@@ -201,7 +201,8 @@ private:
     void count(uint64_t floats) {
         floats_ += floats;
         if (floats_ > kMaxClipFloats) {
-            refuse("clips", "for this character they hold more than " + std::to_string(kMaxClipFloats) + " numbers",
+            refuse(set_.name,
+                   "for this character, its clips hold more than " + std::to_string(kMaxClipFloats) + " numbers",
                    ErrorCode::limit);
         }
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -77,6 +78,10 @@ float restLength(const Node& node) {
     return glm::length(node.hasMatrix ? glm::vec3(node.matrix[3]) : node.translation);
 }
 
+float differenceOf(const BoneDifference& bone) {
+    return std::abs(bone.from - bone.to) / std::max({bone.from, bone.to, std::numeric_limits<float>::min()});
+}
+
 } // namespace
 
 NodeMatch matchNodes(const Skeleton& from, const Skeleton& to) {
@@ -129,7 +134,8 @@ BoneDifference compareBones(const Skeleton& from, const std::vector<Clip>& clips
         BoneDifference bone{n, restLength(from.nodes[n]), restLength(to.nodes[partner])};
         if (animated[n]) {
             const auto [least, most] = *animated[n];
-            if (most - least > kSameLength * most) {
+            const bool isStretched = most - least > kSameLength * most;
+            if (isStretched || differenceOf(bone) <= kSameLength) {
                 continue;
             }
             bone.from = most;
@@ -140,9 +146,8 @@ BoneDifference compareBones(const Skeleton& from, const std::vector<Clip>& clips
     BoneDifference worst;
     float largest = kSameLength;
     for (const BoneDifference& bone : bones) {
-        const float size = std::max(bone.from, bone.to);
-        const float difference = std::abs(bone.from - bone.to) / size;
-        if (size > kShortestBone * longest && difference > largest) {
+        const float difference = differenceOf(bone);
+        if (std::max(bone.from, bone.to) > kShortestBone * longest && difference > largest) {
             largest = difference;
             worst = bone;
         }

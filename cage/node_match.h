@@ -26,7 +26,7 @@ struct BoneDifference {
 };
 
 /// Bones are nodes whose parents are partners as well; the length is the distance to the parent. Bones that the clips
-/// of `from` stretch are left out; one that they hold at another length than at rest has the length of the clips.
+/// of `from` stretch are left out. One that they hold at another length than it has at rest differs if both lengths do.
 [[nodiscard]] BoneDifference compareBones(const Skeleton& from, const std::vector<Clip>& clips, const Skeleton& to,
                                           const NodeMatch& match);
 
