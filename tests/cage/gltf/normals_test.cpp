@@ -60,6 +60,25 @@ TEST(GltfNormals, WithoutThemPolygonsAreLeftToCreases) {
     EXPECT_EQ(c.cage.faceTriangles, (std::vector<uint32_t>{0, 2, 3, 0, 1, 2}));
 }
 
+/// An L in a fan from its first corner, which folds: other viewers show it so, but the polygon is known.
+TEST(GltfNormals, ListedPolygonsAreNotCutByFansThatFold) {
+    for (const bool listed : {true, false}) {
+        GltfBuilder b;
+        b.addFloats("VEC3", {2, 0, 0, 2, 1, 0, 1, 1, 0, 1, 2, 0, 0, 2, 0, 0, 0, 0});
+        b.addIntegers("SCALAR", 5123, {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5});
+        b.addIntegers("SCALAR", 5123, {6});
+        b.addIntegers("SCALAR", 5123, {0, 1, 2, 3, 4, 5});
+        b.meshes = std::string(R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":{)") +
+                   (listed ? R"("SUPPLE_mesh_cage":{"faceVertexCounts":2,"faceVertexIndices":3})"
+                           : R"("FB_ngon_encoding":{})") +
+                   "}}]}]";
+        const Character c = readWell(b);
+        ASSERT_EQ(c.cage.faceCount(), 1u);
+        ASSERT_EQ(c.cage.faceTriangles.size(), 12u);
+        EXPECT_EQ(foldsOver(c.cage.positions, c.cage.faceTriangles), !listed);
+    }
+}
+
 /// The file cuts the square along its other diagonal.
 TEST(GltfNormals, MergedPolygonsKeepTheFilesTriangles) {
     GltfBuilder b = plainMesh(kSquare, {1, 2, 3, 1, 3, 0}, R"(,"extensions":{"FB_ngon_encoding":{}})");
