@@ -159,6 +159,23 @@ struct Ends {
     size_t vertices = 0, triangles = 0;
 };
 
+/// The vertex of the part's cage that lies there, but for the rounding of the inverse bind matrix.
+glm::dvec3 nearest(const cage::Character& character, const cage::Part& part, glm::dvec3 point) {
+    const cage::Cage& cage = character.cage;
+    const auto index = static_cast<size_t>(&part - character.parts.data());
+    glm::dvec3 found = point;
+    double best = 1e-10 * std::max(glm::dot(point, point), 1e-6); // squared
+    for (uint32_t c = cage.faceStarts[part.firstFace]; c < cage.faceStarts[cage::endFace(character, index)]; ++c) {
+        const glm::dvec3 other(cage.positions[cage.faceVertices[c]]);
+        const double distance = glm::dot(other - point, other - point);
+        if (distance < best) {
+            best = distance;
+            found = other;
+        }
+    }
+    return found;
+}
+
 /// What was read of a part since `before`, in the terms of the character: joints of its palette, all targets before the
 /// part's own. A mesh without a skin is in the space of its node, and its joint's inverse bind matrix leads there.
 void bindPart(const cage::Character& character, const cage::Part& part, bool unskinned, Ends before, PlainMesh& mesh) {
@@ -169,7 +186,7 @@ void bindPart(const cage::Character& character, const cage::Part& part, bool uns
             joint = part.joints[joint];
         }
         if (unskinned) {
-            vertex.position = glm::dvec3(place * glm::dvec4(vertex.position, 1.0));
+            vertex.position = nearest(character, part, glm::dvec3(place * glm::dvec4(vertex.position, 1.0)));
             vertex.normal = glm::transpose(glm::inverse(glm::dmat3(place))) * vertex.normal;
             for (glm::dvec3& morph : vertex.morphs) {
                 morph = glm::dmat3(place) * morph;
