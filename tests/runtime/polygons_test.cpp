@@ -208,8 +208,10 @@ double compareBindNormals(const GpuSurface& gpu, const PlainMesh& plain, const s
         const GpuSurface::Vertex& vertex = gpu.sharedVertex(0, indices[i]);
         glm::dvec3 wanted = plain.vertices[files[i]].normal;
         const auto at = [&](size_t k) { return plain.vertices[files[i / 3 * 3 + k]].position; };
-        if (at(0) == at(1) || at(1) == at(2) || at(2) == at(0)) {
-            continue; // positions do not tell its corners apart
+        const double longest =
+            std::max({glm::length(at(1) - at(0)), glm::length(at(2) - at(1)), glm::length(at(0) - at(2))});
+        if (glm::length(glm::cross(at(1) - at(0), at(2) - at(0))) <= 1e-4 * longest * longest) {
+            continue; // a needle, in which float knows no side
         }
         if (glm::length(wanted) == 0.0) {
             const glm::dvec3 area = glm::cross(at(1) - at(0), at(2) - at(0));
