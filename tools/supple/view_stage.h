@@ -23,6 +23,7 @@ struct ViewSettings {
     bool cageFaces = false; ///< the cage instead of the surface
     bool cageOverlay = false;
     bool ground = true;
+    std::vector<bool> shownParts; ///< of the figure
 };
 
 /// A pass of the last completed frames, smoothed.
@@ -82,6 +83,7 @@ private:
     SuppleCreaseMode creaseMode_ = SUPPLE_CREASES_CUT;
     float sharpThreshold_ = 1.0f;
     host::ReadOptions reading_;
+    std::vector<std::string> parts_; ///< shown at first; none: all
     bool sharedSamples_ = false;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
