@@ -165,6 +165,19 @@ std::string disabledFeature(const void* chain) {
     return {};
 }
 
+bool hasIndirectFirstInstance(const Functions& vk, VkPhysicalDevice physicalDevice, const void* chain) {
+    VkPhysicalDeviceFeatures2 offered{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    vk.GetPhysicalDeviceFeatures2(physicalDevice, &offered);
+    bool enabled = offered.features.drawIndirectFirstInstance == VK_TRUE;
+    for (const auto* next = static_cast<const VkBaseInStructure*>(chain); next != nullptr; next = next->pNext) {
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2) {
+            const auto& own = reinterpret_cast<const VkPhysicalDeviceFeatures2*>(next)->features;
+            enabled = enabled && own.drawIndirectFirstInstance == VK_TRUE;
+        }
+    }
+    return enabled;
+}
+
 Result<Device> Device::create(const DeviceDesc& desc) {
     const std::string missing = missingRequirement(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr);
     if (!missing.empty()) {
@@ -202,6 +215,7 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.maxAllocationSize = maintenance3.maxMemoryAllocationSize;
     d.mapping = chooseMapping(properties.properties.deviceType, driver.driverID, desc.mapping);
     d.vk.GetPhysicalDeviceMemoryProperties(desc.physicalDevice, &d.memory);
+    d.drawIndirectFirstInstance = hasIndirectFirstInstance(d.vk, desc.physicalDevice, desc.enabledFeatures);
 
     uint32_t familyCount = 0;
     d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, nullptr);

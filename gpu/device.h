@@ -63,6 +63,8 @@ struct Device {
     VkDeviceSize maxAllocationSize = 0; ///< VkPhysicalDeviceMaintenance3Properties
     VkPhysicalDeviceMemoryProperties memory{};
     uint32_t timestampValidBits = 0;
+    /// Indirect commands may name a first instance. True too if the host has not told what it enabled.
+    bool drawIndirectFirstInstance = true;
 
     [[nodiscard]] static Result<Device> create(const DeviceDesc& desc);
 
@@ -89,6 +91,10 @@ struct Requirements {
 /// The first feature Supple needs that a chain given to vkCreateDevice (VkDeviceCreateInfo::pNext) does not enable, or
 /// empty.
 [[nodiscard]] std::string disabledFeature(const void* chain);
+
+/// Whether the feature drawIndirectFirstInstance is there, and enabled as far as the chain tells: it may be enabled by
+/// VkDeviceCreateInfo::pEnabledFeatures instead.
+[[nodiscard]] bool hasIndirectFirstInstance(const Functions& vk, VkPhysicalDevice physicalDevice, const void* chain);
 
 /// An error from a VkResult: "what: VK_ERROR_...".
 [[nodiscard]] Error vulkanError(VkResult result, const std::string& what);

@@ -13,6 +13,7 @@ struct CageMesh {
     std::vector<uint32_t> faceStarts; ///< one per face and one more: corners of face f are [f], [f + 1])
     std::vector<uint32_t> corners;    ///< vertices
     std::vector<uint32_t> materials;  ///< per face, or SUPPLE_NO_MATERIAL; or empty
+    std::vector<uint32_t> parts;      ///< per face; or empty, if there is one part
     std::vector<glm::vec2> uvSets[2];
     std::vector<glm::vec4> colors; ///< linear
 

@@ -357,6 +357,7 @@ Status Device::createDevice(const DeviceOptions& options) {
     features_ =
         vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &requirements_.features12);
     features_.features.samplerAnisotropy = supported.samplerAnisotropy;
+    features_.features.drawIndirectFirstInstance = supported.drawIndirectFirstInstance; // suppleSetPartVisible
     anisotropy_ = supported.samplerAnisotropy == VK_TRUE;
 
     constexpr float kPriority = 1.0f;

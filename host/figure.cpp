@@ -18,18 +18,30 @@ uint32_t nextCorner(const CageMesh& cage, uint32_t face, uint32_t corner) {
     return corner + 1 < cage.faceStarts[face + 1] ? corner + 1 : cage.faceStarts[face];
 }
 
-/// Each edge once.
-std::vector<std::array<uint32_t, 2>> edgesOf(const CageMesh& cage) {
-    std::vector<std::array<uint32_t, 2>> edges;
+uint32_t partOf(const CageMesh& cage, uint32_t face) {
+    return cage.parts.empty() ? 0 : cage.parts[face];
+}
+
+/// A part and the ends of an edge.
+using PartEdge = std::array<uint32_t, 3>;
+
+/// Each edge once, part by part.
+std::vector<PartEdge> edgesOf(const CageMesh& cage) {
+    std::vector<PartEdge> edges;
     edges.reserve(cage.corners.size());
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
             const auto [from, to] = std::minmax(cage.corners[corner], cage.corners[nextCorner(cage, face, corner)]);
-            edges.push_back({from, to});
+            edges.push_back({partOf(cage, face), from, to});
         }
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    const auto ends = [](const PartEdge& edge) { return std::pair(edge[1], edge[2]); };
+    std::sort(edges.begin(), edges.end(), [&](const PartEdge& a, const PartEdge& b) {
+        return std::pair(ends(a), a[0]) < std::pair(ends(b), b[0]);
+    });
+    const auto same = [&](const PartEdge& a, const PartEdge& b) { return ends(a) == ends(b); };
+    edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+    std::stable_sort(edges.begin(), edges.end(), [](const PartEdge& a, const PartEdge& b) { return a[0] < b[0]; });
     return edges;
 }
 
@@ -48,6 +60,8 @@ Result<std::unique_ptr<Figure>> Figure::create(Context& context, SuppleAsset ass
     if (const Status status = figure->readClips(); !status)
         return status.error();
     if (const Status status = figure->readMorphTargets(); !status)
+        return status.error();
+    if (const Status status = figure->readParts(); !status)
         return status.error();
     if (const Status status = figure->materials_.load(context, asset, path); !status)
         return status.error();
@@ -104,6 +118,25 @@ Status Figure::readMorphTargets() {
     return success();
 }
 
+Status Figure::readParts() {
+    SuppleAssetInfo asset{};
+    asset.structSize = sizeof asset;
+    if (const Status status =
+            context_.check(suppleGetAssetInfo(context_.handle(), asset_, &asset), "suppleGetAssetInfo");
+        !status)
+        return status.error();
+    for (uint32_t i = 0; i < asset.partCount; ++i) {
+        SupplePartInfo part{};
+        part.structSize = sizeof part;
+        if (const Status status =
+                context_.check(suppleGetPartInfo(context_.handle(), asset_, i, &part), "suppleGetPartInfo");
+            !status)
+            return status.error();
+        partNames_.emplace_back(part.name);
+    }
+    return success();
+}
+
 float Figure::averageLuminance() const {
     float sum = 0.0f;
     float area = 0.0f;
@@ -131,8 +164,8 @@ std::vector<uint32_t> Figure::cageCornerWords() {
     std::vector<uint32_t> faces(cage.faceCount());
     for (uint32_t face = 0; face < faces.size(); ++face)
         faces[face] = face;
-    std::stable_sort(faces.begin(), faces.end(),
-                     [&](uint32_t a, uint32_t b) { return materialOf(cage, a) < materialOf(cage, b); });
+    const auto keyOf = [&](uint32_t face) { return std::pair(materialOf(cage, face), partOf(cage, face)); };
+    std::stable_sort(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return keyOf(a) < keyOf(b); });
 
     // The corners first, then each face's vertices: faceStart counts words from the beginning of the buffer.
     size_t cornerCount = 0;
@@ -142,9 +175,9 @@ std::vector<uint32_t> Figure::cageCornerWords() {
     corners.reserve(cornerCount);
     const auto lists = static_cast<uint32_t>(cornerCount * kCornerWords);
     for (const uint32_t face : faces) {
-        const uint32_t material = materialOf(cage, face);
-        if (cageRanges_.empty() || cageRanges_.back().material != material)
-            cageRanges_.push_back({static_cast<uint32_t>(corners.size()), 0, material});
+        const auto [material, part] = keyOf(face);
+        if (cageRanges_.empty() || std::pair(cageRanges_.back().material, cageRanges_.back().part) != keyOf(face))
+            cageRanges_.push_back({static_cast<uint32_t>(corners.size()), 0, material, part});
         const uint32_t start = cage.faceStarts[face];
         const auto uvOf = [&](const SuppleTextureInfo& texture, uint32_t corner) {
             const std::vector<glm::vec2>& uvs = cage.uvSets[texture.uvSet];
@@ -168,10 +201,20 @@ std::vector<uint32_t> Figure::cageCornerWords() {
     return words;
 }
 
+std::vector<std::array<uint32_t, 2>> Figure::cageEdgeVertices() {
+    std::vector<std::array<uint32_t, 2>> vertices;
+    for (const auto& [part, from, to] : edgesOf(cage_)) {
+        if (cageEdgeRanges_.empty() || cageEdgeRanges_.back().part != part)
+            cageEdgeRanges_.push_back({static_cast<uint32_t>(vertices.size()), 0, part});
+        ++cageEdgeRanges_.back().edgeCount;
+        vertices.push_back({from, to});
+    }
+    return vertices;
+}
+
 Status Figure::uploadCage() {
     const std::vector<uint32_t> corners = cageCornerWords();
-    const std::vector<std::array<uint32_t, 2>> edges = edgesOf(cage_);
-    cageEdgeCount_ = static_cast<uint32_t>(edges.size());
+    const std::vector<std::array<uint32_t, 2>> edges = cageEdgeVertices();
     Device& device = context_.device();
     const auto upload = [&](const void* bytes, size_t size, Buffer& into) -> Status {
         Result<Buffer> buffer = device.uploadBuffer(bytes, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);

@@ -8,6 +8,7 @@
 #include "host/figure_materials.h"
 #include "host/group_output.h"
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,11 +18,18 @@ namespace supple::host {
 
 class Figure {
 public:
-    /// A run of cage triangles of one material.
+    /// A run of cage triangles of one part and material.
     struct CageRange {
         uint32_t firstCorner = 0; ///< three corners a triangle
         uint32_t cornerCount = 0;
         uint32_t material = SUPPLE_NO_MATERIAL;
+        uint32_t part = 0;
+    };
+    /// A run of cage edges of one part. What two parts have in common belongs to the first of them.
+    struct EdgeRange {
+        uint32_t firstEdge = 0;
+        uint32_t edgeCount = 0;
+        uint32_t part = 0;
     };
     struct Clip {
         std::string name;
@@ -48,6 +56,8 @@ public:
     [[nodiscard]] const std::vector<MorphTarget>& morphTargets() const { return morphTargets_; }
     /// 0 for the bind pose.
     [[nodiscard]] double clipDuration(uint32_t clip) const;
+    /// Of every part, in the asset's order; names may be empty.
+    [[nodiscard]] const std::vector<std::string>& partNames() const { return partNames_; }
     [[nodiscard]] const FigureMaterials& materials() const { return materials_; }
 
     /// Luminance of the base color over the cage's faces: linear, 0..1.
@@ -55,10 +65,13 @@ public:
     [[nodiscard]] const std::vector<CageRange>& cageRanges() const { return cageRanges_; }
     [[nodiscard]] const Buffer& cageCorners() const { return cageCorners_; }
     [[nodiscard]] const Buffer& cageEdges() const { return cageEdges_; }
-    [[nodiscard]] uint32_t cageEdgeCount() const { return cageEdgeCount_; }
+    [[nodiscard]] const std::vector<EdgeRange>& cageEdgeRanges() const { return cageEdgeRanges_; }
 
 private:
     explicit Figure(Context& context) : context_(context) {}
+    [[nodiscard]] Status readParts();
+    /// What shaders/cage_edge.vert reads; fills cageEdgeRanges_.
+    [[nodiscard]] std::vector<std::array<uint32_t, 2>> cageEdgeVertices();
     /// What shaders/cage_face.glsl reads; fills cageRanges_.
     [[nodiscard]] std::vector<uint32_t> cageCornerWords();
     [[nodiscard]] Status uploadCage();
@@ -73,11 +86,12 @@ private:
     SuppleAsset asset_{};
     std::vector<Clip> clips_;
     std::vector<MorphTarget> morphTargets_;
+    std::vector<std::string> partNames_;
     FigureMaterials materials_;
     std::vector<CageRange> cageRanges_;
     Buffer cageCorners_;
     Buffer cageEdges_;
-    uint32_t cageEdgeCount_ = 0;
+    std::vector<EdgeRange> cageEdgeRanges_;
     float averageAlbedo_ = 0.5f;
 };
 
@@ -126,6 +140,9 @@ public:
     /// From the next frame that is recorded.
     [[nodiscard]] Status setVisible(uint32_t instance, bool visible);
     [[nodiscard]] uint32_t visibleCount() const;
+    /// Of all instances, from the next frame that is recorded.
+    [[nodiscard]] Status setPartVisible(uint32_t part, bool visible);
+    [[nodiscard]] bool isPartVisible(uint32_t part) const { return visibleParts_[part]; }
     /// Positions of the surface vertices, or of the deformed cage, as last evaluated, instance after instance; waits
     /// for the device.
     [[nodiscard]] Result<std::vector<glm::vec3>> readSurface() const;
@@ -139,6 +156,7 @@ private:
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
     std::vector<bool> visible_; ///< per instance
+    std::vector<bool> visibleParts_;
     GroupOutput output_{};
     uint32_t edgeRate_ = 0;
     bool mesh_ = false;

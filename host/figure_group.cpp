@@ -87,6 +87,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     if (const Status status = context.createInstances(group->group_, options.instances, group->instances_); !status)
         return status.error();
     group->visible_.assign(options.instances, true);
+    group->visibleParts_.assign(figure.partNames().size(), true);
     if (const Status status =
             context.check(getGroupOutput(context.handle(), group->group_, group->output_), "suppleGetGroupInfo");
         !status)
@@ -168,6 +169,19 @@ Status FigureGroup::setVisible(uint32_t instance, bool visible) {
     Context& context = figure_.context();
     visible_[instance] = visible;
     return context.check(suppleSetVisible(context.handle(), instances_[instance], visible ? 1 : 0), "suppleSetVisible");
+}
+
+Status FigureGroup::setPartVisible(uint32_t part, bool visible) {
+    if (visibleParts_[part] == visible)
+        return success();
+    Context& context = figure_.context();
+    for (const SuppleInstance& instance : instances_) {
+        const SuppleResult result = suppleSetPartVisible(context.handle(), instance, part, visible ? 1 : 0);
+        if (const Status status = context.check(result, "suppleSetPartVisible"); !status)
+            return status.error();
+    }
+    visibleParts_[part] = visible;
+    return success();
 }
 
 uint32_t FigureGroup::visibleCount() const {

@@ -525,7 +525,7 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
     for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.grid.drawRanges[i];
         const Shadow shadow = shadowOf(materials.of(range.material));
-        if (shadow == Shadow::none)
+        if (shadow == Shadow::none || !scene.group->isPartVisible(range.part))
             continue;
         const VkPipeline wanted = shadow == Shadow::solid ? pipelines_->surfaceShadow : pipelines_->surfaceShadowTrim;
         if (bound != wanted)
@@ -570,7 +570,8 @@ void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, light ? pipelines_->cageShadow : pipelines_->cageFace);
     for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
         // The cage casts its shadow without holes, or none.
-        if (light && materials.of(range.material).alphaMode != SUPPLE_ALPHA_OPAQUE)
+        const bool castsNone = light && materials.of(range.material).alphaMode != SUPPLE_ALPHA_OPAQUE;
+        if (castsNone || !scene.group->isPartVisible(range.part))
             continue;
         push.primitive = range.firstCorner;
         pushConstants(commands, push);
@@ -584,8 +585,13 @@ void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene
     shared::DrawPush push = basePush(scene, 0);
     push.lineColor = scene.cageFaces || isWireOfMesh(scene) ? kCageEdgeColor : kOverlayEdgeColor;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
-    pushConstants(commands, push);
-    vkCmdDraw(commands, 6 * scene.group->figure().cageEdgeCount(), scene.group->visibleCount(), 0, 0);
+    for (const Figure::EdgeRange& range : scene.group->figure().cageEdgeRanges()) {
+        if (!scene.group->isPartVisible(range.part))
+            continue;
+        push.primitive = range.firstEdge;
+        pushConstants(commands, push);
+        vkCmdDraw(commands, 6 * range.edgeCount, scene.group->visibleCount(), 0, 0);
+    }
 }
 
 } // namespace supple::host

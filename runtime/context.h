@@ -53,6 +53,8 @@ public:
     [[nodiscard]] Result<uint32_t> acquireBarriers(std::span<const SuppleGroup> groups, SuppleSyncScope use,
                                                    std::span<VkBufferMemoryBarrier2> out) const;
 
+    /// Whether draws can leave out parts: their indirect commands then have a first instance.
+    [[nodiscard]] bool hidesInDraws() const { return device_->drawIndirectFirstInstance; }
     /// Of 2D images of the device.
     [[nodiscard]] uint32_t maxImageSide() const { return device_->limits.maxImageDimension2D; }
 

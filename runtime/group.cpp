@@ -56,10 +56,11 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
 }
 
 Status Group::createParts(const GroupShared& shared, const SuppleGroupDesc& desc) {
-    Result<std::unique_ptr<InstanceSet>> instances =
-        InstanceSet::create({shared.device, shared.deform, shared.pose, asset_.get(), desc.poseSource, skinningOf(desc),
-                             desc.capacity, shared.firstGeneration, shared.framesInFlight, shared.handsOver,
-                             tessellation_->lists(), tessellation_->boundBytes()});
+    const bool listsParts = view_ == nullptr && tessellation_->kind() != SUPPLE_TESSELLATION_NONE;
+    Result<std::unique_ptr<InstanceSet>> instances = InstanceSet::create(
+        {shared.device, shared.deform, shared.pose, asset_.get(), desc.poseSource, skinningOf(desc), desc.capacity,
+         shared.firstGeneration, shared.framesInFlight, shared.handsOver, tessellation_->lists(),
+         tessellation_->partPatches(), listsParts, tessellation_->boundBytes()});
     if (!instances) {
         return instances.error();
     }
@@ -91,7 +92,9 @@ Status Group::createParts(const GroupShared& shared, const SuppleGroupDesc& desc
         status = culling_->createSets(
             {instances_->cages().buffer(), list.buffer(), view_->cull(), view_->sizes(), view_->words()});
     } else if (status) {
-        visibility_ = std::make_unique<ListedByHost>(instances_->windows(), InstanceList{list.buffer(), list.size()});
+        const auto entries = static_cast<uint32_t>(list.size() / sizeof(uint32_t));
+        const InstanceList drawn{list.buffer(), instances_->passListBytes(), listsParts ? entries : desc.capacity};
+        visibility_ = std::make_unique<ListedByHost>(instances_->windows(), drawn);
     }
     clear_.renew(culling_ != nullptr);
     return status ? tessellation_->createSets(*instances_, *visibility_) : status;
@@ -101,7 +104,7 @@ void Group::fill(SuppleGroupInfo& info) const {
     instances_->fill(info);
     info.tessellation = tessellation_->kind();
     info.patchCount = static_cast<uint32_t>(tables().patches.size());
-    info.instances = visibility_->list().slots(info.capacity);
+    info.instances = visibility_->list().slots();
     const gpu::PlannedBuffer& patches = tessellation_->patchCoefficients();
     info.patchCoefficients = {patches.buffer(), 0, patches.size(), 16};
     info.deviceBytes = buffers_.allocatedBytes() + instances_->deviceBytes() + tessellation_->deviceBytes();

@@ -36,6 +36,10 @@ public:
                                                                const SuppleGroupDesc& desc);
 
     [[nodiscard]] const Asset& asset() const { return *asset_; }
+    /// Whether the indirect commands that draw an instance name a first instance when it hides parts.
+    [[nodiscard]] bool drawsByRanges() const {
+        return tessellation_->kind() != SUPPLE_TESSELLATION_NONE && tessellation_->kind() != SUPPLE_TESSELLATION_LEVELS;
+    }
     [[nodiscard]] const surface::Tables& tables() const { return tessellation_->tables(); }
     void fill(SuppleGroupInfo& info) const;
     [[nodiscard]] Status setRate(uint32_t rate) { return tessellation_->setRate(rate); }

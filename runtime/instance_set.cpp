@@ -33,7 +33,8 @@ Result<std::unique_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     if (!status) {
         return status.error();
     }
-    set->slots_ = InstanceSlots(desc.capacity, desc.firstGeneration);
+    set->slots_ = InstanceSlots(desc.capacity, desc.firstGeneration, desc.partPatches);
+    set->windows_.parts.resize(desc.listsParts ? desc.partPatches.size() : 0);
     set->poses_ = makePoseSource(
         desc.source, {desc.device, desc.pose, desc.asset, set->layout_, desc.capacity, desc.framesInFlight});
     return set;
@@ -80,13 +81,14 @@ void InstanceSet::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     palettes_ = device.add({"supple poses", deforms ? n * layout_.stride * kVec4Bytes : 0, kInput});
     cages_ =
         device.add({"supple deformed cage", n * cageStride_ * kVec4Bytes, kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
-    list_ = device.add({"supple instances", 2 * n * sizeof(uint32_t), kInput});
-    lists_.plan(staging, "supple list staging", 2 * n * sizeof(uint32_t), desc_.framesInFlight);
+    const VkDeviceSize listBytes = passListBytes() + windows_.parts.size() * n * sizeof(uint32_t);
+    list_ = device.add({"supple instances", listBytes, kInput});
+    lists_.plan(staging, "supple list staging", listBytes, desc_.framesInFlight);
     poses_->plan(staging);
 }
 
 Status InstanceSet::createSets() {
-    Status status = poses_->create({palettes_.buffer(), list_.buffer(), list_.size(), windows_.size});
+    Status status = poses_->create({palettes_.buffer(), list_.buffer(), passListBytes(), windows_.size});
     if (!status || palettes_.buffer() == VK_NULL_HANDLE) {
         return status;
     }
@@ -104,7 +106,7 @@ Status InstanceSet::createSets() {
     const VkBuffer table = desc_.asset->buffers.buffer(0);
     const VkDeviceSize tableBytes = desc_.asset->buffers.size(0);
     const VkBufferView tableView = view(table, kUint4, 0, tableBytes, "supple deform table");
-    const VkBufferView listView = view(list_.buffer(), VK_FORMAT_R32_UINT, 0, list_.size(), "supple instances");
+    const VkBufferView listView = view(list_.buffer(), VK_FORMAT_R32_UINT, 0, passListBytes(), "supple instances");
     for (uint32_t w = 0; w < windows_.count() && status; ++w) {
         const Result<VkDescriptorSet> set = gpu::allocateSet(device, layout, pool_.get(), "supple deform");
         if (!set) {
@@ -159,8 +161,10 @@ PassCost InstanceSet::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame
     PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_.end());
     const bool listed = slots_.changed();
     if (listed) {
-        auto* const all = reinterpret_cast<uint32_t*>(lists_.next());
-        visibility.list(slots_, {all, windows_.capacity}, {all + windows_.capacity, windows_.capacity}, windows_);
+        const std::span entries(reinterpret_cast<uint32_t*>(lists_.next()), list_.size() / sizeof(uint32_t));
+        const uint32_t n = windows_.capacity;
+        visibility.list(slots_, {entries.first(n), entries.subspan(n, n), entries.subspan(windows_.firstPartEntry())},
+                        windows_);
     }
     if (listed || desc_.handsOver) {
         const auto copy = [&](VkDeviceSize first, VkDeviceSize count) {
@@ -169,6 +173,7 @@ PassCost InstanceSet::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame
         };
         copy(0, windows_.visible);
         windows_.forEach([&](uint32_t w) { copy(windows_.firstEntry(w), windows_.listed[w].count); });
+        copy(windows_.firstPartEntry(), windows_.partEntries);
         cost.bytes += visibility.recordUpload(commandBuffer);
     }
     return cost;

@@ -35,8 +35,10 @@ public:
         uint32_t capacity = 0;
         uint32_t firstGeneration = 1;
         uint32_t framesInFlight = 2;
-        bool handsOver = false; ///< to another queue family: lists are written anew in every frame
-        uint32_t lists = 2;     ///< that all lists of instances together have `capacity` entries for
+        bool handsOver = false;            ///< to another queue family: lists are written anew in every frame
+        uint32_t lists = 2;                ///< that all lists of instances that passes read have `capacity` entries for
+        std::vector<uint32_t> partPatches; ///< of every part
+        bool listsParts = false;           ///< the host lists the instances of every part
         BoundBytes surface;
     };
     /// Prepares the pipelines and lays out the windows.
@@ -55,8 +57,9 @@ public:
     [[nodiscard]] static uint32_t cageStrideOf(uint32_t cageVertices);
 
     [[nodiscard]] const gpu::PlannedBuffer& cages() const { return cages_; }
-    /// capacity entries of all instances, then as many by window.
     [[nodiscard]] const gpu::PlannedBuffer& list() const { return list_; }
+    /// Of the list, what passes read: capacity entries of all instances, then as many by window.
+    [[nodiscard]] VkDeviceSize passListBytes() const { return 2 * VkDeviceSize{desc_.capacity} * sizeof(uint32_t); }
     [[nodiscard]] VkDeviceSize deviceBytes() const { return poses_->deviceBytes(); }
     void fill(SuppleGroupInfo& output) const;
     void addTransfers(Transfers& transfers) const;

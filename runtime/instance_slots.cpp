@@ -6,7 +6,8 @@
 
 namespace supple::runtime {
 
-InstanceSlots::InstanceSlots(uint32_t capacity, uint32_t firstGeneration) : slots_(capacity) {
+InstanceSlots::InstanceSlots(uint32_t capacity, uint32_t firstGeneration, std::vector<uint32_t> partPatches)
+    : slots_(capacity), hidden_(capacity, std::move(partPatches)) {
     for (Slot& slot : slots_) {
         slot.generation = firstGeneration;
     }
@@ -24,6 +25,7 @@ std::optional<uint32_t> InstanceSlots::create() {
     slot.visible = true;
     slot.evaluated = false;
     slot.priority = 0;
+    hidden_.reset(lowestFree_);
     changed_ = true;
     end_ = std::max(end_, lowestFree_ + 1);
     return lowestFree_++;
@@ -31,6 +33,7 @@ std::optional<uint32_t> InstanceSlots::create() {
 
 void InstanceSlots::destroy(uint32_t slot) {
     slots_[slot].live = false;
+    hidden_.reset(slot);
     changed_ = true;
     ++slots_[slot].generation;
     if (slots_[slot].generation == 0) {
@@ -58,9 +61,29 @@ void InstanceSlots::listForCulling(std::span<uint32_t> all) const {
     for (uint32_t s = 0; s < end_; ++s) {
         if (slots_[s].live && slots_[s].visible) {
             all[count++] = s | slots_[s].priority << shared::kInstancePriorityShift |
-                           (slots_[s].evaluated ? 0 : shared::kInstanceIsNew);
+                           (slots_[s].evaluated ? 0 : shared::kInstanceIsNew) |
+                           (hidden_.hidesAny(s) ? shared::kInstanceHidesParts : 0);
         }
     }
+}
+
+bool InstanceSlots::isHidden(uint32_t part) const {
+    for (uint32_t s = 0; s < end_; ++s) {
+        if (slots_[s].live && slots_[s].visible && hidden_.hides(s, part)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+uint32_t InstanceSlots::listPart(uint32_t part, std::span<uint32_t> slots) const {
+    uint32_t count = 0;
+    for (uint32_t s = 0; s < end_; ++s) {
+        if (slots_[s].live && slots_[s].visible && !hidden_.hides(s, part)) {
+            slots[count++] = s;
+        }
+    }
+    return count;
 }
 
 uint32_t InstanceSlots::list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,

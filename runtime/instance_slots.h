@@ -1,6 +1,8 @@
 // Which slots of a group hold an instance, which of those are seen, and which have a past.
 #pragma once
 
+#include "runtime/hidden_parts.h"
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,10 +14,10 @@ namespace supple::runtime {
 class InstanceSlots {
 public:
     InstanceSlots() = default;
-    /// Generations begin at `firstGeneration` (not 0).
-    InstanceSlots(uint32_t capacity, uint32_t firstGeneration);
+    /// Generations begin at `firstGeneration` (not 0). `partPatches`: how many patches every part has.
+    InstanceSlots(uint32_t capacity, uint32_t firstGeneration, std::vector<uint32_t> partPatches = {});
 
-    /// The lowest free slot, now taken and visible; nothing when all are.
+    /// The lowest free slot, now taken and visible with all parts; nothing when all are.
     [[nodiscard]] std::optional<uint32_t> create();
     void destroy(uint32_t slot);
     [[nodiscard]] bool holds(uint32_t slot, uint32_t generation) const;
@@ -25,6 +27,11 @@ public:
         changed_ = changed_ || slots_[slot].visible != visible;
         slots_[slot].visible = visible;
     }
+    void setPartVisible(uint32_t slot, uint32_t part, bool visible) {
+        const bool changes = hidden_.set(slot, part, !visible);
+        changed_ = changed_ || changes;
+    }
+    [[nodiscard]] const HiddenParts& hiddenParts() const { return hidden_; }
     /// Groups of a view: 0..kPriorityCount - 1; 0 when created.
     void setPriority(uint32_t slot, uint32_t priority) {
         changed_ = changed_ || slots_[slot].priority != priority;
@@ -60,6 +67,10 @@ public:
                   std::span<Listed> windows);
     /// `all` with flags, as culling takes it (shaders/shared/bounds.h); to be called before list().
     void listForCulling(std::span<uint32_t> all) const;
+    /// Whether a visible instance hides the part.
+    [[nodiscard]] bool isHidden(uint32_t part) const;
+    /// Behind list(): the visible slots that show the part, rising. Returns how many there are.
+    uint32_t listPart(uint32_t part, std::span<uint32_t> slots) const;
 
 private:
     struct Slot {
@@ -70,6 +81,7 @@ private:
         uint32_t priority = 0;
     };
     std::vector<Slot> slots_;
+    HiddenParts hidden_;
     uint32_t end_ = 0;
     uint32_t lowestFree_ = 0; ///< none is free below
     uint32_t priorities_ = 1;

@@ -18,6 +18,8 @@ template <>
 inline constexpr size_t kFirstSize<SuppleAssetDesc> = offsetof(SuppleAssetDesc, scene);
 template <>
 inline constexpr size_t kFirstSize<SuppleJointInfo> = offsetof(SuppleJointInfo, restTransform);
+template <>
+inline constexpr size_t kFirstSize<SuppleViewStatistics> = offsetof(SuppleViewStatistics, hiddenPatchCount);
 
 /// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with
 /// something in fields that this library does not know.

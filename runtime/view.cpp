@@ -354,7 +354,8 @@ SuppleViewStatistics View::read(size_t place) const {
         wanted += uint64_t{counts[3]} * solved.of[g].leastVertices;
     }
     read.wantedVertexCount = static_cast<uint32_t>(std::min<uint64_t>(wanted, UINT32_MAX));
-    read.backFaceCount = patches - solution.counted;
+    read.backFaceCount = patches - solution.counted - solution.hidden;
+    read.hiddenPatchCount = solution.hidden;
     read.shortfall = solution.shortfall != 0 || read.droppedInstanceCount > 0 ? 1 : 0;
     return read;
 }

@@ -6,6 +6,9 @@
 //
 //     vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer, grid.indirect.offset + range * grid.indirect.stride, 1, 0);
 //
+// gl_InstanceIndex counts from the command's firstInstance, which is not 0 where an instance hides a part: the range then has a
+// list of its own in the buffer of instances.
+//
 // The first half of this file has no bindings: the shader hands in what it knows of the range, as push constants or from a
 // buffer. The second half, for shaders that define SUPPLE_SURFACE_SET, declares what a group hands out as storage
 // buffers of that descriptor set and reads them:
@@ -57,7 +60,7 @@ uint suppleLodSurfaceVertex(SuppleDraw draw, uint instanceIndex, uint vertexInde
     return vertexIndex + instanceIndex * draw.verticesPerInstance;
 }
 
-/// Which of the visible instances this is: an index into SuppleGroupInfo.instances, where its slot stands.
+/// Which entry of SuppleGroupInfo.instances (SuppleRate.instances) this is, where its slot stands.
 uint suppleDrawnInstance(SuppleRange range, uint instanceIndex) { return instanceIndex / range.patchCount; }
 
 /// The patch within the instance, if the range's first one is known: an index of suppleGetPatches.

@@ -21,6 +21,8 @@ struct Needs {
     bool backFaces = false;   ///< with lod: leaves out patches that show their backs
     uint32_t levelOffset = 0; ///< with lod: an instance has one level, which is so many entries behind its own in the
                               ///< list of instances. 0: every edge has its own level
+    uint32_t firstMask = 0;   ///< with lod: where masks of parts begin in the list of instances, in words
+    uint32_t maskWords = 0;   ///< with lod: words of an instance's mask (shaders/shared/bounds.h)
     uint32_t rate = 0;        ///< the rate that the group is created with. Only this one gets pipelines of its own
 };
 

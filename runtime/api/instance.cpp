@@ -39,6 +39,27 @@ SuppleResult suppleSetVisible(SuppleContext handle, SuppleInstance instance, uin
     });
 }
 
+SuppleResult suppleSetPartVisible(SuppleContext handle, SuppleInstance instance, uint32_t part, uint32_t visible) {
+    constexpr const char* kHere = "suppleSetPartVisible";
+    return withInstance(handle, instance, kHere, [&](Context& context, Group& found) {
+        const size_t parts = found.asset().character.parts.size();
+        if (part >= parts) {
+            return refuse(context, ErrorCode::range, kHere,
+                          found.asset().character.name + ": part " + std::to_string(part) + " of " +
+                              std::to_string(parts));
+        }
+        if (visible > 1) {
+            return refuse(context, ErrorCode::range, kHere, "visible must be 0 or 1");
+        }
+        if (visible == 0 && found.drawsByRanges() && !context.hidesInDraws()) {
+            return refuse(context, ErrorCode::disabled, kHere,
+                          "the device was created without the feature drawIndirectFirstInstance");
+        }
+        found.slots().setPartVisible(instance.slot, part, visible == 1);
+        return SUPPLE_OK;
+    });
+}
+
 SuppleResult suppleTeleport(SuppleContext handle, SuppleInstance instance) {
     return withInstance(handle, instance, "suppleTeleport", [&](Context&, Group& found) {
         found.slots().forget(instance.slot);

@@ -13,7 +13,8 @@ namespace supple::runtime {
 
 using namespace supple::shared;
 
-static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16 && sizeof(ListDraw) == 16);
+static_assert(sizeof(ListWindow) == 16 && sizeof(ListArgument) == 16 && sizeof(ListDraw) == 16 &&
+              sizeof(ListPart) == 16);
 
 namespace {
 
@@ -22,16 +23,18 @@ static_assert(kPushBytes <= gpu::kPushConstantBytes);
 
 } // namespace
 
-size_t listTableBytes(size_t windows, size_t arguments, size_t draws) {
-    return windows * sizeof(ListWindow) + arguments * sizeof(ListArgument) + draws * sizeof(ListDraw);
+size_t listTableBytes(size_t windows, size_t arguments, size_t draws, size_t parts) {
+    return windows * sizeof(ListWindow) + arguments * sizeof(ListArgument) + draws * sizeof(ListDraw) +
+           parts * sizeof(ListPart);
 }
 
 void writeListTable(std::span<const ListWindow> windows, std::span<const ListArgument> arguments,
-                    std::span<const ListDraw> draws, std::byte* target) {
+                    std::span<const ListDraw> draws, std::span<const ListPart> parts, std::byte* target) {
     const auto put = [&](std::span<const std::byte> bytes) { target = std::copy(bytes.begin(), bytes.end(), target); };
     put(std::as_bytes(windows));
     put(std::as_bytes(arguments));
     put(std::as_bytes(draws));
+    put(std::as_bytes(parts));
 }
 
 std::array<float, 24> frustumPlanes(const std::array<float, 16>& columns) {

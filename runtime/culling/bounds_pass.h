@@ -35,12 +35,17 @@ struct ListArgument {
 struct ListDraw {
     uint32_t indexCount = 0, firstIndex = 0;
     uint32_t patches = 0; ///< an instance
-    uint32_t rate = 0;
+    uint32_t rate = 0;    ///< | the number of its part's list << shared::kDrawListShift
+};
+/// A part that some instance hides.
+struct ListPart {
+    uint32_t part = 0;
+    uint32_t unused[3] = {};
 };
 /// The bytes that kListTableBinding takes, and writes them.
-[[nodiscard]] size_t listTableBytes(size_t windows, size_t arguments, size_t draws);
+[[nodiscard]] size_t listTableBytes(size_t windows, size_t arguments, size_t draws, size_t parts);
 void writeListTable(std::span<const ListWindow> windows, std::span<const ListArgument> arguments,
-                    std::span<const ListDraw> draws, std::byte* target);
+                    std::span<const ListDraw> draws, std::span<const ListPart> parts, std::byte* target);
 
 /// Planes of a matrix that takes points to clip space with depths 0..w (rows as in Vulkan); reversed and infinite depth
 /// too.

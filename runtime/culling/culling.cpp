@@ -38,11 +38,11 @@ Status allocateSets(const gpu::Device& device, const gpu::ComputeLayout& layout,
 } // namespace
 
 uint32_t Culling::firstRateList() const {
-    return (3 * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+    return (lists(partCount(), 0) * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
 }
 
 uint32_t Culling::rateStride() const {
-    return (2 * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+    return ((2 + partCount()) * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
 }
 
 void Culling::addDispatches(const Needs& needs) {
@@ -62,6 +62,7 @@ void Culling::addDispatches(const Needs& needs) {
         }
         for (const SuppleDrawRange& draw : rate.draws) {
             draws_.push_back({draw.indexCount, draw.firstIndex, draw.patchCount, r});
+            drawParts_.push_back(draw.part);
         }
     }
 }
@@ -82,6 +83,7 @@ std::unique_ptr<Culling> Culling::create(const Desc& desc, const Needs& needs) {
     push.margin = needs.margin;
     push.longest = needs.measure.longest;
     push.bend = needs.measure.bend;
+    culling->parts_.resize(needs.parts);
     culling->addDispatches(needs);
     return culling;
 }
@@ -92,13 +94,14 @@ void Culling::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkDeviceSize n = windows_->capacity;
     const VkDeviceSize words = firstArgument() + firstDraw() + kDrawWords * VkDeviceSize{draws_.size()};
-    const VkDeviceSize tableBytes = listTableBytes(windows_->count(), arguments_.size(), draws_.size());
+    const VkDeviceSize tableBytes = listTableBytes(windows_->count(), arguments_.size(), draws_.size(), parts_.size());
     bounds_ = device.add({"supple bounds", n * kBoundsBytes, kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     states_ = device.add({"supple visibility", n * kStateBytes, kStorage | kCopied});
     list_ = device.add({"supple instances seen", words * kWordBytes,
-                        kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+                        kStorage | kCopied | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
     table_ = device.add({"supple list table", tableBytes, kStorage | kCopied});
     tables_.plan(staging, "supple list table staging", tableBytes, framesInFlight_);
+    masks_.plan(staging, "supple parts staging", n * HiddenParts::wordsOf(parts_.size()) * kWordBytes, framesInFlight_);
 }
 
 Status Culling::createSets(const Buffers& buffers) {
@@ -153,20 +156,46 @@ Status Culling::createSets(const Buffers& buffers) {
     return status;
 }
 
-void Culling::list(InstanceSlots& slots, std::span<uint32_t> all, std::span<uint32_t> byWindow,
-                   InstanceWindows& windows) {
-    slots.listForCulling(all);
-    windows.visible = slots.list({}, byWindow, windows.size, windows.listed);
+void Culling::listParts(const InstanceSlots& slots) {
+    const HiddenParts& hidden = slots.hiddenParts();
+    hiddenParts_ = 0;
+    maskBytes_ = 0;
+    if (hidden.any()) {
+        const std::span<const std::byte> masks = std::as_bytes(hidden.words(slots.end()));
+        maskBytes_ = masks.size();
+        std::copy(masks.begin(), masks.end(), masks_.next());
+    }
+    for (size_t d = 0; d < draws_.size(); ++d) {
+        draws_[d].rate &= (1u << kDrawListShift) - 1;
+    }
+    for (const uint32_t part : hidden.order()) {
+        if (draws_.empty() || !hidden.any() || !slots.isHidden(part)) {
+            continue;
+        }
+        parts_[hiddenParts_++].part = part;
+        for (size_t d = 0; d < draws_.size(); ++d) {
+            draws_[d].rate |= drawParts_[d] == part ? hiddenParts_ << kDrawListShift : 0;
+        }
+    }
+}
+
+void Culling::list(InstanceSlots& slots, const Lists& lists, InstanceWindows& windows) {
+    slots.listForCulling(lists.all);
+    windows.visible = slots.list({}, lists.byWindow, windows.size, windows.listed);
+    listParts(slots);
     uint32_t first = 0;
     for (uint32_t w = 0; w < windows.count(); ++w) {
         listed_[w] = {first, windows.listed[w].count, windows.firstSlot(w), windows.firstEntry(w)};
         first += windows.listed[w].count;
     }
-    writeListTable(listed_, arguments_, draws_, tables_.next());
+    writeListTable(listed_, arguments_, draws_, std::span(parts_).first(hiddenParts_), tables_.next());
 }
 
 VkDeviceSize Culling::recordUpload(VkCommandBuffer commandBuffer) {
-    return tables_.recordCopy(*device_, commandBuffer, 0, table_.buffer(), 0, table_.size());
+    const VkDeviceSize masks = VkDeviceSize{firstMask(windows_->capacity)} * kWordBytes;
+    const VkDeviceSize table = listTableBytes(windows_->count(), arguments_.size(), draws_.size(), hiddenParts_);
+    return tables_.recordCopy(*device_, commandBuffer, 0, table_.buffer(), 0, table) +
+           masks_.recordCopy(*device_, commandBuffer, 0, list_.buffer(), masks, maskBytes_);
 }
 
 PassCost Culling::cost(uint64_t points, uint64_t) const {
@@ -256,6 +285,10 @@ PassCost Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const
     push.firstDraw = firstDraw();
     push.drawCount = static_cast<uint32_t>(draws_.size());
     push.counted = counted ? 1 : 0;
+    push.capacity = windows_->capacity;
+    push.partCount = hiddenParts_;
+    push.masks = firstMask(windows_->capacity);
+    push.maskWords = HiddenParts::wordsOf(parts_.size());
     std::ranges::copy(rateVertices_, push.vertices);
     pass_->recordRates(commandBuffer, listSet_, push);
     return {0, 0, windows_->visible > 0};
@@ -280,8 +313,9 @@ surface::Window Culling::window(uint32_t window, uint32_t rate) const {
     return result;
 }
 
-VkDeviceSize Culling::rateListOffset(uint32_t rate) const {
-    return VkDeviceSize{firstRateList() + rate * rateStride()} * kWordBytes;
+SuppleBufferRange Culling::rateList(uint32_t rate) const {
+    const VkDeviceSize first = firstRateList() + rate * rateStride();
+    return {list_.buffer(), first * kWordBytes, (2 + partCount()) * windows_->capacity * kWordBytes, kWordBytes};
 }
 
 VkDeviceSize Culling::drawOffset() const {

@@ -35,6 +35,7 @@ public:
         uint32_t leastVertices = 0; ///< of an instance at its coarsest
         uint32_t firstRate = 0;     ///< segments along an edge of the cage; each further rate has twice as many
         std::vector<Rate> rates;    ///< none if levels are real numbers
+        uint32_t parts = 1;         ///< of the asset
     };
     struct Desc {
         const gpu::Device* device = nullptr;
@@ -57,10 +58,9 @@ public:
     [[nodiscard]] Status createSets(const Buffers& buffers);
 
     // Visibility
-    void list(InstanceSlots& slots, std::span<uint32_t> all, std::span<uint32_t> byWindow,
-              InstanceWindows& windows) override;
+    void list(InstanceSlots& slots, const Lists& lists, InstanceWindows& windows) override;
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) override;
-    [[nodiscard]] InstanceList list() const override { return {list_.buffer(), list_.size()}; }
+    [[nodiscard]] InstanceList list() const override { return {list_.buffer(), list_.size(), windows_->capacity}; }
     [[nodiscard]] surface::Window window(uint32_t window) const override;
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override;
     void addTransfers(Transfers& transfers) const override;
@@ -88,18 +88,26 @@ public:
 
     /// The instances of a rate in a window. Argument 0 is that of the rate's first step.
     [[nodiscard]] surface::Window window(uint32_t window, uint32_t rate) const;
-    /// In list(): the first of all slots at a rate, and the draws of all rates.
-    [[nodiscard]] VkDeviceSize rateListOffset(uint32_t rate) const;
+    /// In list(): the slots at a rate with the lists of parts behind them, and the draws of all rates.
+    [[nodiscard]] SuppleBufferRange rateList(uint32_t rate) const;
     [[nodiscard]] VkDeviceSize drawOffset() const;
     /// In list(): what the list pass has found out of all windows, kListHeaderWords words (shaders/shared/bounds.h).
     [[nodiscard]] VkDeviceSize countOffset() const { return VkDeviceSize{firstArgument()} * sizeof(uint32_t); }
+    /// In list(): the word at which masks of parts begin.
+    [[nodiscard]] static uint32_t firstMask(uint32_t capacity) { return 3 * capacity; }
+    /// How many times `capacity` words lie before the arguments.
+    [[nodiscard]] static uint32_t lists(uint32_t parts, uint32_t rates) {
+        return 3 + HiddenParts::wordsOf(parts) + rates * (2 + parts);
+    }
 
 private:
     void addDispatches(const Needs& needs);
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(arguments_.size()); }
+    [[nodiscard]] uint32_t partCount() const { return static_cast<uint32_t>(parts_.size()); }
     [[nodiscard]] uint32_t rateCount() const { return static_cast<uint32_t>(firstDispatches_.size()); }
-    // Words of the list: all that are seen, those of every window, their levels; the same without levels for every
-    // rate; then the arguments, the counts of rates and their draws.
+    void listParts(const InstanceSlots& slots);
+    // Words of the list: all that are seen, those of every window, their levels; masks of parts; for every rate all,
+    // those of every window, those that show a part; then the arguments, the counts of rates and their draws.
     [[nodiscard]] uint32_t firstRateList() const;
     [[nodiscard]] uint32_t rateStride() const;
     [[nodiscard]] uint32_t firstArgument() const { return firstRateList() + rateCount() * rateStride(); }
@@ -121,9 +129,13 @@ private:
     std::array<uint32_t, shared::kMaxRates> rateVertices_{};
     std::vector<uint32_t> firstDispatches_; ///< by rate, in arguments_
     std::vector<ListDraw> draws_;
+    std::vector<uint32_t> drawParts_; ///< by draw
+    std::vector<ListPart> parts_;     ///< room for all parts
+    uint32_t hiddenParts_ = 0;        ///< entries of parts_ in use
+    VkDeviceSize maskBytes_ = 0;      ///< to upload
 
     gpu::PlannedBuffer bounds_, states_, list_, table_;
-    ChangeStaging tables_;
+    ChangeStaging tables_, masks_;
     gpu::DescriptorPoolHandle boundsPool_, listPool_, occlusionPool_;
     gpu::TexelViews views_;
     std::vector<VkDescriptorSet> boundsSets_; ///< by window

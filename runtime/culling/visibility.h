@@ -7,6 +7,7 @@
 #include "supple/supple.h"
 #include "surface/program.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -15,11 +16,12 @@ namespace supple::runtime {
 /// The list of instances that surface passes bind.
 struct InstanceList {
     VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceSize bytes = 0;
+    VkDeviceSize bytes = 0;    ///< that surface passes read
+    uint32_t drawnEntries = 0; ///< from the beginning on, that draws read
 
-    /// `count` slots from `offset` on.
-    [[nodiscard]] SuppleBufferRange slots(uint32_t count, VkDeviceSize offset = 0) const {
-        return {buffer, offset, VkDeviceSize{count} * sizeof(uint32_t), sizeof(uint32_t)};
+    /// What draws read.
+    [[nodiscard]] SuppleBufferRange slots() const {
+        return {buffer, 0, VkDeviceSize{drawnEntries} * sizeof(uint32_t), sizeof(uint32_t)};
     }
 };
 
@@ -30,9 +32,13 @@ public:
     Visibility(const Visibility&) = delete;
     Visibility& operator=(const Visibility&) = delete;
 
-    /// Lists this frame's instances, for the device and in `windows`. Both spans have room for all instances.
-    virtual void list(InstanceSlots& slots, std::span<uint32_t> all, std::span<uint32_t> byWindow,
-                      InstanceWindows& windows) = 0;
+    /// Where a frame's instances are listed. `all` and `byWindow` have room for all instances, `byPart` for all
+    /// instances of each part of `windows`.
+    struct Lists {
+        std::span<uint32_t> all, byWindow, byPart;
+    };
+    /// Lists this frame's instances, for the device and in `windows`.
+    virtual void list(InstanceSlots& slots, const Lists& lists, InstanceWindows& windows) = 0;
     /// What it uploads itself when the list has changed; returns the bytes.
     virtual VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) = 0;
 
@@ -51,9 +57,20 @@ public:
     /// Both must outlive this. `list`: the list of instances on the device (runtime/instance_windows.h).
     ListedByHost(const InstanceWindows& windows, InstanceList list) : windows_(&windows), list_(list) {}
 
-    void list(InstanceSlots& slots, std::span<uint32_t> all, std::span<uint32_t> byWindow,
-              InstanceWindows& windows) override {
-        windows.visible = slots.list(all, byWindow, windows.size, windows.listed);
+    void list(InstanceSlots& slots, const Lists& lists, InstanceWindows& windows) override {
+        windows.visible = slots.list(lists.all, lists.byWindow, windows.size, windows.listed);
+        windows.partEntries = 0;
+        std::fill(windows.parts.begin(), windows.parts.end(), PartList{0, windows.visible});
+        if (windows.parts.empty() || !slots.hiddenParts().any()) {
+            return;
+        }
+        for (const uint32_t part : slots.hiddenParts().order()) {
+            if (slots.isHidden(part)) {
+                const uint32_t count = slots.listPart(part, lists.byPart.subspan(windows.partEntries));
+                windows.parts[part] = {windows.firstPartEntry() + windows.partEntries, count};
+                windows.partEntries += count;
+            }
+        }
     }
     VkDeviceSize recordUpload(VkCommandBuffer) override { return 0; }
     [[nodiscard]] InstanceList list() const override { return list_; }

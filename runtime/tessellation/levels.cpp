@@ -18,7 +18,7 @@ public:
     ~Levels() override;
     [[nodiscard]] Status begin();
 
-    [[nodiscard]] uint32_t lists() const override { return 3; }
+    [[nodiscard]] uint32_t lists() const override { return Culling::lists(partCount(), 0); }
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
     [[nodiscard]] Culling::Needs cullingNeeds() const override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_LEVELS; }
@@ -42,6 +42,7 @@ protected:
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
 
 private:
+    [[nodiscard]] uint32_t partCount() const { return static_cast<uint32_t>(desc_.asset->character.parts.size()); }
     [[nodiscard]] uint32_t runs() const { return static_cast<uint32_t>(tables().lod.runs.size()); }
     void layOutDraws(uint32_t windowCount);
     [[nodiscard]] surface::Needs levelNeeds() const;
@@ -81,6 +82,8 @@ surface::Needs Levels::levelNeeds() const {
     needs.backFaces = view()->leavesBackFaces();
     // With one level an instance, that lies behind the list's entries (Culling::recordList).
     needs.levelOffset = (desc_.group.flags & SUPPLE_GROUP_ONE_LEVEL) != 0 ? desc_.group.capacity : 0;
+    needs.firstMask = Culling::firstMask(desc_.group.capacity);
+    needs.maskWords = HiddenParts::wordsOf(partCount());
     return needs;
 }
 
@@ -119,6 +122,7 @@ Culling::Needs Levels::cullingNeeds() const {
     needs.measure =
         surface::lod::measureInstance(desc_.asset->character.cage, tables().isolationSteps, tables().lod.charts);
     needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(desc_.asset->character.cage);
+    needs.parts = partCount();
     for (const surface::LodTables::Run& run : tables().lod.runs) {
         needs.leastVertices += run.patchCount * surface::lod::sampleCount(surface::rowOf(run.patchClass).form, 1);
     }

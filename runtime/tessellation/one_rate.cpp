@@ -14,12 +14,13 @@ void HostDraws::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, size_t c
 }
 
 VkDeviceSize HostDraws::recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, bool listed, bool always,
-                                     std::span<const SuppleDrawRange> draws, uint32_t visible) {
+                                     std::span<const SuppleDrawRange> draws, const InstanceWindows& windows) {
     if (listed || changed_) {
         std::byte* target = staging_.next();
         for (const SuppleDrawRange& range : draws) {
-            const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * visible, range.firstIndex,
-                                                       0, 0};
+            const PartList list = windows.parts[range.part];
+            const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * list.count,
+                                                       range.firstIndex, 0, range.patchCount * list.first};
             std::memcpy(target, &command, sizeof(command));
             target += sizeof(command);
         }
@@ -46,7 +47,7 @@ void OneRate::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
 Status OneRate::createSets(const InstanceSet& instances, const Visibility& visibility) {
     const Status made = createIndices(indexData_);
     indexData_ = {};
-    rates_.front().instances = visibility.list().slots(desc_.group.capacity);
+    rates_.front().instances = visibility.list().slots();
     return made ? OwnVertices::createSets(instances, visibility) : made;
 }
 
@@ -63,7 +64,7 @@ void OneRate::addTransfers(Transfers& transfers, uint64_t frame) const {
 
 VkDeviceSize OneRate::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {
     return OwnVertices::recordUpload(commandBuffer, frame, changed) +
-           hostDraws_.recordUpload(*desc_.device, commandBuffer, changed, desc_.handsOver, draws_, windows().visible);
+           hostDraws_.recordUpload(*desc_.device, commandBuffer, changed, desc_.handsOver, draws_, windows());
 }
 
 PassCost OneRate::recordEvaluate(VkCommandBuffer commandBuffer) const {

@@ -6,14 +6,14 @@
 
 namespace supple::runtime {
 
-/// Indirect draws that the host counts: one command a draw range, for all visible instances.
+/// Indirect draws that the host counts: one command a draw range, for all visible instances that show its part.
 class HostDraws {
 public:
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, size_t count, uint32_t framesInFlight);
     void setChanged() { changed_ = true; }
     /// `listed`: the list of instances has changed. `always`: upload though nothing has. Returns the bytes.
     VkDeviceSize recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, bool listed, bool always,
-                              std::span<const SuppleDrawRange> draws, uint32_t visible);
+                              std::span<const SuppleDrawRange> draws, const InstanceWindows& windows);
     [[nodiscard]] const gpu::PlannedBuffer& buffer() const { return buffer_; }
 
 private:

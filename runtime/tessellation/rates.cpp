@@ -20,7 +20,9 @@ public:
     ~Rates() override;
     [[nodiscard]] Status begin();
 
-    [[nodiscard]] uint32_t lists() const override { return 3 + 2 * static_cast<uint32_t>(own_.size()); }
+    [[nodiscard]] uint32_t lists() const override {
+        return Culling::lists(partCount(), static_cast<uint32_t>(own_.size()));
+    }
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
     [[nodiscard]] Culling::Needs cullingNeeds() const override;
     [[nodiscard]] Status createSets(const InstanceSet& instances, const Visibility& visibility) override;
@@ -53,6 +55,7 @@ private:
     };
     [[nodiscard]] Status buildRates();
     [[nodiscard]] Status layOutDraws();
+    [[nodiscard]] uint32_t partCount() const { return static_cast<uint32_t>(desc_.asset->character.parts.size()); }
     [[nodiscard]] const Culling& culling() const { return static_cast<const Culling&>(*visibility_); }
     void recordRates(VkCommandBuffer commandBuffer, bool previous) const;
 
@@ -153,6 +156,7 @@ Culling::Needs Rates::cullingNeeds() const {
     needs.measure = surface::lod::measureInstance(cage); // rates count along edges of the cage
     needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage);
     needs.leastVertices = own_.front().vertices;
+    needs.parts = partCount();
     needs.firstRate = 1u << tables().isolationSteps;
     for (size_t r = 0; r < own_.size(); ++r) {
         needs.rates.push_back({own_[r].vertices, own_[r].program.evaluationSizes(),
@@ -169,7 +173,7 @@ Status Rates::createSets(const InstanceSet& instances, const Visibility& visibil
         status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;
     }
     for (uint32_t r = 0; r < rates_.size(); ++r) {
-        rates_[r].instances = visibility.list().slots(desc_.group.capacity, culling().rateListOffset(r));
+        rates_[r].instances = culling().rateList(r);
     }
     return status;
 }

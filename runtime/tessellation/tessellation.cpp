@@ -150,6 +150,14 @@ Status Tessellation::checkRate(uint32_t rate, uint32_t most) const {
     return success();
 }
 
+std::vector<uint32_t> Tessellation::partPatches() const {
+    std::vector<uint32_t> counts(desc_.asset->character.parts.size());
+    for (const surface::PatchInfo& patch : tables().patches) {
+        ++counts[patch.part];
+    }
+    return counts;
+}
+
 BoundBytes Tessellation::boundBytes() const {
     const VkDeviceSize patchBytes =
         (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0 ? tables().patches.size() * kPatchStride * kVec4Bytes : 0;

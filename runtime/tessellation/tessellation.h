@@ -51,12 +51,14 @@ public:
 
     [[nodiscard]] const SchemeTables& scheme() const { return *scheme_; }
     [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables; }
+    /// How many patches every part of the asset has.
+    [[nodiscard]] std::vector<uint32_t> partPatches() const;
     /// Why the rate is not the one asked for, or empty.
     [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
 
     // Creation, in this order, after create().
     [[nodiscard]] virtual BoundBytes boundBytes() const;
-    /// How many lists of `capacity` instances there are.
+    /// How many lists of `capacity` instances passes read.
     [[nodiscard]] virtual uint32_t lists() const { return 2; }
     /// Joins the view; asks it for room.
     [[nodiscard]] virtual Status join(const InstanceWindows& /*windows*/) { return success(); }

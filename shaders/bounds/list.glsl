@@ -3,7 +3,7 @@
 #include "shaders/bounds/cull.glsl"
 
 layout(set = 0, binding = kBoundsStateTexelBinding) uniform usamplerBuffer stateTexels;
-layout(set = 0, binding = kListBinding, std430) writeonly buffer List { uint list[]; };
+layout(set = 0, binding = kListBinding, std430) buffer List { uint list[]; };
 layout(set = 0, binding = kListArgumentBinding, std430) writeonly buffer Arguments { uint argumentWords[]; };
 layout(set = 0, binding = kListTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
 layout(set = 0, binding = kBoundsBinding, std430) readonly buffer Bounds { vec4 bounds[]; };

@@ -24,14 +24,68 @@ uint rateOf(uint entry) {
     return rate;
 }
 
+// `first`: entry of the rate's list.
+void storeDraw(uint i, uvec4 draw, uint instances, uint first) {
+    uint at = push.firstDraw + 5u * i;
+    argumentWords[at] = draw.x;
+    argumentWords[at + 1u] = draw.z * instances;
+    argumentWords[at + 2u] = draw.y;
+    argumentWords[at + 3u] = 0u;
+    argumentWords[at + 4u] = draw.z * first;
+}
+
+bool isDrawn(uint entry) { return state(entry & kInstanceSlotMask).y != 0u; }
+bool shows(uint entry, uint part) {
+    if ((entry & kInstanceHidesParts) == 0u) return true;
+    uint mask = push.masks + (entry & kInstanceSlotMask) * push.maskWords + 1u;
+    return (list[mask + part / 32u] >> (part & 31u) & 1u) == 0u;
+}
+
+// List `number` of every rate: those of all `entries` that show the part. And the draws that read it.
+void listPart(uint number, uint entries) {
+    uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x, each = (entries + lanes - 1u) / lanes;
+    uint part = tableElements[push.windowCount + push.argumentCount + push.drawCount + number - 1u].x;
+    uint first = (1u + number) * push.capacity;
+    uvec2 run = min(uvec2(lane, lane + 1u) * each, uvec2(entries));
+    uint totals[kMaxRates], places[kMaxRates];
+    for (uint r = 0u; r < push.rateCount; ++r) countsOf[r * lanes + lane] = 0u;
+    for (uint i = run.x; i < run.y; ++i) {
+        uint entry = hostEntry(i);
+        if (isDrawn(entry) && shows(entry, part)) countsOf[rateOf(entry) * lanes + lane] += 1u;
+    }
+    barrier();
+    for (uint r = 0u; r < push.rateCount; ++r) {
+        uint before = 0u, count = 0u;
+        for (uint l = 0u; l < lanes; ++l) {
+            if (l == lane) before = count;
+            count += countsOf[r * lanes + l];
+        }
+        places[r] = push.rateLists + r * push.rateStride + first + before;
+        totals[r] = count;
+    }
+    barrier();
+    for (uint i = run.x; i < run.y; ++i) {
+        uint entry = hostEntry(i);
+        if (!isDrawn(entry) || !shows(entry, part)) continue;
+        uint rate = rateOf(entry);
+        list[places[rate]] = entry & kInstanceSlotMask;
+        places[rate] += 1u;
+    }
+    for (uint i = lane; i < push.drawCount; i += lanes) {
+        uvec4 draw = tableElements[push.windowCount + push.argumentCount + i];
+        if (draw.w >> kDrawListShift == number) storeDraw(i, draw, totals[draw.w & ((1u << kDrawListShift) - 1u)], first);
+    }
+}
+
 void main() {
-    uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
+    uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x, entries = 0u;
     uint totals[kMaxRates];
     uvec2 places[kMaxRates];
     for (uint r = 0u; r < kMaxRates; ++r) totals[r] = 0u;
     for (uint w = 0u; w < push.windowCount; ++w) {
         uvec4 window = tableElements[w];
         uvec2 run = runOf(window);
+        entries += window.y;
         for (uint r = 0u; r < push.rateCount; ++r) countsOf[r * lanes + lane] = 0u;
         for (uint i = run.x; i < run.y; ++i) {
             uint entry = hostEntry(i);
@@ -66,13 +120,9 @@ void main() {
     }
     for (uint i = lane; i < push.drawCount; i += lanes) {
         uvec4 draw = tableElements[push.windowCount + push.argumentCount + i];
-        uint at = push.firstDraw + 5u * i;
-        argumentWords[at] = draw.x;
-        argumentWords[at + 1u] = draw.z * totals[draw.w];
-        argumentWords[at + 2u] = draw.y;
-        argumentWords[at + 3u] = 0u;
-        argumentWords[at + 4u] = 0u;
+        if (draw.w >> kDrawListShift == 0u) storeDraw(i, draw, totals[draw.w], 0u);
     }
+    for (uint number = 1u; number <= push.partCount; ++number) listPart(number, entries);
     if (lane == 0u && push.counted != 0u) {
         for (uint r = 0u; r < push.rateCount; ++r) words[kLodSolution + 1u] += totals[r] * push.vertices[r];
     }

@@ -290,6 +290,14 @@ void countPatch(bool counted, uint run, uint form, uint priority, uint bin, uint
     atomicAdd(lodWords[place], own.z);
 }
 
+// Whether the instance hides the patch's part. What it hides is counted where its first patch is.
+bool isHidden(uint listed, uint instance, uint patchIndex, uint part, bool inside) {
+    if ((listed & kInstanceHidesParts) == 0u) return false;
+    uint mask = push.masks + (push.window.firstSlot + instance) * push.maskWords;
+    if (inside && patchIndex == 0u) atomicAdd(lodWords[kLodHidden], instanceWord(mask));
+    return (instanceWord(mask + 1u + part / 32u) >> (part & 31u) & 1u) != 0u;
+}
+
 void main() {
     bool inside = invocationIndex() < itemCount(), counted = inside;
     if (!kWide && !inside) return;
@@ -297,12 +305,14 @@ void main() {
     uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), base = instance * push.poolStride;
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
+    uint patchClass = more.w & ((1u << kLodPartShift) - 1u), part = more.w >> kLodPartShift;
+    if (isHidden(listed, instance, patchIndex, part, inside)) counted = false;
     uint run = push.window.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
     uint sides = formSides(form);
     uint target = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
     vec3 g[16];
     if (!kCharts && form == kLodQuadForm && (push.levels == 0u || kBackFaces))
-        g = bicubicNet(more.z, base, more.w == kPolarPatch);
+        g = bicubicNet(more.z, base, patchClass == kPolarPatch);
     float level = 0.0, fifth = 0.0;
     vec4 ofEdges;
     vec2 own;
@@ -318,10 +328,10 @@ void main() {
         level = max(max(max(ofEdges.x, ofEdges.y), max(ofEdges.z, ofEdges.w)), max(fifth, max(own.x, own.y)));
     }
     // Nothing is known of where a blend of charts faces.
-    if (kBackFaces && !kCharts) {
+    if (kBackFaces && !kCharts && counted) {
         bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
         vec2 across = form == kLodQuadForm ? own : vec2(level);
-        if (!doubleSided && showsItsBack(more.w, more.z, base, sides, g, ofEdges, fifth, across)) counted = false;
+        if (!doubleSided && showsItsBack(patchClass, more.z, base, sides, g, ofEdges, fifth, across)) counted = false;
     }
 
     float at = (clamp(log2(max(level, 1e-3)), -float(kOctavesBelow), 7.99) + float(kOctavesBelow)) * float(kBinsPerOctave);

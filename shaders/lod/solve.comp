@@ -190,6 +190,8 @@ void main() {
         }
         lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
         lodWords[kLodSolution + 9u] = counted;
+        lodWords[kLodSolution + 10u] = lodWords[kLodHidden];
+        lodWords[kLodHidden] = 0u;
     }
     memoryBarrierBuffer();
     barrier();

@@ -18,13 +18,20 @@
 // List: at `all` the slots that are seen, rising; at a window's target its entries as shaders/shared/instances.h has
 // them, those with a past first, either kind rising; `levels` entries further on each of these has its instance's
 // level. Where instances have one of several rates (subdivision): the same once more a rate, without levels,
-// `rateStride` words from each other, in the order of slots alone. An instance has the smallest rate that is not below
+// `rateStride` words from each other, in the order of slots alone; behind these, `capacity` entries each, the slots of
+// those that show a part, for every part that some instance hides. An instance has the smallest rate that is not below
 // its level as the budget scales it, or the last. Between the two, `occlude` may take more instances out of sight, by a
 // depth pyramid. Table (uvec4 elements): windows, then arguments, then draws.
 //   window     (first entry in the host list, entries, first slot, first entry in the list)
 //   argument   of a dispatch (x, y, 1): (elements an instance, elements a workgroup, which instances it counts, word in the
 //              argument buffer); those of window w stand argumentStride * w words further
-//   draw       (indices, first index, patches an instance, rate): a whole VkDrawIndexedIndirectCommand for all windows
+//   draw       (indices, first index, patches an instance, rate | number of its part's list << kDrawListShift): a whole
+//              VkDrawIndexedIndirectCommand for all windows. Number 0: no instance hides the part, and the draw reads
+//              the list of all instances at the rate
+//   part       (part, -, -, -): has list 1, 2, .. at every rate
+// Masks, a part of the list that the host writes: for every slot wordsOf(parts) words (runtime/hidden_parts.h), how many
+// patches it hides and a bit for every part that it hides. They are read only where the entry in the host's list says
+// kInstanceHidesParts.
 // Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded;
 // the same of every window; then as the table says. Then, from rateCounts on, how many instances a rate and window has,
 // [rate][window]; from firstDraw on the draws.
@@ -96,6 +103,7 @@ struct SizePush {
 SUPPLE_SHARED_CONST kCountWindow = 0u; // all of the window
 SUPPLE_SHARED_CONST kCountRate = 1u;   // of the window at this rate; the next at the next one
 SUPPLE_SHARED_CONST kMaxRates = 7u;    // 1, 2, 4 .. 64 segments along an edge
+SUPPLE_SHARED_CONST kDrawListShift = 8u;
 
 struct ListPush {
     uint windowCount;
@@ -126,6 +134,10 @@ struct RatesPush {
     uint firstDraw;
     uint drawCount;
     uint counted; // 1: the budget scales levels, and has what they take
+    uint capacity;
+    uint partCount; // that some instance hides
+    uint masks;     // first word in the list
+    uint maskWords; // a slot
     uint vertices[kMaxRates];
 };
 SUPPLE_SHARED_CONST kRoomForAll = 0xFFFFFFFFu;

@@ -81,6 +81,7 @@ SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBi
 SUPPLE_SHARED_CONST kLodRated = kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kRatedBins = 516u; // kBinsPerOctave an octave above the level a rate is enough for
 SUPPLE_SHARED_CONST kBudgetSteps = kElasticSteps + kRatedBins;
+SUPPLE_SHARED_CONST kLodHidden = kLodRated + 1u; // patches of hidden parts, of all groups with levels
 SUPPLE_SHARED_CONST kLodRatedMore = kLodRated + 4u;
 // From here on hosts read. What they may bind lies on multiples of what descriptor offsets need at most, 256 bytes.
 SUPPLE_SHARED_CONST kLodAlignment = 64u; // words
@@ -104,6 +105,7 @@ struct LodSolution {
     float scale[4]; // of levels, by priority
     uint wanted;    // vertices that x = 0 would have written
     uint counted;   // patches, those too that have no room
+    uint hidden;    // patches of hidden parts
 };
 struct LodBucket {
     uint firstRecord;
@@ -123,7 +125,9 @@ struct LodDispatch {
 // Table elements.
 //   edges     pool indices (end, its tangent, the other end's tangent, other end); blending surface: an element an end,
 //             (pool index of c_00 | kCreasedChart, direction of the edge in the chart, 4 / k)
-//   patches   two elements: edges 0..3; (edge 4, run within the window's, first element of its patch record, class)
+//   patches   two elements: edges 0..3; (edge 4, run within the window's, first element of its patch record,
+//             class | part << kLodPartShift)
+SUPPLE_SHARED_CONST kLodPartShift = 8u;
 SUPPLE_SHARED_CONST kLodPatchLevelWords = 3u; // bin, levels the inside asks for along u and along v
 
 // What the passes before evaluation are told.
@@ -139,6 +143,8 @@ struct LodPush {
     uint scratchStride; // elements an instance
     uint runCount;      // of the window
     uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
+    uint masks;         // of parts, first word in the list of instances (shared/bounds.h)
+    uint maskWords;     // an instance
     LodCamera
         camera; // where back faces are left out, of an orthographic one: the direction it looks in for its position
 };

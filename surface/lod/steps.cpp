@@ -24,6 +24,8 @@ shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t count) {
     push.scratchStride = builder.program.scratchStride;
     push.runCount = static_cast<uint32_t>(tables.lod.runs.size());
     push.levels = builder.needs.levelOffset;
+    push.masks = builder.needs.firstMask;
+    push.maskWords = builder.needs.maskWords;
     return push;
 }
 

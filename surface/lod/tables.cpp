@@ -71,8 +71,9 @@ void appendTables(Tables& tables) {
                 own[side++] = found->second;
             }
             const auto run = static_cast<uint32_t>(tables.lod.runs.size() - 1);
-            patches.insert(patches.end(), {own[0], own[1], own[2], own[3], own[4], run, element,
-                                           static_cast<uint32_t>(range.patchClass)});
+            const uint32_t kind = static_cast<uint32_t>(range.patchClass) | tables.patches[patch].part
+                                                                                << shared::kLodPartShift;
+            patches.insert(patches.end(), {own[0], own[1], own[2], own[3], own[4], run, element, kind});
         }
     }
     TableWriter writer(tables.words);

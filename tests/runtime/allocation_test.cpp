@@ -333,6 +333,7 @@ TEST(Allocation, FramesTakeNoMemory) {
                     }
                     ok(suppleSetVisible(handle, group.instances[n % kCapacity], n % 2));
                     ok(suppleTeleport(handle, group.instances[(n + 1) % kCapacity]));
+                    ok(suppleSetPartVisible(handle, group.instances[(n + 1) % kCapacity], 0, n / 3 % 2));
                     SuppleInstance& other = group.instances[(n / 2) % kCapacity];
                     ok(suppleDestroyInstance(handle, other));
                     ok(suppleCreateInstance(handle, group.group, &other));

@@ -1050,6 +1050,15 @@ void instances(Rows& r) {
                  [=](World& w) { return suppleSetVisible(w.handle(), w.instance(), visible); });
     }
     r.instances(
+        "suppleSetPartVisible",
+        [](World&, SuppleContext c, SuppleInstance i) { return suppleSetPartVisible(c, i, 0, 0); }, false);
+    for (const auto& [part, visible] : {std::pair{1u, 0u}, {~0u, 1u}, {0u, 2u}, {0u, ~0u}}) {
+        r.refuse("suppleSetPartVisible", "part " + std::to_string(part) + ", visible " + std::to_string(visible),
+                 SUPPLE_MESSAGE_OUT_OF_RANGE, [part = part, visible = visible](World& w) {
+                     return suppleSetPartVisible(w.handle(), w.instance(), part, visible);
+                 });
+    }
+    r.instances(
         "suppleTeleport", [](World&, SuppleContext c, SuppleInstance i) { return suppleTeleport(c, i); }, false);
 
     constexpr const char* kClip = "suppleSetClipPose";

@@ -166,8 +166,8 @@ public:
             return std::move(*buffer);
         };
         const std::vector<ListWindow> windows = scene.windows();
-        std::vector<std::byte> table(listTableBytes(windows.size(), scene.arguments.size(), 0));
-        writeListTable(windows, scene.arguments, {}, table.data());
+        std::vector<std::byte> table(listTableBytes(windows.size(), scene.arguments.size(), 0, 0));
+        writeListTable(windows, scene.arguments, {}, {}, table.data());
         const std::vector<uint32_t> blank(3 * size_t{scene.slots} + 4096, kUnwritten);
         if (states_.size() != size_t{scene.slots} * 8) {
             const std::vector<uint32_t> zero(2 * size_t{scene.slots}, 0);

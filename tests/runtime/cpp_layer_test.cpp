@@ -58,6 +58,7 @@ TEST(CppLayer, OwnsWhatItMakes) {
     EXPECT_EQ(instance.setMatrixPose(identity), SUPPLE_OK);
     EXPECT_EQ(instance.setClipPose(SUPPLE_BIND_POSE, 0.0), SUPPLE_OK);
     EXPECT_EQ(instance.setVisible(true), SUPPLE_OK);
+    EXPECT_EQ(instance.setPartVisible(0, true), SUPPLE_OK);
     EXPECT_EQ(instance.teleport(), SUPPLE_OK);
     EXPECT_EQ(group.setRate(4), SUPPLE_OK);
     supple::Instance player;

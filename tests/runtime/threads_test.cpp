@@ -62,6 +62,7 @@ void change(SuppleContext context, uint32_t g, uint32_t frame, SmallGroup& group
     ok(suppleSetMorphWeights(context, group.instances[1], frame % 3 == 0 ? nullptr : weights, 4));
     // Seen at first: what was never written has no bits to compare.
     ok(suppleSetVisible(context, group.instances[2], frame < 4 || (frame + g) % 4 != 0 ? 1 : 0));
+    ok(suppleSetPartVisible(context, group.instances[1], 0, (frame + g) % 3 != 0 ? 1 : 0));
     if (frame % 5 == g) {
         ok(suppleDestroyInstance(context, group.instances[0]));
         ok(suppleCreateInstance(context, group.group, &group.instances[0]));

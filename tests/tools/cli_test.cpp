@@ -579,6 +579,30 @@ TEST_F(Cli, RenderOfAllSchemesIsOneSheet) {
     expectFailure(run("sheet cube.gltf -o x.png --scheme all"), 2, "--scheme");
 }
 
+TEST_F(Cli, PicturesShowThePartsThatAreNamed) {
+    Json gltf = Json::parse(cubeGltf("cube.bin", true));
+    gltf["nodes"] = Json::parse(R"([{"name": "near", "mesh": 0}, {"name": "far", "mesh": 0, "translation": [3, 0, 0]},
+                                    {"name": "near", "mesh": 0, "translation": [0, 3, 0]}])");
+    gltf["scenes"][0]["nodes"] = {0, 1, 2};
+    writeText(file("cubes.gltf"), gltf.dump());
+    const auto render = [&](const std::string& flags) {
+        const Outcome outcome = runOnDevice("render cubes.gltf -o parts.png --size 80x60 --rate 4 " + flags);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return readText(file("parts.png"));
+    };
+    const std::string all = render(""), far = render("--part far"), near = render("--part near");
+    EXPECT_NE(all, far);
+    EXPECT_NE(all, near);
+    EXPECT_NE(far, near);
+    EXPECT_EQ(render("--part 1"), far);
+    EXPECT_EQ(render("--part 0 --part 2"), near) << "a name shows all parts of that name";
+    EXPECT_EQ(render("--part near --part far"), all);
+    EXPECT_NE(render("--scheme cage --part far"), render("--scheme cage"));
+    expectFailure(run("render cubes.gltf -o x.png --part nose"), 1, "0 near, 1 far, 2 near");
+    expectFailure(run("render cubes.gltf -o x.png --part 3"), 1, "no part \"3\"");
+    expectFailure(run("render cubes.gltf -o x.png --part"), 2, "--part");
+}
+
 TEST_F(Cli, MappingsAgreeBitForBit) {
     ASSERT_EQ(runOnDevice("bake cube.gltf -o narrow.obj --rate 7 --mapping narrow").exitCode, 0);
     ASSERT_EQ(runOnDevice("bake cube.gltf -o wide.obj --rate 7 --mapping wide").exitCode, 0);

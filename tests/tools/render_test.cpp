@@ -264,6 +264,34 @@ TEST_F(RenderTest, InstancesAreDrawnByTheirSlotsWhenOthersAreHidden) {
     }
 }
 
+/// A hidden part is neither drawn nor casts a shadow, as surface and as cage: without its only part, an instance leaves
+/// the picture that it leaves if it is not visible.
+TEST_F(RenderTest, HiddenPartsLeaveNothing) {
+    ASSERT_EQ(figure_->partNames().size(), 1u);
+    for (const bool mesh : {false, true}) {
+        const std::unique_ptr<FigureGroup> group = makeGroup({.rate = 4, .sharedSamples = mesh});
+        evaluate(*group);
+        Scene scene = frontScene(*group, 0.6f);
+        scene.ground = scene.bounds.min.y;
+        for (const bool cage : {false, true}) {
+            SCOPED_TRACE(cage ? "the cage" : "the surface");
+            scene.cageFaces = cage;
+            scene.cageEdges = true;
+            const auto picture = [&](bool visible, bool partVisible) {
+                EXPECT_TRUE(group->setVisible(0, visible).ok());
+                EXPECT_TRUE(group->setPartVisible(0, partVisible).ok());
+                EXPECT_EQ(group->isPartVisible(0), partVisible);
+                evaluate(*group);
+                return draw(*group, scene).rgba;
+            };
+            const std::vector<uint8_t> shown = picture(true, true), hidden = picture(true, false);
+            EXPECT_NE(shown, hidden);
+            EXPECT_EQ(hidden, picture(false, true));
+            EXPECT_EQ(shown, picture(true, true));
+        }
+    }
+}
+
 /// Both buffers have room between their instances that nothing writes, and what is read back must not show it.
 TEST_F(RenderTest, PositionsReadBackAreThoseOfVerticesAlone) {
     Result<std::unique_ptr<Figure>> helmet = openFigure(*context_, std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb");

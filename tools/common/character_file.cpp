@@ -104,21 +104,26 @@ Result<uint32_t> findClip(const std::string& owner, const std::vector<std::strin
     if (nameOrIndex.empty()) {
         return SUPPLE_BIND_POSE;
     }
-    std::string names;
-    for (uint32_t i = 0; i < clips.size(); ++i) {
-        if (clips[i] == nameOrIndex) {
+    return findNamed(owner, "clip", clips, nameOrIndex);
+}
+
+Result<uint32_t> findNamed(const std::string& owner, const char* what, const std::vector<std::string>& names,
+                           const std::string& nameOrIndex) {
+    std::string all;
+    for (uint32_t i = 0; i < names.size(); ++i) {
+        if (names[i] == nameOrIndex) {
             return i;
         }
-        names += (i == 0 ? "" : ", ") + std::to_string(i) + " " + clips[i];
+        all += (i == 0 ? "" : ", ") + std::to_string(i) + " " + names[i];
     }
     uint32_t index = 0;
     const char* const last = nameOrIndex.data() + nameOrIndex.size();
     const auto [end, error] = std::from_chars(nameOrIndex.data(), last, index);
-    if (error == std::errc() && end == last && index < clips.size()) {
+    if (error == std::errc() && end == last && index < names.size()) {
         return index;
     }
     return Error{ErrorCode::argument,
-                 owner + ": no clip \"" + nameOrIndex + "\"; it has " + (names.empty() ? "none" : names)};
+                 owner + ": no " + what + " \"" + nameOrIndex + "\"; it has " + (all.empty() ? "none" : all)};
 }
 
 } // namespace supple::host

@@ -39,6 +39,9 @@ struct CharacterFile : FileInMemory {
 
 /// The clip of that name, else of that index; SUPPLE_BIND_POSE for an empty text. The error lists the clips there are.
 [[nodiscard]] Result<uint32_t> findClip(const cage::Character& character, const std::string& nameOrIndex);
+/// The first of that name, else of that index. `what` is what they are, and `owner` whose.
+[[nodiscard]] Result<uint32_t> findNamed(const std::string& owner, const char* what,
+                                         const std::vector<std::string>& names, const std::string& nameOrIndex);
 /// Likewise among the clips of those names, of a character called `owner`.
 [[nodiscard]] Result<uint32_t> findClip(const std::string& owner, const std::vector<std::string>& clips,
                                         const std::string& nameOrIndex);

@@ -2,6 +2,7 @@
 
 #include "tools/common/character_file.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace supple::host {
@@ -10,11 +11,9 @@ namespace {
 
 CageMesh meshOf(cage::Cage cage) {
     static_assert(cage::kNone == SUPPLE_NO_MATERIAL);
-    return {std::move(cage.positions),
-            std::move(cage.faceStarts),
-            std::move(cage.faceVertices),
-            std::move(cage.faceMaterials),
-            {std::move(cage.cornerUvs), std::move(cage.cornerUvs1)},
+    return {std::move(cage.positions),    std::move(cage.faceStarts),
+            std::move(cage.faceVertices), std::move(cage.faceMaterials),
+            std::move(cage.faceParts),    {std::move(cage.cornerUvs), std::move(cage.cornerUvs1)},
             std::move(cage.cornerColors)};
 }
 
@@ -40,6 +39,23 @@ Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex) 
     for (const Figure::Clip& clip : figure.clips())
         names.push_back(clip.name);
     return findClip(figure.path(), names, nameOrIndex);
+}
+
+Status findParts(const Figure& figure, const std::vector<std::string>& namesOrIndices, std::vector<bool>& found) {
+    const std::vector<std::string>& names = figure.partNames();
+    found.assign(names.size(), namesOrIndices.empty());
+    for (const std::string& text : namesOrIndices) {
+        const bool isName = std::find(names.begin(), names.end(), text) != names.end();
+        for (size_t p = 0; p < names.size() && isName; ++p)
+            found[p] = found[p] || names[p] == text;
+        if (isName)
+            continue;
+        const Result<uint32_t> part = findNamed(figure.path(), "part", names, text);
+        if (!part)
+            return part.error();
+        found[*part] = true;
+    }
+    return success();
 }
 
 } // namespace supple::host

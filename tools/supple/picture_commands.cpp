@@ -35,6 +35,9 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
     bindScheme(command, draw.scheme, draw.rate, draw.skinning, draw.reading, extraSchemes);
     bindSharpEdges(command, draw.creases, draw.sharpThreshold);
     bindMorphs(command, draw.morphs);
+    command.add_option("--part", draw.parts, "Draw these parts alone; once per part (supple inspect lists them)")
+        ->type_name("NAME|INDEX")
+        ->allow_extra_args(false);
     command.add_flag("--shared-samples", draw.sharedSamples,
                      "One mesh whose patches share the samples on their borders (prep, pm); without lines of patches");
     command.add_option("--view", draw.view, "What is shown")

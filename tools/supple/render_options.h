@@ -17,6 +17,7 @@ struct DrawOptions {
     std::string creases = "cut";     ///< cut | curve
     float sharpThreshold = 1.0f;     ///< see SuppleGroupDesc
     uint32_t rate = 8;               ///< 1..64: see SuppleGroupDesc
+    std::vector<std::string> parts;  ///< names or indices: draw these alone; none: all
     bool sharedSamples = false;      ///< SUPPLE_GROUP_INDEXED_MESH; patches then show no borders and classes
     std::string view = "shaded";     ///< shaded | wire | patches | normals | zebra
     bool cageOverlay = false;        ///< the cage's edges drawn over the surface

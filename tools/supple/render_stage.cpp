@@ -92,6 +92,12 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
         return weights.error();
     if (const Status status = stage->group_->setMorphWeights(0, *weights); !status)
         return status.error();
+    std::vector<bool> shown;
+    Status found = host::findParts(*stage->figure_, options.parts, shown);
+    for (uint32_t p = 0; p < shown.size() && found; ++p)
+        found = stage->group_->setPartVisible(p, shown[p]);
+    if (!found)
+        return found.error();
     Result<std::unique_ptr<host::SurfaceRenderer>> renderer =
         host::SurfaceRenderer::create(device, {.quality = host::StudioQuality::still(size.height, device.isCpu())});
     if (!renderer)

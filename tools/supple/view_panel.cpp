@@ -173,6 +173,55 @@ void buildWarnings(const ViewStage& stage) {
     ImGui::EndChild();
 }
 
+/// An eye, open or shut; whether it was clicked.
+bool eyeButton(bool open) {
+    const float height = ImGui::GetFrameHeight();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const bool clicked = ImGui::InvisibleButton("eye", ImVec2(height * 1.3f, height));
+    const ImU32 ink = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_ButtonHovered
+                                         : open                 ? ImGuiCol_Text
+                                                                : ImGuiCol_TextDisabled);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 left(corner.x + 0.1f * height, corner.y + 0.5f * height);
+    const ImVec2 right(left.x + 1.1f * height, left.y), middle(left.x + 0.55f * height, left.y);
+    draw.AddBezierQuadratic(left, ImVec2(middle.x, middle.y + 0.6f * height), right, ink, 1.5f);
+    if (open) {
+        draw.AddBezierQuadratic(left, ImVec2(middle.x, middle.y - 0.6f * height), right, ink, 1.5f);
+        draw.AddCircleFilled(middle, 0.14f * height, ink);
+    }
+    return clicked;
+}
+
+/// The parts of the figure, with an eye each. A click with Ctrl shows that part alone, or all again.
+void buildParts(ViewStage& stage) {
+    const std::vector<std::string>& names = stage.figure().partNames();
+    std::vector<bool>& shown = stage.settings.shownParts;
+    if (names.size() < 2)
+        return;
+    const auto count = static_cast<size_t>(std::count(shown.begin(), shown.end(), true));
+    const std::string title = std::to_string(count) + " of " + std::to_string(names.size()) + " parts###parts";
+    if (eyeButton(count > 0))
+        shown.assign(names.size(), count == 0);
+    ImGui::SameLine();
+    if (!ImGui::TreeNode(title.c_str()))
+        return;
+    for (size_t p = 0; p < names.size(); ++p) {
+        ImGui::PushID(static_cast<int>(p));
+        if (eyeButton(shown[p])) {
+            const bool alone = ImGui::GetIO().KeyCtrl;
+            const bool all = alone && count == 1 && shown[p];
+            if (alone)
+                shown.assign(names.size(), all);
+            shown[p] = alone || !shown[p];
+        }
+        ImGui::SameLine();
+        const std::string name = names[p].empty() ? "part " + std::to_string(p) : printable(names[p]);
+        ImGui::TextUnformatted(name.c_str());
+        ImGui::PopID();
+    }
+    ImGui::TreePop();
+}
+
 void buildTimings(const PanelState& state, const ViewStage& stage) {
     double sum = 0.0;
     double longest = 1e-6;
@@ -207,6 +256,7 @@ PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect) 
         buildSurface(stage, wishes);
         buildMorphs(stage);
         buildWarnings(stage);
+        buildParts(stage);
         if (state.timings) {
             ImGui::Separator();
             buildTimings(state, stage);

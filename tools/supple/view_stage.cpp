@@ -37,6 +37,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->sharpThreshold_ = options.sharpThreshold;
     stage->reading_ = options.reading;
     stage->morphSettings_ = options.morphs;
+    stage->parts_ = options.parts;
     stage->sharedSamples_ = options.sharedSamples;
     stage->settings.rate = static_cast<int>(stage->offeredRate(options.rate));
     stage->startYaw_ = radians(options.yaw);
@@ -58,6 +59,9 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     const Result<uint32_t> chosen = host::findClip(**figure, clip);
     if (!chosen)
         return chosen.error();
+    std::vector<bool> shownParts;
+    if (const Status found = host::findParts(**figure, parts_, shownParts); !found)
+        return found.error();
     Result<std::unique_ptr<host::FigureGroup>> group = createGroup(**figure, static_cast<uint32_t>(settings.rate));
     if (!group)
         return group.error();
@@ -86,6 +90,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     extent_ = std::move(*extent);
     settings.clip = *chosen != SUPPLE_BIND_POSE || clipCount == 0 ? *chosen : 0;
     settings.time = 0.0;
+    settings.shownParts = std::move(shownParts);
     settings.rate = static_cast<int>(group_->edgeRate());
     passTimes_.clear();
     frameFigure(aspect);
@@ -176,6 +181,10 @@ Status ViewStage::record(VkCommandBuffer commands, uint32_t slot, uint64_t frame
         return status.error();
     if (const Status status = group_->setMorphWeights(0, settings.morphWeights); !status)
         return status.error();
+    for (uint32_t p = 0; p < settings.shownParts.size(); ++p) {
+        if (const Status status = group_->setPartVisible(p, settings.shownParts[p]); !status)
+            return status.error();
+    }
     const SuppleGroup groups[] = {group_->handle()};
     SuppleRecordDesc desc{};
     desc.structSize = sizeof desc;

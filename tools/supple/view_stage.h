@@ -25,6 +25,7 @@ struct ViewSettings {
     bool ground = true;
     /// Of all targets, instead of those of the pose; empty: those of the pose.
     std::vector<float> morphWeights;
+    std::vector<bool> shownParts; ///< of the figure
 };
 
 /// A pass of the last completed frames, smoothed.
@@ -92,6 +93,7 @@ private:
     float sharpThreshold_ = 1.0f;
     host::ReadOptions reading_;
     std::vector<host::MorphSetting> morphSettings_;
+    std::vector<std::string> parts_; ///< shown at first; none: all
     bool sharedSamples_ = false;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;

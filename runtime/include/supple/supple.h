@@ -657,6 +657,18 @@ SUPPLE_API SuppleResult suppleCreateInstance(SuppleContext context, SuppleGroup 
 SUPPLE_API SuppleResult suppleDestroyInstance(SuppleContext context, SuppleInstance instance);
 /** visible: 0 or 1. A hidden instance costs nothing on the device and is not drawn. Its pose and transform stay. */
 SUPPLE_API SuppleResult suppleSetVisible(SuppleContext context, SuppleInstance instance, uint32_t visible);
+/** Hides or shows a part of an instance: a body under clothes, a weapon in a hand. visible: 0 or 1. New instances show
+ * all parts, and suppleSetVisible changes no part. The rest of the instance keeps its bits: parts that are sewn to a
+ * hidden part have the same surface, and bounds for culling hold the hidden part as well. No draw of the group's
+ * outputs draws a hidden part, so it casts no shadow either. A part that is shown again has the motion that it would
+ * have had.
+ * Groups with levels leave hidden patches out of everything but bounds. Other groups go on computing them.
+ * Groups that have a SuppleGridOutput need the device feature drawIndirectFirstInstance, because the draws of a part
+ * that only some instances show have a firstInstance in their indirect commands: see SuppleGroupInfo.instances.
+ * Errors: part is not below SuppleAssetInfo.partCount; the device lacks that feature (SUPPLE_ERROR_UNSUPPORTED). If the
+ * device has it, but SuppleContextDesc.enabledFeatures does not tell, the host must have enabled it. */
+SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstance instance, uint32_t part,
+                                             uint32_t visible);
 /** The next suppleRecord treats the instance as new: previous positions equal positions, so it has no motion.
  * Instances that were not visible in the group's last suppleRecord are new without this call. */
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
@@ -672,7 +684,9 @@ SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance
  * is 48 bytes per joint; with dual quaternions, 64 bytes per joint and 48 more. Morph targets add 4 bytes each, and the
  * sum is rounded up to 16. If instances were created, destroyed, hidden, shown or teleported, this frame and the next
  * one also upload 8 bytes per visible instance and 20 per draw range. With SUPPLE_CONTEXT_ASYNC_COMPUTE every frame
- * uploads these. */
+ * uploads these. For every part that some instance hides, 4 more bytes per visible instance that shows it are uploaded
+ * with these; in a view, the masks of all slots in use instead: 8 bytes each, and 4 more per 32 parts beyond the first
+ * 32. */
 
 /** Poses an instance from a clip at a time in seconds, clamped to the clip. clip may also be SUPPLE_BIND_POSE or
  * SUPPLE_REST_POSE, without a time. What the clip does not animate is as in the rest pose. suppleSetPose in
@@ -807,7 +821,11 @@ typedef struct SuppleGroupInfo {
      * which takes a cage vertex from the bind pose to its place; then a float weight per morph target. Dual
      * quaternions: see shaders/shared/deform.h. Null with SUPPLE_POSES_CAGE_BUFFER. */
     SuppleBufferRange poses;
-    /** uint32 per visible instance (in a view: per instance that its camera sees): the slot, in rising order. */
+    /** uint32 per visible instance (in a view: per instance that its camera sees): the slot, in rising order. Groups
+     * without a view have more entries behind these: for every part that some instance hides, the slots of the visible
+     * instances that show it, in rising order. The draws of such a part begin there: firstInstance of the indirect
+     * command is the first of these entries, times SuppleDrawRange.patchCount. gl_InstanceIndex counts from
+     * firstInstance, so shaders do the same as without hidden parts. */
     SuppleBufferRange instances;
     /** SUPPLE_GROUP_PATCHES: float4 per coefficient, SUPPLE_PATCH_STRIDE per patch; see SupplePatchInfo. */
     SuppleBufferRange patchCoefficients;
@@ -856,8 +874,9 @@ typedef enum SuppleDomain {
     SUPPLE_DOMAIN_MESH = 4
 } SuppleDomain;
 
-/** The patches of one domain, one material and one part. Ranges follow each other without gaps. Draw instance i is
- * patch firstPatch + i % patchCount of the instance in slot instances[i / patchCount].
+/** The patches of one domain, one material and one part. Ranges follow each other without gaps. Draw instance i, which
+ * counts from the firstInstance of the indirect command (as gl_InstanceIndex does), is patch firstPatch + i %
+ * patchCount of the instance in slot instances[i / patchCount]. firstInstance is 0 unless an instance hides the part.
  *
  * SUPPLE_DOMAIN_MESH: all triangles of one material and one part. Draw instance i is the instance in slot instances[i],
  * and an index is a surface vertex within the instance. To shaders that pull vertices, the mesh is one big patch:
@@ -877,10 +896,12 @@ typedef struct SuppleDrawRange {
 
 /** What is drawn at one rate. Per draw range: bind `instances` and draw the range's command of `indirect`. */
 typedef struct SuppleRate {
-    uint32_t rate;               /**< segments along a patch edge: R of SuppleDomain */
-    uint32_t firstDrawRange;     /**< in SuppleGridOutput.drawRanges */
-    uint32_t drawRangeCount;     /**< the same at every rate of a group */
-    SuppleBufferRange instances; /**< uint32 per instance drawn at this rate: the slot, in rising order */
+    uint32_t rate;           /**< segments along a patch edge: R of SuppleDomain */
+    uint32_t firstDrawRange; /**< in SuppleGridOutput.drawRanges */
+    uint32_t drawRangeCount; /**< the same at every rate of a group */
+    /** uint32 per instance drawn at this rate: the slot, in rising order. Behind these, as in
+     * SuppleGroupInfo.instances, the slots of those that show a part, for every part that some instance hides. */
+    SuppleBufferRange instances;
 } SuppleRate;
 
 /** Tessellation GRIDS, INDEXED_MESH and RATES: what is drawn. All of it, arrays too, is valid until the group is
@@ -897,7 +918,8 @@ typedef struct SuppleGridOutput {
     uint32_t rateCount;         /**< entries of rates */
     const SuppleRate* rates;    /**< in rising order. RATES: each instance is drawn at one. Else there is one entry */
     SuppleBufferRange indices;  /**< uint16, of meshes uint32: see `stride` and SuppleDrawRange */
-    SuppleBufferRange indirect; /**< VkDrawIndexedIndirectCommand per draw range, for the visible instances */
+    SuppleBufferRange indirect; /**< VkDrawIndexedIndirectCommand per draw range, for the visible instances that show
+                                 * its part */
 } SuppleGridOutput;
 
 /** Fills out. Errors: the group has another tessellation (SuppleGroupInfo.tessellation). */

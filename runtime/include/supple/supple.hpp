@@ -249,6 +249,9 @@ public:
     [[nodiscard]] SuppleResult setVisible(bool visible) const {
         return suppleSetVisible(context_, handle_, visible ? 1u : 0u);
     }
+    [[nodiscard]] SuppleResult setPartVisible(uint32_t part, bool visible) const {
+        return suppleSetPartVisible(context_, handle_, part, visible ? 1u : 0u);
+    }
     [[nodiscard]] SuppleResult setPriority(uint32_t priority) const {
         return suppleSetPriority(context_, handle_, priority);
     }

@@ -215,6 +215,7 @@ typedef struct SuppleViewStatistics {
     uint32_t droppedInstanceCount;  /**< seen, but missing for lack of room */
     uint32_t occludedInstanceCount; /**< hidden by the depth pyramid, and by nothing else */
     uint32_t backFaceCount;         /**< patches of drawn instances that BACK_FACES left out */
+    uint32_t hiddenPatchCount;      /**< patches of drawn instances that suppleSetPartVisible left out */
 } SuppleViewStatistics;
 
 /** Statistics of the newest completed frame that recorded the view. SUPPLE_NOT_READY: there is none. Never waits. */

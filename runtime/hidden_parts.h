@@ -1,0 +1,56 @@
+// Which parts of a character each instance of a group hides.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace supple::runtime {
+
+/// The instances that a draw range draws, if some hide its part: entries of the instance list that draws read.
+struct PartList {
+    uint32_t first = 0;
+    uint32_t count = 0;
+};
+
+/// A mask per slot. Nothing is allocated after the constructor.
+class HiddenParts {
+public:
+    HiddenParts() = default;
+    /// `patches`: of every part.
+    HiddenParts(uint32_t capacity, std::vector<uint32_t> patches);
+
+    /// Whether that is a change.
+    bool set(uint32_t slot, uint32_t part, bool hidden);
+    /// The slot hides nothing.
+    void reset(uint32_t slot);
+
+    [[nodiscard]] bool hides(uint32_t slot, uint32_t part) const {
+        return (mask(slot)[part / 32] >> (part % 32) & 1u) != 0;
+    }
+    [[nodiscard]] bool hidesAny(uint32_t slot) const { return hiddenParts_[slot] > 0; }
+    /// Whether any slot hides anything.
+    [[nodiscard]] bool any() const { return hidingSlots_ > 0; }
+
+    /// The parts, those with the most patches first. If lists of instances follow each other in this order, the k-th is
+    /// drawn with at most 1/k of an instance's patches. So an entry's number times the patches that are drawn with it
+    /// stays below three times all patches of all instances, which fits 32 bits.
+    [[nodiscard]] std::span<const uint32_t> order() const { return order_; }
+
+    // As the device reads them: per slot the number of hidden patches, then a bit per part.
+    [[nodiscard]] static uint32_t wordsOf(size_t parts) { return 1 + static_cast<uint32_t>((parts + 31) / 32); }
+    [[nodiscard]] std::span<const uint32_t> words(uint32_t slots) const {
+        return std::span(words_).first(size_t{slots} * stride_);
+    }
+
+private:
+    [[nodiscard]] const uint32_t* mask(uint32_t slot) const { return &words_[size_t{slot} * stride_ + 1]; }
+
+    std::vector<uint32_t> patches_, order_;
+    uint32_t stride_ = 1; ///< words of a slot
+    std::vector<uint32_t> words_;
+    std::vector<uint32_t> hiddenParts_; ///< by slot: how many
+    uint32_t hidingSlots_ = 0;
+};
+
+} // namespace supple::runtime
