@@ -377,6 +377,9 @@ void joinParts(std::vector<PartCage> parts, Character& character) {
         character.parts.push_back(std::move(part.part));
         part = {};
     }
+    for (uint32_t part = 0; part < character.parts.size() && character.parts.size() > 1; ++part) {
+        character.cage.faceParts.resize(endFace(character, part), part);
+    }
 }
 
 } // namespace supple::cage

@@ -63,11 +63,6 @@ Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Ch
     for (size_t part = 0; part < character.parts.size(); ++part) {
         asset->parts.push_back(summaryOf(character, part));
     }
-    if (character.parts.size() > 1) {
-        for (uint32_t part = 0; part < character.parts.size(); ++part) {
-            character.cage.faceParts.resize(cage::endFace(character, part), part);
-        }
-    }
     asset->jointFrames = skinning::jointFrames(character);
     asset->character = std::move(character);
     return asset;
