@@ -9,12 +9,23 @@
 namespace supple::cage {
 namespace {
 
+/// How far from 1 the length of a unit vector of floats may be.
+constexpr double kUnit = 1e-6;
+
 glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& fallback) {
     const double length = glm::length(v);
     return length > 0.0 && std::isfinite(length) ? v / length : fallback;
 }
 
 } // namespace
+
+glm::vec3 unitNormal(const glm::dvec3& given) {
+    const double length = glm::length(given);
+    if (std::abs(length - 1.0) < kUnit) {
+        return given;
+    }
+    return unitOr(given, glm::dvec3(0.0));
+}
 
 std::vector<glm::vec3> cornerNormals(const Cage& cage) {
     const std::vector<uint32_t> groups = smoothGroups(cage);

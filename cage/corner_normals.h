@@ -1,4 +1,4 @@
-// Normals of the control polygons themselves, for viewers that know no surface.
+// Normals of the control polygons themselves: of a file, or for viewers that know no surface.
 #pragma once
 
 #include "cage/character.h"
@@ -11,5 +11,9 @@ namespace supple::cage {
 /// corner's vertex, weighted by the corners' angles, over the faces of its smooth group (cage/smooth_groups.h). Takes
 /// any cage, manifold or not.
 [[nodiscard]] std::vector<glm::vec3> cornerNormals(const Cage& cage);
+
+/// A file's normal as Cage::cornerNormals keeps it: of unit length, to the bit as it is if it is of that length
+/// already; zero if it is no direction.
+[[nodiscard]] glm::vec3 unitNormal(const glm::dvec3& given);
 
 } // namespace supple::cage

@@ -13,8 +13,9 @@ namespace supple::cage {
 ///  - vertices without a face, faces that bound nothing, and faces that are there twice are left out;
 ///  - faces that pass a vertex twice are cut into simple loops;
 ///  - faces turned against those they are joined to are turned round;
-///  - edges of three and more faces are cut into sheets, vertices of several fans into one each. The copies come behind
-///    all other vertices, in the order of the vertices they repeat. Cage::sourceVertices says which these are;
+///  - edges of three and more faces are cut into sheets and become hard creases, vertices of several fans are cut into
+///    one each and become hard: so what touched goes on touching. The copies come behind all other vertices, in the
+///    order of the vertices they repeat. Cage::sourceVertices says which these are;
 ///  - inner vertices of two faces are merged away (cage/repair/folds.h).
 /// All other faces keep their order and corners; materials, tiles, holes, creases, influences and displacements follow.
 /// `weights` may be empty (`starts` has no entry): nothing is bound yet.

@@ -126,6 +126,17 @@ void clipEars(std::span<const glm::vec3> corners, std::vector<uint32_t>& triangl
     }
 }
 
+bool foldsOver(std::span<const glm::vec3> corners, std::span<const uint32_t> triangles) {
+    const glm::dvec3 area = areaVector(corners);
+    for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
+        const glm::vec3 triangle[] = {corners[triangles[t]], corners[triangles[t + 1]], corners[triangles[t + 2]]};
+        if (glm::dot(areaVector(triangle), area) < 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 std::vector<uint32_t> triangulate(const Cage& cage) {
     const size_t count = size_t{3} * (cage.cornerCount() - size_t{2} * cage.faceCount());
     if (cage.faceTriangles.size() == count) {

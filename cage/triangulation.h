@@ -23,6 +23,10 @@ inline constexpr uint32_t kMostClippedSides = 1024;
 /// numbers of its corners per triangle, sides - 2 triangles whatever the polygon is.
 void clipEars(std::span<const glm::vec3> corners, std::vector<uint32_t>& triangles);
 
+/// Whether one of the triangles, three numbers of the polygon's corners each, is wound against the polygon's area
+/// vector.
+[[nodiscard]] bool foldsOver(std::span<const glm::vec3> corners, std::span<const uint32_t> triangles);
+
 /// Finds again which of a file's triangles a polygon was merged from.
 class FileTriangles {
 public:

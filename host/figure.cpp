@@ -61,6 +61,8 @@ Result<std::unique_ptr<Figure>> Figure::create(Context& context, SuppleAsset ass
         return status.error();
     if (const Status status = figure->readParts(); !status)
         return status.error();
+    if (const Status status = figure->readMorphTargets(); !status)
+        return status.error();
     if (const Status status = figure->materials_.load(context, asset, path); !status)
         return status.error();
     if (const Status status = figure->uploadCage(); !status)
@@ -112,6 +114,25 @@ Status Figure::readParts() {
             !status)
             return status.error();
         partNames_.emplace_back(part.name);
+    }
+    return success();
+}
+
+Status Figure::readMorphTargets() {
+    SuppleAssetInfo asset{};
+    asset.structSize = sizeof asset;
+    if (const Status status =
+            context_.check(suppleGetAssetInfo(context_.handle(), asset_, &asset), "suppleGetAssetInfo");
+        !status)
+        return status.error();
+    for (uint32_t i = 0; i < asset.morphTargetCount; ++i) {
+        SuppleMorphTargetInfo target{};
+        target.structSize = sizeof target;
+        if (const Status status = context_.check(suppleGetMorphTargetInfo(context_.handle(), asset_, i, &target),
+                                                 "suppleGetMorphTargetInfo");
+            !status)
+            return status.error();
+        morphTargets_.push_back({target.name, target.weight});
     }
     return success();
 }

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,10 @@ public:
         std::string name;
         double duration = 0.0; ///< seconds
     };
+    struct MorphTarget {
+        std::string name;    ///< empty if the file has none; of several parts, several may have it
+        float weight = 0.0f; ///< the file's
+    };
 
     /// Takes the asset, also where it fails; `cage` is its cage. `path` begins the messages. The context must outlive
     /// the figure.
@@ -48,6 +53,7 @@ public:
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] const CageMesh& cage() const { return cage_; }
     [[nodiscard]] const std::vector<Clip>& clips() const { return clips_; }
+    [[nodiscard]] const std::vector<MorphTarget>& morphTargets() const { return morphTargets_; }
     /// 0 for the bind pose.
     [[nodiscard]] double clipDuration(uint32_t clip) const;
     /// Of every part, in the asset's order; names may be empty.
@@ -70,6 +76,7 @@ private:
     [[nodiscard]] std::vector<uint32_t> cageCornerWords();
     [[nodiscard]] Status uploadCage();
     [[nodiscard]] Status readClips();
+    [[nodiscard]] Status readMorphTargets();
     /// Over the cage's faces by their rest area.
     [[nodiscard]] float averageLuminance() const;
 
@@ -79,6 +86,7 @@ private:
     SuppleAsset asset_{};
     std::vector<Clip> clips_;
     std::vector<std::string> partNames_;
+    std::vector<MorphTarget> morphTargets_;
     FigureMaterials materials_;
     std::vector<CageRange> cageRanges_;
     Buffer cageCorners_;
@@ -127,6 +135,8 @@ public:
     void release();
 
     [[nodiscard]] Status pose(uint32_t instance, uint32_t clip, double time);
+    /// A weight a target of the figure, instead of those of all poses; none: those of the poses.
+    [[nodiscard]] Status setMorphWeights(uint32_t instance, std::span<const float> weights);
     /// From the next frame that is recorded.
     [[nodiscard]] Status setVisible(uint32_t instance, bool visible);
     [[nodiscard]] uint32_t visibleCount() const;

@@ -157,6 +157,14 @@ Status FigureGroup::pose(uint32_t instance, uint32_t clip, double time) {
     return context.check(suppleSetClipPose(context.handle(), instances_[instance], clip, time), "suppleSetClipPose");
 }
 
+Status FigureGroup::setMorphWeights(uint32_t instance, std::span<const float> weights) {
+    Context& context = figure_.context();
+    return context.check(suppleSetMorphWeights(context.handle(), instances_[instance],
+                                               weights.empty() ? nullptr : weights.data(),
+                                               static_cast<uint32_t>(weights.size())),
+                         "suppleSetMorphWeights");
+}
+
 Status FigureGroup::setVisible(uint32_t instance, bool visible) {
     Context& context = figure_.context();
     visible_[instance] = visible;

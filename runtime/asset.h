@@ -52,6 +52,6 @@ struct Asset {
 /// A character without skeleton or clips from the host's arrays: one joint, every vertex bound to it. A damaged cage is
 /// repaired, or refused if `strict`.
 [[nodiscard]] Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const std::string& name,
-                                                          bool strict);
+                                                          bool strict = false);
 
 } // namespace supple::runtime

@@ -15,6 +15,8 @@ namespace supple::runtime {
 template <class T>
 inline constexpr size_t kFirstSize = sizeof(T);
 template <>
+inline constexpr size_t kFirstSize<SuppleAssetDesc> = offsetof(SuppleAssetDesc, scene);
+template <>
 inline constexpr size_t kFirstSize<SuppleJointInfo> = offsetof(SuppleJointInfo, restTransform);
 template <>
 inline constexpr size_t kFirstSize<SuppleViewStatistics> = offsetof(SuppleViewStatistics, hiddenPatchCount);

@@ -16,6 +16,8 @@ namespace prep {
 namespace pm {
 /// Refuses a cage with too many classes of edges, with ErrorCode::limit. O(corners).
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+/// See Scheme::boundsMargin.
+[[nodiscard]] float boundsMargin(const cage::Cage& cage);
 } // namespace pm
 
 namespace subdivision {

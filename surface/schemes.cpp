@@ -18,7 +18,7 @@ namespace {
 constexpr Scheme kSchemes[] = {
     {SchemeId::prep, "p-rep", &prep::build, RateRule::any, "", true, true,
      [](const cage::Cage&) { return 0.04f; }}, // 0.0276, at valence 59
-    {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, true, [](const cage::Cage&) { return 0.21f; }}, // 0.1896
+    {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, true, &pm::boundsMargin},
     // Points of the limit are means of the cage's.
     {SchemeId::catmullClark, "Catmull-Clark", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, false,
      [](const cage::Cage&) { return 0.001f; }},

@@ -30,6 +30,10 @@ Result<Character> readCharacter(std::span<const std::byte> bytes, const std::str
                                 const std::string& baseDirectory, const GltfOptions& options) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (isNamedObj(name) && !startsAsGltf(text)) {
+        if (!options.clipFiles.empty()) {
+            return Error{ErrorCode::argument, name + ": " + options.clipFiles.front().name +
+                                                  ": an OBJ file has no nodes that clips of other files could move"};
+        }
         return readObj(bytes, name, options.strict);
     }
     return readGltf(bytes, name, baseDirectory, options);

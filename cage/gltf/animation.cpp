@@ -1,6 +1,8 @@
 #include "cage/gltf/animation.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/morphs.h"
+#include "cage/gltf/nodes.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -15,9 +17,6 @@
 
 namespace supple::cage::gltf {
 namespace {
-
-// Accessors may be shared, so a small file can ask for long clips.
-constexpr uint64_t kMaxKeyFloats = 1u << 26;
 
 /// Key rotations are unit quaternions but for rounding, which 8-bit outputs make coarse. Tangents are left alone.
 void checkRotations(Channel& channel, size_t perKey, const std::string& output) {
@@ -90,13 +89,16 @@ Channel readChannel(const Document& document, const supple_tinygltf::Animation& 
     channel.values = readFloats(document, sampler.output, kind.type, kind.components, output);
     const size_t elements = accessorCount(document, sampler.output);
     const size_t perKey = cubic ? 3 : 1;
+    const bool fromKeys = kind.width == kFromKeys;
+    const size_t width = fromKeys ? std::max<size_t>(elements / (perKey * channel.times.size()), 1) : kind.width;
     // The quotient is formed instead of the product, which might overflow.
-    if (elements % (perKey * kind.width) != 0 || elements / (perKey * kind.width) != channel.times.size()) {
-        refuse(output,
-               counted(elements, "element", "elements") + " for " + counted(channel.times.size(), "key", "keys") +
-                   (channel.path == ChannelPath::weights ? " of " + counted(kind.width, "morph target", "morph targets")
-                                                         : "") +
-                   (cubic ? " of CUBICSPLINE" : ""));
+    if (elements % (perKey * width) != 0 || elements / (perKey * width) != channel.times.size()) {
+        refuse(output, counted(elements, "element", "elements") + " for " +
+                           counted(channel.times.size(), "key", "keys") +
+                           (channel.path == ChannelPath::weights && !fromKeys
+                                ? " of " + counted(width, "morph target", "morph targets")
+                                : "") +
+                           (cubic ? " of CUBICSPLINE" : ""));
     }
     for (size_t k = 0; k < channel.values.size(); ++k) {
         if (!std::isfinite(channel.values[k])) {
@@ -163,8 +165,9 @@ std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, 
             }
             clip.channels.push_back(readChannel(document, animation, channel, *kind, element));
             floats += clip.channels.back().times.size() + clip.channels.back().values.size();
-            if (floats > kMaxKeyFloats) {
-                refuse(element, "the clips hold more than " + std::to_string(kMaxKeyFloats) + " numbers",
+            // Accessors may be shared, so a small file can ask for long clips.
+            if (floats > kMaxClipFloats) {
+                refuse(element, "the clips hold more than " + std::to_string(kMaxClipFloats) + " numbers",
                        ErrorCode::limit);
             }
         }
@@ -183,6 +186,32 @@ std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, 
         clips.push_back(std::move(clip));
     }
     return clips;
+}
+
+ClipSet readMotion(const Document& document, const std::string& name) {
+    const auto& meshes = document.model.meshes;
+    ClipSet set;
+    set.name = name;
+    set.skeleton = readSkeleton(document);
+    Warnings ofMeshes; // which are not read
+    for (size_t m = 0; m < meshes.size(); ++m) {
+        set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), ofMeshes));
+    }
+    std::vector<size_t> targetCounts;
+    for (const auto& node : document.model.nodes) {
+        set.meshes.push_back(node.mesh < 0 ? kNone : static_cast<uint32_t>(node.mesh));
+        const size_t targets =
+            node.mesh < 0 ? 0 : meshes[static_cast<size_t>(node.mesh)].primitives.front().targets.size();
+        targetCounts.push_back(targets > 0 ? targets : kFromKeys);
+    }
+    set.clips = readClips(document, set.skeleton, targetCounts, set.warnings);
+    const auto& animations = document.model.animations;
+    for (size_t i = 0; i < animations.size(); ++i) {
+        if (animations[i].name.empty()) {
+            set.clips[i].name = stemOf(name) + (animations.size() > 1 ? "_" + std::to_string(i) : "");
+        }
+    }
+    return set;
 }
 
 } // namespace supple::cage::gltf

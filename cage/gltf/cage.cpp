@@ -173,7 +173,8 @@ void fillNormals(const Mesh& mesh, const Faces& faces, Cage& cage) {
     }
 }
 
-/// How the file's triangles cut faces of more than three sides. Where they do not fit the face, ears are clipped.
+/// How the file's triangles cut faces of more than three sides. Where they do not fit the face, ears are clipped. Where
+/// the file lists polygons, its triangles are for other viewers: fans, often, which fold over concave faces.
 void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding, Cage& cage) {
     if (cage.cornerCount() == 3 * cage.faceCount()) {
         return;
@@ -182,17 +183,22 @@ void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding,
     std::vector<glm::vec3> corners;
     std::optional<FileTriangles> known;
     for (size_t f = 0; f < faces.parts.size(); ++f) {
+        const MeshPart& part = mesh.parts[faces.parts[f]];
         if (f == 0 || faces.parts[f] != faces.parts[f - 1]) {
-            known.emplace(mesh.parts[faces.parts[f]].triangles, welding.roots);
+            known.emplace(part.triangles, welding.roots);
         }
         const uint32_t start = faces.polygons.starts[f];
         const auto polygon = std::span(faces.polygons.vertices).subspan(start, faces.polygons.starts[f + 1] - start);
+        corners.clear();
+        for (const uint32_t v : polygon) {
+            corners.push_back(mesh.positions[v]);
+        }
         const size_t first = triangles.size();
-        if (polygon.size() == 3 || !known->cut(polygon, triangles)) {
-            corners.clear();
-            for (const uint32_t v : polygon) {
-                corners.push_back(mesh.positions[v]);
-            }
+        const bool fits = polygon.size() > 3 && known->cut(polygon, triangles);
+        if (fits && part.faces.polygons.faceCount() > 0 && foldsOver(corners, std::span(triangles).subspan(first))) {
+            triangles.resize(first);
+        }
+        if (triangles.size() == first) {
             clipEars(corners, triangles);
         }
         for (size_t i = first; i < triangles.size(); ++i) {

@@ -112,7 +112,7 @@ bool isRequired(const Document& document, const char* extension) {
     return std::find(required.begin(), required.end(), extension) != required.end();
 }
 
-Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile) {
+Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, Content content) {
     const Container container = openContainer(bytes);
     json root = parseJson(container.text);
     checkHeader(root);
@@ -121,11 +121,13 @@ Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFi
     loadBuffers(table(root, "buffers"), findPlaceholders(root), container, readFile, document);
     decodeMeshopt(root, document);
     checkStructure(root, document.buffers);
-    loadImages(table(root, "images"), table(root, "bufferViews"), readFile, document);
-    document.textures = readTextures(root, document.warnings);
-    nameUnreadLook(root, document.warnings);
+    if (content == Content::all) {
+        loadImages(table(root, "images"), table(root, "bufferViews"), readFile, document);
+        document.textures = readTextures(root, document.warnings);
+        nameUnreadLook(root, document.warnings);
+        document.materials = table(root, "materials");
+    }
     document.meshes = table(root, "meshes");
-    document.materials = table(root, "materials");
     document.model = toModel(root);
     return document;
 }

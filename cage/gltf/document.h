@@ -14,6 +14,12 @@
 
 namespace supple::cage::gltf {
 
+/// What of a file is read.
+enum class Content {
+    all,
+    motion ///< nodes and animations: no images, and materials are not looked at
+};
+
 struct Document {
     /// Everything but buffers, images, textures, materials, cameras, bounds of accessors and top-level extensions:
     /// these tinygltf never sees. Every index is in range, and every array of numbers has its right length and finite
@@ -35,6 +41,7 @@ struct Document {
 [[nodiscard]] bool isRequired(const Document& document, const char* extension);
 
 /// Throws Refusal. The document refers to `bytes`.
-[[nodiscard]] Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile);
+[[nodiscard]] Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile,
+                                    Content content = Content::all);
 
 } // namespace supple::cage::gltf

@@ -3,6 +3,7 @@
 #include "cage/gltf/accessors.h"
 #include "cage/refusal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,32 +12,6 @@ namespace {
 
 // Accessors may be shared, and need no bytes where they are sparse, so a small file can ask for many.
 constexpr uint64_t kMaxMorphElements = 1u << 26;
-
-/// A target's name is a courtesy to people: one that is no string is reported, not refused.
-void nameTargets(const json& mesh, const std::string& element, Morphs& morphs, Warnings& warnings) {
-    const json* extras = member(mesh, "extras");
-    const json* names = extras != nullptr && extras->is_object() ? member(*extras, "targetNames") : nullptr;
-    if (names == nullptr) {
-        return;
-    }
-    const std::string place = element + " extras targetNames";
-    if (!names->is_array()) {
-        warn(warnings, place, "not an array; ignored");
-        return;
-    }
-    if (names->size() != morphs.targets.size()) {
-        warn(warnings, place,
-             counted(names->size(), "name", "names") + " for " +
-                 counted(morphs.targets.size(), "morph target", "morph targets"));
-    }
-    for (size_t i = 0; i < std::min(names->size(), morphs.targets.size()); ++i) {
-        if ((*names)[i].is_string()) {
-            morphs.targets[i].name = (*names)[i].get<std::string>();
-        } else {
-            warn(warnings, item(place, i), "not a string; ignored");
-        }
-    }
-}
 
 } // namespace
 
@@ -104,6 +79,29 @@ std::span<const MorphDelta> VertexMorphs::of(uint32_t vertex) const {
     return std::span(deltas_).subspan(starts_[vertex], starts_[vertex + 1] - starts_[vertex]);
 }
 
+/// A target's name is a courtesy to people: one that is no string is reported, not refused.
+std::vector<std::string> readTargetNames(const json& mesh, const std::string& element, Warnings& warnings) {
+    const json* extras = member(mesh, "extras");
+    const json* names = extras != nullptr && extras->is_object() ? member(*extras, "targetNames") : nullptr;
+    if (names == nullptr) {
+        return {};
+    }
+    const std::string place = element + " extras targetNames";
+    if (!names->is_array()) {
+        warn(warnings, place, "not an array; ignored");
+        return {};
+    }
+    std::vector<std::string> read(names->size());
+    for (size_t i = 0; i < names->size(); ++i) {
+        if ((*names)[i].is_string()) {
+            read[i] = (*names)[i].get<std::string>();
+        } else {
+            warn(warnings, item(place, i), "not a string; ignored");
+        }
+    }
+    return read;
+}
+
 Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCount, Warnings& warnings) {
     const auto& node = document.model.nodes[meshNode];
     const auto meshIndex = static_cast<size_t>(node.mesh);
@@ -133,7 +131,15 @@ Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCoun
     for (size_t i = 0; i < weights.size(); ++i) {
         morphs.weights[i] = static_cast<float>(weights[i]);
     }
-    nameTargets(document.meshes[meshIndex], at("mesh", meshIndex), morphs, warnings);
+    const std::string element = at("mesh", meshIndex);
+    const std::vector<std::string> names = readTargetNames(document.meshes[meshIndex], element, warnings);
+    if (!names.empty() && names.size() != targetCount) {
+        warn(warnings, element + " extras targetNames",
+             counted(names.size(), "name", "names") + " for " + counted(targetCount, "morph target", "morph targets"));
+    }
+    for (size_t i = 0; i < std::min(names.size(), targetCount); ++i) {
+        morphs.targets[i].name = names[i];
+    }
     return morphs;
 }
 

@@ -57,6 +57,13 @@ std::vector<uint32_t> nodesOfScene(const Model& model, size_t scene) {
     return order;
 }
 
+/// A file of clips alone is none that cannot be read.
+std::string insteadOfMeshes(const Model& model) {
+    return model.animations.empty() ? ""
+                                    : ", but " + counted(model.animations.size(), "clip", "clips") +
+                                          ": it is no character, but a file of clips for one";
+}
+
 } // namespace
 
 void makeAffine(glm::mat4& matrix, const std::string& element) {
@@ -117,7 +124,7 @@ Skeleton readSkeleton(const Document& document) {
 std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint32_t> scene, Warnings& warnings) {
     const Model& model = document.model;
     if (model.meshes.empty()) {
-        refuse("meshes", "none");
+        refuse("meshes", "none" + insteadOfMeshes(model));
     }
     if (scene && *scene >= model.scenes.size()) {
         refuse(at("scene", *scene), "the file has " + counted(model.scenes.size(), "scene", "scenes"));
@@ -127,7 +134,7 @@ std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint
     std::iota(all.begin(), all.end(), 0u);
     std::erase_if(all, hasNoMesh);
     if (all.empty()) {
-        refuse("nodes", "none has a mesh");
+        refuse("nodes", "none has a mesh" + insteadOfMeshes(model));
     }
     if (model.scenes.empty()) {
         return all;

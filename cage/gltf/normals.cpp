@@ -1,8 +1,7 @@
 #include "cage/gltf/normals.h"
 
+#include "cage/corner_normals.h"
 #include "cage/gltf/accessors.h"
-
-#include <cmath>
 
 namespace supple::cage::gltf {
 
@@ -21,11 +20,8 @@ std::vector<glm::vec3> readNormals(const Document& document, const supple_tinygl
     normals.reserve(vertexCount);
     size_t missing = 0;
     for (size_t v = 0; v < vertexCount; ++v) {
-        const glm::dvec3 normal(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
-        const double length = glm::length(normal);
-        const bool sound = std::isfinite(length) && length > 0.0;
-        missing += sound ? 0 : 1;
-        normals.emplace_back(sound ? normal / length : glm::dvec3(0.0));
+        normals.push_back(unitNormal({values[3 * v], values[3 * v + 1], values[3 * v + 2]}));
+        missing += normals.back() == glm::vec3(0.0f) ? 1 : 0;
     }
     if (missing > 0) {
         warn(warnings, name,

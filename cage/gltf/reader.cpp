@@ -1,5 +1,6 @@
 #include "cage/gltf/reader.h"
 
+#include "cage/clip_set.h"
 #include "cage/gltf/animation.h"
 #include "cage/gltf/bind_space.h"
 #include "cage/gltf/cage.h"
@@ -126,6 +127,17 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
     return parts;
 }
 
+/// Clips of a file take the file's name if they have none.
+ClipSet readClipSet(const ClipFile& file) {
+    try {
+        const FileReader readFolder = [&](const std::string& path) { return readBelow(file.baseDirectory, path); };
+        const Document document = loadDocument(file.bytes, file.readFile ? file.readFile : readFolder, Content::motion);
+        return readMotion(document, file.name);
+    } catch (const Refusal& refusal) {
+        throw Refusal{refusal.code, file.name + ": " + refusal.message};
+    }
+}
+
 Character toCharacter(const Document& document, const GltfOptions& options) {
     Character character;
     Warnings& warnings = character.warnings;
@@ -140,6 +152,9 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
         targetCounts[part.part.node] = part.morphs.targets.size();
     }
     character.clips = readClips(document, character.skeleton, targetCounts, warnings);
+    for (const ClipFile& file : options.clipFiles) {
+        takeClips(readClipSet(file), parts, character);
+    }
     joinParts(std::move(parts), character);
     if (options.sewParts) {
         sewParts(character);

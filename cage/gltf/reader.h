@@ -21,6 +21,14 @@ inline constexpr uint32_t kMaxNodeDepth = 1024;
 /// relative, with forward slashes, no ".." and no scheme.
 using FileReader = std::function<Result<std::vector<std::byte>>(const std::string& path)>;
 
+/// A glTF file whose clips a character takes.
+struct ClipFile {
+    std::string name;                 ///< begins messages about it
+    std::span<const std::byte> bytes; ///< needed while the character is read
+    std::string baseDirectory;        ///< as readGltf()'s
+    FileReader readFile;              ///< as GltfOptions::readFile
+};
+
 struct GltfOptions {
     /// Which scene's meshes are read: the file's own choice if it is not given.
     std::optional<uint32_t> scene;
@@ -32,6 +40,8 @@ struct GltfOptions {
     bool strict = false;
     /// Where external buffers and images come from, instead of the folder given to readGltf().
     FileReader readFile;
+    /// Files whose clips come behind the character's own, file after file (cage/clip_set.h). Their meshes are not read.
+    std::vector<ClipFile> clipFiles;
 };
 
 /// Parses a glTF or GLB held in memory; docs/gltf.md says in full what is taken, repaired and refused.

@@ -1,5 +1,6 @@
 #include "cage/obj/reader.h"
 
+#include "cage/corner_normals.h"
 #include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
@@ -254,12 +255,10 @@ private:
         for (int k = 0; k < 3; ++k) {
             sound = parseWhole(words.next(), normal[k]) && sound;
         }
-        const double length = glm::length(normal);
-        sound = sound && std::isfinite(length) && length > 0.0;
-        if (!sound) {
+        normals_.push_back(sound ? unitNormal(normal) : glm::vec3(0.0f));
+        if (normals_.back() == glm::vec3(0.0f)) {
             addFaultyNormal(line_);
         }
-        normals_.emplace_back(sound ? normal / length : glm::dvec3(0.0));
     }
 
     /// `count` elements stand before this line; later ones may be named too.

@@ -18,7 +18,8 @@ struct Draft {
     std::vector<uint32_t> corners;   ///< per corner: the given cage's corner that it was
     std::vector<uint32_t> faces;     ///< per face: the given cage's face that it is, or is a part of
     std::vector<uint32_t> sources;   ///< per vertex: the given cage's vertex; those behind the given ones are copies
-    std::vector<Crease> creases;     ///< further ones, along new edges; between given vertices
+    std::vector<Crease> creases;     ///< further ones, between given vertices
+    std::vector<SharpVertex> sharpVertices; ///< further ones, given vertices
 
     [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faces.size()); }
     [[nodiscard]] uint32_t cornerCount() const { return static_cast<uint32_t>(corners.size()); }

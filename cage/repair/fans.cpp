@@ -134,6 +134,7 @@ void separateFans(Draft& draft, std::vector<uint32_t>& twins, const std::vector<
         if (v < atCut.size() && atCut[v] != 0) {
             damage.copiesAtCuts += fans - 1;
         } else {
+            draft.sharpVertices.push_back({draft.sources[v], kHardSharpness});
             damage.bowTies.add([&] { return vertexName(draft, v) + " of " + std::to_string(fans) + " fans"; });
         }
     }

@@ -27,9 +27,11 @@ public:
         for (const CreaseScalar& scalar : cage.creaseScalars) {
             fixed_.push_back(std::minmax(scalar.vertex, scalar.toward));
         }
-        for (const SharpVertex& sharp : cage.sharpVertices) {
-            if (sharp.sharpness > 0.0f) {
-                fixed_.emplace_back(sharp.vertex, sharp.vertex);
+        for (const auto* vertices : {&cage.sharpVertices, &draft.sharpVertices}) {
+            for (const SharpVertex& sharp : *vertices) {
+                if (sharp.sharpness > 0.0f) {
+                    fixed_.emplace_back(sharp.vertex, sharp.vertex);
+                }
             }
         }
         std::sort(edges_.begin(), edges_.end());
@@ -266,6 +268,7 @@ private:
         }
         after.sources = std::move(draft_.sources);
         after.creases = std::move(draft_.creases);
+        after.sharpVertices = std::move(draft_.sharpVertices);
         draft_ = std::move(after);
     }
 

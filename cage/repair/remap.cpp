@@ -241,6 +241,7 @@ private:
     }
 
     void mapSharpVertices() {
+        cage_.sharpVertices.insert(cage_.sharpVertices.end(), draft_.sharpVertices.begin(), draft_.sharpVertices.end());
         const auto vertex = [](const SharpVertex& sharp) { return Ends(sharp.vertex, sharp.vertex); };
         const auto sharpest = [](SharpVertex& kept, const SharpVertex& sharp) {
             kept.sharpness = std::max(kept.sharpness, sharp.sharpness);

@@ -77,6 +77,7 @@ public:
 
     std::vector<uint32_t> run() {
         sortEdges();
+        pinEnds();
         joinPairs();
         settle();
         for (const Edge& edge : crowded_) {
@@ -114,7 +115,25 @@ private:
             } else if (edge.size() > 2) {
                 crowded_.push_back(edge);
                 cutAt(edge);
+                draft_.creases.push_back({edge[0].low, edge[0].high, kHardSharpness});
                 damage_.crowded.add([&] { return nameWithFaces(edge); });
+            }
+        }
+    }
+
+    /// Where crowded edges end or branch, no curve runs on: the sheets stay together in the vertex.
+    void pinEnds() {
+        std::vector<uint32_t> ends;
+        for (const Edge& edge : crowded_) {
+            ends.insert(ends.end(), {edge[0].low, edge[0].high});
+        }
+        std::sort(ends.begin(), ends.end());
+        for (size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
+            while (end < ends.size() && ends[end] == ends[begin]) {
+                ++end;
+            }
+            if (end - begin != 2) {
+                draft_.sharpVertices.push_back({ends[begin], kHardSharpness});
             }
         }
     }

@@ -21,6 +21,9 @@ struct SheetDamage {
 /// the larger area, or the lowest face if both are equal. If faces that are joined by others cannot fit, as in a
 /// Moebius strip, they are not joined.
 ///
+/// An edge of three or more faces becomes a hard crease of all its sheets, and a vertex where such edges do not run on
+/// a hard one: so the sheets stay together without a gap, as they do in subdivision that knows such edges.
+///
 /// Beyond kMaxWeighedFaces at an edge, faces that fit are paired in their order. O(corners log corners).
 [[nodiscard]] std::vector<uint32_t> joinFaces(const Cage& cage, Draft& draft, SheetDamage& damage);
 

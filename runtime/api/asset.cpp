@@ -39,9 +39,28 @@ Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::
     return bytes;
 }
 
+cage::FileReader reader(const SuppleFiles* files) {
+    if (files == nullptr) {
+        return nullptr;
+    }
+    return [files = *files](const std::string& path) { return readThrough(files, path); };
+}
+
+std::string orEmpty(const char* text) {
+    return text != nullptr ? text : "";
+}
+
+std::string nameOf(const SuppleAssetDesc& desc) {
+    return desc.name != nullptr ? desc.name : "asset";
+}
+
+std::string nameOf(const SuppleClipFile& file, size_t index) {
+    return file.name != nullptr ? file.name : "clip file " + std::to_string(index);
+}
+
 /// A file in memory or arrays, as a character.
 Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
-    const std::string name = desc.name != nullptr ? desc.name : "asset";
+    const std::string name = nameOf(desc);
     if (desc.cage != nullptr) {
         SuppleCageDesc cage{};
         if (!runtime::readSized(*desc.cage, cage)) {
@@ -56,11 +75,36 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
     if (desc.scene != 0) {
         options.scene = desc.scene - 1;
     }
-    if (desc.files != nullptr) {
-        options.readFile = [files = *desc.files](const std::string& path) { return readThrough(files, path); };
+    options.readFile = reader(desc.files);
+    for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
+        const SuppleClipFile& file = desc.clipFiles[i];
+        options.clipFiles.push_back({nameOf(file, i),
+                                     {static_cast<const std::byte*>(file.bytes), file.byteCount},
+                                     orEmpty(file.baseDirectory),
+                                     reader(file.files)});
     }
     return cage::readCharacter({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name,
-                               desc.baseDirectory != nullptr ? desc.baseDirectory : "", options);
+                               orEmpty(desc.baseDirectory), options);
+}
+
+/// Why the description's clip files cannot be read, if they cannot.
+std::optional<Error> faultOfClipFiles(const SuppleAssetDesc& desc) {
+    if (desc.clipFileCount > 0 && desc.clipFiles == nullptr) {
+        return Error{ErrorCode::nullPointer, "clipFiles is null"};
+    }
+    if (desc.clipFileCount > 0 && desc.cage != nullptr) {
+        return Error{ErrorCode::argument, nameOf(desc) + ": both cage and clipFiles"};
+    }
+    for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
+        const SuppleClipFile& file = desc.clipFiles[i];
+        if (file.bytes == nullptr) {
+            return Error{ErrorCode::nullPointer, nameOf(file, i) + ": bytes is null"};
+        }
+        if (file.files != nullptr && file.files->read == nullptr) {
+            return Error{ErrorCode::nullPointer, nameOf(file, i) + ": files->read is null"};
+        }
+    }
+    return std::nullopt;
 }
 
 SuppleTextureInfo toTextureInfo(const cage::Texture& from) {
@@ -134,7 +178,7 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
         }
         if ((desc.bytes == nullptr) == (desc.cage == nullptr)) {
             return refuse(context, ErrorCode::argument, kHere,
-                          std::string(desc.name != nullptr ? desc.name : "asset") +
+                          nameOf(desc) +
                               (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
         }
         constexpr uint32_t kFlags = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART;
@@ -143,6 +187,9 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
         }
         if (desc.files != nullptr && desc.files->read == nullptr) {
             return refuse(context, ErrorCode::nullPointer, kHere, "files->read is null");
+        }
+        if (const std::optional<Error> fault = faultOfClipFiles(desc)) {
+            return refuse(context, fault->code, kHere, fault->message);
         }
         Result<cage::Character> character = characterOf(desc);
         if (!character) {

@@ -29,20 +29,20 @@ vec3 creasedFace(float a, float b, float rim, vec3 x, vec3 y, vec3 q) {
     return r;
 }
 
-// The tangent where an open sector ends, relative to p: its edge's alone, or that of the smooth curve through p.
-vec3 endTangent(vec3 spoke, bool joined, uint element, uint cageBase, vec3 p0) {
-    precise vec3 alone = spoke * (1.0 / 3.0);
-    uvec4 end = joined ? tableElement(element) : uvec4(0u);
-    if (end.x == 0u) return alone;
+// The tangent where an open sector ends, relative to p: of its edge alone, or of the smooth curve through p.
+vec3 endTangent(vec3 spoke, bool ownEnds, uint element, uint cageBase, vec3 p0) {
+    uvec4 end = ownEnds ? tableElement(element) : uvec4(0u, floatBitsToUint(1.0 / 3.0), 0u, 0u);
+    precise vec3 t = uintBitsToFloat(end.y) * spoke;
+    if (end.x == 0u) return t;
     precise vec3 other = ringSpoke(tableWord(push.ring + end.x - 1u), cageBase) - p0;
-    precise vec3 through = uintBitsToFloat(end.y) * spoke - uintBitsToFloat(end.z) * other;
+    precise vec3 through = t - uintBitsToFloat(end.z) * other;
     return through;
 }
 
 void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, vec3 p0, uint weights) {
     uvec4 header = tableElement(weights);
     bool open = (header.x & kOpenSector) != 0u, corner = (header.x & kCornerSector) != 0u;
-    bool straight = (header.x & kStraightSector) != 0u, joined = (header.x & kJoinedSector) != 0u;
+    bool straight = (header.x & kStraightSector) != 0u, ownEnds = (header.x & kOwnEndsSector) != 0u;
     uint facets = header.x & kSectorFacets, edges = open ? facets + 1u : facets;
     float limitScale = uintBitsToFloat(header.y), tangentScale = uintBitsToFloat(header.z);
 
@@ -81,8 +81,8 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
     precise vec3 x, e1, e2;
     vec3 first = vec3(0.0), last = vec3(0.0);
     if (open) {
-        first = endTangent(firstSpoke, joined, weights + 1u + edges, cageBase, p0);
-        last = endTangent(lastSpoke, joined, weights + 2u + edges, cageBase, p0);
+        first = endTangent(firstSpoke, ownEnds, weights + 1u + edges, cageBase, p0);
+        last = endTangent(lastSpoke, ownEnds, weights + 2u + edges, cageBase, p0);
         // Written as weightedFan sums it, so that both sides of a hard edge get the same bits.
         x = corner ? vec3(0.0) : (1.0 / 6.0) * firstSpoke + (1.0 / 6.0) * lastSpoke;
         e1 = corner || straight ? first : (firstSpoke - lastSpoke) * (1.0 / 6.0);

@@ -13,9 +13,9 @@
 //                    then creased ones
 //   smooth weights   (facets | kOpenSector, 0, 0, 0), then two elements a slot: (limitEdge, limitFace, e1Edge, e1Face),
 //                    (e2Edge, e2Face, cosine, sine); one a kind and count of facets
-//   creased weights  (facets | kOpenSector | .. | kJoinedSector, limit scale, tangent scale, 0), then one element a slot: (alpha,
-//                    cosine, sine, rim); of a joined sector then one for either end: (1 + slot of the curve's other edge or 0,
-//                    factors of the own edge and of that edge, 0); one a sector
+//   creased weights  (facets | kOpenSector | .. | kOwnEndsSector, limit scale, tangent scale, 0), then one element a slot: (alpha,
+//                    cosine, sine, rim); with kOwnEndsSector then one for either end: (1 + slot of the other edge of a smooth
+//                    curve or 0, factors of the own edge and of that edge, 0); one a sector
 //   apex classes     (c, 3/2 alpha of h02, 3/2 alpha of h32, 0); polar patches have the element as their fourth spoke
 //   edge classes     two elements (20): (chi0 / 4 mu, (2 mu - chi1) / 8 mu, factor of f - f_across at v_0, same at v_1), (chi1 /
 //                    4 mu, (2 mu - chi0) / 8 mu, 0, 0)
@@ -36,7 +36,7 @@ SUPPLE_SHARED_CONST kOpenSector = 0x80000000u;
 SUPPLE_SHARED_CONST kCornerSector = 0x40000000u;
 SUPPLE_SHARED_CONST kPinnedSector = 0x20000000u; // moved so that v is the vertex
 SUPPLE_SHARED_CONST kStraightSector = 0x10000000u; // v is the vertex, and the two ends are one smooth curve
-SUPPLE_SHARED_CONST kJoinedSector = 0x08000000u; // an end belongs to a smooth curve through the vertex
+SUPPLE_SHARED_CONST kOwnEndsSector = 0x08000000u; // the tangents at its ends have factors of their own
 SUPPLE_SHARED_CONST kSectorFacets = 0x07FFFFFFu;
 
 // Words of P_m patches.

@@ -3,7 +3,10 @@
 #include "surface/pm/weights.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,6 +16,7 @@ namespace {
 /// A right angle stays one while its inner tangents are at most half an edge off.
 constexpr double kGoodMisfit = 0.25;
 constexpr uint32_t kFlat = 6, kWidest = 11;
+constexpr double kTiny = std::numeric_limits<double>::min();
 /// A curve is bent by at most 60 degrees where it becomes smooth: a sharper bend is meant to be seen.
 constexpr double kMostBend = 0.5;
 
@@ -22,21 +26,10 @@ glm::dvec3 directionOf(const glm::dvec3& v) {
     return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
 
-/// How far the tangents of a corner's inner edges are from these edges, if its tangents at its ends are `first` and
-/// `last`: the mean of |3 t_j - (X_j - p)|^2 / |X_j - p|^2. All vectors are relative to p.
-double cornerMisfit(uint32_t width, const glm::dvec3& first, const glm::dvec3& last,
-                    std::span<const glm::dvec3> innerEdges) {
-    const auto facets = static_cast<uint32_t>(innerEdges.size() + 1);
-    double sum = 0.0;
-    for (uint32_t j = 1; j < facets; ++j) {
-        const auto [own, other] = cornerTurn(j, facets, width);
-        const glm::dvec3 edge = innerEdges[j - 1];
-        const double length = glm::dot(edge, edge);
-        const glm::dvec3 off = 3.0 * (own * first + other * last) - edge;
-        sum += length > 0.0 ? glm::dot(off, off) / length : 0.0;
-    }
-    return facets > 1 ? sum / (facets - 1) : 0.0;
-}
+/// No tangent inside a corner is longer than this share of its edge.
+constexpr double kLongest = 0.5;
+/// Ends are shortened at most as often: each time brings the longest tangent to its measure.
+constexpr uint32_t kShortenings = 32;
 
 /// The fans round one vertex, none of them closed.
 class VertexCorners {
@@ -50,6 +43,8 @@ public:
             if (fan.kind == FanKind::corner && fan.facets > 1) {
                 fan.width = static_cast<uint8_t>(bestWidth(fan));
             }
+        }
+        for (uint32_t k = 0; k < kShortenings && shorten(); ++k) {
         }
     }
 
@@ -67,12 +62,22 @@ private:
         return at.partner == cage::kNone ? own : own - at.other * spoke(at.partner);
     }
 
+    [[nodiscard]] glm::dvec3 tangent(const Fan& fan, uint32_t width, uint32_t j) const {
+        const CornerTurn at = cornerTurn(j, fan.facets, width);
+        return at.first * endTangent(fan, 0) + at.last * endTangent(fan, 1);
+    }
+
+    /// How far the tangents inside a corner of that width are from their edges: the mean of |3 t_j - (X_j - p)|^2 /
+    /// |X_j - p|^2, where tangents that are too long count as long as the edge.
     [[nodiscard]] double misfit(const Fan& fan, uint32_t width) const {
-        std::vector<glm::dvec3> inner;
+        double sum = 0.0;
         for (uint32_t j = 1; j < fan.facets; ++j) {
-            inner.push_back(edge(fan, j));
+            const glm::dvec3 own = 3.0 * tangent(fan, width, j);
+            const double length = glm::length(edge(fan, j));
+            const glm::dvec3 off = own / std::max({glm::length(own), length, kTiny}) - directionOf(edge(fan, j));
+            sum += length > 0.0 ? glm::dot(off, off) : 0.0;
         }
-        return cornerMisfit(width, endTangent(fan, 0), endTangent(fan, 1), inner);
+        return sum / (fan.facets - 1);
     }
 
     [[nodiscard]] uint32_t bestWidth(const Fan& fan) const {
@@ -96,7 +101,7 @@ private:
         Fan* best = nullptr;
         double most = 0.0;
         for (Fan& fan : fans_) {
-            if (fan.kind != FanKind::corner || fan.facets < 2 || fan.joined()) {
+            if (fan.kind != FanKind::corner || fan.facets < 2 || !fan.plainEnds()) {
                 continue;
             }
             const double cosine = glm::dot(directionOf(edge(fan, 0)), directionOf(edge(fan, fan.facets)));
@@ -119,19 +124,62 @@ private:
         const std::array<double, 2> lengths{glm::length(spoke(slots[0])), glm::length(spoke(slots[1]))};
         for (Fan& fan : fans_) {
             for (size_t end = 0; end < 2; ++end) {
-                const uint32_t own = mesh_.slotSpokes[fan.firstSlot + (end == 0 ? 0 : fan.facets)];
                 for (size_t k = 0; k < 2; ++k) {
-                    if (own == mesh_.slotSpokes[slots[k]]) {
+                    if (spokeOf(fan, end) == mesh_.slotSpokes[slots[k]]) {
                         const double sum = 3.0 * (lengths[0] + lengths[1]);
                         fan.ends[end] = {slots[1 - k], lengths[1 - k] / sum, lengths[k] / sum};
                     }
                 }
             }
             if (fan.ends[0].partner != cage::kNone && fan.ends[1].partner != cage::kNone &&
-                mesh_.slotSpokes[fan.ends[0].partner] == mesh_.slotSpokes[fan.firstSlot + fan.facets]) {
+                mesh_.slotSpokes[fan.ends[0].partner] == spokeOf(fan, 1)) {
                 fan.kind = FanKind::straight;
             }
         }
+    }
+
+    /// Shortens the end that makes the longest tangent inside a corner too long. Says whether there was one.
+    bool shorten() {
+        const Fan* longest = nullptr;
+        size_t end = 0;
+        double most = 1.0 + 1e-6;
+        for (const Fan& fan : fans_) {
+            for (uint32_t j = 1; fan.kind == FanKind::corner && j < fan.facets; ++j) {
+                const double length = kLongest * glm::length(edge(fan, j));
+                const double excess = length > 0.0 ? glm::length(tangent(fan, fan.width, j)) / length : 0.0;
+                if (excess > most) {
+                    const CornerTurn at = cornerTurn(j, fan.facets, fan.width);
+                    most = excess;
+                    longest = &fan;
+                    end = std::abs(at.first) * glm::length(endTangent(fan, 0)) <
+                                  std::abs(at.last) * glm::length(endTangent(fan, 1))
+                              ? 1
+                              : 0;
+                }
+            }
+        }
+        if (longest != nullptr) {
+            scaleEnd(*longest, end, 1.0 / most);
+        }
+        return longest != nullptr;
+    }
+
+    /// Of all fans that end at this edge, or at the other edge of its curve.
+    void scaleEnd(const Fan& of, size_t end, double factor) {
+        const uint32_t partner = of.ends[end].partner;
+        const uint32_t own = spokeOf(of, end), other = partner == cage::kNone ? own : mesh_.slotSpokes[partner];
+        for (Fan& fan : fans_) {
+            for (size_t k = 0; k < 2; ++k) {
+                if (spokeOf(fan, k) == own || spokeOf(fan, k) == other) {
+                    fan.ends[k].own *= factor;
+                    fan.ends[k].other *= factor;
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] uint32_t spokeOf(const Fan& fan, size_t end) const {
+        return mesh_.slotSpokes[fan.firstSlot + (end == 0 ? 0 : fan.facets)];
     }
 
     Mesh& mesh_;

@@ -139,7 +139,7 @@ bool couldBeApex(const Mesh& mesh, uint32_t vertex) {
         const uint32_t next = cage::nextCorner(mesh.cage, facet, corner);
         for (const uint32_t outer : {next, cage::nextCorner(mesh.cage, facet, next)}) {
             const Fan& fan = mesh.fans[mesh.corners[outer].fan];
-            if (!fan.angle().regular() || fan.kind == FanKind::corner || fan.kind == FanKind::straight) {
+            if (!fan.regular() || fan.kind == FanKind::corner) {
                 return false;
             }
         }
@@ -181,7 +181,7 @@ void classify(Mesh& mesh) {
             }
         } else if (sides == 4) {
             const bool regular = std::all_of(mesh.corners.begin() + first, mesh.corners.begin() + first + 4,
-                                             [&](const FacetCorner& c) { return mesh.fans[c.fan].angle().regular(); });
+                                             [&](const FacetCorner& c) { return mesh.fans[c.fan].regular(); });
             mesh.classes[f] = regular ? PatchClass::regular : PatchClass::p4;
         }
     }
@@ -248,6 +248,12 @@ FacetAngle Fan::angle() const {
     }
     const uint32_t common = std::gcd(uint32_t{width}, 12 * facets);
     return {width / common, 12 * facets / common};
+}
+
+bool Fan::regular() const {
+    // The tangents inside corners and straight fans come from their ends, and not from f.
+    const bool fromEnds = kind == FanKind::straight || (kind == FanKind::corner && facets > 1);
+    return !fromEnds && angle() == FacetAngle{1, 4};
 }
 
 Result<Mesh> buildMesh(const Cage& cage) {

@@ -29,21 +29,23 @@ enum class FanKind : uint8_t {
     straight  ///< open: the surface interpolates the vertex, and the two sharp edges are one smooth curve through it
 };
 
-/// What a facet takes of the whole turn round a vertex: `part` of `whole`. A regular one takes a quarter.
+/// What a facet takes of the whole turn round a vertex: `part` of `whole`.
 struct FacetAngle {
     uint32_t part = 1;
     uint32_t whole = 4;
 
-    [[nodiscard]] bool regular() const { return 4 * part == whole; }
     auto operator<=>(const FacetAngle&) const = default;
 };
 
-/// Where an open fan ends, at a sharp edge from p to A, its tangent is t = p + own (A - p) - other (B - p). With no
-/// partner it is (2 p + A) / 3. If the curve runs smoothly through a corner, B is the far vertex of its other edge.
+/// Where an open fan ends, at a sharp edge from p to A, its tangent is t = p + own (A - p) - other (B - p). As a rule
+/// it is (2 p + A) / 3. At corners it may be shorter. If the curve runs smoothly through a corner, B is the far vertex
+/// of its other edge. All fans that end at this edge have the same numbers.
 struct FanEnd {
     uint32_t partner = cage::kNone; ///< the slot of an edge to B
     double own = 1.0 / 3.0;
     double other = 0.0;
+
+    bool operator==(const FanEnd&) const = default;
 };
 
 /// The width of a fan that is a corner is a multiple of 30 degrees. As in the paper's corners it is a right angle,
@@ -69,8 +71,10 @@ struct Fan {
     [[nodiscard]] uint32_t edges() const { return closed() ? facets : facets + 1; }
     /// 1 / N in cos(2 pi / N): N is q if closed, 2 q at creases, 4 q at corners of a right angle.
     [[nodiscard]] FacetAngle angle() const;
-    /// Whether an end follows a smooth curve through the vertex.
-    [[nodiscard]] bool joined() const { return ends[0].partner != cage::kNone || ends[1].partner != cage::kNone; }
+    /// A fan as in a bicubic B-spline: N = 4, and t_j = e_j on all inner edges.
+    [[nodiscard]] bool regular() const;
+    /// Whether both ends are as a rule.
+    [[nodiscard]] bool plainEnds() const { return ends[0] == FanEnd{} && ends[1] == FanEnd{}; }
 };
 
 /// Corner c of facet f at vertex v. Half-edge c runs from v to the next vertex of f.

@@ -34,7 +34,7 @@ constexpr KindOfKernel kFacetKernels[] = {
 };
 
 uint32_t fanKind(const Fan& fan) {
-    if (fan.creased || fan.pinned || fan.joined()) {
+    if (fan.creased || fan.pinned || !fan.plainEnds()) {
         return shared::kCreasedFan;
     }
     if (fan.closed() && fan.facets == 4) {
@@ -136,13 +136,13 @@ private:
         writer_.put({fan.facets | (fan.closed() ? 0u : shared::kOpenSector) |
                          (fan.kind == FanKind::corner ? shared::kCornerSector : 0u) |
                          (fan.kind == FanKind::straight ? shared::kStraightSector : 0u) |
-                         (fan.pinned ? shared::kPinnedSector : 0u) | (fan.joined() ? shared::kJoinedSector : 0u),
+                         (fan.pinned ? shared::kPinnedSector : 0u) | (fan.plainEnds() ? 0u : shared::kOwnEndsSector),
                      floatBits(scales.limit), floatBits(scales.tangent), 0u});
         for (uint32_t j = 0; j < fan.edges(); ++j) {
             const auto [cosine, sine] = tangentTurn(fan, j);
             writer_.putFloats({mesh_.slotAlphas[fan.firstSlot + j], cosine, sine, mesh_.slotRims[fan.firstSlot + j]});
         }
-        for (size_t end = 0; fan.joined() && end < 2; ++end) {
+        for (size_t end = 0; !fan.plainEnds() && end < 2; ++end) {
             const FanEnd& at = fan.ends[end];
             const bool joined = at.partner != cage::kNone;
             writer_.put({joined ? slots_[at.partner] + 1 : 0u, floatBits(at.own), floatBits(at.other), 0u});
@@ -319,6 +319,12 @@ Result<Tables> build(const Recipe&, const cage::Cage& cage) {
         return fits.error();
     }
     return Builder(*mesh).build();
+}
+
+float boundsMargin(const cage::Cage& cage) {
+    // Hard creases may make corners of several facets, whose tangents reach further out.
+    const bool corners = !cage.creases.empty() || !cage.sharpVertices.empty() || !cage.creaseScalars.empty();
+    return corners ? 0.4f : 0.21f; // found: 0.3351, 0.1896
 }
 
 } // namespace supple::surface::pm

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace supple::surface::polygons {
@@ -35,6 +36,7 @@ std::vector<DraftPatch> draftTriangles(const cage::Cage& cage) {
             patch.facet = patch.info.face = face;
             patch.info.patchClass = PatchClass::triangle;
             patch.info.cornerCount = 3;
+            patch.info.part = cage.faceParts.empty() ? 0 : cage.faceParts[face];
             patch.info.material = cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[face];
             for (size_t k = 0; k < 3; ++k) {
                 patch.cageCorners[k] = corners[t + k];
@@ -43,7 +45,9 @@ std::vector<DraftPatch> draftTriangles(const cage::Cage& cage) {
         }
     }
     std::stable_sort(patches.begin(), patches.end(),
-                     [](const DraftPatch& a, const DraftPatch& b) { return a.info.material < b.info.material; });
+                     [](const DraftPatch& a, const DraftPatch& b) {
+                         return std::tie(a.info.material, a.info.part) < std::tie(b.info.material, b.info.part);
+                     });
     return patches;
 }
 
@@ -83,7 +87,9 @@ private:
 
 class Builder {
 public:
-    Builder(const cage::Cage& cage, Frames frames) : cage_(cage), frames_(std::move(frames)), writer_(tables_.words) {}
+    /// `attributes`: corners that differ in them are different vertices.
+    Builder(const cage::Cage& cage, Frames frames, bool attributes)
+        : cage_(cage), frames_(std::move(frames)), attributes_(attributes), writer_(tables_.words) {}
 
     Tables build() {
         tables_.rate = 1;
@@ -154,7 +160,7 @@ private:
     }
 
     [[nodiscard]] Vertex vertexOf(uint32_t corner) const {
-        Vertex vertex{frames_.cornerFrames[corner], {}, cornerWords(cage_, corner)};
+        Vertex vertex{frames_.cornerFrames[corner], {}, attributes_ ? cornerWords(cage_, corner) : CornerWords{}};
         glm::dvec3 normal(0.0, 0.0, 1.0);
         if (!cage_.cornerNormals.empty() && cage_.cornerNormals[corner] != glm::vec3(0.0f)) {
             normal = glm::transpose(frames_.frames[vertex.frame].axes) * glm::dvec3(cage_.cornerNormals[corner]);
@@ -179,13 +185,14 @@ private:
         tables_.attributes = writer_.element();
         const uint32_t words = noteAttributes(cage_, tables_);
         for (const Vertex& vertex : numbers.vertices) {
-            writer_.put(std::span(vertex.attributes).first(words));
+            writer_.put(std::span(vertex.attributes).first(attributes_ ? words : 0));
         }
         listPatches(patches, tables_);
     }
 
     const cage::Cage& cage_;
     const Frames frames_;
+    const bool attributes_;
     std::vector<uint32_t> faceNumbers_; ///< per face: its place in the pool
     Tables tables_;
     TableWriter writer_;
@@ -193,13 +200,13 @@ private:
 
 } // namespace
 
-Result<Tables> build(const Recipe&, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     // Every corner may have a frame, and a record with attributes.
     if (cage.cornerCount() > std::numeric_limits<uint32_t>::max() / 32) {
         return Error{ErrorCode::limit, std::to_string(cage.cornerCount()) + " corners: polygons takes " +
                                            std::to_string(std::numeric_limits<uint32_t>::max() / 32)};
     }
-    return Builder(cage, makeFrames(cage)).build();
+    return Builder(cage, makeFrames(cage), recipe.attributes).build();
 }
 
 } // namespace supple::surface::polygons

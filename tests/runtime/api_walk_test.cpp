@@ -540,9 +540,29 @@ void createAsset(Rows& r) {
     spoiled("neither bytes nor cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.bytes = nullptr; });
     spoiled("bytes and cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.cage = &kNoCage; });
-    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 4; });
+    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 8; });
     spoiled("files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER,
             [](Desc& d) { d.files = &kNoRead; });
+    static const SuppleClipFile kNoBytes{};
+    static const uint8_t kOne[] = {'{'};
+    static const SuppleClipFile kBroken{"clips.glb", kOne, 1, nullptr, nullptr};
+    static const SuppleClipFile kNoReader{"clips.glb", kOne, 1, nullptr, &kNoRead};
+    const auto clipFile = [&](const char* what, SuppleResult result, int message, const SuppleClipFile* file) {
+        spoiled(what, result, message, [file](Desc& d) {
+            d.clipFiles = file;
+            d.clipFileCount = 1;
+        });
+    };
+    clipFile("clipFiles null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER, nullptr);
+    clipFile("clipFiles: bytes null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER, &kNoBytes);
+    clipFile("clipFiles: files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER, &kNoReader);
+    clipFile("clipFiles: malformed", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, &kBroken);
+    spoiled("clipFiles and cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) {
+        d.bytes = nullptr;
+        d.cage = &kNoCage;
+        d.clipFiles = &kBroken;
+        d.clipFileCount = 1;
+    });
     spoiled("no bytes", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount = 0; });
     spoiled("half the file", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount /= 2; });
 
@@ -633,6 +653,7 @@ void assetGetters(Rows& r) {
                      [=](World& w) { return get(w.handle(), w.mine.asset, index, w.template watched<T>(sizeof(T))); });
         }
     };
+    part("suppleGetPartInfo", 1, &suppleGetPartInfo);
     part("suppleGetClipInfo", kClips, &suppleGetClipInfo);
     part("suppleGetJointInfo", kJoints, &suppleGetJointInfo);
     part("suppleGetMorphTargetInfo", kTargets, &suppleGetMorphTargetInfo);
@@ -907,7 +928,7 @@ void groups(Rows& r) {
           {kBlendSize, SUPPLE_CREASES_CUT, kNan});
     blend("blend, structSize 0", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_STRUCT_SIZE, {});
     prep("prep, structSize 0", {});
-    for (const int value : {6, 99, 101, -1}) {
+    for (const int value : {7, 99, 101, -1}) {
         range("scheme " + std::to_string(value), [=](Desc& d) { d.scheme = static_cast<SuppleScheme>(value); });
     }
     for (const int value : {3, -1}) {

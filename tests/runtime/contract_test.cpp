@@ -2,12 +2,15 @@
 #include "cage/gltf/reader.h"
 #include "cage/procedural.h"
 #include "skinning/pose.h"
+#include "tests/cage/gltf/builder.h"
 #include "tests/support/gpu_surface.h"
+#include "tests/support/logged_context.h"
 #include "tests/support/meshes.h"
 #include "tests/support/wrapped_vulkan.h"
 #include "tools/common/cage_arrays.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -347,7 +350,7 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     groupDesc.flags = SUPPLE_GROUP_PATCHES;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << "it has no coefficients";
     groupDesc.flags = 0;
-    for (const int scheme : {6, 99, 101, -1}) {
+    for (const int scheme : {7, 99, 101, -1}) {
         groupDesc.scheme = static_cast<SuppleScheme>(scheme);
         EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << scheme;
     }
@@ -479,6 +482,64 @@ TEST(Contract, ExternalFilesComeThroughTheHost) {
     EXPECT_EQ(state.released, 2);
     files.read = nullptr;
     EXPECT_EQ(suppleCreateAsset((*created)->handle(), &desc, &asset), SUPPLE_ERROR_ARGUMENT);
+}
+
+TEST(Contract, ClipsOfOtherFiles) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    LoggedContext own(*device);
+    ASSERT_EQ(own.result(), SUPPLE_OK);
+    cage::test::GltfBuilder quad = cage::test::skinnedQuad();
+    const std::vector<std::byte> character = quad.glb();
+    quad.nodes = R"([{"mesh":0,"skin":0},{"name":"tip"},{"name":"extra","translation":[1,0,0]}])";
+    const std::vector<std::byte> other = quad.glb();
+    // The third lies in two files of the host's.
+    const std::string text = cage::test::skinnedQuad().json("motion.bin");
+    struct Files {
+        std::vector<std::byte> binary = cage::test::skinnedQuad().binary();
+        std::vector<std::string> asked;
+    } state;
+    const SuppleFiles files{[](const char* path, SuppleFileBytes* out, void* user) {
+                                auto& own = *static_cast<Files*>(user);
+                                own.asked.emplace_back(path);
+                                *out = {own.binary.data(), own.binary.size(), nullptr};
+                                return 1;
+                            },
+                            nullptr, &state};
+    const SuppleClipFile clipFiles[] = {{"a/walk.glb", character.data(), character.size(), nullptr, nullptr},
+                                        {nullptr, other.data(), other.size(), nullptr, nullptr},
+                                        {"run.gltf", text.data(), text.size(), nullptr, &files}};
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.name = "quad.glb";
+    desc.bytes = character.data();
+    desc.byteCount = character.size();
+    desc.clipFiles = clipFiles;
+    desc.clipFileCount = 3;
+    SuppleAsset asset{};
+    ASSERT_EQ(suppleCreateAsset(own.handle(), &desc, &asset), SUPPLE_OK);
+    const char* const names[] = {"clip_0", "walk", "clip file 1", "run"};
+    SuppleAssetInfo info{};
+    info.structSize = sizeof(info);
+    ASSERT_EQ(suppleGetAssetInfo(own.handle(), asset, &info), SUPPLE_OK);
+    ASSERT_EQ(info.clipCount, 4u);
+    for (uint32_t i = 0; i < 4; ++i) {
+        SuppleClipInfo clip{};
+        clip.structSize = sizeof(clip);
+        ASSERT_EQ(suppleGetClipInfo(own.handle(), asset, i, &clip), SUPPLE_OK);
+        EXPECT_STREQ(clip.name, names[i]);
+    }
+    EXPECT_EQ(state.asked, std::vector<std::string>{"motion.bin"});
+    const std::vector<LogLine> lines = own.takeLines();
+    ASSERT_EQ(lines.size(), 1u) << "those that match in full are not worth a line";
+    EXPECT_EQ(lines[0].message, SUPPLE_MESSAGE_ASSET_WARNING);
+    EXPECT_EQ(lines[0].text, "quad.glb: clip file 1: 1 clip; 0 of 1 node matched by name; not matched: extra");
+
+    // A host of the first version, whose struct ends before `scene`.
+    desc.structSize = offsetof(SuppleAssetDesc, scene);
+    ASSERT_EQ(suppleCreateAsset(own.handle(), &desc, &asset), SUPPLE_OK);
+    ASSERT_EQ(suppleGetAssetInfo(own.handle(), asset, &info), SUPPLE_OK);
+    EXPECT_EQ(info.clipCount, 1u);
 }
 
 TEST(Contract, CagesAreRefusedByName) {

@@ -245,7 +245,7 @@ TEST_P(IndexedMesh, PmHasTheGridsBits) {
                 for (uint32_t i = 0; i < mesh->cage.sides(f); ++i) {
                     const surface::pm::Fan& fan = mesh->fans[mesh->corners[mesh->corner(f, i)].fan];
                     if (surface::edgeSample(domain, rate, i, 0) == s && fan.facets == 1 &&
-                        fan.kind == surface::pm::FanKind::crease) {
+                        (fan.kind == surface::pm::FanKind::crease || fan.kind == surface::pm::FanKind::straight)) {
                         return true;
                     }
                 }

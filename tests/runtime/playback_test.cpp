@@ -399,8 +399,8 @@ cage::Character noisyTube(uint32_t joints, uint32_t targets) {
             }
         }
         if (targets > 0) {
-            channels.push_back(
-                noisyChannel(noise, tube.parts[0].node, cage::ChannelPath::weights, kKinds[kind % 3], 5, duration, targets));
+            channels.push_back(noisyChannel(noise, tube.parts[0].node, cage::ChannelPath::weights, kKinds[kind % 3], 5,
+                                            duration, targets));
         }
         tube.clips.push_back(clipOf(std::move(channels)));
         tube.clips.back().name = "clip " + std::to_string(kind);
@@ -830,7 +830,8 @@ TEST_F(PlaybackOnGpu, TheCpuKnowsWhereTheJointsAre) {
                                             glm::vec3(1.0f + 0.1f * static_cast<float>(i))));
         }
         Difference worst;
-        for (const double time : {0.0, 0.37, 1.7, 5.1, -2.3, 1e6, 1e6 + 0.83, -1e6}) {
+        // Not at the ends of loops, where clips jump and either side is right.
+        for (const double time : {0.0, 0.37, 1.73, 5.11, -2.31, 1e6, 1e6 + 0.83, -1e6}) {
             duet.run(time);
             worst.add(duet.difference());
         }

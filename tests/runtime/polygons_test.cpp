@@ -1,5 +1,6 @@
 // The scheme polygons on the device: against the file read a second way and skinned plainly, against its own frames in
 // double, and its contract.
+#include "cage/gltf/writer.h"
 #include "cage/procedural.h"
 #include "cage/triangulation.h"
 #include "surface/polygons/frames.h"
@@ -34,6 +35,7 @@ GpuOptions polygonsOptions(SuppleMapping mapping = SUPPLE_MAPPING_NARROW, uint32
     return options;
 }
 
+/// Once a frame has run: it uploads them.
 std::vector<uint32_t> indicesOf(const host::GroupOutput& output) {
     const Result<std::vector<std::byte>> bytes = testDevice()->readBuffer(output.grid.indices);
     EXPECT_TRUE(bytes.ok());
@@ -77,7 +79,7 @@ public:
     explicit NormalReference(const cage::Cage& cage) : cage_(cage), frames_(surface::polygons::makeFrames(cage)) {}
 
     /// Zero where float cannot tell: the faces are needles or next to nothing.
-    [[nodiscard]] glm::dvec3 at(uint32_t corner, const std::vector<glm::vec3>& positions, double size) const {
+    [[nodiscard]] glm::dvec3 at(uint32_t corner, const std::vector<glm::vec3>& positions) const {
         const surface::polygons::Frame& frame = frames_.frames[frames_.cornerFrames[corner]];
         glm::dvec3 own(0.0, 0.0, 1.0);
         if (!cage_.cornerNormals.empty() && cage_.cornerNormals[corner] != glm::vec3(0.0f)) {
@@ -99,7 +101,8 @@ public:
         const glm::dvec3 normal = glm::normalize(area);
         const glm::dvec3 edge = glm::dvec3(positions[frame.toward]) - glm::dvec3(positions[frame.vertex]);
         const glm::dvec3 across = edge - glm::dot(edge, normal) * normal;
-        const bool known = glm::length(area) > 1e-3 * size * longest && glm::length(across) > 1e-3 * glm::length(edge);
+        const bool known =
+            glm::length(area) > 1e-4 * longest * longest && glm::length(across) > 1e-3 * glm::length(edge);
         const glm::dvec3 tangent = glm::normalize(across);
         return known ? own.x * tangent + own.y * glm::cross(normal, tangent) + own.z * normal : glm::dvec3(0.0);
     }
@@ -127,14 +130,13 @@ Worst compareNormals(const GpuSurface& gpu, const cage::Cage& cage, uint32_t ins
     const std::vector<glm::vec3> positions = gpu.deformedCage(instance);
     const NormalReference reference(cage);
     const std::vector<uint32_t> corners = drawnCorners(cage), indices = indicesOf(gpu.output());
-    const double size = extent(std::vector<glm::dvec3>(positions.begin(), positions.end()));
     EXPECT_EQ(corners.size(), indices.size());
     Worst worst;
     ComparedBits bits;
     for (size_t i = 0; i < std::min(corners.size(), indices.size()); ++i) {
         const GpuSurface::Vertex& vertex = gpu.sharedVertex(instance, indices[i]);
         bits.compare(vertex.position, positions[cage.faceVertices[corners[i]]]);
-        worst.add(vertex.normal, reference.at(corners[i], positions, size));
+        worst.add(vertex.normal, reference.at(corners[i], positions));
     }
     EXPECT_GT(bits.samples, 0u);
     EXPECT_EQ(bits.different, 0u) << "positions are the deformed cage's";
@@ -205,8 +207,13 @@ double compareBindNormals(const GpuSurface& gpu, const PlainMesh& plain, const s
     for (size_t i = 0; i < indices.size(); ++i) {
         const GpuSurface::Vertex& vertex = gpu.sharedVertex(0, indices[i]);
         glm::dvec3 wanted = plain.vertices[files[i]].normal;
+        const auto at = [&](size_t k) { return plain.vertices[files[i / 3 * 3 + k]].position; };
+        const double longest =
+            std::max({glm::length(at(1) - at(0)), glm::length(at(2) - at(1)), glm::length(at(0) - at(2))});
+        if (glm::length(glm::cross(at(1) - at(0), at(2) - at(0))) <= 1e-4 * longest * longest) {
+            continue; // a needle, in which float knows no side
+        }
         if (glm::length(wanted) == 0.0) {
-            const auto at = [&](size_t k) { return plain.vertices[files[i / 3 * 3 + k]].position; };
             const glm::dvec3 area = glm::cross(at(1) - at(0), at(2) - at(0));
             if (glm::length(area) < 1e-6 * glm::length(at(1) - at(0)) * glm::length(at(2) - at(0))) {
                 continue;
@@ -265,45 +272,56 @@ std::vector<std::string> characterFiles() {
     return paths;
 }
 
+void compareCharacter(const std::string& path, const cage::Character& character, const PlainMesh& plain) {
+    GpuSurface gpu(*testDevice(), path, polygonsOptions());
+    ASSERT_TRUE(gpu.valid());
+    EXPECT_EQ(gpu.output().info.tessellation, SUPPLE_TESSELLATION_INDEXED_MESH);
+    gpu.evaluate();
+    const std::vector<uint32_t> files = fileVertices(gpu, character.cage, plain);
+    const std::vector<uint32_t> indices = indicesOf(gpu.output());
+    ASSERT_EQ(files.size(), indices.size());
+    const double bind = compareBindNormals(gpu, plain, files, indices);
+    EXPECT_LE(bind, 0.05);
+    PoseErrors errors;
+    for (uint32_t clip = 0; clip < std::min<size_t>(character.clips.size(), 3); ++clip) {
+        for (const double part : {0.21, 0.5, 0.83}) {
+            comparePose(gpu, character, plain, files, clip, part * character.clips[clip].duration, errors);
+        }
+    }
+    EXPECT_LE(errors.position, 1e-5);
+    EXPECT_LE(errors.reference.degrees, 0.01);
+    EXPECT_LE(errors.reference.unknown, errors.reference.count / 100);
+    std::sort(errors.skinnedDegrees.begin(), errors.skinnedDegrees.end());
+    const auto quantile = [&](double q) {
+        const std::vector<double>& all = errors.skinnedDegrees;
+        return all.empty() ? 0.0 : all[static_cast<size_t>(q * static_cast<double>(all.size() - 1))];
+    };
+    std::printf("%s: %zu triangles, bind %.4f deg; posed: positions %.1e, frames %.4f deg (%llu unknown of %llu), "
+                "skinned normals median %.2f, 95%% %.2f deg\n",
+                path.substr(path.find_last_of('/') + 1).c_str(), indices.size() / 3, bind, errors.position,
+                errors.reference.degrees, static_cast<unsigned long long>(errors.reference.unknown),
+                static_cast<unsigned long long>(errors.reference.count), quantile(0.5), quantile(0.95));
+    EXPECT_LE(quantile(0.5), 3.0) << "beside plainly skinned normals";
+}
+
 TEST(Polygons, CharactersArePlainlySkinned) {
     ASSERT_NE(testDevice(), nullptr);
     const ValidationGuard guard;
-    forEachCharacter(characterFiles(), [&](const std::string& path, const cage::Character& character) {
-        const std::optional<PlainMesh> plain = readPlainMesh(path, character);
+    for (const std::string& path : characterFiles()) {
+        SCOPED_TRACE(path);
+        const Result<cage::Character> character = cage::readGltfFile(path);
+        const std::optional<PlainMesh> plain = character ? readPlainMesh(path, *character) : std::optional<PlainMesh>();
         if (!plain) {
-            std::printf("left out, not plain: %s\n", path.c_str());
-            return;
+            std::printf("left out: %s: %s\n", path.c_str(),
+                        character ? "accessors that are not plain" : character.error().message.c_str());
+            continue;
         }
-        GpuSurface gpu(*testDevice(), path, polygonsOptions());
-        ASSERT_TRUE(gpu.valid());
-        EXPECT_EQ(gpu.output().info.tessellation, SUPPLE_TESSELLATION_INDEXED_MESH);
-        const std::vector<uint32_t> files = fileVertices(gpu, character.cage, *plain);
-        const std::vector<uint32_t> indices = indicesOf(gpu.output());
-        ASSERT_EQ(files.size(), indices.size());
-        gpu.evaluate();
-        const double bind = compareBindNormals(gpu, *plain, files, indices);
-        EXPECT_LE(bind, 0.05);
-        PoseErrors errors;
-        for (uint32_t clip = 0; clip < std::min<size_t>(character.clips.size(), 3); ++clip) {
-            for (const double part : {0.21, 0.5, 0.83}) {
-                comparePose(gpu, character, *plain, files, clip, part * character.clips[clip].duration, errors);
-            }
+        if (!character->damages.empty()) {
+            std::printf("left out: %s: its cage was repaired\n", path.c_str());
+            continue;
         }
-        EXPECT_LE(errors.position, 1e-5);
-        EXPECT_LE(errors.reference.degrees, 0.2);
-        EXPECT_LE(errors.reference.unknown, errors.reference.count / 4);
-        std::sort(errors.skinnedDegrees.begin(), errors.skinnedDegrees.end());
-        const auto quantile = [&](double q) {
-            const std::vector<double>& all = errors.skinnedDegrees;
-            return all.empty() ? 0.0 : all[static_cast<size_t>(q * static_cast<double>(all.size() - 1))];
-        };
-        std::printf("%s: %zu triangles, bind %.4f deg; posed: positions %.1e, frames %.4f deg (%llu unknown of %llu), "
-                    "skinned normals median %.2f, 95%% %.2f deg\n",
-                    path.substr(path.find_last_of('/') + 1).c_str(), indices.size() / 3, bind, errors.position,
-                    errors.reference.degrees, static_cast<unsigned long long>(errors.reference.unknown),
-                    static_cast<unsigned long long>(errors.reference.count), quantile(0.5), quantile(0.95));
-        EXPECT_LE(quantile(0.5), 3.0) << "beside plainly skinned normals";
-    });
+        ASSERT_NO_FATAL_FAILURE(compareCharacter(path, *character, *plain));
+    }
 }
 
 TEST(Polygons, MappingsAndFormatsAgree) {
@@ -381,15 +399,15 @@ TEST(Polygons, CreasesOfInfiniteSharpnessCutNormals) {
     }
 }
 
-/// A cage that the host writes, as a cloth solver does: what its normals are.
+/// A cage that the host writes, as a cloth solver does: what its normals are. The character goes through a file.
 struct WrittenCage {
-    WrittenCage(CrowdContext& context, const cage::Character& character, uint32_t flags = 0)
-        : crowd(context, [&] {
+    WrittenCage(CrowdContext& context, const cage::Character& character)
+        : glb(cage::writeGlb(character)), cage(cage::readGltf(glb->bytes, "written.glb", "")->cage),
+          crowd(context, [&] {
               SuppleGroupDesc desc{};
-              desc.asset = context.createAsset(character);
+              desc.asset = context.createAsset(glb->bytes, "written");
               desc.capacity = 1;
               desc.scheme = SUPPLE_SCHEME_POLYGONS;
-              desc.flags = flags;
               desc.vertexFormat = SUPPLE_VERTEX_24;
               desc.poseSource = SUPPLE_POSES_CAGE_BUFFER;
               return desc;
@@ -424,6 +442,8 @@ struct WrittenCage {
         return result;
     }
 
+    Result<cage::GlbFile> glb;
+    cage::Cage cage; ///< as it is read
     Crowd crowd;
 };
 
@@ -483,14 +503,16 @@ TEST_F(WrittenCages, HardEdgesStayAndFlatFacesStayFlat) {
 TEST_F(WrittenCages, AuthoredNormalsTurnWithTheCloth) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
-        cage::Cage sheet = grid(9, 7);
-        for (uint32_t c = 0; c < sheet.cornerCount(); ++c) {
-            const glm::vec3 p = sheet.positions[sheet.faceVertices[c]];
-            sheet.cornerNormals.push_back(
+        cage::Cage made = grid(9, 7);
+        for (uint32_t c = 0; c < made.cornerCount(); ++c) {
+            const glm::vec3 p = made.positions[made.faceVertices[c]];
+            made.cornerNormals.push_back(
                 glm::normalize(glm::vec3(0.3f * std::sin(p.x), 0.3f * std::cos(1.7f * p.y), 1.0f)));
         }
-        WrittenCage cloth(context(mapping), characterOf(sheet));
+        WrittenCage cloth(context(mapping), characterOf(made));
         ASSERT_TRUE(cloth.crowd.valid());
+        const cage::Cage& sheet = cloth.cage;
+        ASSERT_EQ(sheet.cornerNormals, made.cornerNormals) << "the file has them";
         EXPECT_EQ(cloth.crowd.output().grid.vertexCount, sheet.vertexCount()) << "one normal per vertex";
         cloth.write(sheet.positions);
         const std::vector<uint32_t> drawn = drawnCorners(sheet);
@@ -520,7 +542,7 @@ TEST_F(WrittenCages, AuthoredNormalsTurnWithTheCloth) {
         const NormalReference reference(sheet);
         for (size_t i = 0; i < drawn.size(); ++i) {
             EXPECT_EQ(std::memcmp(&corners[i].position, &positions[sheet.faceVertices[drawn[i]]], 12), 0);
-            EXPECT_LE(angleDegrees(corners[i].normal, reference.at(drawn[i], positions, 1.0)), 0.01);
+            EXPECT_LE(angleDegrees(corners[i].normal, reference.at(drawn[i], positions)), 0.01);
         }
         // A cage that has fallen into one point has no normals, and no NaN.
         cloth.write(std::vector<glm::vec3>(positions.size(), glm::vec3(1.0f, 2.0f, 3.0f)));
@@ -567,7 +589,7 @@ TEST(Polygons, MorphsMoveNormals) {
         const std::vector<std::byte> bytes = crowd.slotBytes(output.streams.vertices, slot);
         for (size_t i = 0; i < indices.size(); ++i) {
             std::memcpy(&normals[slot].emplace_back(), bytes.data() + size_t{indices[i]} * 24 + 12, 12);
-            EXPECT_LE(angleDegrees(normals[slot][i], reference.at(drawn[i], positions, 8.0)), 0.01);
+            EXPECT_LE(angleDegrees(normals[slot][i], reference.at(drawn[i], positions)), 0.01);
             if (slot == 0) {
                 EXPECT_LE(angleDegrees(normals[0][i], character->cage.cornerNormals[drawn[i]]), 0.05);
             }
@@ -641,7 +663,8 @@ TEST(Polygons, TakesWhatIsNoManifold) {
             GpuSurface gpu(*testDevice(), cage, polygonsOptions(mapping, SUPPLE_GROUP_ATTRIBUTES));
             ASSERT_TRUE(gpu.valid());
             gpu.evaluate();
-            EXPECT_EQ(gpu.output().info.patchCount, cage.cornerCount() - 2 * cage.faceCount());
+            // The repair leaves the repeated vertex out.
+            EXPECT_EQ(gpu.output().info.patchCount, &cage == cages ? 3u : 2u);
             for (uint32_t v = 0; v < gpu.output().grid.vertexCount; ++v) {
                 const glm::vec3 normal = gpu.sharedVertex(0, v).normal;
                 EXPECT_TRUE(normal == normal) << "NaN";
@@ -737,7 +760,6 @@ TEST_F(WrittenCages, InAViewItIsDrawnAsItIs) {
         EXPECT_EQ(viewed.output().info.tessellation, SUPPLE_TESSELLATION_RATES);
         EXPECT_EQ(viewed.output().grid.rateCount, 1u);
         EXPECT_EQ(viewed.output().grid.vertexCount, alone.output().grid.vertexCount);
-        EXPECT_TRUE(indicesOf(viewed.output()) == indicesOf(alone.output()));
         std::vector<SuppleInstance> a, v;
         for (uint32_t i = 0; i < 3; ++i) {
             a.push_back(alone.spawn());
@@ -754,6 +776,7 @@ TEST_F(WrittenCages, InAViewItIsDrawnAsItIs) {
             }
             alone.run();
             viewed.run();
+            EXPECT_TRUE(indicesOf(viewed.output()) == indicesOf(alone.output()));
             const uint32_t shown = frame == 1 ? 2 : 3;
             const std::vector<VkDrawIndexedIndirectCommand> draws = viewed.draws();
             ASSERT_EQ(draws.size(), alone.draws().size());
@@ -767,8 +790,12 @@ TEST_F(WrittenCages, InAViewItIsDrawnAsItIs) {
                 const bool isNew = frame == 0 || (slot == 2 && frame == 2);
                 EXPECT_EQ(differences(viewed.previous(slot), isNew ? alone.positions(slot) : alone.previous(slot)), 0u)
                     << "slot " << slot;
-                EXPECT_TRUE(viewed.slotBytes(viewed.output().streams.vertices, slot) ==
-                            alone.slotBytes(alone.output().streams.vertices, slot));
+                const auto vertices = [&](const Crowd& crowd) {
+                    std::vector<std::byte> bytes = crowd.slotBytes(crowd.output().streams.vertices, slot);
+                    bytes.resize(size_t{24} * crowd.output().grid.vertexCount); // without padding
+                    return bytes;
+                };
+                EXPECT_TRUE(vertices(viewed) == vertices(alone)) << "normals";
             }
             EXPECT_TRUE(viewed.read(viewed.output().streams.attributes) ==
                         alone.read(alone.output().streams.attributes));

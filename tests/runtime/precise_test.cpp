@@ -18,18 +18,28 @@ namespace {
 struct Checked {
     const char* shader;
     const char* position; ///< what the shader calls the value that becomes a position or feeds one
-    bool roots = false;   ///< a joint's matrix is computed once: its square roots need not agree with another's
+    bool roots = false; ///< what is computed once, as a joint's matrix: its square roots need not agree with another's
 };
 constexpr Checked kShaders[] = {
-    {"evaluate/bicubic.comp", "position"},     {"evaluate/edge.comp", "position"},
-    {"prep/vertex.comp", "canonical"},         {"prep/edge.comp", "canonical"},
-    {"pm/vertex.comp", "canonical"},           {"pm/facet.comp", "canonical"},
-    {"pm/evaluate.comp", "position"},          {"deform/deform.comp", "p"},
-    {"subdivision/isolate.comp", "canonical"}, {"subdivision/refine.comp", "p"},
-    {"blend/chart.comp", "canonical"},         {"blend/evaluate.comp", "position"},
-    {"subdivision/limit.comp", "position"},    {"subdivision/fragment.comp", "position"},
-    {"pose/locals.comp", "local", true},       {"pose/roots.comp", "local", true},
+    {"evaluate/bicubic.comp", "position"},
+    {"evaluate/edge.comp", "position"},
+    {"prep/vertex.comp", "canonical"},
+    {"prep/edge.comp", "canonical"},
+    {"pm/vertex.comp", "canonical"},
+    {"pm/facet.comp", "canonical"},
+    {"pm/evaluate.comp", "position"},
+    {"deform/deform.comp", "p"},
+    {"subdivision/isolate.comp", "canonical"},
+    {"subdivision/refine.comp", "p"},
+    {"blend/chart.comp", "canonical"},
+    {"blend/evaluate.comp", "position"},
+    {"subdivision/limit.comp", "position"},
+    {"subdivision/fragment.comp", "position"},
+    {"pose/locals.comp", "local", true},
+    {"pose/roots.comp", "local", true},
     {"pose/palette.comp", "placed", true},
+    {"polygons/face.comp", "canonical"},
+    {"polygons/frame.comp", "canonical", true},
 };
 
 TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {

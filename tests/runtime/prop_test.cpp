@@ -222,7 +222,7 @@ TEST_F(Prop, CoversWhatASkinnedPartCovers) {
             const host::Picture placed = drawing.draw(prop_vert_PLACED, push);
             std::printf("%u pixels; differ: %u by the palette, %u by the CPU's transform\n", covered(skinned),
                         different(skinned, palette), different(skinned, placed));
-            EXPECT_GT(covered(skinned), kSize * kSize / 8);
+            EXPECT_GT(covered(skinned), kSize * kSize / 16);
             EXPECT_LE(different(skinned, palette), 20u) << "but for rounding at edges";
             EXPECT_LE(different(skinned, placed), 20u);
             push.bind = glm::mat4(1.0f);

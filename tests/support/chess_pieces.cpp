@@ -177,7 +177,11 @@ cage::Cage rook(const RookShape& shape) {
     const uint32_t columns = shape.merlons * period;
     const float sharp = shape.sharpness;
     Lathe lathe(columns);
-    const std::vector<uint32_t> outer = turnedBody(lathe, 0.8, 2.0, sharp);
+    std::vector<uint32_t> outer = turnedBody(lathe, 0.8, 2.0 - shape.support, sharp);
+    if (shape.support > 0.0) {
+        const std::vector<uint32_t> below = std::exchange(outer, lathe.ring(0.8, 2.0));
+        lathe.band(below, outer);
+    }
     const std::vector<uint32_t> inner = lathe.ring(0.5, 2.0), well = lathe.ring(0.5, 1.75);
     std::vector<uint32_t> outerTop(columns, cage::kNone), innerTop(columns, cage::kNone);
     for (uint32_t c = 0; c < columns; ++c) {
@@ -252,14 +256,16 @@ const std::vector<ChessPiece>& chessPieces() {
         std::vector<ChessPiece> all;
         for (const float sharpness : {cage::kHardSharpness, 4.0f, 2.0f, 1.0f}) {
             const std::string suffix = ", sharpness " + std::to_string(static_cast<int>(sharpness));
-            for (const bool rings : {false, true}) {
+            for (const auto& [kind, rings, support] : {std::tuple{"rook ", false, 0.0},
+                                                       {"ringed rook ", true, 0.0},
+                                                       {"supported rook ", false, 0.05},
+                                                       {"supported ringed rook ", true, 0.02}}) {
                 for (const auto& [merlons, merlonColumns, gapColumns] :
                      {std::tuple{3u, 2u, 2u}, {4u, 1u, 1u}, {5u, 2u, 1u}}) {
                     const std::string size = std::to_string(merlons) + " x " + std::to_string(merlonColumns) + " + " +
                                              std::to_string(gapColumns);
-                    all.push_back({(rings ? "ringed rook " : "rook ") + size + suffix,
-                                   merlons * (merlonColumns + gapColumns),
-                                   rook({merlons, merlonColumns, gapColumns, rings, sharpness})});
+                    all.push_back({kind + size + suffix, merlons * (merlonColumns + gapColumns),
+                                   rook({merlons, merlonColumns, gapColumns, rings, support, sharpness})});
                 }
             }
             for (const uint32_t columns : {8u, 12u, 16u}) {

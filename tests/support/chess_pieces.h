@@ -14,7 +14,8 @@ struct RookShape {
     uint32_t merlons = 3;
     uint32_t merlonColumns = 2;
     uint32_t gapColumns = 2;
-    bool rings = false; ///< the hard ring round the tower runs on below the merlons
+    bool rings = false;   ///< the hard ring round the tower runs on below the merlons
+    double support = 0.0; ///< how far below the battlements another ring of vertices lies; 0: none
     float sharpness = cage::kHardSharpness;
 };
 /// A tower with battlements: convex corners on the merlons, corners of three quarters of a turn at their feet, flat

@@ -155,6 +155,52 @@ bool readPrimitive(const File& file, const json& primitive, PlainMesh& mesh) {
     return !indices.empty();
 }
 
+struct Ends {
+    size_t vertices = 0, triangles = 0;
+};
+
+/// The vertex of the part's cage that lies there, but for the rounding of the inverse bind matrix.
+glm::dvec3 nearest(const cage::Character& character, const cage::Part& part, glm::dvec3 point) {
+    const cage::Cage& cage = character.cage;
+    const auto index = static_cast<size_t>(&part - character.parts.data());
+    glm::dvec3 found = point;
+    double best = 1e-10 * std::max(glm::dot(point, point), 1e-6); // squared
+    for (uint32_t c = cage.faceStarts[part.firstFace]; c < cage.faceStarts[cage::endFace(character, index)]; ++c) {
+        const glm::dvec3 other(cage.positions[cage.faceVertices[c]]);
+        const double distance = glm::dot(other - point, other - point);
+        if (distance < best) {
+            best = distance;
+            found = other;
+        }
+    }
+    return found;
+}
+
+/// What was read of a part since `before`, in the terms of the character: joints of its palette, all targets before the
+/// part's own. A mesh without a skin is in the space of its node, and its joint's inverse bind matrix leads there.
+void bindPart(const cage::Character& character, const cage::Part& part, bool unskinned, Ends before, PlainMesh& mesh) {
+    const glm::dmat4 place(glm::inverse(glm::dmat4(character.skin.inverseBinds[part.joints[0]])));
+    for (size_t v = before.vertices; v < mesh.vertices.size(); ++v) {
+        PlainMesh::Vertex& vertex = mesh.vertices[v];
+        for (auto& [joint, weight] : vertex.influences) {
+            joint = part.joints[joint];
+        }
+        if (unskinned) {
+            vertex.position = nearest(character, part, glm::dvec3(place * glm::dvec4(vertex.position, 1.0)));
+            vertex.normal = glm::transpose(glm::inverse(glm::dmat3(place))) * vertex.normal;
+            for (glm::dvec3& morph : vertex.morphs) {
+                morph = glm::dmat3(place) * morph;
+            }
+        }
+        vertex.morphs.insert(vertex.morphs.begin(), part.firstTarget, glm::dvec3(0.0));
+    }
+    for (size_t t = before.triangles; unskinned && t < mesh.triangles.size(); ++t) {
+        if (glm::determinant(glm::dmat3(place)) < 0.0) {
+            std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+        }
+    }
+}
+
 } // namespace
 
 PlainMesh::Posed PlainMesh::pose(uint32_t vertex, const std::vector<double>& morphWeights,
@@ -182,13 +228,17 @@ std::optional<PlainMesh> readPlainMesh(const std::string& path, const cage::Char
     if (!file) {
         return std::nullopt;
     }
-    const size_t index = file->root["nodes"][character.meshNode]["mesh"];
     PlainMesh mesh;
-    for (const json& primitive : file->root["meshes"][index]["primitives"]) {
-        const bool triangles = primitive.value("mode", 4) == 4;
-        if (triangles && !readPrimitive(*file, primitive, mesh)) {
-            return std::nullopt;
+    for (const cage::Part& part : character.parts) {
+        const json& node = file->root["nodes"][part.node];
+        const Ends before{mesh.vertices.size(), mesh.triangles.size()};
+        for (const json& primitive : file->root["meshes"][node["mesh"].get<size_t>()]["primitives"]) {
+            const bool triangles = primitive.value("mode", 4) == 4;
+            if (triangles && !readPrimitive(*file, primitive, mesh)) {
+                return std::nullopt;
+            }
         }
+        bindPart(character, part, !node.contains("skin"), before, mesh);
     }
     return mesh;
 }

@@ -32,7 +32,7 @@ struct PlainMesh {
                              const std::vector<skinning::Affine>& palette) const;
 };
 
-/// The mesh of the character's mesh node. Nothing if the file is no GLB with one buffer and plain accessors.
+/// The meshes of the character's parts. Nothing if the file is no GLB with one buffer and plain accessors.
 [[nodiscard]] std::optional<PlainMesh> readPlainMesh(const std::string& path, const cage::Character& character);
 
 } // namespace supple::test

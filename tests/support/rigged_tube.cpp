@@ -85,6 +85,7 @@ cage::Character riggedTube(const TubeOptions& options) {
         character.morphs.targets.push_back(target);
         character.morphs.weights.push_back(0.0f);
     }
+    character.parts[0].targetCount = options.morphTargets;
     return character;
 }
 

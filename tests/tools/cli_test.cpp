@@ -286,7 +286,9 @@ TEST_F(Cli, DamageIsRepairedOrRefusedByName) {
         EXPECT_EQ(json["schemes"][scheme]["accepted"], true) << scheme;
     }
     for (const char* command : {"inspect", "convert -o out.glb", "bake -o out.obj", "render -o out.png"}) {
-        const Outcome strict = runOnDevice(std::string(command) + " --strict fin.obj");
+        const std::string line = std::string(command) + " --strict fin.obj";
+        const bool onDevice = line.starts_with("bake") || line.starts_with("render");
+        const Outcome strict = onDevice ? runOnDevice(line) : run(line);
         EXPECT_EQ(strict.exitCode, 1) << command;
         EXPECT_EQ(strict.err, "supple: fin.obj: " + twice + "\nsupple: fin.obj: " + edge + "\n") << command;
     }
@@ -478,9 +480,9 @@ TEST_F(Cli, BakeOfSubdivisionHasAGroupAPatch) {
 }
 
 TEST_F(Cli, BakeWritesPatchesOfSchemesThatHaveCoefficients) {
-    const std::vector<std::pair<std::string, bool>> schemes{{"auto", true},  {"pm", true},     {"prep", true},
-                                                            {"loop", false}, {"blend", false}, {"catmull-clark", false},
-                                                            {"cage", false}};
+    const std::vector<std::pair<std::string, bool>> schemes{
+        {"auto", true},           {"pm", true},        {"prep", true}, {"loop", false}, {"blend", false},
+        {"catmull-clark", false}, {"polygons", false}, {"cage", false}};
     const std::string help = run("bake --help").out;
     const size_t list = help.find('{', help.find("--scheme"));
     ASSERT_NE(list, std::string::npos) << help;
@@ -524,8 +526,11 @@ TEST_F(Cli, ProfileOfAllSchemes) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("rate 6 (4 a patch)"), std::string::npos) << outcome.out;
     const Json runs = Json::parse(readText(file("p.json")))["runs"];
-    ASSERT_EQ(runs.size(), 5u);
+    ASSERT_EQ(runs.size(), 6u);
     for (const Json& run : runs) {
+        if (run["scheme"] == "polygons") { // has no rate
+            continue;
+        }
         const bool subdivided = run["scheme"] == "catmull-clark" || run["scheme"] == "loop";
         EXPECT_EQ(run["rate"], 6);
         EXPECT_EQ(run["patchRate"], subdivided ? 4 : 6) << run["scheme"];
@@ -556,7 +561,6 @@ TEST_F(Cli, RenderOfAllSchemesIsOneSheet) {
     const auto three = pngSize(file("some.png"));
     EXPECT_GT(four.first * four.second, 4u * 80u * 60u);
     EXPECT_GT(three.first * three.second, 3u * 80u * 60u);
-    EXPECT_NE(four, three);
     writeText(file("ridge.obj"), "v -1 0 0\nv 0 0 0\nv 1 0 0\nv -1 1 0\nv 0 1 1\nv 1 1 0\nv -1 2 0\nv 0 2 0\nv 1 2 0\n"
                                  "f 1 2 5 4\nf 2 3 6 5\nf 4 5 8 7\nf 5 6 9 8\n"
                                  "t crease 2/1/0 1 4 3.0\nt crease 2/1/0 4 7 3.0\n");

@@ -40,6 +40,19 @@ done
 "$supple" view "$character" --frames 2 --size 160x120 --rate 3 --scheme catmull-clark --view patches $validate ||
     fail "exit code $?"
 
+# A file that is refused does not keep the others from being shown, but it is said.
+echo "no character" >"$work/broken.glb"
+for files in "$work/broken.glb $character" "$character $work/broken.glb"; do
+    rm -f "$work/view.png"
+    "$supple" view $files --frames 2 --size 320x240 --rate 2 --screenshot "$work/view.png" >"$work/log" 2>&1
+    [ $? -eq 1 ] || fail "with a refused file the exit code should be 1: $(cat "$work/log")"
+    [ -s "$work/view.png" ] || fail "no screenshot beside a refused file"
+    [ "$(grep -c "broken.glb" "$work/log")" -eq 1 ] || fail "the refused file is not named once: $(cat "$work/log")"
+done
+"$supple" view "$work/broken.glb" "$work/none.glb" --frames 1 >"$work/log" 2>&1
+[ $? -eq 1 ] || fail "without a file that can be shown the exit code should be 1"
+[ "$(grep -c "broken.glb\|none.glb" "$work/log")" -eq 2 ] || fail "not every refused file is named: $(cat "$work/log")"
+
 DISPLAY= "$supple" view "$character" --frames 1 >"$work/log" 2>&1
 [ $? -eq 3 ] || fail "without a display the exit code should be 3: $(cat "$work/log")"
 

@@ -56,7 +56,7 @@ std::vector<SuppleScheme> schemesFor(const cage::Cage& cage) {
 
 Result<BenchCage> fromCage(const std::string& name, const cage::Cage& cage) {
     const host::CageArrays arrays(cage);
-    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, name, false);
+    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, name);
     if (!character) {
         return character.error();
     }

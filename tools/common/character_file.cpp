@@ -30,22 +30,38 @@ Result<std::vector<std::byte>> readFile(const std::string& path) {
     return bytes;
 }
 
-} // namespace
-
-Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptions& flags) {
+Result<FileInMemory> load(const std::string& path) {
     Result<std::vector<std::byte>> bytes = readFile(path);
     if (!bytes) {
         return bytes.error();
     }
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
-    const std::string directory = parent.empty() ? "." : parent.string();
-    Result<cage::Character> character = cage::readCharacter(
-        *bytes, path, directory,
-        {.scene = flags.scene, .sewParts = !flags.partsApart, .pairQuads = flags.pairQuads, .strict = flags.strict});
+    return FileInMemory{path, parent.empty() ? "." : parent.string(), std::move(*bytes)};
+}
+
+} // namespace
+
+Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptions& flags) {
+    Result<FileInMemory> file = load(path);
+    if (!file) {
+        return file.error();
+    }
+    cage::GltfOptions options{
+        .scene = flags.scene, .sewParts = !flags.partsApart, .pairQuads = flags.pairQuads, .strict = flags.strict};
+    std::vector<FileInMemory> clipFiles;
+    for (const std::string& clipPath : flags.clipFiles) {
+        Result<FileInMemory> clips = load(clipPath);
+        if (!clips) {
+            return clips.error();
+        }
+        clipFiles.push_back(std::move(*clips));
+        options.clipFiles.push_back({clipPath, clipFiles.back().bytes, clipFiles.back().directory, nullptr});
+    }
+    Result<cage::Character> character = cage::readCharacter(file->bytes, path, file->directory, options);
     if (!character) {
         return character.error();
     }
-    return CharacterFile{path, directory, flags, std::move(*bytes), std::move(*character)};
+    return CharacterFile{std::move(*file), std::move(clipFiles), flags, std::move(*character)};
 }
 
 Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
@@ -60,6 +76,13 @@ Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
     desc.bytes = file.bytes.data();
     desc.byteCount = file.bytes.size();
     desc.baseDirectory = file.directory.c_str();
+    std::vector<SuppleClipFile> clipFiles;
+    for (const FileInMemory& clips : file.clipFiles) {
+        clipFiles.push_back(
+            {clips.path.c_str(), clips.bytes.data(), clips.bytes.size(), clips.directory.c_str(), nullptr});
+    }
+    desc.clipFiles = clipFiles.data();
+    desc.clipFileCount = static_cast<uint32_t>(clipFiles.size());
     SuppleAsset asset{};
     Status status = context.check(suppleCreateAsset(context.handle(), &desc, &asset), "suppleCreateAsset");
     if (!status) {

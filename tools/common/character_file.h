@@ -15,17 +15,22 @@ namespace supple::host {
 
 /// How a file is read.
 struct ReadOptions {
-    bool pairQuads = false;        ///< SUPPLE_ASSET_PAIR_QUADS
-    bool strict = false;           ///< SUPPLE_ASSET_STRICT
-    bool partsApart = false;       ///< SUPPLE_ASSET_PARTS_APART
-    std::optional<uint32_t> scene; ///< the file's own choice if it is not given
+    bool pairQuads = false;             ///< SUPPLE_ASSET_PAIR_QUADS
+    bool strict = false;                ///< SUPPLE_ASSET_STRICT
+    bool partsApart = false;            ///< SUPPLE_ASSET_PARTS_APART
+    std::optional<uint32_t> scene;      ///< the file's own choice if it is not given
+    std::vector<std::string> clipFiles; ///< paths of files whose clips the character takes
 };
 
-struct CharacterFile {
+struct FileInMemory {
     std::string path;
     std::string directory; ///< where its external buffers and images lie
-    ReadOptions flags;
     std::vector<std::byte> bytes;
+};
+
+struct CharacterFile : FileInMemory {
+    std::vector<FileInMemory> clipFiles;
+    ReadOptions flags;
     cage::Character character; ///< called as the path
 };
 [[nodiscard]] Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptions& flags = {});

@@ -19,15 +19,19 @@ CageMesh meshOf(cage::Cage cage) {
 
 } // namespace
 
-Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path, const ReadOptions& flags) {
+Result<std::unique_ptr<Figure>> createFigure(Context& context, CharacterFile file) {
+    const Result<SuppleAsset> asset = createAsset(context, file);
+    if (!asset)
+        return asset.error();
     // Supple hands out no faces of the cage: to draw them, a host keeps its own.
+    return Figure::create(context, *asset, meshOf(std::move(file.character.cage)), file.path);
+}
+
+Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path, const ReadOptions& flags) {
     Result<CharacterFile> file = readCharacterFile(path, flags);
     if (!file)
         return file.error();
-    const Result<SuppleAsset> asset = createAsset(context, *file);
-    if (!asset)
-        return asset.error();
-    return Figure::create(context, *asset, meshOf(std::move(file->character.cage)), path);
+    return createFigure(context, std::move(*file));
 }
 
 Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex) {

@@ -6,7 +6,9 @@
 
 namespace supple::host {
 
-/// The context must outlive the figure.
+/// Takes the character's cage. The context must outlive the figure.
+[[nodiscard]] Result<std::unique_ptr<Figure>> createFigure(Context& context, CharacterFile file);
+/// Reads the file and makes the figure.
 [[nodiscard]] Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path,
                                                          const ReadOptions& flags = {});
 

@@ -93,7 +93,7 @@ private:
     [[nodiscard]] Vec3<T> endTangent(uint32_t j) const {
         const FanEnd& end = fan_.ends[j == 0 ? 0 : 1];
         if (end.partner == kNone) {
-            return spoke(j) * T(1.0 / 3.0);
+            return T(end.own) * spoke(j);
         }
         const Vec3<T> other = positions_[mesh_.topology.spokeVertices[mesh_.slotSpokes[end.partner]]] - p_;
         return T(end.own) * spoke(j) - T(end.other) * other;

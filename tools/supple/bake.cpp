@@ -24,6 +24,7 @@ struct BakeOptions {
     SurfaceFlags surface;
     std::string clip; ///< name or index; empty: the bind pose
     double time = 0.0;
+    std::vector<host::MorphSetting> morphs;
     DeviceFlags device;
 };
 
@@ -203,6 +204,11 @@ int runBake(const BakeOptions& options) {
     if (!clip) {
         return fail(kExitBadInput, clip.error().message);
     }
+    Result<std::vector<float>> weights = host::morphWeights(file->character, options.morphs);
+    if (!weights) {
+        return fail(kExitBadInput, weights.error().message);
+    }
+    const Pose pose{*clip, options.time, std::move(*weights)};
     const cage::Cage& cage = file->character.cage;
     const bool cageOnly = options.surface.scheme == kCageScheme;
     const bool uvs = !cageOnly && !cage.cornerUvs.empty();
@@ -219,7 +225,7 @@ int runBake(const BakeOptions& options) {
         if (!asset) {
             return asset.error();
         }
-        const Result<Evaluation> baked = evaluate(session, *asset, options.surface, {*clip, options.time}, groupFlags);
+        const Result<Evaluation> baked = evaluate(session, *asset, options.surface, pose, groupFlags);
         if (!baked) {
             return baked.error();
         }
@@ -246,6 +252,7 @@ void bindBake(CLI::App& app, int& exitCode) {
         ->type_name("OUT.json");
     bindSurface(*command, options->surface, {kCageScheme});
     bindPose(*command, options->clip, options->time);
+    bindMorphs(*command, options->morphs);
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] {
         if (!options->patches.empty() && !hasCoefficients(options->surface.scheme)) {

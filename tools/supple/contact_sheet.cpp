@@ -1,5 +1,6 @@
 #include "tools/supple/contact_sheet.h"
 
+#include "host/png_writer.h"
 #include "tools/common/figure_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/render_stage.h"
@@ -24,26 +25,34 @@ std::string timeLabel(double seconds) {
 struct Layout {
     VkExtent2D cell;
     uint32_t columns;
-    uint32_t rows;
     uint32_t label; ///< height of the line over each row; 0 without labels
 
     [[nodiscard]] uint32_t columnX(uint32_t column) const { return kSheetGap + column * (2 * cell.width + kSheetGap); }
-    [[nodiscard]] uint32_t rowY(uint32_t row) const {
-        return kSheetGap + label + row * (cell.height + label + kSheetGap);
-    }
     [[nodiscard]] uint32_t width() const { return columnX(columns); }
-    [[nodiscard]] uint32_t height() const { return kSheetGap + rows * (cell.height + label + kSheetGap); }
+    [[nodiscard]] uint32_t rowHeight() const { return label + cell.height + kSheetGap; }
 };
 
-Result<std::vector<uint32_t>> chosenClips(const host::Figure& figure, const std::vector<std::string>& names) {
-    std::vector<uint32_t> clips;
-    for (const std::string& name : names) {
-        const Result<uint32_t> clip = host::findClip(figure, name);
-        if (!clip)
-            return clip.error();
-        clips.push_back(*clip);
+/// The clip of that name or index, else those of a list with commas.
+Status findClips(const host::Figure& figure, const std::string& names, std::vector<uint32_t>& clips) {
+    const size_t comma = names.find(',');
+    const Result<uint32_t> whole = host::findClip(figure, names);
+    if (whole || comma == std::string::npos) {
+        if (whole)
+            clips.push_back(*whole);
+        return whole ? success() : Status(whole.error());
     }
-    if (names.empty()) {
+    if (const Status status = findClips(figure, names.substr(0, comma), clips); !status)
+        return status.error();
+    return findClips(figure, names.substr(comma + 1), clips);
+}
+
+Result<std::vector<uint32_t>> chosenClips(const host::Figure& figure, const std::vector<std::string>& lists) {
+    std::vector<uint32_t> clips;
+    for (const std::string& names : lists) {
+        if (const Status status = findClips(figure, names, clips); !status)
+            return status.error();
+    }
+    if (lists.empty()) {
         for (uint32_t i = 0; i < figure.clips().size(); ++i)
             clips.push_back(i);
     }
@@ -65,8 +74,10 @@ std::vector<ClipTime> columnTimes(const host::Figure& figure, uint32_t clip, uin
     return times;
 }
 
-Status drawRow(Stage& stage, const ContactSheetOptions& options, const Layout& layout, uint32_t row, uint32_t clip,
-               host::Scene scene, host::Picture& sheet) {
+/// The pictures of a clip, with their labels above and a gap below.
+Result<host::Picture> drawRow(Stage& stage, const ContactSheetOptions& options, const Layout& layout, uint32_t clip,
+                              host::Scene scene) {
+    host::Picture row = blankSheet(layout.width(), layout.rowHeight());
     const std::vector<ClipTime> times = columnTimes(stage.figure(), clip, layout.columns);
     // One camera and one floor a row, so that motion is seen as motion.
     const Result<Extent> surface = stage.measure(times, false);
@@ -92,17 +103,17 @@ Status drawRow(Stage& stage, const ContactSheetOptions& options, const Layout& l
             const Result<host::Picture> picture = stage.draw(scene);
             if (!picture)
                 return picture.error();
-            sheet.paste(*picture, layout.columnX(column) + (asCage ? 0 : layout.cell.width), layout.rowY(row));
+            row.paste(*picture, layout.columnX(column) + (asCage ? 0 : layout.cell.width), layout.label);
         }
         if (layout.label > 0) {
             const uint32_t x = layout.columnX(column) + 4;
-            const uint32_t y = layout.rowY(row) - layout.label + 2;
+            constexpr uint32_t kTop = 2;
             if (column == 0)
-                sheet.drawText(x, y, clipName(stage.figure(), clip), 2, kSheetInk);
-            sheet.drawText(x + layout.cell.width, y, timeLabel(times[column].time), 2, kSheetFaintInk);
+                row.drawText(x, kTop, clipName(stage.figure(), clip), 2, kSheetInk);
+            row.drawText(x + layout.cell.width, kTop, timeLabel(times[column].time), 2, kSheetFaintInk);
         }
     }
-    return success();
+    return row;
 }
 
 Status drawSheet(Session& session, const ContactSheetOptions& options, VkExtent2D cell, uint32_t view) {
@@ -113,22 +124,27 @@ Status drawSheet(Session& session, const ContactSheetOptions& options, VkExtent2
     const Result<std::vector<uint32_t>> clips = chosenClips(stage.figure(), options.clips);
     if (!clips)
         return clips.error();
-    const Layout layout{cell, options.columns, static_cast<uint32_t>(clips->size()),
-                        options.labels ? kSheetLabelHeight : 0};
-    host::Picture sheet = blankSheet(layout.width(), layout.height());
+    const Layout layout{cell, options.columns, options.labels ? kSheetLabelHeight : 0};
+    // Row by row, so that memory does not grow with the clips, and a run that is stopped leaves the rows it has drawn.
+    host::PngWriter sheet(options.output, layout.width());
+    if (const Status status = sheet.append(blankSheet(layout.width(), kSheetGap)); !status)
+        return status.error();
     host::Scene scene;
     scene.view = view;
     scene.pixelScale = pixelScale(cell);
-    for (uint32_t row = 0; row < layout.rows; ++row) {
-        const uint32_t clip = (*clips)[row];
-        if (const Status status = drawRow(stage, options, layout, row, clip, scene, sheet); !status)
+    for (size_t i = 0; i < clips->size(); ++i) {
+        const uint32_t clip = (*clips)[i];
+        const Result<host::Picture> row = drawRow(stage, options, layout, clip, scene);
+        if (!row)
+            return row.error();
+        if (const Status status = sheet.append(*row); !status)
             return status.error();
         if (options.progress) {
-            std::printf("%u/%u %s\n", row + 1, layout.rows, clipName(stage.figure(), clip).c_str());
+            std::printf("%zu/%zu %s\n", i + 1, clips->size(), clipName(stage.figure(), clip).c_str());
             std::fflush(stdout);
         }
     }
-    return host::writePng(sheet, options.output);
+    return success();
 }
 
 } // namespace

@@ -43,6 +43,11 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFl
         status =
             context.check(suppleSetClipPose(context.handle(), instance, pose.clip, pose.time), "suppleSetClipPose");
     }
+    if (status && !pose.morphWeights.empty()) {
+        status = context.check(suppleSetMorphWeights(context.handle(), instance, pose.morphWeights.data(),
+                                                     static_cast<uint32_t>(pose.morphWeights.size())),
+                               "suppleSetMorphWeights");
+    }
     if (status) {
         const SuppleGroup groups[] = {group};
         status = context.evaluate(groups);

@@ -34,6 +34,7 @@ template <class Vec>
 struct Pose {
     uint32_t clip = SUPPLE_BIND_POSE;
     double time = 0.0;
+    std::vector<float> morphWeights; ///< of all targets, instead of the clip's; empty: the clip's
 };
 
 /// `groupFlags`: SuppleGroupFlags.

@@ -201,7 +201,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     }
     json["materials"] = Json::array();
     for (const cage::Material& material : character.materials) {
-        json["materials"].push_back(tools::toJson(material));
+        json["materials"].push_back(materialJson(material));
     }
     json["images"] = Json::array();
     for (const cage::Image& image : character.images) {
@@ -328,7 +328,7 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     }
     printLine("materials", std::to_string(character.materials.size()));
     for (const cage::Material& material : character.materials) {
-        printLine("", tools::toText(material));
+        printLine("", materialText(material));
     }
     printLine("images", std::to_string(character.images.size()));
     for (const cage::Image& image : character.images) {

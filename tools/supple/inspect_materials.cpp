@@ -119,7 +119,7 @@ std::string toText(const cage::Texture& texture) {
 
 } // namespace
 
-Json toJson(const cage::Material& material) {
+Json materialJson(const cage::Material& material) {
     Json json;
     json["name"] = material.name;
     json["alphaMode"] = nameOf(kAlphaModes, material.alphaMode);
@@ -144,7 +144,7 @@ Json toJson(const cage::Material& material) {
     return json;
 }
 
-std::string toText(const cage::Material& material) {
+std::string materialText(const cage::Material& material) {
     std::string text = material.name;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "  ") + part; };
     add("base color " + shortNumbers(material.baseColorFactor));

@@ -9,8 +9,8 @@
 namespace supple::tools {
 
 /// Everything, defaults too.
-[[nodiscard]] nlohmann::ordered_json toJson(const cage::Material& material);
+[[nodiscard]] nlohmann::ordered_json materialJson(const cage::Material& material);
 /// One line: what differs from glTF's defaults.
-[[nodiscard]] std::string toText(const cage::Material& material);
+[[nodiscard]] std::string materialText(const cage::Material& material);
 
 } // namespace supple::tools

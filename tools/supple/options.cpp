@@ -35,6 +35,10 @@ SuppleMapping mappingOf(const DeviceFlags& flags) {
 
 void bindReading(CLI::App& command, host::ReadOptions& reading) {
     command.add_flag("--pair-quads", reading.pairQuads, "Merge consecutive triangle pairs of plain triangles to quads");
+    command
+        .add_option("--clips", reading.clipFiles,
+                    "glTF files whose clips the character takes: they move the nodes of their names")
+        ->type_name("CLIPS.glb");
     command.add_option("--scene", reading.scene, "Read this scene of a glTF file, counted from 0");
     command.add_flag("--parts-apart", reading.partsApart, "Do not sew parts together where their boundaries coincide");
     command.add_flag("--strict", reading.strict, "Refuse a damaged cage, and name all damage, instead of repairing it");
@@ -49,8 +53,8 @@ void bindRate(CLI::App& command, uint32_t& rate) {
         ->capture_default_str();
 }
 
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadOptions& reading,
-                const std::vector<std::string>& extraSchemes) {
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning,
+                host::ReadOptions& reading, const std::vector<std::string>& extraSchemes) {
     std::vector<std::string> names{"auto"};
     for (const Scheme& known : kSchemes) {
         names.emplace_back(known.name);
@@ -107,6 +111,26 @@ void bindPose(CLI::App& command, std::string& clip, double& time) {
     command.add_option("--time", time, "Seconds into the clip, clamped to it")
         ->check(CLI::Validator(finiteNumber, "SECONDS"))
         ->capture_default_str();
+}
+
+void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs) {
+    const auto fault = [](const std::string& text) {
+        const Result<host::MorphSetting> setting = host::parseMorph(text);
+        return setting ? "" : setting.error().message;
+    };
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--morph",
+            [&morphs](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) {
+                    morphs.push_back(*host::parseMorph(text));
+                }
+            },
+            "Weight of the morph targets of a name, in all parts; the others keep those of the file, also in clips. "
+            "May be given again")
+        ->check(CLI::Validator(fault, ""))
+        ->allow_extra_args(false)
+        ->type_name("NAME=WEIGHT");
 }
 
 std::string resolvedScheme(const std::string& name) {

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "tools/common/character_file.h"
+#include "tools/common/morph_weights.h"
 #include "tools/common/schemes.h"
 
 #include <cstdint>
@@ -27,7 +28,7 @@ void bindDevice(CLI::App& command, std::string& device, std::string& mapping, bo
 void bindDevice(CLI::App& command, DeviceFlags& flags);
 [[nodiscard]] SuppleMapping mappingOf(const DeviceFlags& flags);
 
-/// --pair-quads, --scene, --parts-apart and --strict.
+/// --clips, --pair-quads, --scene, --parts-apart and --strict.
 void bindReading(CLI::App& command, host::ReadOptions& reading);
 
 /// --scheme, --rate and how the surface is built.
@@ -42,8 +43,8 @@ struct SurfaceFlags {
     host::ReadOptions reading;
 };
 /// `extraSchemes`: what --scheme also takes here, such as "cage".
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning, host::ReadOptions& reading,
-                const std::vector<std::string>& extraSchemes = {});
+void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning,
+                host::ReadOptions& reading, const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
 /// --creases and --sharp.
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold);
@@ -66,6 +67,9 @@ void bindRate(CLI::App& command, uint32_t& rate);
 
 /// --clip, a name or index, empty for the bind pose; --time in seconds.
 void bindPose(CLI::App& command, std::string& clip, double& time);
+
+/// --morph, as often as it is given.
+void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs);
 
 /// Whether the rate counts segments along an edge of the cage, in powers of two.
 [[nodiscard]] constexpr bool subdivides(SuppleScheme scheme) {

@@ -37,6 +37,7 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
     command.add_option("--part", draw.parts, "Draw these parts alone; once per part (supple inspect lists them)")
         ->type_name("NAME|INDEX")
         ->allow_extra_args(false);
+    bindMorphs(command, draw.morphs);
     command.add_flag("--shared-samples", draw.sharedSamples,
                      "One mesh whose patches share the samples on their borders (prep, pm); without lines of patches");
     command.add_option("--view", draw.view, "What is shown")
@@ -81,7 +82,8 @@ void bindSheet(CLI::App& app, int& exitCode) {
         "sheet", "A sheet of pictures: a row a clip, a column a time, the deformed cage beside the surface");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
-    command->add_option("--clip", options->clips, "Clips by name or index; all without it")->type_name("NAME|INDEX");
+    command->add_option("--only,--clip", options->clips, "Clips by name or index, with commas between; all without it")
+        ->type_name("NAME|INDEX,..");
     command->add_option("--columns", options->columns, "Times a clip")
         ->check(CLI::Range(1u, 32u))
         ->capture_default_str();

@@ -348,6 +348,7 @@ void bindProfile(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     command->add_option("--clip", options->clip, "Clip by name or index; without it the first")
         ->type_name("NAME|INDEX");
+    bindMorphs(*command, options->morphs);
     command->add_flag("--motion", options->motion, "Previous positions as well, for motion vectors");
     command->add_flag("--playback", options->playback, "Poses on the device, from the group's time alone");
     CLI::Option* view =

@@ -128,6 +128,9 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     }
     groups_.push_back(group);
     status = context_.createInstances(group, instances, subject.instances);
+    if (status) {
+        status = setMorphs(file, subject);
+    }
     if (status && options_.plays()) {
         status = startPlayback(subject);
     }
@@ -144,6 +147,20 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
 
 double ProfileStage::phase(const Subject& subject, size_t instance) {
     return subject.clipDuration * static_cast<double>(instance) / static_cast<double>(subject.instances.size());
+}
+
+Status ProfileStage::setMorphs(const host::CharacterFile& file, const Subject& subject) {
+    const Result<std::vector<float>> weights = host::morphWeights(file.character, options_.morphs);
+    if (!weights) {
+        return weights.error();
+    }
+    Status status = success();
+    for (size_t i = 0; status && !weights->empty() && i < subject.instances.size(); ++i) {
+        status = check(suppleSetMorphWeights(handle(), subject.instances[i], weights->data(),
+                                             static_cast<uint32_t>(weights->size())),
+                       "suppleSetMorphWeights");
+    }
+    return status;
 }
 
 Status ProfileStage::startPlayback(const Subject& subject) {

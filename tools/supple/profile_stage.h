@@ -15,6 +15,7 @@ namespace supple::tools {
 struct ProfileOptions {
     std::vector<std::string> files;
     std::string clip; ///< name or index; empty: the first, or the bind pose of a file without clips
+    std::vector<host::MorphSetting> morphs;
     SurfaceFlags surface;
     DeviceFlags device;
     uint32_t instances = 1;
@@ -55,6 +56,7 @@ private:
     [[nodiscard]] Status createView(std::span<const host::CharacterFile> files);
     [[nodiscard]] Status createGroup(const host::CharacterFile& file, const std::string& scheme, uint32_t instances,
                                      ProfileRun& run);
+    [[nodiscard]] Status setMorphs(const host::CharacterFile& file, const Subject& subject);
     [[nodiscard]] Status startPlayback(const Subject& subject);
     [[nodiscard]] Status place();
     [[nodiscard]] static double phase(const Subject& subject, size_t instance);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tools/common/character_file.h"
+#include "tools/common/morph_weights.h"
 
 #include <cstdint>
 #include <string>
@@ -24,6 +25,7 @@ struct DrawOptions {
     double yaw = 35.0;   ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
     double pitch = 12.0; ///< degrees; positive looks down
     host::ReadOptions reading;
+    std::vector<host::MorphSetting> morphs;
     std::string device;           ///< name part or index; empty takes the best
     std::string mapping = "auto"; ///< auto | narrow | wide
     bool validate = false;        ///< run under the validation layer; its messages make the command fail

@@ -93,6 +93,11 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
         found = stage->group_->setPartVisible(p, shown[p]);
     if (!found)
         return found.error();
+    const Result<std::vector<float>> weights = host::morphWeights(*stage->figure_, options.morphs);
+    if (!weights)
+        return weights.error();
+    if (const Status status = stage->group_->setMorphWeights(0, *weights); !status)
+        return status.error();
     Result<std::unique_ptr<host::SurfaceRenderer>> renderer =
         host::SurfaceRenderer::create(device, {.quality = host::StudioQuality::still(size.height, device.isCpu())});
     if (!renderer)

@@ -19,6 +19,7 @@ int runView(const ViewOptions&) {
 #include "tools/supple/view_panel.h"
 #include "tools/supple/view_stage.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <utility>
@@ -49,8 +50,14 @@ public:
     [[nodiscard]] Status open(VkExtent2D size);
     [[nodiscard]] Status run();
     [[nodiscard]] std::shared_ptr<const host::ValidationLog> validation() const { return validation_; }
+    /// Whether a file was refused, which has been said.
+    [[nodiscard]] bool hasRefused() const {
+        return panel_ && std::find(panel_->refused.begin(), panel_->refused.end(), true) != panel_->refused.end();
+    }
 
 private:
+    [[nodiscard]] Status openFirst(float shape);
+    void refuse(size_t file, const Error& error);
     [[nodiscard]] Status fitTarget();
     [[nodiscard]] Status fulfil(const PanelWishes& wishes);
     [[nodiscard]] Status drawFrame(const host::WindowFrame& frame, bool readBack);
@@ -110,12 +117,45 @@ Status Viewer::open(VkExtent2D size) {
         return status.error();
     if (const Status status = keep(ViewStage::create(*context_, *renderer_, options_.draw), stage_); !status)
         return status.error();
-    panel_.emplace(PanelState{options_.files, 0, {}, device_->name(), 0.0, options_.frames == 0});
-    const float shape = static_cast<float>(size.width) / static_cast<float>(size.height);
-    if (const Status status = stage_->open(options_.files.front(), options_.clip, shape); !status)
+    panel_.emplace(PanelState{options_.files,
+                              std::vector<bool>(options_.files.size(), false),
+                              0,
+                              {},
+                              device_->name(),
+                              0.0,
+                              options_.frames == 0});
+    if (const Status status = openFirst(static_cast<float>(size.width) / static_cast<float>(size.height)); !status)
         return status.error();
     window_->waitIdle(context_->lastFrame()); // opening evaluates frames of its own
     return success();
+}
+
+/// Shows the first file that can be opened, and says which of the others cannot be read.
+Status Viewer::openFirst(float shape) {
+    for (size_t i = 0; i < options_.files.size(); ++i) {
+        if (stage_->hasFigure()) {
+            const Result<host::CharacterFile> file = host::readCharacterFile(options_.files[i], options_.draw.reading);
+            if (!file)
+                refuse(i, file.error());
+            continue;
+        }
+        const Status status = stage_->open(options_.files[i], options_.clip, shape);
+        if (status) {
+            panel_->file = i;
+            continue;
+        }
+        const bool more = i + 1 < options_.files.size();
+        if (!more || status.error().code == ErrorCode::deviceLost)
+            return status.error();
+        refuse(i, status.error());
+    }
+    return success();
+}
+
+void Viewer::refuse(size_t file, const Error& error) {
+    panel_->refused[file] = true;
+    panel_->message = error.message;
+    fail(error);
 }
 
 double Viewer::secondsSinceLast() {
@@ -177,8 +217,11 @@ Status Viewer::fitTarget() {
 Status Viewer::fulfil(const PanelWishes& wishes) {
     if (wishes.file) {
         window_->waitIdle(context_->lastFrame());
-        if (const Status status = stage_->open(options_.files[*wishes.file], {}, aspect()); !status)
+        if (const Status status = stage_->open(options_.files[*wishes.file], {}, aspect()); !status) {
+            refuse(*wishes.file, status.error());
             return status.error();
+        }
+        panel_->refused[*wishes.file] = false;
         window_->waitIdle(context_->lastFrame());
         panel_->file = *wishes.file;
         panel_->message.clear();
@@ -270,18 +313,20 @@ int runView(const ViewOptions& options) {
     if (options.files.empty())
         return fail(kExitUsage, "view: no file");
     std::shared_ptr<const host::ValidationLog> validation;
+    bool refused = false;
     {
         Viewer viewer(options);
         Status status = viewer.open(*size);
         if (status)
             status = viewer.run();
         validation = viewer.validation();
+        refused = viewer.hasRefused();
         if (!status)
             return fail(status.error());
     }
     if (validation->messageCount() != 0)
         return fail(kExitBadInput, std::to_string(validation->messageCount()) + " validation messages");
-    return kExitOk;
+    return refused ? kExitBadInput : kExitOk;
 }
 
 } // namespace supple::tools

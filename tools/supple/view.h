@@ -18,7 +18,8 @@ struct ViewOptions {
     DrawOptions draw;
 };
 
-/// Runs until the window is closed; returns the exit code and says why on stderr when it is not kExitOk.
+/// Runs until the window is closed; returns the exit code and says why on stderr when it is not kExitOk. A file that is
+/// refused does not keep the others from being shown.
 int runView(const ViewOptions& options);
 
 } // namespace supple::tools

@@ -16,6 +16,8 @@ namespace {
 
 constexpr const char* kViewNames[] = {"shaded", "wire", "patches", "normals", "zebra"};
 constexpr float kRadiansPerPixel = 0.0085f;
+constexpr float kListHeight = 150.0f; ///< of a list that may be long; longer ones scroll
+const ImVec4 kFailureColor(1.0f, 0.5f, 0.4f, 1.0f);
 
 /// Dragging and scrolling that the panel does not want.
 void moveCamera(ViewStage& stage) {
@@ -52,7 +54,9 @@ void handleKeys(ViewStage& stage, float aspect, PanelWishes& wishes) {
 }
 
 void buildFiles(const PanelState& state, PanelWishes& wishes) {
-    const auto shortName = [&](size_t i) { return std::filesystem::path(state.files[i]).filename().string(); };
+    const auto shortName = [&](size_t i) {
+        return std::filesystem::path(state.files[i]).filename().string() + (state.refused[i] ? " (refused)" : "");
+    };
     if (state.files.size() == 1) {
         ImGui::TextUnformatted(shortName(0).c_str());
         return;
@@ -147,34 +151,72 @@ bool eyeButton(bool open) {
     return clicked;
 }
 
+/// The height that a list takes, of which more scrolls.
+float listHeight(float whole) {
+    return std::min(whole + ImGui::GetStyle().WindowPadding.y, kListHeight);
+}
+
 /// The parts of the figure, with an eye each. A click with Ctrl shows that part alone, or all again.
 void buildParts(ViewStage& stage) {
     const std::vector<std::string>& names = stage.figure().partNames();
     std::vector<bool>& shown = stage.settings.shownParts;
-    if (names.size() < 2)
-        return;
     const auto count = static_cast<size_t>(std::count(shown.begin(), shown.end(), true));
-    const std::string title = std::to_string(count) + " of " + std::to_string(names.size()) + " parts###parts";
-    if (eyeButton(count > 0))
-        shown.assign(names.size(), count == 0);
-    ImGui::SameLine();
-    if (!ImGui::TreeNode(title.c_str()))
+    const std::string title = "parts (" + std::to_string(count) + " of " + std::to_string(names.size()) + ")###parts";
+    if (names.size() < 2 || !ImGui::CollapsingHeader(title.c_str()))
         return;
-    for (size_t p = 0; p < names.size(); ++p) {
-        ImGui::PushID(static_cast<int>(p));
-        if (eyeButton(shown[p])) {
-            const bool alone = ImGui::GetIO().KeyCtrl;
-            const bool all = alone && count == 1 && shown[p];
-            if (alone)
-                shown.assign(names.size(), all);
-            shown[p] = alone || !shown[p];
+    const float rows = static_cast<float>(names.size()) * ImGui::GetFrameHeightWithSpacing();
+    if (ImGui::BeginChild("##parts", ImVec2(0.0f, listHeight(rows)))) {
+        for (size_t p = 0; p < names.size(); ++p) {
+            ImGui::PushID(static_cast<int>(p));
+            if (eyeButton(shown[p])) {
+                const bool alone = ImGui::GetIO().KeyCtrl;
+                if (alone)
+                    shown.assign(names.size(), count == 1 && shown[p]);
+                shown[p] = alone || !shown[p];
+            }
+            ImGui::SameLine();
+            const std::string name = names[p].empty() ? "part " + std::to_string(p) : printable(names[p]);
+            ImGui::TextUnformatted(name.c_str());
+            ImGui::PopID();
         }
-        ImGui::SameLine();
-        const std::string name = names[p].empty() ? "part " + std::to_string(p) : printable(names[p]);
-        ImGui::TextUnformatted(name.c_str());
-        ImGui::PopID();
     }
-    ImGui::TreePop();
+    ImGui::EndChild();
+}
+
+void buildMorphs(ViewStage& stage) {
+    const std::vector<host::NamedTargets>& morphs = stage.morphs();
+    if (morphs.empty() || !ImGui::CollapsingHeader("morph targets"))
+        return;
+    const float rows = static_cast<float>(morphs.size()) * ImGui::GetFrameHeightWithSpacing();
+    if (ImGui::BeginChild("##morphs", ImVec2(0.0f, listHeight(rows)))) {
+        for (size_t i = 0; i < morphs.size(); ++i) {
+            float weight = stage.morphWeight(morphs[i]);
+            ImGui::PushID(static_cast<int>(i));
+            if (ImGui::SliderFloat(printable(morphs[i].name).c_str(), &weight, 0.0f, 1.0f))
+                stage.setMorphWeight(morphs[i], weight);
+            ImGui::PopID();
+        }
+    }
+    ImGui::EndChild();
+    if (!stage.settings.morphWeights.empty() && ImGui::Button("as the clip has them"))
+        stage.settings.morphWeights.clear();
+}
+
+void buildWarnings(const ViewStage& stage) {
+    const std::vector<std::string>& warnings = stage.warnings();
+    const std::string title = "warnings (" + std::to_string(warnings.size()) + ")###warnings";
+    if (warnings.empty() || !ImGui::CollapsingHeader(title.c_str(), ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    const float width = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
+    float height = 0.0f;
+    for (const std::string& warning : warnings)
+        height +=
+            ImGui::CalcTextSize(printable(warning).c_str(), nullptr, false, width).y + ImGui::GetStyle().ItemSpacing.y;
+    if (ImGui::BeginChild("##warnings", ImVec2(0.0f, listHeight(height)))) {
+        for (const std::string& warning : warnings)
+            ImGui::TextWrapped("%s", printable(warning).c_str());
+    }
+    ImGui::EndChild();
 }
 
 void buildTimings(const PanelState& state, const ViewStage& stage) {
@@ -210,12 +252,14 @@ PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect) 
         ImGui::Separator();
         buildSurface(stage, wishes);
         buildParts(stage);
+        buildMorphs(stage);
+        buildWarnings(stage);
         if (state.timings) {
             ImGui::Separator();
             buildTimings(state, stage);
         }
         if (!state.message.empty()) {
-            ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
+            ImGui::PushStyleColor(ImGuiCol_Text, kFailureColor);
             ImGui::TextWrapped("%s", printable(state.message).c_str());
             ImGui::PopStyleColor();
         }

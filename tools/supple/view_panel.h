@@ -11,9 +11,10 @@ namespace supple::tools {
 
 struct PanelState {
     const std::vector<std::string>& files;
-    size_t file = 0;     ///< the one that is shown
-    std::string message; ///< the last failure
-    std::string device;  ///< its name
+    std::vector<bool> refused; ///< per file: it could not be opened
+    size_t file = 0;           ///< the one that is shown
+    std::string message;       ///< the last failure
+    std::string device;        ///< its name
     double frameMilliseconds = 0.0;
     bool timings = true; ///< shown; they differ from run to run
 };

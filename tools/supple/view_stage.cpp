@@ -37,6 +37,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->sharpThreshold_ = options.sharpThreshold;
     stage->reading_ = options.reading;
     stage->parts_ = options.parts;
+    stage->morphSettings_ = options.morphs;
     stage->sharedSamples_ = options.sharedSamples;
     stage->settings.rate = static_cast<int>(stage->offeredRate(options.rate));
     stage->startYaw_ = radians(options.yaw);
@@ -45,9 +46,16 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
 }
 
 Status ViewStage::open(const std::string& file, const std::string& clip, float aspect) {
-    Result<std::unique_ptr<host::Figure>> figure = host::openFigure(context_, file, reading_);
+    Result<host::CharacterFile> character = host::readCharacterFile(file, reading_);
+    if (!character)
+        return character.error();
+    std::vector<std::string> warnings = character->character.warnings;
+    Result<std::unique_ptr<host::Figure>> figure = host::createFigure(context_, std::move(*character));
     if (!figure)
         return figure.error();
+    Result<std::vector<float>> weights = host::morphWeights(**figure, morphSettings_);
+    if (!weights)
+        return weights.error();
     const Result<uint32_t> chosen = host::findClip(**figure, clip);
     if (!chosen)
         return chosen.error();
@@ -76,6 +84,9 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     binding_ = std::move(*binding);
     group_ = std::move(*group);
     figure_ = std::move(*figure);
+    warnings_ = std::move(warnings);
+    morphs_ = host::targetsByName(*figure_);
+    settings.morphWeights = std::move(*weights);
     extent_ = std::move(*extent);
     settings.clip = *chosen != SUPPLE_BIND_POSE || clipCount == 0 ? *chosen : 0;
     settings.time = 0.0;
@@ -112,6 +123,20 @@ Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
     binding_ = std::move(*binding);
     settings.rate = static_cast<int>(group_->edgeRate());
     return success();
+}
+
+float ViewStage::morphWeight(const host::NamedTargets& morph) const {
+    const uint32_t first = morph.targets.front();
+    return settings.morphWeights.empty() ? figure_->morphTargets()[first].weight : settings.morphWeights[first];
+}
+
+void ViewStage::setMorphWeight(const host::NamedTargets& morph, float weight) {
+    if (settings.morphWeights.empty()) {
+        for (const host::Figure::MorphTarget& target : figure_->morphTargets())
+            settings.morphWeights.push_back(target.weight);
+    }
+    for (const uint32_t target : morph.targets)
+        settings.morphWeights[target] = weight;
 }
 
 void ViewStage::retire(uint64_t completedFrame) {
@@ -158,6 +183,8 @@ Status ViewStage::record(VkCommandBuffer commands, uint32_t slot, uint64_t frame
         if (const Status status = group_->setPartVisible(p, settings.shownParts[p]); !status)
             return status.error();
     }
+    if (const Status status = group_->setMorphWeights(0, settings.morphWeights); !status)
+        return status.error();
     const SuppleGroup groups[] = {group_->handle()};
     SuppleRecordDesc desc{};
     desc.structSize = sizeof desc;

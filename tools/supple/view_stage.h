@@ -24,6 +24,8 @@ struct ViewSettings {
     bool cageOverlay = false;
     bool ground = true;
     std::vector<bool> shownParts; ///< of the figure
+    /// Of all targets, instead of those of the pose; empty: those of the pose.
+    std::vector<float> morphWeights;
 };
 
 /// A pass of the last completed frames, smoothed.
@@ -42,6 +44,13 @@ public:
     [[nodiscard]] bool hasFigure() const { return group_ != nullptr; }
     [[nodiscard]] const host::Figure& figure() const { return *figure_; }
     [[nodiscard]] const host::FigureGroup& group() const { return *group_; }
+    /// What was repaired or left out when the file was read.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    /// The figure's morph targets by name.
+    [[nodiscard]] const std::vector<host::NamedTargets>& morphs() const { return morphs_; }
+    /// As the panel shows and sets it: in all parts.
+    [[nodiscard]] float morphWeight(const host::NamedTargets& morph) const;
+    void setMorphWeight(const host::NamedTargets& morph, float weight);
     [[nodiscard]] const std::map<std::string, PassTime>& passTimes() const { return passTimes_; }
 
     /// The rate the scheme makes of one that is asked for: with subdivision a power of two.
@@ -84,10 +93,13 @@ private:
     float sharpThreshold_ = 1.0f;
     host::ReadOptions reading_;
     std::vector<std::string> parts_; ///< shown at first; none: all
+    std::vector<host::MorphSetting> morphSettings_;
     bool sharedSamples_ = false;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
     std::unique_ptr<host::Figure> figure_;
+    std::vector<std::string> warnings_;
+    std::vector<host::NamedTargets> morphs_;
     std::unique_ptr<host::FigureGroup> group_;
     host::FigureBinding binding_;
     std::vector<Retired> retired_; ///< before figure_ in time, so gone before it

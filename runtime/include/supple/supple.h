@@ -311,6 +311,22 @@ typedef struct SuppleFiles {
     void* user;
 } SuppleFiles;
 
+/** A glTF file whose clips an asset takes: animations are often in other files than the character, which have the same
+ * skeleton and no mesh. Its meshes, images and scenes are not looked at.
+ *
+ * A clip moves the nodes that have the names of those that it was made for. If several nodes of one skeleton have the
+ * same name, the names of the nodes above tell them apart, else the first one is taken. Morph weights move the targets
+ * of the part that the node of that name carries: by the targets' names if both files have them, else all if there are
+ * as many. What has no counterpart is left out, and one warning per file says what that is. Poses are not retargeted:
+ * the warning says so if the bones of the two skeletons differ in length by more than 1 %. */
+typedef struct SuppleClipFile {
+    const char* name; /**< optional; begins every message about the file. Clips without a name are called as the file */
+    const void* bytes; /**< a .glb or .gltf file */
+    size_t byteCount;
+    const char* baseDirectory; /**< where its external files lie; null allows none */
+    const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
+} SuppleClipFile;
+
 /** Either a file in memory (`bytes`) or arrays (`cage`). Everything is copied before the call returns. */
 typedef struct SuppleAssetDesc {
     uint32_t structSize;
@@ -322,6 +338,11 @@ typedef struct SuppleAssetDesc {
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
     const SuppleCageDesc* cage;
     uint32_t scene; /**< which scene of a glTF file: its number + 1; 0: the one that the file names, else the first */
+    uint32_t clipFileCount;
+    /** clipFileCount glTF files whose clips follow those of the asset's own file, which must be glTF as well. A clip
+     * whose name is taken gets "@" and the name of its file, without folder and ending, and a number if that is taken
+     * too. One file that cannot be read fails the call. */
+    const SuppleClipFile* clipFiles;
 } SuppleAssetDesc;
 
 /** What an asset holds. The meshes of all nodes of the scene are parts of one character. Vertices that the file repeats
@@ -382,7 +403,8 @@ typedef struct SuppleJointInfo {
     float bindTransform[16];
 } SuppleJointInfo;
 
-/** A morph target of the cage. */
+/** A morph target of the cage. It moves vertices of those parts p for which target - p.firstMorphTarget is below
+ * p.morphTargetCount (SupplePartInfo). Targets of several parts may have the same name. */
 typedef struct SuppleMorphTargetInfo {
     uint32_t structSize;
     const char* name;     /**< lives as long as the asset; empty if the file has none */

@@ -42,7 +42,7 @@ TEST(GltfNormals, HostileOnesAreRepairedAndNamed) {
     EXPECT_NEAR(glm::length(normals[2]), 1.0f, 1e-6f);
     ASSERT_EQ(c.warnings.size(), 1u);
     EXPECT_EQ(c.warnings[0], "mesh 0 primitive 0 NORMAL: 3 normals are zero or not finite; the faces' own instead");
-    EXPECT_EQ(messageOf(square({0, 0, 1})), "t.glb: mesh 0 primitive 0 NORMAL: 1 elements, but 4 POSITION elements");
+    EXPECT_EQ(messageOf(square({0, 0, 1})), "t.glb: mesh 0 primitive 0 NORMAL: 1 element for 4 vertices");
 }
 
 TEST(GltfNormals, WithoutThemTrianglesAreFlat) {
@@ -58,6 +58,25 @@ TEST(GltfNormals, WithoutThemPolygonsAreLeftToCreases) {
     EXPECT_EQ(c.cage.faceCount(), 1u);
     EXPECT_TRUE(c.cage.cornerNormals.empty());
     EXPECT_EQ(c.cage.faceTriangles, (std::vector<uint32_t>{0, 2, 3, 0, 1, 2}));
+}
+
+/// An L in a fan from its first corner, which folds: other viewers show it so, but the polygon is known.
+TEST(GltfNormals, ListedPolygonsAreNotCutByFansThatFold) {
+    for (const bool listed : {true, false}) {
+        GltfBuilder b;
+        b.addFloats("VEC3", {2, 0, 0, 2, 1, 0, 1, 1, 0, 1, 2, 0, 0, 2, 0, 0, 0, 0});
+        b.addIntegers("SCALAR", 5123, {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5});
+        b.addIntegers("SCALAR", 5123, {6});
+        b.addIntegers("SCALAR", 5123, {0, 1, 2, 3, 4, 5});
+        b.meshes = std::string(R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":{)") +
+                   (listed ? R"("SUPPLE_mesh_cage":{"faceVertexCounts":2,"faceVertexIndices":3})"
+                           : R"("FB_ngon_encoding":{})") +
+                   "}}]}]";
+        const Character c = readWell(b);
+        ASSERT_EQ(c.cage.faceCount(), 1u);
+        ASSERT_EQ(c.cage.faceTriangles.size(), 12u);
+        EXPECT_EQ(foldsOver(c.cage.positions, c.cage.faceTriangles), !listed);
+    }
 }
 
 /// The file cuts the square along its other diagonal.

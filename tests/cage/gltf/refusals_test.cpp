@@ -306,7 +306,8 @@ TEST(GltfRefusals, Nodes) {
               "t.glb: node 0 mesh: mesh 1 is out of range: the file has 1");
     EXPECT_EQ(withJson(R"({"mesh":0,"skin":0})", R"({"mesh":0,"skin":1})"),
               "t.glb: node 0 skin: skin 1 is out of range: the file has 1");
-    EXPECT_EQ(withJson(R"({"mesh":0,"skin":0})", "{}"), "t.glb: nodes: none has a mesh");
+    EXPECT_EQ(withJson(R"({"mesh":0,"skin":0})", "{}"),
+              "t.glb: nodes: none has a mesh, but 1 clip: it is no character, but a file of clips for one");
     EXPECT_EQ(withJson(R"("scene":0)", R"("scene":1)"), "t.glb: JSON scene: scene 1 is out of range: the file has 1");
     EXPECT_EQ(withJson(R"({"nodes":[0,1]})", R"({"nodes":[0,9]})"),
               "t.glb: scene 0 nodes[1]: node 9 is out of range: the file has 3");

@@ -87,8 +87,8 @@ TEST(ObjReader, PolygonsOfAnySidesInTheFilesOrder) {
 }
 
 TEST(ObjReader, CornersHaveTheirOwnUvsCountedDownwards) {
-    const Character c =
-        readWell(kTwoQuads + "vt 0 0\nvt 1 0.25\nvt 0.5\nvn 0 0 1\nf 1/1/1 4/2/1 5/-1/-1\nf 4//1 6/3 5\n");
+    const Character c = readWell(kTwoQuads + "v 0 2 0\nv 1 2 0\nv 2 2 0\nvt 0 0\nvt 1 0.25\nvt 0.5\nvn 0 0 1\n"
+                                             "f 4/1/1 5/2/1 7/-1/-1\nf 5//1 6/3 9\n");
     ASSERT_EQ(c.cage.cornerUvs.size(), 14u);
     EXPECT_EQ(c.cage.cornerUvs[0], glm::vec2(0, 0)) << "no vt there";
     EXPECT_EQ(c.cage.cornerUvs[8], glm::vec2(0, 1));
@@ -116,8 +116,8 @@ TEST(ObjReader, LineEndsContinuationsAndComments) {
 }
 
 TEST(ObjReader, MaterialsAreNames) {
-    const Character c = readWell("mtllib two.mtl\n" + kTwoQuads + "usemtl  red paint \nf 1 4 2\nusemtl\nf 2 4 5\n" +
-                                 "usemtl red paint\nf 3 2 6\n");
+    const Character c = readWell("mtllib two.mtl\n" + kTwoQuads + "v 0 2 0\nv 1 2 0\nusemtl  red paint \nf 4 5 7\n" +
+                                 "usemtl\nf 5 8 7\nusemtl red paint\nf 5 6 8\n");
     ASSERT_EQ(c.materials.size(), 2u);
     EXPECT_EQ(c.materials[0].name, "red paint");
     EXPECT_EQ(c.materials[0].baseColorFactor, glm::vec4(1.0f));

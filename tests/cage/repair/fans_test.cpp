@@ -15,6 +15,10 @@ TEST(RepairFans, ABowTieGetsOneVertexForEachFan) {
     EXPECT_EQ(r.repairs, Strings{"one vertex for each fan"});
     EXPECT_EQ(polygonsOf(r.cage), (Polygons{{0, 1, 2}, {7, 3, 4}, {0, 2, 5}, {6, 3, 7}}));
     EXPECT_EQ(r.cage.sourceVertices.back(), 0u);
+    ASSERT_EQ(r.cage.sharpVertices.size(), 2u) << "the fans go on touching";
+    EXPECT_EQ(r.cage.sharpVertices[0].vertex, 0u);
+    EXPECT_EQ(r.cage.sharpVertices[1].vertex, 7u);
+    EXPECT_EQ(r.cage.sharpVertices[1].sharpness, kHardSharpness);
 }
 
 TEST(RepairFans, CopiesAreInOrderOfVertexAndFan) {

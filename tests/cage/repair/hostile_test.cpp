@@ -48,7 +48,7 @@ TEST(RepairHostile, AnEdgeOfAHundredThousandFaces) {
     EXPECT_EQ(r.cage.faceCount(), kFaces);
     EXPECT_EQ(r.cage.vertexCount(), 2 * kFaces) << "sheets of two faces, with an edge of their own each";
     EXPECT_EQ(r.cage.creases.size(), kFaces / 2) << "once for each edge, however often the crease is given";
-    EXPECT_EQ(r.cage.sharpVertices.size(), kFaces / 2);
+    EXPECT_EQ(r.cage.sharpVertices.size(), kFaces) << "both ends of each";
     EXPECT_EQ(r.cage.creaseScalars.size(), kFaces / 2);
 }
 
