@@ -135,7 +135,7 @@ struct Stage {
     void place(uint32_t frame) const {
         for (uint32_t i = 0; i < instances.size(); ++i) {
             const float at = static_cast<float>(i), along = 0.1f * static_cast<float>(frame);
-            const glm::vec3 where(2.0f * at - 2.0f + along, i == 2 ? 40.0f : at, 0.0f);
+            const glm::vec3 where(2.0f * at - 2.0f + along, i == 2 ? 400.0f : at, 0.0f);
             crowd->pose(instances[i], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), where));
         }
     }
