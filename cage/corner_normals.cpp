@@ -1,7 +1,6 @@
 #include "cage/corner_normals.h"
 
 #include "cage/smooth_groups.h"
-#include "cage/topology.h"
 
 #include <cmath>
 #include <cstdint>
@@ -11,6 +10,8 @@ namespace {
 
 /// How far from 1 the length of a unit vector of floats may be.
 constexpr double kUnit = 1e-6;
+
+constexpr float kCosineOfDegree = 0.99984770f;
 
 glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& fallback) {
     const double length = glm::length(v);
@@ -59,6 +60,23 @@ std::vector<glm::vec3> cornerNormals(const Cage& cage) {
         }
     }
     return normals;
+}
+
+bool normalsAgree(const glm::vec3& a, const glm::vec3& b) {
+    return glm::dot(a, b) >= kCosineOfDegree;
+}
+
+bool hasSplitNormals(const Cage& cage, const Topology& topology, const Topology::Edge& edge) {
+    if (edge.twin == kNone || cage.cornerNormals.empty()) {
+        return false;
+    }
+    const auto split = [&](uint32_t a, uint32_t b) {
+        const glm::vec3& normal = cage.cornerNormals[a];
+        const glm::vec3& other = cage.cornerNormals[b];
+        return normal != glm::vec3(0.0f) && other != glm::vec3(0.0f) && !normalsAgree(normal, other);
+    };
+    const auto end = [&](uint32_t corner) { return nextCorner(cage, topology.cornerFaces[corner], corner); };
+    return split(edge.corner, end(edge.twin)) || split(end(edge.corner), edge.twin);
 }
 
 } // namespace supple::cage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "cage/topology.h"
 
 #include <vector>
 
@@ -15,5 +16,14 @@ namespace supple::cage {
 /// A file's normal as Cage::cornerNormals keeps it: of unit length, to the bit as it is if it is of that length
 /// already; zero if it is no direction.
 [[nodiscard]] glm::vec3 unitNormal(const glm::dvec3& given);
+
+/// Whether two unit normals are the same to a degree. Exporters write the same normal twice on the two sides of a seam,
+/// but may round it differently.
+[[nodiscard]] bool normalsAgree(const glm::vec3& a, const glm::vec3& b);
+
+/// Whether an edge of the cage is hard by its normals: there is a face on both sides, and at one end of the edge they
+/// have normals that disagree. (Where a hard edge ends inside the surface, they agree at that end.) Corners without a
+/// normal do not say.
+[[nodiscard]] bool hasSplitNormals(const Cage& cage, const Topology& topology, const Topology::Edge& edge);
 
 } // namespace supple::cage

@@ -1,5 +1,6 @@
 #include "cage/smooth_groups.h"
 
+#include "cage/corner_normals.h"
 #include "cage/topology.h"
 
 #include <algorithm>
@@ -9,9 +10,6 @@
 
 namespace supple::cage {
 namespace {
-
-/// cos(1 degree). Exporters write the same normal twice on the two sides of a seam, but may round it differently.
-constexpr float kAgree = 0.99984770f;
 
 using Edge = std::pair<uint32_t, uint32_t>; ///< smaller vertex first
 
@@ -79,7 +77,7 @@ std::vector<uint32_t> smoothGroups(const Cage& cage) {
     const std::vector<Edge> hard = hardEdges(cage);
     const bool authored = !cage.cornerNormals.empty();
     const auto unite = [&](uint32_t a, uint32_t b) {
-        if (!authored || glm::dot(cage.cornerNormals[a], cage.cornerNormals[b]) >= kAgree) {
+        if (!authored || normalsAgree(cage.cornerNormals[a], cage.cornerNormals[b])) {
             sets.unite(a, b);
         }
     };
