@@ -1,11 +1,13 @@
 #include "cage/parts.h"
 
 #include "cage/corner_normals.h"
+#include "cage/piece.h"
 #include "cage/triangulation.h"
 
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <set>
 #include <span>
 #include <utility>
@@ -197,65 +199,6 @@ void appendDisplacements(const PartCage& from, uint32_t firstVertex, Morphs& mor
     }
 }
 
-/// The faces with all that belongs to them and to their corners.
-void takeFaces(const Cage& from, uint32_t first, uint32_t last, Cage& cage) {
-    const uint32_t firstCorner = from.faceStarts[first], lastCorner = from.faceStarts[last];
-    for (uint32_t f = first; f <= last; ++f) {
-        cage.faceStarts.push_back(from.faceStarts[f] - firstCorner);
-    }
-    const auto take = [](const auto& values, auto& taken, uint32_t begin, uint32_t end) {
-        if (!values.empty()) {
-            taken.assign(values.begin() + begin, values.begin() + end);
-        }
-    };
-    take(from.faceVertices, cage.faceVertices, firstCorner, lastCorner);
-    take(from.cornerUvs, cage.cornerUvs, firstCorner, lastCorner);
-    take(from.cornerUvs1, cage.cornerUvs1, firstCorner, lastCorner);
-    take(from.cornerColors, cage.cornerColors, firstCorner, lastCorner);
-    take(from.cornerNormals, cage.cornerNormals, firstCorner, lastCorner);
-    take(from.faceTriangles, cage.faceTriangles, 3 * (firstCorner - 2 * first), 3 * (lastCorner - 2 * last));
-    for (uint32_t& corner : cage.faceTriangles) {
-        corner -= firstCorner;
-    }
-    take(from.faceMaterials, cage.faceMaterials, first, last);
-    take(from.faceTrimTiles, cage.faceTrimTiles, first, last);
-    for (const uint32_t hole : from.holes) {
-        if (hole >= first && hole < last) {
-            cage.holes.push_back(hole - first);
-        }
-    }
-}
-
-/// The creases on edges of the cage's faces, and its sharp vertices. `places`: of the vertices that were taken, or
-/// kNone.
-void takeFeatures(const Cage& from, std::span<const uint32_t> places, Cage& cage) {
-    std::set<std::pair<uint32_t, uint32_t>> edges;
-    for (uint32_t f = 0; f < cage.faceCount() && !(from.creases.empty() && from.creaseScalars.empty()); ++f) {
-        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
-            const uint32_t next = c + 1 < cage.faceStarts[f + 1] ? c + 1 : cage.faceStarts[f];
-            edges.insert(std::minmax(cage.faceVertices[c], cage.faceVertices[next]));
-        }
-    }
-    const auto isEdge = [&](uint32_t a, uint32_t b) {
-        return places[a] != kNone && places[b] != kNone && edges.count(std::minmax(places[a], places[b])) != 0;
-    };
-    for (const Crease& crease : from.creases) {
-        if (isEdge(crease.a, crease.b)) {
-            cage.creases.push_back({places[crease.a], places[crease.b], crease.sharpness});
-        }
-    }
-    for (const SharpVertex& sharp : from.sharpVertices) {
-        if (places[sharp.vertex] != kNone) {
-            cage.sharpVertices.push_back({places[sharp.vertex], sharp.sharpness});
-        }
-    }
-    for (const CreaseScalar& scalar : from.creaseScalars) {
-        if (isEdge(scalar.vertex, scalar.toward)) {
-            cage.creaseScalars.push_back({places[scalar.vertex], places[scalar.toward], scalar.alpha});
-        }
-    }
-}
-
 void takeTargets(const Character& character, size_t index, std::span<const uint32_t> places, Morphs& morphs) {
     const Part& part = character.parts[index];
     for (uint32_t t = part.firstTarget; t < part.firstTarget + part.targetCount; ++t) {
@@ -321,10 +264,37 @@ void reverseFaces(Cage& cage) {
     }
 }
 
+std::vector<uint32_t> sewnTo(const Cage& cage, size_t parts) {
+    std::vector<uint32_t> first(parts);
+    std::iota(first.begin(), first.end(), 0u);
+    const auto rootOf = [&](uint32_t part) {
+        while (first[part] != part) {
+            part = first[part];
+        }
+        return part;
+    };
+    std::vector<uint32_t> partOf(cage.vertexCount(), kNone); // the first that has the vertex
+    for (uint32_t f = 0; f < cage.faceParts.size(); ++f) {
+        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
+            uint32_t& other = partOf[cage.faceVertices[c]];
+            if (other == kNone) {
+                other = cage.faceParts[f];
+            }
+            const uint32_t a = rootOf(other), b = rootOf(cage.faceParts[f]);
+            first[std::max(a, b)] = std::min(a, b);
+        }
+    }
+    for (uint32_t part = 0; part < parts; ++part) {
+        first[part] = rootOf(part);
+    }
+    return first;
+}
+
 Character takePart(const Character& character, size_t index) {
-    const Cage& from = character.cage;
-    const uint32_t firstFace = character.parts[index].firstFace, lastFace = endFace(character, index);
-    const uint32_t firstCorner = from.faceStarts[firstFace], lastCorner = from.faceStarts[lastFace];
+    std::vector<uint32_t> faces(endFace(character, index) - character.parts[index].firstFace);
+    std::iota(faces.begin(), faces.end(), character.parts[index].firstFace);
+    CagePiece piece = takeFaces(character.cage, faces);
+    piece.cage.faceParts.clear();
     Character taken;
     taken.name = character.name;
     taken.parts = {character.parts[index]};
@@ -332,26 +302,19 @@ Character takePart(const Character& character, size_t index) {
     taken.skeleton = character.skeleton;
     taken.skin = character.skin;
     taken.materials = character.materials;
-    takeFaces(from, firstFace, lastFace, taken.cage);
-
-    std::vector<uint32_t> vertices(from.faceVertices.begin() + firstCorner, from.faceVertices.begin() + lastCorner);
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    std::vector<uint32_t> places(from.vertexCount(), kNone);
+    taken.cage = std::move(piece.cage);
     taken.weights.starts.push_back(0);
-    for (const uint32_t v : vertices) {
-        places[v] = taken.cage.vertexCount();
-        taken.cage.positions.push_back(from.positions[v]);
+    for (const uint32_t v : piece.vertices) {
         const auto& influences = character.weights.influences;
         taken.weights.influences.insert(taken.weights.influences.end(),
                                         influences.begin() + character.weights.starts[v],
                                         influences.begin() + character.weights.starts[v + 1]);
         taken.weights.starts.push_back(static_cast<uint32_t>(taken.weights.influences.size()));
     }
-    for (uint32_t& v : taken.cage.faceVertices) {
-        v = places[v];
+    std::vector<uint32_t> places(character.cage.vertexCount(), kNone);
+    for (uint32_t v = 0; v < piece.vertices.size(); ++v) {
+        places[piece.vertices[v]] = v;
     }
-    takeFeatures(from, places, taken.cage);
     takeTargets(character, index, places, taken.morphs);
     return taken;
 }

@@ -41,6 +41,10 @@ private:
 /// Turns the faces inside out, with all that belongs to their corners.
 void reverseFaces(Cage& cage);
 
+/// For each of `parts` parts, the first part that it is sewn to, directly or by others: they share vertices of the
+/// cage. A part that is sewn to none has itself. O(corners).
+[[nodiscard]] std::vector<uint32_t> sewnTo(const Cage& cage, size_t parts);
+
 /// One part as a character of its own: its faces, vertices and morph targets; everything else as it was. Vertices keep
 /// their order.
 [[nodiscard]] Character takePart(const Character& character, size_t part);

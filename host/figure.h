@@ -103,7 +103,23 @@ struct GroupOptions {
     SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR;
     SuppleCreaseMode creaseMode = SUPPLE_CREASES_CUT;
     float sharpThreshold = 1.0f;
-    bool sharedSamples = false; ///< SUPPLE_GROUP_INDEXED_MESH
+    bool sharedSamples = false;            ///< SUPPLE_GROUP_INDEXED_MESH
+    std::vector<SuppleScheme> partSchemes; ///< of the first parts, instead of `scheme`
+};
+
+/// A surface of a group with what drawing it needs besides Supple's buffers.
+struct FigureSurface {
+    GroupOutput output{};
+    /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
+    /// more than one patch to (SuppleGridOutput::rate counts along a patch).
+    uint32_t edgeRate = 0;
+    Buffer patchClasses; ///< per patch: which of the colors of the view of patch classes it has
+    /// A coarser grid over the same samples: shadows need no more.
+    Buffer shadowIndices;
+    uint32_t shadowIndexCount = 0;
+
+    /// SUPPLE_SCHEME_POLYGONS.
+    [[nodiscard]] bool isMesh() const { return output.surface.scheme == SUPPLE_SCHEME_POLYGONS; }
 };
 
 /// A Supple group with what drawing it needs besides Supple's buffers. May be destroyed only when no pending frame uses
@@ -119,17 +135,12 @@ public:
     [[nodiscard]] SuppleGroup handle() const { return group_; }
     /// All of them are there; an instance's number is its slot.
     [[nodiscard]] SuppleInstance instance(uint32_t index) const { return instances_[index]; }
-    [[nodiscard]] const GroupOutput& output() const { return output_; }
-    /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
-    /// more than one patch to (SuppleGridOutput::rate counts along a patch).
-    [[nodiscard]] uint32_t edgeRate() const { return edgeRate_; }
-    /// SUPPLE_SCHEME_POLYGONS.
-    [[nodiscard]] bool isMesh() const { return mesh_; }
-    /// Per patch: which of the colors of the view of patch classes it has.
-    [[nodiscard]] const Buffer& patchClasses() const { return patchClasses_; }
-    /// A coarser grid over the same samples: shadows need no more.
-    [[nodiscard]] const Buffer& shadowIndices() const { return shadowIndices_; }
-    [[nodiscard]] uint32_t shadowIndexCount() const { return shadowIndexCount_; }
+    /// One or more.
+    [[nodiscard]] const std::vector<FigureSurface>& surfaces() const { return surfaces_; }
+    /// Of the surface that has the most segments along an edge of the cage.
+    [[nodiscard]] uint32_t edgeRate() const;
+    /// The part belongs to a surface of SUPPLE_SCHEME_POLYGONS.
+    [[nodiscard]] bool isMeshPart(uint32_t part) const;
 
     /// Destroys Supple's group at once; its memory goes when the frames that used it are completed. The tables stay.
     void release();
@@ -143,26 +154,22 @@ public:
     /// Of all instances, from the next frame that is recorded.
     [[nodiscard]] Status setPartVisible(uint32_t part, bool visible);
     [[nodiscard]] bool isPartVisible(uint32_t part) const { return visibleParts_[part]; }
-    /// Positions of the surface vertices, or of the deformed cage, as last evaluated, instance after instance; waits
-    /// for the device.
+    /// Positions of the vertices of all surfaces, or of the deformed cage, as last evaluated, surface after surface and
+    /// instance after instance; waits for the device.
     [[nodiscard]] Result<std::vector<glm::vec3>> readSurface() const;
     [[nodiscard]] Result<std::vector<glm::vec3>> readCage() const;
 
 private:
     explicit FigureGroup(Figure& figure) : figure_(figure) {}
-    [[nodiscard]] Status uploadTables();
+    [[nodiscard]] Status readSurfaces();
+    [[nodiscard]] Status uploadTables(FigureSurface& surface, uint32_t index) const;
 
     Figure& figure_;
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
     std::vector<bool> visible_; ///< per instance
     std::vector<bool> visibleParts_;
-    GroupOutput output_{};
-    uint32_t edgeRate_ = 0;
-    bool mesh_ = false;
-    Buffer patchClasses_;
-    Buffer shadowIndices_;
-    uint32_t shadowIndexCount_ = 0;
+    std::vector<FigureSurface> surfaces_;
 };
 
 } // namespace supple::host

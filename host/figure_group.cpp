@@ -31,20 +31,6 @@ std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
     return indices;
 }
 
-/// How often an edge of the cage is halved before patches begin.
-uint32_t halvings(SuppleScheme scheme, const CageMesh& cage) {
-    if (scheme != SUPPLE_SCHEME_CATMULL_CLARK && scheme != SUPPLE_SCHEME_BLEND) {
-        return scheme == SUPPLE_SCHEME_LOOP ? 1 : 0;
-    }
-    uint32_t steps = scheme == SUPPLE_SCHEME_BLEND ? 0 : 1;
-    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
-        if (cage.sides(face) != 4) {
-            return steps + 1;
-        }
-    }
-    return steps;
-}
-
 /// The first `used` positions of each instance. What fills its stride up to the next instance is never written.
 std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t stride, uint32_t capacity,
                                    size_t perInstance, size_t used) {
@@ -75,6 +61,8 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     desc.rate = options.rate;
     desc.vertexFormat = options.vertexFormat;
     desc.skinning = options.skinning;
+    desc.partSchemes = options.partSchemes.data();
+    desc.partSchemeCount = static_cast<uint32_t>(options.partSchemes.size());
     SuppleBlendOptions blend{};
     blend.structSize = sizeof blend;
     blend.creaseMode = options.creaseMode;
@@ -88,23 +76,47 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
         return status.error();
     group->visible_.assign(options.instances, true);
     group->visibleParts_.assign(figure.partNames().size(), true);
-    if (const Status status =
-            context.check(getGroupOutput(context.handle(), group->group_, group->output_), "suppleGetGroupInfo");
-        !status)
-        return status.error();
-    group->mesh_ = options.scheme == SUPPLE_SCHEME_POLYGONS;
-    group->edgeRate_ = group->output_.grid.rate << halvings(options.scheme, figure.cage());
-    // The renderer binds each output whole; a crowd larger than that would be drawn in windows of instances.
-    const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;
-    for (const SuppleBufferRange& view : {group->output_.streams.vertices, group->output_.info.deformedCage}) {
-        if (view.size > limit)
-            return Error{ErrorCode::limit, figure.path() + ": " + std::to_string(view.size) +
-                                               " bytes to draw at once; a storage buffer of this device holds " +
-                                               std::to_string(limit) + ": lower the rate or the instances"};
-    }
-    if (const Status status = group->uploadTables(); !status)
+    if (const Status status = group->readSurfaces(); !status)
         return status.error();
     return group;
+}
+
+Status FigureGroup::readSurfaces() {
+    Context& context = figure_.context();
+    // The renderer binds each output whole; a crowd larger than that would be drawn in windows of instances.
+    const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;
+    uint32_t count = 1;
+    for (uint32_t index = 0; index < count; ++index) {
+        FigureSurface& surface = surfaces_.emplace_back();
+        const SuppleResult result = getGroupOutput(context.handle(), group_, surface.output, index);
+        if (const Status status = context.check(result, "suppleGetGroupInfo"); !status)
+            return status.error();
+        count = surface.output.info.surfaceCount;
+        surface.edgeRate = surface.output.grid.rate * surface.output.surface.patchesPerEdge;
+        for (const SuppleBufferRange& view : {surface.output.streams.vertices, surface.output.info.deformedCage}) {
+            if (view.size > limit)
+                return Error{ErrorCode::limit, figure_.path() + ": " + std::to_string(view.size) +
+                                                   " bytes to draw at once; a storage buffer of this device holds " +
+                                                   std::to_string(limit) + ": lower the rate or the instances"};
+        }
+        if (const Status status = uploadTables(surface, index); !status)
+            return status.error();
+    }
+    return success();
+}
+
+uint32_t FigureGroup::edgeRate() const {
+    uint32_t most = 0;
+    for (const FigureSurface& surface : surfaces_)
+        most = std::max(most, surface.edgeRate);
+    return most;
+}
+
+bool FigureGroup::isMeshPart(uint32_t part) const {
+    return std::any_of(surfaces_.begin(), surfaces_.end(), [&](const FigureSurface& surface) {
+        const std::span<const uint32_t> parts(surface.output.surface.parts, surface.output.surface.partCount);
+        return surface.isMesh() && std::find(parts.begin(), parts.end(), part) != parts.end();
+    });
 }
 
 FigureGroup::~FigureGroup() {
@@ -117,14 +129,14 @@ void FigureGroup::release() {
     group_ = {};
 }
 
-Status FigureGroup::uploadTables() {
+Status FigureGroup::uploadTables(FigureSurface& surface, uint32_t index) const {
     Context& context = figure_.context();
     Device& device = context.device();
-    std::vector<SupplePatchInfo> patches(output_.info.patchCount);
-    uint32_t count = output_.info.patchCount;
-    if (const Status status =
-            context.check(suppleGetPatches(context.handle(), group_, patches.data(), &count), "suppleGetPatches");
-        !status)
+    const GroupOutput& output = surface.output;
+    std::vector<SupplePatchInfo> patches(output.surface.patchCount);
+    uint32_t count = output.surface.patchCount;
+    const SuppleResult read = suppleGetPatches(context.handle(), group_, index, patches.data(), &count);
+    if (const Status status = context.check(read, "suppleGetPatches"); !status)
         return status.error();
     std::vector<uint32_t> classes(std::max<size_t>(count, 1));
     for (uint32_t i = 0; i < count; ++i)
@@ -133,22 +145,22 @@ Status FigureGroup::uploadTables() {
         device.uploadBuffer(classes.data(), classes.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     if (!classBuffer)
         return classBuffer.error();
-    patchClasses_ = std::move(*classBuffer);
+    surface.patchClasses = std::move(*classBuffer);
 
     const uint64_t budget = device.isCpu() ? kShadowTrianglesCpu : kShadowTrianglesGpu;
-    const uint64_t shown = uint64_t{output_.info.patchCount} * output_.info.capacity;
-    const uint32_t rate = std::max(output_.grid.rate, 1u); // a cage alone has none
+    const uint64_t shown = uint64_t{output.surface.patchCount} * output.info.capacity;
+    const uint32_t rate = std::max(output.grid.rate, 1u); // a cage alone has none
     uint32_t segments = rate;
-    const uint32_t fewest = rate < edgeRate_ ? 1 : 2; // two to an edge of the cage
+    const uint32_t fewest = rate < surface.edgeRate ? 1 : 2; // two to an edge of the cage
     while (segments > fewest && shown * 2 * segments * segments > budget)
         segments = (segments + 1) / 2;
     const std::vector<uint16_t> indices = coarseGrid(rate, segments);
-    shadowIndexCount_ = static_cast<uint32_t>(indices.size());
+    surface.shadowIndexCount = static_cast<uint32_t>(indices.size());
     Result<Buffer> indexBuffer =
         device.uploadBuffer(indices.data(), indices.size() * sizeof(uint16_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     if (!indexBuffer)
         return indexBuffer.error();
-    shadowIndices_ = std::move(*indexBuffer);
+    surface.shadowIndices = std::move(*indexBuffer);
     return success();
 }
 
@@ -189,19 +201,27 @@ uint32_t FigureGroup::visibleCount() const {
 }
 
 Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {
-    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.streams.vertices);
-    if (!bytes)
-        return bytes.error();
-    return positionsOf(*bytes, output_.streams.vertices.stride, output_.info.capacity, output_.grid.verticesPerInstance,
-                       output_.grid.vertexCount);
+    std::vector<glm::vec3> all;
+    for (const FigureSurface& surface : surfaces_) {
+        const SuppleBufferRange& vertices = surface.output.streams.vertices;
+        Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(vertices);
+        if (!bytes)
+            return bytes.error();
+        const std::vector<glm::vec3> own =
+            positionsOf(*bytes, vertices.stride, surface.output.info.capacity, surface.output.grid.verticesPerInstance,
+                        surface.output.grid.vertexCount);
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    return all;
 }
 
 Result<std::vector<glm::vec3>> FigureGroup::readCage() const {
-    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(output_.info.deformedCage);
+    const SuppleGroupInfo& info = surfaces_.front().output.info;
+    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(info.deformedCage);
     if (!bytes)
         return bytes.error();
-    return positionsOf(*bytes, output_.info.deformedCage.stride, output_.info.capacity,
-                       output_.info.cageVerticesPerInstance, output_.info.cageVertexCount);
+    return positionsOf(*bytes, info.deformedCage.stride, info.capacity, info.cageVerticesPerInstance,
+                       info.cageVertexCount);
 }
 
 } // namespace supple::host

@@ -49,8 +49,8 @@ Shadow shadowOf(const SuppleMaterialInfo& material) {
 }
 
 /// The scheme polygons has no grids to draw the lines of; the edges of the cage are its lines.
-bool isWireOfMesh(const Scene& scene) {
-    return scene.view == shared::kViewWire && scene.group->isMesh();
+bool isWireOfMesh(const Scene& scene, uint32_t part) {
+    return scene.view == shared::kViewWire && scene.group->isMeshPart(part);
 }
 
 /// Nothing is culled: open cages show their insides, and the shader tells the sides apart.
@@ -124,7 +124,7 @@ VkWriteDescriptorSet descriptorWrite(VkDescriptorSet set, uint32_t slot, VkDescr
 FigureBinding& FigureBinding::operator=(FigureBinding&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pool_, other.pool_);
-    std::swap(figure_, other.figure_);
+    std::swap(surfaces_, other.surfaces_);
     std::swap(materials_, other.materials_);
     std::swap(uniforms_, other.uniforms_);
     std::swap(samplers_, other.samplers_);
@@ -234,29 +234,31 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
 Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
     FigureBinding binding;
     binding.device_ = device_.handle();
-    if (const Status status = allocateSets(binding, static_cast<uint32_t>(group.figure().materials().infos().size()));
-        !status)
+    if (const Status status = allocateSets(binding, group); !status)
         return status.error();
-    writeFigureSet(binding, group);
+    for (size_t i = 0; i < group.surfaces().size(); ++i)
+        writeFigureSet(binding.surfaces_[i], group, group.surfaces()[i]);
     if (const Status status = writeMaterialSets(binding, group.figure()); !status)
         return status.error();
     return binding;
 }
 
-Status SurfaceRenderer::allocateSets(FigureBinding& binding, uint32_t materialCount) const {
+Status SurfaceRenderer::allocateSets(FigureBinding& binding, const FigureGroup& group) const {
+    const auto materialCount = static_cast<uint32_t>(group.figure().materials().infos().size());
+    const auto surfaceCount = static_cast<uint32_t>(group.surfaces().size());
     const VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers * surfaceCount},
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, materialCount},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FigureMaterials::kSlotCount * materialCount}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
-    poolInfo.maxSets = 1 + materialCount;
+    poolInfo.maxSets = surfaceCount + materialCount;
     poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
     poolInfo.pPoolSizes = sizes;
     if (const VkResult result = vkCreateDescriptorPool(device_.handle(), &poolInfo, nullptr, &binding.pool_);
         result != VK_SUCCESS)
         return vulkanError(result, "vkCreateDescriptorPool");
-    std::vector<VkDescriptorSetLayout> layouts(1 + materialCount, pipelines_->materialSet);
-    layouts[0] = pipelines_->figureSet;
+    std::vector<VkDescriptorSetLayout> layouts(surfaceCount, pipelines_->figureSet);
+    layouts.resize(surfaceCount + materialCount, pipelines_->materialSet);
     std::vector<VkDescriptorSet> sets(layouts.size());
     auto setInfo = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     setInfo.descriptorPool = binding.pool_;
@@ -264,14 +266,15 @@ Status SurfaceRenderer::allocateSets(FigureBinding& binding, uint32_t materialCo
     setInfo.pSetLayouts = layouts.data();
     if (const VkResult result = vkAllocateDescriptorSets(device_.handle(), &setInfo, sets.data()); result != VK_SUCCESS)
         return vulkanError(result, "vkAllocateDescriptorSets");
-    binding.figure_ = sets[0];
-    binding.materials_.assign(sets.begin() + 1, sets.end());
+    binding.surfaces_.assign(sets.begin(), sets.begin() + surfaceCount);
+    binding.materials_.assign(sets.begin() + surfaceCount, sets.end());
     return success();
 }
 
-void SurfaceRenderer::writeFigureSet(const FigureBinding& binding, const FigureGroup& group) const {
+void SurfaceRenderer::writeFigureSet(VkDescriptorSet set, const FigureGroup& group,
+                                     const FigureSurface& surface) const {
     const Figure& figure = group.figure();
-    const GroupOutput& output = group.output();
+    const GroupOutput& output = surface.output;
     const auto viewInfo = [](const SuppleBufferRange& view) {
         return VkDescriptorBufferInfo{view.buffer, view.offset, view.size};
     };
@@ -288,13 +291,13 @@ void SurfaceRenderer::writeFigureSet(const FigureBinding& binding, const FigureG
         {shared::kSurfaceUv1Binding, orCage(output.streams.uvs1)},
         {shared::kSurfaceFaceUvBinding, orCage(output.streams.faceUvs)},
         {shared::kInstancesBinding, viewInfo(output.info.instances)},
-        {shared::kPatchClassBinding, wholeInfo(group.patchClasses())},
+        {shared::kPatchClassBinding, wholeInfo(surface.patchClasses)},
         {shared::kDeformedCageBinding, viewInfo(output.info.deformedCage)},
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
     };
     for (const auto& [slot, info] : buffers) {
-        VkWriteDescriptorSet write = descriptorWrite(binding.figure_, slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+        VkWriteDescriptorSet write = descriptorWrite(set, slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
         write.pBufferInfo = &info;
         vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
     }
@@ -363,8 +366,8 @@ Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, ui
 
 void SurfaceRenderer::record(VkCommandBuffer commands, uint32_t slot, const DrawTarget& target, const Scene& scene) {
     writeUniforms(slots_[slot], target.extent(), scene);
-    const VkDescriptorSet sets[] = {slots_[slot].set, scene.binding->figure_};
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 0, 2, sets, 0, nullptr);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 0, 1, &slots_[slot].set, 0,
+                            nullptr);
     recordShadows(commands, scene);
     recordPicture(commands, target, scene);
 }
@@ -427,10 +430,13 @@ void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene
         info.pDepthAttachment = &depth;
         vkCmdBeginRendering(commands, &info);
         beginDrawing(commands, extent, false);
+        bindSurface(commands, scene, 0);
         if (scene.cageFaces)
             drawCageFaces(commands, scene, light);
-        else
-            drawSurfaceShadow(commands, scene, light);
+        for (size_t i = 0; !scene.cageFaces && i < scene.group->surfaces().size(); ++i) {
+            bindSurface(commands, scene, i);
+            drawSurfaceShadow(commands, scene, scene.group->surfaces()[i], light);
+        }
         vkCmdEndRendering(commands);
     }
     imageBarrier(commands, shadowMaps_, drawn, {VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, read});
@@ -472,25 +478,27 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
     beginDrawing(commands, target.extent(), true);
+    bindSurface(commands, scene, 0);
     if (scene.cageFaces)
         drawCageFaces(commands, scene, std::nullopt);
-    else
-        drawSurface(commands, scene);
+    for (size_t i = 0; !scene.cageFaces && i < scene.group->surfaces().size(); ++i) {
+        bindSurface(commands, scene, i);
+        drawSurface(commands, scene, scene.group->surfaces()[i]);
+    }
     if (scene.ground.has_value() && scene.camera.eye().y > *scene.ground) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->ground);
         vkCmdDraw(commands, 4, 1, 0, 0);
     }
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->backdrop);
     vkCmdDraw(commands, 3, 1, 0, 0);
-    if (scene.cageEdges || isWireOfMesh(scene))
-        drawCageEdges(commands, scene);
+    drawCageEdges(commands, scene);
     vkCmdEndRendering(commands);
     imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
 }
 
-/// Push constants that fit any draw of the group; ranges and materials are filled in draw by draw.
-shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, uint32_t light) const {
-    const GroupOutput& output = scene.group->output();
+/// Push constants that fit any draw of the surface; ranges and materials are filled in draw by draw.
+shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, const FigureSurface& surface, uint32_t light) const {
+    const GroupOutput& output = surface.output;
     shared::DrawPush push{};
     push.rate = output.grid.rate;
     push.verticesPerInstance = output.grid.verticesPerInstance;
@@ -506,6 +514,11 @@ shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, uint32_t light) c
     return push;
 }
 
+void SurfaceRenderer::bindSurface(VkCommandBuffer commands, const Scene& scene, size_t surface) const {
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 1, 1,
+                            &scene.binding->surfaces_[surface], 0, nullptr);
+}
+
 void SurfaceRenderer::bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const {
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 2, 1,
                             &scene.binding->materials_[scene.group->figure().materials().indexOf(material)], 0,
@@ -517,10 +530,11 @@ void SurfaceRenderer::pushConstants(VkCommandBuffer commands, const shared::Draw
                        sizeof push, &push);
 }
 
-void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
-    const GroupOutput& output = scene.group->output();
+void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
+                                        uint32_t light) const {
+    const GroupOutput& output = surface.output;
     const FigureMaterials& materials = scene.group->figure().materials();
-    shared::DrawPush push = basePush(scene, light);
+    shared::DrawPush push = basePush(scene, surface, light);
     VkPipeline bound = VK_NULL_HANDLE;
     for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.grid.drawRanges[i];
@@ -537,8 +551,8 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
         pushConstants(commands, push);
         const uint32_t patches = range.patchCount * scene.group->visibleCount();
         if (range.domain == SUPPLE_DOMAIN_QUAD || range.domain == SUPPLE_DOMAIN_POLAR) {
-            vkCmdBindIndexBuffer(commands, scene.group->shadowIndices().handle(), 0, VK_INDEX_TYPE_UINT16);
-            vkCmdDrawIndexed(commands, scene.group->shadowIndexCount(), patches, 0, 0, 0);
+            vkCmdBindIndexBuffer(commands, surface.shadowIndices.handle(), 0, VK_INDEX_TYPE_UINT16);
+            vkCmdDrawIndexed(commands, surface.shadowIndexCount, patches, 0, 0, 0);
         } else {
             bindGridIndices(commands, output);
             vkCmdDrawIndexed(commands, range.indexCount, patches, range.firstIndex, 0, 0);
@@ -546,10 +560,10 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
     }
 }
 
-void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) const {
-    const GroupOutput& output = scene.group->output();
-    shared::DrawPush push = basePush(scene, 0);
-    const bool vertexLit = device_.isCpu() && scene.group->edgeRate() >= kVertexLitRate;
+void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface) const {
+    const GroupOutput& output = surface.output;
+    shared::DrawPush push = basePush(scene, surface, 0);
+    const bool vertexLit = device_.isCpu() && surface.edgeRate >= kVertexLitRate;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                       vertexLit ? pipelines_->surfaceVertexLit : pipelines_->surface);
     bindGridIndices(commands, output);
@@ -566,7 +580,7 @@ void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene) 
 
 void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const {
     const FigureMaterials& materials = scene.group->figure().materials();
-    shared::DrawPush push = basePush(scene, light.value_or(0));
+    shared::DrawPush push = basePush(scene, scene.group->surfaces().front(), light.value_or(0));
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, light ? pipelines_->cageShadow : pipelines_->cageFace);
     for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
         // The cage casts its shadow without holes, or none.
@@ -582,12 +596,13 @@ void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene
 }
 
 void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene) const {
-    shared::DrawPush push = basePush(scene, 0);
-    push.lineColor = scene.cageFaces || isWireOfMesh(scene) ? kCageEdgeColor : kOverlayEdgeColor;
+    shared::DrawPush push = basePush(scene, scene.group->surfaces().front(), 0);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
     for (const Figure::EdgeRange& range : scene.group->figure().cageEdgeRanges()) {
-        if (!scene.group->isPartVisible(range.part))
+        const bool wire = isWireOfMesh(scene, range.part);
+        if (!scene.group->isPartVisible(range.part) || !(scene.cageEdges || wire))
             continue;
+        push.lineColor = scene.cageFaces || wire ? kCageEdgeColor : kOverlayEdgeColor;
         push.primitive = range.firstEdge;
         pushConstants(commands, push);
         vkCmdDraw(commands, 6 * range.edgeCount, scene.group->visibleCount(), 0, 0);

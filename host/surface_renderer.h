@@ -37,7 +37,7 @@ private:
     friend class SurfaceRenderer;
     VkDevice device_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    VkDescriptorSet figure_ = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> surfaces_;  ///< as FigureGroup::surfaces()
     std::vector<VkDescriptorSet> materials_; ///< as FigureMaterials::infos()
     Buffer uniforms_;                        ///< of all materials
     std::vector<VkSampler> samplers_;
@@ -84,8 +84,8 @@ private:
     explicit SurfaceRenderer(Device& device) : device_(device) {}
     [[nodiscard]] Status createShadowMaps();
     [[nodiscard]] Status createSlots(uint32_t count);
-    [[nodiscard]] Status allocateSets(FigureBinding& binding, uint32_t materialCount) const;
-    void writeFigureSet(const FigureBinding& binding, const FigureGroup& group) const;
+    [[nodiscard]] Status allocateSets(FigureBinding& binding, const FigureGroup& group) const;
+    void writeFigureSet(VkDescriptorSet set, const FigureGroup& group, const FigureSurface& surface) const;
     [[nodiscard]] Status writeMaterialSets(FigureBinding& binding, const Figure& figure) const;
     [[nodiscard]] Status writeMaterialUniforms(FigureBinding& binding, const Figure& figure) const;
     [[nodiscard]] Status writeTexture(FigureBinding& binding, size_t material, uint32_t slot, const Image& image,
@@ -93,11 +93,13 @@ private:
     void writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene) const;
     void recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const;
-    [[nodiscard]] shared::DrawPush basePush(const Scene& scene, uint32_t light) const;
+    [[nodiscard]] shared::DrawPush basePush(const Scene& scene, const FigureSurface& surface, uint32_t light) const;
+    void bindSurface(VkCommandBuffer commands, const Scene& scene, size_t surface) const;
     void bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const;
     void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
-    void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
-    void drawSurface(VkCommandBuffer commands, const Scene& scene) const;
+    void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
+                           uint32_t light) const;
+    void drawSurface(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface) const;
     void drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const;
     void drawCageEdges(VkCommandBuffer commands, const Scene& scene) const;
 

@@ -48,6 +48,16 @@ PartSummary summaryOf(const cage::Character& character, size_t part) {
     return summary;
 }
 
+/// Faces and corners of a piece's patches become those of the whole cage.
+void nameInWhole(const cage::CagePiece& piece, std::vector<surface::PatchInfo>& patches) {
+    for (surface::PatchInfo& patch : patches) {
+        patch.face = piece.faces[patch.face];
+        for (uint32_t& corner : patch.corners) {
+            corner = corner == cage::kNone ? corner : piece.vertices[corner];
+        }
+    }
+}
+
 } // namespace
 
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Character character) {
@@ -63,23 +73,55 @@ Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Ch
     for (size_t part = 0; part < character.parts.size(); ++part) {
         asset->parts.push_back(summaryOf(character, part));
     }
+    asset->choices = surface::chooseSchemes(character);
     asset->jointFrames = skinning::jointFrames(character);
     asset->character = std::move(character);
     return asset;
 }
 
-Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device, const surface::Recipe& recipe) {
+Result<std::shared_ptr<AssetPiece>> Asset::pieceOf(const gpu::Device& device, const std::vector<uint32_t>& parts) {
+    for (const std::shared_ptr<AssetPiece>& piece : pieces) {
+        if (piece->parts == parts) {
+            return piece;
+        }
+    }
+    std::vector<uint32_t> faces;
+    for (const uint32_t part : parts) {
+        for (uint32_t f = character.parts[part].firstFace; f < cage::endFace(character, part); ++f) {
+            faces.push_back(f);
+        }
+    }
+    auto piece = std::make_shared<AssetPiece>();
+    piece->parts = parts;
+    piece->of = cage::takeFaces(character.cage, faces);
+    std::vector<uint32_t> words = piece->of.vertices;
+    words.resize((words.size() + 3) / 4 * 4);
+    Result<gpu::StaticBuffers> buffers = upload(device, character.name, "vertices of a piece", words);
+    if (!buffers) {
+        return buffers.error();
+    }
+    piece->vertices = std::move(*buffers);
+    pieces.push_back(piece);
+    return piece;
+}
+
+Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device, const surface::Recipe& recipe,
+                                                       const std::shared_ptr<AssetPiece>& piece) {
     for (const std::shared_ptr<SchemeTables>& scheme : schemes) {
-        if (scheme->recipe == recipe) {
+        if (scheme->recipe == recipe && scheme->piece == piece) {
             return scheme;
         }
     }
-    Result<surface::Tables> tables = surface::buildTables(recipe, character.cage);
+    Result<surface::Tables> tables = surface::buildTables(recipe, piece != nullptr ? piece->of.cage : character.cage);
     if (!tables) {
         return Error{tables.error().code, character.name + ": " + tables.error().message};
     }
+    if (piece != nullptr) {
+        nameInWhole(piece->of, tables->patches);
+    }
     auto scheme = std::make_shared<SchemeTables>();
     scheme->recipe = recipe;
+    scheme->piece = piece;
     scheme->tables = std::move(*tables);
     std::vector<uint32_t>& words = scheme->tables.words;
     Result<gpu::StaticBuffers> buffers = upload(device, character.name, "surface tables", words);

@@ -1,13 +1,15 @@
-// A loaded character and what the device holds of it: the deform table, and one set of tables a scheme in use.
+// A loaded character and what the device holds of it: the deform table, and the tables of every scheme in use.
 #pragma once
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "cage/piece.h"
 #include "gpu/static_buffers.h"
 #include "skinning/clip_table.h"
 #include "skinning/joints.h"
 #include "skinning/layers.h"
 #include "supple/supple.h"
+#include "surface/choice.h"
 #include "surface/schemes.h"
 
 #include <memory>
@@ -15,11 +17,20 @@
 
 namespace supple::runtime {
 
+/// Some parts of an asset, which groups make a surface of.
+struct AssetPiece {
+    std::vector<uint32_t> parts; ///< rising
+    cage::CagePiece of;
+    gpu::StaticBuffers vertices; ///< 0: which vertices of the whole cage it has
+};
+
 /// Static tables of a scheme for one asset and one set of options, shared by the groups that use them.
 struct SchemeTables {
     surface::Recipe recipe;
-    surface::Tables tables;     ///< `words` is emptied once it lies in the staging memory
-    gpu::StaticBuffers buffers; ///< 0: the tables
+    std::shared_ptr<AssetPiece> piece; ///< null: the whole cage
+    surface::Tables tables;            ///< `words` is emptied once it lies in the staging memory. Patches have the
+                                       ///< faces and corners of the whole cage
+    gpu::StaticBuffers buffers;        ///< 0: the tables
 };
 
 /// What the API tells of a part beside cage::Part.
@@ -32,19 +43,25 @@ struct PartSummary {
 struct Asset {
     cage::Character character;
     std::vector<PartSummary> parts;
-    gpu::StaticBuffers buffers;   ///< 0: the deform table
-    uint32_t firstInfluences = 0; ///< skinning::DeformTable
+    std::vector<surface::SchemeChoice> choices; ///< what SUPPLE_SCHEME_AUTO takes for each part
+    gpu::StaticBuffers buffers;                 ///< 0: the deform table
+    uint32_t firstInfluences = 0;               ///< skinning::DeformTable
     skinning::Rig rig;
     skinning::JointFrames jointFrames;
     // Made for the first group that plays on the device:
     skinning::ClipTable clipTable; ///< `words` is emptied once it lies in the staging memory
     gpu::StaticBuffers clips;      ///< 0: the clip table
+    std::vector<std::shared_ptr<AssetPiece>> pieces;
     std::vector<std::shared_ptr<SchemeTables>> schemes;
 
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device, cage::Character character);
-    /// Finds or builds the tables of a recipe; refuses what the scheme cannot take.
-    [[nodiscard]] Result<std::shared_ptr<SchemeTables>> tablesFor(const gpu::Device& device,
-                                                                  const surface::Recipe& recipe);
+    /// Finds or makes the piece of some parts (rising).
+    [[nodiscard]] Result<std::shared_ptr<AssetPiece>> pieceOf(const gpu::Device& device,
+                                                              const std::vector<uint32_t>& parts);
+    /// Finds or builds the tables of a recipe for the piece, or for the whole cage if it is null; refuses what the
+    /// scheme cannot take.
+    [[nodiscard]] Result<std::shared_ptr<SchemeTables>>
+    tablesFor(const gpu::Device& device, const surface::Recipe& recipe, const std::shared_ptr<AssetPiece>& piece);
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
 };

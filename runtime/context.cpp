@@ -228,12 +228,13 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     if (!group) {
         return group.error();
     }
-    for (const std::string& note : (*group)->tables().notes) {
-        log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_SCHEME_NOTE, asset->character.name + ": " + note);
-    }
-    if (!(*group)->tessellation().rateNote().empty()) {
-        log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_RATE_CHANGED,
-            asset->character.name + ": " + (*group)->tessellation().rateNote());
+    for (const auto& surface : (*group)->surfaces()) {
+        for (const std::string& note : surface->tables().notes) {
+            log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_SCHEME_NOTE, asset->character.name + ": " + note);
+        }
+        if (!surface->rateNote().empty()) {
+            log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_RATE_CHANGED, asset->character.name + ": " + surface->rateNote());
+        }
     }
     return groups.insert(std::move(*group));
 }

@@ -47,7 +47,7 @@ struct Frame {
     /// Vertices that a view has for all its groups; kRoomForAll if even all instances fit at their coarsest.
     [[nodiscard]] uint32_t roomOf(const View& view) const {
         uint64_t least = 0;
-        forEach([&](Group& group) { least += group.view() == &view ? group.leastVertices() : 0; });
+        forEach([&](Group& group) { least += group.view() == &view ? group.leastVerticesOfAll() : 0; });
         return least <= view.room() ? shared::kRoomForAll : view.room();
     }
 };
@@ -65,7 +65,14 @@ PassCost recordUpload(const Frame& frame, Group& group) {
 }
 
 PassCost recordAttributes(const Frame& frame, Group& group) {
-    return group.tessellation().recordAttributes(frame.commands, frame.number);
+    return group.surfaces().record(
+        [&](Tessellation& surface) { return surface.recordAttributes(frame.commands, frame.number); });
+}
+
+/// A pass of every surface.
+template <PassCost (Tessellation::*record)(VkCommandBuffer) const>
+PassCost recordSurfaces(const Frame& frame, Group& group) {
+    return group.surfaces().record([&](const Tessellation& surface) { return (surface.*record)(frame.commands); });
 }
 
 template <Playback::Part part>
@@ -92,7 +99,7 @@ PassCost recordOcclusion(const Frame& frame, Group& group) {
 /// If even the coarsest surfaces of all instances might not have room, those that are left out are found first.
 PassCost recordSizes(const Frame& frame, Group& group) {
     if (group.leastVertices() > 0 && frame.roomOf(*group.view()) != shared::kRoomForAll) {
-        group.culling()->recordSizes(frame.commands);
+        group.culling()->recordSizes(frame.commands, group.leastVertices());
         frame.computeBarrier();
     }
     return {};
@@ -102,25 +109,27 @@ PassCost recordList(const Frame& frame, Group& group) {
     if (group.culling() == nullptr) {
         return {};
     }
-    return group.culling()->recordList(frame.commands, group.tessellation().isBudgeted() ? frame.roomOf(*group.view())
-                                                                                         : shared::kRoomForAll);
+    const bool budgeted = group.surfaces().any([](const Tessellation& surface) { return surface.isBudgeted(); });
+    return group.culling()->recordList(frame.commands, budgeted ? frame.roomOf(*group.view()) : shared::kRoomForAll);
 }
 
 template <Stage stage>
 PassCost recordStage(const Frame& frame, Group& group) {
-    return group.tessellation().recordStage(frame.commands, stage);
+    return group.surfaces().record(
+        [&](const Tessellation& surface) { return surface.recordStage(frame.commands, stage); });
 }
 
-PassCost recordPatch(const Frame& frame, Group& group) {
-    return group.tessellation().recordPatch(frame.commands);
-}
-
-PassCost recordEdgeLevels(const Frame& frame, Group& group) {
-    return group.tessellation().recordEdgeLevels(frame.commands);
+bool countsRates(const Group& group) {
+    return group.culling() != nullptr && group.culling()->hasRates() && group.view()->countsRates();
 }
 
 PassCost recordPatchLevels(const Frame& frame, Group& group) {
-    return group.tessellation().recordPatchLevels(frame.commands);
+    PassCost cost = recordSurfaces<&Tessellation::recordPatchLevels>(frame, group);
+    if (countsRates(group)) {
+        gpu::disjointBarrier(frame.device, frame.commands);
+        cost += group.culling()->recordDemand(frame.commands);
+    }
+    return cost;
 }
 
 /// Once a view, with the first of its groups.
@@ -135,7 +144,13 @@ PassCost recordSolve(const Frame& frame, Group& group) {
 }
 
 PassCost recordPlaces(const Frame& frame, Group& group) {
-    return group.tessellation().recordPlaces(frame.commands);
+    PassCost cost = recordSurfaces<&Tessellation::recordPlaces>(frame, group);
+    if (group.culling() != nullptr && group.culling()->hasRates()) {
+        // Behind the solver; and all add to the view's count of vertices, each with one lane.
+        frame.computeBarrier();
+        cost += group.culling()->recordRates(frame.commands, countsRates(group));
+    }
+    return cost;
 }
 
 /// What the host reads frames later: what each view has solved, then how many instances of each group are seen.
@@ -144,26 +159,16 @@ PassCost recordReadback(const Frame& frame, Group& group) {
         group.view()->recordReadback(frame.commands);
         frame.forEach([&](Group& other) {
             if (other.view() == group.view()) {
-                const Tessellation& surface = other.tessellation();
-                group.view()->recordReadback(
-                    frame.commands, other.culling()->list().buffer, other.culling()->countOffset(),
-                    {surface.patchesAtLevels(), surface.isBudgeted() ? other.culling()->leastVertices() : 0});
+                uint32_t patches = 0;
+                for (const auto& surface : other.surfaces()) {
+                    patches += surface->patchesAtLevels();
+                }
+                group.view()->recordReadback(frame.commands, other.culling()->list().buffer,
+                                             other.culling()->countOffset(), {patches, other.leastVertices()});
             }
         });
     }
     return {};
-}
-
-PassCost recordLevelAttributes(const Frame& frame, Group& group) {
-    return group.tessellation().recordLevelAttributes(frame.commands);
-}
-
-PassCost recordEvaluate(const Frame& frame, Group& group) {
-    return group.tessellation().recordEvaluate(frame.commands);
-}
-
-PassCost recordMotion(const Frame& frame, Group& group) {
-    return group.tessellation().recordMotion(frame.commands);
 }
 
 // Who wants a pass. It is left out, with its barrier, if no group does.
@@ -178,9 +183,13 @@ template <Playback::Part part>
 bool poses(Group& group) {
     return group.poses().has(part);
 }
+template <bool (Tessellation::*predicate)() const>
+bool anySurface(Group& group) {
+    return group.surfaces().any([](const Tessellation& surface) { return (surface.*predicate)(); });
+}
 template <Stage stage>
 bool constructs(Group& group) {
-    return group.tessellation().has(stage);
+    return group.surfaces().any([](const Tessellation& surface) { return surface.has(stage); });
 }
 
 /// What stands behind a pass: who may read what it wrote.
@@ -196,11 +205,12 @@ struct Row {
 
 constexpr Row kPasses[] = {
     {Pass::upload, always, recordUpload, Behind::uploads},
-    {Pass::attributes, [](Group& g) { return g.tessellation().attributesDue(); }, recordAttributes, Behind::nothing},
+    {Pass::attributes, anySurface<&Tessellation::attributesDue>, recordAttributes, Behind::nothing},
     {Pass::pose, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
     {Pass::pose, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
     {Pass::pose, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
     {Pass::deform, always, recordDeform},
+    {Pass::deform, anySurface<&Tessellation::gathers>, recordSurfaces<&Tessellation::recordGather>},
     {Pass::bounds, isInView, recordBounds},
     {Pass::bounds,
      [](Group& g) {
@@ -211,16 +221,18 @@ constexpr Row kPasses[] = {
     {Pass::list, isInView, recordList, Behind::arguments},
     {Pass::vertex, constructs<Stage::vertex>, recordStage<Stage::vertex>},
     {Pass::assemble, constructs<Stage::assemble>, recordStage<Stage::assemble>},
-    {Pass::patch, [](Group& g) { return g.tessellation().writesPatches(); }, recordPatch, Behind::nothing},
-    {Pass::level, isInView, recordEdgeLevels},
+    {Pass::patch, anySurface<&Tessellation::writesPatches>, recordSurfaces<&Tessellation::recordPatch>,
+     Behind::nothing},
+    {Pass::level, isInView, recordSurfaces<&Tessellation::recordEdgeLevels>},
     {Pass::level, isInView, recordPatchLevels},
     {Pass::solve, isInView, recordSolve, Behind::nothing}, // places begin with a barrier
     {Pass::place, isInView, recordPlaces, Behind::places},
     {Pass::place, isInView, recordReadback, Behind::readback, false},
-    {Pass::attributes, [](Group& g) { return g.tessellation().writesLevelAttributes(); }, recordLevelAttributes,
+    {Pass::attributes, anySurface<&Tessellation::writesLevelAttributes>,
+     recordSurfaces<&Tessellation::recordLevelAttributes>, Behind::nothing},
+    {Pass::evaluate, always, recordSurfaces<&Tessellation::recordEvaluate>, Behind::scratch},
+    {Pass::motion, anySurface<&Tessellation::writesMotion>, recordSurfaces<&Tessellation::recordMotion>,
      Behind::nothing},
-    {Pass::evaluate, always, recordEvaluate, Behind::scratch},
-    {Pass::motion, [](Group& g) { return g.tessellation().writesMotion(); }, recordMotion, Behind::nothing},
 };
 
 void recordBarrier(const Frame& frame, Behind behind) {
@@ -248,7 +260,10 @@ void recordBarrier(const Frame& frame, Behind behind) {
                 {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
         break;
     case Behind::scratch: // evaluate and motion use the same memory
-        if (frame.any([](Group& g) { return g.tessellation().writesMotion() && g.tessellation().usesScratch(); })) {
+        if (frame.any([](Group& group) {
+                return group.surfaces().any(
+                    [](const Tessellation& surface) { return surface.writesMotion() && surface.usesScratch(); });
+            })) {
             frame.computeBarrier();
         }
         break;

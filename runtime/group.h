@@ -1,4 +1,4 @@
-// A group: instances of one asset, which instances are seen, and the tessellation that makes their vertices.
+// A group: instances of one asset, which instances are seen, and the surfaces that make their vertices.
 #pragma once
 
 #include "base/result.h"
@@ -6,7 +6,7 @@
 #include "runtime/asset.h"
 #include "runtime/culling/culling.h"
 #include "runtime/instance_set.h"
-#include "runtime/tessellation/tessellation.h"
+#include "runtime/surfaces.h"
 #include "runtime/transfers.h"
 #include "runtime/view.h"
 #include "supple/supple.h"
@@ -37,19 +37,18 @@ public:
 
     [[nodiscard]] const Asset& asset() const { return *asset_; }
     /// Whether the indirect commands that draw an instance name a first instance when it hides parts.
-    [[nodiscard]] bool drawsByRanges() const {
-        return tessellation_->kind() != SUPPLE_TESSELLATION_NONE && tessellation_->kind() != SUPPLE_TESSELLATION_LEVELS;
-    }
-    [[nodiscard]] const surface::Tables& tables() const { return tessellation_->tables(); }
+    [[nodiscard]] bool drawsByRanges() const { return surfaces_.haveGrids(); }
     void fill(SuppleGroupInfo& info) const;
-    [[nodiscard]] Status setRate(uint32_t rate) { return tessellation_->setRate(rate); }
+    /// `surface` is below surfaces().size().
+    void fill(SuppleSurfaceInfo& info, uint32_t surface) const;
+    [[nodiscard]] Status setRate(uint32_t rate) { return surfaces_.setRate(rate); }
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }
     [[nodiscard]] InstanceSlots& slots() { return instances_->slots(); }
     [[nodiscard]] PoseSource& poses() { return instances_->poses(); }
-    [[nodiscard]] Tessellation& tessellation() { return *tessellation_; }
-    [[nodiscard]] const Tessellation& tessellation() const { return *tessellation_; }
+    [[nodiscard]] Surfaces& surfaces() { return surfaces_; }
+    [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
     // Null if the group belongs to no view.
     [[nodiscard]] View* view() const { return view_.get(); }
     [[nodiscard]] Culling* culling() { return culling_; }
@@ -64,8 +63,11 @@ public:
     PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
     void addTransfers(Transfers& transfers) const;
 
-    /// Vertices of the view's budget that all instances need at their coarsest.
-    [[nodiscard]] uint64_t leastVertices() const;
+    /// Vertices of the view's budget that an instance needs at its coarsest, and all that the host shows.
+    [[nodiscard]] uint32_t leastVertices() const { return culling_ != nullptr ? surfaces_.leastVertices() : 0; }
+    [[nodiscard]] uint64_t leastVerticesOfAll() const {
+        return uint64_t{leastVertices()} * instances_->windows().visible;
+    }
 
     /// The last frame that has the group's passes, and the last that has anything of it.
     [[nodiscard]] uint64_t passesFrame() const { return passesFrame_; }
@@ -83,7 +85,9 @@ public:
     Link link;
 
 private:
-    [[nodiscard]] Status createParts(const GroupShared& shared, const SuppleGroupDesc& desc);
+    [[nodiscard]] Status createRest(const GroupShared& shared, const SuppleGroupDesc& desc);
+    void planCulling(const GroupShared& shared, bool oneLevel, gpu::BufferPlan& device, gpu::BufferPlan& staging);
+    [[nodiscard]] Status createVisibility(bool listsParts);
 
     std::shared_ptr<Asset> asset_;
     std::shared_ptr<View> view_;
@@ -91,7 +95,7 @@ private:
     std::unique_ptr<InstanceSet> instances_;
     std::unique_ptr<Visibility> visibility_;
     Culling* culling_ = nullptr; ///< visibility_, if the group belongs to a view
-    std::unique_ptr<Tessellation> tessellation_;
+    Surfaces surfaces_;
     RecordedOnce clear_; ///< of what culling remembers from frame to frame
     uint64_t passesFrame_ = 0, lastRecordedFrame_ = 0;
 };

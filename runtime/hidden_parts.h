@@ -13,12 +13,18 @@ struct PartList {
     uint32_t count = 0;
 };
 
+/// How many patches a part has.
+struct PartPatches {
+    uint32_t all = 0;
+    uint32_t atLevels = 0; ///< of a view
+};
+
 /// A mask per slot. Nothing is allocated after the constructor.
 class HiddenParts {
 public:
     HiddenParts() = default;
     /// `patches`: of every part.
-    HiddenParts(uint32_t capacity, std::vector<uint32_t> patches);
+    HiddenParts(uint32_t capacity, std::vector<PartPatches> patches);
 
     /// Whether that is a change.
     bool set(uint32_t slot, uint32_t part, bool hidden);
@@ -37,7 +43,7 @@ public:
     /// stays below three times all patches of all instances, which fits 32 bits.
     [[nodiscard]] std::span<const uint32_t> order() const { return order_; }
 
-    // As the device reads them: per slot the number of hidden patches, then a bit per part.
+    // As the device reads them: per slot the number of hidden patches at levels, then a bit per part.
     [[nodiscard]] static uint32_t wordsOf(size_t parts) { return 1 + static_cast<uint32_t>((parts + 31) / 32); }
     [[nodiscard]] std::span<const uint32_t> words(uint32_t slots) const {
         return std::span(words_).first(size_t{slots} * stride_);
@@ -46,7 +52,8 @@ public:
 private:
     [[nodiscard]] const uint32_t* mask(uint32_t slot) const { return &words_[size_t{slot} * stride_ + 1]; }
 
-    std::vector<uint32_t> patches_, order_;
+    std::vector<PartPatches> patches_;
+    std::vector<uint32_t> order_;
     uint32_t stride_ = 1; ///< words of a slot
     std::vector<uint32_t> words_;
     std::vector<uint32_t> hiddenParts_; ///< by slot: how many

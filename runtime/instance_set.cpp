@@ -4,8 +4,6 @@
 
 namespace supple::runtime {
 
-using namespace supple::shared;
-
 namespace {
 
 // Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits). Deformed cages start on such multiples,
@@ -13,7 +11,6 @@ namespace {
 constexpr uint32_t kCagePadding = 16;
 constexpr uint32_t kPosePadding = 16;
 constexpr VkDeviceSize kVec4Bytes = 16;
-constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kUint4 = VK_FORMAT_R32G32B32A32_UINT;
 
 } // namespace
 
@@ -88,50 +85,19 @@ void InstanceSet::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
 }
 
 Status InstanceSet::createSets() {
-    Status status = poses_->create({palettes_.buffer(), list_.buffer(), passListBytes(), windows_.size});
+    const Status status = poses_->create({palettes_.buffer(), list_.buffer(), passListBytes(), windows_.size});
     if (!status || palettes_.buffer() == VK_NULL_HANDLE) {
         return status;
     }
-    const gpu::Device& device = *desc_.device;
-    const gpu::ComputeLayout& layout = desc_.deform->layout();
-    Result<gpu::DescriptorPoolHandle> pool =
-        gpu::createDescriptorPool(device, layout, windows_.count(), "supple deform");
-    if (!pool) {
-        return pool.error();
-    }
-    pool_ = std::move(*pool);
-    const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
-        return views_.make(device, buffer, format, offset, size, name, status);
-    };
-    const VkBuffer table = desc_.asset->buffers.buffer(0);
-    const VkDeviceSize tableBytes = desc_.asset->buffers.size(0);
-    const VkBufferView tableView = view(table, kUint4, 0, tableBytes, "supple deform table");
-    const VkBufferView listView = view(list_.buffer(), VK_FORMAT_R32_UINT, 0, passListBytes(), "supple instances");
-    for (uint32_t w = 0; w < windows_.count() && status; ++w) {
-        const Result<VkDescriptorSet> set = gpu::allocateSet(device, layout, pool_.get(), "supple deform");
-        if (!set) {
-            return set.error();
-        }
-        const auto range = [&](const gpu::PlannedBuffer& buffer, uint32_t stride) {
-            const VkDeviceSize bytes = stride * kVec4Bytes;
-            return VkDescriptorBufferInfo{buffer.buffer(), windows_.firstSlot(w) * bytes, windows_.slots(w) * bytes};
-        };
-        const VkDescriptorBufferInfo poses = range(palettes_, layout_.stride);
-        const gpu::BoundResource resources[] = {
-            {kDeformTableBinding, {table, 0, tableBytes}, VK_NULL_HANDLE},
-            {kDeformTableTexelBinding, {}, tableView},
-            {kPoseBinding, poses, VK_NULL_HANDLE},
-            {kPoseTexelBinding, {}, view(poses.buffer, kFloat4, poses.offset, poses.range, "supple poses")},
-            {kDeformedCageBinding, range(cages_, cageStride_), VK_NULL_HANDLE},
-            {kInstanceBinding, {list_.buffer(), 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
-            {kInstanceTexelBinding, {}, listView},
-        };
-        if (status) {
-            gpu::writeSet(device, layout, *set, resources);
-            deformSets_.push_back(*set);
-        }
-    }
-    return status;
+    return deformSets_.create({desc_.device,
+                               &desc_.deform->layout(),
+                               &windows_,
+                               desc_.asset->buffers.buffer(0),
+                               desc_.asset->buffers.size(0),
+                               {palettes_.buffer(), layout_.stride},
+                               {cages_.buffer(), cageStride_},
+                               list_.buffer(),
+                               passListBytes()});
 }
 
 void InstanceSet::fill(SuppleGroupInfo& output) const {

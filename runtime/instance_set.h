@@ -2,10 +2,10 @@
 #pragma once
 
 #include "gpu/buffer_plan.h"
-#include "gpu/pipeline.h"
 #include "runtime/asset.h"
 #include "runtime/change_staging.h"
 #include "runtime/culling/visibility.h"
+#include "runtime/deform_sets.h"
 #include "runtime/instance_slots.h"
 #include "runtime/instance_windows.h"
 #include "runtime/pose_source.h"
@@ -35,10 +35,10 @@ public:
         uint32_t capacity = 0;
         uint32_t firstGeneration = 1;
         uint32_t framesInFlight = 2;
-        bool handsOver = false;            ///< to another queue family: lists are written anew in every frame
-        uint32_t lists = 2;                ///< that all lists of instances that passes read have `capacity` entries for
-        std::vector<uint32_t> partPatches; ///< of every part
-        bool listsParts = false;           ///< the host lists the instances of every part
+        bool handsOver = false; ///< to another queue family: lists are written anew in every frame
+        uint32_t lists = 2;     ///< that all lists of instances that passes read have `capacity` entries for
+        std::vector<PartPatches> partPatches; ///< of every part
+        bool listsParts = false;              ///< the host lists the instances of every part
         BoundBytes surface;
     };
     /// Prepares the pipelines and lays out the windows.
@@ -56,6 +56,7 @@ public:
     /// Cage vertices from one instance to the next.
     [[nodiscard]] static uint32_t cageStrideOf(uint32_t cageVertices);
 
+    [[nodiscard]] uint32_t cageStride() const { return cageStride_; }
     [[nodiscard]] const gpu::PlannedBuffer& cages() const { return cages_; }
     [[nodiscard]] const gpu::PlannedBuffer& list() const { return list_; }
     /// Of the list, what passes read: capacity entries of all instances, then as many by window.
@@ -83,9 +84,7 @@ private:
 
     gpu::PlannedBuffer palettes_, cages_, list_;
     ChangeStaging lists_;
-    gpu::DescriptorPoolHandle pool_;
-    gpu::TexelViews views_;
-    std::vector<VkDescriptorSet> deformSets_; ///< by window; none if the host fills the cages
+    DeformSets deformSets_; ///< none if the host fills the cages
 };
 
 } // namespace supple::runtime

@@ -6,7 +6,7 @@
 
 namespace supple::runtime {
 
-InstanceSlots::InstanceSlots(uint32_t capacity, uint32_t firstGeneration, std::vector<uint32_t> partPatches)
+InstanceSlots::InstanceSlots(uint32_t capacity, uint32_t firstGeneration, std::vector<PartPatches> partPatches)
     : slots_(capacity), hidden_(capacity, std::move(partPatches)) {
     for (Slot& slot : slots_) {
         slot.generation = firstGeneration;

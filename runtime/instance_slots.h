@@ -15,7 +15,7 @@ class InstanceSlots {
 public:
     InstanceSlots() = default;
     /// Generations begin at `firstGeneration` (not 0). `partPatches`: how many patches every part has.
-    InstanceSlots(uint32_t capacity, uint32_t firstGeneration, std::vector<uint32_t> partPatches = {});
+    InstanceSlots(uint32_t capacity, uint32_t firstGeneration, std::vector<PartPatches> partPatches = {});
 
     /// The lowest free slot, now taken and visible with all parts; nothing when all are.
     [[nodiscard]] std::optional<uint32_t> create();

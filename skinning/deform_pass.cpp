@@ -1,6 +1,7 @@
 #include "skinning/deform_pass.h"
 
 #include "shaders/deform_deform_comp.h"
+#include "shaders/deform_gather_comp.h"
 #include "shaders/shared/specialization.h"
 
 #include <algorithm>
@@ -172,10 +173,28 @@ Status DeformPass::prepare(SkinningMode mode, bool morphs) {
     return success();
 }
 
+Status DeformPass::prepareGather() {
+    const Result<gpu::Kernel> kernel = pipelines_->get(layout_, deform_gather_comp, {}, "supple gather");
+    if (!kernel) {
+        return kernel.error();
+    }
+    gather_ = *kernel;
+    return success();
+}
+
 void DeformPass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
                         const shared::DeformPush& push) const {
-    gpu::bind(*device_, commandBuffer, kernels_[static_cast<size_t>(mode)][push.firstInfluences != 0 ? 1 : 0], set,
-              push);
+    record(commandBuffer, kernels_[static_cast<size_t>(mode)][push.firstInfluences != 0 ? 1 : 0], set, push);
+}
+
+void DeformPass::recordGather(VkCommandBuffer commandBuffer, VkDescriptorSet set,
+                              const shared::DeformPush& push) const {
+    record(commandBuffer, gather_, set, push);
+}
+
+void DeformPass::record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set,
+                        const shared::DeformPush& push) const {
+    gpu::bind(*device_, commandBuffer, kernel, set, push);
     const uint64_t lanes = uint64_t{push.vertexCount} * push.instanceCount;
     const uint64_t local = device_->mapping.localSize;
     gpu::dispatchLinear(*device_, commandBuffer, (lanes + local - 1) / local);

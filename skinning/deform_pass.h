@@ -55,17 +55,26 @@ public:
     /// Creates the pipeline of a mode, with or without morph targets, if it is not there.
     [[nodiscard]] Status prepare(SkinningMode mode, bool morphs);
 
+    /// The same for recordGather().
+    [[nodiscard]] Status prepareGather();
+
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// Records one dispatch over a window of instances; `set` binds the window's buffers. `push.firstInfluences` as the
     /// table has it. What it needs must have been prepared.
     void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
                 const shared::DeformPush& push) const;
+    /// Copies the vertices of a piece out of the whole deformed cage (shaders/deform/gather.comp).
+    void recordGather(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::DeformPush& push) const;
 
 private:
+    void record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set,
+                const shared::DeformPush& push) const;
+
     const gpu::Device* device_ = nullptr;
     gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout layout_;
     gpu::Kernel kernels_[2][2]; ///< by mode, and whether there are morph targets
+    gpu::Kernel gather_;
 };
 
 } // namespace supple::skinning

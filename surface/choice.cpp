@@ -1,11 +1,11 @@
 #include "surface/choice.h"
 
 #include "cage/corner_normals.h"
+#include "cage/parts.h"
 #include "cage/topology.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace supple::surface {
 
@@ -28,35 +28,6 @@ struct Counts {
 
     [[nodiscard]] bool mostlyTriangles() const { return triangles > polygons; }
 };
-
-/// The smallest part that each part shares cage vertices with, over any number of others.
-std::vector<uint32_t> sewnGroups(const cage::Character& character) {
-    const cage::Cage& cage = character.cage;
-    std::vector<uint32_t> parents(character.parts.size());
-    std::iota(parents.begin(), parents.end(), 0u);
-    const auto root = [&](uint32_t part) {
-        while (parents[part] != part) {
-            part = parents[part] = parents[parents[part]];
-        }
-        return part;
-    };
-    std::vector<uint32_t> partOfVertex(cage.vertexCount(), cage::kNone);
-    for (uint32_t face = 0; face < cage.faceCount() && !cage.faceParts.empty(); ++face) {
-        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
-            uint32_t& known = partOfVertex[cage.faceVertices[corner]];
-            if (known == cage::kNone) {
-                known = cage.faceParts[face];
-            }
-            const uint32_t a = root(known);
-            const uint32_t b = root(cage.faceParts[face]);
-            parents[std::max(a, b)] = std::min(a, b);
-        }
-    }
-    for (uint32_t part = 0; part < parents.size(); ++part) {
-        parents[part] = root(part);
-    }
-    return parents;
-}
 
 std::vector<glm::dvec3> faceNormals(const cage::Cage& cage) {
     std::vector<glm::dvec3> normals;
@@ -136,7 +107,7 @@ std::vector<SchemeChoice> chooseSchemes(const cage::Character& character) {
     if (!topology) {
         return {character.parts.size(), {SchemeId::polygons, "it is no manifold: " + topology.error().message}};
     }
-    const std::vector<uint32_t> groups = sewnGroups(character);
+    const std::vector<uint32_t> groups = cage::sewnTo(character.cage, character.parts.size());
     const std::vector<Counts> counts = count(character, *topology, groups);
     std::vector<SchemeChoice> choices;
     choices.reserve(groups.size());

@@ -258,6 +258,8 @@ SuppleResult suppleGetPartInfo(SuppleContext handle, SuppleAsset asset, uint32_t
                                     info.boundsMin[axis] = summary.low[axis];
                                     info.boundsMax[axis] = summary.high[axis];
                                 }
+                                info.scheme = static_cast<SuppleScheme>(found.choices[part].scheme);
+                                info.schemeReason = found.choices[part].reason.c_str();
                             });
     });
 }

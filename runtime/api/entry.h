@@ -22,6 +22,7 @@ namespace supple::api {
 using runtime::Asset;
 using runtime::Context;
 using runtime::Group;
+using runtime::Tessellation;
 using runtime::View;
 
 /// Logs the error; a lost device is remembered.
@@ -81,6 +82,19 @@ SuppleResult withGroup(SuppleContext handle, SuppleGroup group, const char* func
             return refuse(context, ErrorCode::staleHandle, function, "stale or foreign group handle");
         }
         return body(context, *found);
+    });
+}
+
+/// `body(context, group, surface)`, with a surface that the group has.
+template <class Body>
+SuppleResult withSurface(SuppleContext handle, SuppleGroup group, uint32_t surface, const char* function,
+                         Body&& body) noexcept {
+    return withGroup(handle, group, function, [&](Context& context, Group& found) {
+        if (surface >= found.surfaces().size()) {
+            return refuse(context, ErrorCode::range, function,
+                          "surface " + std::to_string(surface) + " of " + std::to_string(found.surfaces().size()));
+        }
+        return body(context, found, found.surfaces()[surface]);
     });
 }
 

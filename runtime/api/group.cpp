@@ -38,6 +38,23 @@ std::optional<SuppleResult> takeSchemeOptions(Context& context, SuppleGroupDesc&
     return std::nullopt;
 }
 
+/// Null if all are schemes of surfaces.
+std::optional<SuppleResult> checkPartSchemes(Context& context, const SuppleGroupDesc& desc) {
+    if (desc.partSchemeCount > 0 && desc.partSchemes == nullptr) {
+        return refuse(context, ErrorCode::nullPointer, kHere, "partSchemes is null");
+    }
+    if (desc.partSchemeCount > 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
+        return refuse(context, ErrorCode::argument, kHere, "a cage has no surfaces of parts");
+    }
+    for (uint32_t part = 0; part < desc.partSchemeCount; ++part) {
+        if (runtime::rawValue(desc.partSchemes[part]) > surface::schemes().size()) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "partSchemes[" + std::to_string(part) + "]: no such scheme of a surface");
+        }
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* given, SuppleGroup* out) {
@@ -79,6 +96,9 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         }
         if (desc.view.id != 0 && (desc.flags & ~uint32_t{SUPPLE_GROUP_ONE_LEVEL}) != 0) {
             return refuse(context, ErrorCode::argument, kHere, "a group of a view has the view's flags");
+        }
+        if (const auto fault = checkPartSchemes(context, desc)) {
+            return *fault;
         }
         if ((desc.flags & SUPPLE_GROUP_INDEXED_MESH) != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::argument, kHere, "a cage has no samples to share");

@@ -146,14 +146,13 @@ SuppleResult suppleSetDepthPyramid(SuppleContext handle, SuppleView view, const 
     });
 }
 
-SuppleResult suppleGetLevelOutput(SuppleContext handle, SuppleGroup group, SuppleLevelOutput* out) {
+SuppleResult suppleGetLevelOutput(SuppleContext handle, SuppleGroup group, uint32_t surface, SuppleLevelOutput* out) {
     constexpr const char* kHere = "suppleGetLevelOutput";
-    return withGroup(handle, group, kHere, [&](Context& context, Group& found) {
-        if (found.tessellation().kind() != SUPPLE_TESSELLATION_LEVELS) {
-            return refuse(context, ErrorCode::argument, kHere, "the group has no levels");
+    return withSurface(handle, group, surface, kHere, [&](Context& context, Group&, const Tessellation& found) {
+        if (found.kind() != SUPPLE_TESSELLATION_LEVELS) {
+            return refuse(context, ErrorCode::argument, kHere, "the surface has no levels");
         }
-        return describe(context, kHere, out,
-                        [&](SuppleLevelOutput& output) { found.tessellation().fillLevels(output); });
+        return describe(context, kHere, out, [&](SuppleLevelOutput& output) { found.fillLevels(output); });
     });
 }
 

@@ -45,18 +45,19 @@ uint32_t Culling::rateStride() const {
     return ((2 + partCount()) * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
 }
 
-void Culling::addDispatches(const Needs& needs) {
+void Culling::add(const Needs& needs) {
     const auto add = [&](const surface::DispatchSize& size, uint32_t count) {
         const auto target = headerWords() + 3 * static_cast<uint32_t>(arguments_.size());
         arguments_.push_back({size.elements, size.perGroup, count, target});
     };
+    Place place{static_cast<uint32_t>(arguments_.size()), {}, static_cast<uint32_t>(draws_.size())};
     for (const surface::DispatchSize& size : needs.sizes) {
         add(size, kCountWindow);
     }
     for (uint32_t r = 0; r < needs.rates.size(); ++r) {
         const Rate& rate = needs.rates[r];
-        rateVertices_[r] = rate.vertices;
-        firstDispatches_.push_back(static_cast<uint32_t>(arguments_.size()));
+        rateVertices_[r] += rate.vertices;
+        place.firstRateArguments.push_back(static_cast<uint32_t>(arguments_.size()));
         for (const surface::DispatchSize& size : rate.sizes) {
             add(size, kCountRate + r);
         }
@@ -65,9 +66,14 @@ void Culling::addDispatches(const Needs& needs) {
             drawParts_.push_back(draw.part);
         }
     }
+    places_.push_back(std::move(place));
+    push_.margin = std::max(push_.margin, needs.margin);
+    push_.longest = std::max(push_.longest, needs.measure.longest);
+    push_.bend = std::max(push_.bend, needs.measure.bend);
+    rateCount_ = std::max(rateCount_, static_cast<uint32_t>(needs.rates.size()));
 }
 
-std::unique_ptr<Culling> Culling::create(const Desc& desc, const Needs& needs) {
+std::unique_ptr<Culling> Culling::create(const Desc& desc, std::span<const Needs> needs) {
     auto culling = std::make_unique<Culling>();
     culling->device_ = desc.device;
     culling->pass_ = desc.pass;
@@ -75,16 +81,13 @@ std::unique_ptr<Culling> Culling::create(const Desc& desc, const Needs& needs) {
     culling->windows_ = desc.windows;
     culling->framesInFlight_ = desc.framesInFlight;
     culling->listed_.resize(desc.windows->count());
-    culling->firstRate_ = needs.firstRate;
-    culling->leastVertices_ = needs.leastVertices;
-    BoundsPush& push = culling->push_;
-    push.vertexCount = desc.cageVertices;
-    push.cageStride = desc.cageStride;
-    push.margin = needs.margin;
-    push.longest = needs.measure.longest;
-    push.bend = needs.measure.bend;
-    culling->parts_.resize(needs.parts);
-    culling->addDispatches(needs);
+    culling->firstRate_ = desc.firstRate;
+    culling->push_.vertexCount = desc.cageVertices;
+    culling->push_.cageStride = desc.cageStride;
+    culling->parts_.resize(desc.parts);
+    for (const Needs& own : needs) {
+        culling->add(own);
+    }
     return culling;
 }
 
@@ -247,8 +250,8 @@ PassCost Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place,
     return {0, 0, true};
 }
 
-void Culling::recordSizes(VkCommandBuffer commandBuffer) const {
-    pass_->recordSizes(commandBuffer, listSet_, {0, windows_->visible, leastVertices_});
+void Culling::recordSizes(VkCommandBuffer commandBuffer, uint32_t leastVertices) const {
+    pass_->recordSizes(commandBuffer, listSet_, {0, windows_->visible, leastVertices});
 }
 
 PassCost Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
@@ -265,7 +268,7 @@ PassCost Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const
 PassCost Culling::recordDemand(VkCommandBuffer commandBuffer) const {
     DemandPush push{};
     push.instanceCount = windows_->visible;
-    push.rateCount = rateCount();
+    push.rateCount = rateCount_;
     push.firstRate = firstRate_;
     std::ranges::copy(rateVertices_, push.vertices);
     pass_->recordDemand(commandBuffer, listSet_, push);
@@ -277,7 +280,7 @@ PassCost Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const
     push.windowCount = windows_->count();
     push.argumentCount = static_cast<uint32_t>(arguments_.size());
     push.argumentStride = argumentStride();
-    push.rateCount = rateCount();
+    push.rateCount = rateCount_;
     push.firstRate = firstRate_;
     push.rateLists = firstRateList();
     push.rateStride = rateStride();
@@ -294,22 +297,24 @@ PassCost Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const
     return {0, 0, windows_->visible > 0};
 }
 
-surface::Window Culling::window(uint32_t window) const {
+surface::Window Culling::window(uint32_t window, size_t surface) const {
+    const uint32_t arguments = firstArgument() + headerWords() + argumentStride() * window;
     surface::Window result;
     result.push.firstInstance = windows_->firstEntry(window);
     result.push.instanceCount = (firstArgument() + kListHeaderWords * (1 + window)) | kCountOnDevice;
     result.push.firstSlot = windows_->firstSlot(window);
     result.arguments = list_.buffer();
-    result.firstArgument = VkDeviceSize{firstArgument() + headerWords() + argumentStride() * window} * kWordBytes;
+    result.firstArgument = (arguments + VkDeviceSize{3} * places_[surface].firstArgument) * kWordBytes;
     return result;
 }
 
-surface::Window Culling::window(uint32_t window, uint32_t rate) const {
-    surface::Window result = this->window(window);
+surface::Window Culling::window(uint32_t window, size_t surface, uint32_t rate) const {
+    const Place& place = places_[surface];
+    surface::Window result = this->window(window, surface);
     result.push.firstInstance = firstRateList() + rate * rateStride() + windows_->firstEntry(window);
     result.push.instanceCount =
         (firstArgument() + firstRateCount() + rate * windows_->count() + window) | kCountOnDevice;
-    result.firstArgument += 3 * firstDispatches_[rate] * kWordBytes;
+    result.firstArgument += VkDeviceSize{3} * (place.firstRateArguments[rate] - place.firstArgument) * kWordBytes;
     return result;
 }
 
@@ -318,8 +323,8 @@ SuppleBufferRange Culling::rateList(uint32_t rate) const {
     return {list_.buffer(), first * kWordBytes, (2 + partCount()) * windows_->capacity * kWordBytes, kWordBytes};
 }
 
-VkDeviceSize Culling::drawOffset() const {
-    return VkDeviceSize{firstArgument() + firstDraw()} * kWordBytes;
+VkDeviceSize Culling::drawOffset(size_t surface) const {
+    return VkDeviceSize{firstArgument() + firstDraw() + kDrawWords * places_[surface].firstDraw} * kWordBytes;
 }
 
 } // namespace supple::runtime

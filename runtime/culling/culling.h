@@ -27,15 +27,13 @@ public:
         std::vector<surface::DispatchSize> sizes;
         std::span<const SuppleDrawRange> draws; ///< of all windows
     };
-    /// What the group's tessellation asks for.
+    /// What a surface of the group asks for.
     struct Needs {
         std::vector<surface::DispatchSize> sizes; ///< dispatched for what is seen, by argument number
         surface::lod::InstanceMeasure measure;
-        float margin = 0.0f;        ///< how far the surface may lie outside the box of its cage, as a part of its size
-        uint32_t leastVertices = 0; ///< of an instance at its coarsest
-        uint32_t firstRate = 0;     ///< segments along an edge of the cage; each further rate has twice as many
-        std::vector<Rate> rates;    ///< none if levels are real numbers
-        uint32_t parts = 1;         ///< of the asset
+        float margin = 0.0f; ///< how far the surface may lie outside the box of its cage, as a part of its size
+        /// None if levels are real numbers. Surfaces that have rates have equally many.
+        std::vector<Rate> rates;
     };
     struct Desc {
         const gpu::Device* device = nullptr;
@@ -44,8 +42,11 @@ public:
         uint32_t framesInFlight = 2;
         const InstanceWindows* windows = nullptr; ///< must outlive this, as all here
         uint32_t cageVertices = 0, cageStride = 0;
+        uint32_t parts = 1;     ///< of the asset
+        uint32_t firstRate = 0; ///< segments along an edge of the cage; each further rate has twice as many
     };
-    [[nodiscard]] static std::unique_ptr<Culling> create(const Desc& desc, const Needs& needs);
+    /// `needs`: of every surface of the group.
+    [[nodiscard]] static std::unique_ptr<Culling> create(const Desc& desc, std::span<const Needs> needs);
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
     /// What the passes read and write beside the group's own, once the plans are carried out.
     struct Buffers {
@@ -61,7 +62,7 @@ public:
     void list(InstanceSlots& slots, const Lists& lists, InstanceWindows& windows) override;
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) override;
     [[nodiscard]] InstanceList list() const override { return {list_.buffer(), list_.size(), windows_->capacity}; }
-    [[nodiscard]] surface::Window window(uint32_t window) const override;
+    [[nodiscard]] surface::Window window(uint32_t window, size_t surface) const override;
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override;
     void addTransfers(Transfers& transfers) const override;
 
@@ -72,8 +73,8 @@ public:
     /// frame uses any more; `generation` tells whether that set has this pyramid.
     PassCost recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
                              uint64_t generation);
-    /// What the listed instances need at least. Only if that may be more than there is.
-    void recordSizes(VkCommandBuffer commandBuffer) const;
+    /// What the listed instances need, each `leastVertices` at least. Only if that may be more than there is.
+    void recordSizes(VkCommandBuffer commandBuffer, uint32_t leastVertices) const;
     /// `room`: vertices, or shared::kRoomForAll.
     PassCost recordList(VkCommandBuffer commandBuffer, uint32_t room) const;
     /// With rates, behind the list: what the listed instances need in the budget.
@@ -82,15 +83,14 @@ public:
     PassCost recordRates(VkCommandBuffer commandBuffer, bool counted) const;
 
     [[nodiscard]] SuppleBufferRange bounds() const; ///< by slot
-    [[nodiscard]] uint32_t leastVertices() const { return leastVertices_; }
-    /// Of all instances that the host shows.
-    [[nodiscard]] uint64_t leastVerticesOfAll() const { return uint64_t{leastVertices_} * windows_->visible; }
+    [[nodiscard]] bool hasRates() const { return rateCount_ > 0; }
 
-    /// The instances of a rate in a window. Argument 0 is that of the rate's first step.
-    [[nodiscard]] surface::Window window(uint32_t window, uint32_t rate) const;
-    /// In list(): the slots at a rate with the lists of parts behind them, and the draws of all rates.
+    /// The instances of a rate in a window. Argument 0 is that of the rate's first step of the surface.
+    [[nodiscard]] surface::Window window(uint32_t window, size_t surface, uint32_t rate) const;
+    /// In list(): the slots at a rate with the lists of parts behind them.
     [[nodiscard]] SuppleBufferRange rateList(uint32_t rate) const;
-    [[nodiscard]] VkDeviceSize drawOffset() const;
+    /// The draws of a surface: those of all its rates.
+    [[nodiscard]] VkDeviceSize drawOffset(size_t surface) const;
     /// In list(): what the list pass has found out of all windows, kListHeaderWords words (shaders/shared/bounds.h).
     [[nodiscard]] VkDeviceSize countOffset() const { return VkDeviceSize{firstArgument()} * sizeof(uint32_t); }
     /// In list(): the word at which masks of parts begin.
@@ -101,33 +101,37 @@ public:
     }
 
 private:
-    void addDispatches(const Needs& needs);
+    /// Where what a surface needs begins.
+    struct Place {
+        uint32_t firstArgument = 0;               ///< of its construction, in arguments_
+        std::vector<uint32_t> firstRateArguments; ///< by rate
+        uint32_t firstDraw = 0;                   ///< in draws_
+    };
+    void add(const Needs& needs);
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(arguments_.size()); }
     [[nodiscard]] uint32_t partCount() const { return static_cast<uint32_t>(parts_.size()); }
-    [[nodiscard]] uint32_t rateCount() const { return static_cast<uint32_t>(firstDispatches_.size()); }
     void listParts(const InstanceSlots& slots);
     // Words of the list: all that are seen, those of every window, their levels; masks of parts; for every rate all,
     // those of every window, those that show a part; then the arguments, the counts of rates and their draws.
     [[nodiscard]] uint32_t firstRateList() const;
     [[nodiscard]] uint32_t rateStride() const;
-    [[nodiscard]] uint32_t firstArgument() const { return firstRateList() + rateCount() * rateStride(); }
+    [[nodiscard]] uint32_t firstArgument() const { return firstRateList() + rateCount_ * rateStride(); }
     // Words from firstArgument() on.
     [[nodiscard]] uint32_t headerWords() const { return shared::kListHeaderWords * (1 + windows_->count()); }
     [[nodiscard]] uint32_t firstRateCount() const { return headerWords() + argumentStride() * windows_->count(); }
-    [[nodiscard]] uint32_t firstDraw() const { return firstRateCount() + rateCount() * windows_->count(); }
+    [[nodiscard]] uint32_t firstDraw() const { return firstRateCount() + rateCount_ * windows_->count(); }
 
     const gpu::Device* device_ = nullptr;
     const BoundsPass* pass_ = nullptr;
     const OcclusionPass* occlusion_ = nullptr;
     const InstanceWindows* windows_ = nullptr;
     uint32_t framesInFlight_ = 2;
-    uint32_t leastVertices_ = 0;
     shared::BoundsPush push_{};
     std::vector<ListWindow> listed_; ///< of the table written last
     std::vector<ListArgument> arguments_;
-    uint32_t firstRate_ = 0;
+    uint32_t firstRate_ = 0, rateCount_ = 0;
     std::array<uint32_t, shared::kMaxRates> rateVertices_{};
-    std::vector<uint32_t> firstDispatches_; ///< by rate, in arguments_
+    std::vector<Place> places_; ///< by surface
     std::vector<ListDraw> draws_;
     std::vector<uint32_t> drawParts_; ///< by draw
     std::vector<ListPart> parts_;     ///< room for all parts

@@ -43,8 +43,8 @@ public:
     virtual VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) = 0;
 
     [[nodiscard]] virtual InstanceList list() const = 0;
-    /// The instances of a window, for surface passes. The sets are the caller's.
-    [[nodiscard]] virtual surface::Window window(uint32_t window) const = 0;
+    /// The instances of a window, for the passes of the group's n-th surface. The sets are the caller's.
+    [[nodiscard]] virtual surface::Window window(uint32_t window, size_t surface) const = 0;
     /// The cost of a pass, given what it writes per instance.
     [[nodiscard]] virtual PassCost cost(uint64_t points, uint64_t bytes) const = 0;
 
@@ -74,7 +74,7 @@ public:
     }
     VkDeviceSize recordUpload(VkCommandBuffer) override { return 0; }
     [[nodiscard]] InstanceList list() const override { return list_; }
-    [[nodiscard]] surface::Window window(uint32_t window) const override {
+    [[nodiscard]] surface::Window window(uint32_t window, size_t) const override {
         surface::Window result;
         result.push.firstInstance = windows_->firstEntry(window);
         result.push.instanceCount = windows_->listed[window].count;

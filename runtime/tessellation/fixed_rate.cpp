@@ -10,6 +10,7 @@ public:
     explicit FixedRate(const TessellationDesc& desc) : OneRate(desc) {}
     [[nodiscard]] Status begin();
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_GRIDS; }
+    [[nodiscard]] Status canSetRate(uint32_t rate) const override;
     [[nodiscard]] Status setRate(uint32_t rate) override;
 
 private:
@@ -48,15 +49,18 @@ void FixedRate::layOutDraws() {
     setDraws(std::move(draws));
 }
 
-Status FixedRate::setRate(uint32_t rate) {
+Status FixedRate::canSetRate(uint32_t rate) const {
     const std::string& name = desc_.asset->character.name;
     if (!anyRate() && rate != askedRate_) {
         return Error{ErrorCode::argument, name + ": the tables of " + surface::schemeOf(scheme_->recipe.scheme).name +
                                               " are made for rate " + std::to_string(askedRate_) + " alone"};
     }
-    Status status = anyRate() ? checkRate(rate, maxRate_) : success();
-    if (!status || !anyRate() || rate == evaluation_.rate) {
-        return status; // the attributes stand
+    return anyRate() ? checkRate(rate, maxRate_) : success();
+}
+
+Status FixedRate::setRate(uint32_t rate) {
+    if (!anyRate() || rate == evaluation_.rate) {
+        return success(); // the attributes stand
     }
     evaluation_.rate = rate;
     vertexCount_ = static_cast<uint32_t>(evaluation_.layOut(tables()));

@@ -18,13 +18,12 @@ public:
     ~Levels() override;
     [[nodiscard]] Status begin();
 
-    [[nodiscard]] uint32_t lists() const override { return Culling::lists(partCount(), 0); }
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
     [[nodiscard]] Culling::Needs cullingNeeds() const override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_LEVELS; }
     [[nodiscard]] const VertexStreams* streams() const override { return &view()->streams(); }
     void fillLevels(SuppleLevelOutput& output) const override;
-    [[nodiscard]] Status setRate(uint32_t rate) override;
+    [[nodiscard]] Status canSetRate(uint32_t rate) const override;
 
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const override;
@@ -36,6 +35,7 @@ public:
     [[nodiscard]] bool usesScratch() const override { return false; } // it holds levels
     PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
     [[nodiscard]] bool isBudgeted() const override { return true; }
+    [[nodiscard]] uint32_t leastVertices() const override;
     [[nodiscard]] uint32_t patchesAtLevels() const override { return static_cast<uint32_t>(tables().patches.size()); }
 
 protected:
@@ -83,7 +83,7 @@ surface::Needs Levels::levelNeeds() const {
     // With one level an instance, that lies behind the list's entries (Culling::recordList).
     needs.levelOffset = (desc_.group.flags & SUPPLE_GROUP_ONE_LEVEL) != 0 ? desc_.group.capacity : 0;
     needs.firstMask = Culling::firstMask(desc_.group.capacity);
-    needs.maskWords = HiddenParts::wordsOf(partCount());
+    needs.maskWords = HiddenParts::wordsOf(partCount()) | (desc_.countsHidden ? 0 : kLodHiddenCounted);
     return needs;
 }
 
@@ -119,14 +119,18 @@ void Levels::layOutDraws(uint32_t windowCount) {
 Culling::Needs Levels::cullingNeeds() const {
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
-    needs.measure =
-        surface::lod::measureInstance(desc_.asset->character.cage, tables().isolationSteps, tables().lod.charts);
-    needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(desc_.asset->character.cage);
-    needs.parts = partCount();
-    for (const surface::LodTables::Run& run : tables().lod.runs) {
-        needs.leastVertices += run.patchCount * surface::lod::sampleCount(surface::rowOf(run.patchClass).form, 1);
-    }
+    needs.measure = surface::lod::measureInstance(cage(), tables().isolationSteps, tables().lod.charts,
+                                                  &desc_.asset->character.cage);
+    needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage());
     return needs;
+}
+
+uint32_t Levels::leastVertices() const {
+    uint32_t vertices = 0;
+    for (const surface::LodTables::Run& run : tables().lod.runs) {
+        vertices += run.patchCount * surface::lod::sampleCount(surface::rowOf(run.patchClass).form, 1);
+    }
+    return vertices;
 }
 
 void Levels::bindOutput(const SurfaceSets::Which& which, SetContents& contents) const {
@@ -152,7 +156,7 @@ void Levels::fillLevels(SuppleLevelOutput& output) const {
     view()->fillDraws(output, firstRun_);
 }
 
-Status Levels::setRate(uint32_t) {
+Status Levels::canSetRate(uint32_t) const {
     return Error{ErrorCode::argument, desc_.asset->character.name + ": the group has its view's levels, not a rate"};
 }
 

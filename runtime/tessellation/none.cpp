@@ -13,11 +13,7 @@ public:
     }
 
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_NONE; }
-    [[nodiscard]] Status setRate(uint32_t rate) override {
-        const Status valid = checkRate(rate, askedRate_);
-        evaluation_.rate = valid ? rate : evaluation_.rate; // nothing is evaluated
-        return valid;
-    }
+    [[nodiscard]] Status canSetRate(uint32_t rate) const override { return checkRate(rate, askedRate_); }
     PassCost recordEvaluate(VkCommandBuffer) const override { return {}; }
     PassCost recordMotion(VkCommandBuffer) const override { return {}; }
 

@@ -4,6 +4,9 @@
 // All rates share the isolated mesh, and with it the coefficient pools and all that comes before evaluation. Each has
 // its own tables, program, draw ranges and list of instances, and a place in every instance's vertices. So the
 // attributes of all rates are made once, and a host draws a rate as it draws a group of that rate alone.
+//
+// All surfaces of a group have the rates of the group's ladder. Where a surface lacks one, it is drawn at the nearest
+// that it has.
 #include "runtime/tessellation/own_vertices.h"
 
 #include <algorithm>
@@ -20,25 +23,23 @@ public:
     ~Rates() override;
     [[nodiscard]] Status begin();
 
-    [[nodiscard]] uint32_t lists() const override {
-        return Culling::lists(partCount(), static_cast<uint32_t>(own_.size()));
-    }
+    [[nodiscard]] Ladder ladder() const override;
+    void setLadder(Ladder ladder) override;
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
     [[nodiscard]] Culling::Needs cullingNeeds() const override;
     [[nodiscard]] Status createSets(const InstanceSet& instances, const Visibility& visibility) override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_RATES; }
     void fillGrid(SuppleGridOutput& output) const override;
-    [[nodiscard]] Status setRate(uint32_t rate) override;
+    [[nodiscard]] Status canSetRate(uint32_t rate) const override;
 
     [[nodiscard]] bool staticsPending() const override;
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
     void cancelFrame(uint64_t frame) override;
     void releaseStaging(uint64_t completedFrame) override;
-    PassCost recordPatchLevels(VkCommandBuffer commandBuffer) const override;
-    PassCost recordPlaces(VkCommandBuffer commandBuffer) const override;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
     PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
     [[nodiscard]] bool isBudgeted() const override { return view()->countsRates(); }
+    [[nodiscard]] uint32_t leastVertices() const override { return own_.front().vertices; }
 
 protected:
     [[nodiscard]] uint32_t scratchStride() const override;
@@ -51,15 +52,16 @@ private:
         surface::Evaluation evaluation;
         surface::Program program;
         SurfaceSets sets;
-        uint32_t vertices = 0; ///< of an instance
+        uint32_t firstVertex = 0, vertices = 0; ///< of an instance
+        std::vector<SuppleDrawRange> draws;
     };
     [[nodiscard]] Status buildRates();
     [[nodiscard]] Status layOutDraws();
-    [[nodiscard]] uint32_t partCount() const { return static_cast<uint32_t>(desc_.asset->character.parts.size()); }
     [[nodiscard]] const Culling& culling() const { return static_cast<const Culling&>(*visibility_); }
     void recordRates(VkCommandBuffer commandBuffer, bool previous) const;
 
     std::vector<Rate> own_;            ///< rising; the last one's tables are scheme_
+    std::vector<uint32_t> places_;     ///< by rate of the group's ladder, in own_
     std::vector<std::byte> indexData_; ///< of the index buffer, until that is made
     bool joined_ = false;
 };
@@ -96,14 +98,14 @@ Status Rates::begin() {
 }
 
 Status Rates::layOutDraws() {
-    if (surface::schemeOf(scheme_->recipe.scheme).isMesh()) {
-        const Rate& only = own_.front();
+    if (isMesh()) {
+        Rate& only = own_.front();
         Result<std::vector<std::byte>> indices = layOutMesh(only.evaluation, only.vertices);
         if (!indices) {
             return indices.error();
         }
         indexData_ = std::move(*indices);
-        rates_.push_back({only.evaluation.rate, 0, static_cast<uint32_t>(draws_.size()), {}});
+        only.draws = std::move(draws_);
         return success();
     }
     GridDraws grids;
@@ -111,13 +113,31 @@ Status Rates::layOutDraws() {
         grids.addRate(tables(), rate.evaluation.rate);
     }
     indexData_ = grids.takeIndices();
-    uint32_t firstVertex = 0;
     for (size_t r = 0; r < own_.size(); ++r) {
-        const auto first = static_cast<uint32_t>(draws_.size());
-        grids.append(tables(), r, firstVertex, draws_);
-        rates_.push_back({own_[r].evaluation.rate, first, static_cast<uint32_t>(draws_.size()) - first, {}});
+        uint32_t firstVertex = own_[r].firstVertex;
+        grids.append(tables(), r, firstVertex, own_[r].draws);
     }
     return success();
+}
+
+Tessellation::Ladder Rates::ladder() const {
+    return {1u << tables().isolationSteps, static_cast<uint32_t>(own_.size()), isMesh()};
+}
+
+void Rates::setLadder(Ladder ladder) {
+    draws_.clear();
+    for (uint32_t r = 0; r < ladder.count; ++r) {
+        const uint32_t last = static_cast<uint32_t>(own_.size()) - 1;
+        uint32_t place = 0;
+        while (place < last && this->ladder().first << place < ladder.first << r) {
+            ++place;
+        }
+        places_.push_back(place);
+        const Rate& own = own_[place];
+        const auto count = static_cast<uint32_t>(own.draws.size());
+        rates_.push_back({own.evaluation.rate, static_cast<uint32_t>(draws_.size()), count, {}});
+        draws_.insert(draws_.end(), own.draws.begin(), own.draws.end());
+    }
 }
 
 Status Rates::buildRates() {
@@ -125,16 +145,16 @@ Status Rates::buildRates() {
     uint64_t vertices = 0;
     for (uint32_t segments = 1; segments <= tables().rate; segments *= 2) {
         recipe.rate = segments << tables().isolationSteps;
-        Result<std::shared_ptr<SchemeTables>> scheme = desc_.asset->tablesFor(*desc_.device, recipe);
+        Result<std::shared_ptr<SchemeTables>> scheme = desc_.asset->tablesFor(*desc_.device, recipe, desc_.piece);
         if (!scheme) {
             return scheme.error();
         }
         Rate& rate = own_.emplace_back();
         rate.scheme = std::move(*scheme);
         rate.evaluation.rate = segments;
-        const uint64_t first = vertices;
+        rate.firstVertex = static_cast<uint32_t>(vertices);
         vertices = rate.evaluation.layOut(rate.scheme->tables, vertices);
-        rate.vertices = static_cast<uint32_t>(vertices - first);
+        rate.vertices = static_cast<uint32_t>(vertices) - rate.firstVertex;
     }
     scheme_ = own_.back().scheme;
     return setVertexCount(vertices);
@@ -150,17 +170,14 @@ Status Rates::join(const InstanceWindows&) {
 }
 
 Culling::Needs Rates::cullingNeeds() const {
-    const cage::Cage& cage = desc_.asset->character.cage;
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
-    needs.measure = surface::lod::measureInstance(cage); // rates count along edges of the cage
-    needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage);
-    needs.leastVertices = own_.front().vertices;
-    needs.parts = partCount();
-    needs.firstRate = 1u << tables().isolationSteps;
-    for (size_t r = 0; r < own_.size(); ++r) {
-        needs.rates.push_back({own_[r].vertices, own_[r].program.evaluationSizes(),
-                               std::span(draws_).subspan(rates_[r].firstDrawRange, rates_[r].drawRangeCount)});
+    // Rates count along edges of the cage.
+    needs.measure = surface::lod::measureInstance(cage(), 0, false, &desc_.asset->character.cage);
+    needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage());
+    for (const uint32_t place : places_) {
+        const Rate& own = own_[place];
+        needs.rates.push_back({own.vertices, own.program.evaluationSizes(), own.draws});
     }
     return needs;
 }
@@ -180,11 +197,11 @@ Status Rates::createSets(const InstanceSet& instances, const Visibility& visibil
 
 void Rates::fillGrid(SuppleGridOutput& output) const {
     OwnVertices::fillGrid(output);
-    output.indirect = {culling().list().buffer, culling().drawOffset(),
+    output.indirect = {culling().list().buffer, culling().drawOffset(desc_.surface),
                        draws_.size() * sizeof(VkDrawIndexedIndirectCommand), sizeof(VkDrawIndexedIndirectCommand)};
 }
 
-Status Rates::setRate(uint32_t rate) {
+Status Rates::canSetRate(uint32_t rate) const {
     if (rate == askedRate_) {
         return success();
     }
@@ -234,30 +251,16 @@ void Rates::recordAttributeSteps(VkCommandBuffer commandBuffer) const {
     }
 }
 
-PassCost Rates::recordPatchLevels(VkCommandBuffer commandBuffer) const {
-    if (!isBudgeted()) {
-        return {};
-    }
-    gpu::disjointBarrier(*desc_.device, commandBuffer);
-    return culling().recordDemand(commandBuffer);
-}
-
-PassCost Rates::recordPlaces(VkCommandBuffer commandBuffer) const {
-    // Behind the solver; and all add to the view's count of vertices, each with one lane.
-    gpu::computeBarrier(*desc_.device, commandBuffer);
-    return culling().recordRates(commandBuffer, isBudgeted());
-}
-
 void Rates::recordRates(VkCommandBuffer commandBuffer, bool previous) const {
     bool first = true;
-    for (uint32_t r = 0; r < own_.size(); ++r) {
-        const Rate& rate = own_[r];
+    for (uint32_t r = 0; r < places_.size(); ++r) {
+        const Rate& rate = own_[places_[r]];
         windows().forEach([&](uint32_t w) {
             if (!first && usesScratch()) {
                 gpu::computeBarrier(*desc_.device, commandBuffer);
             }
             first = false;
-            surface::Window window = culling().window(w, r);
+            surface::Window window = culling().window(w, desc_.surface, r);
             window.sets = rate.sets.at({w, previous ? 1 - pool_ : pool_, previous});
             record(commandBuffer, previous ? rate.program.motion : rate.program.evaluate, window);
         });

@@ -18,9 +18,7 @@ surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View*
     recipe.indexedMesh = (desc.flags & SUPPLE_GROUP_INDEXED_MESH) != 0;
     recipe.attributes = view != nullptr ? (view->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
                                         : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
-    if (desc.scheme != SUPPLE_SCHEME_AUTO) {
-        recipe.scheme = static_cast<surface::SchemeId>(desc.scheme);
-    }
+    recipe.scheme = static_cast<surface::SchemeId>(desc.scheme);
     const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
     recipe.lod = view != nullptr && scheme.hasLevels;
     recipe.rate = scheme.tableRate(rate, recipe.lod);
@@ -60,10 +58,7 @@ Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDes
     if (desc.group.scheme == SUPPLE_SCHEME_CAGE) {
         return makeNoTessellation(desc);
     }
-    const surface::SchemeId scheme = desc.group.scheme == SUPPLE_SCHEME_AUTO
-                                         ? surface::Recipe().scheme
-                                         : static_cast<surface::SchemeId>(desc.group.scheme);
-    const surface::Scheme& row = surface::schemeOf(scheme);
+    const surface::Scheme& row = surface::schemeOf(static_cast<surface::SchemeId>(desc.group.scheme));
     if (desc.view != nullptr) {
         return row.hasLevels ? makeLevels(desc) : makeRates(desc);
     }
@@ -75,13 +70,15 @@ Tessellation::Tessellation(TessellationDesc desc)
     : desc_(std::move(desc)), askedRate_(desc_.group.rate == 0 ? 8 : desc_.group.rate),
       scheme_(std::make_shared<SchemeTables>()) {
     wanted_ = view() != nullptr ? StreamSet::ofView(view()->desc().flags) : StreamSet::ofGroup(desc_.group.flags);
-    const uint32_t vertices = desc_.asset->character.cage.vertexCount();
-    evaluation_.cageStride = InstanceSet::cageStrideOf(vertices);
+    if (desc_.piece != nullptr) {
+        gathered_.emplace(*desc_.deform, *desc_.piece);
+    }
+    evaluation_.cageStride = InstanceSet::cageStrideOf(cage().vertexCount());
 }
 
 Status Tessellation::buildTables() {
     Result<std::shared_ptr<SchemeTables>> built =
-        desc_.asset->tablesFor(*desc_.device, recipeOf(desc_.group, askedRate_, view()));
+        desc_.asset->tablesFor(*desc_.device, recipeOf(desc_.group, askedRate_, view()), desc_.piece);
     if (!built) {
         return built.error();
     }
@@ -94,6 +91,9 @@ Status Tessellation::buildTables() {
         !own.ranges.empty() && std::all_of(own.ranges.begin(), own.ranges.end(), [](const surface::PatchRange& range) {
             return surface::rowOf(range.patchClass).coefficients > 0;
         });
+    if (desc_.schemeChosen && !hasCoefficients) {
+        desc_.group.flags &= ~uint32_t{SUPPLE_GROUP_PATCHES};
+    }
     if ((desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0 && !hasCoefficients) {
         return Error{ErrorCode::argument,
                      desc_.asset->character.name + ": " + scheme.name + " has no patch coefficients"};
@@ -150,14 +150,6 @@ Status Tessellation::checkRate(uint32_t rate, uint32_t most) const {
     return success();
 }
 
-std::vector<uint32_t> Tessellation::partPatches() const {
-    std::vector<uint32_t> counts(desc_.asset->character.parts.size());
-    for (const surface::PatchInfo& patch : tables().patches) {
-        ++counts[patch.part];
-    }
-    return counts;
-}
-
 BoundBytes Tessellation::boundBytes() const {
     const VkDeviceSize patchBytes =
         (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0 ? tables().patches.size() * kPatchStride * kVec4Bytes : 0;
@@ -178,13 +170,17 @@ void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
         device.add({"supple patch coefficients", patches ? n * tables().patches.size() * kPatchStride * kVec4Bytes : 0,
                     kScratch | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     scratch_ = device.add({"supple scratch", n * scratchStride() * kVec4Bytes, kScratch});
+    if (gathered_) {
+        gathered_->plan(device, desc_.group.capacity);
+    }
 }
 
 Status Tessellation::createSets(const InstanceSet& instances, const Visibility& visibility) {
     instances_ = &instances;
     visibility_ = &visibility;
     clear_.renew(pools_[0].size() > 0);
-    return makeSets(sets_, *scheme_, program_);
+    const Status gathers = gathered_ ? gathered_->createSets(*desc_.device, instances) : success();
+    return !gathers ? gathers : makeSets(sets_, *scheme_, program_);
 }
 
 Status Tessellation::makeSets(SurfaceSets& target, const SchemeTables& scheme, const surface::Program& program) const {
@@ -216,7 +212,8 @@ void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables
         // shaders/subdivision/net.glsl).
         bind(kCageBinding, kCageTexelBinding, pools_[1 - which.pool], poolStride, "supple pool");
     } else {
-        bind(kCageBinding, kCageTexelBinding, instances_->cages(), evaluation_.cageStride, "supple deformed cage");
+        const gpu::PlannedBuffer& cages = gathered_ ? gathered_->cages() : instances_->cages();
+        bind(kCageBinding, kCageTexelBinding, cages, evaluation_.cageStride, "supple deformed cage");
     }
     if (scratch_.size() > 0) {
         bind(kScratchBinding, kScratchTexelBinding, scratch_, scratchStride(), "supple scratch");
@@ -236,7 +233,8 @@ void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables
 void Tessellation::addTransfers(Transfers&, uint64_t) const {}
 
 bool Tessellation::staticsPending() const {
-    return scheme_->buffers.uploadPending() || clear_.due();
+    return scheme_->buffers.uploadPending() || clear_.due() ||
+           (desc_.piece != nullptr && desc_.piece->vertices.uploadPending());
 }
 
 VkDeviceSize Tessellation::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
@@ -249,16 +247,28 @@ VkDeviceSize Tessellation::recordStatics(VkCommandBuffer commandBuffer, uint64_t
             }
         }
     }
-    return scheme_->buffers.recordUpload(commandBuffer, frame);
+    const VkDeviceSize ofPiece =
+        desc_.piece != nullptr ? desc_.piece->vertices.recordUpload(commandBuffer, frame) : VkDeviceSize{0};
+    return ofPiece + scheme_->buffers.recordUpload(commandBuffer, frame);
 }
 
 void Tessellation::cancelFrame(uint64_t frame) {
     scheme_->buffers.cancelUpload(frame);
+    if (desc_.piece != nullptr) {
+        desc_.piece->vertices.cancelUpload(frame);
+    }
     clear_.cancel(frame);
 }
 
 void Tessellation::releaseStaging(uint64_t completedFrame) {
     scheme_->buffers.releaseStaging(completedFrame);
+    if (desc_.piece != nullptr) {
+        desc_.piece->vertices.releaseStaging(completedFrame);
+    }
+}
+
+PassCost Tessellation::recordGather(VkCommandBuffer commandBuffer) const {
+    return gathered_ ? gathered_->record(commandBuffer, windows()) : PassCost{};
 }
 
 VkDeviceSize Tessellation::recordUpload(VkCommandBuffer, uint64_t, bool) {
@@ -273,7 +283,7 @@ const surface::Steps& Tessellation::stepsOf(surface::Stage stage) const {
 }
 
 surface::Window Tessellation::seen(uint32_t window) const {
-    surface::Window result = visibility_->window(window);
+    surface::Window result = visibility_->window(window, desc_.surface);
     result.sets = sets(window);
     return result;
 }

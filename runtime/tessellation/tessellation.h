@@ -1,4 +1,4 @@
-// How a group's surface becomes vertices: one implementation a file.
+// How a surface of a group becomes vertices: one implementation a file.
 //
 //   none.cpp          the deformed cage alone
 //   fixed_rate.cpp    grids of samples, patch by patch, at one rate
@@ -10,7 +10,9 @@
 #include "gpu/buffer_plan.h"
 #include "runtime/asset.h"
 #include "runtime/culling/culling.h"
+#include "runtime/gathered_cage.h"
 #include "runtime/instance_set.h"
+#include "runtime/part_schemes.h"
 #include "runtime/recorded_once.h"
 #include "runtime/surface_sets.h"
 #include "runtime/vertex_streams.h"
@@ -18,6 +20,7 @@
 #include "surface/passes.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,11 +34,17 @@ inline constexpr uint32_t kVertexPadding = 64;
 struct TessellationDesc {
     const gpu::Device* device = nullptr;
     surface::Passes* passes = nullptr;
+    const skinning::DeformPass* deform = nullptr;
     BoundsPass* bounds = nullptr; ///< groups of a view
     const gpu::StaticBuffers* pairs = nullptr;
     std::shared_ptr<View> view; ///< null, or the group's
     Asset* asset = nullptr;
-    SuppleGroupDesc group{};
+    SuppleGroupDesc group{};           ///< `scheme` is the surface's
+    std::vector<uint32_t> parts;       ///< rising
+    std::shared_ptr<AssetPiece> piece; ///< those parts; null: all of the asset's
+    bool schemeChosen = false;         ///< the host left it to Supple: outputs that the scheme lacks are left out
+    uint32_t surface = 0;              ///< its number in the group
+    bool countsHidden = true;          ///< it has the first patches at levels of the group
     uint32_t framesInFlight = 2;
     bool handsOver = false; ///< to another queue family: all output is written anew in every frame
 };
@@ -51,15 +60,27 @@ public:
 
     [[nodiscard]] const SchemeTables& scheme() const { return *scheme_; }
     [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables; }
-    /// How many patches every part of the asset has.
-    [[nodiscard]] std::vector<uint32_t> partPatches() const;
+    [[nodiscard]] SuppleScheme schemeId() const { return desc_.group.scheme; }
+    [[nodiscard]] const std::vector<uint32_t>& parts() const { return desc_.parts; }
+    /// The scheme polygons, which is not tessellated.
+    [[nodiscard]] bool isMesh() const {
+        return kind() != SUPPLE_TESSELLATION_NONE && surface::schemeOf(scheme_->recipe.scheme).isMesh();
+    }
     /// Why the rate is not the one asked for, or empty.
     [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
 
     // Creation, in this order, after create().
+    /// Rates that instances of a group may have. `first`: segments along an edge of the cage; each further one has
+    /// twice as many.
+    struct Ladder {
+        uint32_t first = 0, count = 0;
+        bool adapts = false; ///< it is right for whatever rates the group's other surfaces have
+    };
+    /// None (a count of 0) if instances do not have one of several rates.
+    [[nodiscard]] virtual Ladder ladder() const { return {}; }
+    /// The group's, if ladder() has rates.
+    virtual void setLadder(Ladder /*ladder*/) {}
     [[nodiscard]] virtual BoundBytes boundBytes() const;
-    /// How many lists of `capacity` instances passes read.
-    [[nodiscard]] virtual uint32_t lists() const { return 2; }
     /// Joins the view; asks it for room.
     [[nodiscard]] virtual Status join(const InstanceWindows& /*windows*/) { return success(); }
     /// Groups of a view.
@@ -77,8 +98,10 @@ public:
     virtual void fillLevels(SuppleLevelOutput& /*output*/) const {}
     [[nodiscard]] const gpu::PlannedBuffer& patchCoefficients() const { return patches_; }
     virtual void addTransfers(Transfers& transfers, uint64_t frame) const;
-    /// The next fillGrid() tells of the new rate.
-    [[nodiscard]] virtual Status setRate(uint32_t rate) = 0;
+    /// Whether setRate() would take the rate.
+    [[nodiscard]] virtual Status canSetRate(uint32_t rate) const = 0;
+    /// A rate that it can. The next fillGrid() tells of it.
+    [[nodiscard]] virtual Status setRate(uint32_t /*rate*/) { return success(); }
 
     // Uploads and clears that are recorded once.
     [[nodiscard]] virtual bool staticsPending() const;
@@ -87,6 +110,9 @@ public:
     virtual void releaseStaging(uint64_t completedFrame);
 
     // The passes of a frame. What their dispatches need between them they record themselves.
+    [[nodiscard]] bool gathers() const { return gathered_.has_value(); }
+    /// The deformed vertices of its parts.
+    PassCost recordGather(VkCommandBuffer commandBuffer) const;
     /// `changed`: the list of instances has.
     virtual VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed);
     [[nodiscard]] virtual bool attributesDue() const { return false; }
@@ -110,6 +136,8 @@ public:
 
     /// Whether the vertices count in the view's budget.
     [[nodiscard]] virtual bool isBudgeted() const { return false; }
+    /// Of an instance at its coarsest.
+    [[nodiscard]] virtual uint32_t leastVertices() const { return 0; }
     /// What the view's statistics count of an instance that is seen: patches at levels.
     [[nodiscard]] virtual uint32_t patchesAtLevels() const { return 0; }
 
@@ -125,8 +153,11 @@ protected:
     [[nodiscard]] Status checkRate(uint32_t rate, uint32_t most) const;
     /// Null without a view.
     [[nodiscard]] View* view() const { return desc_.view.get(); }
-    [[nodiscard]] bool wantsMotion() const;
     [[nodiscard]] const InstanceWindows& windows() const { return instances_->windows(); }
+    /// What the surface is made of: its piece, or all of the asset's cage.
+    [[nodiscard]] const cage::Cage& cage() const {
+        return desc_.piece != nullptr ? desc_.piece->of.cage : desc_.asset->character.cage;
+    }
 
     /// The instances of a window with the sets that passes of this frame bind.
     [[nodiscard]] surface::Window seen(uint32_t window) const;
@@ -150,6 +181,7 @@ protected:
     uint32_t askedRate_ = 8;
     std::string rateNote_;
     std::shared_ptr<SchemeTables> scheme_;
+    std::optional<GatheredCage> gathered_; ///< if it has a piece
     surface::Evaluation evaluation_;
     surface::Program program_;
     StreamSet wanted_;

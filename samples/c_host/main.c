@@ -150,10 +150,11 @@ static void createCrowd(SuppleContext context, SuppleAsset asset, SuppleScheme s
     desc.vertexFormat = SUPPLE_VERTEX_24;
     CHECK_SUPPLE(suppleCreateGroup(context, &desc, &crowd->group));
     CHECK_SUPPLE(suppleCreateInstance(context, crowd->group, &crowd->resident));
+    /* With a scheme by its name a group has one surface. */
     crowd->streams.structSize = sizeof crowd->streams;
-    CHECK_SUPPLE(suppleGetVertexStreams(context, crowd->group, &crowd->streams));
+    CHECK_SUPPLE(suppleGetVertexStreams(context, crowd->group, 0, &crowd->streams));
     crowd->grid.structSize = sizeof crowd->grid;
-    CHECK_SUPPLE(suppleGetGridOutput(context, crowd->group, &crowd->grid));
+    CHECK_SUPPLE(suppleGetGridOutput(context, crowd->group, 0, &crowd->grid));
 }
 
 /* Creating and destroying is one thread's; earlier frames that still read the old guest are not disturbed. */

@@ -90,6 +90,7 @@ void Cloth::createSupple(const Device& device, uint32_t rate) {
     for (supple::Instance& sheet : sheets_)
         must(supple::Instance::create(group_, sheet), "suppleCreateInstance");
     must(group_.info(info_), "suppleGetGroupInfo");
+    must(group_.surfaceInfo(surface_), "suppleGetSurfaceInfo");
     must(group_.vertexStreams(streams_), "suppleGetVertexStreams");
     must(group_.gridOutput(grid_), "suppleGetGridOutput");
 }

@@ -37,6 +37,8 @@ public:
     /// round the two are recorded too.
     void record(VkCommandBuffer commands, double seconds);
     const SuppleGroupInfo& info() const { return info_; }
+    /// The only one: arrays are an asset of one part.
+    const SuppleSurfaceInfo& surface() const { return surface_; }
     const SuppleVertexStreams& streams() const { return streams_; }
     const SuppleGridOutput& grid() const { return grid_; }
 
@@ -50,6 +52,7 @@ private:
     supple::Group group_;
     std::array<supple::Instance, 2> sheets_;
     SuppleGroupInfo info_{};
+    SuppleSurfaceInfo surface_{};
     SuppleVertexStreams streams_{};
     SuppleGridOutput grid_{};
 

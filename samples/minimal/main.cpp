@@ -107,9 +107,16 @@ void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer co
 
     SuppleAssetInfo info;
     check(asset.info(info), "info");
-    SuppleGridOutput grid; // what a host draws; suppleGetVertexStreams has the buffers of the vertices
-    check(group.gridOutput(grid), "gridOutput");
-    std::printf("%u faces, %u clips, %u surface vertices\n", info.faceCount, info.clipCount, grid.vertexCount);
+    SuppleGroupInfo groupInfo;
+    check(group.info(groupInfo), "info");
+    // What a host draws, surface by surface; suppleGetVertexStreams has the buffers of the vertices.
+    std::vector<SuppleGridOutput> grids(groupInfo.surfaceCount);
+    uint32_t vertexCount = 0;
+    for (uint32_t surface = 0; surface < groupInfo.surfaceCount; ++surface) {
+        check(group.gridOutput(grids[surface], surface), "gridOutput");
+        vertexCount += grids[surface].vertexCount;
+    }
+    std::printf("%u faces, %u clips, %u surface vertices\n", info.faceCount, info.clipCount, vertexCount);
 
     uint64_t frame = 1;
     for (; frame <= 10; ++frame) {
@@ -121,7 +128,7 @@ void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer co
         const SuppleSyncScope draws{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
         const SuppleGroup groups[] = {group.handle()};
         check(context.record(commands, groups, draws, draws, SUPPLE_RECORD_TIMINGS), "record");
-        // Here a host draws: one vkCmdDrawIndexedIndirect for each of grid.drawRanges.
+        // Here a host draws: one vkCmdDrawIndexedIndirect for each of the grids' drawRanges.
         check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
         const VkSubmitInfo submit{
             VK_STRUCTURE_TYPE_SUBMIT_INFO, nullptr, 0, nullptr, nullptr, 1, &commands, 0, nullptr};

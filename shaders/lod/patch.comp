@@ -293,8 +293,8 @@ void countPatch(bool counted, uint run, uint form, uint priority, uint bin, uint
 // Whether the instance hides the patch's part. What it hides is counted where its first patch is.
 bool isHidden(uint listed, uint instance, uint patchIndex, uint part, bool inside) {
     if ((listed & kInstanceHidesParts) == 0u) return false;
-    uint mask = push.masks + (push.window.firstSlot + instance) * push.maskWords;
-    if (inside && patchIndex == 0u) atomicAdd(lodWords[kLodHidden], instanceWord(mask));
+    uint mask = push.masks + (push.window.firstSlot + instance) * (push.maskWords & ~kLodHiddenCounted);
+    if (inside && patchIndex == 0u && (push.maskWords & kLodHiddenCounted) == 0u) atomicAdd(lodWords[kLodHidden], instanceWord(mask));
     return (instanceWord(mask + 1u + part / 32u) >> (part & 31u) & 1u) != 0u;
 }
 

@@ -81,6 +81,8 @@ SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBi
 SUPPLE_SHARED_CONST kLodRated = kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kRatedBins = 516u; // kBinsPerOctave an octave above the level a rate is enough for
 SUPPLE_SHARED_CONST kBudgetSteps = kElasticSteps + kRatedBins;
+// Of LodPush::maskWords: another surface of the group counts the patches that an instance hides.
+SUPPLE_SHARED_CONST kLodHiddenCounted = 0x80000000u;
 SUPPLE_SHARED_CONST kLodHidden = kLodRated + 1u; // patches of hidden parts, of all groups with levels
 SUPPLE_SHARED_CONST kLodRatedMore = kLodRated + 4u;
 // From here on hosts read. What they may bind lies on multiples of what descriptor offsets need at most, 256 bytes.
@@ -144,7 +146,7 @@ struct LodPush {
     uint runCount;      // of the window
     uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
     uint masks;         // of parts, first word in the list of instances (shared/bounds.h)
-    uint maskWords;     // an instance
+    uint maskWords;     // an instance; and kLodHiddenCounted
     LodCamera
         camera; // where back faces are left out, of an orthographic one: the direction it looks in for its position
 };

@@ -22,13 +22,14 @@ glm::vec3 beyond(const cage::Cage& cage, const cage::Topology& topology, uint32_
 
 } // namespace
 
-InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings, bool charts) {
+InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings, bool charts, const cage::Cage* whole) {
     const Result<cage::Topology> topology = cage::buildTopology(cage);
     if (!topology || cage.positions.empty()) {
         return {};
     }
-    glm::vec3 low = cage.positions.front(), high = low;
-    for (const glm::vec3& p : cage.positions) {
+    const std::vector<glm::vec3>& inBox = whole != nullptr ? whole->positions : cage.positions;
+    glm::vec3 low = inBox.front(), high = low;
+    for (const glm::vec3& p : inBox) {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }

@@ -13,7 +13,8 @@ struct InstanceMeasure {
                           ///< edge and beyond its end, divided by 6 as for a uniform cubic B-spline
 };
 /// `halvings`: how often the cage is subdivided before patches are made. `charts`: the blending surface, whose curves
-/// interpolate the cage and bend unevenly.
-[[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings = 0, bool charts = false);
+/// interpolate the cage and bend unevenly. `whole`: the cage that `cage` is a piece of; its box counts.
+[[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings = 0, bool charts = false,
+                                              const cage::Cage* whole = nullptr);
 
 } // namespace supple::surface::lod

@@ -960,6 +960,23 @@ void groups(Rows& r) {
                     d.flags = SUPPLE_GROUP_INDEXED_MESH;
                 });
     }
+    static const SuppleScheme kPartSchemes[] = {SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CAGE,
+                                                static_cast<SuppleScheme>(7)};
+    const auto partSchemes = [&](const std::string& what, SuppleResult result, int message, uint32_t first,
+                                 uint32_t count, SuppleScheme scheme = SUPPLE_SCHEME_PM) {
+        spoiled("schemes of parts: " + what, result, message, [=](Desc& d) {
+            d.scheme = scheme;
+            d.partSchemes = kPartSchemes + first;
+            d.partSchemeCount = count;
+        });
+    };
+    partSchemes("one for each part", SUPPLE_OK, kSilent, 0, 1);
+    partSchemes("more than parts", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, 0, 2);
+    partSchemes("cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, 2, 1);
+    partSchemes("no such", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, 3, 1);
+    partSchemes("of a cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, 0, 1, SUPPLE_SCHEME_CAGE);
+    spoiled("schemes of parts: null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER,
+            [](Desc& d) { d.partSchemeCount = 1; });
     spoiled("too many vertices", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT, [](Desc& d) {
         d.scheme = SUPPLE_SCHEME_PM;
         d.rate = 64;
@@ -975,19 +992,33 @@ void groups(Rows& r) {
     r.accept("suppleSetRate", "as it is", [](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, 2); });
     r.add("suppleSetRate", "of a scheme of one rate", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
           [](World& w) { return suppleSetRate(w.handle(), w.mine.subdivision.group, 64); });
-    const auto output = [&]<class T>(const char* function, SuppleResult (*get)(SuppleContext, SuppleGroup, T*)) {
-        r.groups(function,
-                 [=](World& w, SuppleContext c, SuppleGroup g) { return get(c, g, w.template watched<T>(sizeof(T))); });
-        const bool levels = std::is_same_v<T, SuppleLevelOutput>;
-        r.output<T>(function,
-                    [=](World& w, T* out) { return get(w.handle(), levels ? w.seen.group : w.mine.main.group, out); });
+    r.groups("suppleGetGroupInfo", [](World& w, SuppleContext c, SuppleGroup g) {
+        return suppleGetGroupInfo(c, g, w.watched<SuppleGroupInfo>(sizeof(SuppleGroupInfo)));
+    });
+    r.output<SuppleGroupInfo>("suppleGetGroupInfo", [](World& w, SuppleGroupInfo* out) {
+        return suppleGetGroupInfo(w.handle(), w.mine.main.group, out);
+    });
+    const auto output = [&]<class T>(const char* function,
+                                     SuppleResult (*get)(SuppleContext, SuppleGroup, uint32_t, T*)) {
+        r.groups(function, [=](World& w, SuppleContext c, SuppleGroup g) {
+            return get(c, g, 0, w.template watched<T>(sizeof(T)));
+        });
+        const auto from = [](World& w) {
+            return std::is_same_v<T, SuppleLevelOutput> ? w.seen.group : w.mine.main.group;
+        };
+        r.output<T>(function, [=](World& w, T* out) { return get(w.handle(), from(w), 0, out); });
+        for (const uint32_t surface : {1u, ~0u}) {
+            r.refuse(function, "surface " + std::to_string(surface), SUPPLE_MESSAGE_OUT_OF_RANGE,
+                     [=](World& w) { return get(w.handle(), from(w), surface, w.template watched<T>(sizeof(T))); });
+        }
     };
-    const auto conflict = [&]<class T>(const char* function, SuppleResult (*get)(SuppleContext, SuppleGroup, T*),
-                                       const char* what, SmallGroup World::*of) {
+    const auto conflict = [&]<class T>(const char* function,
+                                       SuppleResult (*get)(SuppleContext, SuppleGroup, uint32_t, T*), const char* what,
+                                       SmallGroup World::*of) {
         r.refuse(function, what, SUPPLE_MESSAGE_CONFLICT,
-                 [=](World& w) { return get(w.handle(), (w.*of).group, w.template watched<T>(sizeof(T))); });
+                 [=](World& w) { return get(w.handle(), (w.*of).group, 0, w.template watched<T>(sizeof(T))); });
     };
-    output("suppleGetGroupInfo", suppleGetGroupInfo);
+    output("suppleGetSurfaceInfo", suppleGetSurfaceInfo);
     output("suppleGetVertexStreams", suppleGetVertexStreams);
     output("suppleGetGridOutput", suppleGetGridOutput);
     output("suppleGetLevelOutput", suppleGetLevelOutput);
@@ -1007,17 +1038,20 @@ void groups(Rows& r) {
              [](World& w) { return suppleGetInstanceBounds(w.handle(), w.seen.group, w.plain<SuppleBufferRange>()); });
     constexpr const char* kPatches = "suppleGetPatches";
     r.groups(kPatches, [](World& w, SuppleContext c, SuppleGroup g) {
-        return suppleGetPatches(c, g, w.plain<SupplePatchInfo>(2), w.number(2));
+        return suppleGetPatches(c, g, 0, w.plain<SupplePatchInfo>(2), w.number(2));
+    });
+    r.refuse(kPatches, "surface 1", SUPPLE_MESSAGE_OUT_OF_RANGE, [](World& w) {
+        return suppleGetPatches(w.handle(), w.mine.main.group, 1, w.plain<SupplePatchInfo>(2), w.number(2));
     });
     r.refuse(kPatches, "count null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
-        return suppleGetPatches(w.handle(), w.mine.main.group, w.plain<SupplePatchInfo>(2), nullptr);
+        return suppleGetPatches(w.handle(), w.mine.main.group, 0, w.plain<SupplePatchInfo>(2), nullptr);
     });
     r.accept(kPatches, "count alone",
-             [](World& w) { return suppleGetPatches(w.handle(), w.mine.main.group, nullptr, w.number(0)); });
+             [](World& w) { return suppleGetPatches(w.handle(), w.mine.main.group, 0, nullptr, w.number(0)); });
     r.add(kPatches, "short array", SUPPLE_INCOMPLETE, kSilent, [](World& w) {
         auto* const patches = w.plain<SupplePatchInfo>(3);
         uint32_t count = 2;
-        const SuppleResult result = suppleGetPatches(w.handle(), w.mine.main.group, patches, &count);
+        const SuppleResult result = suppleGetPatches(w.handle(), w.mine.main.group, 0, patches, &count);
         EXPECT_GT(count, 2u);
         EXPECT_EQ(patches[2].face, 0xA5A5A5A5u);
         return result;

@@ -146,9 +146,9 @@ TEST_P(BackFaces, NothingThatFacesTheCameraIsLeftOut) {
             Crowd someCrowd(context, desc);
             ASSERT_TRUE(allCrowd.valid() && someCrowd.valid());
             const SuppleInstance instances[] = {allCrowd.spawn(), someCrowd.spawn()};
-            std::vector<SupplePatchInfo> patches(allCrowd.output().info.patchCount);
+            std::vector<SupplePatchInfo> patches(allCrowd.output().surface.patchCount);
             auto count = static_cast<uint32_t>(patches.size());
-            ASSERT_EQ(suppleGetPatches(context.handle(), allCrowd.group(), patches.data(), &count), SUPPLE_OK);
+            ASSERT_EQ(suppleGetPatches(context.handle(), allCrowd.group(), 0, patches.data(), &count), SUPPLE_OK);
             glm::vec3 low(1e30f), high(-1e30f);
             for (const glm::vec3& p : character->cage.positions) {
                 low = glm::min(low, p);
@@ -251,9 +251,9 @@ public:
         EXPECT_TRUE(wholeCrowd_.valid() && leftCrowd_.valid());
         (void)wholeCrowd_.spawn();
         (void)leftCrowd_.spawn();
-        patches.resize(wholeCrowd_.output().info.patchCount);
+        patches.resize(wholeCrowd_.output().surface.patchCount);
         auto count = static_cast<uint32_t>(patches.size());
-        EXPECT_EQ(suppleGetPatches(context.handle(), wholeCrowd_.group(), patches.data(), &count), SUPPLE_OK);
+        EXPECT_EQ(suppleGetPatches(context.handle(), wholeCrowd_.group(), 0, patches.data(), &count), SUPPLE_OK);
     }
     /// Nothing that faces the camera is missing. Adds to the counts.
     void look(const SuppleCameraDesc& camera) {
@@ -458,7 +458,7 @@ TEST_P(BackFaces, AreCountedAndDoubleSidedOnesStay) {
         EXPECT_EQ(statistics.instanceCount, 3u);
         EXPECT_EQ(statistics.drawnInstanceCount, 3u);
         EXPECT_EQ(statistics.patchCount, drawn);
-        EXPECT_EQ(statistics.backFaceCount, 3 * crowd.output().info.patchCount - drawn);
+        EXPECT_EQ(statistics.backFaceCount, 3 * crowd.output().surface.patchCount - drawn);
         EXPECT_EQ(statistics.backFaceCount == 0, doubleSided);
     }
 }

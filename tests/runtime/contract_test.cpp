@@ -236,7 +236,7 @@ TEST(Contract, InstancesHaveTheirOwnPoseAndTransform) {
     ASSERT_EQ(suppleSetClipPose(context, alone.instance(0), 1, 0.9), SUPPLE_OK);
     alone.evaluate();
     double moved = 0.0, turned = 0.0;
-    for (uint32_t p = 0; p < three.output().info.patchCount; ++p) {
+    for (uint32_t p = 0; p < three.output().surface.patchCount; ++p) {
         for (uint32_t s = 0; s < three.sampleCount(p); ++s) {
             const GpuSurface::Vertex &a = alone.vertex(0, p, s), &b = three.vertex(1, p, s), &c = three.vertex(2, p, s);
             ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << "an instance's bits depend on its neighbours";
@@ -413,7 +413,7 @@ TEST(Contract, TheCageAloneNeedsNoScheme) {
     ASSERT_TRUE((*created)->evaluate({&group, 1}, SUPPLE_RECORD_TIMINGS).ok());
     host::GroupOutput output{};
     ASSERT_EQ(host::getGroupOutput((*created)->handle(), group, output), SUPPLE_OK);
-    EXPECT_EQ(output.info.patchCount, 0u);
+    EXPECT_EQ(output.surface.patchCount, 0u);
     EXPECT_EQ(output.streams.vertices.buffer, VkBuffer{VK_NULL_HANDLE});
     const Result<std::vector<std::byte>> bytes = device->readBuffer(output.info.deformedCage);
     ASSERT_TRUE(bytes.ok());
@@ -788,7 +788,7 @@ TEST(Contract, MappingsSkinAndEvaluateManyInstancesAlike) {
             const glm::vec3 a = narrow.deformed(i, v), b = wide.deformed(i, v);
             different += std::memcmp(&a, &b, sizeof(a)) != 0 ? 1 : 0;
         }
-        for (uint32_t p = 0; p < narrow.output().info.patchCount; ++p) {
+        for (uint32_t p = 0; p < narrow.output().surface.patchCount; ++p) {
             for (uint32_t s = 0; s < narrow.sampleCount(p); ++s) {
                 different += std::memcmp(&narrow.vertex(i, p, s).position, &wide.vertex(i, p, s).position, 12) != 0;
             }

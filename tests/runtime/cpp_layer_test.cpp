@@ -91,7 +91,10 @@ TEST(CppLayer, OwnsWhatItMakes) {
     EXPECT_FALSE(timings.empty());
     SuppleGroupInfo info;
     ASSERT_EQ(group.info(info), SUPPLE_OK);
-    EXPECT_EQ(info.patchCount, 6u);
+    EXPECT_EQ(info.surfaceCount, 1u);
+    SuppleSurfaceInfo surface;
+    ASSERT_EQ(group.surfaceInfo(surface), SUPPLE_OK);
+    EXPECT_EQ(surface.patchCount, 6u);
     SuppleVertexStreams streams;
     SuppleGridOutput grid;
     SuppleLevelOutput levels;

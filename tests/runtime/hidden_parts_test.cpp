@@ -346,7 +346,7 @@ TEST_F(HiddenPartsOnce, OfOneAndOfNoSurface) {
         crowd.setRate(rate);
         crowd.run();
         const DrawnPatches drawn = drawnPatches(crowd);
-        EXPECT_EQ(drawn.size(), crowd.output().info.patchCount);
+        EXPECT_EQ(drawn.size(), crowd.output().surface.patchCount);
         EXPECT_TRUE(
             std::all_of(drawn.begin(), drawn.end(), [&](const auto& patch) { return patch.first.slot == other.slot; }));
     }

@@ -129,7 +129,7 @@ TEST_F(Instances, WhoIsVisibleIsListedDrawnAndWritten) {
         EXPECT_EQ(output.info.capacity, kCapacity);
         EXPECT_GE(output.info.instances.size, kCapacity * sizeof(uint32_t));
         const SuppleBufferRange views[] = {output.streams.vertices, output.streams.previousPositions,
-                                           output.info.deformedCage, output.info.patchCoefficients};
+                                           output.info.deformedCage, output.surface.patchCoefficients};
         std::map<uint32_t, SuppleInstance> members;
         const auto shown = [&](const std::set<uint32_t>& visible, float at) {
             for (const auto& [slot, instance] : members) {

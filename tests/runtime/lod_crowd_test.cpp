@@ -63,7 +63,7 @@ TEST_P(LodCrowds, ATenthOfTheBudgetStaysValidAndStable) {
     ASSERT_TRUE(crowd.valid());
     const std::vector<SuppleInstance> instances = spawnRows(crowd, 64);
     EXPECT_EQ(suppleSetPriority(context.handle(), instances.back(), 3), SUPPLE_OK); // the farthest is not to go
-    const uint32_t patches = crowd.output().info.patchCount;
+    const uint32_t patches = crowd.output().surface.patchCount;
 
     view.look({0.0f, 3.0f, 25.0f});
     context.run(crowd.group());
@@ -299,7 +299,7 @@ Drawn drawThrough(SuppleMapping mapping, uint32_t instances, uint32_t capacity,
         drawn.patches = byPatch(readLodSurface(crowd));
         context.run(crowd.group());
         drawn.levelScale = view.statistics().levelScales[0];
-        EXPECT_EQ(drawn.patches.size(), size_t{instances} * crowd.output().info.patchCount);
+        EXPECT_EQ(drawn.patches.size(), size_t{instances} * crowd.output().surface.patchCount);
         EXPECT_EQ(device->validationMessageCount(), 0u);
     }
     (void)wrappedVulkan();
@@ -409,7 +409,7 @@ TEST_P(LodCrowds, ATurningCameraKeepsItsBudget) {
     uint32_t runs = 0;
     for (size_t g = 0; g < 2; ++g) {
         runs += crowds[g]->output().levels.drawCount / shared::kCapacityCount;
-        levels[g].assign(priorities[g].size(), std::vector<float>(crowds[g]->output().info.patchCount));
+        levels[g].assign(priorities[g].size(), std::vector<float>(crowds[g]->output().surface.patchCount));
         for (const LodSurface::Patch& patch : readLodPatches(*crowds[g])) {
             levels[g][patch.slot][patch.patch] = levelOf(patch);
             ASSERT_TRUE(levelOf(patch) > 1.01f && levelOf(patch) < 62.9f) << "beyond what records tell";
@@ -453,7 +453,7 @@ TEST_P(LodCrowds, ATurningCameraKeepsItsBudget) {
             ASSERT_EQ(now.droppedInstanceCount + now.occludedInstanceCount + now.shortfall, 0u) << step;
             uint32_t patches = 0;
             for (const auto& [g, slot] : before.seen) {
-                patches += crowds[g]->output().info.patchCount;
+                patches += crowds[g]->output().surface.patchCount;
             }
             ASSERT_EQ(now.patchCount, patches) << step;
             ASSERT_GE(now.vertexCount, before.vertices) << step;
@@ -493,7 +493,7 @@ TEST_P(LodCrowds, ATurningCameraKeepsItsBudget) {
                 here.vertices += surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
             }
             for (const auto& [slot, count] : counts) {
-                ASSERT_EQ(count, crowds[g]->output().info.patchCount) << step;
+                ASSERT_EQ(count, crowds[g]->output().surface.patchCount) << step;
                 here.seen.insert({g, slot});
             }
             // Drawn is whose box no plane of the frustum has wholly behind it.
@@ -577,7 +577,7 @@ void comeCloser(CrowdContext& context, uint32_t heroes) {
     view.camera.edgeLength = 8.0f;
     uint32_t over = 0, least = ~0u, most = 0, leastWanted = ~0u, mostWanted = 0, rises = 0;
     float first = 0.0f, last = 2.0f, fall = 1.0f, rise = 1.0f;
-    const uint32_t patches = crowd.output().info.patchCount;
+    const uint32_t patches = crowd.output().surface.patchCount;
     // By patch: the level it turned round at, in which direction it goes, and how often it turned by over 2 %.
     struct Path {
         float extreme = 0.0f;

@@ -65,7 +65,7 @@ TEST_P(LodLevels, EdgesHaveTheReferencesOfBothMeasures) {
                 measure.focal = static_cast<double>(view.camera.pixelsPerUnit);
                 measure.chordError = lengths ? 0.0 : static_cast<double>(view.camera.chordError);
                 measure.edgeLength = static_cast<double>(lengths ? 8.0f : view.camera.smallestEdge);
-                const std::vector<std::byte> bytes = patches.read(patches.output().info.patchCoefficients);
+                const std::vector<std::byte> bytes = patches.read(patches.output().surface.patchCoefficients);
                 const auto coefficient = [&](uint32_t patch, size_t k) {
                     glm::vec3 c;
                     std::memcpy(&c, bytes.data() + (size_t{patch} * SUPPLE_PATCH_STRIDE + k) * 16, sizeof(c));

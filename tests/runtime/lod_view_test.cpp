@@ -49,7 +49,7 @@ TEST_P(LodViews, ClosedCagesHaveNoCracks) {
                 context.run(crowd.group());
                 const LodSurface surface = readLodSurface(crowd);
                 const Sides sides = matchSides(surface);
-                EXPECT_EQ(surface.patches.size(), crowd.output().info.patchCount);
+                EXPECT_EQ(surface.patches.size(), crowd.output().surface.patchCount);
                 EXPECT_GE(sides.triangles, 2 * surface.patches.size());
                 EXPECT_EQ(sides.unmatched, 0u) << name << " at " << distance;
                 for (const LodSurface::Patch& patch : surface.patches) {
@@ -104,9 +104,9 @@ class Reference {
 public:
     Reference(const CrowdContext& context, SuppleGroup group, const cage::Cage& cage, SuppleScheme scheme) {
         uint32_t count = 0;
-        EXPECT_EQ(suppleGetPatches(context.handle(), group, nullptr, &count), SUPPLE_OK);
+        EXPECT_EQ(suppleGetPatches(context.handle(), group, 0, nullptr, &count), SUPPLE_OK);
         patches_.resize(count);
-        EXPECT_EQ(suppleGetPatches(context.handle(), group, patches_.data(), &count), SUPPLE_OK);
+        EXPECT_EQ(suppleGetPatches(context.handle(), group, 0, patches_.data(), &count), SUPPLE_OK);
         const std::vector<glm::dvec3> positions(cage.positions.begin(), cage.positions.end());
         if (scheme == SUPPLE_SCHEME_PREP) {
             const Result<cage::Topology> topology = cage::buildTopology(cage);
@@ -204,7 +204,7 @@ TEST_P(LodViews, SamplesLieOnTheSurfaceAndSoDoTheirPasts) {
             view.look({0.4f * static_cast<float>(frame), 1.0f, 9.0f - static_cast<float>(frame)});
             context.run(crowd.group());
             const LodSurface surface = readLodSurface(crowd);
-            EXPECT_EQ(surface.patches.size(), instances.size() * crowd.output().info.patchCount);
+            EXPECT_EQ(surface.patches.size(), instances.size() * crowd.output().surface.patchCount);
             for (const LodSurface::Patch& patch : surface.patches) {
                 const uint32_t count = surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
                 const bool past = patch.slot < before.size();
@@ -507,7 +507,7 @@ TEST_P(LodViews, TheBudgetHolds) {
         const SuppleViewStatistics now = run(budget, z);
         EXPECT_LE(now.vertexCount, budget);
         EXPECT_GE(now.vertexCount, budget * 85 / 100);
-        EXPECT_EQ(now.patchCount, 64u * crowd.output().info.patchCount);
+        EXPECT_EQ(now.patchCount, 64u * crowd.output().surface.patchCount);
         EXPECT_EQ(now.shortfall, 0u);
         EXPECT_LE(now.levelScales[0], scale) << "at " << z;
         EXPECT_NEAR(now.levelScales[2], std::pow(now.levelScales[0], 0.25f), 1e-4f);
@@ -563,7 +563,7 @@ TEST_P(LodViews, WhatTheCameraDoesNotSeeHasNoSurface) {
             }
             std::set<uint32_t> seen;
             for (const auto& [slot, patches] : slots) {
-                EXPECT_EQ(patches, crowd.output().info.patchCount);
+                EXPECT_EQ(patches, crowd.output().surface.patchCount);
                 seen.insert(slot);
             }
             return seen;
@@ -707,7 +707,7 @@ TEST_P(LodViews, GroupsComeAndGoAndShareTheView) {
         size_t patches = 0;
         for (const auto& crowd : crowds) {
             const LodSurface surface = readLodSurface(*crowd);
-            EXPECT_EQ(surface.patches.size(), crowd->output().info.patchCount);
+            EXPECT_EQ(surface.patches.size(), crowd->output().surface.patchCount);
             EXPECT_EQ(matchSides(surface).unmatched, 0u);
             for (const LodSurface::Patch& patch : surface.patches) {
                 firsts.insert(patch.firstVertex);

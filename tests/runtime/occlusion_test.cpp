@@ -96,7 +96,7 @@ std::map<uint32_t, double> shown(const Crowd& crowd) {
         ++patches[patch.slot];
     }
     for (const auto& [slot, count] : patches) {
-        EXPECT_EQ(count, crowd.output().info.patchCount);
+        EXPECT_EQ(count, crowd.output().surface.patchCount);
     }
     return slots;
 }
@@ -275,7 +275,7 @@ TEST_P(Occlusion, WhatIsHiddenTakesNothingOfTheBudget) {
     const auto wall = DepthPyramid::create(context.device(), picture, 320, 180);
     ASSERT_NE(wall, nullptr);
     const SuppleDepthPyramidDesc pyramid = wall->desc(columnsOf(both));
-    const uint32_t least = crowd.output().info.patchCount * 4; // vertices of an instance at its coarsest
+    const uint32_t least = crowd.output().surface.patchCount * 4; // vertices of an instance at its coarsest
     const uint32_t padding = crowd.output().levels.drawCount / 10 * 192;
     const auto run = [&](uint32_t room) {
         view.camera.vertexBudget = padding + room;

@@ -275,7 +275,7 @@ std::vector<std::string> characterFiles() {
 void compareCharacter(const std::string& path, const cage::Character& character, const PlainMesh& plain) {
     GpuSurface gpu(*testDevice(), path, polygonsOptions());
     ASSERT_TRUE(gpu.valid());
-    EXPECT_EQ(gpu.output().info.tessellation, SUPPLE_TESSELLATION_INDEXED_MESH);
+    EXPECT_EQ(gpu.output().surface.tessellation, SUPPLE_TESSELLATION_INDEXED_MESH);
     gpu.evaluate();
     const std::vector<uint32_t> files = fileVertices(gpu, character.cage, plain);
     const std::vector<uint32_t> indices = indicesOf(gpu.output());
@@ -382,7 +382,7 @@ TEST(Polygons, CreasesOfInfiniteSharpnessCutNormals) {
             ASSERT_TRUE(gpu.valid());
             gpu.evaluate();
             ASSERT_EQ(gpu.output().grid.vertexCount, vertices);
-            EXPECT_EQ(gpu.output().info.patchCount, 12u);
+            EXPECT_EQ(gpu.output().surface.patchCount, 12u);
             for (uint32_t v = 0; v < vertices; ++v) {
                 const GpuSurface::Vertex& vertex = gpu.sharedVertex(0, v);
                 const glm::vec3 along = glm::abs(vertex.normal);
@@ -664,7 +664,7 @@ TEST(Polygons, TakesWhatIsNoManifold) {
             ASSERT_TRUE(gpu.valid());
             gpu.evaluate();
             // The repair leaves the repeated vertex out.
-            EXPECT_EQ(gpu.output().info.patchCount, &cage == cages ? 3u : 2u);
+            EXPECT_EQ(gpu.output().surface.patchCount, &cage == cages ? 3u : 2u);
             for (uint32_t v = 0; v < gpu.output().grid.vertexCount; ++v) {
                 const glm::vec3 normal = gpu.sharedVertex(0, v).normal;
                 EXPECT_TRUE(normal == normal) << "NaN";
@@ -690,7 +690,7 @@ TEST(Polygons, HolesMaterialsAndSeams) {
         seams.evaluate();
         EXPECT_EQ(plain.output().grid.vertexCount, cage.vertexCount());
         EXPECT_EQ(seams.output().grid.vertexCount, 4 * (cage.faceCount() - 2));
-        EXPECT_EQ(seams.output().info.patchCount, 2 * (cage.faceCount() - 2));
+        EXPECT_EQ(seams.output().surface.patchCount, 2 * (cage.faceCount() - 2));
         for (const SupplePatchInfo& patch : seams.patches()) {
             EXPECT_TRUE(patch.face != 3 && patch.face != 17) << "a hole is drawn";
         }
@@ -757,7 +757,7 @@ TEST_F(WrittenCages, InAViewItIsDrawnAsItIs) {
         desc.flags = 0;
         Crowd viewed(own, desc);
         ASSERT_TRUE(alone.valid() && viewed.valid());
-        EXPECT_EQ(viewed.output().info.tessellation, SUPPLE_TESSELLATION_RATES);
+        EXPECT_EQ(viewed.output().surface.tessellation, SUPPLE_TESSELLATION_RATES);
         EXPECT_EQ(viewed.output().grid.rateCount, 1u);
         EXPECT_EQ(viewed.output().grid.vertexCount, alone.output().grid.vertexCount);
         std::vector<SuppleInstance> a, v;

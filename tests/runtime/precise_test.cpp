@@ -102,13 +102,13 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
                         .ok());
         const runtime::Group& group = *(*context)->groups.find(*id);
         SuppleVertexStreams streams{};
-        group.tessellation().streams()->fill(streams);
+        group.surfaces()[0].streams()->fill(streams);
         SuppleGridOutput grid{};
-        group.tessellation().fillGrid(grid);
+        group.surfaces()[0].fillGrid(grid);
         const Result<std::vector<std::byte>> bytes = device.readBuffer(streams.vertices);
         std::vector<uint32_t> patchOfFace(cage.faceCount());
-        for (uint32_t p = 0; p < group.tables().patches.size(); ++p) {
-            patchOfFace[group.tables().patches[p].face] = p;
+        for (uint32_t p = 0; p < group.surfaces()[0].tables().patches.size(); ++p) {
+            patchOfFace[group.surfaces()[0].tables().patches[p].face] = p;
         }
         const auto position = [&](uint32_t corner, uint32_t k) {
             const uint32_t face = topology->cornerFaces[corner];

@@ -154,7 +154,7 @@ TEST(PrepOnGpuFormats, SixteenBytesHoldTheSamePositionsAndCloseNormals) {
         full.evaluate();
         packed.evaluate();
         double worst = 0.0;
-        for (uint32_t p = 0; p < full.output().info.patchCount; ++p) {
+        for (uint32_t p = 0; p < full.output().surface.patchCount; ++p) {
             for (uint32_t s = 0; s < full.sampleCount(p); ++s) {
                 EXPECT_EQ(std::memcmp(&full.vertex(0, p, s).position, &packed.vertex(0, p, s).position, 12), 0);
                 raise(worst, angleDegrees(full.vertex(0, p, s).normal, packed.vertex(0, p, s).normal));
@@ -172,7 +172,7 @@ TEST(PrepOnGpuRegular, AllValencesFourHasNoPerturbation) {
     GpuSurface gpu(*device, torus(7, 5), gpuOptions({}, SUPPLE_MAPPING_NARROW, 5));
     ASSERT_TRUE(gpu.valid());
     gpu.evaluate();
-    for (uint32_t p = 0; p < gpu.output().info.patchCount; ++p) {
+    for (uint32_t p = 0; p < gpu.output().surface.patchCount; ++p) {
         EXPECT_EQ(gpu.patches()[p].patchClass, SUPPLE_PATCH_REGULAR);
         for (uint32_t k = 16; k < 32; ++k) {
             EXPECT_EQ(gpu.coefficient(0, p, k), glm::vec3(0.0f));

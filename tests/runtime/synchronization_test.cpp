@@ -230,7 +230,7 @@ TEST_F(AsyncCompute, OfAViewsWordsOnlyWhatHostsReadIsHandedOver) {
         statistics.structSize = sizeof(statistics);
         if (frame > 0) {
             ASSERT_EQ(suppleGetViewStatistics(context->handle(), view, &statistics), SUPPLE_OK);
-            EXPECT_EQ(statistics.patchCount, 3 * outputs[0].info.patchCount + 2 * outputs[1].info.patchCount);
+            EXPECT_EQ(statistics.patchCount, 3 * outputs[0].surface.patchCount + 2 * outputs[1].surface.patchCount);
         }
         EXPECT_TRUE(
             device

@@ -68,7 +68,7 @@ TEST_P(ViewLimits, PaddingLeavesSomethingOrTheGroupIsRefused) {
     EXPECT_TRUE(again.valid());
     (void)first.spawn();
     context.run(first.group());
-    EXPECT_EQ(readLodSurface(first).patches.size(), first.output().info.patchCount);
+    EXPECT_EQ(readLodSurface(first).patches.size(), first.output().surface.patchCount);
 }
 
 TEST_P(ViewLimits, RunsOfAGroupLieSideBySide) {
@@ -198,7 +198,7 @@ TEST_P(ViewLimits, HostsMayBindWhatIsHandedOut) {
             EXPECT_EQ(output.levels.buckets.offset % 256, 0u);
             EXPECT_EQ(output.levels.patches.offset % 256, 0u);
             const LodSurface surface = readLodSurface(*crowd);
-            EXPECT_EQ(surface.patches.size(), output.info.patchCount);
+            EXPECT_EQ(surface.patches.size(), output.surface.patchCount);
             EXPECT_EQ(matchSides(surface).unmatched, 0u);
             patches += surface.patches.size();
         }

@@ -195,9 +195,9 @@ void Crowd::end() {
     group_ = {};
 }
 
-host::GroupOutput Crowd::output() const {
+host::GroupOutput Crowd::output(uint32_t surface) const {
     host::GroupOutput output{};
-    EXPECT_EQ(host::getGroupOutput(context_.handle(), group_, output), SUPPLE_OK);
+    EXPECT_EQ(host::getGroupOutput(context_.handle(), group_, output, surface), SUPPLE_OK);
     return output;
 }
 
@@ -269,8 +269,8 @@ std::vector<std::byte> Crowd::slotBytes(const SuppleBufferRange& view, uint32_t 
     return read({view.buffer, view.offset + slot * bytes, bytes, view.stride});
 }
 
-std::vector<VkDrawIndexedIndirectCommand> Crowd::draws() const {
-    const std::vector<std::byte> bytes = read(output().indirect());
+std::vector<VkDrawIndexedIndirectCommand> Crowd::draws(uint32_t surface) const {
+    const std::vector<std::byte> bytes = read(output(surface).indirect());
     std::vector<VkDrawIndexedIndirectCommand> commands(bytes.size() / sizeof(VkDrawIndexedIndirectCommand));
     std::memcpy(commands.data(), bytes.data(), commands.size() * sizeof(commands[0]));
     return commands;

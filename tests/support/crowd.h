@@ -98,7 +98,7 @@ public:
     void end(); ///< destroys the group now
     [[nodiscard]] CrowdContext& context() const { return context_; }
     [[nodiscard]] SuppleGroup group() const { return group_; }
-    [[nodiscard]] host::GroupOutput output() const; ///< as it is now
+    [[nodiscard]] host::GroupOutput output(uint32_t surface = 0) const; ///< as it is now
     [[nodiscard]] uint32_t clipCount() const { return clipCount_; }
 
     [[nodiscard]] SuppleInstance spawn();
@@ -118,7 +118,7 @@ public:
     /// What the slot has of a buffer that is counted by slots.
     [[nodiscard]] std::vector<std::byte> slotBytes(const SuppleBufferRange& view, uint32_t slot) const;
     [[nodiscard]] std::vector<uint32_t> listed() const; ///< as many of the list of instances as are drawn
-    [[nodiscard]] std::vector<VkDrawIndexedIndirectCommand> draws() const;
+    [[nodiscard]] std::vector<VkDrawIndexedIndirectCommand> draws(uint32_t surface = 0) const;
 
 private:
     [[nodiscard]] PositionBits bits(uint32_t slot, const std::vector<std::byte>& bytes, size_t stride) const;

@@ -19,8 +19,8 @@ std::vector<T> as(const std::vector<std::byte>& bytes) {
 
 class Reader {
 public:
-    explicit Reader(const Crowd& crowd)
-        : crowd_(crowd), output_(crowd.output()), commands_(crowd.draws()),
+    Reader(const Crowd& crowd, uint32_t surface)
+        : crowd_(crowd), output_(crowd.output(surface)), commands_(crowd.draws(surface)),
           words_(as<uint32_t>(crowd.read(output_.streams.vertices))) {
         if (output_.streams.previousPositions.buffer != VK_NULL_HANDLE) {
             previous_ = as<uint32_t>(crowd.read(output_.streams.previousPositions));
@@ -116,12 +116,12 @@ private:
 
 } // namespace
 
-DrawnPatches drawnPatches(const Crowd& crowd) {
-    return Reader(crowd).read();
+DrawnPatches drawnPatches(const Crowd& crowd, uint32_t surface) {
+    return Reader(crowd, surface).read();
 }
 
-std::vector<uint32_t> partsOfKeys(const Crowd& crowd, SuppleAsset asset) {
-    const host::GroupOutput output = crowd.output();
+std::vector<uint32_t> partsOfKeys(const Crowd& crowd, SuppleAsset asset, uint32_t surface) {
+    const host::GroupOutput output = crowd.output(surface);
     std::vector<uint32_t> parts;
     if (!output.hasLevels() && output.grid.drawRanges[0].domain == SUPPLE_DOMAIN_MESH) {
         for (uint32_t d = 0; d < output.grid.drawRangeCount; ++d) {
@@ -130,9 +130,9 @@ std::vector<uint32_t> partsOfKeys(const Crowd& crowd, SuppleAsset asset) {
         return parts;
     }
     const SuppleContext context = crowd.context().handle();
-    uint32_t count = output.info.patchCount;
+    uint32_t count = output.surface.patchCount;
     std::vector<SupplePatchInfo> patches(count);
-    EXPECT_EQ(suppleGetPatches(context, crowd.group(), patches.data(), &count), SUPPLE_OK);
+    EXPECT_EQ(suppleGetPatches(context, crowd.group(), surface, patches.data(), &count), SUPPLE_OK);
     SuppleAssetInfo info{};
     info.structSize = sizeof(info);
     EXPECT_EQ(suppleGetAssetInfo(context, asset, &info), SUPPLE_OK);

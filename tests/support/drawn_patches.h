@@ -25,9 +25,9 @@ using DrawnCorners = std::vector<uint32_t>;
 using DrawnPatches = std::map<DrawnKey, DrawnCorners>;
 
 /// Reads what the last frame left. Fails where a patch is drawn twice, and where a draw reads outside its lists.
-[[nodiscard]] DrawnPatches drawnPatches(const Crowd& crowd);
+[[nodiscard]] DrawnPatches drawnPatches(const Crowd& crowd, uint32_t surface = 0);
 
 /// The part of every patch of an instance, of meshes of every draw range.
-[[nodiscard]] std::vector<uint32_t> partsOfKeys(const Crowd& crowd, SuppleAsset asset);
+[[nodiscard]] std::vector<uint32_t> partsOfKeys(const Crowd& crowd, SuppleAsset asset, uint32_t surface = 0);
 
 } // namespace supple::test

@@ -77,7 +77,7 @@ void compareMappings(host::Device& device, const cage::Cage& cage, GpuOptions op
     ASSERT_TRUE(narrow.valid() && wide.valid());
     narrow.evaluate();
     wide.evaluate();
-    for (uint32_t p = 0; p < narrow.output().info.patchCount; ++p) {
+    for (uint32_t p = 0; p < narrow.output().surface.patchCount; ++p) {
         for (uint32_t s = 0; s < narrow.sampleCount(p); ++s) {
             bits.compare(narrow.vertex(0, p, s).position, wide.vertex(0, p, s).position);
         }

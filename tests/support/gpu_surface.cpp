@@ -147,9 +147,9 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     if (!check(host::getGroupOutput(context_->handle(), group_, output_), "suppleGetGroupInfo")) {
         return;
     }
-    uint32_t count = output_.info.patchCount;
+    uint32_t count = output_.surface.patchCount;
     patches_.resize(count);
-    if (!check(suppleGetPatches(context_->handle(), group_, patches_.data(), &count), "suppleGetPatches")) {
+    if (!check(suppleGetPatches(context_->handle(), group_, 0, patches_.data(), &count), "suppleGetPatches")) {
         return;
     }
     for (uint32_t r = 0; r < output_.grid.drawRangeCount; ++r) {
@@ -204,7 +204,7 @@ void GpuSurface::evaluate() {
         }
     };
     readVec4(output_.info.deformedCage, deformed_);
-    readVec4(output_.info.patchCoefficients, coefficients_);
+    readVec4(output_.surface.patchCoefficients, coefficients_);
 }
 
 } // namespace supple::test

@@ -95,7 +95,7 @@ public:
     }
     /// In the order of SupplePatchClass.
     [[nodiscard]] glm::vec3 coefficient(uint32_t instance, uint32_t patch, uint32_t k) const {
-        return coefficients_[(size_t{instance} * output_.info.patchCount + patch) * SUPPLE_PATCH_STRIDE + k];
+        return coefficients_[(size_t{instance} * output_.surface.patchCount + patch) * SUPPLE_PATCH_STRIDE + k];
     }
     [[nodiscard]] const std::vector<std::byte>& rawVertices() const { return rawVertices_; }
 

@@ -102,7 +102,7 @@ std::optional<RandomLevels::Drawn> RandomLevels::draw(cage::Character character,
         testDevice()
             ->submitAndWait([&](VkCommandBuffer commands) { EXPECT_TRUE(context_->record(commands, record).ok()); })
             .ok());
-    Drawn drawn{readLodSurface(*testDevice(), tools::insideOutput(group)), group.tables().patches};
+    Drawn drawn{readLodSurface(*testDevice(), tools::insideOutput(group)), group.surfaces()[0].tables().patches};
     EXPECT_TRUE(context_->destroyGroup(*id));
     return drawn;
 }

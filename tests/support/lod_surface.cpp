@@ -186,9 +186,9 @@ Sides matchSides(const LodSurface& surface) {
 }
 
 std::vector<surface::PatchInfo> patchesOf(const Crowd& crowd) {
-    std::vector<SupplePatchInfo> infos(crowd.output().info.patchCount);
+    std::vector<SupplePatchInfo> infos(crowd.output().surface.patchCount);
     auto count = static_cast<uint32_t>(infos.size());
-    EXPECT_EQ(suppleGetPatches(crowd.context().handle(), crowd.group(), infos.data(), &count), SUPPLE_OK);
+    EXPECT_EQ(suppleGetPatches(crowd.context().handle(), crowd.group(), 0, infos.data(), &count), SUPPLE_OK);
     EXPECT_EQ(count, infos.size());
     std::vector<surface::PatchInfo> patches;
     for (const SupplePatchInfo& info : infos) {

@@ -304,7 +304,7 @@ TEST_F(RenderTest, PositionsReadBackAreThoseOfVerticesAlone) {
     ASSERT_EQ(suppleSetTransform(context_->handle(), (*group)->instance(1), &transform[0][0]), SUPPLE_OK);
     evaluate(**group);
     const std::vector<glm::vec3>& rest = (*helmet)->cage().positions;
-    ASSERT_GT((*group)->output().info.cageVerticesPerInstance, rest.size()) << "a cage that leaves room";
+    ASSERT_GT((*group)->surfaces()[0].output.info.cageVerticesPerInstance, rest.size()) << "a cage that leaves room";
     const Result<std::vector<glm::vec3>> cage = (*group)->readCage();
     ASSERT_TRUE(cage.ok());
     ASSERT_EQ(cage->size(), kInstances * rest.size());
@@ -314,7 +314,7 @@ TEST_F(RenderTest, PositionsReadBackAreThoseOfVerticesAlone) {
     }
     const Result<std::vector<glm::vec3>> surface = (*group)->readSurface();
     ASSERT_TRUE(surface.ok());
-    EXPECT_EQ(surface->size(), kInstances * (*group)->output().grid.vertexCount);
+    EXPECT_EQ(surface->size(), kInstances * (*group)->surfaces()[0].output.grid.vertexCount);
 }
 
 std::string base64(const std::vector<uint8_t>& bytes) {

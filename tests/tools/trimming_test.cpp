@@ -446,9 +446,9 @@ TEST_F(TrimmingTest, FaceCoordinatesAreTheirFaces) {
         ASSERT_TRUE(context_->evaluate({&group, 1}).ok());
         host::GroupOutput output{};
         ASSERT_EQ(host::getGroupOutput(context_->handle(), group, output), SUPPLE_OK);
-        std::vector<SupplePatchInfo> patches(output.info.patchCount);
-        uint32_t count = output.info.patchCount;
-        ASSERT_EQ(suppleGetPatches(context_->handle(), group, patches.data(), &count), SUPPLE_OK);
+        std::vector<SupplePatchInfo> patches(output.surface.patchCount);
+        uint32_t count = output.surface.patchCount;
+        ASSERT_EQ(suppleGetPatches(context_->handle(), group, 0, patches.data(), &count), SUPPLE_OK);
         ASSERT_EQ(output.streams.faceUvs.stride, sizeof(glm::vec2));
         const Result<std::vector<std::byte>> bytes = device_->readBuffer(output.streams.faceUvs);
         ASSERT_TRUE(bytes.ok());

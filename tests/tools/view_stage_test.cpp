@@ -107,7 +107,7 @@ TEST(ViewStageTest, RateAndFileChangeWhileFramesAreInFlight) {
             if (i == 3 || i == 4 || i == 10) {
                 const Status changed = stage.setRate(static_cast<uint32_t>(3 + i), (*context)->lastFrame());
                 ASSERT_TRUE(changed.ok()) << changed.error().message;
-                EXPECT_EQ(stage.group().output().grid.rate, static_cast<uint32_t>(3 + i));
+                EXPECT_EQ(stage.group().surfaces()[0].output.grid.rate, static_cast<uint32_t>(3 + i));
             }
             if (i == 7) {
                 ring.waitIdle((*context)->lastFrame());
@@ -154,10 +154,10 @@ TEST(ViewStageTest, RatesOfSubdivisionArePowersOfTwo) {
         const Status status = stage.open(std::string(SUPPLE_SAMPLE_ASSETS) + "/" + c.file, {}, kAspect);
         ASSERT_TRUE(status.ok()) << status.error().message;
         EXPECT_EQ(stage.settings.rate, 8);
-        EXPECT_EQ(stage.group().output().grid.rate, 8u >> c.steps);
+        EXPECT_EQ(stage.group().surfaces()[0].output.grid.rate, 8u >> c.steps);
         ASSERT_TRUE(stage.setRate(2, (*context)->lastFrame()).ok());
         EXPECT_EQ(stage.settings.rate, 1 << c.steps) << "no fewer segments than patches";
-        EXPECT_EQ(stage.group().output().grid.rate, 1u);
+        EXPECT_EQ(stage.group().surfaces()[0].output.grid.rate, 1u);
         vkDeviceWaitIdle((*device)->handle());
     }
 }

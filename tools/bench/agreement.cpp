@@ -91,12 +91,12 @@ Result<std::vector<float>> bicubicCoefficients(host::Device& device, Workbench& 
         return frame.error();
     }
     const host::GroupOutput& output = workbench.output((*frame)->group);
-    Result<std::vector<float>> all = readFloats(device, output.info.patchCoefficients);
+    Result<std::vector<float>> all = readFloats(device, output.surface.patchCoefficients);
     if (!all) {
         return all.error();
     }
     std::vector<float> bicubic;
-    for (uint32_t p = 0; p < output.info.patchCount; ++p) {
+    for (uint32_t p = 0; p < output.surface.patchCount; ++p) {
         const auto first = all->begin() + ptrdiff_t{4} * SUPPLE_PATCH_STRIDE * p;
         bicubic.insert(bicubic.end(), first, first + 64);
     }

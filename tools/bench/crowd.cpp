@@ -146,7 +146,7 @@ Result<Json> measureRow(host::Device& device, const CrowdDesc& desc, const Crowd
     const auto gigabytes = [&](const Series& series) { return kVertexBytes / median(clockOf(series)); };
     const Series &evaluate = (*all)[0], &frame = (*all)[1];
     Json row{{"characters", crowd.output().info.capacity},
-             {"patches", crowd.output().info.patchCount},
+             {"patches", crowd.output().surface.patchCount},
              {"vertices", crowd.vertices()},
              {"clock", evaluate.gpu.empty() ? "wall" : "device timestamps"},
              {"evaluateMs", milliseconds(evaluate)},

@@ -92,7 +92,7 @@ Result<Loading> measureLoading(host::Device& device, Workbench& workbench, const
         if (!one) {
             return one.error();
         }
-        loading.patches = workbench.output(one->group).info.patchCount;
+        loading.patches = workbench.output(one->group).surface.patchCount;
         loading.bytes = workbench.staticBytes(one->group);
         workbench.destroy(one->group);
         if (i > 0) {

@@ -122,7 +122,7 @@ Status Workbench::recordFrame(SuppleGroup group, VkCommandBuffer commands) {
 }
 
 void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const {
-    inside_->group(group).tessellation().recordEvaluate(commands);
+    inside_->group(group).surfaces()[0].recordEvaluate(commands);
 }
 
 void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
@@ -137,12 +137,12 @@ void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
     group.instances().recordDeform(commands);
     barrier();
     for (const surface::Stage stage : {surface::Stage::vertex, surface::Stage::assemble}) {
-        if (group.tessellation().has(stage)) {
-            group.tessellation().recordStage(commands, stage);
+        if (group.surfaces()[0].has(stage)) {
+            group.surfaces()[0].recordStage(commands, stage);
             barrier();
         }
     }
-    group.tessellation().recordEvaluate(commands);
+    group.surfaces()[0].recordEvaluate(commands);
 }
 
 host::GroupOutput Workbench::output(SuppleGroup group) const {
@@ -151,7 +151,7 @@ host::GroupOutput Workbench::output(SuppleGroup group) const {
 
 uint32_t Workbench::regularPatches(SuppleGroup group) const {
     uint32_t count = 0;
-    for (const surface::PatchRange& range : inside_->group(group).tables().ranges) {
+    for (const surface::PatchRange& range : inside_->group(group).surfaces()[0].tables().ranges) {
         if (range.patchClass == surface::PatchClass::regular && range.firstPatch == count) {
             count += range.section.count;
         }
@@ -161,7 +161,7 @@ uint32_t Workbench::regularPatches(SuppleGroup group) const {
 
 std::vector<uint32_t> Workbench::patchFaces(SuppleGroup group) const {
     std::vector<uint32_t> faces;
-    for (const surface::PatchInfo& patch : inside_->group(group).tables().patches) {
+    for (const surface::PatchInfo& patch : inside_->group(group).surfaces()[0].tables().patches) {
         faces.push_back(patch.face);
     }
     return faces;
@@ -172,7 +172,7 @@ Workbench::StaticBytes Workbench::staticBytes(SuppleGroup id) const {
     StaticBytes bytes;
     bytes.deform = group.asset().buffers.size(0);
     for (const std::shared_ptr<runtime::SchemeTables>& scheme : group.asset().schemes) {
-        if (&scheme->tables == &group.tables()) {
+        if (&scheme->tables == &group.surfaces()[0].tables()) {
             bytes.tables = scheme->buffers.size(0);
         }
     }

@@ -41,21 +41,4 @@ Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex) 
     return findClip(figure.path(), names, nameOrIndex);
 }
 
-Status findParts(const Figure& figure, const std::vector<std::string>& namesOrIndices, std::vector<bool>& found) {
-    const std::vector<std::string>& names = figure.partNames();
-    found.assign(names.size(), namesOrIndices.empty());
-    for (const std::string& text : namesOrIndices) {
-        const bool isName = std::find(names.begin(), names.end(), text) != names.end();
-        for (size_t p = 0; p < names.size() && isName; ++p)
-            found[p] = found[p] || names[p] == text;
-        if (isName)
-            continue;
-        const Result<uint32_t> part = findNamed(figure.path(), "part", names, text);
-        if (!part)
-            return part.error();
-        found[*part] = true;
-    }
-    return success();
-}
-
 } // namespace supple::host

@@ -15,8 +15,4 @@ namespace supple::host {
 /// As findClip() of tools/common/character_file.h.
 [[nodiscard]] Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex);
 
-/// Which parts have one of the names, or else one of the indices; all parts if none is given.
-[[nodiscard]] Status findParts(const Figure& figure, const std::vector<std::string>& namesOrIndices,
-                               std::vector<bool>& found);
-
 } // namespace supple::host

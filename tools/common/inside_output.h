@@ -1,4 +1,4 @@
-// What a group hands out, for programs that look inside the library.
+// What a group of one surface hands out, for programs that look inside the library.
 #pragma once
 
 #include "host/group_output.h"
@@ -7,13 +7,15 @@
 namespace supple::tools {
 
 [[nodiscard]] inline host::GroupOutput insideOutput(const runtime::Group& group) {
+    const runtime::Tessellation& surface = group.surfaces()[0];
     host::GroupOutput out;
     group.fill(out.info);
-    if (const runtime::VertexStreams* streams = group.tessellation().streams()) {
+    group.fill(out.surface, 0);
+    if (const runtime::VertexStreams* streams = surface.streams()) {
         streams->fill(out.streams);
     }
-    group.tessellation().fillGrid(out.grid);
-    group.tessellation().fillLevels(out.levels);
+    surface.fillGrid(out.grid);
+    surface.fillLevels(out.levels);
     if (group.culling() != nullptr) {
         out.bounds = group.culling()->bounds();
     }

@@ -13,7 +13,6 @@ struct Scheme {
     bool smooth;       ///< a smooth surface, sampled in grids
 };
 
-/// "auto" chooses the first.
 inline constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM, true, true},
                                       {"prep", SUPPLE_SCHEME_PREP, true, true},
                                       {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK, false, true},
@@ -27,7 +26,7 @@ inline constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM, true, true},
             return known.name;
         }
     }
-    return scheme == SUPPLE_SCHEME_CAGE ? "cage" : kSchemes[0].name;
+    return scheme == SUPPLE_SCHEME_CAGE ? "cage" : "auto";
 }
 
 /// "auto", "cage" (no surface) and the names above; anything else is auto.

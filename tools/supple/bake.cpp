@@ -1,4 +1,5 @@
 // supple bake: the evaluated surface exactly as the device wrote it, as an OBJ; the patches behind it as JSON.
+#include "surface/choice.h"
 #include "surface/scheme.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace supple::tools {
@@ -59,97 +61,146 @@ std::vector<std::vector<uint32_t>> gridFaces(const SuppleDrawRange& range, uint3
     return faces;
 }
 
-/// The elements `first` .. `first + count - 1` of the surface's streams.
-void writeVertices(TextFile& file, const Evaluation& baked, uint64_t first, uint64_t count) {
-    const SuppleBufferRange& view = baked.output.streams.vertices;
-    for (uint64_t i = first; i < first + count; ++i) {
-        writeVector(file, "v", element<glm::vec3>(baked.surfaceVertices, view, i));
+/// Writes surfaces part by part into one file, which counts vertices through.
+class SurfaceWriter {
+public:
+    SurfaceWriter(TextFile& file, const EvaluatedSurface& surface, uint64_t firstPatch)
+        : file_(file), surface_(surface), firstPatch_(firstPatch) {}
+
+    /// What the surface has of a part: a group per patch, of a mesh one per material. `written`: vertices in the file.
+    void write(uint32_t part, uint64_t& written);
+
+private:
+    [[nodiscard]] bool isMesh() const {
+        return surface_.output.surface.tessellation == SUPPLE_TESSELLATION_INDEXED_MESH;
     }
-    for (uint64_t i = first; i < first + count; ++i) {
-        writeVector(file, "vn", element<glm::vec3>(baked.surfaceVertices, view, i, sizeof(glm::vec3)));
-    }
-    for (uint64_t i = first; !baked.attributes.empty() && i < first + count; ++i) {
-        writeVector(file, "vt", element<glm::vec2>(baked.attributes, baked.output.streams.attributes, i));
+    void writeVertices(uint64_t first, uint64_t count, uint64_t& written);
+    void writeFace(std::span<const uint64_t> vertices);
+    void writeTriangles(const SuppleDrawRange& range);
+    void writePatches(const SuppleDrawRange& range, uint64_t& written);
+
+    TextFile& file_;
+    const EvaluatedSurface& surface_;
+    uint64_t firstPatch_;                ///< number of its first patch in the file
+    std::optional<uint64_t> meshVertex_; ///< of a mesh whose vertices are written: the first
+};
+
+void SurfaceWriter::write(uint32_t part, uint64_t& written) {
+    const SuppleGridOutput& grid = surface_.output.grid;
+    for (const SuppleDrawRange& range : std::span(grid.drawRanges, grid.drawRangeCount)) {
+        if (range.part != part) {
+            continue;
+        }
+        if (!isMesh()) {
+            writePatches(range, written);
+            continue;
+        }
+        if (!meshVertex_) {
+            meshVertex_ = written;
+            writeVertices(0, grid.vertexCount, written);
+        }
+        writeTriangles(range);
     }
 }
 
-/// `vertices` of the surface, counted from 0 through the whole file.
-void writeFace(TextFile& file, const Evaluation& baked, std::span<const uint64_t> vertices) {
-    file.text("f");
+/// The elements first .. first + count - 1 of the surface's streams.
+void SurfaceWriter::writeVertices(uint64_t first, uint64_t count, uint64_t& written) {
+    const SuppleVertexStreams& streams = surface_.output.streams;
+    for (uint64_t i = first; i < first + count; ++i) {
+        writeVector(file_, "v", element<glm::vec3>(surface_.vertices, streams.vertices, i));
+    }
+    for (uint64_t i = first; i < first + count; ++i) {
+        writeVector(file_, "vn", element<glm::vec3>(surface_.vertices, streams.vertices, i, sizeof(glm::vec3)));
+    }
+    for (uint64_t i = first; !surface_.attributes.empty() && i < first + count; ++i) {
+        writeVector(file_, "vt", element<glm::vec2>(surface_.attributes, streams.attributes, i));
+    }
+    written += count;
+}
+
+/// `vertices`, counted from 0 through the whole file.
+void SurfaceWriter::writeFace(std::span<const uint64_t> vertices) {
+    file_.text("f");
     for (const uint64_t vertex : vertices) {
-        file.text(" ").number(vertex + 1).text("/"); // OBJ counts from 1
-        if (!baked.attributes.empty()) {
-            file.number(vertex + 1);
+        file_.text(" ").number(vertex + 1).text("/"); // OBJ counts from 1
+        if (!surface_.attributes.empty()) {
+            file_.number(vertex + 1);
         }
-        file.text("/").number(vertex + 1);
+        file_.text("/").number(vertex + 1);
     }
-    file.text("\n");
+    file_.text("\n");
 }
 
-/// One group per material, over the vertices of the whole mesh.
-void writeMesh(TextFile& file, const Evaluation& baked) {
-    const SuppleGridOutput& grid = baked.output.grid;
-    writeVertices(file, baked, 0, grid.vertexCount);
-    for (const SuppleDrawRange& range : std::span(grid.drawRanges, grid.drawRangeCount)) {
-        file.text("g material_");
-        if (range.material == SUPPLE_NO_MATERIAL) {
-            file.text("none\n");
-        } else {
-            file.number(uint64_t{range.material}).text("\n");
-        }
-        for (size_t i = range.firstIndex; i < size_t{range.firstIndex} + range.indexCount; i += 3) {
-            uint32_t corners[3];
-            std::memcpy(corners, baked.gridIndices.data() + i * sizeof(uint32_t), sizeof corners);
-            writeFace(file, baked, std::array<uint64_t, 3>{corners[0], corners[1], corners[2]});
-        }
+void SurfaceWriter::writeTriangles(const SuppleDrawRange& range) {
+    file_.text("g material_");
+    if (range.material == SUPPLE_NO_MATERIAL) {
+        file_.text("none\n");
+    } else {
+        file_.number(uint64_t{range.material}).text("\n");
+    }
+    for (size_t i = range.firstIndex; i < size_t{range.firstIndex} + range.indexCount; i += 3) {
+        uint32_t corners[3];
+        std::memcpy(corners, surface_.gridIndices.data() + i * sizeof(uint32_t), sizeof corners);
+        writeFace(
+            std::array<uint64_t, 3>{*meshVertex_ + corners[0], *meshVertex_ + corners[1], *meshVertex_ + corners[2]});
     }
 }
 
-/// One group per patch, each with its vertices.
-void writePatchGrids(TextFile& file, const Evaluation& baked) {
-    const SuppleGridOutput& grid = baked.output.grid;
-    for (const SuppleDrawRange& range : std::span(grid.drawRanges, grid.drawRangeCount)) {
-        const std::vector<std::vector<uint32_t>> faces = gridFaces(range, grid.rate, baked.gridIndices);
-        for (uint64_t patch = range.firstPatch; patch < range.firstPatch + range.patchCount; ++patch) {
-            const uint64_t samples = range.samplesPerPatch;
-            const uint64_t first = range.firstVertex + (patch - range.firstPatch) * samples;
-            file.text("g patch_").number(patch).text("\n");
-            writeVertices(file, baked, first, samples);
-            for (const std::vector<uint32_t>& face : faces) {
-                std::vector<uint64_t> vertices;
-                for (const uint32_t sample : face) {
-                    vertices.push_back(first + sample);
-                }
-                writeFace(file, baked, vertices);
+/// Each with its vertices.
+void SurfaceWriter::writePatches(const SuppleDrawRange& range, uint64_t& written) {
+    const std::vector<std::vector<uint32_t>> faces = gridFaces(range, surface_.output.grid.rate, surface_.gridIndices);
+    for (uint64_t patch = range.firstPatch; patch < range.firstPatch + range.patchCount; ++patch) {
+        const uint64_t samples = range.samplesPerPatch, first = written;
+        file_.text("g patch_").number(firstPatch_ + patch).text("\n");
+        writeVertices(range.firstVertex + (patch - range.firstPatch) * samples, samples, written);
+        for (const std::vector<uint32_t>& face : faces) {
+            std::vector<uint64_t> vertices;
+            for (const uint32_t sample : face) {
+                vertices.push_back(first + sample);
             }
+            writeFace(vertices);
         }
     }
 }
 
-Status writeSurface(const std::string& path, const Evaluation& baked, const std::string& scheme, uint32_t askedRate) {
-    const host::GroupOutput& output = baked.output;
-    const bool mesh = output.info.tessellation == SUPPLE_TESSELLATION_INDEXED_MESH;
-    TextFile file(path);
-    file.text("# supple bake: scheme ").text(scheme);
-    if (mesh) {
-        file.text(", ").number(uint64_t{output.info.patchCount}).text(" triangles\n");
-        writeMesh(file, baked);
-        return file.close();
+/// "scheme pm, rate 4, 8 patches"
+void writeSummary(TextFile& file, const host::GroupOutput& output, uint32_t askedRate) {
+    file.text("# supple bake: scheme ").text(schemeName(output.surface.scheme));
+    if (output.surface.tessellation == SUPPLE_TESSELLATION_INDEXED_MESH) {
+        file.text(", ").number(uint64_t{output.surface.patchCount}).text(" triangles\n");
+        return;
     }
     file.text(", rate ").number(uint64_t{output.grid.rate});
     if (output.grid.rate != askedRate) {
         file.text(" (").number(uint64_t{askedRate}).text(" asked for along an edge of the cage)");
     }
-    file.text(", ").number(uint64_t{output.info.patchCount}).text(" patches\n");
-    writePatchGrids(file, baked);
+    file.text(", ").number(uint64_t{output.surface.patchCount}).text(" patches\n");
+}
+
+/// Parts follow each other as the character has them. Patches are numbered surface by surface.
+Status writeSurfaces(const std::string& path, const Evaluation& baked, size_t partCount, uint32_t askedRate) {
+    TextFile file(path);
+    std::vector<SurfaceWriter> writers;
+    uint64_t patches = 0, written = 0;
+    for (const EvaluatedSurface& surface : baked.surfaces) {
+        writeSummary(file, surface.output, askedRate);
+        writers.emplace_back(file, surface, patches);
+        patches += surface.output.surface.patchCount;
+    }
+    for (uint32_t part = 0; part < partCount; ++part) {
+        for (SurfaceWriter& writer : writers) {
+            writer.write(part, written);
+        }
+    }
     return file.close();
 }
 
 Status writeCage(const std::string& path, const Evaluation& baked, const cage::Cage& cage) {
     TextFile file(path);
     file.text("# supple bake: deformed cage\n");
+    const SuppleBufferRange& view = baked.surfaces.front().output.info.deformedCage;
     for (uint32_t vertex = 0; vertex < cage.vertexCount(); ++vertex) {
-        writeVector(file, "v", element<glm::vec3>(baked.deformedCage, baked.output.info.deformedCage, vertex));
+        writeVector(file, "v", element<glm::vec3>(baked.deformedCage, view, vertex));
     }
     for (const glm::vec2& uv : cage.cornerUvs) {
         writeVector(file, "vt", uv);
@@ -167,32 +218,62 @@ Status writeCage(const std::string& path, const Evaluation& baked, const cage::C
     return file.close();
 }
 
-Status writePatches(const std::string& path, const Evaluation& baked, const std::string& scheme) {
-    const SuppleBufferRange& view = baked.output.info.patchCoefficients;
+void writePatch(TextFile& file, const EvaluatedSurface& surface, uint64_t patch) {
+    const SupplePatchInfo& info = surface.patches[patch];
+    file.text("{\"face\":").number(uint64_t{info.face});
+    file.text(",\"class\":\"")
+        .text(surface::className(static_cast<surface::PatchClass>(info.patchClass)))
+        .text("\",\"corners\":[");
+    for (uint32_t i = 0; i < info.cornerCount; ++i) {
+        file.text(i == 0 ? "" : ",").number(uint64_t{info.corners[i]});
+    }
+    file.text("],\"coefficients\":[");
+    // p-rep's always come as 16 g, 16 h; a regular patch's h are zero.
+    const host::GroupOutput& output = surface.output;
+    const uint64_t count = output.surface.scheme == SUPPLE_SCHEME_PREP ? SUPPLE_PATCH_STRIDE : info.coefficientCount;
+    for (uint64_t i = 0; i < count; ++i) {
+        const auto value =
+            element<glm::vec3>(surface.coefficients, output.surface.patchCoefficients, patch * SUPPLE_PATCH_STRIDE + i);
+        file.text(i == 0 ? "[" : ",[").number(value.x).text(",").number(value.y).text(",").number(value.z);
+        file.text("]");
+    }
+    file.text("]}");
+}
+
+Status writePatches(const std::string& path, const Evaluation& baked) {
+    std::string schemes;
+    for (const EvaluatedSurface& surface : baked.surfaces) {
+        schemes += (schemes.empty() ? "" : "+") + std::string(schemeName(surface.output.surface.scheme));
+    }
     TextFile file(path);
-    file.text("{\"scheme\":\"").text(scheme).text("\",\"rate\":").number(uint64_t{baked.output.grid.rate});
-    file.text(",\"patches\":[");
-    for (uint64_t patch = 0; patch < baked.output.info.patchCount; ++patch) {
-        const SupplePatchInfo& info = baked.patches[patch];
-        file.text(patch == 0 ? "\n" : ",\n").text("{\"face\":").number(uint64_t{info.face});
-        file.text(",\"class\":\"")
-            .text(surface::className(static_cast<surface::PatchClass>(info.patchClass)))
-            .text("\",\"corners\":[");
-        for (uint32_t i = 0; i < info.cornerCount; ++i) {
-            file.text(i == 0 ? "" : ",").number(uint64_t{info.corners[i]});
+    file.text("{\"scheme\":\"").text(schemes).text("\",\"rate\":");
+    file.number(uint64_t{baked.surfaces.front().output.grid.rate}).text(",\"patches\":[");
+    const char* separator = "\n";
+    for (const EvaluatedSurface& surface : baked.surfaces) {
+        for (uint64_t patch = 0; patch < surface.output.surface.patchCount; ++patch) {
+            file.text(separator);
+            writePatch(file, surface, patch);
+            separator = ",\n";
         }
-        file.text("],\"coefficients\":[");
-        // p-rep's always come as 16 g, 16 h; a regular patch's h are zero.
-        const uint64_t count = scheme == "prep" ? SUPPLE_PATCH_STRIDE : info.coefficientCount;
-        for (uint64_t i = 0; i < count; ++i) {
-            const auto value = element<glm::vec3>(baked.coefficients, view, patch * SUPPLE_PATCH_STRIDE + i);
-            file.text(i == 0 ? "[" : ",[").number(value.x).text(",").number(value.y).text(",").number(value.z);
-            file.text("]");
-        }
-        file.text("]}");
     }
     file.text("\n]}\n");
     return file.close();
+}
+
+/// Why --patches cannot be, or empty: which part has a scheme without coefficients.
+std::string whyNoPatches(const cage::Character& character, const SurfaceFlags& flags,
+                         const std::vector<SuppleScheme>& partSchemes) {
+    const std::vector<surface::SchemeChoice> choices = surface::chooseSchemes(character);
+    for (size_t part = 0; part < choices.size(); ++part) {
+        SuppleScheme scheme = partSchemes.empty() ? SUPPLE_SCHEME_AUTO : partSchemes[part];
+        scheme = scheme == SUPPLE_SCHEME_AUTO ? schemeOf(flags.scheme) : scheme;
+        scheme = scheme == SUPPLE_SCHEME_AUTO ? static_cast<SuppleScheme>(choices[part].scheme) : scheme;
+        if (!hasCoefficients(scheme)) {
+            return "--patches: part " + std::to_string(part) + " has scheme " + schemeName(scheme) +
+                   ", which has no patch coefficients";
+        }
+    }
+    return {};
 }
 
 int runBake(const BakeOptions& options) {
@@ -207,6 +288,16 @@ int runBake(const BakeOptions& options) {
     Result<std::vector<float>> weights = host::morphWeights(file->character, options.morphs);
     if (!weights) {
         return fail(kExitBadInput, weights.error().message);
+    }
+    const Result<std::vector<SuppleScheme>> partSchemes =
+        host::partSchemes(options.file, host::partNames(file->character), options.surface.partSchemes);
+    if (!partSchemes) {
+        return fail(kExitBadInput, partSchemes.error().message);
+    }
+    const std::string noPatches =
+        options.patches.empty() ? "" : whyNoPatches(file->character, options.surface, *partSchemes);
+    if (!noPatches.empty()) {
+        return fail(kExitUsage, noPatches);
     }
     const Pose pose{*clip, options.time, std::move(*weights)};
     const cage::Cage& cage = file->character.cage;
@@ -225,17 +316,16 @@ int runBake(const BakeOptions& options) {
         if (!asset) {
             return asset.error();
         }
-        const Result<Evaluation> baked = evaluate(session, *asset, options.surface, pose, groupFlags);
+        const Result<Evaluation> baked = evaluate(session, *asset, file->character, options.surface, pose, groupFlags);
         if (!baked) {
             return baked.error();
         }
         if (cageOnly) {
             return writeCage(options.output, *baked, cage);
         }
-        const std::string scheme = resolvedScheme(options.surface.scheme);
-        Status status = writeSurface(options.output, *baked, scheme, options.surface.rate);
+        Status status = writeSurfaces(options.output, *baked, file->character.parts.size(), options.surface.rate);
         if (status && !options.patches.empty()) {
-            status = writePatches(options.patches, *baked, scheme);
+            status = writePatches(options.patches, *baked);
         }
         return status;
     });
@@ -254,12 +344,7 @@ void bindBake(CLI::App& app, int& exitCode) {
     bindPose(*command, options->clip, options->time);
     bindMorphs(*command, options->morphs);
     bindDevice(*command, options->device);
-    command->callback([options, &exitCode] {
-        if (!options->patches.empty() && !hasCoefficients(options->surface.scheme)) {
-            throw CLI::ValidationError("--patches", options->surface.scheme + " has no patch coefficients");
-        }
-        exitCode = runBake(*options);
-    });
+    command->callback([options, &exitCode] { exitCode = runBake(*options); });
 }
 
 } // namespace supple::tools

@@ -61,7 +61,7 @@ struct Sums {
     }
 };
 
-Sums measure(const Evaluation& evaluation, const LimitSurface& limit, const Batch& batch) {
+Sums measure(const EvaluatedSurface& evaluation, const LimitSurface& limit, const Batch& batch) {
     Sums sums;
     LimitSurface::Probe probe(limit);
     for (uint32_t patch = batch.first; patch < batch.last; ++patch) {
@@ -70,8 +70,8 @@ Sums measure(const Evaluation& evaluation, const LimitSurface& limit, const Batc
         const uint32_t face = evaluation.patches[patch].face;
         for (size_t i = first; i < first + batch.range->samplesPerPatch; ++i) {
             const SuppleBufferRange& view = evaluation.output.streams.vertices;
-            const auto position = element<glm::vec3>(evaluation.surfaceVertices, view, i);
-            const auto normal = element<glm::vec3>(evaluation.surfaceVertices, view, i, sizeof(glm::vec3));
+            const auto position = element<glm::vec3>(evaluation.vertices, view, i);
+            const auto normal = element<glm::vec3>(evaluation.vertices, view, i, sizeof(glm::vec3));
             sums.add(probe.measure(face, position, normal, i % kDoubted == 0), face);
         }
     }
@@ -79,7 +79,7 @@ Sums measure(const Evaluation& evaluation, const LimitSurface& limit, const Batc
 }
 
 /// In batches of a fixed size that are added up in order: the figures do not depend on the number of threads.
-Sums measure(const Evaluation& evaluation, const LimitSurface& limit) {
+Sums measure(const EvaluatedSurface& evaluation, const LimitSurface& limit) {
     constexpr uint32_t kBatch = 256;
     std::vector<Batch> batches;
     for (const SuppleDrawRange& range :
@@ -111,8 +111,9 @@ Sums measure(const Evaluation& evaluation, const LimitSurface& limit) {
 
 std::vector<glm::dvec3> cagePositions(const Evaluation& evaluation) {
     std::vector<glm::dvec3> positions;
-    for (uint32_t v = 0; v < evaluation.output.info.cageVertexCount; ++v) {
-        positions.emplace_back(element<glm::vec3>(evaluation.deformedCage, evaluation.output.info.deformedCage, v));
+    const SuppleGroupInfo& info = evaluation.surfaces.front().output.info;
+    for (uint32_t v = 0; v < info.cageVertexCount; ++v) {
+        positions.emplace_back(element<glm::vec3>(evaluation.deformedCage, info.deformedCage, v));
     }
     return positions;
 }
@@ -162,7 +163,7 @@ Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& f
         deviation.scheme = scheme.name;
         SurfaceFlags flags = surface;
         flags.scheme = scheme.name;
-        const Result<Evaluation> evaluation = evaluate(session, *asset, flags, pose, 0);
+        const Result<Evaluation> evaluation = evaluate(session, *asset, file.character, flags, pose, 0);
         if (!evaluation) {
             const ErrorCode code = evaluation.error().code;
             if (code != ErrorCode::asset && code != ErrorCode::limit) { // not the cage's fault
@@ -182,9 +183,9 @@ Result<Comparison> compareSchemes(Session& session, const host::CharacterFile& f
             limit.emplace(std::move(*built));
             comparison.extent = extentOf(positions);
         }
-        const Sums sums = measure(*evaluation, *limit);
+        const Sums sums = measure(evaluation->surfaces.front(), *limit);
         comparison.measuringError = std::max(comparison.measuringError, sums.doubt);
-        deviation.patches = evaluation->output.info.patchCount;
+        deviation.patches = evaluation->surfaces.front().output.surface.patchCount;
         deviation.samples = sums.samples;
         deviation.max = std::max(sums.max, 0.0);
         deviation.mean = sums.sum / static_cast<double>(std::max<uint64_t>(sums.samples, 1));

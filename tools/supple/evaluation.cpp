@@ -18,10 +18,57 @@ Status readBack(host::Device& device, const SuppleBufferRange& view, std::vector
     return success();
 }
 
+Result<EvaluatedSurface> readSurface(Session& session, SuppleGroup group, uint32_t index) {
+    host::Context& context = *session.context;
+    EvaluatedSurface surface;
+    Status status =
+        context.check(host::getGroupOutput(context.handle(), group, surface.output, index), "suppleGetGroupInfo");
+    if (status) {
+        uint32_t count = surface.output.surface.patchCount;
+        surface.patches.resize(count);
+        status = context.check(suppleGetPatches(context.handle(), group, index, surface.patches.data(), &count),
+                               "suppleGetPatches");
+    }
+    const std::pair<const SuppleBufferRange*, std::vector<std::byte>*> buffers[] = {
+        {&surface.output.streams.vertices, &surface.vertices},
+        {&surface.output.streams.attributes, &surface.attributes},
+        {&surface.output.indices(), &surface.gridIndices},
+        {&surface.output.surface.patchCoefficients, &surface.coefficients},
+    };
+    for (const auto& [view, bytes] : buffers) {
+        if (status) {
+            status = readBack(*session.device, *view, *bytes);
+        }
+    }
+    if (!status) {
+        return status.error();
+    }
+    return surface;
+}
+
+Result<Evaluation> readGroup(Session& session, SuppleGroup group) {
+    Evaluation result;
+    uint32_t count = 1;
+    for (uint32_t index = 0; index < count; ++index) {
+        Result<EvaluatedSurface> surface = readSurface(session, group, index);
+        if (!surface) {
+            return surface.error();
+        }
+        count = surface->output.info.surfaceCount;
+        result.surfaces.push_back(std::move(*surface));
+    }
+    const Status status =
+        readBack(*session.device, result.surfaces.front().output.info.deformedCage, result.deformedCage);
+    if (!status) {
+        return status.error();
+    }
+    return result;
+}
+
 } // namespace
 
-Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFlags& surface, const Pose& pose,
-                            uint32_t groupFlags) {
+Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Character& character,
+                            const SurfaceFlags& surface, const Pose& pose, uint32_t groupFlags) {
     host::Context& context = *session.context;
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
@@ -32,9 +79,11 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFl
     desc.rate = surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
     SchemeOptions options;
-    describeSurface(surface, options, desc);
+    Status status = describeSurface(surface, character, options, desc);
     SuppleGroup group{};
-    Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
+    if (status) {
+        status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
+    }
     SuppleInstance instance{};
     if (status) {
         status = context.check(suppleCreateInstance(context.handle(), group, &instance), "suppleCreateInstance");
@@ -52,32 +101,10 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFl
         const SuppleGroup groups[] = {group};
         status = context.evaluate(groups);
     }
-    Evaluation result;
-    if (status) {
-        status = context.check(host::getGroupOutput(context.handle(), group, result.output), "suppleGetGroupInfo");
-    }
-    if (status) {
-        uint32_t count = result.output.info.patchCount;
-        result.patches.resize(count);
-        status =
-            context.check(suppleGetPatches(context.handle(), group, result.patches.data(), &count), "suppleGetPatches");
-    }
-    const std::pair<const SuppleBufferRange*, std::vector<std::byte>*> buffers[] = {
-        {&result.output.streams.vertices, &result.surfaceVertices},
-        {&result.output.streams.attributes, &result.attributes},
-        {&result.output.indices(), &result.gridIndices},
-        {&result.output.info.patchCoefficients, &result.coefficients},
-        {&result.output.info.deformedCage, &result.deformedCage},
-    };
-    for (const auto& [view, bytes] : buffers) {
-        if (status) {
-            status = readBack(*session.device, *view, *bytes);
-        }
-    }
     if (!status) {
         return status.error();
     }
-    return result;
+    return readGroup(session, group);
 }
 
 } // namespace supple::tools

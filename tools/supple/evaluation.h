@@ -12,13 +12,16 @@
 namespace supple::tools {
 
 /// `output` lives as long as the session's context.
-struct Evaluation {
+struct EvaluatedSurface {
     host::GroupOutput output{};
     std::vector<SupplePatchInfo> patches;
-    std::vector<std::byte> surfaceVertices; ///< SUPPLE_VERTEX_24
-    std::vector<std::byte> attributes;      ///< these three are empty where the group was made without
+    std::vector<std::byte> vertices;   ///< SUPPLE_VERTEX_24
+    std::vector<std::byte> attributes; ///< these three are empty where the group was made without
     std::vector<std::byte> gridIndices;
     std::vector<std::byte> coefficients;
+};
+struct Evaluation {
+    std::vector<EvaluatedSurface> surfaces; ///< one or more
     std::vector<std::byte> deformedCage;
 };
 
@@ -37,8 +40,8 @@ struct Pose {
     std::vector<float> morphWeights; ///< of all targets, instead of the clip's; empty: the clip's
 };
 
-/// `groupFlags`: SuppleGroupFlags.
-[[nodiscard]] Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const SurfaceFlags& surface,
-                                          const Pose& pose, uint32_t groupFlags);
+/// `asset` is of `character`. `groupFlags`: SuppleGroupFlags.
+[[nodiscard]] Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Character& character,
+                                          const SurfaceFlags& surface, const Pose& pose, uint32_t groupFlags);
 
 } // namespace supple::tools

@@ -1,5 +1,8 @@
 #include "tools/supple/inspect_parts.h"
 
+#include "surface/choice.h"
+#include "tools/common/schemes.h"
+
 #include <set>
 
 namespace supple::tools {
@@ -29,6 +32,7 @@ PartContent contentOf(const cage::Character& character, size_t part) {
 } // namespace
 
 nlohmann::ordered_json partsToJson(const cage::Character& character) {
+    const std::vector<surface::SchemeChoice> choices = surface::chooseSchemes(character);
     nlohmann::ordered_json parts = nlohmann::ordered_json::array();
     for (size_t p = 0; p < character.parts.size(); ++p) {
         const cage::Part& part = character.parts[p];
@@ -41,12 +45,15 @@ nlohmann::ordered_json partsToJson(const cage::Character& character) {
                          {"polygonSource", cage::polygonSourceName(part.polygonSource)},
                          {"weldSource", cage::weldSourceName(part.weldSource)},
                          {"morphTargets", part.targetCount},
+                         {"scheme", schemeName(static_cast<SuppleScheme>(choices[p].scheme))},
+                         {"schemeReason", choices[p].reason},
                          {"materials", content.materials}});
     }
     return parts;
 }
 
 std::vector<std::string> partLines(const cage::Character& character) {
+    const std::vector<surface::SchemeChoice> choices = surface::chooseSchemes(character);
     std::vector<std::string> lines;
     for (size_t p = 0; p < character.parts.size(); ++p) {
         const cage::Part& part = character.parts[p];
@@ -63,6 +70,8 @@ std::vector<std::string> partLines(const cage::Character& character) {
             line += separator + (name.empty() ? std::to_string(material) : name);
             separator = ", ";
         }
+        line += std::string("; auto: ") + schemeName(static_cast<SuppleScheme>(choices[p].scheme)) + ", " +
+                choices[p].reason;
         lines.push_back(std::move(line));
     }
     return lines;

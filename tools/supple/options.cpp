@@ -53,14 +53,40 @@ void bindRate(CLI::App& command, uint32_t& rate) {
         ->capture_default_str();
 }
 
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning,
-                host::ReadOptions& reading, const std::vector<std::string>& extraSchemes) {
+namespace {
+
+void bindPartSchemes(CLI::App& command, std::vector<host::PartScheme>& schemes) {
+    const auto fault = [](const std::string& text) {
+        const Result<host::PartScheme> setting = host::parsePartScheme(text);
+        return setting ? "" : setting.error().message;
+    };
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--part-scheme",
+            [&schemes](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) {
+                    schemes.push_back(*host::parsePartScheme(text));
+                }
+            },
+            "The scheme of a part, by name or index, instead of --scheme. May be given again")
+        ->check(CLI::Validator(fault, ""))
+        ->allow_extra_args(false)
+        ->type_name("PART=SCHEME");
+}
+
+} // namespace
+
+void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartScheme>& partSchemes, uint32_t& rate,
+                std::string& skinning, host::ReadOptions& reading, const std::vector<std::string>& extraSchemes) {
     std::vector<std::string> names{"auto"};
     for (const Scheme& known : kSchemes) {
         names.emplace_back(known.name);
     }
     names.insert(names.end(), extraSchemes.begin(), extraSchemes.end());
-    command.add_option("--scheme", scheme, "Surface scheme")->check(CLI::IsMember(names))->capture_default_str();
+    command.add_option("--scheme", scheme, "Surface scheme; auto: the one that suits each part")
+        ->check(CLI::IsMember(names))
+        ->capture_default_str();
+    bindPartSchemes(command, partSchemes);
     bindRate(command, rate);
     command.add_option("--skinning", skinning, "How joints move the cage")
         ->check(CLI::IsMember({"linear", "dual-quaternion"}))
@@ -69,7 +95,7 @@ void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::str
 }
 
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes) {
-    bindScheme(command, flags.scheme, flags.rate, flags.skinning, flags.reading, extraSchemes);
+    bindScheme(command, flags.scheme, flags.partSchemes, flags.rate, flags.skinning, flags.reading, extraSchemes);
     command.add_option("--tangents", flags.tangents, "Tangent length at extraordinary vertices")
         ->check(CLI::IsMember({"default", "printed"}))
         ->capture_default_str();
@@ -88,7 +114,16 @@ void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThresho
         ->capture_default_str();
 }
 
-void describeSurface(const SurfaceFlags& flags, SchemeOptions& options, SuppleGroupDesc& desc) {
+Status describeSurface(const SurfaceFlags& flags, const cage::Character& character, SchemeOptions& options,
+                       SuppleGroupDesc& desc) {
+    Result<std::vector<SuppleScheme>> partSchemes =
+        host::partSchemes(character.name, host::partNames(character), flags.partSchemes);
+    if (!partSchemes) {
+        return partSchemes.error();
+    }
+    options.partSchemes = std::move(*partSchemes);
+    desc.partSchemes = options.partSchemes.data();
+    desc.partSchemeCount = static_cast<uint32_t>(options.partSchemes.size());
     options.prep = {sizeof options.prep,
                     flags.tangents == "printed" ? SUPPLE_TANGENTS_PRINTED : SUPPLE_TANGENTS_DEFAULT,
                     flags.corners == "smooth" ? SUPPLE_CORNERS_SMOOTH : SUPPLE_CORNERS_SHARP};
@@ -96,6 +131,7 @@ void describeSurface(const SurfaceFlags& flags, SchemeOptions& options, SuppleGr
     desc.prep = &options.prep;
     desc.blend = &options.blend;
     desc.skinning = skinningOf(flags.skinning);
+    return success();
 }
 
 SuppleCreaseMode creaseModeOf(const std::string& name) {
@@ -133,14 +169,9 @@ void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs) {
         ->type_name("NAME=WEIGHT");
 }
 
-std::string resolvedScheme(const std::string& name) {
-    return name == "auto" ? kSchemes[0].name : name;
-}
-
-bool hasCoefficients(const std::string& name) {
-    const std::string resolved = resolvedScheme(name);
+bool hasCoefficients(SuppleScheme wanted) {
     return std::any_of(std::begin(kSchemes), std::end(kSchemes),
-                       [&](const Scheme& scheme) { return resolved == scheme.name && scheme.coefficients; });
+                       [&](const Scheme& scheme) { return scheme.scheme == wanted && scheme.coefficients; });
 }
 
 } // namespace supple::tools

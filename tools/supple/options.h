@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "tools/common/character_file.h"
 #include "tools/common/morph_weights.h"
+#include "tools/common/part_settings.h"
 #include "tools/common/schemes.h"
 
 #include <cstdint>
@@ -31,9 +32,10 @@ void bindDevice(CLI::App& command, DeviceFlags& flags);
 /// --clips, --pair-quads, --scene, --parts-apart and --strict.
 void bindReading(CLI::App& command, host::ReadOptions& reading);
 
-/// --scheme, --rate and how the surface is built.
+/// --scheme, --part-scheme, --rate and how the surface is built.
 struct SurfaceFlags {
     std::string scheme = "auto";
+    std::vector<host::PartScheme> partSchemes;
     uint32_t rate = 8;
     std::string tangents = "default";
     std::string corners = "sharp";
@@ -43,8 +45,8 @@ struct SurfaceFlags {
     host::ReadOptions reading;
 };
 /// `extraSchemes`: what --scheme also takes here, such as "cage".
-void bindScheme(CLI::App& command, std::string& scheme, uint32_t& rate, std::string& skinning,
-                host::ReadOptions& reading, const std::vector<std::string>& extraSchemes = {});
+void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartScheme>& partSchemes, uint32_t& rate,
+                std::string& skinning, host::ReadOptions& reading, const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
 /// --creases and --sharp.
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold);
@@ -52,10 +54,11 @@ void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThresho
 struct SchemeOptions {
     SupplePrepOptions prep{};
     SuppleBlendOptions blend{};
+    std::vector<SuppleScheme> partSchemes;
 };
-/// The description's fields that --tangents, --corners, --creases, --sharp and --skinning set. It then points to
-/// `options`.
-void describeSurface(const SurfaceFlags& flags, SchemeOptions& options, SuppleGroupDesc& desc);
+/// The description's fields that the flags set. It then points to `options`. The error names a part that is not there.
+[[nodiscard]] Status describeSurface(const SurfaceFlags& flags, const cage::Character& character,
+                                     SchemeOptions& options, SuppleGroupDesc& desc);
 
 /// --creases: "cut" or "curve".
 [[nodiscard]] SuppleCreaseMode creaseModeOf(const std::string& name);
@@ -75,9 +78,7 @@ void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs);
 [[nodiscard]] constexpr bool subdivides(SuppleScheme scheme) {
     return scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
 }
-/// The scheme behind a name: "auto" becomes the one it chooses.
-[[nodiscard]] std::string resolvedScheme(const std::string& name);
-/// Of a name that schemeOf knows; a cage has no patches, and so none.
-[[nodiscard]] bool hasCoefficients(const std::string& name);
+/// Whether the patches of a scheme have coefficients to read; a cage has no patches, and so none.
+[[nodiscard]] bool hasCoefficients(SuppleScheme scheme);
 
 } // namespace supple::tools

@@ -115,7 +115,6 @@ public:
         for (const host::CharacterFile& file : files) {
             result.file += (result.file.empty() ? "" : " + ") + file.path;
         }
-        result.scheme = resolvedScheme(scheme);
         result.rate = options_.surface.rate;
         result.playback = options_.plays();
         ProfileStage stage(*session_.context, options_);

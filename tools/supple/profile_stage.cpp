@@ -118,7 +118,9 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     desc.scheme = schemeOf(scheme);
     desc.rate = options_.surface.rate;
     SchemeOptions schemeOptions;
-    describeSurface(options_.surface, schemeOptions, desc);
+    if (const Status described = describeSurface(options_.surface, file.character, schemeOptions, desc); !described) {
+        return described;
+    }
     desc.poseSource = options_.plays() ? SUPPLE_POSES_PLAYBACK : SUPPLE_POSES_SET;
     desc.view = view_;
     SuppleGroup group{};
@@ -134,15 +136,30 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     if (status && options_.plays()) {
         status = startPlayback(subject);
     }
-    host::GroupOutput output{};
-    if (status) {
-        status = check(host::getGroupOutput(handle(), group, output), "suppleGetGroupInfo");
-    }
     run.instances += instances;
-    run.patches = std::max(run.patches, output.info.patchCount);
-    run.patchRate = output.info.tessellation == SUPPLE_TESSELLATION_NONE ? run.rate : output.grid.rate;
-    run.deviceBytes += output.info.deviceBytes;
-    return status;
+    return status ? report(group, run) : status;
+}
+
+Status ProfileStage::report(SuppleGroup group, ProfileRun& run) const {
+    uint32_t patches = 0, count = 1;
+    for (uint32_t surface = 0; surface < count; ++surface) {
+        host::GroupOutput output{};
+        const Status status = check(host::getGroupOutput(handle(), group, output, surface), "suppleGetGroupInfo");
+        if (!status) {
+            return status;
+        }
+        count = output.info.surfaceCount;
+        patches += output.surface.patchCount;
+        const bool none = output.surface.tessellation == SUPPLE_TESSELLATION_NONE;
+        run.patchRate = std::max(run.patchRate, none ? run.rate : output.grid.rate);
+        run.deviceBytes += surface == 0 ? output.info.deviceBytes : 0;
+        const std::string scheme = schemeName(output.surface.scheme);
+        if (("+" + run.scheme + "+").find("+" + scheme + "+") == std::string::npos) {
+            run.scheme += (run.scheme.empty() ? "" : "+") + scheme;
+        }
+    }
+    run.patches = std::max(run.patches, patches);
+    return success();
 }
 
 double ProfileStage::phase(const Subject& subject, size_t instance) {

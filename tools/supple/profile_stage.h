@@ -54,13 +54,15 @@ private:
         double clipDuration = 0.0;
     };
     [[nodiscard]] Status createView(std::span<const host::CharacterFile> files);
+    /// What the group is, for the run's report.
+    [[nodiscard]] Status report(SuppleGroup group, ProfileRun& run) const;
     [[nodiscard]] Status createGroup(const host::CharacterFile& file, const std::string& scheme, uint32_t instances,
                                      ProfileRun& run);
     [[nodiscard]] Status setMorphs(const host::CharacterFile& file, const Subject& subject);
     [[nodiscard]] Status startPlayback(const Subject& subject);
     [[nodiscard]] Status place();
     [[nodiscard]] static double phase(const Subject& subject, size_t instance);
-    [[nodiscard]] Status check(SuppleResult result, const char* call) { return context_.check(result, call); }
+    [[nodiscard]] Status check(SuppleResult result, const char* call) const { return context_.check(result, call); }
     [[nodiscard]] SuppleContext handle() const { return context_.handle(); }
 
     host::Context& context_;

@@ -4,6 +4,7 @@
 
 #include "tools/common/character_file.h"
 #include "tools/common/morph_weights.h"
+#include "tools/common/part_settings.h"
 
 #include <cstdint>
 #include <string>
@@ -12,7 +13,8 @@
 namespace supple::tools {
 
 struct DrawOptions {
-    std::string scheme = "auto";     ///< auto, a scheme's, or cage (the deformed cage itself)
+    std::string scheme = "auto"; ///< auto, a scheme's, or cage (the deformed cage itself)
+    std::vector<host::PartScheme> partSchemes;
     std::string skinning = "linear"; ///< linear | dual-quaternion
     std::string creases = "cut";     ///< cut | curve
     float sharpThreshold = 1.0f;     ///< see SuppleGroupDesc

@@ -77,13 +77,18 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
     if (!figure)
         return figure.error();
     stage->figure_ = std::move(*figure);
+    Result<std::vector<SuppleScheme>> partSchemes =
+        host::partSchemes(file, stage->figure_->partNames(), options.partSchemes);
+    if (!partSchemes)
+        return partSchemes.error();
     Result<std::unique_ptr<host::FigureGroup>> group =
         host::FigureGroup::create(*stage->figure_, {.scheme = schemeOf(options.scheme),
                                                     .rate = options.rate,
                                                     .skinning = skinningOf(options.skinning),
                                                     .creaseMode = creaseModeOf(options.creases),
                                                     .sharpThreshold = options.sharpThreshold,
-                                                    .sharedSamples = options.sharedSamples});
+                                                    .sharedSamples = options.sharedSamples,
+                                                    .partSchemes = std::move(*partSchemes)});
     if (!group)
         return group.error();
     stage->group_ = std::move(*group);
@@ -92,12 +97,13 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
         return weights.error();
     if (const Status status = stage->group_->setMorphWeights(0, *weights); !status)
         return status.error();
-    std::vector<bool> shown;
-    Status found = host::findParts(*stage->figure_, options.parts, shown);
-    for (uint32_t p = 0; p < shown.size() && found; ++p)
-        found = stage->group_->setPartVisible(p, shown[p]);
-    if (!found)
-        return found.error();
+    const Result<std::vector<bool>> shown = host::findParts(file, stage->figure_->partNames(), options.parts);
+    if (!shown)
+        return shown.error();
+    for (uint32_t p = 0; p < shown->size(); ++p) {
+        if (const Status status = stage->group_->setPartVisible(p, (*shown)[p]); !status)
+            return status.error();
+    }
     Result<std::unique_ptr<host::SurfaceRenderer>> renderer =
         host::SurfaceRenderer::create(device, {.quality = host::StudioQuality::still(size.height, device.isCpu())});
     if (!renderer)

@@ -133,14 +133,18 @@ private:
 Result<std::string> hashView(host::Context& context, std::span<const SuppleGroup> groups) {
     std::vector<Line> lines;
     for (size_t group = 0; group < groups.size(); ++group) {
-        host::GroupOutput output{};
-        Status status =
-            context.check(host::getGroupOutput(context.handle(), groups[group], output), "suppleGetGroupInfo");
-        if (status) {
-            status = ViewReader(context.device(), output, group, lines).read();
-        }
-        if (!status) {
-            return status.error();
+        uint32_t count = 1;
+        for (uint32_t surface = 0; surface < count; ++surface) {
+            host::GroupOutput output{};
+            const SuppleResult result = host::getGroupOutput(context.handle(), groups[group], output, surface);
+            Status status = context.check(result, "suppleGetGroupInfo");
+            count = output.info.surfaceCount;
+            if (status) {
+                status = ViewReader(context.device(), output, group, lines).read();
+            }
+            if (!status) {
+                return status.error();
+            }
         }
     }
     std::sort(lines.begin(), lines.end());

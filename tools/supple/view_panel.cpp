@@ -128,8 +128,12 @@ void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     ImGui::SameLine();
     ImGui::Checkbox("cage only", &settings.cageFaces);
     ImGui::Checkbox("ground", &settings.ground);
-    const host::GroupOutput& output = stage.group().output();
-    ImGui::TextDisabled("%u patches, %u vertices", output.info.patchCount, output.grid.vertexCount);
+    uint32_t patches = 0, vertices = 0;
+    for (const host::FigureSurface& surface : stage.group().surfaces()) {
+        patches += surface.output.surface.patchCount;
+        vertices += surface.output.grid.vertexCount;
+    }
+    ImGui::TextDisabled("%u patches, %u vertices", patches, vertices);
 }
 
 /// The height that a list takes, of which more scrolls.

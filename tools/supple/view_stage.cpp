@@ -38,6 +38,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->reading_ = options.reading;
     stage->morphSettings_ = options.morphs;
     stage->parts_ = options.parts;
+    stage->partSchemes_ = options.partSchemes;
     stage->sharedSamples_ = options.sharedSamples;
     stage->settings.rate = static_cast<int>(stage->offeredRate(options.rate));
     stage->startYaw_ = radians(options.yaw);
@@ -59,9 +60,9 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     const Result<uint32_t> chosen = host::findClip(**figure, clip);
     if (!chosen)
         return chosen.error();
-    std::vector<bool> shownParts;
-    if (const Status found = host::findParts(**figure, parts_, shownParts); !found)
-        return found.error();
+    Result<std::vector<bool>> shownParts = host::findParts(file, (*figure)->partNames(), parts_);
+    if (!shownParts)
+        return shownParts.error();
     Result<std::unique_ptr<host::FigureGroup>> group = createGroup(**figure, static_cast<uint32_t>(settings.rate));
     if (!group)
         return group.error();
@@ -90,7 +91,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     extent_ = std::move(*extent);
     settings.clip = *chosen != SUPPLE_BIND_POSE || clipCount == 0 ? *chosen : 0;
     settings.time = 0.0;
-    settings.shownParts = std::move(shownParts);
+    settings.shownParts = std::move(*shownParts);
     settings.rate = static_cast<int>(group_->edgeRate());
     passTimes_.clear();
     frameFigure(aspect);
@@ -102,12 +103,16 @@ uint32_t ViewStage::offeredRate(uint32_t rate) const {
 }
 
 Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& figure, uint32_t rate) const {
+    Result<std::vector<SuppleScheme>> partSchemes = host::partSchemes(figure.path(), figure.partNames(), partSchemes_);
+    if (!partSchemes)
+        return partSchemes.error();
     return host::FigureGroup::create(figure, {.scheme = scheme_,
                                               .rate = rate,
                                               .skinning = skinning_,
                                               .creaseMode = creaseMode_,
                                               .sharpThreshold = sharpThreshold_,
-                                              .sharedSamples = sharedSamples_});
+                                              .sharedSamples = sharedSamples_,
+                                              .partSchemes = std::move(*partSchemes)});
 }
 
 Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {

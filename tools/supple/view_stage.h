@@ -94,6 +94,7 @@ private:
     host::ReadOptions reading_;
     std::vector<host::MorphSetting> morphSettings_;
     std::vector<std::string> parts_; ///< shown at first; none: all
+    std::vector<host::PartScheme> partSchemes_;
     bool sharedSamples_ = false;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;

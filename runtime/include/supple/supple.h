@@ -366,6 +366,24 @@ typedef struct SuppleAssetInfo {
     const uint32_t* sourceVertices;
 } SuppleAssetInfo;
 
+/** How the deformed cage becomes a surface. docs/schemes.md says which one to choose. */
+typedef enum SuppleScheme {
+    /** Each part has the scheme that suits it: SupplePartInfo.scheme. The group has a surface per scheme. What a scheme
+     * lacks of SUPPLE_GROUP_PATCHES and SUPPLE_GROUP_INDEXED_MESH its surface goes without. */
+    SUPPLE_SCHEME_AUTO = 0,
+    SUPPLE_SCHEME_PREP = 1, /**< p-rep: quads, G1 at any valence, one patch per face; creases are ignored */
+    SUPPLE_SCHEME_PM = 2,   /**< P_m: any polygons, polar fans, creases; G1 except at creases, one patch per facet */
+    SUPPLE_SCHEME_CATMULL_CLARK = 3, /**< subdivision: any polygons, semi-sharp creases; the limit itself */
+    SUPPLE_SCHEME_LOOP = 4, /**< subdivision: triangles (larger faces are split into them), semi-sharp creases */
+    /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
+     * vertices. Edges are either sharp or smooth. */
+    SUPPLE_SCHEME_BLEND = 5,
+    /** No smooth surface: the file's own triangles, deformed, with the file's normals. Takes any cage, manifold or not.
+     * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
+    SUPPLE_SCHEME_POLYGONS = 6,
+    SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
+} SuppleScheme;
+
 /** A part of a character: what one node of a file carries as its mesh. OBJ files and arrays have one part. All parts
  * have one cage, one skeleton and one pose. The faces of a part are a run of the cage's faces. */
 typedef struct SupplePartInfo {
@@ -381,6 +399,8 @@ typedef struct SupplePartInfo {
     const uint32_t* materials; /**< that its faces have, in rising order; SUPPLE_NO_MATERIAL for faces without one */
     float boundsMin[3];        /**< of its cage vertices in the bind pose */
     float boundsMax[3];
+    SuppleScheme scheme;      /**< what SUPPLE_SCHEME_AUTO takes for it. Parts that are sewn have the same */
+    const char* schemeReason; /**< why, for people: "its polygons are known" */
 } SupplePartInfo;
 
 /** An animation clip. */
@@ -535,22 +555,6 @@ SUPPLE_API SuppleResult suppleGetImageInfo(SuppleContext context, SuppleAsset as
 
 /* ---------------------------------------------------------------------------------------------------- groups */
 
-/** How the deformed cage becomes a surface. docs/schemes.md says which one to choose. */
-typedef enum SuppleScheme {
-    SUPPLE_SCHEME_AUTO = 0, /**< P_m */
-    SUPPLE_SCHEME_PREP = 1, /**< p-rep: quads, G1 at any valence, one patch per face; creases are ignored */
-    SUPPLE_SCHEME_PM = 2,   /**< P_m: any polygons, polar fans, creases; G1 except at creases, one patch per facet */
-    SUPPLE_SCHEME_CATMULL_CLARK = 3, /**< subdivision: any polygons, semi-sharp creases; the limit itself */
-    SUPPLE_SCHEME_LOOP = 4, /**< subdivision: triangles (larger faces are split into them), semi-sharp creases */
-    /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
-     * vertices. Edges are either sharp or smooth. */
-    SUPPLE_SCHEME_BLEND = 5,
-    /** No smooth surface: the file's own triangles, deformed, with the file's normals. Takes any cage, manifold or not.
-     * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
-    SUPPLE_SCHEME_POLYGONS = 6,
-    SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
-} SuppleScheme;
-
 /** How SUPPLE_SCHEME_PREP scales the tangents at irregular vertices (of a valence other than 4). DEFAULT: as
  * docs/prep.md derives it. PRINTED: as the paper prints it. */
 typedef enum SuppleTangentMode { SUPPLE_TANGENTS_DEFAULT = 0, SUPPLE_TANGENTS_PRINTED = 1 } SuppleTangentMode;
@@ -633,6 +637,11 @@ typedef struct SuppleGroupDesc {
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
     const SuppleBlendOptions* blend; /**< the same */
+    /** Optional: partSchemeCount schemes for the first parts of the asset, which count instead of `scheme`. A part with
+     * SUPPLE_SCHEME_AUTO has `scheme`. Parts that are sewn need the same scheme. If `scheme` is AUTO, name it for one
+     * of them; it counts for the others. SUPPLE_SCHEME_CAGE is for all parts or none. */
+    const SuppleScheme* partSchemes;
+    uint32_t partSchemeCount;
 } SuppleGroupDesc;
 
 /** Creates a group without instances. Compiles the pipelines that no earlier group of the context has needed, which may
@@ -642,9 +651,10 @@ SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGro
 /** Also destroys its instances. The handle is dead at once. The memory is freed when the frames that used the group are
  * complete (suppleBeginFrame). */
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
-/** Changes the rate from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must be 1 to the rate
- * that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND or POLYGONS, or with SUPPLE_GROUP_INDEXED_MESH,
- * cannot change it: they take only the rate that they were created with. Groups with levels take none. */
+/** Changes the rate of all surfaces from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must
+ * be 1 to the rate that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND or POLYGONS, or with
+ * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. Groups with levels
+ * take none. If one surface of the group cannot change it, none does; only POLYGONS beside other schemes has no say. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
 /* ---------------------------------------------------------------------------------------------------- instances */
@@ -796,7 +806,7 @@ typedef struct SuppleBufferRange {
     uint32_t stride; /**< bytes per element */
 } SuppleBufferRange;
 
-/** How the surface of a group becomes vertices. It follows from the group's description. */
+/** How a surface becomes vertices. It follows from the group's description. */
 typedef enum SuppleTessellation {
     SUPPLE_TESSELLATION_NONE = 0,         /**< SUPPLE_SCHEME_CAGE: there are no surface vertices */
     SUPPLE_TESSELLATION_GRIDS = 1,        /**< a grid of samples per patch: SuppleGridOutput */
@@ -810,9 +820,8 @@ typedef enum SuppleTessellation {
 /** What every group has. */
 typedef struct SuppleGroupInfo {
     uint32_t structSize;
-    SuppleTessellation tessellation;
+    uint32_t surfaceCount;            /**< see SuppleSurfaceInfo */
     uint32_t capacity;                /**< instances that it has room for */
-    uint32_t patchCount;              /**< per instance */
     uint32_t cageVertexCount;         /**< per instance */
     uint32_t cageVerticesPerInstance; /**< >= cageVertexCount: the stride of deformedCage between slots */
     /** float4 (x, y, z, 1) per cage vertex: slot * cageVerticesPerInstance + vertex. */
@@ -827,13 +836,30 @@ typedef struct SuppleGroupInfo {
      * command is the first of these entries, times SuppleDrawRange.patchCount. gl_InstanceIndex counts from
      * firstInstance, so shaders do the same as without hidden parts. */
     SuppleBufferRange instances;
-    /** SUPPLE_GROUP_PATCHES: float4 per coefficient, SUPPLE_PATCH_STRIDE per patch; see SupplePatchInfo. */
-    SuppleBufferRange patchCoefficients;
     VkDeviceSize deviceBytes; /**< device memory that the group holds, without its share of the asset's tables */
 } SuppleGroupInfo;
 
 /** Fills out. */
 SUPPLE_API SuppleResult suppleGetGroupInfo(SuppleContext context, SuppleGroup group, SuppleGroupInfo* out);
+
+/** A surface: what a group makes of the parts that have one scheme. A group has one surface per scheme, in the order of
+ * their first parts. If all parts have the same scheme, that is one. The functions below that take a surface want its
+ * number, 0 to SuppleGroupInfo.surfaceCount - 1. To draw a group, draw all its surfaces. */
+typedef struct SuppleSurfaceInfo {
+    uint32_t structSize;
+    SuppleScheme scheme; /**< never SUPPLE_SCHEME_AUTO */
+    SuppleTessellation tessellation;
+    uint32_t patchCount;     /**< per instance */
+    uint32_t patchesPerEdge; /**< along an edge of the cage: 1, or 2 or 4 if the scheme subdivides the cage first */
+    const uint32_t* parts;   /**< that the surface has, in rising order. Lives as long as the group */
+    uint32_t partCount;
+    /** SUPPLE_GROUP_PATCHES: float4 per coefficient, SUPPLE_PATCH_STRIDE per patch; see SupplePatchInfo. */
+    SuppleBufferRange patchCoefficients;
+} SuppleSurfaceInfo;
+
+/** Fills out. Errors: surface is not below SuppleGroupInfo.surfaceCount. */
+SUPPLE_API SuppleResult suppleGetSurfaceInfo(SuppleContext context, SuppleGroup group, uint32_t surface,
+                                             SuppleSurfaceInfo* out);
 
 /** The buffers of surface vertices. A surface vertex is made from a sample, which is a point of a patch's grid.
  * SuppleGridOutput and SuppleLevelDraw say which vertex belongs to which patch. vertices and previousPositions have an
@@ -854,8 +880,9 @@ typedef struct SuppleVertexStreams {
     SuppleBufferRange faceUvs;
 } SuppleVertexStreams;
 
-/** Fills out. Errors: SUPPLE_TESSELLATION_NONE. */
-SUPPLE_API SuppleResult suppleGetVertexStreams(SuppleContext context, SuppleGroup group, SuppleVertexStreams* out);
+/** Fills out. Errors: no such surface, or SUPPLE_TESSELLATION_NONE. */
+SUPPLE_API SuppleResult suppleGetVertexStreams(SuppleContext context, SuppleGroup group, uint32_t surface,
+                                               SuppleVertexStreams* out);
 
 /** The shape that a patch is sampled over. R is the rate. Samples are numbered row by row, from 0. Corner i of the
  * patch is corner i of the domain.
@@ -922,8 +949,9 @@ typedef struct SuppleGridOutput {
                                  * its part */
 } SuppleGridOutput;
 
-/** Fills out. Errors: the group has another tessellation (SuppleGroupInfo.tessellation). */
-SUPPLE_API SuppleResult suppleGetGridOutput(SuppleContext context, SuppleGroup group, SuppleGridOutput* out);
+/** Fills out. Errors: no such surface, or it has another tessellation (SuppleSurfaceInfo.tessellation). */
+SUPPLE_API SuppleResult suppleGetGridOutput(SuppleContext context, SuppleGroup group, uint32_t surface,
+                                            SuppleGridOutput* out);
 
 /** Classes of patches: how many coefficients a patch has, and their order (docs/prep.md, docs/pm.md). */
 typedef enum SupplePatchClass {
@@ -953,9 +981,9 @@ typedef struct SupplePatchInfo {
     uint32_t coefficientCount;
 } SupplePatchInfo;
 
-/** Fills out and count: patches of one instance, in the order of SuppleDrawRange.firstPatch. */
-SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup group, SupplePatchInfo* out,
-                                         uint32_t* count);
+/** Fills out and count: the surface's patches of one instance, in the order of SuppleDrawRange.firstPatch. */
+SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup group, uint32_t surface,
+                                         SupplePatchInfo* out, uint32_t* count);
 
 /* ---------------------------------------------------------------------------------------------------- timings */
 

@@ -197,17 +197,21 @@ public:
         out = sized<SuppleGroupInfo>();
         return suppleGetGroupInfo(context_, handle_, &out);
     }
-    [[nodiscard]] SuppleResult vertexStreams(SuppleVertexStreams& out) const {
+    [[nodiscard]] SuppleResult surfaceInfo(SuppleSurfaceInfo& out, uint32_t surface = 0) const {
+        out = sized<SuppleSurfaceInfo>();
+        return suppleGetSurfaceInfo(context_, handle_, surface, &out);
+    }
+    [[nodiscard]] SuppleResult vertexStreams(SuppleVertexStreams& out, uint32_t surface = 0) const {
         out = sized<SuppleVertexStreams>();
-        return suppleGetVertexStreams(context_, handle_, &out);
+        return suppleGetVertexStreams(context_, handle_, surface, &out);
     }
-    [[nodiscard]] SuppleResult gridOutput(SuppleGridOutput& out) const {
+    [[nodiscard]] SuppleResult gridOutput(SuppleGridOutput& out, uint32_t surface = 0) const {
         out = sized<SuppleGridOutput>();
-        return suppleGetGridOutput(context_, handle_, &out);
+        return suppleGetGridOutput(context_, handle_, surface, &out);
     }
-    [[nodiscard]] SuppleResult levelOutput(SuppleLevelOutput& out) const {
+    [[nodiscard]] SuppleResult levelOutput(SuppleLevelOutput& out, uint32_t surface = 0) const {
         out = sized<SuppleLevelOutput>();
-        return suppleGetLevelOutput(context_, handle_, &out);
+        return suppleGetLevelOutput(context_, handle_, surface, &out);
     }
     [[nodiscard]] SuppleResult instanceBounds(SuppleBufferRange& out) const {
         return suppleGetInstanceBounds(context_, handle_, &out);

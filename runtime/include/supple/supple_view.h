@@ -185,8 +185,9 @@ typedef struct SuppleLevelOutput {
                                  * surface vertex, unused; then levels (docs/lod.md) */
 } SuppleLevelOutput;
 
-/** Fills out. Errors: the group has another tessellation (SuppleGroupInfo.tessellation). */
-SUPPLE_API SuppleResult suppleGetLevelOutput(SuppleContext context, SuppleGroup group, SuppleLevelOutput* out);
+/** Fills out. Errors: no such surface, or it has another tessellation (SuppleSurfaceInfo.tessellation). */
+SUPPLE_API SuppleResult suppleGetLevelOutput(SuppleContext context, SuppleGroup group, uint32_t surface,
+                                             SuppleLevelOutput* out);
 
 /** Bounds of the instances of a view's group. out gets a buffer of two float4 per slot, in the space of the surface
  * vertices. The first has the least corner of a box round the surface, and in w the level that the instance asks for as

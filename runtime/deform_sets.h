@@ -1,0 +1,41 @@
+// The descriptor sets of the deform pass, one a window of instances.
+#pragma once
+
+#include "gpu/memory.h"
+#include "gpu/pipeline.h"
+#include "runtime/instance_windows.h"
+
+#include <vector>
+
+namespace supple::runtime {
+
+class DeformSets {
+public:
+    /// A buffer that has `stride` elements of 16 bytes for every slot.
+    struct Run {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        uint32_t stride = 0;
+    };
+    struct Desc {
+        const gpu::Device* device = nullptr;
+        const gpu::ComputeLayout* layout = nullptr; ///< of skinning::DeformPass
+        const InstanceWindows* windows = nullptr;
+        VkBuffer table = VK_NULL_HANDLE;
+        VkDeviceSize tableBytes = 0;
+        Run source;                     ///< poses; or, to gather a piece of a cage, the whole deformed cage
+        Run target;                     ///< the deformed cage
+        VkBuffer list = VK_NULL_HANDLE; ///< of instances
+        VkDeviceSize listBytes = 0;     ///< that the pass reads
+    };
+    [[nodiscard]] Status create(const Desc& desc);
+
+    [[nodiscard]] bool empty() const { return sets_.empty(); }
+    [[nodiscard]] VkDescriptorSet operator[](uint32_t window) const { return sets_[window]; }
+
+private:
+    gpu::DescriptorPoolHandle pool_;
+    gpu::TexelViews views_;
+    std::vector<VkDescriptorSet> sets_;
+};
+
+} // namespace supple::runtime

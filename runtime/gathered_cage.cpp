@@ -1,0 +1,46 @@
+#include "runtime/gathered_cage.h"
+
+namespace supple::runtime {
+
+namespace {
+constexpr VkDeviceSize kVec4Bytes = 16;
+} // namespace
+
+uint32_t GatheredCage::stride() const {
+    return InstanceSet::cageStrideOf(piece_->of.cage.vertexCount());
+}
+
+void GatheredCage::plan(gpu::BufferPlan& device, uint32_t capacity) {
+    cages_ = device.add({"supple deformed piece", capacity * stride() * kVec4Bytes,
+                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT});
+}
+
+Status GatheredCage::createSets(const gpu::Device& device, const InstanceSet& instances) {
+    wholeStride_ = instances.cageStride();
+    return sets_.create({&device,
+                         &deform_->layout(),
+                         &instances.windows(),
+                         piece_->vertices.buffer(0),
+                         piece_->vertices.size(0),
+                         {instances.cages().buffer(), wholeStride_},
+                         {cages_.buffer(), stride()},
+                         instances.list().buffer(),
+                         instances.passListBytes()});
+}
+
+PassCost GatheredCage::record(VkCommandBuffer commandBuffer, const InstanceWindows& windows) const {
+    const uint32_t vertices = piece_->of.cage.vertexCount();
+    windows.forEach([&](uint32_t w) {
+        shared::DeformPush push{};
+        push.vertexCount = vertices;
+        push.firstInstance = windows.firstEntry(w);
+        push.instanceCount = windows.listed[w].count;
+        push.poseStride = wholeStride_;
+        push.cageStride = stride();
+        deform_->recordGather(commandBuffer, sets_[w], push);
+    });
+    const uint64_t points = uint64_t{vertices} * windows.visible;
+    return {points, points * kVec4Bytes};
+}
+
+} // namespace supple::runtime
