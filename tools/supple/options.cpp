@@ -34,7 +34,10 @@ SuppleMapping mappingOf(const DeviceFlags& flags) {
 }
 
 void bindReading(CLI::App& command, host::ReadOptions& reading) {
-    command.add_flag("--pair-quads", reading.pairQuads, "Merge consecutive triangle pairs of plain triangles to quads");
+    CLI::Option* const pair = command.add_flag("--pair-quads", reading.pairQuads,
+                                               "Pair plain triangles into quads also where few of them make good ones");
+    command.add_flag("--keep-triangles", reading.keepTriangles, "Never pair plain triangles into quads")
+        ->excludes(pair);
     command
         .add_option("--clips", reading.clipFiles,
                     "glTF files whose clips the character takes: they move the nodes of their names")
