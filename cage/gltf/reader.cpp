@@ -12,6 +12,7 @@
 #include "cage/gltf/skin.h"
 #include "cage/gltf/uri.h"
 #include "cage/message.h"
+#include "cage/normal_creases.h"
 #include "cage/parts.h"
 #include "cage/refusal.h"
 #include "cage/repair.h"
@@ -181,6 +182,9 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     joinParts(std::move(parts), character);
     if (options.sewParts) {
         sewParts(character);
+    }
+    if (options.creasesFromNormals) {
+        creaseSplitNormals(character.cage);
     }
     return character;
 }

@@ -43,6 +43,8 @@ struct GltfOptions {
     bool sewParts = true;
     /// Whether triangles are paired into quads where the file carries no polygons.
     Pairing pairing = Pairing::whereClean;
+    /// Make edges with split normals infinitely sharp (cage/normal_creases.h).
+    bool creasesFromNormals = false;
     /// Refuse a damaged cage instead of repairing it (cage/repair.h). The error has one line for each kind of damage.
     bool strict = false;
     /// Where external buffers and images come from, instead of the folder given to readGltf().

@@ -75,6 +75,7 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
         options.pairing = cage::Pairing::never;
     }
     options.strict = (desc.flags & SUPPLE_ASSET_STRICT) != 0;
+    options.creasesFromNormals = (desc.flags & SUPPLE_ASSET_CREASES_FROM_NORMALS) != 0;
     options.sewParts = (desc.flags & SUPPLE_ASSET_PARTS_APART) == 0;
     if (desc.scene != 0) {
         options.scene = desc.scene - 1;
@@ -93,7 +94,9 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
 
 std::optional<Error> faultOfFlags(uint32_t flags) {
     constexpr uint32_t kPairing = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES;
-    if ((flags & ~(kPairing | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART)) != 0) {
+    constexpr uint32_t kKnown =
+        kPairing | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART | SUPPLE_ASSET_CREASES_FROM_NORMALS;
+    if ((flags & ~kKnown) != 0) {
         return Error{ErrorCode::range, "unknown flags"};
     }
     if ((flags & kPairing) == kPairing) {

@@ -51,6 +51,7 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
                               .pairing = flags.pairQuads       ? cage::Pairing::always
                                          : flags.keepTriangles ? cage::Pairing::never
                                                                : cage::Pairing::whereClean,
+                              .creasesFromNormals = flags.creasesFromNormals,
                               .strict = flags.strict};
     std::vector<FileInMemory> clipFiles;
     for (const std::string& clipPath : flags.clipFiles) {
@@ -74,6 +75,7 @@ Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
     const auto flag = [&](bool wanted, SuppleAssetFlags value) { desc.flags |= wanted ? uint32_t{value} : 0u; };
     flag(file.flags.pairQuads, SUPPLE_ASSET_PAIR_QUADS);
     flag(file.flags.keepTriangles, SUPPLE_ASSET_KEEP_TRIANGLES);
+    flag(file.flags.creasesFromNormals, SUPPLE_ASSET_CREASES_FROM_NORMALS);
     flag(file.flags.strict, SUPPLE_ASSET_STRICT);
     flag(file.flags.partsApart, SUPPLE_ASSET_PARTS_APART);
     desc.scene = file.flags.scene ? *file.flags.scene + 1 : 0;

@@ -44,6 +44,8 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
         ->type_name("CLIPS.glb");
     command.add_option("--scene", reading.scene, "Read this scene of a glTF file, counted from 0");
     command.add_flag("--parts-apart", reading.partsApart, "Do not sew parts together where their boundaries coincide");
+    command.add_flag("--creases-from-normals", reading.creasesFromNormals,
+                     "Make edges hard creases where the normals of the file are split");
     command.add_flag("--strict", reading.strict, "Refuse a damaged cage, and name all damage, instead of repairing it");
 }
 

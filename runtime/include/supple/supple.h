@@ -295,7 +295,10 @@ typedef enum SuppleAssetFlags {
      * position, skin and morph targets, and the surface goes on smoothly from one to the other. */
     SUPPLE_ASSET_PARTS_APART = 4,
     /** Plain triangles of a glTF file stay as they are. Not together with SUPPLE_ASSET_PAIR_QUADS. */
-    SUPPLE_ASSET_KEEP_TRIANGLES = 8
+    SUPPLE_ASSET_KEEP_TRIANGLES = 8,
+    /** Edges of a file whose normals are split become hard creases (sharpness 10), so that smooth schemes keep the hard
+     * edges of the file. Edges of the boundary and corners without a normal are left as they are. */
+    SUPPLE_ASSET_CREASES_FROM_NORMALS = 16
 } SuppleAssetFlags;
 
 /** The content of a file, from the host's own file system. */
