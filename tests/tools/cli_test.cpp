@@ -554,8 +554,8 @@ TEST_F(Cli, RenderOfAllSchemesIsOneSheet) {
     const Outcome all = runOnDevice("render cube.gltf -o all.png --scheme all --size 80x60 --rate 4");
     ASSERT_EQ(all.exitCode, 0) << all.err;
     const auto four = pngSize(file("all.png"));
-    const Outcome some =
-        runOnDevice("render triangles.gltf -o some.png --scheme all --size 80x60 --zoom 3 --at 0.4,0.6");
+    const Outcome some = runOnDevice(
+        "render triangles.gltf --keep-triangles -o some.png --scheme all --size 80x60 --zoom 3 --at 0.4,0.6");
     ASSERT_EQ(some.exitCode, 0) << some.err;
     EXPECT_NE(some.err.find("3 sides"), std::string::npos) << "what is missing and why: " << some.err;
     const auto three = pngSize(file("some.png"));
