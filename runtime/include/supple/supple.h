@@ -285,8 +285,8 @@ typedef struct SuppleCageDesc {
 /** Options of reading a file or arrays. */
 typedef enum SuppleAssetFlags {
     /** Plain triangles of a glTF file: pair all into quads that share an edge, have the same normals, UVs and colors
-     * along it, and face the same side. Without this flag, they are paired if nearly all of a mesh make good quads, and a
-     * warning says so. Polygons that the file lists are left as they are. */
+     * along it, and face the same side. Without this flag, they are paired if nearly all of a mesh make good quads, and
+     * a warning says so. Polygons that the file lists are left as they are. */
     SUPPLE_ASSET_PAIR_QUADS = 1,
     /** Refuse a damaged cage instead of repairing it. The message has one line for each kind of damage, which counts it
      * and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
