@@ -233,7 +233,7 @@ enum class PolygonSource {
     meshPolygon,     ///< EXT_mesh_polygon
     ngonEncoding,    ///< FB_ngon_encoding
     hiddenEdges,     ///< EXT_mesh_primitive_edge_visibility
-    pairedTriangles, ///< GltfOptions::pairQuads
+    pairedTriangles, ///< GltfOptions::pairing
     triangles,
     obj,
     arrays ///< the host's

@@ -1,17 +1,12 @@
 #include "cage/polygons.h"
 
+#include "cage/triangle_edges.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace supple::cage {
 namespace {
-
-bool degenerate(const uint32_t* triangle, std::span<const uint32_t> welded) {
-    const uint32_t a = welded[triangle[0]];
-    const uint32_t b = welded[triangle[1]];
-    const uint32_t c = welded[triangle[2]];
-    return a == b || b == c || c == a;
-}
 
 void addFace(Polygons& polygons, std::span<const uint32_t> corners) {
     polygons.vertices.insert(polygons.vertices.end(), corners.begin(), corners.end());
@@ -26,45 +21,19 @@ bool repeats(std::span<const uint32_t> corners, std::span<const uint32_t> welded
     return std::adjacent_find(scratch.begin(), scratch.end()) != scratch.end();
 }
 
-/// The half-edges of triangles over welded vertices: half-edge e runs from triangles[e] to the next corner of its
-/// triangle.
-struct TriangleEdges {
-    std::span<const uint32_t> triangles;
-    std::span<const uint32_t> welded;
-
-    [[nodiscard]] static size_t next(size_t e) { return e % 3 == 2 ? e - 2 : e + 1; }
-    [[nodiscard]] uint32_t from(size_t e) const { return welded[triangles[e]]; }
-    [[nodiscard]] uint32_t to(size_t e) const { return welded[triangles[next(e)]]; }
-    [[nodiscard]] std::pair<uint32_t, uint32_t> edge(size_t e) const { return std::minmax(from(e), to(e)); }
-};
-
 constexpr size_t kBoundary = ~size_t{0};
 
 /// Per half-edge the one that it is merged with, kBoundary where it is visible or the edge has not two triangles.
 std::vector<size_t> mergedEdges(const TriangleEdges& mesh, std::span<const uint8_t> hidden) {
-    const size_t count = mesh.triangles.size() / 3;
-    std::vector<size_t> byEdge;
-    for (size_t e = 0; e < 3 * count; ++e) {
-        if (!degenerate(&mesh.triangles[e - e % 3], mesh.welded)) {
-            byEdge.push_back(e);
-        }
-    }
-    std::sort(byEdge.begin(), byEdge.end(),
-              [&](size_t x, size_t y) { return std::pair(mesh.edge(x), x) < std::pair(mesh.edge(y), y); });
-    std::vector<size_t> across(3 * count, kBoundary);
-    for (size_t begin = 0; begin < byEdge.size();) {
-        size_t end = begin;
-        while (end < byEdge.size() && mesh.edge(byEdge[end]) == mesh.edge(byEdge[begin])) {
-            ++end;
-        }
-        const size_t x = byEdge[begin];
-        const size_t y = byEdge[end - 1];
-        if (end - begin == 2 && hidden[x] != 0 && hidden[y] != 0 && mesh.from(x) == mesh.to(y)) {
+    std::vector<size_t> across(mesh.triangles.size(), kBoundary);
+    mesh.forEachEdge([&](std::span<const size_t> sides) {
+        const size_t x = sides.front();
+        const size_t y = sides.back();
+        if (sides.size() == 2 && hidden[x] != 0 && hidden[y] != 0 && mesh.from(x) == mesh.to(y)) {
             across[x] = y;
             across[y] = x;
         }
-        begin = end;
-    }
+    });
     return across;
 }
 
@@ -117,9 +86,10 @@ bool outline(const Region& region, std::span<const size_t> across, const Triangl
 } // namespace
 
 Polygons keepTriangles(std::span<const uint32_t> triangles, std::span<const uint32_t> welded) {
+    const TriangleEdges mesh{triangles, welded};
     Polygons polygons;
     for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
-        if (degenerate(&triangles[t], welded))
+        if (mesh.isDegenerate(t / 3))
             ++polygons.degenerateTriangles;
         else
             addFace(polygons, triangles.subspan(t, 3));
@@ -128,6 +98,7 @@ Polygons keepTriangles(std::span<const uint32_t> triangles, std::span<const uint
 }
 
 Polygons decodeNgons(std::span<const uint32_t> triangles, std::span<const uint32_t> welded) {
+    const TriangleEdges mesh{triangles, welded};
     Polygons polygons;
     std::vector<uint32_t> run; // the polygon so far: anchor, then the fan's rim
     std::vector<uint32_t> scratch;
@@ -153,7 +124,7 @@ Polygons decodeNgons(std::span<const uint32_t> triangles, std::span<const uint32
     };
     for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
         const uint32_t* triangle = &triangles[t];
-        if (degenerate(triangle, welded)) {
+        if (mesh.isDegenerate(t / 3)) {
             finish();
             ++polygons.degenerateTriangles;
         } else if (!run.empty() && triangle[0] == run[0] && triangle[1] == run.back()) {
@@ -178,7 +149,7 @@ Polygons mergeAcrossHiddenEdges(std::span<const uint32_t> triangles, std::span<c
     std::vector<uint32_t> corners;
     std::vector<uint32_t> scratch;
     for (size_t first = 0; first < count; ++first) {
-        if (degenerate(&triangles[3 * first], welded)) {
+        if (mesh.isDegenerate(first)) {
             ++polygons.degenerateTriangles;
             continue;
         }
@@ -195,46 +166,6 @@ Polygons mergeAcrossHiddenEdges(std::span<const uint32_t> triangles, std::span<c
         for (const size_t t : region.triangles) {
             addFace(polygons, triangles.subspan(3 * t, 3));
         }
-    }
-    return polygons;
-}
-
-Polygons pairTriangles(std::span<const uint32_t> triangles, std::span<const uint32_t> welded,
-                       const std::function<bool(uint32_t, uint32_t)>& sameCorner,
-                       const std::function<bool(const uint32_t*, const uint32_t*)>& normalsAgree) {
-    Polygons polygons;
-    const size_t count = triangles.size() / 3;
-    for (size_t i = 0; i < count; ++i) {
-        const uint32_t* first = &triangles[3 * i];
-        if (degenerate(first, welded)) {
-            ++polygons.degenerateTriangles;
-            continue;
-        }
-        const uint32_t* second = i + 1 < count ? first + 3 : nullptr;
-        bool paired = false;
-        for (int j = 0; j < 3 && second != nullptr && !degenerate(second, welded) && !paired; ++j) {
-            for (int k = 0; k < 3 && !paired; ++k) {
-                // first runs p -> q along the shared edge, second q -> p; s is second's third corner
-                const uint32_t p = first[j];
-                const uint32_t q = first[(j + 1) % 3];
-                const uint32_t s = second[(k + 2) % 3];
-                if (welded[second[k]] != welded[q] || welded[second[(k + 1) % 3]] != welded[p] ||
-                    welded[s] == welded[first[(j + 2) % 3]] || !sameCorner(second[k], q) ||
-                    !sameCorner(second[(k + 1) % 3], p) || !normalsAgree(first, second))
-                    continue;
-                for (int corner = 0; corner < 3; ++corner) {
-                    polygons.vertices.push_back(first[corner]);
-                    if (corner == j)
-                        polygons.vertices.push_back(s);
-                }
-                polygons.close();
-                paired = true;
-            }
-        }
-        if (paired)
-            ++i;
-        else
-            addFace(polygons, std::span(first, 3));
     }
     return polygons;
 }

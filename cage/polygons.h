@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -38,12 +37,5 @@ struct Polygons {
 /// boundary that passes no vertex twice, and no vertex within; its corners are those of the triangles on the boundary.
 [[nodiscard]] Polygons mergeAcrossHiddenEdges(std::span<const uint32_t> triangles, std::span<const uint32_t> welded,
                                               std::span<const uint8_t> hidden);
-
-/// A guess, for files without polygons: two consecutive triangles make a quad when they share an edge, run along it in
-/// opposite directions, agree in the attributes at its ends (`sameCorner` of two glTF vertices) and do not fold
-/// (`normalsAgree` of two triangles). Recovers all quads of Blender's exporter.
-[[nodiscard]] Polygons pairTriangles(std::span<const uint32_t> triangles, std::span<const uint32_t> welded,
-                                     const std::function<bool(uint32_t, uint32_t)>& sameCorner,
-                                     const std::function<bool(const uint32_t*, const uint32_t*)>& normalsAgree);
 
 } // namespace supple::cage

@@ -1,5 +1,6 @@
 #include "cage/formats/reader.h"
 
+#include "cage/normal_creases.h"
 #include "cage/obj/reader.h"
 
 #include <algorithm>
@@ -34,7 +35,11 @@ Result<Character> readCharacter(std::span<const std::byte> bytes, const std::str
             return Error{ErrorCode::argument, name + ": " + options.clipFiles.front().name +
                                                   ": an OBJ file has no nodes that clips of other files could move"};
         }
-        return readObj(bytes, name, options.strict);
+        Result<Character> character = readObj(bytes, name, options.strict);
+        if (character && options.creasesFromNormals) {
+            creaseSplitNormals(character->cage);
+        }
+        return character;
     }
     return readGltf(bytes, name, baseDirectory, options);
 }

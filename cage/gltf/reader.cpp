@@ -12,6 +12,7 @@
 #include "cage/gltf/skin.h"
 #include "cage/gltf/uri.h"
 #include "cage/message.h"
+#include "cage/normal_creases.h"
 #include "cage/parts.h"
 #include "cage/refusal.h"
 #include "cage/repair.h"
@@ -127,6 +128,26 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
     return parts;
 }
 
+/// Says what was paired without being asked.
+void warnOfPairs(const std::vector<PartCage>& parts, Warnings& warnings) {
+    size_t paired = 0;
+    size_t quads = 0;
+    size_t triangles = 0;
+    for (const PartCage& part : parts) {
+        if (part.part.polygonSource == PolygonSource::pairedTriangles) {
+            ++paired;
+            for (uint32_t face = 0; face < part.cage.faceCount(); ++face) {
+                ++(part.cage.sides(face) == 3 ? triangles : quads);
+            }
+        }
+    }
+    if (paired > 0) {
+        warn(warnings, "file",
+             "triangles of " + std::to_string(paired) + " of " + counted(parts.size(), "part", "parts") +
+                 " paired into " + counted(quads, "quad", "quads") + ", " + std::to_string(triangles) + " left");
+    }
+}
+
 /// Clips of a file take the file's name if they have none.
 ClipSet readClipSet(const ClipFile& file) {
     try {
@@ -147,6 +168,9 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     character.images = document.images;
     character.materials = readMaterials(document, warnings);
     std::vector<PartCage> parts = readParts(document, options, character);
+    if (options.pairing == Pairing::whereClean) {
+        warnOfPairs(parts, warnings);
+    }
     std::vector<size_t> targetCounts(character.skeleton.nodes.size(), 0);
     for (const PartCage& part : parts) {
         targetCounts[part.part.node] = part.morphs.targets.size();
@@ -158,6 +182,9 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     joinParts(std::move(parts), character);
     if (options.sewParts) {
         sewParts(character);
+    }
+    if (options.creasesFromNormals) {
+        creaseSplitNormals(character.cage);
     }
     return character;
 }

@@ -29,13 +29,22 @@ struct ClipFile {
     FileReader readFile;              ///< as GltfOptions::readFile
 };
 
+/// Whether the triangles of a mesh are paired into quads (cage/triangle_pairs.h), if the file says nothing of polygons.
+enum class Pairing {
+    whereClean, ///< if nearly all of them make good quads, as those of a mesh do that was drawn in quads
+    always,     ///< all that do not fold
+    never
+};
+
 struct GltfOptions {
     /// Which scene's meshes are read: the file's own choice if it is not given.
     std::optional<uint32_t> scene;
     /// Sew parts together where their boundaries coincide.
     bool sewParts = true;
-    /// Merge consecutive triangles that share an edge into quads where the file carries no polygons.
-    bool pairQuads = false;
+    /// Whether triangles are paired into quads where the file carries no polygons.
+    Pairing pairing = Pairing::whereClean;
+    /// Make edges with split normals infinitely sharp (cage/normal_creases.h).
+    bool creasesFromNormals = false;
     /// Refuse a damaged cage instead of repairing it (cage/repair.h). The error has one line for each kind of damage.
     bool strict = false;
     /// Where external buffers and images come from, instead of the folder given to readGltf().

@@ -69,8 +69,13 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
         return runtime::characterFromArrays(cage, name, (desc.flags & SUPPLE_ASSET_STRICT) != 0);
     }
     cage::GltfOptions options;
-    options.pairQuads = (desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0;
+    if ((desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0) {
+        options.pairing = cage::Pairing::always;
+    } else if ((desc.flags & SUPPLE_ASSET_KEEP_TRIANGLES) != 0) {
+        options.pairing = cage::Pairing::never;
+    }
     options.strict = (desc.flags & SUPPLE_ASSET_STRICT) != 0;
+    options.creasesFromNormals = (desc.flags & SUPPLE_ASSET_CREASES_FROM_NORMALS) != 0;
     options.sewParts = (desc.flags & SUPPLE_ASSET_PARTS_APART) == 0;
     if (desc.scene != 0) {
         options.scene = desc.scene - 1;
@@ -85,6 +90,19 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
     }
     return cage::readCharacter({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name,
                                orEmpty(desc.baseDirectory), options);
+}
+
+std::optional<Error> faultOfFlags(uint32_t flags) {
+    constexpr uint32_t kPairing = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES;
+    constexpr uint32_t kKnown =
+        kPairing | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART | SUPPLE_ASSET_CREASES_FROM_NORMALS;
+    if ((flags & ~kKnown) != 0) {
+        return Error{ErrorCode::range, "unknown flags"};
+    }
+    if ((flags & kPairing) == kPairing) {
+        return Error{ErrorCode::argument, "both SUPPLE_ASSET_PAIR_QUADS and SUPPLE_ASSET_KEEP_TRIANGLES"};
+    }
+    return std::nullopt;
 }
 
 /// Why the description's clip files cannot be read, if they cannot.
@@ -181,9 +199,8 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
                           nameOf(desc) +
                               (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
         }
-        constexpr uint32_t kFlags = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART;
-        if ((desc.flags & ~kFlags) != 0) {
-            return refuse(context, ErrorCode::range, kHere, "unknown flags");
+        if (const std::optional<Error> fault = faultOfFlags(desc.flags)) {
+            return refuse(context, fault->code, kHere, fault->message);
         }
         if (desc.files != nullptr && desc.files->read == nullptr) {
             return refuse(context, ErrorCode::nullPointer, kHere, "files->read is null");

@@ -138,23 +138,5 @@ TEST(Polygons, HiddenEdgesMergeIntoSimplePolygonsOnly) {
     EXPECT_EQ(merge({0, 1, 2, 0, 2, 2, 0, 2, 3}, {}, identity(4)).degenerateTriangles, 1u);
 }
 
-TEST(Polygons, PairingTakesConsecutiveTrianglesOnly) {
-    const auto yes = [](uint32_t, uint32_t) { return true; };
-    const auto flat = [](const uint32_t*, const uint32_t*) { return true; };
-    const auto pair = [&](const Indices& triangles, size_t count) {
-        return facesOf(pairTriangles(triangles, identity(count), yes, flat));
-    };
-    EXPECT_EQ(pair({0, 1, 2, 0, 2, 3}, 4), (Faces{{0, 1, 2, 3}}));
-    EXPECT_EQ(pair({4, 0, 1, 1, 2, 3, 1, 3, 4}, 5), (Faces{{4, 0, 1}, {1, 2, 3, 4}}));
-    EXPECT_EQ(pair({1, 2, 0, 2, 3, 0}, 4), (Faces{{1, 2, 3, 0}})) << "any shared edge";
-    EXPECT_EQ(pair({0, 1, 2, 0, 3, 2}, 4), (Faces{{0, 1, 2}, {0, 3, 2}})) << "same direction: flipped";
-    EXPECT_EQ(pair({0, 1, 2, 2, 1, 0}, 3), (Faces{{0, 1, 2}, {2, 1, 0}})) << "two sides of one triangle";
-    EXPECT_EQ(pair({0, 1, 2, 4, 5, 6, 0, 2, 3}, 7).size(), 3u);
-    EXPECT_EQ(pairTriangles(Indices{0, 1, 2, 0, 2, 3}, identity(4), yes,
-                            [](const uint32_t*, const uint32_t*) { return false; })
-                  .faceCount(),
-              2u);
-}
-
 } // namespace
 } // namespace supple::cage

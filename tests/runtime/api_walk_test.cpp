@@ -540,7 +540,9 @@ void createAsset(Rows& r) {
     spoiled("neither bytes nor cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.bytes = nullptr; });
     spoiled("bytes and cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.cage = &kNoCage; });
-    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 8; });
+    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 32; });
+    spoiled("pairs and none", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
+            [](Desc& d) { d.flags = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES; });
     spoiled("files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER,
             [](Desc& d) { d.files = &kNoRead; });
     static const SuppleClipFile kNoBytes{};

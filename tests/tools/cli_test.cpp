@@ -264,7 +264,7 @@ TEST_F(Cli, InspectTellsTrims) {
 }
 
 TEST_F(Cli, InspectSaysWhyASchemeRefuses) {
-    const Json triangles = Json::parse(run("inspect triangles.gltf --json").out);
+    const Json triangles = Json::parse(run("inspect triangles.gltf --keep-triangles --json").out);
     EXPECT_EQ(triangles["faces"], 12);
     EXPECT_EQ(triangles["schemes"]["prep"]["accepted"], false);
     EXPECT_NE(triangles["schemes"]["prep"]["reason"].get<std::string>().find("face 0 with 3 sides"), std::string::npos);
@@ -273,7 +273,7 @@ TEST_F(Cli, InspectSaysWhyASchemeRefuses) {
     EXPECT_EQ(paired["schemes"]["prep"]["accepted"], true);
     EXPECT_EQ(triangles["schemes"]["pm"]["accepted"], true);
     EXPECT_EQ(triangles["schemes"]["pm"]["patches"], Json({{"p3", 12}}));
-    expectFailure(run("bake triangles.gltf -o out.obj --scheme prep"), 1, "3 sides");
+    expectFailure(run("bake triangles.gltf --keep-triangles -o out.obj --scheme prep"), 1, "3 sides");
 }
 
 TEST_F(Cli, DamageIsRepairedOrRefusedByName) {
@@ -554,8 +554,8 @@ TEST_F(Cli, RenderOfAllSchemesIsOneSheet) {
     const Outcome all = runOnDevice("render cube.gltf -o all.png --scheme all --size 80x60 --rate 4");
     ASSERT_EQ(all.exitCode, 0) << all.err;
     const auto four = pngSize(file("all.png"));
-    const Outcome some =
-        runOnDevice("render triangles.gltf -o some.png --scheme all --size 80x60 --zoom 3 --at 0.4,0.6");
+    const Outcome some = runOnDevice(
+        "render triangles.gltf --keep-triangles -o some.png --scheme all --size 80x60 --zoom 3 --at 0.4,0.6");
     ASSERT_EQ(some.exitCode, 0) << some.err;
     EXPECT_NE(some.err.find("3 sides"), std::string::npos) << "what is missing and why: " << some.err;
     const auto three = pngSize(file("some.png"));

@@ -46,8 +46,13 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
     if (!file) {
         return file.error();
     }
-    cage::GltfOptions options{
-        .scene = flags.scene, .sewParts = !flags.partsApart, .pairQuads = flags.pairQuads, .strict = flags.strict};
+    cage::GltfOptions options{.scene = flags.scene,
+                              .sewParts = !flags.partsApart,
+                              .pairing = flags.pairQuads       ? cage::Pairing::always
+                                         : flags.keepTriangles ? cage::Pairing::never
+                                                               : cage::Pairing::whereClean,
+                              .creasesFromNormals = flags.creasesFromNormals,
+                              .strict = flags.strict};
     std::vector<FileInMemory> clipFiles;
     for (const std::string& clipPath : flags.clipFiles) {
         Result<FileInMemory> clips = load(clipPath);
@@ -69,6 +74,8 @@ Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
     desc.structSize = sizeof desc;
     const auto flag = [&](bool wanted, SuppleAssetFlags value) { desc.flags |= wanted ? uint32_t{value} : 0u; };
     flag(file.flags.pairQuads, SUPPLE_ASSET_PAIR_QUADS);
+    flag(file.flags.keepTriangles, SUPPLE_ASSET_KEEP_TRIANGLES);
+    flag(file.flags.creasesFromNormals, SUPPLE_ASSET_CREASES_FROM_NORMALS);
     flag(file.flags.strict, SUPPLE_ASSET_STRICT);
     flag(file.flags.partsApart, SUPPLE_ASSET_PARTS_APART);
     desc.scene = file.flags.scene ? *file.flags.scene + 1 : 0;

@@ -16,6 +16,8 @@ namespace supple::host {
 /// How a file is read.
 struct ReadOptions {
     bool pairQuads = false;             ///< SUPPLE_ASSET_PAIR_QUADS
+    bool keepTriangles = false;         ///< SUPPLE_ASSET_KEEP_TRIANGLES
+    bool creasesFromNormals = false;    ///< SUPPLE_ASSET_CREASES_FROM_NORMALS
     bool strict = false;                ///< SUPPLE_ASSET_STRICT
     bool partsApart = false;            ///< SUPPLE_ASSET_PARTS_APART
     std::optional<uint32_t> scene;      ///< the file's own choice if it is not given

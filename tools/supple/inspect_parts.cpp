@@ -61,6 +61,9 @@ std::vector<std::string> partLines(const cage::Character& character) {
         std::string line = std::to_string(p) + "  " + (part.name.empty() ? "(no name)" : part.name) + "  " +
                            std::to_string(content.faces) + " faces, " + std::to_string(content.vertices.size()) +
                            " vertices, " + (part.rigid ? "rigid" : "skinned");
+        if (part.polygonSource == cage::PolygonSource::pairedTriangles) {
+            line += ", paired triangles";
+        }
         if (part.targetCount > 0) {
             line += ", " + std::to_string(part.targetCount) + " morph targets";
         }

@@ -34,13 +34,18 @@ SuppleMapping mappingOf(const DeviceFlags& flags) {
 }
 
 void bindReading(CLI::App& command, host::ReadOptions& reading) {
-    command.add_flag("--pair-quads", reading.pairQuads, "Merge consecutive triangle pairs of plain triangles to quads");
+    CLI::Option* const pair = command.add_flag("--pair-quads", reading.pairQuads,
+                                               "Pair plain triangles into quads also where few of them make good ones");
+    command.add_flag("--keep-triangles", reading.keepTriangles, "Never pair plain triangles into quads")
+        ->excludes(pair);
     command
         .add_option("--clips", reading.clipFiles,
                     "glTF files whose clips the character takes: they move the nodes of their names")
         ->type_name("CLIPS.glb");
     command.add_option("--scene", reading.scene, "Read this scene of a glTF file, counted from 0");
     command.add_flag("--parts-apart", reading.partsApart, "Do not sew parts together where their boundaries coincide");
+    command.add_flag("--creases-from-normals", reading.creasesFromNormals,
+                     "Make edges hard creases where the normals of the file are split");
     command.add_flag("--strict", reading.strict, "Refuse a damaged cage, and name all damage, instead of repairing it");
 }
 

@@ -284,15 +284,21 @@ typedef struct SuppleCageDesc {
 
 /** Options of reading a file or arrays. */
 typedef enum SuppleAssetFlags {
-    /** Plain triangles of a glTF file: two triangles that follow each other become one quad if they share an edge, have
-     * the same UVs and colors along it, and face the same side. Polygons that the file lists are left as they are. */
+    /** Plain triangles of a glTF file: pair all into quads that share an edge, have the same normals, UVs and colors
+     * along it, and face the same side. Without this flag, they are paired if nearly all of a mesh make good quads, and
+     * a warning says so. Polygons that the file lists are left as they are. */
     SUPPLE_ASSET_PAIR_QUADS = 1,
     /** Refuse a damaged cage instead of repairing it. The message has one line for each kind of damage, which counts it
      * and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
     SUPPLE_ASSET_STRICT = 2,
     /** Parts of a glTF file stay apart. Without this flag, parts are sewn together where their boundaries coincide in
      * position, skin and morph targets, and the surface goes on smoothly from one to the other. */
-    SUPPLE_ASSET_PARTS_APART = 4
+    SUPPLE_ASSET_PARTS_APART = 4,
+    /** Plain triangles of a glTF file stay as they are. Not together with SUPPLE_ASSET_PAIR_QUADS. */
+    SUPPLE_ASSET_KEEP_TRIANGLES = 8,
+    /** Edges of a file whose normals are split become hard creases (sharpness 10), so that smooth schemes keep the hard
+     * edges of the file. Edges of the boundary and corners without a normal are left as they are. */
+    SUPPLE_ASSET_CREASES_FROM_NORMALS = 16
 } SuppleAssetFlags;
 
 /** The content of a file, from the host's own file system. */

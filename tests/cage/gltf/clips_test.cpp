@@ -23,7 +23,7 @@ ClipFile clipFile(const Bytes& bytes, const std::string& name = "walk.glb") {
 }
 
 Character readWith(const GltfBuilder& character, const std::vector<Bytes>& files) {
-    GltfOptions options;
+    GltfOptions options = kKeepTriangles;
     for (const Bytes& bytes : files) {
         options.clipFiles.push_back(clipFile(bytes));
     }
@@ -367,7 +367,8 @@ TEST(GltfClips, ACharacterCutInTwoIsTheSame) {
             }
         }
         const Bytes clips = packGlb(motion.dump(), binary);
-        const Character joined = readWell(packGlb(json.dump(), binary), {.clipFiles = {clipFile(clips)}});
+        const Character joined =
+            readWell(packGlb(json.dump(), binary), {.pairing = Pairing::never, .clipFiles = {clipFile(clips)}});
         EXPECT_EQ(joined.warnings, whole.warnings);
         EXPECT_EQ(clipNames(joined), clipNames(whole));
         EXPECT_EQ(joined.morphs.targets.size(), whole.morphs.targets.size());
@@ -401,7 +402,7 @@ TEST(GltfClips, FilesThatCannotBeReadAreNamed) {
     EXPECT_EQ(refusalWith(b.glb()).substr(0, 28), "t.glb: walk.glb: animation 0");
     // External files are looked for where the clip file says, not where the character does.
     const std::string text = clipsAlone(kTwoBones, {0}).json("elsewhere.bin");
-    GltfOptions options{.clipFiles = {clipFile(toBytes(text))}};
+    GltfOptions options{.pairing = Pairing::never, .clipFiles = {clipFile(toBytes(text))}};
     Strings asked;
     options.readFile = [](const std::string&) -> Result<Bytes> { return Error{ErrorCode::io, "of the character"}; };
     options.clipFiles[0].readFile = [&](const std::string& path) -> Result<Bytes> {

@@ -24,7 +24,7 @@ TEST(GltfImages, ImagesFromBufferViewsAndFiles) {
     const auto bytes = b.glb();
     std::ofstream(folder / "t.glb", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    const Result<Character> c = readGltfFile((folder / "t.glb").string());
+    const Result<Character> c = readGltfFile((folder / "t.glb").string(), kKeepTriangles);
     ASSERT_TRUE(c.ok()) << c.error().message;
     ASSERT_EQ(c->images.size(), 4u);
     EXPECT_EQ(c->images[0].bytes.size(), 7u);
@@ -42,7 +42,7 @@ TEST(GltfImages, FilesComeFromTheHost) {
     GltfBuilder b = skinnedQuad();
     b.more += R"(,"images":[{"uri":"./tex/a%20b.png"},{"uri":"../up.png"},{"uri":"none.png"}])";
     std::vector<std::string> asked;
-    GltfOptions options;
+    GltfOptions options = kKeepTriangles;
     options.readFile = [&](const std::string& path) -> Result<std::vector<std::byte>> {
         asked.push_back(path);
         if (path == "none.png") {

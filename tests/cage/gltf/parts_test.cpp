@@ -27,7 +27,7 @@ GltfBuilder fourParts() {
 }
 
 TEST(GltfParts, EveryMeshNodeOfTheSceneIsAPart) {
-    const Character c = readWell(fourParts().glb(), {.sewParts = false});
+    const Character c = readWell(fourParts().glb(), {.sewParts = false, .pairing = Pairing::never});
     EXPECT_EQ(c.warnings, Strings());
     ASSERT_EQ(c.parts.size(), 4u);
     EXPECT_EQ(c.cage.faceCount(), 8u);
@@ -62,7 +62,7 @@ TEST(GltfParts, SkinsShareWhatIsEqual) {
     // A second skin: the same joints the other way round, one of them bound by another matrix.
     b.more = replaced(b.more, R"("inverseBindMatrices":4}])", R"("inverseBindMatrices":4},{"joints":[2,1]}])");
     b.nodes = replaced(b.nodes, R"({"mesh":0,"skin":0},{"mesh":1})", R"({"mesh":0,"skin":1},{"mesh":1})");
-    const Character c = readWell(b.glb(), {.sewParts = false});
+    const Character c = readWell(b.glb(), {.sewParts = false, .pairing = Pairing::never});
     EXPECT_EQ(c.skin.joints, (std::vector<uint32_t>{1, 2, 2, 4, 5})) << "joint 1 has the identity in both";
     EXPECT_EQ(c.parts[1].joints, (std::vector<uint32_t>{2, 0}));
 }
@@ -85,7 +85,7 @@ TEST(GltfParts, ScenesAreChosen) {
 TEST(GltfParts, AMirroredNodeTurnsItsFaces) {
     GltfBuilder b = fourParts();
     b.nodes = replaced(b.nodes, R"({"mesh":1},)", R"({"mesh":1,"scale":[-1,1,1]},)");
-    const Character c = readWell(b.glb(), {.sewParts = false});
+    const Character c = readWell(b.glb(), {.sewParts = false, .pairing = Pairing::never});
     EXPECT_EQ(face(c.cage, 4), (std::vector<uint32_t>{8, 10, 9})) << "glTF: a negative determinant turns the winding";
     EXPECT_EQ(face(c.cage, 6), (std::vector<uint32_t>{12, 13, 14}));
 }
@@ -196,7 +196,7 @@ TEST(GltfParts, ACutCharacterIsSewnTogether) {
     const Result<GlbFile> file = writeGlb(cut);
     ASSERT_TRUE(file.ok()) << file.error().message;
 
-    const Character apart = readWell(file->bytes, {.sewParts = false});
+    const Character apart = readWell(file->bytes, {.sewParts = false, .pairing = Pairing::never});
     EXPECT_EQ(apart.parts.size(), 4u);
     EXPECT_GT(apart.cage.vertexCount(), whole.cage.vertexCount());
     EXPECT_EQ(cornerPositions(apart.cage), cornerPositions(whole.cage));
@@ -248,7 +248,7 @@ TEST(GltfParts, TargetsOfOnePartDoNotMoveAnother) {
                       R"({"input":5,"output":7},{"input":5,"output":)" + values + "}]");
     b.more = replaced(b.more, R"("path":"translation"}})",
                       R"("path":"translation"}},{"sampler":2,"target":{"node":5,"path":"weights"}})");
-    const Character c = readWell(b.glb(), {.sewParts = false});
+    const Character c = readWell(b.glb(), {.sewParts = false, .pairing = Pairing::never});
     ASSERT_EQ(c.morphs.targets.size(), 2u) << "without names the two nodes' targets are not one";
     EXPECT_EQ(c.parts[2].firstTarget, 0u);
     EXPECT_EQ(c.parts[3].firstTarget, 1u);

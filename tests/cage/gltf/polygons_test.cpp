@@ -460,31 +460,76 @@ TEST(GltfPolygons, NgonEncodingWhereThePrimitiveCarriesIt) {
     EXPECT_EQ(c.cage.faceCount(), 4u);
 }
 
-TEST(GltfPolygons, PairingIsOptIn) {
+const GltfOptions kPairAlways{.pairing = Pairing::always};
+
+TEST(GltfPolygons, TrianglesThatMakeGoodQuadsArePaired) {
     const std::vector<float> grid = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
     GltfBuilder b = plainMesh(grid, {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4});
-    EXPECT_EQ(readWell(b.glb()).cage.faceCount(), 4u);
-    const Character c = readWell(b.glb(), {.pairQuads = true});
-    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::pairedTriangles);
-    ASSERT_EQ(c.cage.faceCount(), 2u);
-    EXPECT_EQ(face(c.cage, 0), (std::vector<uint32_t>{0, 1, 4, 3}));
-    EXPECT_EQ(face(c.cage, 1), (std::vector<uint32_t>{1, 2, 5, 4}));
+    for (const Pairing pairing : {Pairing::whereClean, Pairing::always}) {
+        const Character c = readWell(b.glb(), {.pairing = pairing});
+        EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::pairedTriangles);
+        ASSERT_EQ(c.cage.faceCount(), 2u);
+        EXPECT_EQ(face(c.cage, 0), (std::vector<uint32_t>{0, 1, 4, 3}));
+        EXPECT_EQ(face(c.cage, 1), (std::vector<uint32_t>{1, 2, 5, 4}));
+        // What draws triangles draws those of the file.
+        EXPECT_EQ(c.cage.faceTriangles, (std::vector<uint32_t>{0, 2, 3, 0, 1, 2, 4, 6, 7, 4, 5, 6}));
+        // Nobody has to be told of what he asked for.
+        EXPECT_EQ(c.warnings, pairing == Pairing::always
+                                  ? Strings{}
+                                  : Strings{"file: triangles of 1 of 1 part paired into 2 quads, 0 left"});
+    }
+    const Character c = readWell(b.glb(), {.pairing = Pairing::never});
+    EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::triangles);
+    EXPECT_EQ(c.cage.faceCount(), 4u);
+    EXPECT_EQ(c.warnings, Strings{});
+    // The order of the triangles is nothing to go by after an optimizer.
+    const GltfBuilder shuffled = plainMesh(grid, {1, 5, 4, 4, 0, 1, 5, 1, 2, 0, 4, 3});
+    EXPECT_EQ(readWell(shuffled.glb(), {}).warnings,
+              Strings{"file: triangles of 1 of 1 part paired into 2 quads, 0 left"});
+    // One triangle more.
+    const GltfBuilder more = plainMesh({0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0, 3, 0.5f, 0},
+                                       {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 6, 5});
+    EXPECT_EQ(readWell(more.glb(), {}).warnings, Strings{"file: triangles of 1 of 1 part paired into 2 quads, 1 left"});
+}
 
-    // A UV seam on the diagonal says that these were two faces.
-    GltfBuilder seam;
-    seam.addFloats("VEC3", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0});
-    seam.addFloats("VEC2", {0, 0, 1, 0, 1, 1, 0, 0.5f, 1, 1, 0, 1});
-    seam.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1}}]}])";
-    EXPECT_EQ(readWell(seam.glb(), {.pairQuads = true}).cage.faceCount(), 2u);
+TEST(GltfPolygons, TrianglesThatMakeFewGoodQuadsStay) {
+    // A rhombus of two equilateral triangles, and a triangle that is left.
+    const GltfBuilder b =
+        plainMesh({0, 0, 0, 1, 0, 0, 0.5f, 0.866f, 0, 1.5f, 0.866f, 0, 2, 0, 0}, {0, 1, 2, 1, 3, 2, 1, 4, 3});
+    EXPECT_EQ(readWell(b.glb(), {}).parts[0].polygonSource, PolygonSource::triangles);
+    EXPECT_EQ(readWell(b.glb(), {}).cage.faceCount(), 3u);
+    EXPECT_EQ(readWell(b.glb(), {}).warnings, Strings{});
+    EXPECT_EQ(readWell(b.glb(), kPairAlways).parts[0].polygonSource, PolygonSource::pairedTriangles);
+    EXPECT_EQ(readWell(b.glb(), kPairAlways).cage.faceCount(), 2u);
+}
+
+TEST(GltfPolygons, AttributesAndNormalsKeepTrianglesApart) {
+    // A seam of UVs or of normals on the diagonal says that these were two faces.
+    for (const std::string attribute : {"TEXCOORD_0", "NORMAL"}) {
+        for (const bool seam : {false, true}) {
+            GltfBuilder b;
+            b.addFloats("VEC3", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0});
+            const float other = seam ? 0.5f : 0.0f;
+            if (attribute == "NORMAL") {
+                b.addFloats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, other, 0, 1, 0, 0, 1, 0, 0, 1});
+            } else {
+                b.addFloats("VEC2", {0, 0, 1, 0, 1, 1, 0, other, 1, 1, 0, 1});
+            }
+            b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,")" + attribute + R"(":1}}]}])";
+            EXPECT_EQ(readWell(b.glb(), {}).cage.faceCount(), seam ? 2u : 1u) << attribute;
+            EXPECT_EQ(readWell(b.glb(), kPairAlways).cage.faceCount(), seam ? 2u : 1u) << attribute;
+        }
+    }
     // A fold over the shared edge too.
     const GltfBuilder fold = plainMesh({0, 0, 0, 1, 0, 0, 1, 1, 0, 1, 0, 0.1f}, {0, 1, 2, 0, 2, 3});
-    EXPECT_EQ(readWell(fold.glb(), {.pairQuads = true}).cage.faceCount(), 2u);
+    EXPECT_EQ(readWell(fold.glb(), {}).cage.faceCount(), 2u);
+    EXPECT_EQ(readWell(fold.glb(), kPairAlways).cage.faceCount(), 2u);
 }
 
 TEST(GltfPolygons, EncodedPolygonsAreNeverPaired) {
     const GltfBuilder b =
         plainMesh({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 1, 2, 2, 3, 0}, R"(,"extensions":{"FB_ngon_encoding":{}})");
-    const Character c = readWell(b.glb(), {.pairQuads = true});
+    const Character c = readWell(b.glb(), {.pairing = Pairing::always});
     EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::ngonEncoding);
     EXPECT_EQ(c.cage.faceCount(), 2u);
 }
@@ -510,7 +555,7 @@ TEST(GltfPolygons, SourcesInOrder) {
             // Last first: the order in the file does not matter.
             extensions.insert(0, extensions.empty() ? all[i] : all[i] + ",");
         }
-        const Character c = readWell(patch.with(extensions), {.pairQuads = true});
+        const Character c = readWell(patch.with(extensions), {.pairing = Pairing::always});
         EXPECT_EQ(c.parts[0].polygonSource, sources[first]);
         EXPECT_EQ(c.cage.faceCount(), faceCounts[first]) << polygonSourceName(c.parts[0].polygonSource);
     }

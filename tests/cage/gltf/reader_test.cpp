@@ -81,7 +81,7 @@ TEST(GltfReader, JsonOddities) {
 TEST(GltfReader, NameAndControlCharactersStayOnOneLine) {
     GltfBuilder b = skinnedQuad();
     b.more += R"(,"images":[{"uri":"a\nb.png"}])";
-    const Result<Character> result = readGltf(b.glb(), "two\nlines", "");
+    const Result<Character> result = readGltf(b.glb(), "two\nlines", "", kKeepTriangles);
     ASSERT_TRUE(result.ok());
     ASSERT_EQ(result->warnings.size(), 1u);
     EXPECT_EQ(result->warnings[0],

@@ -13,19 +13,22 @@ namespace supple::cage::test {
 
 using Strings = std::vector<std::string>;
 
+/// Triangles as the file has them: most tests count these.
+inline const GltfOptions kKeepTriangles{.pairing = Pairing::never};
+
 /// What a right file reads as.
-inline Character readWell(const std::vector<std::byte>& bytes, const GltfOptions& options = {}) {
+inline Character readWell(const std::vector<std::byte>& bytes, const GltfOptions& options = kKeepTriangles) {
     Result<Character> result = readGltf(bytes, "t.glb", "", options);
     EXPECT_TRUE(result.ok()) << result.error().message;
     return result.ok() ? std::move(result.value()) : Character{};
 }
-inline Character readWell(const GltfBuilder& b, const GltfOptions& options = {}) {
+inline Character readWell(const GltfBuilder& b, const GltfOptions& options = kKeepTriangles) {
     return readWell(b.glb(), options);
 }
 
 /// Why a wrong file is refused; "accepted" where it is not.
 inline std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code = ErrorCode::asset,
-                             const GltfOptions& options = {}) {
+                             const GltfOptions& options = kKeepTriangles) {
     const Result<Character> result = readGltf(bytes, "t.glb", "", options);
     if (result.ok()) {
         return "accepted";

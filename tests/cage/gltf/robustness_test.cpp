@@ -128,7 +128,7 @@ const std::vector<Bytes>& richFiles() {
 
 /// Reads, and uses what was read the way the floors above will.
 bool survives(const Bytes& bytes) {
-    const Result<Character> result = readGltf(bytes, "t.glb", "", {.pairQuads = true});
+    const Result<Character> result = readGltf(bytes, "t.glb", "", {.pairing = Pairing::always});
     if (!result.ok()) {
         EXPECT_EQ(result.error().message.rfind("t.glb: ", 0), 0u) << result.error().message;
         EXPECT_EQ(result.error().message.find('\n'), std::string::npos) << result.error().message;

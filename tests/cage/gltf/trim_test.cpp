@@ -176,7 +176,7 @@ TEST(GltfTrim, NamedErrorsOfTiles) {
 
 TEST(GltfTrim, PairsOfTrianglesHaveOneTile) {
     GltfOptions pairs;
-    pairs.pairQuads = true;
+    pairs.pairing = Pairing::always;
     const std::string strip = R"({"texture":{"index":0},"domain":"face"})";
     EXPECT_EQ(readWell(tiled(strip, {2, 2, 2, 2}), pairs).cage.faceTrimTiles, (std::vector<uint32_t>{2}));
     // Two triangles apart, with a tile each: corners on the common edge do not agree.

@@ -301,10 +301,10 @@ TEST(CharacterReader, TellsTheFormatsApart) {
     };
     EXPECT_EQ(source(toBytes(kSquare), "a.obj"), "OBJ");
     EXPECT_EQ(source(toBytes(kSquare), "some.folder/A.OBJ"), "OBJ");
-    EXPECT_EQ(source(test::skinnedQuad().glb(), "a.glb"), "triangles");
-    EXPECT_EQ(source(test::skinnedQuad().glb(), "a.obj"), "triangles") << "the bytes say more than the name";
-    EXPECT_EQ(source(test::skinnedQuad().embedded(), "a.obj"), "triangles");
-    EXPECT_EQ(source(test::skinnedQuad().embedded(), ""), "triangles");
+    EXPECT_EQ(source(test::skinnedQuad().glb(), "a.glb"), "paired triangles");
+    EXPECT_EQ(source(test::skinnedQuad().glb(), "a.obj"), "paired triangles") << "the bytes say more than the name";
+    EXPECT_EQ(source(test::skinnedQuad().embedded(), "a.obj"), "paired triangles");
+    EXPECT_EQ(source(test::skinnedQuad().embedded(), ""), "paired triangles");
     EXPECT_EQ(source(toBytes(kSquare), "a.glb").rfind("a.glb: ", 0), 0u);
     EXPECT_EQ(source(toBytes(""), "a.obj"), "a.obj: file: empty: no faces, so there is no surface");
 }
