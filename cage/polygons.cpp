@@ -114,6 +114,39 @@ bool outline(const Region& region, std::span<const size_t> across, const Triangl
     return corners.size() == region.boundary.size() && !repeats(corners, mesh.welded, scratch);
 }
 
+/// How many faces the vertices have that triangles surround.
+class InnerFans {
+public:
+    InnerFans(std::span<const uint32_t> triangles, std::span<const uint32_t> welded)
+        : faces_(welded.size(), 0), onBoundary_(welded.size(), 0) {
+        std::vector<std::pair<uint32_t, uint32_t>> edges;
+        for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
+            for (size_t k = 0; k < 3 && !degenerate(&triangles[t], welded); ++k) {
+                const uint32_t from = welded[triangles[t + k]], to = welded[triangles[t + (k + 1) % 3]];
+                ++faces_[from];
+                edges.push_back(std::minmax(from, to));
+            }
+        }
+        std::sort(edges.begin(), edges.end());
+        for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+            end = static_cast<size_t>(
+                std::upper_bound(edges.begin() + static_cast<ptrdiff_t>(begin), edges.end(), edges[begin]) -
+                edges.begin());
+            if (end - begin != 2) {
+                onBoundary_[edges[begin].first] = onBoundary_[edges[begin].second] = 1;
+            }
+        }
+    }
+
+    /// Whether the vertex keeps three faces if two of its faces become one.
+    [[nodiscard]] bool canMerge(uint32_t vertex) const { return onBoundary_[vertex] != 0 || faces_[vertex] > 3; }
+    void merge(uint32_t vertex) { --faces_[vertex]; }
+
+private:
+    std::vector<uint32_t> faces_; ///< by welded vertex
+    std::vector<uint8_t> onBoundary_;
+};
+
 } // namespace
 
 Polygons keepTriangles(std::span<const uint32_t> triangles, std::span<const uint32_t> welded) {
@@ -203,6 +236,7 @@ Polygons pairTriangles(std::span<const uint32_t> triangles, std::span<const uint
                        const std::function<bool(uint32_t, uint32_t)>& sameCorner,
                        const std::function<bool(const uint32_t*, const uint32_t*)>& normalsAgree) {
     Polygons polygons;
+    InnerFans fans(triangles, welded);
     const size_t count = triangles.size() / 3;
     for (size_t i = 0; i < count; ++i) {
         const uint32_t* first = &triangles[3 * i];
@@ -222,13 +256,20 @@ Polygons pairTriangles(std::span<const uint32_t> triangles, std::span<const uint
                     welded[s] == welded[first[(j + 2) % 3]] || !sameCorner(second[k], q) ||
                     !sameCorner(second[(k + 1) % 3], p) || !normalsAgree(first, second))
                     continue;
+                paired = true;
+                if (!fans.canMerge(welded[p]) || !fans.canMerge(welded[q])) {
+                    addFace(polygons, std::span(first, 3));
+                    addFace(polygons, std::span(second, 3));
+                    continue;
+                }
+                fans.merge(welded[p]);
+                fans.merge(welded[q]);
                 for (int corner = 0; corner < 3; ++corner) {
                     polygons.vertices.push_back(first[corner]);
                     if (corner == j)
                         polygons.vertices.push_back(s);
                 }
                 polygons.close();
-                paired = true;
             }
         }
         if (paired)

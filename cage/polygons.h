@@ -41,7 +41,8 @@ struct Polygons {
 
 /// A guess, for files without polygons: two consecutive triangles make a quad when they share an edge, run along it in
 /// opposite directions, agree in the attributes at its ends (`sameCorner` of two glTF vertices) and do not fold
-/// (`normalsAgree` of two triangles). Recovers all quads of Blender's exporter.
+/// (`normalsAgree` of two triangles). Two triangles stay triangles if a vertex that faces surround would be left with
+/// two of them, on which no surface can be built. Recovers all quads of Blender's exporter.
 [[nodiscard]] Polygons pairTriangles(std::span<const uint32_t> triangles, std::span<const uint32_t> welded,
                                      const std::function<bool(uint32_t, uint32_t)>& sameCorner,
                                      const std::function<bool(const uint32_t*, const uint32_t*)>& normalsAgree);

@@ -156,5 +156,17 @@ TEST(Polygons, PairingTakesConsecutiveTrianglesOnly) {
               2u);
 }
 
+TEST(Polygons, PairingLeavesThreeFacesRoundAVertex) {
+    const auto yes = [](uint32_t, uint32_t) { return true; };
+    const auto flat = [](const uint32_t*, const uint32_t*) { return true; };
+    const auto pair = [&](const Indices& triangles, size_t count) {
+        return facesOf(pairTriangles(triangles, identity(count), yes, flat));
+    };
+    EXPECT_EQ(pair({0, 1, 2, 0, 2, 3, 0, 3, 1}, 4), (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}})) << "round vertex 0";
+    EXPECT_EQ(pair({0, 1, 2, 0, 2, 3}, 4), (Faces{{0, 1, 2, 3}})) << "a vertex on the boundary may have one face";
+    // Of four round vertex 0 two may merge, and then no more.
+    EXPECT_EQ(pair({0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, 5), (Faces{{0, 1, 2, 3}, {0, 3, 4}, {0, 4, 1}}));
+}
+
 } // namespace
 } // namespace supple::cage
