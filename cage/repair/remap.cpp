@@ -1,5 +1,7 @@
 #include "cage/repair/remap.h"
 
+#include "cage/triangulation.h"
+
 #include <algorithm>
 #include <map>
 #include <span>
@@ -140,7 +142,63 @@ private:
         values = std::move(gathered);
     }
 
+    /// The file's cut of a face that kept its corners. A face that is turned round has them in reverse. Empty for any
+    /// other face.
+    [[nodiscard]] std::vector<uint32_t> keptTriangles(uint32_t face) const {
+        const uint32_t source = draft_.faces[face], sourceStart = cage_.faceStarts[source], start = draft_.starts[face];
+        const uint32_t sides = draft_.sides(face);
+        if (sides != cage_.sides(source)) {
+            return {};
+        }
+        std::vector<uint32_t> places(sides, kNone); // per corner that it was: where it stands now
+        for (uint32_t k = 0; k < sides; ++k) {
+            const uint32_t was = draft_.corners[start + k] - sourceStart; // wraps for corners of other faces
+            if (was >= sides || places[was] != kNone) {
+                return {};
+            }
+            places[was] = k;
+        }
+        const bool turned = (places[0] + 1) % sides != places[1];
+        std::vector<uint32_t> triangles;
+        const size_t first = size_t{3} * (sourceStart - size_t{2} * source);
+        for (size_t t = first; t < first + size_t{3} * (sides - 2); t += 3) {
+            for (const size_t k : {size_t{0}, size_t{turned ? 2u : 1u}, size_t{turned ? 1u : 2u}}) {
+                triangles.push_back(places[cage_.faceTriangles[t + k] - sourceStart]);
+            }
+        }
+        return triangles;
+    }
+
+    /// Before the faces are mapped. Other faces than those that kept their corners are cut anew.
+    void mapTriangles() {
+        bool whole = !cage_.faceTriangles.empty();
+        for (uint32_t f = 0; f < cage_.faceCount() && whole; ++f) {
+            whole = cage_.sides(f) >= 3; // so every face's triangles are where its corners say
+        }
+        if (!whole) {
+            cage_.faceTriangles.clear();
+            return;
+        }
+        std::vector<uint32_t> mapped;
+        std::vector<glm::vec3> corners;
+        for (uint32_t f = 0; f < draft_.faceCount(); ++f) {
+            std::vector<uint32_t> triangles = keptTriangles(f);
+            if (triangles.empty()) {
+                corners.clear();
+                for (uint32_t c = draft_.starts[f]; c < draft_.starts[f + 1]; ++c) {
+                    corners.push_back(cage_.positions[draft_.sources[draft_.vertices[c]]]);
+                }
+                clipEars(corners, triangles);
+            }
+            for (const uint32_t corner : triangles) {
+                mapped.push_back(draft_.starts[f] + corner);
+            }
+        }
+        cage_.faceTriangles = std::move(mapped);
+    }
+
     void mapFaces() {
+        mapTriangles();
         cage_.faceStarts = draft_.starts;
         cage_.faceVertices.clear();
         for (const uint32_t v : draft_.vertices) {
@@ -150,7 +208,6 @@ private:
         gather(cage_.cornerUvs1, draft_.corners);
         gather(cage_.cornerColors, draft_.corners);
         gather(cage_.cornerNormals, draft_.corners);
-        cage_.faceTriangles.clear(); // the faces are cut anew
         gather(cage_.cornerFaceUvs, draft_.corners);
         gather(cage_.faceMaterials, draft_.faces);
         gather(cage_.faceTrimTiles, draft_.faces);

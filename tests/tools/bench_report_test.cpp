@@ -316,6 +316,38 @@ TEST(BenchReport, CrowdAndWorstShareAreShown) {
     }
 }
 
+TEST(BenchReport, TheClassicalPathIsShown) {
+    const auto way = [](const char* name, double ms, uint64_t loaded) {
+        return Json{{"name", name},         {"frameMs", ms},        {"frameCpuMs", 2 * ms},
+                    {"vertices", 100},      {"skinnedVertices", 9}, {"loadedBytes", loaded},
+                    {"characterBytes", 50}, {"poseBytes", 3072},    {"fileBytes", 7000}};
+    };
+    const auto ratio = [](const char* name, double median) {
+        return Json{{"name", name}, {"median", median}, {"least", 0.5 * median}, {"largest", 2 * median}};
+    };
+    Json result = madeUp();
+    result["classical"] = {{{"cage", "pip"},
+                            {"faces", 8},
+                            {"joints", 3},
+                            {"rate", 4},
+                            {"characters", 5},
+                            {"triangles", 256},
+                            {"skinAloneMs", 0.25},
+                            {"skinAloneCpuMs", 0.5},
+                            {"contestants", {way("polygons", 4.0, 90000), way("pm", 2.0, 5000)}},
+                            {"ratios", {ratio("pm / polygons", 0.5), ratio("pm / polygons, skin alone", 8.0)}},
+                            {"refused", {{{"scheme", "prep"}, {"reason", "no quads"}}}}}};
+    const std::string text = toTables(result);
+    for (const char* piece :
+         {"## The classical path", "pip, rate 4: 5 characters of 256 triangles, 8 faces, 3 joints",
+          "prep refuses it: no quads", "| pip, rate 4 | polygons             |      4.00 |   8.00 |",
+          "| pip, rate 4 | polygons, skin alone |      0.25 |   0.50 |",
+          "| pip, rate 4 | pm                   |      2.00 |   4.00 | 0.50 (0.25-1.00) | 8.00 (4.00-16.0) |"}) {
+        EXPECT_NE(text.find(piece), std::string::npos) << piece << "\n" << text;
+    }
+    EXPECT_EQ(toTables(madeUp()).find("classical"), std::string::npos);
+}
+
 TEST(BenchReport, TablesNameWhatWasMeasured) {
     const std::string text = toTables(madeUp());
     for (const char* piece : {"device  d, r i, auto mapping", "peer    AVX2: by hand", "## sphere, 1350 faces",

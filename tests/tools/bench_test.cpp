@@ -72,12 +72,14 @@ TEST_F(Bench, QuickRunIsWhole) {
     EXPECT_EQ(result["complete"], true);
     EXPECT_EQ(outcome.out.find("man_casual_quads: not there") == std::string::npos, cages.size() == 6) << outcome.out;
     EXPECT_EQ(result["leftOut"].size(), 6 - cages.size());
-    size_t agreements = 5 + (avx2 ? 1 : 0) + (cpuPeer ? 4 : 0) + (cpuPeer && hasGlsl ? 4 : 0);
+    const size_t classical = cages.size() == 6 ? 3 : 2;
+    size_t agreements = 5 + 2 * classical + (avx2 ? 1 : 0) + (cpuPeer ? 4 : 0) + (cpuPeer && hasGlsl ? 4 : 0);
     EXPECT_EQ(result["agreement"].size(), agreements);
     for (const Json& one : result["agreement"]) {
         EXPECT_LE(one["difference"].get<double>(), one["bound"].get<double>()) << one["what"];
     }
 
+    EXPECT_EQ(result["classical"].size(), classical);
     ASSERT_EQ(result["rows"].size(), cages.size());
     for (size_t i = 0; i < cages.size(); ++i) {
         const Expected& expected = cages[i];
@@ -166,6 +168,41 @@ TEST_F(Bench, QuickRunIsWhole) {
     EXPECT_EQ(compiled, uses);
     EXPECT_FALSE(result["targets"].empty());
     EXPECT_FALSE(std::filesystem::exists(file("plots/bench_sphere_points.svg"))) << "one rate makes no line";
+}
+
+TEST_F(Bench, TheClassicalPathHasAsManyTriangles) {
+    const Outcome outcome = runOnDevice("bench --quick --cages none --crowd 2 --no-loading --json classical.json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Json result = Json::parse(readText(file("classical.json")), nullptr, false);
+    ASSERT_TRUE(result.is_object());
+    ASSERT_EQ(result["classical"].size(), 1u);
+    const Json& row = result["classical"][0];
+    const uint64_t faces = 1350, rate = 4;
+    EXPECT_EQ(row["cage"], "crowd");
+    EXPECT_EQ(row["rate"], rate);
+    EXPECT_EQ(row["characters"], 2);
+    EXPECT_EQ(row["triangles"], 2 * rate * rate * faces);
+    EXPECT_TRUE(row["refused"].empty());
+    EXPECT_TRUE(finitePositive(row["skinAloneMs"]) && finitePositive(row["skinAloneCpuMs"])) << row;
+    EXPECT_EQ(names(row["contestants"]),
+              (std::set<std::string>{"polygons", "prep", "prep shared", "pm", "pm shared", "catmull-clark", "blend"}));
+    for (const Json& one : row["contestants"]) {
+        // A closed mesh of quads has as many vertices as faces, and two more.
+        EXPECT_EQ(one["skinnedVertices"], (one["name"] == "polygons" ? rate * rate * faces : faces) + 2) << one;
+        for (const char* key : {"frameMs", "frameCpuMs", "loadedBytes", "characterBytes", "poseBytes", "fileBytes"}) {
+            EXPECT_TRUE(finitePositive(one[key])) << key << " of " << one;
+        }
+        EXPECT_EQ(one["poseBytes"], row["contestants"][0]["poseBytes"]) << "both have the same joints";
+    }
+    EXPECT_EQ(row["ratios"].size(), 2 * (row["contestants"].size() - 1));
+    for (const Json& ratio : row["ratios"]) {
+        EXPECT_TRUE(finitePositive(ratio["least"])) << ratio;
+        EXPECT_LE(ratio["least"].get<double>(), ratio["median"].get<double>()) << ratio;
+        EXPECT_GE(ratio["largest"].get<double>(), ratio["median"].get<double>()) << ratio;
+    }
+    EXPECT_NE(outcome.out.find("crowd, rate 4: 2 characters of 43200 triangles, 1350 faces, 64 joints"),
+              std::string::npos)
+        << outcome.out;
 }
 
 TEST_F(Bench, CrowdGoesFromPoseToVertices) {

@@ -3,7 +3,9 @@
 #include "host/context.h"
 #include "tools/bench/agreement.h"
 #include "tools/bench/avx2_evaluation.h"
+#include "tools/bench/classical.h"
 #include "tools/bench/crowd.h"
+#include "tools/bench/crowd_character.h"
 #include "tools/bench/heat.h"
 #include "tools/bench/loading.h"
 #include "tools/bench/plain_evaluation.h"
@@ -45,6 +47,9 @@ public:
             status = crowd();
         }
         if (status) {
+            status = classical();
+        }
+        if (status) {
             status = heats();
         }
         if (status && options_.loading) {
@@ -62,14 +67,25 @@ private:
     Status prepare();
     void describe(const tools::Machine& machine);
     Status agree();
+    /// Writes them down; fails if one does not hold.
+    Status agreed(const std::vector<Agreement>& all);
     Status crowd();
+    Status classical();
     Status heats();
     Status load();
     Status pipelines(const BenchCage& cage, SuppleScheme scheme);
     Status keep();
     [[nodiscard]] RoundOptions roundOptions() const;
+    [[nodiscard]] uint32_t mostCharacters() const {
+        return options_.crowd.value_or(!device_.isCpu() ? kGpuCrowd : options_.quick ? kQuickCpuCrowd : kCpuCrowd);
+    }
     [[nodiscard]] uint32_t crowdSize() const;
-    [[nodiscard]] std::vector<SuppleScheme> crowdSchemes() const;
+    [[nodiscard]] Result<std::vector<BenchCage>> classicalCages() const;
+    /// Of --schemes.
+    [[nodiscard]] std::vector<SuppleScheme> keepWanted(std::vector<SuppleScheme> schemes) const;
+    [[nodiscard]] std::vector<SuppleScheme> crowdSchemes() const {
+        return keepWanted({SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM});
+    }
 
     host::Device& device_;
     const BenchOptions& options_;
@@ -102,10 +118,7 @@ Status Run::prepare() {
         cages_.push_back(std::move(*cage));
     }
     for (BenchCage& cage : cages_) {
-        std::erase_if(cage.schemes, [&](SuppleScheme scheme) {
-            return !options_.schemes.empty() && std::find(options_.schemes.begin(), options_.schemes.end(),
-                                                          tools::schemeName(scheme)) == options_.schemes.end();
-        });
+        cage.schemes = keepWanted(cage.schemes);
     }
     SuppleContextDesc desc = host::contextDesc(device_);
     desc.mapping = options_.mapping;
@@ -131,7 +144,7 @@ void Run::describe(const tools::Machine& machine) {
                         {"AVX2", hasAvx2Evaluation() ? "AVX2 and FMA by hand, one thread" : "not on this CPU"},
                         {"OpenSubdiv CPU", peers_.cpu()},
                         {"OpenSubdiv GLSL", peers_.glsl()}};
-    for (const char* list : {"leftOut", "agreement", "rows", "loading", "pipelines"}) {
+    for (const char* list : {"leftOut", "agreement", "classical", "rows", "loading", "pipelines"}) {
         result_[list] = Json::array();
     }
 }
@@ -157,11 +170,10 @@ uint32_t Run::crowdSize() const {
     if (!options_.crowd && std::find(cages.begin(), cages.end(), "sphere") == cages.end()) {
         return 0;
     }
-    return options_.crowd.value_or(!device_.isCpu() ? kGpuCrowd : options_.quick ? kQuickCpuCrowd : kCpuCrowd);
+    return mostCharacters();
 }
 
-std::vector<SuppleScheme> Run::crowdSchemes() const {
-    std::vector<SuppleScheme> schemes{SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM};
+std::vector<SuppleScheme> Run::keepWanted(std::vector<SuppleScheme> schemes) const {
     const std::vector<std::string>& wanted = options_.schemes;
     std::erase_if(schemes, [&](SuppleScheme scheme) {
         return !wanted.empty() && std::find(wanted.begin(), wanted.end(), tools::schemeName(scheme)) == wanted.end();
@@ -186,6 +198,61 @@ Status Run::crowd() {
     }
     result_["crowd"] = std::move(*measured);
     return keep();
+}
+
+/// The crowd's character and all that have a clip and quads alone.
+Result<std::vector<BenchCage>> Run::classicalCages() const {
+    std::vector<BenchCage> cages;
+    if (crowdSize() > 0) {
+        Result<BenchCage> character = makeCrowdCharacter();
+        if (!character) {
+            return character.error();
+        }
+        character->name = "crowd";
+        cages.push_back(std::move(*character));
+        cages.back().schemes = keepWanted(cages.back().schemes);
+    }
+    cages.insert(cages.end(), cages_.begin(), cages_.end());
+    std::erase_if(cages, [&](const BenchCage& cage) { return mostCharacters() == 0 || !hasClassicalPath(cage); });
+    return cages;
+}
+
+Status Run::classical() {
+    const Result<std::vector<BenchCage>> cages = classicalCages();
+    if (!cages) {
+        return cages.error();
+    }
+    for (const BenchCage& cage : *cages) {
+        ClassicalDesc desc;
+        desc.cage = &cage;
+        desc.characters = mostCharacters();
+        desc.rates = options_.quick ? std::vector<uint32_t>{4} : std::vector<uint32_t>{1, 2, 4, 8, 16};
+        desc.rounds = roundOptions();
+        desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rclassical: %s   ", what.c_str()); };
+        Result<std::vector<Agreement>> agreement = compareClassical(device_, *workbench_, cage);
+        const Status same = agreement ? agreed(*agreement) : Status(agreement.error());
+        Result<Json> measured = same ? measureClassical(device_, *workbench_, desc) : Result<Json>(same.error());
+        std::fprintf(stderr, "\n");
+        if (!measured) {
+            return measured.error();
+        }
+        result_["classical"].insert(result_["classical"].end(), measured->begin(), measured->end());
+        const Status kept = keep();
+        if (!kept) {
+            return kept;
+        }
+    }
+    return success();
+}
+
+Status Run::agreed(const std::vector<Agreement>& all) {
+    for (const Agreement& one : all) {
+        result_["agreement"].push_back({{"what", one.what}, {"difference", one.difference}, {"bound", one.bound}});
+        if (!one.holds()) {
+            return Error{ErrorCode::asset, "contestants differ: " + one.what + ": " + std::to_string(one.difference)};
+        }
+    }
+    return success();
 }
 
 Status Run::agree() {
@@ -219,13 +286,7 @@ Status Run::agree() {
     if (!all) {
         return all.error();
     }
-    for (const Agreement& one : *all) {
-        result_["agreement"].push_back({{"what", one.what}, {"difference", one.difference}, {"bound", one.bound}});
-        if (!one.holds()) {
-            return Error{ErrorCode::asset, "contestants differ: " + one.what + ": " + std::to_string(one.difference)};
-        }
-    }
-    return success();
+    return agreed(*all);
 }
 
 Status Run::heats() {

@@ -2,6 +2,7 @@
 
 #include "tools/bench/crowd_character.h"
 #include "tools/bench/device_write.h"
+#include "tools/bench/playing_group.h"
 #include "tools/bench/replay.h"
 #include "tools/common/schemes.h"
 #include "tools/common/statistics.h"
@@ -20,68 +21,6 @@ namespace {
 constexpr uint32_t kVertexBytes = 16;
 constexpr uint32_t kOneCharacterRate = 8;
 constexpr VkDeviceSize kShareOfMemory = 4; ///< a quarter is the crowd's vertices, a quarter what is written beside them
-
-VkDeviceSize deviceMemory(const host::Device& device) {
-    VkPhysicalDeviceMemoryProperties memory{};
-    vkGetPhysicalDeviceMemoryProperties(device.physicalDevice(), &memory);
-    VkDeviceSize largest = 0;
-    for (uint32_t h = 0; h < memory.memoryHeapCount; ++h) {
-        if ((memory.memoryHeaps[h].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0) {
-            largest = std::max(largest, memory.memoryHeaps[h].size);
-        }
-    }
-    return largest;
-}
-
-/// A group that plays on the device, after its first frame; destroyed when this goes.
-class Crowd {
-public:
-    Crowd(host::Device& device, Workbench& workbench) : device_(device), workbench_(workbench) {}
-    ~Crowd() {
-        if (group_.id != 0) {
-            workbench_.destroy(group_);
-        }
-    }
-    Crowd(const Crowd&) = delete;
-    Crowd& operator=(const Crowd&) = delete;
-
-    Status create(SuppleAsset asset, SuppleScheme scheme, uint32_t rate, uint32_t characters) {
-        SuppleGroupDesc desc{};
-        desc.asset = asset;
-        desc.scheme = scheme;
-        desc.rate = rate;
-        desc.capacity = characters;
-        desc.poseSource = SUPPLE_POSES_PLAYBACK;
-        Result<SuppleGroup> made = workbench_.createGroup(desc);
-        if (!made) {
-            return made.error();
-        }
-        group_ = *made;
-        Status recorded = success();
-        const Status submitted = device_.submitAndWait(
-            [&](VkCommandBuffer commands) { recorded = workbench_.recordFrame(group_, commands); });
-        return recorded ? submitted : recorded;
-    }
-
-    [[nodiscard]] host::GroupOutput output() const { return workbench_.output(group_); }
-    [[nodiscard]] uint64_t vertices() const { return uint64_t{output().grid.vertexCount} * output().info.capacity; }
-    [[nodiscard]] Result<std::unique_ptr<Replay>> replay(bool frame) const {
-        return Replay::create(device_, [&](VkCommandBuffer commands) {
-            frame ? workbench_.recordCompute(group_, commands) : workbench_.recordEvaluate(group_, commands);
-        });
-    }
-    [[nodiscard]] Result<std::vector<std::byte>> verticesOf(uint32_t instance) const {
-        const VkDeviceSize stride = VkDeviceSize{output().grid.verticesPerInstance} * kVertexBytes;
-        const SuppleBufferRange all = output().streams.vertices;
-        return device_.readBuffer(all.buffer, all.offset + instance * stride,
-                                  VkDeviceSize{output().grid.vertexCount} * kVertexBytes);
-    }
-
-private:
-    host::Device& device_;
-    Workbench& workbench_;
-    SuppleGroup group_{};
-};
 
 /// The device's clock where there is one.
 const std::vector<double>& clockOf(const Series& series) {
@@ -104,7 +43,16 @@ Json shareOf(const Series& evaluate, const Series& fill, const Series& store) {
     return {{"median", tools::quantile(shares, 0.5)}, {"least", shares.front()}, {"largest", shares.back()}};
 }
 
-Result<Json> measureRow(host::Device& device, const CrowdDesc& desc, const Crowd& crowd) {
+SuppleGroupDesc groupDesc(SuppleAsset asset, SuppleScheme scheme, uint32_t rate, uint32_t characters) {
+    SuppleGroupDesc desc{};
+    desc.asset = asset;
+    desc.scheme = scheme;
+    desc.rate = rate;
+    desc.capacity = characters;
+    return desc;
+}
+
+Result<Json> measureRow(host::Device& device, const CrowdDesc& desc, const PlayingGroup& crowd) {
     const bool one = crowd.output().info.capacity == 1;
     std::vector<std::unique_ptr<Replay>> replays;
     std::vector<Contestant> contestants;
@@ -117,9 +65,9 @@ Result<Json> measureRow(host::Device& device, const CrowdDesc& desc, const Crowd
         replays.push_back(std::move(*replay));
         return success();
     };
-    Status status = add("evaluate", crowd.vertices(), crowd.replay(false));
+    Status status = add("evaluate", crowd.vertices(), crowd.replay(Passes::evaluate));
     if (status) {
-        status = add("frame", crowd.vertices(), crowd.replay(true));
+        status = add("frame", crowd.vertices(), crowd.replay(Passes::frame));
     }
     if (status && !one) {
         Result<std::unique_ptr<DeviceWrite>> made = DeviceWrite::create(device, crowd.vertices() * kVertexBytes);
@@ -180,8 +128,8 @@ Result<Json> measureCrowd(host::Device& device, Workbench& workbench, const Crow
     const auto measure = [&](SuppleScheme scheme, uint32_t rate, uint32_t wanted) -> Status {
         uint32_t characters = wanted;
         if (wanted > 1) { // what one takes tells how many there is room for
-            Crowd one(device, workbench);
-            Status status = one.create(*asset, scheme, rate, 1);
+            PlayingGroup one(device, workbench);
+            Status status = one.create(groupDesc(*asset, scheme, rate, 1));
             if (!status) {
                 return status;
             }
@@ -193,8 +141,8 @@ Result<Json> measureCrowd(host::Device& device, Workbench& workbench, const Crow
             desc.progress(std::string(tools::schemeName(scheme)) + ", rate " + std::to_string(rate) + ", " +
                           std::to_string(characters));
         }
-        Crowd crowd(device, workbench);
-        const Status status = crowd.create(*asset, scheme, rate, characters);
+        PlayingGroup crowd(device, workbench);
+        const Status status = crowd.create(groupDesc(*asset, scheme, rate, characters));
         Result<Json> row = status ? measureRow(device, desc, crowd) : Result<Json>(status.error());
         if (!row) {
             return row.error();
@@ -226,10 +174,10 @@ Result<std::vector<Agreement>> compareCrowd(host::Device& device, Workbench& wor
     if (!asset) {
         return asset.error();
     }
-    Crowd alone(device, workbench), crowd(device, workbench);
-    Status status = alone.create(*asset, scheme, kRate, 1);
+    PlayingGroup alone(device, workbench), crowd(device, workbench);
+    Status status = alone.create(groupDesc(*asset, scheme, kRate, 1));
     if (status) {
-        status = crowd.create(*asset, scheme, kRate, kSmallCrowd);
+        status = crowd.create(groupDesc(*asset, scheme, kRate, kSmallCrowd));
     }
     workbench.destroy(*asset);
     std::vector<std::vector<std::byte>> all;

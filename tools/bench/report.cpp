@@ -169,6 +169,50 @@ std::string crowdTable(const Json& crowd) {
            (table.empty() ? "" : table.text(2));
 }
 
+/// The dense mesh first, then its skin, then cage and surface.
+void addClassicalLines(const Json& row, Table& table) {
+    const std::string where = row["cage"].get<std::string>() + ", rate " + row["rate"].dump();
+    const auto ratio = [&](const Json& name, const char* over) {
+        for (const Json& one : row["ratios"]) {
+            if (one["name"] == name.get<std::string>() + " / " + over) {
+                return number(one["median"]) + " (" + number(one["least"]) + "-" + number(one["largest"]) + ")";
+            }
+        }
+        return std::string();
+    };
+    const auto kilobytes = [](const Json& bytes) { return number(bytes.get<double>() / 1e3); };
+    bool isDense = true;
+    for (const Json& one : row["contestants"]) {
+        table.add({where, one["name"], number(one["frameMs"]), number(one["frameCpuMs"]),
+                   ratio(one["name"], "polygons"), ratio(one["name"], "polygons, skin alone"), one["vertices"].dump(),
+                   kilobytes(one["loadedBytes"]), kilobytes(one["characterBytes"]), kilobytes(one["poseBytes"]),
+                   kilobytes(one["fileBytes"])});
+        if (isDense) {
+            table.add({where, "polygons, skin alone", number(row["skinAloneMs"]), number(row["skinAloneCpuMs"])});
+        }
+        isDense = false;
+    }
+}
+
+std::string classicalTables(const Json& rows) {
+    Table table({"character", "drawn as", "frame, ms", "CPU ms", "/ polygons", "/ its skin", "vertices", "loaded, KB",
+                 "a character, KB", "a pose, KB", "file, KB"});
+    std::string crowds;
+    for (const Json& row : rows) {
+        crowds += row["cage"].get<std::string>() + ", rate " + row["rate"].dump() + ": " + row["characters"].dump() +
+                  " characters of " + row["triangles"].dump() + " triangles, " + row["faces"].dump() + " faces, " +
+                  row["joints"].dump() + " joints\n";
+        for (const Json& refused : row["refused"]) {
+            crowds +=
+                refused["scheme"].get<std::string>() + " refuses it: " + refused["reason"].get<std::string>() + "\n";
+        }
+        addClassicalLines(row, table);
+    }
+    return table.empty()
+               ? ""
+               : "## The classical path: a dense skinned mesh of as many triangles\n\n" + crowds + "\n" + table.text(2);
+}
+
 /// A line a target and limit: in how many places it is met, and where the value is worst.
 std::string targetTable(const Json& result) {
     struct Line {
@@ -256,6 +300,7 @@ std::string toTables(const Json& result) {
     if (result.contains("crowd")) {
         out += crowdTable(result["crowd"]);
     }
+    out += classicalTables(result.value("classical", Json::array()));
     out += "## Loading, pipelines, targets\n\n" + loadingTable(result) + pipelineTables(result) + targetTable(result);
     return out;
 }

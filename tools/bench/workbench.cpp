@@ -16,6 +16,10 @@ constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS
 constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 constexpr float kCameraDistance = 4.0f, kPixelsPerUnit = 1000.0f;
 
+void computeBarrier(VkCommandBuffer commands) {
+    host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite});
+}
+
 } // namespace
 
 struct Workbench::Inside {
@@ -125,21 +129,25 @@ void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) cons
     inside_->group(group).surfaces()[0].recordEvaluate(commands);
 }
 
-void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
+void Workbench::recordSkin(SuppleGroup id, VkCommandBuffer commands) const {
     runtime::Group& group = inside_->group(id);
-    const auto barrier = [&] { host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite}); };
     for (const runtime::Playback::Part part : runtime::Playback::kParts) {
         if (group.poses().has(part)) {
             group.poses().recordPart(commands, part, group.instances().windows());
-            barrier();
+            computeBarrier(commands);
         }
     }
     group.instances().recordDeform(commands);
-    barrier();
+}
+
+void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
+    runtime::Group& group = inside_->group(id);
+    recordSkin(id, commands);
+    computeBarrier(commands);
     for (const surface::Stage stage : {surface::Stage::vertex, surface::Stage::assemble}) {
         if (group.surfaces()[0].has(stage)) {
             group.surfaces()[0].recordStage(commands, stage);
-            barrier();
+            computeBarrier(commands);
         }
     }
     group.surfaces()[0].recordEvaluate(commands);
@@ -157,6 +165,18 @@ uint32_t Workbench::regularPatches(SuppleGroup group) const {
         }
     }
     return count;
+}
+
+std::vector<QuadPatch> Workbench::quadPatches(SuppleGroup group) const {
+    std::vector<QuadPatch> patches;
+    for (const surface::PatchInfo& patch : inside_->group(group).surfaces()[0].tables().patches) {
+        patches.push_back({patch.face, {patch.corners[0], patch.corners[1], patch.corners[2], patch.corners[3]}});
+        if (patch.cornerCount != 4 || std::find(patches.back().corners.begin(), patches.back().corners.end(),
+                                                cage::kNone) != patches.back().corners.end()) {
+            return {};
+        }
+    }
+    return patches;
 }
 
 std::vector<uint32_t> Workbench::patchFaces(SuppleGroup group) const {

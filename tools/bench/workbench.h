@@ -7,6 +7,7 @@
 #include "host/device.h"
 #include "host/group_output.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -14,6 +15,12 @@
 #include <vector>
 
 namespace supple::bench {
+
+/// A patch over a face of four sides.
+struct QuadPatch {
+    uint32_t face = 0;
+    std::array<uint32_t, 4> corners{}; ///< cage vertices, in the order of the domain
+};
 
 class Workbench {
 public:
@@ -40,6 +47,8 @@ public:
     [[nodiscard]] Status recordFrame(SuppleGroup group, VkCommandBuffer commands);
     /// The evaluation alone, from the coefficients of the last frame.
     void recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const;
+    /// Deformation alone; of groups that play, from sampling their poses on.
+    void recordSkin(SuppleGroup group, VkCommandBuffer commands) const;
     /// Deformation to evaluation with the barriers between, the pose staying as it was uploaded; of groups that play,
     /// from sampling their poses on. Groups without a view.
     void recordCompute(SuppleGroup group, VkCommandBuffer commands) const;
@@ -47,6 +56,8 @@ public:
     [[nodiscard]] host::GroupOutput output(SuppleGroup group) const;
     /// The group's first patches that are plain bicubic ones.
     [[nodiscard]] uint32_t regularPatches(SuppleGroup group) const;
+    /// Every patch; none if one of them is not a whole face of four sides.
+    [[nodiscard]] std::vector<QuadPatch> quadPatches(SuppleGroup group) const;
     /// The cage's face of every patch.
     [[nodiscard]] std::vector<uint32_t> patchFaces(SuppleGroup group) const;
 
