@@ -11,6 +11,8 @@ namespace supple::cage {
 struct Polygons {
     std::vector<uint32_t> starts{0};
     std::vector<uint32_t> vertices;
+    /// One per face, or empty: the corner of a quad that the second of its two triangles alone has; 0: not known.
+    std::vector<uint8_t> ears;
     uint32_t degenerateTriangles = 0; ///< dropped: two corners are one welded vertex
     uint32_t brokenRegions = 0;       ///< of hidden edges, left in triangles: no simple polygons
     uint32_t recutRuns = 0;           ///< runs of FB_ngon_encoding that closed on themselves and were cut again

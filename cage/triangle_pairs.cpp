@@ -69,12 +69,15 @@ Polygons merged(const TriangleEdges& mesh, std::span<const size_t> across) {
         if (std::any_of(end - 3, end, [&](size_t other) { return other / 3 < t; })) {
             continue; // the quad stands where its first triangle stood
         }
+        uint8_t ear = 0;
         for (size_t e = 3 * t; e < 3 * t + 3; ++e) {
             polygons.vertices.push_back(mesh.triangles[e]);
             if (across[e] != kNoPair) {
+                ear = static_cast<uint8_t>(e - 3 * t + 1);
                 polygons.vertices.push_back(mesh.triangles[opposite(across[e])]);
             }
         }
+        polygons.ears.push_back(ear);
         polygons.close();
     }
     return polygons;

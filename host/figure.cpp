@@ -133,6 +133,7 @@ Status Figure::readParts() {
             !status)
             return status.error();
         partNames_.emplace_back(part.name);
+        parts_.push_back(part);
     }
     return success();
 }

@@ -58,6 +58,7 @@ public:
     [[nodiscard]] double clipDuration(uint32_t clip) const;
     /// Of every part, in the asset's order; names may be empty.
     [[nodiscard]] const std::vector<std::string>& partNames() const { return partNames_; }
+    [[nodiscard]] const std::vector<SupplePartInfo>& parts() const { return parts_; }
     [[nodiscard]] const FigureMaterials& materials() const { return materials_; }
 
     /// Luminance of the base color over the cage's faces: linear, 0..1.
@@ -87,6 +88,7 @@ private:
     std::vector<Clip> clips_;
     std::vector<MorphTarget> morphTargets_;
     std::vector<std::string> partNames_;
+    std::vector<SupplePartInfo> parts_;
     FigureMaterials materials_;
     std::vector<CageRange> cageRanges_;
     Buffer cageCorners_;
@@ -139,8 +141,9 @@ public:
     [[nodiscard]] const std::vector<FigureSurface>& surfaces() const { return surfaces_; }
     /// Of the surface that has the most segments along an edge of the cage.
     [[nodiscard]] uint32_t edgeRate() const;
-    /// The part belongs to a surface of SUPPLE_SCHEME_POLYGONS.
-    [[nodiscard]] bool isMeshPart(uint32_t part) const;
+    /// Of the surface that the part belongs to.
+    [[nodiscard]] SuppleScheme schemeOfPart(uint32_t part) const;
+    [[nodiscard]] bool isMeshPart(uint32_t part) const { return schemeOfPart(part) == SUPPLE_SCHEME_POLYGONS; }
 
     /// Destroys Supple's group at once; its memory goes when the frames that used it are completed. The tables stay.
     void release();

@@ -112,11 +112,12 @@ uint32_t FigureGroup::edgeRate() const {
     return most;
 }
 
-bool FigureGroup::isMeshPart(uint32_t part) const {
-    return std::any_of(surfaces_.begin(), surfaces_.end(), [&](const FigureSurface& surface) {
+SuppleScheme FigureGroup::schemeOfPart(uint32_t part) const {
+    const auto own = std::find_if(surfaces_.begin(), surfaces_.end(), [&](const FigureSurface& surface) {
         const std::span<const uint32_t> parts(surface.output.surface.parts, surface.output.surface.partCount);
-        return surface.isMesh() && std::find(parts.begin(), parts.end(), part) != parts.end();
+        return std::binary_search(parts.begin(), parts.end(), part);
     });
+    return own->output.surface.scheme; // every part has one
 }
 
 FigureGroup::~FigureGroup() {

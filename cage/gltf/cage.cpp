@@ -42,6 +42,10 @@ void addSewingFaces(const MeshPart& part, Polygons& faces) {
 /// equilateral triangles have 0.67 at most, if all of them pair.
 constexpr double kCleanSquareness = 0.65;
 
+/// A quad has one normal where its triangles had two: without being asked, no normal may turn by more than 0.03
+/// degrees.
+constexpr float kSameNormal = 5e-4f;
+
 bool hasPlainTriangles(const MeshPart& part) {
     return part.faces.source == PolygonSource::triangles;
 }
@@ -57,7 +61,10 @@ PairedTriangles pairPart(const Mesh& mesh, const MeshPart& part, std::span<const
         return true;
     };
     const auto sameNormal = [&](size_t a, size_t b) {
-        return same(part.normals, 1, a, b) || normalsAgree(part.normals[a], part.normals[b]);
+        if (part.normals.empty() || shape != PairShape::clean) {
+            return part.normals.empty() || normalsAgree(part.normals[a], part.normals[b]);
+        }
+        return glm::length(part.normals[a] - part.normals[b]) <= kSameNormal;
     };
     const auto sameCorner = [&](uint32_t first, uint32_t second) {
         const size_t a = first - part.firstVertex;
@@ -154,6 +161,7 @@ Faces recoverFaces(const Mesh& mesh, const Welding& welding, Pairing pairing, Wa
             faces.polygons.vertices.insert(faces.polygons.vertices.end(), own.vertices.begin() + own.starts[f],
                                            own.vertices.begin() + own.starts[f + 1]);
             faces.polygons.close();
+            faces.polygons.ears.push_back(own.ears.empty() ? uint8_t{0} : own.ears[f]);
             faces.parts.push_back(p);
         }
     }
@@ -232,7 +240,11 @@ void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding,
             corners.push_back(mesh.positions[v]);
         }
         const size_t first = triangles.size();
-        const bool fits = polygon.size() > 3 && known->cut(polygon, triangles);
+        if (const uint32_t ear = faces.polygons.ears[f]; ear != 0) {
+            const uint32_t next = (ear + 1) % 4, opposite = (ear + 2) % 4;
+            triangles.insert(triangles.end(), {ear - 1, next, opposite, ear - 1, ear, next});
+        }
+        const bool fits = triangles.size() == first && polygon.size() > 3 && known->cut(polygon, triangles);
         if (fits && part.faces.polygons.faceCount() > 0 && foldsOver(corners, std::span(triangles).subspan(first))) {
             triangles.resize(first);
         }

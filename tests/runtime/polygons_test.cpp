@@ -149,16 +149,15 @@ Worst compareNormals(const GpuSurface& gpu, const cage::Cage& cage, uint32_t ins
 /// Three positions as bits, the smallest first.
 using TriangleKey = std::array<std::array<float, 3>, 3>;
 TriangleKey keyOf(const std::array<glm::vec3, 3>& corners, uint32_t& first) {
-    TriangleKey key{};
     const auto bits = [](const glm::vec3& p) { return std::array<float, 3>{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; };
-    first = 0;
+    const auto from = [&](uint32_t k) {
+        return TriangleKey{bits(corners[k]), bits(corners[(k + 1) % 3]), bits(corners[(k + 2) % 3])};
+    };
+    first = 0; // the least of the three: two corners may be in one place
     for (uint32_t k = 1; k < 3; ++k) {
-        first = bits(corners[k]) < bits(corners[first]) ? k : first;
+        first = from(k) < from(first) ? k : first;
     }
-    for (uint32_t k = 0; k < 3; ++k) {
-        key[k] = bits(corners[(first + k) % 3]);
-    }
-    return key;
+    return from(first);
 }
 
 /// What the file has where triangles are drawn.

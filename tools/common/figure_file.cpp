@@ -35,6 +35,8 @@ Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& 
 }
 
 Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex) {
+    if (nameOrIndex.empty())
+        return SUPPLE_REST_POSE;
     std::vector<std::string> names;
     for (const Figure::Clip& clip : figure.clips())
         names.push_back(clip.name);

@@ -263,10 +263,14 @@ Status writePatches(const std::string& path, const Evaluation& baked) {
 /// Why --patches cannot be, or empty: which part has a scheme without coefficients.
 std::string whyNoPatches(const cage::Character& character, const SurfaceFlags& flags,
                          const std::vector<SuppleScheme>& partSchemes) {
+    const SuppleScheme named = schemeOf(flags.scheme);
+    if (partSchemes.empty() && named != SUPPLE_SCHEME_AUTO) {
+        return hasCoefficients(named) ? "" : "--patches: " + flags.scheme + " has no patch coefficients";
+    }
     const std::vector<surface::SchemeChoice> choices = surface::chooseSchemes(character);
     for (size_t part = 0; part < choices.size(); ++part) {
         SuppleScheme scheme = partSchemes.empty() ? SUPPLE_SCHEME_AUTO : partSchemes[part];
-        scheme = scheme == SUPPLE_SCHEME_AUTO ? schemeOf(flags.scheme) : scheme;
+        scheme = scheme == SUPPLE_SCHEME_AUTO ? named : scheme;
         scheme = scheme == SUPPLE_SCHEME_AUTO ? static_cast<SuppleScheme>(choices[part].scheme) : scheme;
         if (!hasCoefficients(scheme)) {
             return "--patches: part " + std::to_string(part) + " has scheme " + schemeName(scheme) +

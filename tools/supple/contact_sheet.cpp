@@ -57,12 +57,12 @@ Result<std::vector<uint32_t>> chosenClips(const host::Figure& figure, const std:
             clips.push_back(i);
     }
     if (clips.empty())
-        clips.push_back(SUPPLE_BIND_POSE);
+        clips.push_back(SUPPLE_REST_POSE);
     return clips;
 }
 
 std::string clipName(const host::Figure& figure, uint32_t clip) {
-    return clip == SUPPLE_BIND_POSE ? "bind pose" : printable(figure.clips()[clip].name);
+    return clip == SUPPLE_REST_POSE ? "rest pose" : printable(figure.clips()[clip].name);
 }
 
 /// Times without the clip's end, which in a cycle is its beginning again.

@@ -147,8 +147,8 @@ SuppleSkinning skinningOf(const std::string& name) {
     return name == "dual-quaternion" ? SUPPLE_SKINNING_DUAL_QUATERNION : SUPPLE_SKINNING_LINEAR;
 }
 
-void bindPose(CLI::App& command, std::string& clip, double& time) {
-    command.add_option("--clip", clip, "Clip by name or index; without it the bind pose")->type_name("NAME|INDEX");
+void bindPose(CLI::App& command, std::string& clip, double& time, const std::string& without) {
+    command.add_option("--clip", clip, "Clip by name or index; without it " + without)->type_name("NAME|INDEX");
     command.add_option("--time", time, "Seconds into the clip, clamped to it")
         ->check(CLI::Validator(finiteNumber, "SECONDS"))
         ->capture_default_str();

@@ -68,8 +68,8 @@ struct SchemeOptions {
 /// --rate alone.
 void bindRate(CLI::App& command, uint32_t& rate);
 
-/// --clip, a name or index, empty for the bind pose; --time in seconds.
-void bindPose(CLI::App& command, std::string& clip, double& time);
+/// --clip, a name or index; --time in seconds. `without`: the pose without a clip.
+void bindPose(CLI::App& command, std::string& clip, double& time, const std::string& without = "the bind pose");
 
 /// --morph, as often as it is given.
 void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs);

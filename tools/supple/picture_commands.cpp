@@ -71,7 +71,7 @@ void bindRender(CLI::App& app, int& exitCode) {
     command->add_option("--at", options->at, "What --zoom keeps in the middle: fractions from the upper left corner")
         ->check(CLI::Validator(place, "X,Y"))
         ->capture_default_str();
-    bindPose(*command, options->clip, options->time);
+    bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
     command->callback([options, &exitCode] { exitCode = runRender(*options); });
 }

@@ -43,7 +43,7 @@ float pixelScale(VkExtent2D extent) {
 }
 
 std::vector<ClipTime> spreadTimes(const host::Figure& figure, uint32_t clip, uint32_t count) {
-    if (clip == SUPPLE_BIND_POSE || count <= 1)
+    if (clip == SUPPLE_REST_POSE || count <= 1)
         return {{clip, 0.0}};
     std::vector<ClipTime> times;
     for (uint32_t i = 0; i < count; ++i)

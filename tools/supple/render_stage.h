@@ -23,7 +23,7 @@ namespace supple::tools {
 [[nodiscard]] float pixelScale(VkExtent2D extent);
 
 struct ClipTime {
-    uint32_t clip = SUPPLE_BIND_POSE;
+    uint32_t clip = SUPPLE_REST_POSE;
     double time = 0.0;
 };
 /// `count` times spread evenly over the clip, both ends among them; the bind pose once.

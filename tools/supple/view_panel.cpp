@@ -9,6 +9,7 @@
 #include <bit>
 #include <filesystem>
 #include <imgui.h>
+#include <span>
 
 namespace supple::tools {
 
@@ -77,12 +78,12 @@ void buildPlayback(ViewStage& stage) {
     ViewSettings& settings = stage.settings;
     const std::vector<host::Figure::Clip>& clips = stage.figure().clips();
     const auto clipName = [&](uint32_t clip) {
-        return clip < clips.size() ? printable(clips[clip].name) : std::string("bind pose");
+        return clip < clips.size() ? printable(clips[clip].name) : std::string("rest pose");
     };
     ImGui::SetNextItemWidth(-1.0f);
     if (ImGui::BeginCombo("##clip", clipName(settings.clip).c_str())) {
         for (uint32_t i = 0; i <= clips.size(); ++i) {
-            const uint32_t clip = i < clips.size() ? i : SUPPLE_BIND_POSE;
+            const uint32_t clip = i < clips.size() ? i : SUPPLE_REST_POSE;
             ImGui::PushID(static_cast<int>(i));
             if (ImGui::Selectable(clipName(clip).c_str(), clip == settings.clip)) {
                 settings.clip = clip;
@@ -197,6 +198,22 @@ bool eyeButton(bool open) {
 }
 
 /// The parts of the figure, with an eye each. A click with Ctrl shows that part alone, or all again.
+/// What a part is.
+void buildPart(const ViewStage& stage, uint32_t index) {
+    const SupplePartInfo& part = stage.figure().parts()[index];
+    const SuppleScheme scheme = stage.group().schemeOfPart(index);
+    ImGui::TextDisabled("%u faces, %s", part.faceCount, part.joint == SUPPLE_NO_JOINT ? "skinned" : "rigid");
+    ImGui::TextDisabled("scheme %s", schemeName(scheme));
+    if (scheme == part.scheme)
+        ImGui::TextWrapped("%s", printable(part.schemeReason).c_str());
+    for (const uint32_t material : std::span(part.materials, part.materialCount)) {
+        const std::string name = stage.figure().materials().of(material).name;
+        if (material != SUPPLE_NO_MATERIAL)
+            ImGui::TextDisabled("material %s",
+                                name.empty() ? std::to_string(material).c_str() : printable(name).c_str());
+    }
+}
+
 void buildParts(ViewStage& stage) {
     const std::vector<std::string>& names = stage.figure().partNames();
     std::vector<bool>& shown = stage.settings.shownParts;
@@ -220,7 +237,10 @@ void buildParts(ViewStage& stage) {
         }
         ImGui::SameLine();
         const std::string name = names[p].empty() ? "part " + std::to_string(p) : printable(names[p]);
-        ImGui::TextUnformatted(name.c_str());
+        if (ImGui::TreeNode(name.c_str())) {
+            buildPart(stage, static_cast<uint32_t>(p));
+            ImGui::TreePop();
+        }
         ImGui::PopID();
     }
     ImGui::TreePop();

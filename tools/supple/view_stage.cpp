@@ -89,7 +89,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     morphs_ = host::targetsByName(*figure_);
     settings.morphWeights = std::move(*weights);
     extent_ = std::move(*extent);
-    settings.clip = *chosen != SUPPLE_BIND_POSE || clipCount == 0 ? *chosen : 0;
+    settings.clip = *chosen != SUPPLE_REST_POSE || clipCount == 0 ? *chosen : 0;
     settings.time = 0.0;
     settings.shownParts = std::move(*shownParts);
     settings.rate = static_cast<int>(group_->edgeRate());

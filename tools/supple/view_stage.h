@@ -14,7 +14,7 @@ namespace supple::tools {
 
 /// What the panel and the keys change.
 struct ViewSettings {
-    uint32_t clip = SUPPLE_BIND_POSE;
+    uint32_t clip = SUPPLE_REST_POSE;
     double time = 0.0;
     bool playing = true;
     float speed = 1.0f;
