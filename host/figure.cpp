@@ -57,11 +57,7 @@ Result<std::unique_ptr<Figure>> Figure::create(Context& context, SuppleAsset ass
     figure->asset_ = asset;
     figure->cage_ = std::move(cage);
     figure->path_ = path;
-    if (const Status status = figure->readClips(); !status)
-        return status.error();
-    if (const Status status = figure->readMorphTargets(); !status)
-        return status.error();
-    if (const Status status = figure->readParts(); !status)
+    if (const Status status = figure->readLists(); !status)
         return status.error();
     if (const Status status = figure->materials_.load(context, asset, path); !status)
         return status.error();
@@ -80,62 +76,32 @@ double Figure::clipDuration(uint32_t clip) const {
     return clip < clips_.size() ? clips_[clip].duration : 0.0;
 }
 
-Status Figure::readClips() {
+Status Figure::readLists() {
     SuppleAssetInfo asset{};
     asset.structSize = sizeof asset;
-    if (const Status status =
-            context_.check(suppleGetAssetInfo(context_.handle(), asset_, &asset), "suppleGetAssetInfo");
-        !status)
-        return status.error();
-    for (uint32_t i = 0; i < asset.clipCount; ++i) {
-        SuppleClipInfo clip{};
-        clip.structSize = sizeof clip;
-        if (const Status status =
-                context_.check(suppleGetClipInfo(context_.handle(), asset_, i, &clip), "suppleGetClipInfo");
-            !status)
-            return status.error();
+    Status status = context_.check(suppleGetAssetInfo(context_.handle(), asset_, &asset), "suppleGetAssetInfo");
+    const auto readEach = [&]<class T>(uint32_t count, SuppleResult (*get)(SuppleContext, SuppleAsset, uint32_t, T*),
+                                       const char* name, auto&& take) {
+        for (uint32_t i = 0; i < count && status; ++i) {
+            T info{};
+            info.structSize = sizeof info;
+            status = context_.check(get(context_.handle(), asset_, i, &info), name);
+            if (status)
+                take(info);
+        }
+    };
+    readEach(asset.clipCount, suppleGetClipInfo, "suppleGetClipInfo", [&](const SuppleClipInfo& clip) {
         clips_.push_back({clip.name, clip.duration});
-    }
-    return success();
-}
-
-Status Figure::readMorphTargets() {
-    SuppleAssetInfo asset{};
-    asset.structSize = sizeof asset;
-    if (const Status status =
-            context_.check(suppleGetAssetInfo(context_.handle(), asset_, &asset), "suppleGetAssetInfo");
-        !status)
-        return status.error();
-    for (uint32_t i = 0; i < asset.morphTargetCount; ++i) {
-        SuppleMorphTargetInfo target{};
-        target.structSize = sizeof target;
-        if (const Status status = context_.check(suppleGetMorphTargetInfo(context_.handle(), asset_, i, &target),
-                                                 "suppleGetMorphTargetInfo");
-            !status)
-            return status.error();
-        morphTargets_.push_back({target.name, target.weight});
-    }
-    return success();
-}
-
-Status Figure::readParts() {
-    SuppleAssetInfo asset{};
-    asset.structSize = sizeof asset;
-    if (const Status status =
-            context_.check(suppleGetAssetInfo(context_.handle(), asset_, &asset), "suppleGetAssetInfo");
-        !status)
-        return status.error();
-    for (uint32_t i = 0; i < asset.partCount; ++i) {
-        SupplePartInfo part{};
-        part.structSize = sizeof part;
-        if (const Status status =
-                context_.check(suppleGetPartInfo(context_.handle(), asset_, i, &part), "suppleGetPartInfo");
-            !status)
-            return status.error();
+    });
+    readEach(asset.morphTargetCount, suppleGetMorphTargetInfo, "suppleGetMorphTargetInfo",
+             [&](const SuppleMorphTargetInfo& target) {
+                 morphTargets_.push_back({target.name, target.weight});
+             });
+    readEach(asset.partCount, suppleGetPartInfo, "suppleGetPartInfo", [&](const SupplePartInfo& part) {
         partNames_.emplace_back(part.name);
         parts_.push_back(part);
-    }
-    return success();
+    });
+    return status;
 }
 
 float Figure::averageLuminance() const {

@@ -70,14 +70,13 @@ public:
 
 private:
     explicit Figure(Context& context) : context_(context) {}
-    [[nodiscard]] Status readParts();
     /// What shaders/cage_edge.vert reads; fills cageEdgeRanges_.
     [[nodiscard]] std::vector<std::array<uint32_t, 2>> cageEdgeVertices();
     /// What shaders/cage_face.glsl reads; fills cageRanges_.
     [[nodiscard]] std::vector<uint32_t> cageCornerWords();
     [[nodiscard]] Status uploadCage();
-    [[nodiscard]] Status readClips();
-    [[nodiscard]] Status readMorphTargets();
+    /// Clips, morph targets and parts.
+    [[nodiscard]] Status readLists();
     /// Over the cage's faces by their rest area.
     [[nodiscard]] float averageLuminance() const;
 

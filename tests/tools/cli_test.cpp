@@ -579,12 +579,58 @@ TEST_F(Cli, RenderOfAllSchemesIsOneSheet) {
     expectFailure(run("sheet cube.gltf -o x.png --scheme all"), 2, "--scheme");
 }
 
-TEST_F(Cli, PicturesShowThePartsThatAreNamed) {
+/// Three cubes, a part each: "near", "far", "near".
+std::string threeCubes() {
     Json gltf = Json::parse(cubeGltf("cube.bin", true));
     gltf["nodes"] = Json::parse(R"([{"name": "near", "mesh": 0}, {"name": "far", "mesh": 0, "translation": [3, 0, 0]},
                                     {"name": "near", "mesh": 0, "translation": [0, 3, 0]}])");
     gltf["scenes"][0]["nodes"] = {0, 1, 2};
-    writeText(file("cubes.gltf"), gltf.dump());
+    return gltf.dump();
+}
+
+TEST_F(Cli, PartsHaveSchemesOfTheirOwn) {
+    writeText(file("cubes.gltf"), threeCubes());
+    const Json parts = Json::parse(run("inspect cubes.gltf --json").out)["parts"];
+    ASSERT_EQ(parts.size(), 3u);
+    for (const Json& part : parts) {
+        EXPECT_EQ(part["scheme"], "pm");
+        EXPECT_EQ(part["schemeReason"], "its polygons are known");
+    }
+    EXPECT_NE(run("inspect cubes.gltf").out.find("auto: pm, its polygons are known"), std::string::npos);
+
+    ASSERT_EQ(runOnDevice("bake cubes.gltf -o all.obj --rate 2 --scheme loop").exitCode, 0);
+    ASSERT_EQ(runOnDevice("bake cubes.gltf -o mixed.obj --rate 2 --part-scheme far=loop").exitCode, 0);
+    ASSERT_EQ(runOnDevice("bake cubes.gltf -o pm.obj --rate 2").exitCode, 0);
+    const std::vector<std::string> loop = readObj(file("all.obj")).vLines, pm = readObj(file("pm.obj")).vLines;
+    const std::vector<std::string> mixed = readObj(file("mixed.obj")).vLines;
+    ASSERT_EQ(pm.size(), 3u * 6 * 9) << "six patches of a cube";
+    ASSERT_EQ(loop.size(), 3u * 48 * 3) << "four patches of each triangle";
+    std::vector<std::string> expected(pm.begin(), pm.begin() + 54); // parts in their order
+    expected.insert(expected.end(), loop.begin() + 144, loop.begin() + 288);
+    expected.insert(expected.end(), pm.begin() + 108, pm.end());
+    EXPECT_EQ(mixed, expected);
+    const std::string text = readText(file("mixed.obj"));
+    EXPECT_NE(text.find("scheme pm, rate 2, 12 patches"), std::string::npos);
+    EXPECT_NE(text.find("scheme loop, rate 1 (2 asked for along an edge of the cage), 48 patches"), std::string::npos);
+    EXPECT_NE(text.find("g patch_59\n"), std::string::npos) << "numbered through";
+
+    const std::string bake = "bake cubes.gltf -o x.obj --patches p.json --rate 2 ";
+    expectFailure(run(bake + "--part-scheme 1=loop"), 2, "--patches: part 1 has scheme loop");
+    ASSERT_EQ(runOnDevice(bake + "--part-scheme 1=prep").exitCode, 0);
+    const Json patches = Json::parse(readText(file("p.json")));
+    EXPECT_EQ(patches["scheme"], "pm+prep");
+    EXPECT_EQ(patches["patches"].size(), 18u);
+    EXPECT_EQ(patches["patches"][12]["face"], 6) << "of the second part";
+
+    ASSERT_EQ(runOnDevice("profile cubes.gltf --frames 2 --json p.json --part-scheme 0=polygons").exitCode, 0);
+    EXPECT_EQ(Json::parse(readText(file("p.json")))["runs"][0]["scheme"], "polygons+pm");
+    expectFailure(run("bake cubes.gltf -o x.obj --part-scheme far"), 2, "PART=SCHEME");
+    expectFailure(run("bake cubes.gltf -o x.obj --part-scheme far=cage"), 2, "no scheme of a part");
+    expectFailure(run("bake cubes.gltf -o x.obj --part-scheme nose=pm"), 1, "0 near, 1 far, 2 near");
+}
+
+TEST_F(Cli, PicturesShowThePartsThatAreNamed) {
+    writeText(file("cubes.gltf"), threeCubes());
     const auto render = [&](const std::string& flags) {
         const Outcome outcome = runOnDevice("render cubes.gltf -o parts.png --size 80x60 --rate 4 " + flags);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;

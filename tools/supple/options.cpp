@@ -60,23 +60,26 @@ void bindRate(CLI::App& command, uint32_t& rate) {
 
 namespace {
 
-void bindPartSchemes(CLI::App& command, std::vector<host::PartScheme>& schemes) {
-    const auto fault = [](const std::string& text) {
-        const Result<host::PartScheme> setting = host::parsePartScheme(text);
+/// An option that may be given again: each text is parsed into one more setting.
+template <class T>
+void bindSettings(CLI::App& command, const char* name, std::vector<T>& settings, Result<T> (*parse)(const std::string&),
+                  const char* help, const char* type) {
+    const auto fault = [parse](const std::string& text) {
+        const Result<T> setting = parse(text);
         return setting ? "" : setting.error().message;
     };
     command
         .add_option_function<std::vector<std::string>>(
-            "--part-scheme",
-            [&schemes](const std::vector<std::string>& texts) {
+            name,
+            [&settings, parse](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) {
-                    schemes.push_back(*host::parsePartScheme(text));
+                    settings.push_back(*parse(text));
                 }
             },
-            "The scheme of a part, by name or index, instead of --scheme. May be given again")
+            help)
         ->check(CLI::Validator(fault, ""))
         ->allow_extra_args(false)
-        ->type_name("PART=SCHEME");
+        ->type_name(type);
 }
 
 } // namespace
@@ -91,7 +94,8 @@ void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartSc
     command.add_option("--scheme", scheme, "Surface scheme; auto: the one that suits each part")
         ->check(CLI::IsMember(names))
         ->capture_default_str();
-    bindPartSchemes(command, partSchemes);
+    bindSettings(command, "--part-scheme", partSchemes, host::parsePartScheme,
+                 "The scheme of a part, by name or index, instead of --scheme. May be given again", "PART=SCHEME");
     bindRate(command, rate);
     command.add_option("--skinning", skinning, "How joints move the cage")
         ->check(CLI::IsMember({"linear", "dual-quaternion"}))
@@ -155,23 +159,10 @@ void bindPose(CLI::App& command, std::string& clip, double& time, const std::str
 }
 
 void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs) {
-    const auto fault = [](const std::string& text) {
-        const Result<host::MorphSetting> setting = host::parseMorph(text);
-        return setting ? "" : setting.error().message;
-    };
-    command
-        .add_option_function<std::vector<std::string>>(
-            "--morph",
-            [&morphs](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) {
-                    morphs.push_back(*host::parseMorph(text));
-                }
-            },
-            "Weight of the morph targets of a name, in all parts; the others keep those of the file, also in clips. "
-            "May be given again")
-        ->check(CLI::Validator(fault, ""))
-        ->allow_extra_args(false)
-        ->type_name("NAME=WEIGHT");
+    bindSettings(command, "--morph", morphs, host::parseMorph,
+                 "Weight of the morph targets of a name, in all parts; the others keep those of the file, also in "
+                 "clips. May be given again",
+                 "NAME=WEIGHT");
 }
 
 bool hasCoefficients(SuppleScheme wanted) {
