@@ -16,7 +16,8 @@ float markedInfinite(float sharpness) {
     return sharpness >= cage::kHardSharpness ? kInfiniteSharpness : sharpness;
 }
 
-/// Writes stencil rows over the vertices of the parent.
+/// Writes stencil rows over the vertices of the parent. Entries have the order in which a row meets its vertices, which
+/// follows fans and faces: the sums do not depend on how vertices are numbered, so neither do their bits.
 class RowWriter {
 public:
     RowWriter(uint32_t vertices, Stencils& out) : out_(out), sums_(vertices, 0.0), met_(vertices, 0) {
@@ -32,7 +33,6 @@ public:
     }
 
     void close() {
-        std::sort(touched_.begin(), touched_.end());
         for (const uint32_t v : touched_) {
             out_.vertices.push_back(v);
             out_.weights.push_back(sums_[v]);

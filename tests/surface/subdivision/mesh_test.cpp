@@ -61,10 +61,11 @@ TEST(SubdivisionMesh, parts) {
                     const uint32_t begin = stencils.starts[row], end = stencils.starts[row + 1];
                     ASSERT_LT(begin, end);
                     double sum = 0.0;
+                    std::set<uint32_t> once;
                     for (uint32_t i = begin; i < end; ++i) {
                         sum += stencils.weights[i];
                         ASSERT_LT(stencils.vertices[i], before);
-                        ASSERT_TRUE(i == begin || stencils.vertices[i - 1] < stencils.vertices[i]);
+                        ASSERT_TRUE(once.insert(stencils.vertices[i]).second);
                     }
                     EXPECT_NEAR(sum, 1.0, 1e-14);
                 }
