@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct Found {
     }
     /// "1 face is empty: face 3", "12 faces are empty, the first is face 3"
     [[nodiscard]] std::string told(const char* one, const char* many) const;
+};
+
+/// What messages about a cage call its elements: every part has a name, and counts its own faces and vertices.
+struct CageNames {
+    std::vector<std::string> parts;       ///< "mesh 0"; one, if the cage is one part
+    std::vector<uint32_t> cornerVertices; ///< per corner: its vertex as the part counts; empty: as the cage counts
 };
 
 /// What was repaired or left out, as "element: reason"; who shows it puts the character's name in front.

@@ -319,7 +319,15 @@ Character takePart(const Character& character, size_t index) {
     return taken;
 }
 
-void joinParts(std::vector<PartCage> parts, Character& character) {
+void findFirstFaces(Character& character) {
+    const std::vector<uint32_t>& of = character.cage.faceParts;
+    for (uint32_t part = 0; part < character.parts.size(); ++part) {
+        const auto first = std::lower_bound(of.begin(), of.end(), part);
+        character.parts[part].firstFace = static_cast<uint32_t>(first - of.begin());
+    }
+}
+
+CageNames joinParts(std::vector<PartCage> parts, Character& character) {
     placeTargets(parts, character);
     placeChannels(parts, character);
     Shading shading;
@@ -328,7 +336,10 @@ void joinParts(std::vector<PartCage> parts, Character& character) {
         shading.triangles = shading.triangles || !part.cage.faceTriangles.empty();
     }
     character.parts.clear();
+    CageNames names;
     for (PartCage& part : parts) {
+        names.parts.push_back(part.element);
+        appendTo(names.cornerVertices, part.cage.faceVertices);
         part.part.firstFace = character.cage.faceCount();
         part.part.rigid = isRigid(part.weights);
         appendDisplacements(part, character.cage.vertexCount(), character.morphs);
@@ -343,6 +354,7 @@ void joinParts(std::vector<PartCage> parts, Character& character) {
     for (uint32_t part = 0; part < character.parts.size() && character.parts.size() > 1; ++part) {
         character.cage.faceParts.resize(endFace(character, part), part);
     }
+    return names;
 }
 
 } // namespace supple::cage

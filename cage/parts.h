@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "cage/message.h"
 
 #include <array>
 #include <cstdint>
@@ -21,6 +22,7 @@ struct PartCage {
     uint32_t sourceVertexCount = 0;
     uint32_t seamVertexCount = 0;
     std::vector<Damage> damages;
+    std::string element;  ///< what messages call it: "mesh 0"
     std::string whyEmpty; ///< why the cage has no faces
 };
 
@@ -49,9 +51,13 @@ void reverseFaces(Cage& cage);
 /// their order.
 [[nodiscard]] Character takePart(const Character& character, size_t part);
 
+/// Finds the parts' first faces anew, after the cage was repaired.
+void findFirstFaces(Character& character);
+
 /// Puts the parts into the character, in their order: cage, weights, morph targets, counts. The character's clips tell
 /// which parts share their morph targets: those of equal names and weights that all clips move alike, as exporters
-/// write them when they cut a mesh. Channels of shared targets are left in once.
-void joinParts(std::vector<PartCage> parts, Character& character);
+/// write them when they cut a mesh. Channels of shared targets are left in once. Returns how messages name the cage's
+/// elements: as its parts do.
+CageNames joinParts(std::vector<PartCage> parts, Character& character);
 
 } // namespace supple::cage

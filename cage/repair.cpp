@@ -5,10 +5,12 @@
 #include "cage/repair/faces.h"
 #include "cage/repair/fans.h"
 #include "cage/repair/folds.h"
+#include "cage/repair/found.h"
 #include "cage/repair/remap.h"
 #include "cage/repair/sheets.h"
 #include "cage/topology.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -17,7 +19,7 @@ namespace {
 
 using namespace repair;
 
-/// Vertices that no face uses, before anything is repaired.
+/// Vertices that no face uses, before anything is repaired: a host's, which has one part.
 Found looseVertices(const Cage& cage) {
     std::vector<uint8_t> used(cage.vertexCount(), 0);
     for (const uint32_t v : cage.faceVertices) {
@@ -32,14 +34,28 @@ Found looseVertices(const Cage& cage) {
     return loose;
 }
 
-/// Words the damage of one element.
+/// All that was found in a cage.
+struct CageDamage {
+    Found loose;
+    FaceDamage faces;
+    SheetDamage sheets;
+    FanDamage fans;
+    FoldDamage folds;
+};
+
+/// Words the damage of one part. What is told already, of another node with the same mesh, is not told again.
 class Reporter {
 public:
     Reporter(std::string element, std::vector<Damage>& damages) : element_(std::move(element)), damages_(damages) {}
 
     void add(const Found& found, const char* one, const char* many, const std::string& repair) {
-        if (found.count > 0) {
-            damages_.push_back({element_ + ": " + found.told(one, many), repair});
+        if (found.count == 0) {
+            return;
+        }
+        const std::string told = element_ + ": " + found.told(one, many);
+        if (std::none_of(damages_.begin(), damages_.end(),
+                         [&](const Damage& damage) { return damage.found == told; })) {
+            damages_.push_back({told, repair});
         }
     }
 
@@ -52,66 +68,93 @@ std::string vertexCopies(size_t count) {
     return counted(count, "vertex", "vertices") + " repeated";
 }
 
-void report(const FaceDamage& faces, const SheetDamage& sheets, const FanDamage& fans, const FoldDamage& folds,
-            Reporter& reporter) {
-    reporter.add(faces.empty, "face has fewer than three different vertices or bounds nothing",
-                 "faces have fewer than three different vertices or bound nothing", "left out");
-    reporter.add(faces.repeating, "face passes a vertex twice", "faces pass a vertex twice", "cut into simple faces");
-    reporter.add(faces.duplicated, "face is there twice", "faces are there twice", "left out");
-    // Copies at cut edges are told once: of the crowded ones if there are any.
-    const std::string copies = ", " + vertexCopies(fans.copiesAtCuts);
-    const bool crowded = sheets.crowded.count > 0;
-    reporter.add(sheets.crowded, "edge has three or more faces", "edges have three or more faces",
-                 "cut into sheets" + copies);
-    reporter.add(sheets.turned, "face is turned against its neighbours", "faces are turned against their neighbours",
-                 "turned round");
-    reporter.add(sheets.unorientable, "edge joins two sides of one surface, as in a Moebius strip",
-                 "edges join two sides of one surface, as in a Moebius strip",
-                 "cut open" + (crowded ? std::string() : copies));
-    reporter.add(fans.bowTies, "vertex has faces that are no single fan", "vertices have faces that are no single fan",
-                 "one vertex for each fan");
-    reporter.add(folds.folds, "inner vertex has two faces only", "inner vertices have two faces only",
-                 folds.cutOpen == 0
-                     ? std::string("dissolved")
-                     : "dissolved or, with " + counted(folds.cutOpen, "vertex", "vertices") + " repeated, cut open");
+std::string foldRepairs(const FoldDamage& folds, size_t part) {
+    const size_t cutOpen = folds.cutOpen.at(part);
+    std::string told = folds.dissolved.at(part) > 0 ? "dissolved" : "";
+    if (folds.kept.at(part) > 0) {
+        told += std::string(told.empty() ? "" : " or ") + "kept, and a face cut by an edge to it";
+    }
+    if (cutOpen > 0) {
+        told += (told.empty() ? "" : " or ") + ("cut open, " + vertexCopies(cutOpen));
+    }
+    return told;
 }
 
-Status repairDamaged(Cage& cage, SkinWeights& weights, Morphs& morphs, const std::string& element,
-                     std::vector<Damage>& damages) {
-    Reporter reporter(element, damages);
-    reporter.add(looseVertices(cage), "vertex has no face", "vertices have no face", "left out");
-    FaceDamage faces;
-    Draft draft = withoutDuplicates(simpleFaces(cage, faces), faces);
-    SheetDamage sheets;
-    FanDamage fans;
-    FoldDamage folds;
-    std::vector<uint32_t> twins = joinFaces(cage, draft, sheets);
-    separateFans(draft, twins, sheets.atCut, fans);
-    dissolveFolds(cage, draft, std::move(twins), folds);
-    report(faces, sheets, fans, folds, reporter);
-    if (draft.faceCount() == 0) {
-        return Error{ErrorCode::asset, element + ": no face is left: all have fewer than three different vertices or "
-                                                 "bound nothing"};
+void report(const CageDamage& damage, size_t part, Reporter reporter) {
+    const auto& [loose, faces, sheets, fans, folds] = damage;
+    reporter.add(part == 0 ? loose : Found(), "vertex has no face", "vertices have no face", "left out");
+    reporter.add(faces.empty.of(part), "face has fewer than three different vertices or bounds nothing",
+                 "faces have fewer than three different vertices or bound nothing", "left out");
+    reporter.add(faces.repeating.of(part), "face passes a vertex twice", "faces pass a vertex twice",
+                 "cut into simple faces");
+    reporter.add(faces.duplicated.of(part), "face is there twice", "faces are there twice", "left out");
+    // Copies at cut edges are told once: of the crowded ones if there are any.
+    const std::string copies = ", " + vertexCopies(fans.copiesAtCuts.at(part));
+    const bool crowded = sheets.crowded.of(part).count > 0;
+    reporter.add(sheets.crowded.of(part), "edge has three or more faces", "edges have three or more faces",
+                 "cut into sheets" + copies);
+    reporter.add(sheets.turned.of(part), "face is turned against its neighbours",
+                 "faces are turned against their neighbours", "turned round");
+    reporter.add(sheets.unorientable.of(part), "edge joins two sides of one surface, as in a Moebius strip",
+                 "edges join two sides of one surface, as in a Moebius strip",
+                 "cut open" + (crowded ? std::string() : copies));
+    reporter.add(fans.bowTies.of(part), "vertex has faces that are no single fan",
+                 "vertices have faces that are no single fan", "one vertex for each fan");
+    reporter.add(folds.folds.of(part), "inner vertex has two faces only", "inner vertices have two faces only",
+                 foldRepairs(folds, part));
+}
+
+/// Every part needs a face.
+Status checkParts(const Cage& cage, const Draft& draft, const CageNames& names) {
+    std::vector<uint8_t> has(names.parts.size(), 0);
+    for (const uint32_t face : draft.faces) {
+        has[cage.faceParts.empty() ? 0 : cage.faceParts[face]] = 1;
     }
-    const Status applied = applyDraft(draft, cage, weights, morphs);
-    return applied ? success() : Error{applied.error().code, element + ": " + applied.error().message};
+    for (size_t part = 0; part < has.size(); ++part) {
+        if (has[part] == 0) {
+            return Error{ErrorCode::asset, names.parts[part] + ": no face is left: all have fewer than three different "
+                                                               "vertices or bound nothing"};
+        }
+    }
+    return success();
+}
+
+Status repairDamaged(Cage& cage, SkinWeights& weights, Morphs& morphs, const CageNames& names,
+                     std::vector<Damage>& damages) {
+    const Places places(cage, names);
+    CageDamage damage;
+    damage.loose = looseVertices(cage);
+    Draft draft = withoutDuplicates(simpleFaces(cage, places, damage.faces), places, damage.faces);
+    std::vector<uint32_t> twins = joinFaces(cage, draft, places, damage.sheets);
+    separateFans(draft, twins, damage.sheets.atCut, places, damage.fans);
+    dissolveFolds(cage, draft, std::move(twins), places, damage.folds);
+    for (size_t part = 0; part < names.parts.size(); ++part) {
+        report(damage, part, Reporter(names.parts[part], damages));
+    }
+    if (Status status = checkParts(cage, draft, names); !status) {
+        return status;
+    }
+    return applyDraft(draft, cage, weights, morphs);
 }
 
 } // namespace
 
-Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const std::string& element,
+Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const CageNames& names,
                   std::vector<Damage>& damages) {
+    const std::string element = names.parts.size() == 1 ? names.parts[0] + ": " : std::string("file: ");
     const Result<Topology> topology = buildTopology(cage);
     if (topology.ok()) {
         return success();
     }
     if (topology.error().code != ErrorCode::asset) {
-        return Error{topology.error().code, element + ": " + topology.error().message};
+        return Error{topology.error().code, element + topology.error().message};
     }
     try {
-        return repairDamaged(cage, weights, morphs, element, damages);
+        const Status repaired = repairDamaged(cage, weights, morphs, names, damages);
+        const bool named = repaired || repaired.error().code == ErrorCode::asset;
+        return named ? repaired : Error{repaired.error().code, element + repaired.error().message};
     } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::hostMemory, element + ": out of memory for repairing the cage"};
+        return Error{ErrorCode::hostMemory, element + "out of memory for repairing the cage"};
     }
 }
 

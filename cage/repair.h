@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "cage/message.h"
 
 #include <string>
 
@@ -20,9 +21,13 @@ namespace supple::cage {
 /// All other faces keep their order and corners; materials, tiles, holes, creases, influences and displacements follow.
 /// `weights` may be empty (`starts` has no entry): nothing is bound yet.
 ///
-/// Adds one entry for each kind of damage to `damages`, which begins with `element` ("mesh 0") and counts as the cage
-/// was given. Refuses a cage of which no face is left. Indices must be in range. O(corners log corners).
-[[nodiscard]] Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const std::string& element,
+/// A cage of several parts (Cage::faceParts) is repaired as a whole: what one part lacks, its neighbour may have. Each
+/// place is named and counted with the part of its first face.
+///
+/// Adds one entry for each kind of damage and part to `damages`, which begins with the part's name ("mesh 0") and
+/// counts as the part was given. Refuses a part of which no face is left. Indices must be in range.
+/// O(corners log corners).
+[[nodiscard]] Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const CageNames& names,
                                 std::vector<Damage>& damages);
 
 /// What a reader does at its end with the damage it found and repaired: a warning for each kind; or, if it is `strict`,

@@ -1,5 +1,7 @@
 #include "cage/sew.h"
 
+#include "cage/polygons.h"
+#include "cage/sound_faces.h"
 #include "cage/weld.h"
 
 #include <algorithm>
@@ -13,17 +15,17 @@ namespace supple::cage {
 namespace {
 
 /// Per cage vertex: whether it lies on an edge that has one face.
-std::vector<uint8_t> boundaryVertices(const Cage& cage) {
+std::vector<uint8_t> boundaryVertices(const Polygons& faces, size_t vertexCount) {
     std::vector<std::pair<uint32_t, uint32_t>> edges;
-    edges.reserve(cage.cornerCount());
-    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
-            const uint32_t next = c + 1 < cage.faceStarts[f + 1] ? c + 1 : cage.faceStarts[f];
-            edges.push_back(std::minmax(cage.faceVertices[c], cage.faceVertices[next]));
+    edges.reserve(faces.vertices.size());
+    for (size_t f = 0; f < faces.faceCount(); ++f) {
+        for (uint32_t c = faces.starts[f]; c < faces.starts[f + 1]; ++c) {
+            const uint32_t next = c + 1 < faces.starts[f + 1] ? c + 1 : faces.starts[f];
+            edges.push_back(std::minmax(faces.vertices[c], faces.vertices[next]));
         }
     }
     std::sort(edges.begin(), edges.end());
-    std::vector<uint8_t> boundary(cage.vertexCount(), 0);
+    std::vector<uint8_t> boundary(vertexCount, 0);
     for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
         while (end < edges.size() && edges[end] == edges[begin]) {
             ++end;
@@ -127,11 +129,9 @@ private:
     Displacements displacements_;
 };
 
-/// Numbers the sets of vertices that may become one: on boundaries, of different parts, and only one of each part.
-/// Every other vertex is a set of its own.
-std::vector<uint32_t> candidatesOf(const Character& character) {
-    const std::vector<uint8_t> boundary = boundaryVertices(character.cage);
-    const std::vector<uint32_t> parts = partsOfVertices(character);
+/// Numbers the sets of vertices that may become one: on boundaries. Every other vertex is a set of its own.
+std::vector<uint32_t> candidatesOf(const Character& character, const Polygons& faces) {
+    const std::vector<uint8_t> boundary = boundaryVertices(faces, character.cage.vertexCount());
     const Agreement agreement(character);
     std::vector<uint32_t> order;
     for (uint32_t v = 0; v < boundary.size(); ++v) {
@@ -141,7 +141,7 @@ std::vector<uint32_t> candidatesOf(const Character& character) {
     }
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
         const int compared = agreement.compare(a, b);
-        return compared != 0 ? compared < 0 : std::pair(parts[a], a) < std::pair(parts[b], b);
+        return compared != 0 ? compared < 0 : a < b;
     });
     std::vector<uint32_t> candidates(boundary.size());
     for (uint32_t v = 0; v < candidates.size(); ++v) {
@@ -152,11 +152,7 @@ std::vector<uint32_t> candidatesOf(const Character& character) {
             ++end;
         }
         for (size_t i = begin; i < end; ++i) {
-            const bool alone = (i == begin || parts[order[i - 1]] != parts[order[i]]) &&
-                               (i + 1 == end || parts[order[i + 1]] != parts[order[i]]);
-            if (alone) {
-                candidates[order[i]] = order[begin];
-            }
+            candidates[order[i]] = order[begin];
         }
     }
     return candidates;
@@ -242,8 +238,13 @@ uint32_t sewParts(Character& character) {
     if (character.parts.size() < 2) {
         return 0;
     }
-    const Polygons faces{character.cage.faceStarts, character.cage.faceVertices};
-    Welding welding = weld(candidatesOf(character), faces);
+    const Polygons faces = soundFaces(character.cage);
+    const std::vector<uint32_t> parts = partsOfVertices(character);
+    const auto partOf = [&](uint32_t face) { return parts[faces.vertices[faces.starts[face]]]; };
+    const auto mayJoin = [&](uint32_t face, uint32_t other) {
+        return partOf(face) != partOf(other) && !lieBackToBack(character.cage.positions, faces, face, other);
+    };
+    Welding welding = weld(candidatesOf(character, faces), faces, mayJoin);
     unweldDefects(faces, welding);
     uint32_t merged = 0;
     for (uint32_t v = 0; v < welding.roots.size(); ++v) {

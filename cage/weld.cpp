@@ -70,8 +70,9 @@ std::vector<HalfEdge> halfEdges(std::span<const uint32_t> candidates, const Poly
 }
 
 /// Sews two half-edges when they are all of their group.
-bool sewOnlyPair(std::span<const HalfEdge> group, Sets& sets) {
-    if (group.size() != 2 || group[0].forward == group[1].forward || group[0].face == group[1].face)
+bool sewOnlyPair(std::span<const HalfEdge> group, const MayJoin& mayJoin, Sets& sets) {
+    if (group.size() != 2 || group[0].forward == group[1].forward || group[0].face == group[1].face ||
+        !mayJoin(group[0].face, group[1].face))
         return false;
     const bool low = sets.unite(group[0].lowVertex, group[1].lowVertex);
     const bool high = sets.unite(group[0].highVertex, group[1].highVertex);
@@ -80,7 +81,8 @@ bool sewOnlyPair(std::span<const HalfEdge> group, Sets& sets) {
 
 /// Sews what is unambiguous among the half-edges between two candidate sets: first those the file joins already are set
 /// aside; of the rest a lone pair, or a lone pair among those that share one end.
-bool sewGroup(std::span<const HalfEdge> group, Sets& sets, std::vector<HalfEdge>& open, std::vector<HalfEdge>& part) {
+bool sewGroup(std::span<const HalfEdge> group, const MayJoin& mayJoin, Sets& sets, std::vector<HalfEdge>& open,
+              std::vector<HalfEdge>& part) {
     open.clear();
     const auto key = [&](const HalfEdge& e) { return std::pair(sets.find(e.lowVertex), sets.find(e.highVertex)); };
     open.assign(group.begin(), group.end());
@@ -101,7 +103,7 @@ bool sewGroup(std::span<const HalfEdge> group, Sets& sets, std::vector<HalfEdge>
     if (open.size() < 2)
         return false;
     if (open.size() == 2)
-        return sewOnlyPair(open, sets);
+        return sewOnlyPair(open, mayJoin, sets);
     for (const bool byLow : {true, false}) {
         const auto end = [&](const HalfEdge& e) { return sets.find(byLow ? e.lowVertex : e.highVertex); };
         std::sort(open.begin(), open.end(), [&](const HalfEdge& x, const HalfEdge& y) { return end(x) < end(y); });
@@ -112,7 +114,7 @@ bool sewGroup(std::span<const HalfEdge> group, Sets& sets, std::vector<HalfEdge>
                 ++last;
             part.assign(open.begin() + static_cast<ptrdiff_t>(first), open.begin() + static_cast<ptrdiff_t>(last));
             first = last;
-            if (sewOnlyPair(part, sets))
+            if (sewOnlyPair(part, mayJoin, sets))
                 return true; // roots moved: the caller looks again
         }
     }
@@ -194,7 +196,7 @@ void blameFolds(const Polygons& polygons, std::span<const uint32_t> roots, const
 
 } // namespace
 
-Welding weld(std::span<const uint32_t> candidates, const Polygons& faces) {
+Welding weld(std::span<const uint32_t> candidates, const Polygons& faces, const MayJoin& mayJoin) {
     Sets sets(candidates.size());
     const std::vector<HalfEdge> edges = halfEdges(candidates, faces);
     std::vector<HalfEdge> open;
@@ -211,7 +213,7 @@ Welding weld(std::span<const uint32_t> candidates, const Polygons& faces) {
         const auto group = std::span(edges).subspan(begin, end - begin);
         begin = end;
         if (group.size() == 2)
-            sewOnlyPair(group, sets);
+            sewOnlyPair(group, mayJoin, sets);
         else if (group.size() > 2)
             groups.push_back(group);
     }
@@ -219,10 +221,27 @@ Welding weld(std::span<const uint32_t> candidates, const Polygons& faces) {
     for (int round = 0; round < kMaxRounds && moved; ++round) {
         moved = false;
         for (const auto group : groups)
-            moved = sewGroup(group, sets, open, part) || moved;
+            moved = sewGroup(group, mayJoin, sets, open, part) || moved;
     }
 
     return rootsOf(sets, candidates.size());
+}
+
+bool lieBackToBack(std::span<const glm::vec3> positions, const Polygons& faces, uint32_t face, uint32_t other) {
+    constexpr double kCosineOf179Degrees = -0.99984770;
+    const auto areaOf = [&](uint32_t f) {
+        const std::span<const uint32_t> vertices = faceOf(faces, f);
+        const glm::dvec3 origin(positions[vertices[0]]);
+        glm::dvec3 area(0.0);
+        for (size_t k = 1; k + 1 < vertices.size(); ++k) {
+            area += glm::cross(glm::dvec3(positions[vertices[k]]) - origin,
+                               glm::dvec3(positions[vertices[k + 1]]) - origin);
+        }
+        return area;
+    };
+    const glm::dvec3 a = areaOf(face), b = areaOf(other);
+    const double lengths = glm::length(a) * glm::length(b);
+    return lengths > 0.0 && glm::dot(a, b) < kCosineOf179Degrees * lengths;
 }
 
 Welding weldPairs(size_t vertexCount, std::span<const std::pair<uint32_t, uint32_t>> pairs) {

@@ -188,7 +188,7 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
     }
     character.name = name;
     if (const Status repaired =
-            cage::repairCage(character.cage, character.weights, character.morphs, "cage", character.damages);
+            cage::repairCage(character.cage, character.weights, character.morphs, cage::CageNames{{"cage"}, {}}, character.damages);
         !repaired) {
         return Error{repaired.error().code, name + ": " + repaired.error().message};
     }

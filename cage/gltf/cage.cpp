@@ -5,7 +5,6 @@
 #include "cage/gltf/weld.h"
 #include "cage/polygons.h"
 #include "cage/refusal.h"
-#include "cage/repair.h"
 #include "cage/triangle_pairs.h"
 #include "cage/triangulation.h"
 
@@ -21,18 +20,18 @@
 namespace supple::cage::gltf {
 namespace {
 
-/// What a part's edges are sewn along: its own polygons where it lists them, else its triangles.
-void addSewingFaces(const MeshPart& part, Polygons& faces) {
+/// What a primitive's edges are sewn along: its own polygons where it lists them, else its triangles.
+void addSewingFaces(const MeshPrimitive& primitive, Polygons& faces) {
     const auto add = [&](std::span<const uint32_t> vertices) {
         faces.vertices.insert(faces.vertices.end(), vertices.begin(), vertices.end());
         faces.close();
     };
-    const Polygons& own = part.faces.polygons;
+    const Polygons& own = primitive.faces.polygons;
     for (size_t f = 0; f < own.faceCount(); ++f) {
         add(std::span(own.vertices).subspan(own.starts[f], own.starts[f + 1] - own.starts[f]));
     }
-    for (size_t t = 0; own.faceCount() == 0 && t < part.triangles.size(); t += 3) {
-        add(std::span(part.triangles).subspan(t, 3));
+    for (size_t t = 0; own.faceCount() == 0 && t < primitive.triangles.size(); t += 3) {
+        add(std::span(primitive.triangles).subspan(t, 3));
     }
 }
 
@@ -46,12 +45,12 @@ constexpr double kCleanSquareness = 0.65;
 /// degrees.
 constexpr float kSameNormal = 5e-4f;
 
-bool hasPlainTriangles(const MeshPart& part) {
-    return part.faces.source == PolygonSource::triangles;
+bool hasPlainTriangles(const MeshPrimitive& primitive) {
+    return primitive.faces.source == PolygonSource::triangles;
 }
 
-PairedTriangles pairPart(const Mesh& mesh, const MeshPart& part, std::span<const uint32_t> welded, PairShape shape,
-                         std::vector<uint32_t>& spare) {
+PairedTriangles pairPrimitive(const Mesh& mesh, const MeshPrimitive& primitive, std::span<const uint32_t> welded,
+                              PairShape shape, std::vector<uint32_t>& spare) {
     const auto same = [](const auto& values, size_t width, size_t a, size_t b) {
         for (size_t k = 0; k < width && !values.empty(); ++k) {
             if (values[width * a + k] != values[width * b + k]) {
@@ -61,38 +60,38 @@ PairedTriangles pairPart(const Mesh& mesh, const MeshPart& part, std::span<const
         return true;
     };
     const auto sameNormal = [&](size_t a, size_t b) {
-        if (part.normals.empty() || shape != PairShape::clean) {
-            return part.normals.empty() || normalsAgree(part.normals[a], part.normals[b]);
+        if (primitive.normals.empty() || shape != PairShape::clean) {
+            return primitive.normals.empty() || normalsAgree(primitive.normals[a], primitive.normals[b]);
         }
-        return glm::length(part.normals[a] - part.normals[b]) <= kSameNormal;
+        return glm::length(primitive.normals[a] - primitive.normals[b]) <= kSameNormal;
     };
     const auto sameCorner = [&](uint32_t first, uint32_t second) {
-        const size_t a = first - part.firstVertex;
-        const size_t b = second - part.firstVertex;
-        return same(part.uvs, 2, a, b) && same(part.uvs1, 2, a, b) && same(part.colors, 4, a, b) &&
-               same(part.trimTiles, 1, a, b) && sameNormal(a, b);
+        const size_t a = first - primitive.firstVertex;
+        const size_t b = second - primitive.firstVertex;
+        return same(primitive.uvs, 2, a, b) && same(primitive.uvs1, 2, a, b) && same(primitive.colors, 4, a, b) &&
+               same(primitive.trimTiles, 1, a, b) && sameNormal(a, b);
     };
-    return pairTriangles(part.triangles, welded, mesh.positions, sameCorner, shape, spare);
+    return pairTriangles(primitive.triangles, welded, mesh.positions, sameCorner, shape, spare);
 }
 
-/// The paired triangles of each part that has nothing else; empty if they are not to be paired.
+/// The paired triangles of each primitive that has nothing else; empty if they are not to be paired.
 std::vector<PairedTriangles> pairMesh(const Mesh& mesh, std::span<const uint32_t> welded, Pairing pairing) {
-    if (pairing == Pairing::never || std::none_of(mesh.parts.begin(), mesh.parts.end(), hasPlainTriangles)) {
+    if (pairing == Pairing::never || std::none_of(mesh.primitives.begin(), mesh.primitives.end(), hasPlainTriangles)) {
         return {};
     }
     std::vector<uint32_t> all;
-    for (const MeshPart& part : mesh.parts) {
-        all.insert(all.end(), part.triangles.begin(), part.triangles.end());
+    for (const MeshPrimitive& primitive : mesh.primitives) {
+        all.insert(all.end(), primitive.triangles.begin(), primitive.triangles.end());
     }
     std::vector<uint32_t> spare = spareEdges(all, welded);
-    std::vector<PairedTriangles> paired(mesh.parts.size());
+    std::vector<PairedTriangles> paired(mesh.primitives.size());
     size_t triangles = 0;
     size_t quads = 0;
     double squareness = 0.0;
-    for (size_t p = 0; p < mesh.parts.size(); ++p) {
-        if (hasPlainTriangles(mesh.parts[p])) {
+    for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+        if (hasPlainTriangles(mesh.primitives[p])) {
             const PairShape shape = pairing == Pairing::always ? PairShape::unfolded : PairShape::clean;
-            paired[p] = pairPart(mesh, mesh.parts[p], welded, shape, spare);
+            paired[p] = pairPrimitive(mesh, mesh.primitives[p], welded, shape, spare);
             triangles += paired[p].polygons.faceCount() + paired[p].quads;
             quads += paired[p].quads;
             squareness += paired[p].squareness;
@@ -107,114 +106,116 @@ std::vector<PairedTriangles> pairMesh(const Mesh& mesh, std::span<const uint32_t
     return paired;
 }
 
-Polygons recoverPolygons(const MeshPart& part, std::span<const uint32_t> welded) {
-    switch (part.faces.source) {
+Polygons recoverPolygons(const MeshPrimitive& primitive, std::span<const uint32_t> welded) {
+    switch (primitive.faces.source) {
     case PolygonSource::cageExtension:
     case PolygonSource::meshPolygon:
-        return part.faces.polygons;
+        return primitive.faces.polygons;
     case PolygonSource::ngonEncoding:
-        return decodeNgons(part.triangles, welded);
+        return decodeNgons(primitive.triangles, welded);
     case PolygonSource::hiddenEdges:
-        return mergeAcrossHiddenEdges(part.triangles, welded, part.faces.hidden);
+        return mergeAcrossHiddenEdges(primitive.triangles, welded, primitive.faces.hidden);
     default:
-        return keepTriangles(part.triangles, welded);
+        return keepTriangles(primitive.triangles, welded);
     }
 }
 
-/// The polygons of all parts, and the part each is of.
+/// The polygons of all primitives, and the primitive each is of.
 struct Faces {
     Polygons polygons;
-    std::vector<size_t> parts;
+    std::vector<size_t> primitives;
     std::vector<uint32_t> holes;
-    PolygonSource source = PolygonSource::triangles; ///< one part with polygons of its own names the source of all
+    PolygonSource source = PolygonSource::triangles; ///< one primitive with polygons of its own names the source of all
 };
 
 Faces recoverFaces(const Mesh& mesh, const Welding& welding, Pairing pairing, Warnings& warnings,
                    std::vector<Damage>& damages) {
     std::vector<PairedTriangles> paired = pairMesh(mesh, welding.roots, pairing);
     Faces faces;
-    for (size_t p = 0; p < mesh.parts.size(); ++p) {
-        const MeshPart& part = mesh.parts[p];
-        const bool isPaired = !paired.empty() && hasPlainTriangles(part);
-        const Polygons own = isPaired ? std::move(paired[p].polygons) : recoverPolygons(part, welding.roots);
-        faces.source = std::min(faces.source, isPaired ? PolygonSource::pairedTriangles : part.faces.source);
+    for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+        const MeshPrimitive& primitive = mesh.primitives[p];
+        const bool isPaired = !paired.empty() && hasPlainTriangles(primitive);
+        const Polygons own = isPaired ? std::move(paired[p].polygons) : recoverPolygons(primitive, welding.roots);
+        faces.source = std::min(faces.source, isPaired ? PolygonSource::pairedTriangles : primitive.faces.source);
         if (own.degenerateTriangles > 0) {
-            damages.push_back({part.element + ": " + counted(own.degenerateTriangles, "triangle", "triangles") +
+            damages.push_back({primitive.element + ": " + counted(own.degenerateTriangles, "triangle", "triangles") +
                                    " with a repeated vertex",
                                "left out"});
         }
         if (own.recutRuns > 0) {
-            warn(warnings, part.element,
+            warn(warnings, primitive.element,
                  "FB_ngon_encoding: " + counted(own.recutRuns, "polygon closes", "polygons close") +
                      " on itself; cut into quads and triangles again");
         }
         if (own.brokenRegions > 0) {
-            warn(warnings, part.element,
+            warn(warnings, primitive.element,
                  "EXT_mesh_primitive_edge_visibility: " +
                      counted(own.brokenRegions, "region of hidden edges is", "regions of hidden edges are") +
                      " no simple polygon; left in triangles");
         }
-        for (const uint32_t hole : part.faces.holes) {
-            faces.holes.push_back(static_cast<uint32_t>(faces.parts.size()) + hole);
+        for (const uint32_t hole : primitive.faces.holes) {
+            faces.holes.push_back(static_cast<uint32_t>(faces.primitives.size()) + hole);
         }
         for (size_t f = 0; f < own.faceCount(); ++f) {
             faces.polygons.vertices.insert(faces.polygons.vertices.end(), own.vertices.begin() + own.starts[f],
                                            own.vertices.begin() + own.starts[f + 1]);
             faces.polygons.close();
             faces.polygons.ears.push_back(own.ears.empty() ? uint8_t{0} : own.ears[f]);
-            faces.parts.push_back(p);
+            faces.primitives.push_back(p);
         }
     }
     return faces;
 }
 
-/// UVs and colours; parts without them count as 0 and white where others have them.
+/// UVs and colours; primitives without them count as 0 and white where others have them.
 void fillCorners(const Mesh& mesh, const Faces& faces, Cage& cage) {
     const auto any = [&](auto member) {
-        return std::any_of(mesh.parts.begin(), mesh.parts.end(),
-                           [&](const MeshPart& part) { return !(part.*member).empty(); });
+        return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                           [&](const MeshPrimitive& primitive) { return !(primitive.*member).empty(); });
     };
-    if (any(&MeshPart::uvs)) {
+    if (any(&MeshPrimitive::uvs)) {
         cage.cornerUvs.assign(faces.polygons.vertices.size(), glm::vec2(0.0f));
     }
-    if (any(&MeshPart::uvs1)) {
+    if (any(&MeshPrimitive::uvs1)) {
         cage.cornerUvs1.assign(faces.polygons.vertices.size(), glm::vec2(0.0f));
     }
-    if (any(&MeshPart::colors)) {
+    if (any(&MeshPrimitive::colors)) {
         cage.cornerColors.assign(faces.polygons.vertices.size(), glm::vec4(1.0f));
     }
-    for (size_t f = 0; f < faces.parts.size(); ++f) {
-        const MeshPart& part = mesh.parts[faces.parts[f]];
+    for (size_t f = 0; f < faces.primitives.size(); ++f) {
+        const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
         for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1]; ++c) {
-            const size_t v = faces.polygons.vertices[c] - part.firstVertex;
-            if (!part.uvs.empty()) {
-                cage.cornerUvs[c] = {part.uvs[2 * v], part.uvs[2 * v + 1]};
+            const size_t v = faces.polygons.vertices[c] - primitive.firstVertex;
+            if (!primitive.uvs.empty()) {
+                cage.cornerUvs[c] = {primitive.uvs[2 * v], primitive.uvs[2 * v + 1]};
             }
-            if (!part.uvs1.empty()) {
-                cage.cornerUvs1[c] = {part.uvs1[2 * v], part.uvs1[2 * v + 1]};
+            if (!primitive.uvs1.empty()) {
+                cage.cornerUvs1[c] = {primitive.uvs1[2 * v], primitive.uvs1[2 * v + 1]};
             }
-            if (!part.colors.empty()) {
-                cage.cornerColors[c] = {part.colors[4 * v], part.colors[4 * v + 1], part.colors[4 * v + 2],
-                                        part.colors[4 * v + 3]};
+            if (!primitive.colors.empty()) {
+                cage.cornerColors[c] = {primitive.colors[4 * v], primitive.colors[4 * v + 1],
+                                        primitive.colors[4 * v + 2], primitive.colors[4 * v + 3]};
             }
         }
     }
 }
 
-/// A part without normals has none of its own, and is flat as glTF says, unless it lists polygons and no part has
-/// normals: then what smooths a cage smooths it.
+/// A primitive without normals has none of its own, and is flat as glTF says, unless it lists polygons and no primitive
+/// has normals: then what smooths a cage smooths it.
 void fillNormals(const Mesh& mesh, const Faces& faces, Cage& cage) {
-    const bool polygonsAlone = std::all_of(mesh.parts.begin(), mesh.parts.end(), [](const MeshPart& part) {
-        return part.normals.empty() && part.faces.polygons.faceCount() > 0;
-    });
+    const bool polygonsAlone =
+        std::all_of(mesh.primitives.begin(), mesh.primitives.end(), [](const MeshPrimitive& primitive) {
+            return primitive.normals.empty() && primitive.faces.polygons.faceCount() > 0;
+        });
     if (polygonsAlone) {
         return;
     }
     cage.cornerNormals.assign(faces.polygons.vertices.size(), glm::vec3(0.0f));
-    for (size_t f = 0; f < faces.parts.size(); ++f) {
-        const MeshPart& part = mesh.parts[faces.parts[f]];
-        for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1] && !part.normals.empty(); ++c) {
-            cage.cornerNormals[c] = part.normals[faces.polygons.vertices[c] - part.firstVertex];
+    for (size_t f = 0; f < faces.primitives.size(); ++f) {
+        const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
+        for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1] && !primitive.normals.empty();
+             ++c) {
+            cage.cornerNormals[c] = primitive.normals[faces.polygons.vertices[c] - primitive.firstVertex];
         }
     }
 }
@@ -228,10 +229,10 @@ void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding,
     std::vector<uint32_t> triangles;
     std::vector<glm::vec3> corners;
     std::optional<FileTriangles> known;
-    for (size_t f = 0; f < faces.parts.size(); ++f) {
-        const MeshPart& part = mesh.parts[faces.parts[f]];
-        if (f == 0 || faces.parts[f] != faces.parts[f - 1]) {
-            known.emplace(part.triangles, welding.roots);
+    for (size_t f = 0; f < faces.primitives.size(); ++f) {
+        const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
+        if (f == 0 || faces.primitives[f] != faces.primitives[f - 1]) {
+            known.emplace(primitive.triangles, welding.roots);
         }
         const uint32_t start = faces.polygons.starts[f];
         const auto polygon = std::span(faces.polygons.vertices).subspan(start, faces.polygons.starts[f + 1] - start);
@@ -245,7 +246,8 @@ void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding,
             triangles.insert(triangles.end(), {ear - 1, next, opposite, ear - 1, ear, next});
         }
         const bool fits = triangles.size() == first && polygon.size() > 3 && known->cut(polygon, triangles);
-        if (fits && part.faces.polygons.faceCount() > 0 && foldsOver(corners, std::span(triangles).subspan(first))) {
+        if (fits && primitive.faces.polygons.faceCount() > 0 &&
+            foldsOver(corners, std::span(triangles).subspan(first))) {
             triangles.resize(first);
         }
         if (triangles.size() == first) {
@@ -260,24 +262,25 @@ void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding,
 
 /// A face's corners name one tile.
 void fillTrimTiles(const Mesh& mesh, const Faces& faces, Cage& cage) {
-    if (std::all_of(mesh.parts.begin(), mesh.parts.end(), [](const MeshPart& p) { return p.trimTiles.empty(); })) {
+    if (std::all_of(mesh.primitives.begin(), mesh.primitives.end(),
+                    [](const MeshPrimitive& p) { return p.trimTiles.empty(); })) {
         return;
     }
-    cage.faceTrimTiles.assign(faces.parts.size(), kNone);
-    for (size_t f = 0; f < faces.parts.size(); ++f) {
-        const MeshPart& part = mesh.parts[faces.parts[f]];
-        if (part.trimTiles.empty()) {
+    cage.faceTrimTiles.assign(faces.primitives.size(), kNone);
+    for (size_t f = 0; f < faces.primitives.size(); ++f) {
+        const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
+        if (primitive.trimTiles.empty()) {
             continue;
         }
         const auto tileAt = [&](uint32_t corner) {
-            return part.trimTiles[faces.polygons.vertices[corner] - part.firstVertex];
+            return primitive.trimTiles[faces.polygons.vertices[corner] - primitive.firstVertex];
         };
         const uint32_t first = faces.polygons.starts[f];
         for (uint32_t c = first + 1; c < faces.polygons.starts[f + 1]; ++c) {
             if (tileAt(c) != tileAt(first)) {
                 const auto name = [](uint32_t tile) { return tile == kNone ? "-1" : std::to_string(tile); };
-                refuse(part.element + " _TRIM_TILE", "the vertices of face " + std::to_string(f) + " name tiles " +
-                                                         name(tileAt(first)) + " and " + name(tileAt(c)));
+                refuse(primitive.element + " _TRIM_TILE", "the vertices of face " + std::to_string(f) + " name tiles " +
+                                                              name(tileAt(first)) + " and " + name(tileAt(c)));
             }
         }
         cage.faceTrimTiles[f] = tileAt(first);
@@ -317,9 +320,10 @@ std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Weldi
     for (const uint32_t v : faces.polygons.vertices) {
         cage.faceVertices.push_back(ofRoot[welding.roots[v]]);
     }
-    for (const size_t part : faces.parts) {
-        cage.faceMaterials.push_back(mesh.parts[part].material < 0 ? kNone
-                                                                   : static_cast<uint32_t>(mesh.parts[part].material));
+    for (const size_t primitive : faces.primitives) {
+        cage.faceMaterials.push_back(mesh.primitives[primitive].material < 0
+                                         ? kNone
+                                         : static_cast<uint32_t>(mesh.primitives[primitive].material));
     }
     cage.holes = faces.holes;
     fillCorners(mesh, faces, cage);
@@ -351,8 +355,8 @@ std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Weldi
 void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& options, PartCage& out,
                Warnings& warnings) {
     Polygons sewn;
-    for (const MeshPart& part : mesh.parts) {
-        addSewingFaces(part, sewn);
+    for (const MeshPrimitive& primitive : mesh.primitives) {
+        addSewingFaces(primitive, sewn);
     }
     std::vector<uint8_t> used(mesh.positions.size(), 0);
     for (const uint32_t v : sewn.vertices) {
@@ -383,9 +387,6 @@ void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& op
     out.part.weldSource = welded.source;
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
     readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, warnings);
-    if (const Status repaired = repairCage(out.cage, out.weights, out.morphs, mesh.element, out.damages); !repaired) {
-        throw Refusal{repaired.error().code, repaired.error().message};
-    }
 }
 
 } // namespace supple::cage::gltf

@@ -78,12 +78,12 @@ public:
         }
     }
 
-    void readCreases(const MeshPart& part) {
-        const SharpList list = readCreaseList(document_, *part.extension);
+    void readCreases(const MeshPrimitive& primitive) {
+        const SharpList list = readCreaseList(document_, *primitive.extension);
         EntryFaults faults(list.element);
         for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
-            const uint32_t a = vertexOf(part, list, 2 * i);
-            const uint32_t b = vertexOf(part, list, 2 * i + 1);
+            const uint32_t a = vertexOf(primitive, list, 2 * i);
+            const uint32_t b = vertexOf(primitive, list, 2 * i + 1);
             if (a == kNone || b == kNone) {
                 faults.add(2 * i, "a crease at a vertex without a face");
             } else if (a == b) {
@@ -95,11 +95,11 @@ public:
         faults.report(warnings_);
     }
 
-    void readCorners(const MeshPart& part) {
-        const SharpList list = readCornerList(document_, *part.extension);
+    void readCorners(const MeshPrimitive& primitive) {
+        const SharpList list = readCornerList(document_, *primitive.extension);
         EntryFaults faults(list.element);
         for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
-            const uint32_t vertex = vertexOf(part, list, i);
+            const uint32_t vertex = vertexOf(primitive, list, i);
             if (vertex == kNone) {
                 faults.add(i, "a vertex without a face");
             } else {
@@ -111,21 +111,21 @@ public:
 
 private:
     /// kNone for a vertex without a face.
-    uint32_t vertexOf(const MeshPart& part, const SharpList& list, size_t index) const {
+    uint32_t vertexOf(const MeshPrimitive& primitive, const SharpList& list, size_t index) const {
         const uint32_t number = list.vertices[index];
-        if (part.extension->cageVertices >= 0) {
+        if (primitive.extension->cageVertices >= 0) {
             const auto found = ofNumber_.find(number);
             if (found == ofNumber_.end()) {
                 refuse(item(list.element, index), "the mesh has no cage vertex " + std::to_string(number));
             }
             return found->second;
         }
-        if (number >= part.vertexCount) {
+        if (number >= primitive.vertexCount) {
             refuse(item(list.element, index), "vertex " + std::to_string(number) +
                                                   " is out of range: the primitive has " +
-                                                  std::to_string(part.vertexCount));
+                                                  std::to_string(primitive.vertexCount));
         }
-        return cageVertices_[part.firstVertex + number];
+        return cageVertices_[primitive.firstVertex + number];
     }
 
     const Document& document_;
@@ -212,13 +212,13 @@ void readCreases(const Document& document, const Mesh& mesh, std::span<const uin
     bool creases = false;
     bool corners = false;
     ExtensionReader ofExtension(document, mesh, cageVertices, cage, warnings);
-    for (const MeshPart& part : mesh.parts) {
-        if (part.extension && part.extension->creaseIndices >= 0) {
-            ofExtension.readCreases(part);
+    for (const MeshPrimitive& primitive : mesh.primitives) {
+        if (primitive.extension && primitive.extension->creaseIndices >= 0) {
+            ofExtension.readCreases(primitive);
             creases = true;
         }
-        if (part.extension && part.extension->cornerIndices >= 0) {
-            ofExtension.readCorners(part);
+        if (primitive.extension && primitive.extension->cornerIndices >= 0) {
+            ofExtension.readCorners(primitive);
             corners = true;
         }
     }

@@ -2,6 +2,7 @@
 
 #include "cage/gltf/accessors.h"
 #include "cage/gltf/normals.h"
+#include "cage/gltf/triangles.h"
 #include "cage/gltf/trim.h"
 #include "cage/refusal.h"
 
@@ -37,32 +38,30 @@ public:
         skinned_ = model_.nodes[meshNode].skin >= 0;
         std::vector<size_t> numbers;
         for (size_t k = 0; k < mesh.primitives.size(); ++k) {
-            const Primitive& primitive = mesh.primitives[k];
+            const Primitive& from = mesh.primitives[k];
             const std::string element = out_.element + " " + at("primitive", k);
-            if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
-                MeshPart& part = out_.parts.emplace_back();
-                part.element = element;
-                part.extension = findCageExtension(document_, primitiveJson(k), element, warnings_);
+            if (hasTriangles(from.mode)) {
+                MeshPrimitive& primitive = out_.primitives.emplace_back();
+                primitive.element = element;
+                primitive.extension = findCageExtension(document_, primitiveJson(k), element, warnings_);
                 numbers.push_back(k);
-            } else {
-                static constexpr const char* kModes[] = {"POINTS", "LINES",          "LINE_LOOP",   "LINE_STRIP",
-                                                         "",       "TRIANGLE_STRIP", "TRIANGLE_FAN"};
-                const bool polygons = primitive.extensions.count("EXT_mesh_polygon") != 0;
-                const std::string reason =
-                    std::string(kModes[primitive.mode]) + " instead of TRIANGLES" +
-                    (polygons ? ", with EXT_mesh_polygon in a form of the draft that is not understood" : "");
-                if (polygons && isRequired(document_, "EXT_mesh_polygon")) {
-                    refuse(element, reason);
-                }
-                warn(warnings_, element, reason + "; left out");
+                continue;
             }
+            const bool polygons = from.extensions.count("EXT_mesh_polygon") != 0;
+            const std::string reason =
+                std::string(modeName(from.mode)) + " instead of TRIANGLES" +
+                (polygons ? ", with EXT_mesh_polygon in a form of the draft that is not understood" : "");
+            if (polygons && isRequired(document_, "EXT_mesh_polygon")) {
+                refuse(element, reason);
+            }
+            warn(warnings_, element, reason + "; left out");
         }
-        if (out_.parts.empty()) {
+        if (out_.primitives.empty()) {
             return std::nullopt;
         }
         findCageNumbers(mesh, numbers);
         for (size_t i = 0; i < numbers.size(); ++i) {
-            readPrimitive(mesh.primitives[numbers[i]], primitiveJson(numbers[i]), out_.parts[i]);
+            readPrimitive(mesh.primitives[numbers[i]], primitiveJson(numbers[i]), out_.primitives[i]);
         }
         out_.weights.report(out_.element, warnings_);
         return std::move(out_);
@@ -79,20 +78,20 @@ private:
         const auto find = [&](WeldSource source, auto accessorOf) {
             cageNumbers_.clear();
             out_.numberSource = source;
-            for (size_t i = 0; i < out_.parts.size(); ++i) {
+            for (size_t i = 0; i < out_.primitives.size(); ++i) {
                 cageNumbers_.push_back(accessorOf(i));
             }
             return static_cast<size_t>(std::count(cageNumbers_.begin(), cageNumbers_.end(), -1));
         };
         size_t missing = find(WeldSource::cageExtension, [&](size_t i) {
-            return out_.parts[i].extension ? out_.parts[i].extension->cageVertices : -1;
+            return out_.primitives[i].extension ? out_.primitives[i].extension->cageVertices : -1;
         });
         if (missing == 0) {
             return;
         }
-        if (missing < out_.parts.size()) {
+        if (missing < out_.primitives.size()) {
             const auto first = std::find(cageNumbers_.begin(), cageNumbers_.end(), -1) - cageNumbers_.begin();
-            refuse(out_.parts[static_cast<size_t>(first)].element,
+            refuse(out_.primitives[static_cast<size_t>(first)].element,
                    "no cageVertices of SUPPLE_mesh_cage, which other primitives of the mesh have");
         }
         missing = find(WeldSource::vertexAttribute, [&](size_t i) {
@@ -101,22 +100,22 @@ private:
             return found == attributes.end() ? -1 : found->second;
         });
         if (missing > 0) {
-            if (missing < out_.parts.size()) {
+            if (missing < out_.primitives.size()) {
                 warn(warnings_, out_.element, "_CAGE_VERTEX is not on all primitives; not used");
             }
-            cageNumbers_.assign(out_.parts.size(), -1);
+            cageNumbers_.assign(out_.primitives.size(), -1);
         }
     }
 
-    void readPrimitive(const Primitive& primitive, const json& primitiveJson, MeshPart& part) {
-        const std::string& element = part.element;
-        part.material = primitive.material;
+    void readPrimitive(const Primitive& from, const json& fromJson, MeshPrimitive& primitive) {
+        const std::string& element = primitive.element;
+        primitive.material = from.material;
 
-        const auto position = primitive.attributes.find("POSITION");
-        if (position == primitive.attributes.end()) {
+        const auto position = from.attributes.find("POSITION");
+        if (position == from.attributes.end()) {
             refuse(element, "no POSITION");
         }
-        if (primitive.extensions.count("KHR_draco_mesh_compression") != 0 &&
+        if (from.extensions.count("KHR_draco_mesh_compression") != 0 &&
             model_.accessors[static_cast<size_t>(position->second)].bufferView < 0) {
             refuse(element, "compressed with KHR_draco_mesh_compression; export the mesh uncompressed");
         }
@@ -124,13 +123,13 @@ private:
         // Primitives over the same accessors share their vertices.
         SkinSets sets;
         if (skinned_) {
-            sets = findSkinSets(primitive, element);
+            sets = findSkinSets(from, element);
         }
-        const std::vector<int> targets = findMorphTargets(primitive);
-        const int cageNumbers = cageNumbers_[static_cast<size_t>(&part - out_.parts.data())];
+        const std::vector<int> targets = findMorphTargets(from);
+        const int cageNumbers = cageNumbers_[static_cast<size_t>(&primitive - out_.primitives.data())];
         const Stream stream{position->second, cageNumbers, sets.joints, sets.weights, targets};
         const auto [known, isNew] = streams_.try_emplace(stream, static_cast<uint32_t>(out_.positions.size()));
-        part.firstVertex = known->second;
+        primitive.firstVertex = known->second;
         const size_t count = accessorCount(document_, position->second);
         if (isNew) {
             readVertices(position->second, sets, count, element);
@@ -139,23 +138,23 @@ private:
                 readCageNumbers(cageNumbers, count, element);
             }
         }
-        part.positionAccessor = position->second;
-        part.vertexCount = static_cast<uint32_t>(count);
+        primitive.positionAccessor = position->second;
+        primitive.vertexCount = static_cast<uint32_t>(count);
 
-        readIndices(primitive, element, part);
-        part.faces = readPolygons(document_, primitiveJson, part.extension, part.triangles, part.vertexCount, element,
-                                  warnings_);
-        for (std::vector<uint32_t>* vertices : {&part.triangles, &part.faces.polygons.vertices}) {
+        primitive.triangles = readTriangles(document_, from, primitive.vertexCount, element);
+        primitive.faces = readPolygons(document_, fromJson, from.mode, primitive.extension, primitive.triangles,
+                                       primitive.vertexCount, element, warnings_);
+        for (std::vector<uint32_t>* vertices : {&primitive.triangles, &primitive.faces.polygons.vertices}) {
             for (uint32_t& vertex : *vertices) {
-                vertex += part.firstVertex;
+                vertex += primitive.firstVertex;
             }
         }
-        cornerCount_ += part.triangles.size() + part.faces.polygons.vertices.size();
+        cornerCount_ += primitive.triangles.size() + primitive.faces.polygons.vertices.size();
         if (cornerCount_ > kMaxCorners) {
             refuse(element, "more than " + std::to_string(kMaxCorners) + " corners", ErrorCode::limit);
         }
-        readCornerAttributes(primitive, element, part);
-        readTrimTiles(document_, primitive, materials_, part);
+        readCornerAttributes(from, element, primitive);
+        readTrimTiles(document_, from, materials_, primitive);
     }
 
     /// Blender's exporter has no integer attributes: its numbers are floats.
@@ -201,34 +200,6 @@ private:
         }
     }
 
-    void readIndices(const Primitive& primitive, const std::string& element, MeshPart& part) {
-        if (primitive.indices < 0) {
-            if (part.vertexCount % 3 != 0) {
-                refuse(element,
-                       counted(part.vertexCount, "vertex", "vertices") + " without indices, not a multiple of 3");
-            }
-            part.triangles.resize(part.vertexCount);
-            std::iota(part.triangles.begin(), part.triangles.end(), 0u);
-        } else {
-            const std::string name = element + " indices";
-            part.triangles = readIntegers(document_, primitive.indices, TINYGLTF_TYPE_SCALAR, kU8 | kU16 | kU32, name);
-            if (part.triangles.size() % 3 != 0) {
-                refuse(name, std::to_string(part.triangles.size()) + ", not a multiple of 3");
-            }
-            const uint32_t restart = restartIndex(document_, primitive.indices);
-            for (size_t i = 0; i < part.triangles.size(); ++i) {
-                const uint32_t index = part.triangles[i];
-                if (index == restart) {
-                    refuse(item(name, i), std::to_string(index) + " is the restart value, which glTF 2.0 forbids");
-                }
-                if (index >= part.vertexCount) {
-                    refuse(item(name, i), std::to_string(index) + " is out of range: the primitive has " +
-                                              counted(part.vertexCount, "vertex", "vertices"));
-                }
-            }
-        }
-    }
-
     void countAttributeFloats(size_t count, const std::string& name) {
         attributeFloats_ += count;
         if (attributeFloats_ > kMaxAttributeFloats) {
@@ -240,16 +211,16 @@ private:
 
     /// Reads TEXCOORD_0, TEXCOORD_1, NORMAL and COLOR_0. What is not finite becomes 0: it spoils a texture, not the
     /// shape.
-    void readCornerAttributes(const Primitive& primitive, const std::string& element, MeshPart& part) {
+    void readCornerAttributes(const Primitive& from, const std::string& element, MeshPrimitive& primitive) {
         const auto read = [&](const char* attribute, int type, uint32_t allowed) {
             std::vector<float> values;
-            const auto found = primitive.attributes.find(attribute);
-            if (found == primitive.attributes.end()) {
+            const auto found = from.attributes.find(attribute);
+            if (found == from.attributes.end()) {
                 return values;
             }
             const std::string name = element + " " + attribute;
             values = readFloats(document_, found->second, type, allowed, name);
-            checkVertexCount(document_, found->second, part.vertexCount, name);
+            checkVertexCount(document_, found->second, primitive.vertexCount, name);
             countAttributeFloats(values.size(), name);
             size_t repaired = 0;
             for (float& value : values) {
@@ -264,25 +235,25 @@ private:
             return values;
         };
         constexpr uint32_t kCore = kFloat | kNormalizedU8 | kNormalizedU16;
-        part.uvs = read("TEXCOORD_0", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
-        part.uvs1 = read("TEXCOORD_1", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
-        part.normals = readNormals(document_, primitive, part.vertexCount, element, warnings_);
-        countAttributeFloats(3 * part.normals.size(), element + " NORMAL");
-        if (primitive.attributes.count("TEXCOORD_2") != 0) {
+        primitive.uvs = read("TEXCOORD_0", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
+        primitive.uvs1 = read("TEXCOORD_1", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
+        primitive.normals = readNormals(document_, from, primitive.vertexCount, element, warnings_);
+        countAttributeFloats(3 * primitive.normals.size(), element + " NORMAL");
+        if (from.attributes.count("TEXCOORD_2") != 0) {
             warn(warnings_, element, "only TEXCOORD_0 and TEXCOORD_1 are read");
         }
-        const auto color = primitive.attributes.find("COLOR_0");
-        if (color == primitive.attributes.end()) {
+        const auto color = from.attributes.find("COLOR_0");
+        if (color == from.attributes.end()) {
             return;
         }
         if (model_.accessors[static_cast<size_t>(color->second)].type != TINYGLTF_TYPE_VEC3) {
-            part.colors = read("COLOR_0", TINYGLTF_TYPE_VEC4, kCore);
+            primitive.colors = read("COLOR_0", TINYGLTF_TYPE_VEC4, kCore);
             return;
         }
         const auto rgb = read("COLOR_0", TINYGLTF_TYPE_VEC3, kCore);
-        part.colors.resize(rgb.size() / 3 * 4, 1.0f);
+        primitive.colors.resize(rgb.size() / 3 * 4, 1.0f);
         for (size_t i = 0; i < rgb.size(); ++i) {
-            part.colors[i / 3 * 4 + i % 3] = rgb[i];
+            primitive.colors[i / 3 * 4 + i % 3] = rgb[i];
         }
     }
 
@@ -295,7 +266,7 @@ private:
 
     Mesh out_;
     bool skinned_ = false;
-    std::vector<int> cageNumbers_;       ///< per part: the accessor that numbers its cage vertices, or -1
+    std::vector<int> cageNumbers_;       ///< per primitive: the accessor that numbers its cage vertices, or -1
     std::map<Stream, uint32_t> streams_; ///< -> first vertex
     uint64_t cornerCount_ = 0;
     uint64_t attributeFloats_ = 0;
@@ -312,9 +283,6 @@ std::string nameOfNoTriangles(const supple_tinygltf::Mesh& mesh) {
     const bool lines = any(TINYGLTF_MODE_LINE, TINYGLTF_MODE_LINE_STRIP);
     if (mesh.primitives.empty()) {
         return "empty: no primitives, so there is no surface";
-    }
-    if (any(TINYGLTF_MODE_TRIANGLE_STRIP, TINYGLTF_MODE_TRIANGLE_FAN)) {
-        return "no primitive of TRIANGLES";
     }
     return std::string("nothing but ") +
            (points && lines ? "points and lines"

@@ -17,8 +17,8 @@
 
 namespace supple::cage::gltf {
 
-/// One primitive's share of a mesh.
-struct MeshPart {
+/// What is read of one primitive.
+struct MeshPrimitive {
     std::string element;
     int material = -1;
     int positionAccessor = -1;
@@ -26,7 +26,7 @@ struct MeshPart {
     PolygonData faces;        ///< vertices counted as in `triangles`
     uint32_t firstVertex = 0; ///< of its POSITION elements among all vertices read
     uint32_t vertexCount = 0;
-    std::vector<uint32_t> triangles; ///< three vertices each, counted over all parts
+    std::vector<uint32_t> triangles; ///< three vertices each, counted over all primitives
     std::vector<float> uvs;          ///< two per POSITION element, or empty
     std::vector<float> uvs1;         ///< two per POSITION element, or empty
     std::vector<float> colors;       ///< four per POSITION element, or empty
@@ -43,15 +43,15 @@ struct Mesh {
     VertexMorphs morphs;
     std::vector<uint32_t> cageNumbers; ///< per vertex, where the file numbers cage vertices; else empty
     WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers
-    std::vector<MeshPart> parts;                         ///< at least one
+    std::vector<MeshPrimitive> primitives;               ///< at least one
 };
 
-/// Primitives that are not triangles are left out with a warning; nothing comes back if no others are there. Throws
+/// Primitives of points and lines are left out with a warning; nothing comes back if no others are there. Throws
 /// Refusal.
 [[nodiscard]] std::optional<Mesh> readMesh(const Document& document, uint32_t meshNode, size_t jointCount,
                                            std::span<const Material> materials, Warnings& warnings);
 
-/// What a mesh without TRIANGLES is.
+/// What a mesh without triangles is.
 [[nodiscard]] std::string nameOfNoTriangles(const supple_tinygltf::Mesh& mesh);
 
 } // namespace supple::cage::gltf

@@ -1,6 +1,7 @@
 #include "cage/gltf/polygons.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/triangles.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -214,11 +215,29 @@ std::vector<uint8_t> readHiddenEdges(const Document& document, const json& objec
     return hidden;
 }
 
+/// The extensions that say something of each triangle count those of TRIANGLES.
+bool sayNothingOfRuns(const Document& document, const json& primitive, int mode, const std::string& element,
+                      Warnings& warnings) {
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+        return false;
+    }
+    for (const char* name : {"EXT_mesh_polygon", "FB_ngon_encoding", "EXT_mesh_primitive_edge_visibility"}) {
+        if (hasExtension(primitive, name)) {
+            const std::string reason = std::string(modeName(mode)) + " instead of TRIANGLES";
+            if (isRequired(document, name)) {
+                refuse(element + " " + name, reason);
+            }
+            warn(warnings, element + " " + name, reason + "; not used");
+        }
+    }
+    return true;
+}
+
 } // namespace
 
-PolygonData readPolygons(const Document& document, const json& primitive, const std::optional<CageExtension>& extension,
-                         std::span<const uint32_t> triangles, size_t vertexCount, const std::string& element,
-                         Warnings& warnings) {
+PolygonData readPolygons(const Document& document, const json& primitive, int mode,
+                         const std::optional<CageExtension>& extension, std::span<const uint32_t> triangles,
+                         size_t vertexCount, const std::string& element, Warnings& warnings) {
     PolygonData data;
     if (extension && extension->faceVertexCounts >= 0) {
         data.source = PolygonSource::cageExtension;
@@ -226,6 +245,9 @@ PolygonData readPolygons(const Document& document, const json& primitive, const 
         if (extension->holeIndices >= 0) {
             data.holes = readHoles(document, *extension, data.polygons.faceCount());
         }
+        return data;
+    }
+    if (sayNothingOfRuns(document, primitive, mode, element, warnings)) {
         return data;
     }
     const auto extensionObject = [&](const char* name) -> const json* {

@@ -73,6 +73,7 @@ PartCage readPart(const Document& document, uint32_t node, const Skin& skin, con
         part.whyEmpty = at("mesh", index) + ": " + nameOfNoTriangles(document.model.meshes[index]);
         return part;
     }
+    part.element = mesh->element;
     part.morphs = readMorphs(document, node, mesh->morphs.targetCount(), warnings);
     buildCage(document, *mesh, options, part, warnings);
     if (part.cage.faceCount() == 0) {
@@ -179,10 +180,16 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     for (const ClipFile& file : options.clipFiles) {
         takeClips(readClipSet(file), parts, character);
     }
-    joinParts(std::move(parts), character);
+    const CageNames names = joinParts(std::move(parts), character);
     if (options.sewParts) {
         sewParts(character);
     }
+    if (const Status repaired =
+            repairCage(character.cage, character.weights, character.morphs, names, character.damages);
+        !repaired) {
+        throw Refusal{repaired.error().code, repaired.error().message};
+    }
+    findFirstFaces(character);
     if (options.creasesFromNormals) {
         creaseSplitNormals(character.cage);
     }

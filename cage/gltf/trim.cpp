@@ -121,26 +121,27 @@ std::optional<Trim> readTrim(const Document& document, size_t material, Warnings
     return read;
 }
 
-void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& primitive,
-                   std::span<const Material> materials, MeshPart& part) {
-    if (part.material < 0 || !materials[static_cast<size_t>(part.material)].trim) {
+void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& from,
+                   std::span<const Material> materials, MeshPrimitive& primitive) {
+    if (primitive.material < 0 || !materials[static_cast<size_t>(primitive.material)].trim) {
         return;
     }
-    const auto material = static_cast<size_t>(part.material);
+    const auto material = static_cast<size_t>(primitive.material);
     const Trim& trim = *materials[material].trim;
     const std::string whose = "the trim of " + at("material", material);
     if (trim.domain == TrimDomain::uv) {
-        if ((trim.texture.uvSet == 0 ? part.uvs : part.uvs1).empty()) {
-            refuse(part.element, "no TEXCOORD_" + std::to_string(trim.texture.uvSet) + ", on which " + whose + " lies");
+        if ((trim.texture.uvSet == 0 ? primitive.uvs : primitive.uvs1).empty()) {
+            refuse(primitive.element,
+                   "no TEXCOORD_" + std::to_string(trim.texture.uvSet) + ", on which " + whose + " lies");
         }
         return;
     }
-    const auto attribute = primitive.attributes.find("_TRIM_TILE");
-    if (attribute == primitive.attributes.end()) {
-        refuse(part.element, "no _TRIM_TILE, which names the tiles of " + whose);
+    const auto attribute = from.attributes.find("_TRIM_TILE");
+    if (attribute == from.attributes.end()) {
+        refuse(primitive.element, "no _TRIM_TILE, which names the tiles of " + whose);
     }
-    const std::string name = part.element + " _TRIM_TILE";
-    checkVertexCount(document, attribute->second, part.vertexCount, name);
+    const std::string name = primitive.element + " _TRIM_TILE";
+    checkVertexCount(document, attribute->second, primitive.vertexCount, name);
     const std::vector<float> values =
         readFloats(document, attribute->second, TINYGLTF_TYPE_SCALAR, kFloat | kU8 | kU16 | kU32 | kS8 | kS16, name);
     for (size_t v = 0; v < values.size(); ++v) {
@@ -152,7 +153,7 @@ void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& p
             refuse(item(name, v), "tile " + std::to_string(static_cast<uint64_t>(values[v])) +
                                       " is out of range: " + whose + " has " + counted(trim.tiles, "tile", "tiles"));
         }
-        part.trimTiles.push_back(values[v] < 0.0f ? kNone : static_cast<uint32_t>(values[v]));
+        primitive.trimTiles.push_back(values[v] < 0.0f ? kNone : static_cast<uint32_t>(values[v]));
     }
 }
 

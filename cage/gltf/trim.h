@@ -15,8 +15,8 @@ namespace supple::cage::gltf {
 /// Nothing where the material has none. Throws Refusal: what is trimmed by a wrong trim is the shape itself.
 [[nodiscard]] std::optional<Trim> readTrim(const Document& document, size_t material, Warnings& warnings);
 
-/// Fills trimTiles of the part, and refuses one that lacks what its material's trim needs.
-void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& primitive,
-                   std::span<const Material> materials, MeshPart& part);
+/// Fills trimTiles of the primitive, and refuses one that lacks what its material's trim needs.
+void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& from,
+                   std::span<const Material> materials, MeshPrimitive& primitive);
 
 } // namespace supple::cage::gltf

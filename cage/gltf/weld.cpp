@@ -1,6 +1,7 @@
 #include "cage/gltf/weld.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/seams.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -154,9 +155,9 @@ Manifold checkManifold(const Document& document, const Mesh& mesh) {
     if (manifold.merges != (member(*object, "mergeValues") != nullptr)) {
         refuse(element, manifold.merges ? "mergeIndices without mergeValues" : "mergeValues without mergeIndices");
     }
-    for (const MeshPart& part : mesh.parts) {
-        if (part.positionAccessor != attributes->at("POSITION").get<int>()) {
-            refuse(place, "its POSITION is not that of " + part.element);
+    for (const MeshPrimitive& own : mesh.primitives) {
+        if (own.positionAccessor != attributes->at("POSITION").get<int>()) {
+            refuse(place, "its POSITION is not that of " + own.element);
         }
     }
     return manifold;
@@ -203,7 +204,7 @@ std::optional<VertexPairs> pairsOfManifold(const Document& document, const Mesh&
         return std::nullopt;
     }
     const Manifold manifold = checkManifold(document, mesh);
-    const uint32_t vertexCount = mesh.parts[0].vertexCount;
+    const uint32_t vertexCount = mesh.primitives[0].vertexCount;
     VertexPairs pairs;
     if (manifold.merges) {
         const auto indices = manifold.primitive->at("indices").get<size_t>();
@@ -215,16 +216,16 @@ std::optional<VertexPairs> pairsOfManifold(const Document& document, const Mesh&
         pairs = readMerges(document, manifold, vertexCount);
     }
     for (auto& [first, second] : pairs) {
-        first += mesh.parts[0].firstVertex;
-        second += mesh.parts[0].firstVertex;
+        first += mesh.primitives[0].firstVertex;
+        second += mesh.primitives[0].firstVertex;
     }
     // Primitives may have vertices of their own over the one POSITION accessor: other joints, other numbers.
-    for (const MeshPart& part : mesh.parts) {
-        if (part.firstVertex == mesh.parts[0].firstVertex) {
+    for (const MeshPrimitive& primitive : mesh.primitives) {
+        if (primitive.firstVertex == mesh.primitives[0].firstVertex) {
             continue;
         }
         for (uint32_t v = 0; v < vertexCount; ++v) {
-            pairs.emplace_back(mesh.parts[0].firstVertex + v, part.firstVertex + v);
+            pairs.emplace_back(mesh.primitives[0].firstVertex + v, primitive.firstVertex + v);
         }
     }
     return pairs;
@@ -258,6 +259,10 @@ Welding weldAsGiven(const Mesh& mesh, const VertexPairs& pairs, WeldSource sourc
     return weldPairs(mesh.positions.size(), pairs);
 }
 
+MayJoin exceptBackToBack(const Mesh& mesh, const Polygons& faces) {
+    return [&](uint32_t face, uint32_t other) { return !lieBackToBack(mesh.positions, faces, face, other); };
+}
+
 } // namespace
 
 MeshWelding weldMesh(const Document& document, const Mesh& mesh, const Polygons& faces, Warnings& warnings) {
@@ -268,7 +273,7 @@ MeshWelding weldMesh(const Document& document, const Mesh& mesh, const Polygons&
         return {weldAsGiven(mesh, *pairs, WeldSource::meshManifold, warnings), WeldSource::meshManifold};
     }
     MeshWelding found{{}, WeldSource::equality, {}, {}};
-    found.welding = weld(candidateSets(mesh, faces, found), faces);
+    found.welding = weld(candidateSets(mesh, faces, found), faces, exceptBackToBack(mesh, faces));
     return found;
 }
 
@@ -282,8 +287,9 @@ void joinSeams(const Mesh& mesh, const Polygons& faces, MeshWelding& welded, War
     for (uint32_t& vertex : cageFaces.vertices) {
         vertex = roots[vertex];
     }
-    Welding seams = weld(welded.places, cageFaces);
+    Welding seams = weld(welded.places, cageFaces, exceptBackToBack(mesh, cageFaces));
     unweldDefects(cageFaces, seams);
+    keepOpenings(mesh, cageFaces, welded, seams);
     for (uint32_t& root : roots) {
         root = seams.roots[root];
     }

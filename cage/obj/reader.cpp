@@ -595,7 +595,7 @@ Result<Character> readObj(std::span<const std::byte> bytes, const std::string& n
         character.name = name;
         ObjParser(character).parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
         if (const Status repaired =
-                repairCage(character.cage, character.weights, character.morphs, "file", character.damages);
+                repairCage(character.cage, character.weights, character.morphs, CageNames{{"file"}, {}}, character.damages);
             !repaired) {
             return failure(repaired.error().code, repaired.error().message);
         }

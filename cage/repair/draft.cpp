@@ -57,16 +57,4 @@ std::vector<uint32_t> matchSides(const Draft& draft) {
     return twins;
 }
 
-std::string faceName(const Draft& draft, uint32_t face) {
-    return "face " + std::to_string(draft.faces[face]);
-}
-
-std::string vertexName(const Draft& draft, uint32_t vertex) {
-    return "vertex " + std::to_string(draft.sources[vertex]);
-}
-
-std::string edgeName(const Draft& draft, uint32_t a, uint32_t b) {
-    return "edge (" + std::to_string(draft.sources[a]) + ", " + std::to_string(draft.sources[b]) + ")";
-}
-
 } // namespace supple::cage::repair

@@ -76,8 +76,4 @@ struct Side {
 /// each other.
 [[nodiscard]] std::vector<uint32_t> matchSides(const Draft& draft);
 
-[[nodiscard]] std::string faceName(const Draft& draft, uint32_t face);
-[[nodiscard]] std::string vertexName(const Draft& draft, uint32_t vertex);
-[[nodiscard]] std::string edgeName(const Draft& draft, uint32_t a, uint32_t b);
-
 } // namespace supple::cage::repair

@@ -69,7 +69,7 @@ std::vector<uint32_t> canonicalFaces(const Draft& draft) {
 
 } // namespace
 
-Draft simpleFaces(const Cage& cage, FaceDamage& damage) {
+Draft simpleFaces(const Cage& cage, const Places& places, FaceDamage& damage) {
     Draft draft;
     draft.sources.resize(cage.vertexCount());
     std::iota(draft.sources.begin(), draft.sources.end(), 0u);
@@ -77,17 +77,17 @@ Draft simpleFaces(const Cage& cage, FaceDamage& damage) {
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         const uint32_t before = draft.faceCount();
         const bool repeated = cutter.add(face);
-        const auto name = [&] { return "face " + std::to_string(face); };
+        const auto name = [&] { return places.face(face); };
         if (draft.faceCount() == before) {
-            damage.empty.add(name);
+            damage.empty.add(places, face, name);
         } else if (repeated) {
-            damage.repeating.add(name);
+            damage.repeating.add(places, face, name);
         }
     }
     return draft;
 }
 
-Draft withoutDuplicates(Draft draft, FaceDamage& damage) {
+Draft withoutDuplicates(Draft draft, const Places& places, FaceDamage& damage) {
     const std::vector<uint32_t> canonical = canonicalFaces(draft);
     const auto begin = [&](uint32_t f) { return canonical.begin() + draft.starts[f]; };
     const auto end = [&](uint32_t f) { return canonical.begin() + draft.starts[f + 1]; };
@@ -112,7 +112,9 @@ Draft withoutDuplicates(Draft draft, FaceDamage& damage) {
     Draft kept;
     for (uint32_t f = 0; f < draft.faceCount(); ++f) {
         if (firsts[f] != f) {
-            damage.duplicated.add([&] { return faceName(draft, f) + " is " + faceName(draft, firsts[f]) + " again"; });
+            damage.duplicated.add(places, draft.faces[f], [&] {
+                return places.face(draft.faces[f]) + " is " + places.face(draft.faces[firsts[f]]) + " again";
+            });
             continue;
         }
         for (uint32_t c = draft.starts[f]; c < draft.starts[f + 1]; ++c) {

@@ -122,7 +122,9 @@ private:
 
 } // namespace
 
-void separateFans(Draft& draft, std::vector<uint32_t>& twins, const std::vector<uint8_t>& atCut, FanDamage& damage) {
+void separateFans(Draft& draft, std::vector<uint32_t>& twins, const std::vector<uint8_t>& atCut, const Places& places,
+                  FanDamage& damage) {
+    const std::vector<uint32_t> faces = cornerFaces(draft);
     const VertexCorners of = vertexCorners(draft);
     const uint32_t vertexCount = draft.vertexCount();
     FanSeparator separator(draft, twins);
@@ -131,11 +133,15 @@ void separateFans(Draft& draft, std::vector<uint32_t>& twins, const std::vector<
         if (fans < 2) {
             continue;
         }
+        const uint32_t corner = of.corners[of.starts[v]];
+        const uint32_t face = draft.faces[faces[corner]];
         if (v < atCut.size() && atCut[v] != 0) {
-            damage.copiesAtCuts += fans - 1;
+            damage.copiesAtCuts[places.partOf(face)] += fans - 1;
         } else {
             draft.sharpVertices.push_back({draft.sources[v], kHardSharpness});
-            damage.bowTies.add([&] { return vertexName(draft, v) + " of " + std::to_string(fans) + " fans"; });
+            damage.bowTies.add(places, face, [&] {
+                return places.vertex(draft.corners[corner]) + " of " + std::to_string(fans) + " fans";
+            });
         }
     }
 }

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "cage/repair/draft.h"
+#include "cage/repair/found.h"
 
 namespace supple::cage::repair {
 
 struct FanDamage {
-    Found bowTies;           ///< vertices of several fans that no cut edge explains
-    size_t copiesAtCuts = 0; ///< vertices added at the ends of cut edges
+    Finds bowTies;                ///< vertices of several fans that no cut edge explains
+    PerPart<size_t> copiesAtCuts; ///< vertices added at the ends of cut edges
 };
 
 /// Gives every fan of faces a vertex of its own: the one with the lowest corner keeps the vertex, each other one gets a
@@ -16,6 +17,7 @@ struct FanDamage {
 /// so that two edges would have the same ends, it is cut into two fans: `twins` changes so that each of these closes.
 ///
 /// `twins` joins sides that run against each other. `atCut`: per vertex, see SheetDamage. O(corners).
-void separateFans(Draft& draft, std::vector<uint32_t>& twins, const std::vector<uint8_t>& atCut, FanDamage& damage);
+void separateFans(Draft& draft, std::vector<uint32_t>& twins, const std::vector<uint8_t>& atCut, const Places& places,
+                  FanDamage& damage);
 
 } // namespace supple::cage::repair

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -59,10 +60,10 @@ private:
 class FoldRound {
 public:
     FoldRound(const Cage& cage, const Sharpness& sharpness, Draft& draft, const std::vector<uint32_t>& twins,
-              FoldDamage& damage)
-        : cage_(cage), sharpness_(sharpness), draft_(draft), twins_(twins), damage_(damage), faces_(cornerFaces(draft)),
-          of_(vertexCorners(draft)), changed_(draft.faceCount(), 0), parts_(draft.faceCount()),
-          marks_(draft.vertexCount(), kNone) {}
+              const Places& places, FoldDamage& damage)
+        : cage_(cage), sharpness_(sharpness), draft_(draft), twins_(twins), places_(places), damage_(damage),
+          faces_(cornerFaces(draft)), of_(vertexCorners(draft)), changed_(draft.faceCount(), 0),
+          parts_(draft.faceCount()), marks_(draft.vertexCount(), kNone) {}
 
     /// Returns whether there was a fold. Those of the first round count as damage; the last one cuts all open.
     bool run(bool first, bool last) {
@@ -76,9 +77,9 @@ public:
             const uint32_t c = of_.corners[of_.starts[v]];
             const uint32_t d = of_.corners[of_.starts[v] + 1];
             if (first) {
-                damage_.folds.add([&] {
-                    return vertexName(draft_, v) + " between faces " + std::to_string(draft_.faces[faces_[c]]) +
-                           " and " + std::to_string(draft_.faces[faces_[d]]);
+                damage_.folds.add(places_, draft_.faces[faces_[c]], [&] {
+                    return places_.vertex(draft_.corners[c]) + " between faces " +
+                           places_.number(draft_.faces[faces_[c]]) + " and " + places_.number(draft_.faces[faces_[d]]);
                 });
             }
             if (last) {
@@ -93,6 +94,9 @@ public:
         }
         return any;
     }
+
+    /// Whether the round has cut faces apart.
+    [[nodiscard]] bool cutAny() const { return cutAny_; }
 
 private:
     /// What two faces have in common round a fold: from the corner `begin` of the first face on to its corner `end`,
@@ -152,15 +156,54 @@ private:
         const bool creased = !path.fixed && path.smoothest > 0.0f;
         if (path.closed) {
             parts_[path.face] = cornersOf(path.face); // the other face is its back
+            ++damage_.dissolved[partOf(path.face)];
+        } else if (bends(path) && canCutFace(c, d)) {
+            cutFace(c, d);
         } else if (smooth && staysSmall(path) && sameAttributes(path) && mergedIsSimple(path)) {
             merge(path);
         } else if ((smooth || creased) && canRunPast(path)) {
             runPast(path);
         } else if (smooth && sameAttributes(path) && mergedIsSimple(path)) {
             merge(path);
+        } else if (canCutFace(c, d)) {
+            cutFace(c, d);
         } else {
             cutOpen(d);
         }
+    }
+
+    [[nodiscard]] size_t partOf(uint32_t face) const { return places_.partOf(draft_.faces[face]); }
+    [[nodiscard]] const glm::vec3& position(uint32_t corner) const { return cage_.positions[source(corner)]; }
+
+    /// Whether what the faces have in common is far from straight.
+    [[nodiscard]] bool bends(const Path& path) const {
+        const glm::vec3 along = position(path.end) - position(path.begin);
+        const float length = glm::length(along);
+        for (uint32_t c = next(path.begin); c != path.end; c = next(c)) {
+            const glm::vec3 to = position(c) - position(path.begin);
+            const float place = length > 0.0f ? std::clamp(glm::dot(to, along) / (length * length), 0.0f, 1.0f) : 0.0f;
+            if (glm::length(to - place * along) > kMostBend * length) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    [[nodiscard]] bool canCutFace(uint32_t c, uint32_t d) const {
+        return std::max(draft_.sides(faces_[c]), draft_.sides(faces_[d])) >= 4;
+    }
+    /// Cuts a triangle off the face of more corners, by the shorter of the two edges from the fold that do so.
+    void cutFace(uint32_t c, uint32_t d) {
+        const uint32_t corner = draft_.sides(faces_[d]) > draft_.sides(faces_[c]) ? d : c;
+        const uint32_t face = faces_[corner];
+        const uint32_t ahead = next(next(corner)), behind = previous(previous(corner));
+        const bool isAhead =
+            glm::distance(position(ahead), position(corner)) <= glm::distance(position(behind), position(corner));
+        parts_[face] = isAhead ? stretch(corner, ahead) : stretch(behind, corner);
+        seconds_[face] = isAhead ? stretch(ahead, corner) : stretch(corner, behind);
+        const uint32_t other = faces_[corner == c ? d : c];
+        parts_[other] = cornersOf(other);
+        ++damage_.kept[partOf(face)];
     }
 
     /// Whether the two faces make at most a quad, and nothing becomes a fold.
@@ -182,7 +225,8 @@ private:
         const auto isHole = [&](uint32_t face) {
             return std::binary_search(cage_.holes.begin(), cage_.holes.end(), face);
         };
-        return same(cage_.faceMaterials) && same(cage_.faceTrimTiles) && isHole(f) == isHole(g);
+        return same(cage_.faceParts) && same(cage_.faceMaterials) && same(cage_.faceTrimTiles) &&
+               isHole(f) == isHole(g);
     }
 
     /// The corners of a face from one to another, both included.
@@ -207,6 +251,7 @@ private:
     }
 
     void merge(const Path& path) {
+        ++damage_.dissolved[partOf(path.face)];
         std::vector<uint32_t>& merged = parts_[path.face];
         merged = stretch(path.end, path.begin);
         const std::vector<uint32_t> others = stretch(path.otherBegin, path.otherEnd);
@@ -235,6 +280,7 @@ private:
     }
 
     void runPast(const Path& path) {
+        ++damage_.dissolved[partOf(path.face)];
         parts_[path.face] = stretch(path.end, path.begin);
         parts_[path.other] = stretch(path.otherBegin, path.otherEnd);
         if (path.sharpest > 0.0f) {
@@ -244,7 +290,8 @@ private:
 
     void cutOpen(uint32_t corner) {
         draft_.vertices[corner] = draft_.copyVertex(draft_.vertices[corner]);
-        ++damage_.cutOpen;
+        ++damage_.cutOpen[partOf(faces_[corner])];
+        cutAny_ = true;
         for (const uint32_t face : {faces_[corner], faces_[twins_[corner]]}) {
             changed_[face] = 1;
             if (parts_[face].empty()) {
@@ -265,6 +312,13 @@ private:
             if (!parts_[f].empty()) {
                 after.closeFace(draft_.faces[f]);
             }
+            const auto second = seconds_.find(f);
+            if (second != seconds_.end()) {
+                for (const uint32_t c : second->second) {
+                    after.addCorner(draft_.vertices[c], draft_.corners[c]);
+                }
+                after.closeFace(draft_.faces[f]);
+            }
         }
         after.sources = std::move(draft_.sources);
         after.creases = std::move(draft_.creases);
@@ -276,28 +330,33 @@ private:
     const Sharpness& sharpness_;
     Draft& draft_;
     const std::vector<uint32_t>& twins_;
+    const Places& places_;
     FoldDamage& damage_;
+    bool cutAny_ = false;
     const std::vector<uint32_t> faces_; ///< per corner
     const VertexCorners of_;
-    std::vector<uint8_t> changed_;             ///< per face
-    std::vector<std::vector<uint32_t>> parts_; ///< per changed face: its corners now, empty if it is gone
-    std::vector<uint32_t> marks_;              ///< per vertex: the face at work that has it
+    std::vector<uint8_t> changed_;                      ///< per face
+    std::vector<std::vector<uint32_t>> parts_;          ///< per changed face: its corners now, empty if it is gone
+    std::map<uint32_t, std::vector<uint32_t>> seconds_; ///< per face that is cut: its second part
+    std::vector<uint32_t> marks_;                       ///< per vertex: the face at work that has it
     std::set<Ends> newEdges_;
 };
 
 } // namespace
 
-void dissolveFolds(const Cage& cage, Draft& draft, std::vector<uint32_t> twins, FoldDamage& damage) {
+void dissolveFolds(const Cage& cage, Draft& draft, std::vector<uint32_t> twins, const Places& places,
+                   FoldDamage& damage) {
     for (int round = 1; round <= kMaxFoldRounds; ++round) {
-        const size_t cutBefore = damage.cutOpen;
         const Sharpness sharpness(cage, draft);
-        if (!FoldRound(cage, sharpness, draft, twins, damage).run(round == 1, round == kMaxFoldRounds)) {
+        FoldRound atWork(cage, sharpness, draft, twins, places, damage);
+        if (!atWork.run(round == 1, round == kMaxFoldRounds)) {
             return;
         }
+        const bool cutAny = atWork.cutAny();
         twins = matchSides(draft);
-        if (damage.cutOpen > cutBefore) {
+        if (cutAny) {
             FanDamage ofCuts;
-            separateFans(draft, twins, {}, ofCuts);
+            separateFans(draft, twins, {}, places, ofCuts);
         }
     }
 }

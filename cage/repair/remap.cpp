@@ -210,6 +210,7 @@ private:
         gather(cage_.cornerNormals, draft_.corners);
         gather(cage_.cornerFaceUvs, draft_.corners);
         gather(cage_.faceMaterials, draft_.faces);
+        gather(cage_.faceParts, draft_.faces);
         gather(cage_.faceTrimTiles, draft_.faces);
         const std::vector<uint32_t> holes = std::exchange(cage_.holes, {});
         for (uint32_t f = 0; f < draft_.faceCount() && !holes.empty(); ++f) {

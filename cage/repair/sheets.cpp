@@ -66,8 +66,8 @@ private:
 
 class Joiner {
 public:
-    Joiner(const Cage& cage, Draft& draft, SheetDamage& damage)
-        : draft_(draft), damage_(damage), sides_(sortedSides(draft)), pieces_(draft.faceCount()),
+    Joiner(const Cage& cage, Draft& draft, const Places& places, SheetDamage& damage)
+        : draft_(draft), places_(places), damage_(damage), sides_(sortedSides(draft)), pieces_(draft.faceCount()),
           turned_(draft.faceCount(), 0), twins_(draft.cornerCount(), kNone) {
         damage_.atCut.assign(draft.vertexCount(), 0);
         for (uint32_t f = 0; f < draft.faceCount(); ++f) {
@@ -116,7 +116,7 @@ private:
                 crowded_.push_back(edge);
                 cutAt(edge);
                 draft_.creases.push_back({edge[0].low, edge[0].high, kHardSharpness});
-                damage_.crowded.add([&] { return nameWithFaces(edge); });
+                damage_.crowded.add(places_, draft_.faces[edge[0].face], [&] { return nameWithFaces(edge); });
             }
         }
     }
@@ -138,10 +138,15 @@ private:
         }
     }
 
+    [[nodiscard]] std::string nameOf(const Edge& edge) const {
+        const Side& side = edge[0];
+        return places_.edge(draft_.corners[side.corner], draft_.corners[draft_.next(side.face, side.corner)]);
+    }
+
     [[nodiscard]] std::string nameWithFaces(const Edge& edge) const {
-        std::string name = edgeName(draft_, edge[0].low, edge[0].high) + " of faces ";
+        std::string name = nameOf(edge) + " of faces ";
         for (size_t i = 0; i < std::min(edge.size(), kMaxListedFaces); ++i) {
-            name += (i > 0 ? ", " : "") + std::to_string(draft_.faces[edge[i].face]);
+            name += (i > 0 ? ", " : "") + places_.number(draft_.faces[edge[i].face]);
         }
         return name + (edge.size() > kMaxListedFaces ? ", ..." : "");
     }
@@ -168,7 +173,7 @@ private:
                     join(edge[0], edge[1]);
                 } else {
                     cutAt(edge);
-                    damage_.unorientable.add([&] { return edgeName(draft_, edge[0].low, edge[0].high); });
+                    damage_.unorientable.add(places_, draft_.faces[edge[0].face], [&] { return nameOf(edge); });
                 }
             }
         }
@@ -272,7 +277,7 @@ private:
             if (turned_[f] == 0) {
                 continue;
             }
-            damage_.turned.add([&] { return faceName(draft_, f); });
+            damage_.turned.add(places_, draft_.faces[f], [&] { return places_.face(draft_.faces[f]); });
             const uint32_t first = draft_.starts[f];
             const uint32_t sides = draft_.sides(f);
             for (uint32_t k = 0; k < sides; ++k) {
@@ -289,6 +294,7 @@ private:
     }
 
     Draft& draft_;
+    const Places& places_;
     SheetDamage& damage_;
     const std::vector<Side> sides_;
     std::vector<Edge> pairs_;
@@ -301,8 +307,8 @@ private:
 
 } // namespace
 
-std::vector<uint32_t> joinFaces(const Cage& cage, Draft& draft, SheetDamage& damage) {
-    return Joiner(cage, draft, damage).run();
+std::vector<uint32_t> joinFaces(const Cage& cage, Draft& draft, const Places& places, SheetDamage& damage) {
+    return Joiner(cage, draft, places, damage).run();
 }
 
 } // namespace supple::cage::repair

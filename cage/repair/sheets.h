@@ -2,13 +2,14 @@
 #pragma once
 
 #include "cage/repair/draft.h"
+#include "cage/repair/found.h"
 
 namespace supple::cage::repair {
 
 struct SheetDamage {
-    Found crowded;              ///< edges of three and more faces
-    Found turned;               ///< faces that are turned round
-    Found unorientable;         ///< edges that are cut, as the faces on their sides cannot be turned to fit
+    Finds crowded;              ///< edges of three and more faces
+    Finds turned;               ///< faces that are turned round
+    Finds unorientable;         ///< edges that are cut, as the faces on their sides cannot be turned to fit
     std::vector<uint8_t> atCut; ///< per vertex: 1 if it ends one of the edges that were crowded or cut
 };
 
@@ -25,7 +26,8 @@ struct SheetDamage {
 /// a hard one: so the sheets stay together without a gap, as they do in subdivision that knows such edges.
 ///
 /// Beyond kMaxWeighedFaces at an edge, faces that fit are paired in their order. O(corners log corners).
-[[nodiscard]] std::vector<uint32_t> joinFaces(const Cage& cage, Draft& draft, SheetDamage& damage);
+[[nodiscard]] std::vector<uint32_t> joinFaces(const Cage& cage, Draft& draft, const Places& places,
+                                              SheetDamage& damage);
 
 inline constexpr size_t kMaxWeighedFaces = 32;
 

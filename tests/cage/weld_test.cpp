@@ -11,6 +11,8 @@ namespace {
 
 using Indices = std::vector<uint32_t>;
 
+const MayJoin kAnyFaces = [](uint32_t, uint32_t) { return true; };
+
 /// Triangle soup over `vertices`: every corner its own vertex, candidates by number.
 struct Soup {
     Indices candidates;
@@ -53,7 +55,7 @@ Indices joined(Indices a, const Indices& b) {
 
 TEST(Weld, SoupOfClosedSurface) {
     const Soup soup = soupOf(kTetrahedron);
-    Welding welding = weld(soup.candidates, trianglesOf(soup.triangles));
+    Welding welding = weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces);
     EXPECT_EQ(countSets(welding.roots), 4u);
     for (size_t i = 0; i < soup.candidates.size(); ++i)
         for (size_t j = 0; j < soup.candidates.size(); ++j)
@@ -64,13 +66,13 @@ TEST(Weld, SoupOfClosedSurface) {
 TEST(Weld, TouchingInAVertexStaysApart) {
     // Two tetrahedra that share vertex 0 in space.
     const Soup soup = soupOf(joined(kTetrahedron, shifted(kTetrahedron, {0, 4, 5, 6})));
-    EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles)).roots), 8u);
+    EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces).roots), 8u);
 }
 
 TEST(Weld, TouchingAlongAnEdgeStaysApart) {
     // Two tetrahedra that share edge 0-1 in space: four triangles meet there.
     const Soup soup = soupOf(joined(kTetrahedron, shifted(kTetrahedron, {0, 1, 4, 5})));
-    Welding welding = weld(soup.candidates, trianglesOf(soup.triangles));
+    Welding welding = weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces);
     EXPECT_EQ(countSets(welding.roots), 8u);
     EXPECT_EQ(unweldDefects(asFaces(soup.triangles, welding.roots), welding), 0u);
 }
@@ -86,14 +88,15 @@ TEST(Weld, TouchingAlongTwoEdgesStaysApart) {
                        1, b0, b1, 2, 1,  b1, 2, b1, b2, 0, a0, b0, 2, b2, a2};
     };
     Soup soup = soupOf(joined(roof(3), roof(9)));
-    EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles)).roots), 18u) << "nine vertices each";
+    EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces).roots), 18u)
+        << "nine vertices each";
     // Whatever the numbers: the ridge's middle before its ends, and behind them.
     for (uint32_t& candidate : soup.candidates)
         candidate = candidate == 0 ? 1 : candidate == 1 ? 0 : candidate;
-    EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles)).roots), 18u);
+    EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces).roots), 18u);
     for (uint32_t& candidate : soup.candidates)
         candidate = candidate == 0 ? 100 : candidate;
-    EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles)).roots), 18u);
+    EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces).roots), 18u);
 }
 
 TEST(Weld, SharedVerticesStayShared) {
@@ -101,29 +104,29 @@ TEST(Weld, SharedVerticesStayShared) {
     const Indices triangles = {0, 1, 2, 0, 3, 4};
     Indices candidates(5);
     std::iota(candidates.begin(), candidates.end(), 0u);
-    EXPECT_EQ(countSets(weld(candidates, trianglesOf(triangles)).roots), 5u);
+    EXPECT_EQ(countSets(weld(candidates, trianglesOf(triangles), kAnyFaces).roots), 5u);
 }
 
 TEST(Weld, SeamIsSewnEdgeByEdge) {
     // Two triangles joined by a seam edge; the far corners have no partner.
     const Indices candidates = {0, 1, 2, 1, 0, 3};
     const Indices triangles = {0, 1, 2, 3, 4, 5};
-    EXPECT_EQ(weld(candidates, trianglesOf(triangles)).roots, (Indices{0, 1, 2, 1, 0, 5}));
+    EXPECT_EQ(weld(candidates, trianglesOf(triangles), kAnyFaces).roots, (Indices{0, 1, 2, 1, 0, 5}));
     // The same two turned against each other agree in positions, not in orientation.
     const Indices flipped = {0, 1, 2, 4, 3, 5};
-    EXPECT_EQ(countSets(weld(candidates, trianglesOf(flipped)).roots), 6u);
+    EXPECT_EQ(countSets(weld(candidates, trianglesOf(flipped), kAnyFaces).roots), 6u);
 }
 
 TEST(Weld, DuplicateFacesAreNotSewn) {
     const Soup soup = soupOf({0, 1, 2, 0, 1, 2, 1, 0, 3});
-    const Indices roots = weld(soup.candidates, trianglesOf(soup.triangles)).roots;
+    const Indices roots = weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces).roots;
     EXPECT_EQ(countSets(roots), 9u);
 }
 
 TEST(Weld, CornersOfTwoSidedSheetsAreTakenApart) {
     // A quad and its back: sewn all round, every vertex would lie between two faces only.
     const Soup soup = soupOf({0, 1, 2, 0, 2, 3, 2, 1, 0, 3, 2, 0});
-    Welding welding = weld(soup.candidates, trianglesOf(soup.triangles));
+    Welding welding = weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces);
     Polygons faces;
     for (const Indices& face : {Indices{0, 1, 2, 5}, Indices{6, 7, 8, 9}}) {
         faces.vertices.insert(faces.vertices.end(), face.begin(), face.end());
@@ -158,7 +161,7 @@ TEST(Weld, OrderOfTrianglesDoesNotMatter) {
             shuffled.insert(shuffled.end(), torus.begin() + static_cast<ptrdiff_t>(3 * t),
                             torus.begin() + static_cast<ptrdiff_t>(3 * t + 3));
         const Soup soup = soupOf(shuffled);
-        EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles)).roots), n * n);
+        EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces).roots), n * n);
     }
 }
 
@@ -187,7 +190,7 @@ TEST(Weld, NeverSpoilsWhatTheFileHadRight) {
                 corner = static_cast<uint32_t>(places.size()) - 1;
             }
         }
-        Welding welding = weld(places, trianglesOf(triangles));
+        Welding welding = weld(places, trianglesOf(triangles), kAnyFaces);
         for (uint32_t v = 0; v < places.size(); ++v)
             ASSERT_EQ(places[welding.roots[v]], places[v]);
         const Indices own = [&] {

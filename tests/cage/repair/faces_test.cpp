@@ -53,7 +53,7 @@ TEST(RepairFaces, ZeroAreaIsOrdinary) {
     SkinWeights weights;
     Morphs morphs;
     std::vector<Damage> damages;
-    ASSERT_TRUE(repairCage(cage, weights, morphs, "cage", damages).ok());
+    ASSERT_TRUE(repairCage(cage, weights, morphs, CageNames{{"cage"}, {}}, damages).ok());
     EXPECT_TRUE(damages.empty());
     EXPECT_EQ(cage.faceVertices, before.faceVertices);
 }

@@ -86,17 +86,39 @@ TEST(RepairFolds, AVertexInAnEdgeLeavesIt) {
     EXPECT_EQ(creased.cage.creases[0].sharpness, 3.0f);
 }
 
-TEST(RepairFolds, SharpOnesAreCutOpen) {
+const char* const kKept = "kept, and a face cut by an edge to it";
+
+TEST(RepairFolds, SharpOnesStay) {
     Cage fold = cubeWithFold();
     fold.creases = {{8, fold.faceVertices[0], kHardSharpness}};
     const Repaired r = repaired(fold);
-    EXPECT_EQ(r.repairs, Strings{"dissolved or, with 1 vertex repeated, cut open"});
-    EXPECT_EQ(r.cage.vertexCount(), 10u);
-    EXPECT_EQ(r.cage.faceCount(), 7u);
-    EXPECT_EQ(r.cage.creases.size(), 2u) << "both sides of the cut keep the crease";
+    EXPECT_EQ(r.repairs, Strings{kKept});
+    EXPECT_EQ(r.cage.vertexCount(), 9u);
+    EXPECT_EQ(bySides(r.cage), (std::map<uint32_t, uint32_t>{{3, 2}, {4, 6}}));
+    EXPECT_EQ(r.cage.creases.size(), 1u);
     fold.creases.clear();
     fold.sharpVertices = {{8, 1.0f}};
-    EXPECT_EQ(repaired(fold).cage.sharpVertices.size(), 2u);
+    EXPECT_EQ(repaired(fold).cage.sharpVertices.size(), 1u);
+}
+
+TEST(RepairFolds, WhatShapesTheSurfaceStays) {
+    Cage fold = cubeWithFold();
+    const glm::vec3 inwards = -fold.positions[8]; // the cube's middle is the origin
+    fold.positions[8] += 0.1f * inwards;
+    EXPECT_EQ(repaired(fold).repairs, Strings{"dissolved"}) << "this hardly bends the edge";
+    fold.positions[8] += 0.7f * inwards;
+    const glm::vec3 dent = fold.positions[8];
+    fold.faceMaterials = {1, 0, 0, 0, 0, 0, 2};
+    const Repaired r = repaired(fold);
+    EXPECT_EQ(r.repairs, Strings{kKept});
+    ASSERT_EQ(r.cage.vertexCount(), 9u);
+    EXPECT_EQ(r.cage.positions[8], dent);
+    EXPECT_EQ(bySides(r.cage), (std::map<uint32_t, uint32_t>{{3, 2}, {4, 6}}));
+    EXPECT_EQ(r.cage.faceMaterials, (Indices{1, 1, 0, 0, 0, 0, 0, 2})) << "the two of the cut face stand together";
+    const Result<Topology> topology = buildTopology(r.cage);
+    ASSERT_TRUE(topology.ok());
+    EXPECT_EQ(topology->spokeCount(8), 3u);
+    EXPECT_EQ(topology->boundary[8], 0);
 }
 
 TEST(RepairFolds, AChainOfThem) {

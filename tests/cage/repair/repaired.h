@@ -36,7 +36,7 @@ inline Repaired repaired(Cage cage, SkinWeights weights = {}, Morphs morphs = {}
         result.cage.sourceVertices.push_back(v);
     }
     std::vector<Damage> damages;
-    const Status status = repairCage(result.cage, result.weights, result.morphs, "cage", damages);
+    const Status status = repairCage(result.cage, result.weights, result.morphs, CageNames{{"cage"}, {}}, damages);
     for (const Damage& damage : damages) {
         result.found.push_back(damage.found);
         result.repairs.push_back(damage.repair);

@@ -28,7 +28,7 @@ GltfBuilder twoQuads(const std::vector<float>& secondWeights, const std::string&
 }
 
 TEST(RepairSeams, ASeamOfSkinIsSewn) {
-    const GltfBuilder b = twoQuads({0, 0.25f, 0.75f, 1, 0, 0.25f, 0.75f, 1});
+    const GltfBuilder b = twoQuads({0, 0.4375f, 0.5f, 1, 0, 0.4375f, 0.5f, 1});
     const Character c = readWell(b);
     EXPECT_EQ(c.cage.vertexCount(), 6u);
     EXPECT_EQ(c.warnings, (Strings{"mesh 0: 2 vertices agree with another in position but not in skin (first: vertices "
@@ -38,7 +38,7 @@ TEST(RepairSeams, ASeamOfSkinIsSewn) {
     // Cage vertex 1 is vertex 1 of the file.
     ASSERT_EQ(c.cage.sourceVertices[1], 1u);
     ASSERT_EQ(c.weights.starts[2] - c.weights.starts[1], 2u);
-    EXPECT_EQ(c.weights.influences[c.weights.starts[1] + 1].weight, 0.25f);
+    EXPECT_EQ(c.weights.influences[c.weights.starts[1] + 1].weight, 0.4375f);
 
     const Result<Character> strict = readGltf(b.glb(), "t.glb", "", {.strict = true});
     ASSERT_FALSE(strict.ok());
@@ -48,7 +48,7 @@ TEST(RepairSeams, ASeamOfSkinIsSewn) {
 }
 
 TEST(RepairSeams, OneEndThatDiffersIsEnough) {
-    const Character c = readWell(twoQuads({0, 0.5f, 0.5f, 1, 0, 0.25f, 0.75f, 1}));
+    const Character c = readWell(twoQuads({0, 0.5f, 0.5f, 1, 0, 0.4375f, 0.5f, 1}));
     EXPECT_EQ(c.cage.vertexCount(), 6u);
     EXPECT_EQ(c.damages.size(), 1u);
 }
@@ -83,7 +83,7 @@ TEST(RepairSeams, ASeamOfDisplacementsIsSewn) {
     GltfBuilder b = twoQuads(std::vector<float>(8, 0.5f), R"(,"targets":[{"POSITION":4}])");
     std::vector<float> deltas(24, 0.0f);
     deltas[3 * 1] = 1.0f;
-    deltas[3 * 2] = 2.0f;
+    deltas[3 * 2] = 1.0625f;
     b.addFloats("VEC3", deltas);
     const Character c = readWell(b);
     EXPECT_EQ(c.cage.vertexCount(), 6u);
@@ -91,6 +91,27 @@ TEST(RepairSeams, ASeamOfDisplacementsIsSewn) {
                                    "vertices 1 and 2) along a seam; joined, as the first vertex of each has it"}));
     ASSERT_EQ(c.morphs.targets[0].vertices, (std::vector<uint32_t>{1}));
     EXPECT_EQ(c.morphs.targets[0].deltas[0].x, 1.0f);
+}
+
+TEST(RepairSeams, WhatOpensStaysOpen) {
+    // Lips: in the rest pose they lie on each other, but the lower one follows another joint.
+    const Character c = readWell(twoQuads({0, 0.0f, 1.0f, 1, 0, 0.0f, 1.0f, 1}));
+    EXPECT_EQ(c.cage.vertexCount(), 8u);
+    EXPECT_TRUE(c.damages.empty());
+    EXPECT_EQ(c.warnings, (Strings{"mesh 0: 2 vertices agree with another in position but not in skin (first: vertices "
+                                   "1 and 2); kept apart"}));
+    // One pair that moves far apart keeps the whole run open.
+    EXPECT_EQ(readWell(twoQuads({0, 0.0f, 1.0f, 1, 0, 0.4375f, 0.5f, 1})).cage.vertexCount(), 8u);
+}
+
+TEST(RepairSeams, WhatAMorphTargetOpensStaysOpen) {
+    GltfBuilder b = twoQuads(std::vector<float>(8, 0.5f), R"(,"targets":[{"POSITION":4}])");
+    std::vector<float> deltas(24, 0.0f);
+    deltas[3 * 2 + 2] = 0.5f; // of an edge that is 1 long
+    b.addFloats("VEC3", deltas);
+    const Character c = readWell(b);
+    EXPECT_EQ(c.cage.vertexCount(), 8u) << "the other end, which does not open, would be a bow tie";
+    EXPECT_TRUE(c.damages.empty());
 }
 
 } // namespace
