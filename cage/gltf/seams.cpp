@@ -16,6 +16,9 @@ constexpr float kMostWeightApart = 0.1f;
 /// Of a displacement: in lengths of the vertex's shortest edge.
 constexpr float kMostMovedApart = 0.1f;
 
+/// Pairs of vertices in a run. A single one that would tear a closed surface is a fault of the file.
+constexpr uint32_t kFewestOpening = 2;
+
 float weightApart(const Mesh& mesh, uint32_t a, uint32_t b) {
     std::map<uint32_t, float> differences;
     for (const Influence& influence : mesh.weights.of(a)) {
@@ -96,18 +99,20 @@ private:
 
 void keepOpenings(const Mesh& mesh, const Polygons& faces, const MeshWelding& welded, Welding& seams) {
     SeamRuns runs(mesh, faces, seams);
+    std::map<uint32_t, uint32_t> pairs; // per run
     std::set<uint32_t> open;
     for (const MeshWelding::Disagreement& pair : welded.disagreements) {
         const uint32_t root = seams.roots[welded.welding.roots[pair.a]];
-        if (root == seams.roots[welded.welding.roots[pair.b]] &&
-            (weightApart(mesh, pair.a, pair.b) > kMostWeightApart ||
-             movedApart(mesh, pair.a, pair.b) > kMostMovedApart * runs.shortestEdge(root))) {
+        if (root != seams.roots[welded.welding.roots[pair.b]]) {
+            continue;
+        }
+        ++pairs[runs.runOf(root)];
+        if (weightApart(mesh, pair.a, pair.b) > kMostWeightApart ||
+            movedApart(mesh, pair.a, pair.b) > kMostMovedApart * runs.shortestEdge(root)) {
             open.insert(runs.runOf(root));
         }
     }
-    if (open.empty()) {
-        return;
-    }
+    std::erase_if(open, [&](uint32_t run) { return pairs[run] < kFewestOpening; });
     for (uint32_t v = 0; v < seams.roots.size(); ++v) { // a root is the smallest of its vertices, and comes first
         const uint32_t root = seams.roots[v];
         if (runs.isInRun(root) && open.count(runs.runOf(root)) != 0) {

@@ -20,8 +20,8 @@ std::string Places::vertex(uint32_t corner) const {
 }
 
 std::string Places::edge(uint32_t corner, uint32_t other) const {
-    const auto [low, high] = std::minmax(vertexAt(corner), vertexAt(other));
-    return "edge (" + std::to_string(low) + ", " + std::to_string(high) + ")";
+    const uint32_t a = vertexAt(corner), b = vertexAt(other);
+    return "edge (" + std::to_string(std::min(a, b)) + ", " + std::to_string(std::max(a, b)) + ")";
 }
 
 } // namespace supple::cage::repair

@@ -107,11 +107,21 @@ TEST(RepairSeams, WhatOpensStaysOpen) {
 TEST(RepairSeams, WhatAMorphTargetOpensStaysOpen) {
     GltfBuilder b = twoQuads(std::vector<float>(8, 0.5f), R"(,"targets":[{"POSITION":4}])");
     std::vector<float> deltas(24, 0.0f);
-    deltas[3 * 2 + 2] = 0.5f; // of an edge that is 1 long
+    deltas[3 * 2 + 2] = deltas[3 * 6 + 2] = 0.5f; // of an edge that is 1 long
     b.addFloats("VEC3", deltas);
     const Character c = readWell(b);
-    EXPECT_EQ(c.cage.vertexCount(), 8u) << "the other end, which does not open, would be a bow tie";
+    EXPECT_EQ(c.cage.vertexCount(), 8u);
     EXPECT_TRUE(c.damages.empty());
+}
+
+TEST(RepairSeams, ASingleVertexIsNoOpening) {
+    GltfBuilder b = twoQuads(std::vector<float>(8, 0.5f), R"(,"targets":[{"POSITION":4}])");
+    std::vector<float> deltas(24, 0.0f);
+    deltas[3 * 2 + 2] = 0.5f;
+    b.addFloats("VEC3", deltas);
+    const Character c = readWell(b);
+    EXPECT_EQ(c.cage.vertexCount(), 6u);
+    EXPECT_EQ(c.damages.size(), 1u);
 }
 
 } // namespace
