@@ -287,6 +287,21 @@ void fillTrimTiles(const Mesh& mesh, const Faces& faces, Cage& cage) {
     }
 }
 
+/// The skin and the displacements of the cage's vertices.
+void fillMotion(const Mesh& mesh, PartCage& out) {
+    out.weights.starts.push_back(0);
+    for (uint32_t i = 0; i < out.cage.vertexCount(); ++i) {
+        const auto own = mesh.weights.of(out.cage.sourceVertices[i]);
+        out.weights.influences.insert(out.weights.influences.end(), own.begin(), own.end());
+        out.weights.starts.push_back(static_cast<uint32_t>(out.weights.influences.size()));
+        for (const MorphDelta& displacement : mesh.morphs.of(out.cage.sourceVertices[i])) {
+            MorphTarget& target = out.morphs.targets[displacement.target];
+            target.vertices.push_back(i);
+            target.deltas.push_back(displacement.delta);
+        }
+    }
+}
+
 /// Returns the cage vertex of each of the mesh's vertices, kNone for those without a face.
 std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Welding& welding, PartCage& out) {
     Cage& cage = out.cage;
@@ -331,17 +346,7 @@ std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Weldi
     fillTriangles(mesh, faces, welding, cage);
     fillTrimTiles(mesh, faces, cage);
 
-    out.weights.starts.push_back(0);
-    for (uint32_t i = 0; i < cage.vertexCount(); ++i) {
-        const auto own = mesh.weights.of(cage.sourceVertices[i]);
-        out.weights.influences.insert(out.weights.influences.end(), own.begin(), own.end());
-        out.weights.starts.push_back(static_cast<uint32_t>(out.weights.influences.size()));
-        for (const MorphDelta& displacement : mesh.morphs.of(cage.sourceVertices[i])) {
-            MorphTarget& target = out.morphs.targets[displacement.target];
-            target.vertices.push_back(i);
-            target.deltas.push_back(displacement.delta);
-        }
-    }
+    fillMotion(mesh, out);
 
     std::vector<uint32_t> cageVertices(mesh.positions.size());
     for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
