@@ -187,8 +187,8 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
         return status.error();
     }
     character.name = name;
-    if (const Status repaired =
-            cage::repairCage(character.cage, character.weights, character.morphs, cage::CageNames{{"cage"}, {}}, character.damages);
+    if (const Status repaired = cage::repairCage(character.cage, character.weights, character.morphs,
+                                                 cage::CageNames{{"cage"}, {}}, character.damages);
         !repaired) {
         return Error{repaired.error().code, name + ": " + repaired.error().message};
     }

@@ -594,8 +594,8 @@ Result<Character> readObj(std::span<const std::byte> bytes, const std::string& n
         Character character;
         character.name = name;
         ObjParser(character).parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-        if (const Status repaired =
-                repairCage(character.cage, character.weights, character.morphs, CageNames{{"file"}, {}}, character.damages);
+        if (const Status repaired = repairCage(character.cage, character.weights, character.morphs,
+                                               CageNames{{"file"}, {}}, character.damages);
             !repaired) {
             return failure(repaired.error().code, repaired.error().message);
         }

@@ -42,8 +42,8 @@ std::shared_ptr<const ValidationLog> run(const PictureOptions& options) {
     if (!options.screenshot.empty())
         must(writePng(must(readPicture(device, scene.picture())), options.screenshot));
     std::printf("%llu frames; a sheet: %u cage vertices, %u patches, %u surface vertices\n",
-                static_cast<unsigned long long>(options.frames), cloth.info().cageVertexCount, cloth.surface().patchCount,
-                cloth.grid().vertexCount);
+                static_cast<unsigned long long>(options.frames), cloth.info().cageVertexCount,
+                cloth.surface().patchCount, cloth.grid().vertexCount);
     return device.validation();
 }
 

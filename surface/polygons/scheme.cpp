@@ -44,10 +44,9 @@ std::vector<DraftPatch> draftTriangles(const cage::Cage& cage) {
             }
         }
     }
-    std::stable_sort(patches.begin(), patches.end(),
-                     [](const DraftPatch& a, const DraftPatch& b) {
-                         return std::tie(a.info.material, a.info.part) < std::tie(b.info.material, b.info.part);
-                     });
+    std::stable_sort(patches.begin(), patches.end(), [](const DraftPatch& a, const DraftPatch& b) {
+        return std::tie(a.info.material, a.info.part) < std::tie(b.info.material, b.info.part);
+    });
     return patches;
 }
 

@@ -12,8 +12,8 @@ namespace supple::host {
 [[nodiscard]] Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path,
                                                          const ReadOptions& flags = {});
 
-/// As findClip() of tools/common/character_file.h, but SUPPLE_REST_POSE for an empty text: pictures show the character as
-/// its file poses it.
+/// As findClip() of tools/common/character_file.h, but SUPPLE_REST_POSE for an empty text: pictures show the character
+/// as its file poses it.
 [[nodiscard]] Result<uint32_t> findClip(const Figure& figure, const std::string& nameOrIndex);
 
 } // namespace supple::host

@@ -69,7 +69,8 @@ const std::vector<Expected>& expectations() {
          1,
          kNgons,
          {"mesh 0: 2 vertices agree with another in position but not in skin (first: vertices 15 and 114); kept apart",
-          "mesh 0: 1 inner vertex has two faces only: vertex 137 between faces 142 and 143; kept, and a face cut by an edge to it"}},
+          "mesh 0: 1 inner vertex has two faces only: vertex 137 between faces 142 and 143; kept, and a face cut by an "
+          "edge to it"}},
         {"characters/trex_ngons.glb", 912, 912, 838, 626, 29, 2, kNgons, {}},
         {"characters/velociraptor.glb", 626, 626, 664, 576, 29, 4, kNgons, {}},
         {"khronos/CesiumMan.glb", 3273, 2338, 4672, 0, 19, 1, kTriangles, {}},
