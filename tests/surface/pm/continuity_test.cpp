@@ -282,8 +282,11 @@ TEST(PmContinuity, assets) {
     for (const auto& [name, mesh] : meshes) {
         const PmSurface<double> exact(mesh, test::doublePositions(mesh.cage));
         const PmSurface<float> rounded(mesh, mesh.cage.positions);
-        const bool flat = std::all_of(mesh.cage.positions.begin(), mesh.cage.positions.end(),
-                                      [](const glm::vec3& p) { return p.z == 0.0f; });
+        const auto liesAt0 = [&mesh = mesh](int axis) {
+            return std::all_of(mesh.cage.positions.begin(), mesh.cage.positions.end(),
+                               [axis](const glm::vec3& p) { return p[axis] == 0.0f; });
+        };
+        const bool flat = liesAt0(0) || liesAt0(1) || liesAt0(2);
         for (uint32_t e = 0; e < mesh.topology.edges.size(); ++e) {
             const cage::Topology::Edge& edge = mesh.topology.edges[e];
             if (edge.twin == cage::kNone) {
