@@ -269,7 +269,7 @@ std::vector<uint32_t> sewnTo(const Cage& cage, size_t parts) {
     std::iota(first.begin(), first.end(), 0u);
     const auto rootOf = [&](uint32_t part) {
         while (first[part] != part) {
-            part = first[part];
+            part = first[part] = first[first[part]];
         }
         return part;
     };

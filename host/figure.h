@@ -138,9 +138,9 @@ public:
     [[nodiscard]] SuppleInstance instance(uint32_t index) const { return instances_[index]; }
     /// One or more.
     [[nodiscard]] const std::vector<FigureSurface>& surfaces() const { return surfaces_; }
-    /// Of the surface that has the most segments along an edge of the cage.
+    /// The most segments that a surface has along an edge of the cage.
     [[nodiscard]] uint32_t edgeRate() const;
-    /// Of the surface that the part belongs to.
+    /// The scheme of the surface that has the part.
     [[nodiscard]] SuppleScheme schemeOfPart(uint32_t part) const;
     [[nodiscard]] bool isMeshPart(uint32_t part) const { return schemeOfPart(part) == SUPPLE_SCHEME_POLYGONS; }
 

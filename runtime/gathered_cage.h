@@ -6,8 +6,6 @@
 #include "runtime/instance_set.h"
 #include "runtime/pass_cost.h"
 
-#include <memory>
-
 namespace supple::runtime {
 
 class GatheredCage {

@@ -36,13 +36,13 @@ public:
     /// The rates that instances may have; a count of 0: none.
     [[nodiscard]] Tessellation::Ladder ladder() const { return ladder_; }
     [[nodiscard]] BoundBytes boundBytes() const;
-    /// Of every part of the asset.
+    /// How many patches every part of the asset has.
     [[nodiscard]] std::vector<PartPatches> partPatches() const;
     /// Whether draws count in instances, with a first instance (SuppleGridOutput).
     [[nodiscard]] bool haveGrids() const;
     /// All or none.
     [[nodiscard]] Status setRate(uint32_t rate);
-    /// Of those that count in the view's budget: vertices of an instance at its coarsest.
+    /// How many vertices of the view's budget an instance needs at its coarsest.
     [[nodiscard]] uint32_t leastVertices() const;
 
 private:

@@ -38,8 +38,9 @@ enum class Pass : uint32_t {
 };
 inline constexpr size_t kPassCount = static_cast<size_t>(Pass::count);
 [[nodiscard]] const char* passName(Pass pass);
-/// That a group can have in a frame: pose is up to three, bounds comes again for occlusion, and level for patches.
-inline constexpr size_t kMostEntries = kPassCount + 4;
+/// The most entries that a group can have in a frame. Pose comes up to three times, bounds again for occlusion, level
+/// for patches, deform for several surfaces, and attributes if some of these have levels and others rates.
+inline constexpr size_t kMostEntries = kPassCount + 6;
 
 class Timings {
 public:

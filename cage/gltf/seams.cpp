@@ -13,7 +13,7 @@ namespace {
 /// rest pose shows closed. Measured in half the sum of the weights' differences: 0 is the same skin, 1 has no joint in
 /// common. Weights rounded to bytes, or cut to four influences, differ by less.
 constexpr float kMostWeightApart = 0.1f;
-/// Of a displacement: in lengths of the vertex's shortest edge.
+/// The same for displacements, in lengths of the vertex's shortest edge.
 constexpr float kMostMovedApart = 0.1f;
 
 /// Pairs of vertices in a run. A single one that would tear a closed surface is a fault of the file.

@@ -14,9 +14,8 @@ struct FoldDamage {
 };
 
 /// Takes away the inner vertices that have two faces only:
-///  - if the vertex bends the edge through it by more than kMostBend, it shapes the surface and stays: one of the
-///  faces,
-///    that of more corners, is cut by an edge to the vertex;
+///  - if the vertex bends the edge through it by more than kMostBend, it shapes the surface and stays. The
+///    face of more corners is then cut by an edge to the vertex;
 ///  - else, if these faces make a triangle or a quad together, and no vertex becomes another fold, they are merged;
 ///  - else the vertex leaves both faces, whose common side then runs past it, if that is a new edge;
 ///  - else they are merged if what comes out is a simple face;

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] bool usesScratch() const override { return false; } // it holds levels
     PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
     [[nodiscard]] bool isBudgeted() const override { return true; }
-    [[nodiscard]] uint32_t leastVertices() const override;
+    [[nodiscard]] uint32_t leastVertices() const override { return leastVertices_; }
     [[nodiscard]] uint32_t patchesAtLevels() const override { return static_cast<uint32_t>(tables().patches.size()); }
 
 protected:
@@ -53,6 +53,7 @@ private:
 
     uint32_t firstRun_ = 0; ///< in the view; all windows one after the other
     uint32_t takenRuns_ = 0;
+    uint32_t leastVertices_ = 0;
     std::vector<SuppleLevelDraw> draws_;
 };
 
@@ -72,6 +73,9 @@ Status Levels::begin() {
         return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
     }
     program_ = std::move(*program);
+    for (const surface::LodTables::Run& run : tables().lod.runs) {
+        leastVertices_ += run.patchCount * surface::lod::sampleCount(surface::rowOf(run.patchClass).form, 1);
+    }
     return success();
 }
 
@@ -123,14 +127,6 @@ Culling::Needs Levels::cullingNeeds() const {
                                                   &desc_.asset->character.cage);
     needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage());
     return needs;
-}
-
-uint32_t Levels::leastVertices() const {
-    uint32_t vertices = 0;
-    for (const surface::LodTables::Run& run : tables().lod.runs) {
-        vertices += run.patchCount * surface::lod::sampleCount(surface::rowOf(run.patchClass).form, 1);
-    }
-    return vertices;
 }
 
 void Levels::bindOutput(const SurfaceSets::Which& which, SetContents& contents) const {

@@ -136,7 +136,7 @@ public:
 
     /// Whether the vertices count in the view's budget.
     [[nodiscard]] virtual bool isBudgeted() const { return false; }
-    /// Of an instance at its coarsest.
+    /// How many vertices an instance has at its coarsest.
     [[nodiscard]] virtual uint32_t leastVertices() const { return 0; }
     /// What the view's statistics count of an instance that is seen: patches at levels.
     [[nodiscard]] virtual uint32_t patchesAtLevels() const { return 0; }

@@ -1,11 +1,14 @@
 // Groups of several surfaces: each part is drawn as in a group that has its scheme for all parts, to the bit.
 #include "cage/parts.h"
+#include "tests/support/depth_pyramid.h"
 #include "tests/support/drawn_patches.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test_view.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <iterator>
@@ -17,7 +20,7 @@ namespace {
 constexpr uint32_t kInstanceCount = 3;
 constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
-/// Of part p. Two parts have the first scheme, with others between them.
+/// The scheme of each part. Two parts have the first one, with others between them.
 constexpr SuppleScheme kSchemes[] = {SUPPLE_SCHEME_PM,    SUPPLE_SCHEME_LOOP,     SUPPLE_SCHEME_PREP,
                                      SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_POLYGONS, SUPPLE_SCHEME_CATMULL_CLARK,
                                      SUPPLE_SCHEME_PM};
@@ -283,6 +286,56 @@ TEST_F(SurfacesOnce, OfAnInstanceAreLeftOutTogether) {
     EXPECT_GT(statistics.droppedInstanceCount, 0u);
     EXPECT_EQ(slots[0].size() + statistics.droppedInstanceCount, kInstanceCount);
     EXPECT_FALSE(slots[0].empty());
+}
+
+/// Some passes come more often than in any group of one surface: every one has its place among the timestamps.
+TEST_F(SurfacesOnce, AreTimedPassByPass) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    const DepthPicture picture{64, 64, false, std::vector<float>(64 * 64, 1.0f)};
+    const auto pyramid = DepthPyramid::create(own.device(), picture, 64, 64);
+    ASSERT_NE(pyramid, nullptr);
+    constexpr Case kAll{"all", true, 0,
+                        SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION};
+    SuppleGroupDesc desc = mixed();
+    desc.poseSource = SUPPLE_POSES_PLAYBACK;
+    cage::Character walking = bipeds();
+    walking.clips.push_back(
+        {"walk", 1.0, {{0, cage::ChannelPath::translation, cage::Interpolation::linear, {0, 1}, {0, 0, 0, 1, 0, 0}}}});
+    const Stage stage(own, kAll, own.createAsset(walking), desc);
+    ASSERT_TRUE(stage.crowd->valid());
+    SupplePlaybackLayer layer{};
+    layer.weight = 1.0f;
+    SupplePlaybackDesc playback{};
+    playback.structSize = sizeof(playback);
+    playback.layers = &layer;
+    playback.layerCount = 1;
+    playback.rootMotion = SUPPLE_ROOT_MOTION_GROUND;
+    ASSERT_EQ(suppleSetPlayback(own.handle(), stage.instances[0], &playback), SUPPLE_OK);
+    std::array<float, 16> columns{};
+    std::memcpy(columns.data(), stage.view->camera.viewProjection, sizeof(columns));
+    const SuppleDepthPyramidDesc seen = pyramid->desc(columns);
+    ASSERT_EQ(suppleSetDepthPyramid(own.handle(), stage.view->handle(), &seen), SUPPLE_OK);
+    const SuppleGroup group = stage.crowd->group();
+    own.evaluate({&group, 1}, SUPPLE_RECORD_TIMINGS);
+    own.beginFrame();
+    uint32_t count = 0;
+    ASSERT_EQ(suppleGetTimings(own.handle(), nullptr, &count), SUPPLE_OK);
+    std::vector<SuppleTiming> timings(count);
+    ASSERT_EQ(suppleGetTimings(own.handle(), timings.data(), &count), SUPPLE_OK);
+    std::vector<std::string> passes;
+    double end = 0.0;
+    for (const SuppleTiming& timing : timings) {
+        passes.emplace_back(timing.pass);
+        EXPECT_GE(timing.gpuBegin, end) << timing.pass;
+        EXPECT_GE(timing.gpuEnd, timing.gpuBegin) << timing.pass;
+        end = timing.gpuEnd;
+    }
+    const std::vector<std::string> expected = {
+        "upload", "attributes", "pose",  "pose",  "pose",  "deform", "deform",     "bounds",   "bounds", "list",
+        "vertex", "assemble",   "level", "level", "solve", "place",  "attributes", "evaluate", "motion"};
+    EXPECT_EQ(passes, expected);
 }
 
 /// One of two parts that are sewn is named: it counts for both. Two are named: they must agree.

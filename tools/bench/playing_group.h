@@ -10,7 +10,7 @@
 
 namespace supple::bench {
 
-/// Of the largest heap on the device.
+/// The size of the largest heap on the device, in bytes.
 [[nodiscard]] VkDeviceSize deviceMemory(const host::Device& device);
 
 enum class Passes {

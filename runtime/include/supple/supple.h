@@ -995,10 +995,11 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 
 /** What a pass cost, for one group and frame. */
 typedef struct SuppleTiming {
-    /** A name in static storage: upload, attributes, pose (up to three times), deform, vertex, assemble, patch,
-     * evaluate, motion. Groups of a view also have bounds (twice with OCCLUSION), list, level (twice), solve (once per
-     * view) and place. An entry `shortfall` is no pass and takes no time. It follows solve only in frames in which the
-     * view's budget was not enough (SuppleViewStatistics.shortfall). */
+    /** A name in static storage: upload, attributes, pose (up to three times), deform (twice if the group has
+     * several surfaces), vertex, assemble, patch, evaluate, motion. Groups of a view also have bounds (twice with
+     * OCCLUSION), list, level (twice), solve (once per view) and place; attributes come twice if some surfaces have
+     * levels and others rates. An entry `shortfall` is no pass and takes no time. It follows solve only in frames in
+     * which the view's budget was not enough (SuppleViewStatistics.shortfall). */
     const char* pass;
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
