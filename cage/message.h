@@ -22,6 +22,9 @@ namespace supple::cage {
 /// Messages are one line, whatever a file calls its parts.
 [[nodiscard]] std::string oneLine(std::string text);
 
+/// Faces that one message lists.
+inline constexpr size_t kMaxListedFaces = 8;
+
 /// One kind of fault or damage: how often it was found, and where first.
 struct Found {
     size_t count = 0;

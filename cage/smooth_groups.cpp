@@ -1,5 +1,7 @@
 #include "cage/smooth_groups.h"
 
+#include "cage/disjoint_sets.h"
+
 #include "cage/corner_normals.h"
 #include "cage/topology.h"
 
@@ -48,31 +50,10 @@ std::vector<Edge> hardEdges(const Cage& cage) {
     return edges;
 }
 
-/// Sets of corners, each known by its smallest one.
-class Sets {
-public:
-    explicit Sets(uint32_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
-    uint32_t find(uint32_t corner) {
-        while (parents_[corner] != corner) {
-            parents_[corner] = parents_[parents_[corner]];
-            corner = parents_[corner];
-        }
-        return corner;
-    }
-    void unite(uint32_t a, uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parents_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<uint32_t> parents_;
-};
-
 } // namespace
 
 std::vector<uint32_t> smoothGroups(const Cage& cage) {
-    Sets sets(cage.cornerCount());
+    DisjointSets sets(cage.cornerCount());
     const std::vector<Side> sides = sidesOf(cage);
     const std::vector<Edge> hard = hardEdges(cage);
     const bool authored = !cage.cornerNormals.empty();

@@ -1,5 +1,7 @@
 #include "cage/topology.h"
 
+#include "cage/message.h"
+
 #include <algorithm>
 #include <new>
 #include <optional>
@@ -10,9 +12,7 @@ namespace {
 
 /// Slots and corners are 32-bit and kNone is taken: a boundary vertex adds one slot to its corners, so twice the corner
 /// count bounds every index.
-constexpr size_t kMaxCorners = 0x7FFFFFFFu;
-/// Faces listed by one message.
-constexpr size_t kMaxListedFaces = 8;
+constexpr size_t kMaxIndexed = 0x7FFFFFFFu;
 
 Error fault(std::string message) {
     return {ErrorCode::asset, std::move(message)};
@@ -36,8 +36,8 @@ std::optional<Error> checkArrays(const Cage& cage) {
     if (cage.faceCount() == 0) {
         return fault("the cage has no faces");
     }
-    if (cage.faceVertices.size() > kMaxCorners || cage.positions.size() > kMaxCorners ||
-        cage.faceStarts.size() > kMaxCorners) {
+    if (cage.faceVertices.size() > kMaxIndexed || cage.positions.size() > kMaxIndexed ||
+        cage.faceStarts.size() > kMaxIndexed) {
         return Error{ErrorCode::limit, "the cage has more corners or vertices than 2^31 - 1"};
     }
     const std::vector<uint32_t>& starts = cage.faceStarts;

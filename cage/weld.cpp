@@ -1,5 +1,7 @@
 #include "cage/weld.h"
 
+#include "cage/disjoint_sets.h"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -7,32 +9,7 @@
 namespace supple::cage {
 namespace {
 
-/// Union-find whose representative is the smallest member.
-class Sets {
-public:
-    explicit Sets(size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
-
-    uint32_t find(uint32_t v) {
-        while (parents_[v] != v) {
-            parents_[v] = parents_[parents_[v]];
-            v = parents_[v];
-        }
-        return v;
-    }
-    bool unite(uint32_t a, uint32_t b) {
-        a = find(a);
-        b = find(b);
-        if (a == b)
-            return false;
-        parents_[std::max(a, b)] = std::min(a, b);
-        return true;
-    }
-
-private:
-    std::vector<uint32_t> parents_;
-};
-
-Welding rootsOf(Sets& sets, size_t vertexCount) {
+Welding rootsOf(DisjointSets& sets, size_t vertexCount) {
     Welding welding;
     welding.roots.resize(vertexCount);
     for (uint32_t v = 0; v < vertexCount; ++v) {
@@ -70,7 +47,7 @@ std::vector<HalfEdge> halfEdges(std::span<const uint32_t> candidates, const Poly
 }
 
 /// Sews two half-edges when they are all of their group.
-bool sewOnlyPair(std::span<const HalfEdge> group, const MayJoin& mayJoin, Sets& sets) {
+bool sewOnlyPair(std::span<const HalfEdge> group, const MayJoin& mayJoin, DisjointSets& sets) {
     if (group.size() != 2 || group[0].forward == group[1].forward || group[0].face == group[1].face ||
         !mayJoin(group[0].face, group[1].face))
         return false;
@@ -81,7 +58,7 @@ bool sewOnlyPair(std::span<const HalfEdge> group, const MayJoin& mayJoin, Sets& 
 
 /// Sews what is unambiguous among the half-edges between two candidate sets: first those the file joins already are set
 /// aside; of the rest a lone pair, or a lone pair among those that share one end.
-bool sewGroup(std::span<const HalfEdge> group, const MayJoin& mayJoin, Sets& sets, std::vector<HalfEdge>& open,
+bool sewGroup(std::span<const HalfEdge> group, const MayJoin& mayJoin, DisjointSets& sets, std::vector<HalfEdge>& open,
               std::vector<HalfEdge>& part) {
     open.clear();
     const auto key = [&](const HalfEdge& e) { return std::pair(sets.find(e.lowVertex), sets.find(e.highVertex)); };
@@ -197,7 +174,7 @@ void blameFolds(const Polygons& polygons, std::span<const uint32_t> roots, const
 } // namespace
 
 Welding weld(std::span<const uint32_t> candidates, const Polygons& faces, const MayJoin& mayJoin) {
-    Sets sets(candidates.size());
+    DisjointSets sets(candidates.size());
     const std::vector<HalfEdge> edges = halfEdges(candidates, faces);
     std::vector<HalfEdge> open;
     std::vector<HalfEdge> part;
@@ -245,7 +222,7 @@ bool lieBackToBack(std::span<const glm::vec3> positions, const Polygons& faces, 
 }
 
 Welding weldPairs(size_t vertexCount, std::span<const std::pair<uint32_t, uint32_t>> pairs) {
-    Sets sets(vertexCount);
+    DisjointSets sets(vertexCount);
     for (const auto& [a, b] : pairs) {
         sets.unite(a, b);
     }

@@ -11,6 +11,10 @@
 
 namespace supple::gpu {
 
+/// What most buffers hold: four words of 32 bits, read whole.
+inline constexpr VkDeviceSize kVec4Bytes = 16;
+inline constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kUint4 = VK_FORMAT_R32G32B32A32_UINT;
+
 struct BufferRequest {
     const char* name = ""; ///< for debuggers and messages
     VkDeviceSize size = 0; ///< 0 leaves the buffer out: its handle is null

@@ -7,7 +7,6 @@ namespace supple::runtime {
 using namespace supple::shared;
 
 Status DeformSets::create(const Desc& desc) {
-    constexpr VkDeviceSize kVec4Bytes = 16;
     const gpu::Device& device = *desc.device;
     const InstanceWindows& windows = *desc.windows;
     Result<gpu::DescriptorPoolHandle> pool =
@@ -28,7 +27,7 @@ Status DeformSets::create(const Desc& desc) {
             return set.error();
         }
         const auto range = [&](const Run& run) {
-            const VkDeviceSize bytes = run.stride * kVec4Bytes;
+            const VkDeviceSize bytes = run.stride * gpu::kVec4Bytes;
             return VkDescriptorBufferInfo{run.buffer, windows.firstSlot(w) * bytes, windows.slots(w) * bytes};
         };
         const VkDescriptorBufferInfo source = range(desc.source);

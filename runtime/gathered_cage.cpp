@@ -2,16 +2,12 @@
 
 namespace supple::runtime {
 
-namespace {
-constexpr VkDeviceSize kVec4Bytes = 16;
-} // namespace
-
 uint32_t GatheredCage::stride() const {
     return InstanceSet::cageStrideOf(piece_->of.cage.vertexCount());
 }
 
 void GatheredCage::plan(gpu::BufferPlan& device, uint32_t capacity) {
-    cages_ = device.add({"supple deformed piece", capacity * stride() * kVec4Bytes,
+    cages_ = device.add({"supple deformed piece", capacity * stride() * gpu::kVec4Bytes,
                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT});
 }
 
@@ -40,7 +36,7 @@ PassCost GatheredCage::record(VkCommandBuffer commandBuffer, const InstanceWindo
         deform_->recordGather(commandBuffer, sets_[w], push);
     });
     const uint64_t points = uint64_t{vertices} * windows.visible;
-    return {points, points * kVec4Bytes};
+    return {points, points * gpu::kVec4Bytes};
 }
 
 } // namespace supple::runtime

@@ -10,7 +10,6 @@ namespace {
 // and so do poses if there is more than one window.
 constexpr uint32_t kCagePadding = 16;
 constexpr uint32_t kPosePadding = 16;
-constexpr VkDeviceSize kVec4Bytes = 16;
 
 } // namespace
 
@@ -46,14 +45,14 @@ Status InstanceSet::layOutWindows() {
     const uint32_t capacity = desc_.capacity;
     layout_ = poseLayoutOf(*desc_.asset, desc_.mode, 1);
     const VkDeviceSize texelLimit = device.bufferWindow(16), storageLimit = device.limits.maxStorageBufferRange;
-    const VkDeviceSize largest = std::max(VkDeviceSize{cageStride_} * kVec4Bytes, desc_.surface.texels);
+    const VkDeviceSize largest = std::max(VkDeviceSize{cageStride_} * gpu::kVec4Bytes, desc_.surface.texels);
     VkDeviceSize fit = texelLimit / std::max(largest, poseWindowBytes(desc_.source, *desc_.asset, layout_));
     if (desc_.surface.storage > 0) {
         fit = std::min(fit, storageLimit / desc_.surface.storage);
     }
     if (fit < capacity) {
         layout_ = poseLayoutOf(*desc_.asset, desc_.mode, kPosePadding);
-        fit = std::min<VkDeviceSize>(fit, texelLimit / (layout_.stride * kVec4Bytes));
+        fit = std::min<VkDeviceSize>(fit, texelLimit / (layout_.stride * gpu::kVec4Bytes));
     }
     if (!device.mapping.wide && uint64_t{desc_.lists} * capacity > device.limits.maxTexelBufferElements) {
         return Error{ErrorCode::limit,
@@ -75,9 +74,9 @@ void InstanceSet::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkDeviceSize n = desc_.capacity;
     const bool deforms = desc_.source != SUPPLE_POSES_CAGE_BUFFER;
-    palettes_ = device.add({"supple poses", deforms ? n * layout_.stride * kVec4Bytes : 0, kInput});
-    cages_ =
-        device.add({"supple deformed cage", n * cageStride_ * kVec4Bytes, kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+    palettes_ = device.add({"supple poses", deforms ? n * layout_.stride * gpu::kVec4Bytes : 0, kInput});
+    cages_ = device.add(
+        {"supple deformed cage", n * cageStride_ * gpu::kVec4Bytes, kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
     const VkDeviceSize listBytes = passListBytes() + windows_.parts.size() * n * sizeof(uint32_t);
     list_ = device.add({"supple instances", listBytes, kInput});
     lists_.plan(staging, "supple list staging", listBytes, desc_.framesInFlight);
@@ -156,7 +155,7 @@ PassCost InstanceSet::recordDeform(VkCommandBuffer commandBuffer) const {
                               layout_.morphWeights, desc_.asset->firstInfluences});
     });
     const uint64_t points = uint64_t{vertices} * windows_.visible;
-    return {points, points * kVec4Bytes};
+    return {points, points * gpu::kVec4Bytes};
 }
 
 } // namespace supple::runtime

@@ -9,7 +9,7 @@ namespace supple::runtime {
 
 namespace {
 
-std::string nameOf(const cage::Character& character, uint32_t part) {
+std::string partName(const cage::Character& character, uint32_t part) {
     const std::string& name = character.parts[part].name;
     return "part " + std::to_string(part) + (name.empty() ? "" : " (" + name + ")");
 }
@@ -24,8 +24,8 @@ Result<std::vector<uint32_t>> leaders(const cage::Character& character, const st
         if (named[part] != SUPPLE_SCHEME_AUTO && named[own] == SUPPLE_SCHEME_AUTO) {
             own = part;
         } else if (named[part] != SUPPLE_SCHEME_AUTO && named[part] != named[own]) {
-            return Error{ErrorCode::argument, character.name + ": " + nameOf(character, own) + " and " +
-                                                  nameOf(character, part) + " are sewn: they need the same scheme"};
+            return Error{ErrorCode::argument, character.name + ": " + partName(character, own) + " and " +
+                                                  partName(character, part) + " are sewn: they need the same scheme"};
         }
     }
     for (uint32_t part = 0; part < named.size(); ++part) {

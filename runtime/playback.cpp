@@ -13,10 +13,8 @@ namespace {
 
 using namespace supple::shared;
 
-constexpr VkDeviceSize kElementBytes = 16;
 /// Elements: descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits).
 constexpr uint32_t kPadding = 16;
-constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kUint4 = VK_FORMAT_R32G32B32A32_UINT;
 
 uint32_t padded(uint32_t elements) {
     return (elements + kPadding - 1) / kPadding * kPadding;
@@ -33,7 +31,7 @@ uint32_t scratchStride(const skinning::ClipTable& table) {
 } // namespace
 
 VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout) {
-    return std::max(stateStride(layout), scratchStride(asset.clipTable)) * kElementBytes;
+    return std::max(stateStride(layout), scratchStride(asset.clipTable)) * gpu::kVec4Bytes;
 }
 
 Result<Playback> Playback::create(const Desc& desc) {
@@ -88,7 +86,8 @@ Status Playback::createBuffers(const Desc& desc) {
     std::vector<gpu::BufferRequest> requests(kBufferCount);
     requests[kStates] = {"supple playback", capacity_ * stateBytes(), kStorage | kTexels | kCopied};
     requests[kMasks] = {"supple masks", maskBytes, kStorage | kTexels | kCopied};
-    requests[kScratch] = {"supple node matrices", capacity_ * push_.scratchStride * kElementBytes, kStorage | kTexels};
+    requests[kScratch] = {"supple node matrices", capacity_ * push_.scratchStride * gpu::kVec4Bytes,
+                          kStorage | kTexels};
     Result<gpu::BufferSet> buffers = gpu::BufferSet::create(*desc.device, requests, gpu::MemoryKind::deviceLocal);
     if (!buffers) {
         return buffers.error();
@@ -120,11 +119,12 @@ Status Playback::createSets(const Desc& desc) {
     };
     const VkBuffer table = asset_->clips.buffer(0), masks = buffers_.buffer(kMasks);
     const VkDeviceSize tableBytes = asset_->clips.size(0), maskBytes = buffers_.size(kMasks);
-    const VkBufferView tableView = view(table, kUint4, 0, tableBytes, "supple clips");
-    const VkBufferView maskView = view(masks, kFloat4, 0, maskBytes, "supple masks");
+    const VkBufferView tableView = view(table, gpu::kUint4, 0, tableBytes, "supple clips");
+    const VkBufferView maskView = view(masks, gpu::kFloat4, 0, maskBytes, "supple masks");
     const VkBufferView instanceView =
         view(desc.instances, VK_FORMAT_R32_UINT, 0, desc.instanceBytes, "supple instances");
-    const VkDeviceSize poseBytes = push_.poseStride * kElementBytes, scratchBytes = push_.scratchStride * kElementBytes;
+    const VkDeviceSize poseBytes = push_.poseStride * gpu::kVec4Bytes,
+                       scratchBytes = push_.scratchStride * gpu::kVec4Bytes;
     for (uint32_t w = 0; w < windows && status; ++w) {
         const Result<VkDescriptorSet> set = gpu::allocateSet(device, pass_->layout(), pool_.get(), "supple pose");
         if (!set) {
@@ -143,13 +143,13 @@ Status Playback::createSets(const Desc& desc) {
             {kStateBinding, range(states, stateBytes()), VK_NULL_HANDLE},
             {kStateTexelBinding,
              {},
-             view(states, kUint4, first * stateBytes(), count * stateBytes(), "supple playback")},
+             view(states, gpu::kUint4, first * stateBytes(), count * stateBytes(), "supple playback")},
             {kMaskBinding, {masks, 0, maskBytes}, VK_NULL_HANDLE},
             {kMaskTexelBinding, {}, maskView},
             {kScratchPoseBinding, range(scratch, scratchBytes), VK_NULL_HANDLE},
             {kScratchPoseTexelBinding,
              {},
-             view(scratch, kFloat4, first * scratchBytes, count * scratchBytes, "supple node matrices")},
+             view(scratch, gpu::kFloat4, first * scratchBytes, count * scratchBytes, "supple node matrices")},
             {kPosedBinding, range(desc.poses, poseBytes), VK_NULL_HANDLE},
             {kInstanceBinding, {desc.instances, 0, desc.instanceBytes}, VK_NULL_HANDLE},
             {kInstanceTexelBinding, {}, instanceView},

@@ -1,11 +1,11 @@
 #include "skinning/clip_table.h"
 
 #include "shaders/shared/pose.h"
+#include "skinning/bits.h"
 #include "skinning/pose.h"
 #include "skinning/split_time.h"
 
 #include <algorithm>
-#include <bit>
 #include <map>
 #include <numeric>
 #include <span>
@@ -16,10 +16,6 @@ namespace {
 using namespace shared;
 using cage::Channel;
 using cage::ChannelPath;
-
-uint32_t bits(float value) {
-    return std::bit_cast<uint32_t>(value);
-}
 
 uint32_t interpolationOf(const Channel& channel) {
     switch (channel.interpolation) {

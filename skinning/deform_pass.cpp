@@ -3,9 +3,9 @@
 #include "shaders/deform_deform_comp.h"
 #include "shaders/deform_gather_comp.h"
 #include "shaders/shared/specialization.h"
+#include "skinning/bits.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
 namespace supple::skinning {
@@ -59,10 +59,6 @@ Affine placed(const glm::mat4& transform, const Affine& joint) {
         result.rows[row].w += transform[3][row];
     }
     return result;
-}
-
-uint32_t bits(float value) {
-    return std::bit_cast<uint32_t>(value);
 }
 
 } // namespace

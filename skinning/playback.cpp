@@ -1,5 +1,6 @@
 #include "skinning/playback.h"
 
+#include "skinning/bits.h"
 #include "skinning/pose.h"
 #include "skinning/split_time.h"
 
@@ -15,12 +16,6 @@ using namespace shared;
 
 static_assert(uint32_t{kRootGround} == kGroundAxes && uint32_t{kRootHeight} == kHeightAxis &&
               uint32_t{kRootYaw} == kYawAxis);
-
-constexpr double kTurn = 6.283185307179586;
-
-uint32_t bits(float value) {
-    return std::bit_cast<uint32_t>(value);
-}
 
 /// The time of the clip at `start`. Of a loop without the whole loops in it: the device's floats could not tell more
 /// than 2^24 of them apart.

@@ -8,8 +8,6 @@
 namespace supple::skinning {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-
 glm::dvec3 turned(double yaw, const glm::dvec3& p) {
     const double c = std::cos(yaw), s = std::sin(yaw);
     return {c * p.x + s * p.z, p.y, c * p.z - s * p.x};

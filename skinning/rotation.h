@@ -6,6 +6,9 @@
 
 namespace supple::skinning {
 
+/// A whole turn, in radians.
+inline constexpr double kTurn = 6.283185307179586;
+
 /// Of unit length; a zero quaternion counts as no rotation.
 [[nodiscard]] glm::dquat unit(const glm::dquat& q);
 

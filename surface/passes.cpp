@@ -25,7 +25,8 @@ static_assert(sizeof(LodPush) <= gpu::kPushConstantBytes && sizeof(LodSolvePush)
 using gpu::narrowTexels;
 using gpu::storage;
 using gpu::wideStorage;
-using enum SetKind;
+using SetKind::attributes, SetKind::construct, SetKind::evaluate, SetKind::evaluateLevels, SetKind::levels;
+using SetKind::subdivide;
 
 constexpr uint32_t in(std::initializer_list<SetKind> kinds) {
     uint32_t bits = 0;

@@ -26,6 +26,8 @@ enum ComponentTypes : uint32_t {
     kS16 = 1u << 9,
 };
 
+inline constexpr uint32_t kIntegers = kU8 | kU16 | kU32;
+
 // What a use allows in files with KHR_mesh_quantization.
 inline constexpr uint32_t kQuantizedSigned = kNormalizedS8 | kNormalizedS16 | kS8 | kS16;
 inline constexpr uint32_t kQuantized = kQuantizedSigned | kNormalizedU8 | kNormalizedU16 | kU8 | kU16;

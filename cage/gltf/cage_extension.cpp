@@ -11,8 +11,6 @@
 namespace supple::cage::gltf {
 namespace {
 
-constexpr uint32_t kIntegers = kU8 | kU16 | kU32;
-
 void checkTogether(const CageExtension& extension, const char* a, int accessorA, const char* b, int accessorB) {
     if ((accessorA < 0) != (accessorB < 0)) {
         refuse(extension.element, std::string(accessorA < 0 ? b : a) + " without " + (accessorA < 0 ? a : b));

@@ -4,6 +4,7 @@
 #include "cage/gltf/normals.h"
 #include "cage/gltf/triangles.h"
 #include "cage/gltf/trim.h"
+#include "cage/limits.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -19,9 +20,7 @@ namespace {
 using supple_tinygltf::Model;
 using supple_tinygltf::Primitive;
 
-// Accessors may be shared, so a small file can ask for a large mesh; these bound what is built from it.
-constexpr uint64_t kMaxVertices = 1u << 24;
-constexpr uint64_t kMaxCorners = 3u << 24;
+// Accessors may be shared; see kMaxVertices.
 constexpr uint64_t kMaxAttributeFloats = 1u << 27;
 
 class MeshReader {

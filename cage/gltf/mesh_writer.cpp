@@ -80,7 +80,7 @@ CornerValues cornerValues(const Character& character, std::span<const glm::vec3>
 }
 
 /// One primitive's faces and vertices.
-struct Primitive {
+struct WrittenPrimitive {
     uint32_t material = kNone;
     std::vector<uint32_t> faces;        ///< of the cage
     Polygons polygons;                  ///< in glTF vertices
@@ -89,8 +89,8 @@ struct Primitive {
 };
 
 /// By material, in the order of their first faces.
-std::vector<Primitive> primitivesOf(const Cage& cage) {
-    std::vector<Primitive> parts;
+std::vector<WrittenPrimitive> primitivesOf(const Cage& cage) {
+    std::vector<WrittenPrimitive> parts;
     std::map<uint32_t, size_t> known;
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         const uint32_t material = cage.faceMaterials.empty() ? kNone : cage.faceMaterials[face];
@@ -103,7 +103,7 @@ std::vector<Primitive> primitivesOf(const Cage& cage) {
     return parts;
 }
 
-void splitVertices(const Cage& cage, const CornerValues& values, Primitive& part) {
+void splitVertices(const Cage& cage, const CornerValues& values, WrittenPrimitive& part) {
     std::vector<uint32_t> corners;
     for (const uint32_t face : part.faces) {
         for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
@@ -176,7 +176,7 @@ public:
     json write(GlbFile& file) {
         json mesh;
         json primitives = json::array();
-        for (Primitive& part : primitivesOf(cage_)) {
+        for (WrittenPrimitive& part : primitivesOf(cage_)) {
             splitVertices(cage_, values_, part);
             primitives.push_back(writePrimitive(part));
             file.vertexCount += static_cast<uint32_t>(part.corners.size());
@@ -200,7 +200,7 @@ public:
 
 private:
     template <class Vec>
-    std::vector<Vec> gathered(const std::vector<Vec>& perCorner, const Primitive& part) const {
+    std::vector<Vec> gathered(const std::vector<Vec>& perCorner, const WrittenPrimitive& part) const {
         std::vector<Vec> values;
         values.reserve(part.corners.size());
         for (const uint32_t corner : part.corners) {
@@ -209,7 +209,7 @@ private:
         return values;
     }
 
-    json writePrimitive(const Primitive& part) {
+    json writePrimitive(const WrittenPrimitive& part) {
         std::vector<glm::vec3> positions;
         for (const uint32_t v : part.cageVertices) {
             positions.push_back(cage_.positions[v]);
@@ -259,7 +259,7 @@ private:
         return packer_.addIntegers("VEC4", integers, Component::u16, Target::vertices, true);
     }
 
-    void writeSkin(const Primitive& part, json& attributes) {
+    void writeSkin(const WrittenPrimitive& part, json& attributes) {
         const Component component = jointCount_ <= 256 ? Component::u8 : Component::u16;
         for (uint32_t set = 0; set < skinSets_; ++set) {
             std::vector<uint32_t> joints;
@@ -279,7 +279,7 @@ private:
         }
     }
 
-    json writeTargets(const Primitive& part) {
+    json writeTargets(const WrittenPrimitive& part) {
         json targets = json::array();
         std::vector<glm::vec3> deltas(cage_.vertexCount(), glm::vec3(0.0f));
         for (const MorphTarget& target : character_.morphs.targets) {
@@ -314,7 +314,7 @@ private:
         return packer_.addIntegers("SCALAR", values, Packer::indexComponent(largest), Target::none);
     }
 
-    json writeExtension(const Primitive& part) {
+    json writeExtension(const WrittenPrimitive& part) {
         std::vector<uint32_t> counts;
         for (const uint32_t face : part.faces) {
             counts.push_back(cage_.sides(face));

@@ -10,8 +10,6 @@
 namespace supple::cage::gltf {
 namespace {
 
-constexpr uint32_t kIntegers = kU8 | kU16 | kU32;
-
 /// Refuses vertices out of range and vertices that a polygon repeats.
 void checkPolygons(const Polygons& polygons, size_t vertexCount, const std::string& element) {
     std::vector<uint32_t> seenIn(vertexCount, kNone);

@@ -11,6 +11,7 @@
 #include "cage/gltf/nodes.h"
 #include "cage/gltf/skin.h"
 #include "cage/gltf/uri.h"
+#include "cage/limits.h"
 #include "cage/message.h"
 #include "cage/normal_creases.h"
 #include "cage/parts.h"
@@ -29,10 +30,8 @@ namespace supple::cage {
 namespace gltf {
 namespace {
 
-// Nodes may share a mesh, and meshes accessors, so a small file can ask for much. Bounds for all parts together.
+// Bounds for all parts together, as kMaxVertices.
 constexpr uint64_t kMaxParts = 1u << 14;
-constexpr uint64_t kMaxVertices = 1u << 24;
-constexpr uint64_t kMaxCorners = 3u << 24;
 constexpr uint64_t kMaxDisplacements = 1u << 26;
 
 /// What has been read so far; refuses too much.

@@ -1,6 +1,7 @@
 #include "cage/obj/reader.h"
 
 #include "cage/corner_normals.h"
+#include "cage/limits.h"
 #include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
@@ -23,9 +24,6 @@
 namespace supple::cage {
 namespace {
 
-// As for glTF: what is built from a file is bounded.
-constexpr size_t kMaxVertices = 1u << 24;
-constexpr size_t kMaxCorners = 3u << 24;
 /// Kinds of ignored statements that are told apart.
 constexpr size_t kMaxIgnoredKinds = 8;
 constexpr size_t kMaxQuotedText = 40;

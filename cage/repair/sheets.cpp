@@ -1,5 +1,7 @@
 #include "cage/repair/sheets.h"
 
+#include "cage/message.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,9 +12,6 @@
 
 namespace supple::cage::repair {
 namespace {
-
-/// Faces named by one message.
-constexpr size_t kMaxListedFaces = 8;
 
 /// Sets of joined faces, and for every face whether it is turned against the representative of its set.
 class Pieces {

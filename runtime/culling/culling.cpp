@@ -8,7 +8,7 @@ using namespace supple::shared;
 
 namespace {
 
-constexpr VkDeviceSize kBoundsBytes = 32, kStateBytes = 8, kWordBytes = 4, kElementBytes = 16;
+constexpr VkDeviceSize kBoundsBytes = 32, kStateBytes = 8, kWordBytes = 4;
 constexpr uint32_t kDrawWords = 5;    ///< VkDrawIndexedIndirectCommand
 constexpr uint32_t kOffsetWords = 64; ///< descriptor offsets need at most 256-byte alignment
 
@@ -116,7 +116,7 @@ Status Culling::createSets(const Buffers& buffers) {
     };
     const VkDeviceSize hostListBytes = VkDeviceSize{windows_->capacity} * kWordBytes;
     const VkDeviceSize arguments = VkDeviceSize{firstArgument()} * kWordBytes;
-    const VkDeviceSize cageBytes = VkDeviceSize{push_.cageStride} * kElementBytes;
+    const VkDeviceSize cageBytes = VkDeviceSize{push_.cageStride} * gpu::kVec4Bytes;
     std::vector<gpu::BoundResource> resources = {
         {kBoundsBinding, whole(bounds_.buffer()), VK_NULL_HANDLE},
         {kBoundsStateBinding, whole(states_.buffer()), VK_NULL_HANDLE},

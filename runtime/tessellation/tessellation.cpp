@@ -9,8 +9,6 @@ using surface::SetKind;
 
 namespace {
 
-constexpr VkDeviceSize kVec4Bytes = 16;
-constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kUint4 = VK_FORMAT_R32G32B32A32_UINT;
 constexpr VkFormat kUint1 = VK_FORMAT_R32_UINT;
 
 surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View* view) {
@@ -152,24 +150,24 @@ Status Tessellation::checkRate(uint32_t rate, uint32_t most) const {
 
 BoundBytes Tessellation::boundBytes() const {
     const VkDeviceSize patchBytes =
-        (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0 ? tables().patches.size() * kPatchStride * kVec4Bytes : 0;
-    return {std::max(tables().poolStride, scratchStride()) * kVec4Bytes, patchBytes};
+        (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0 ? tables().patches.size() * kPatchStride * gpu::kVec4Bytes : 0;
+    return {std::max(tables().poolStride, scratchStride()) * gpu::kVec4Bytes, patchBytes};
 }
 
 void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
     constexpr VkBufferUsageFlags kScratch =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     const VkDeviceSize n = desc_.group.capacity;
-    const VkDeviceSize poolBytes = n * tables().poolStride * kVec4Bytes;
+    const VkDeviceSize poolBytes = n * tables().poolStride * gpu::kVec4Bytes;
     const bool motion = wanted_.has(Stream::previousPositions) && !tables().patches.empty();
     const bool patches = (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0;
     pools_[0] = device.add({"supple coefficient pool", poolBytes, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
     pools_[1] = device.add(
         {"supple second coefficient pool", motion ? poolBytes : 0, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
-    patches_ =
-        device.add({"supple patch coefficients", patches ? n * tables().patches.size() * kPatchStride * kVec4Bytes : 0,
-                    kScratch | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
-    scratch_ = device.add({"supple scratch", n * scratchStride() * kVec4Bytes, kScratch});
+    patches_ = device.add({"supple patch coefficients",
+                           patches ? n * tables().patches.size() * kPatchStride * gpu::kVec4Bytes : 0,
+                           kScratch | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+    scratch_ = device.add({"supple scratch", n * scratchStride() * gpu::kVec4Bytes, kScratch});
     if (gathered_) {
         gathered_->plan(device, desc_.group.capacity);
     }
@@ -196,14 +194,14 @@ void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables
     const VkDeviceSize first = windows().firstSlot(which.window), count = windows().slots(which.window);
     const auto bind = [&](uint32_t binding, uint32_t texels, const gpu::PlannedBuffer& buffer, uint32_t stride,
                           const char* name) {
-        const VkDeviceSize bytes = stride * kVec4Bytes;
+        const VkDeviceSize bytes = stride * gpu::kVec4Bytes;
         contents.buffer(binding, buffer.buffer(), first * bytes, count * bytes);
-        contents.texels(texels, kFloat4, buffer.buffer(), first * bytes, count * bytes, name);
+        contents.texels(texels, gpu::kFloat4, buffer.buffer(), first * bytes, count * bytes, name);
     };
     const VkBuffer table = scheme.buffers.buffer(0);
     const VkDeviceSize tableBytes = scheme.buffers.size(0);
     contents.buffer(kTableBinding, table, 0, tableBytes);
-    contents.texels(kTable4TexelBinding, kUint4, table, 0, tableBytes, "supple surface tables");
+    contents.texels(kTable4TexelBinding, gpu::kUint4, table, 0, tableBytes, "supple surface tables");
     contents.texels(kTable1TexelBinding, kUint1, table, 0, tableBytes, "supple surface table words");
     const uint32_t poolStride = tables().poolStride;
     bind(kPoolBinding, kPoolTexelBinding, pools_[which.pool], poolStride, "supple pool");
@@ -221,7 +219,7 @@ void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables
         bind(kScratchBinding, kScratchTexelBinding, pools_[which.pool], poolStride, "supple pool");
     }
     if (patches_.size() > 0) {
-        const VkDeviceSize bytes = tables().patches.size() * kPatchStride * kVec4Bytes;
+        const VkDeviceSize bytes = tables().patches.size() * kPatchStride * gpu::kVec4Bytes;
         contents.buffer(kPatchCoefficientBinding, patches_.buffer(), first * bytes, count * bytes);
     }
     contents.buffer(kPairBinding, desc_.pairs->buffer(0), 0, desc_.pairs->size(0));
@@ -297,7 +295,7 @@ PassCost Tessellation::recordStage(VkCommandBuffer commandBuffer, surface::Stage
             coefficients += construction.coefficients;
         }
     }
-    return visibility_->cost(points, coefficients * kVec4Bytes);
+    return visibility_->cost(points, coefficients * gpu::kVec4Bytes);
 }
 
 PassCost Tessellation::recordPatch(VkCommandBuffer commandBuffer) const {
@@ -306,7 +304,7 @@ PassCost Tessellation::recordPatch(VkCommandBuffer commandBuffer) const {
     }
     windows().forEach([&](uint32_t w) { record(commandBuffer, program_.patch, seen(w)); });
     const uint64_t points = tables().patches.size();
-    return visibility_->cost(points, points * kPatchStride * kVec4Bytes);
+    return visibility_->cost(points, points * kPatchStride * gpu::kVec4Bytes);
 }
 
 } // namespace supple::runtime

@@ -16,9 +16,9 @@ constexpr double kLeastPart = 0.25;
 /// An edge gives a tangent if at least so large a part of it lies across the normal.
 constexpr double kLeastTangent = 1e-4;
 
-class Builder {
+class FrameBuilder {
 public:
-    explicit Builder(const cage::Cage& cage) : cage_(cage) {
+    explicit FrameBuilder(const cage::Cage& cage) : cage_(cage) {
         for (uint32_t face = 0; face < cage.faceCount(); ++face) {
             cornerFaces_.insert(cornerFaces_.end(), cage.sides(face), face);
             areas_.push_back(areaOf(face));
@@ -126,7 +126,7 @@ private:
 } // namespace
 
 Frames makeFrames(const cage::Cage& cage) {
-    return Builder(cage).build();
+    return FrameBuilder(cage).build();
 }
 
 } // namespace supple::surface::polygons

@@ -1,5 +1,7 @@
 #include "cage/ngon_fans.h"
 
+#include "tests/cage/face_lists.h"
+
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -8,6 +10,8 @@
 
 namespace supple::cage {
 namespace {
+
+using namespace test;
 
 Polygons faces(const std::vector<std::vector<uint32_t>>& list) {
     Polygons polygons;
@@ -25,12 +29,6 @@ std::vector<std::vector<uint32_t>> listOf(const Polygons& polygons) {
                           polygons.vertices.begin() + polygons.starts[f + 1]);
         std::rotate(list.back().begin(), std::min_element(list.back().begin(), list.back().end()), list.back().end());
     }
-    return list;
-}
-
-std::vector<uint32_t> identity(size_t count) {
-    std::vector<uint32_t> list(count);
-    std::iota(list.begin(), list.end(), 0u);
     return list;
 }
 

@@ -1,28 +1,14 @@
 #include "cage/polygons.h"
 
+#include "tests/cage/face_lists.h"
+
 #include <gtest/gtest.h>
-#include <numeric>
 #include <random>
 
 namespace supple::cage {
 namespace {
 
-using Indices = std::vector<uint32_t>;
-using Faces = std::vector<Indices>;
-
-Indices identity(size_t count) {
-    Indices map(count);
-    std::iota(map.begin(), map.end(), 0u);
-    return map;
-}
-
-Faces facesOf(const Polygons& polygons) {
-    Faces faces;
-    for (size_t f = 0; f < polygons.faceCount(); ++f)
-        faces.emplace_back(polygons.vertices.begin() + polygons.starts[f],
-                           polygons.vertices.begin() + polygons.starts[f + 1]);
-    return faces;
-}
+using namespace test;
 
 /// The draft's writer: a fan anchored where the polygon before was not.
 Indices encode(const Faces& faces) {

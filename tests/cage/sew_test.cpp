@@ -2,6 +2,7 @@
 #include "cage/gltf/writer.h"
 #include "cage/sew.h"
 #include "cage/topology.h"
+#include "tests/cage/face_lists.h"
 #include "tests/cage/gltf/reading.h"
 
 #include <algorithm>
@@ -54,14 +55,6 @@ std::vector<std::byte> written(const Character& character) {
     const Result<GlbFile> file = writeGlb(character);
     EXPECT_TRUE(file.ok()) << file.error().message;
     return file.ok() ? file->bytes : std::vector<std::byte>{};
-}
-
-std::vector<glm::vec3> cornerPositions(const Cage& cage) {
-    std::vector<glm::vec3> positions;
-    for (const uint32_t v : cage.faceVertices) {
-        positions.push_back(cage.positions[v]);
-    }
-    return positions;
 }
 
 void expectSameCage(const Character& parts, const Character& whole) {
@@ -145,9 +138,6 @@ std::vector<std::byte> boundMeshes(const std::vector<float>& positions,
     b.more = R"(,"skins":[{"joints":[)" + std::to_string(meshes.size()) + "]}]";
     return b.glb();
 }
-
-/// A centre and a ring of four.
-const std::vector<float> kRing = {0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0};
 
 TEST(Sewing, FansThatANeighbourJoinsAreNoDamage) {
     // Both parts are bow ties; together they are one fan.

@@ -10,8 +10,8 @@
 namespace supple::cage {
 namespace {
 
+using test::Faces;
 using test::makeCage;
-using test::Polygons;
 
 std::vector<glm::vec3> points(size_t count) {
     return std::vector<glm::vec3>(count, glm::vec3(0.0f));
@@ -26,7 +26,7 @@ std::string faultOf(const Cage& cage) {
     return result.error().message;
 }
 
-std::string faultOf(size_t vertexCount, const Polygons& polygons) {
+std::string faultOf(size_t vertexCount, const Faces& polygons) {
     return faultOf(makeCage(points(vertexCount), polygons));
 }
 
@@ -259,7 +259,7 @@ TEST(TopologyFaults, repeatedVertex) {
 
 TEST(TopologyFaults, crowdedEdge) {
     EXPECT_EQ(faultOf(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), "edge (0, 1): three faces meet here: 0, 1, 2");
-    Polygons book;
+    Faces book;
     for (uint32_t k = 0; k < 12; ++k) {
         book.push_back({0, 1, 2 + k});
     }
@@ -310,7 +310,7 @@ TEST(TopologyFaults, interiorValenceTwo) {
 TEST(Topology, hubIsFast) {
     // 200,000 triangles round one vertex: the pairing and the walk stay near linear.
     constexpr uint32_t kCount = 200000;
-    Polygons polygons;
+    Faces polygons;
     for (uint32_t k = 0; k < kCount; ++k) {
         polygons.push_back({0, 1 + k, 1 + (k + 1) % kCount});
     }

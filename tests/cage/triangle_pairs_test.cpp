@@ -1,22 +1,17 @@
 // Which triangles make a quad.
 #include "cage/triangle_pairs.h"
 
+#include "tests/cage/face_lists.h"
+
 #include <gtest/gtest.h>
-#include <numeric>
 #include <random>
 
 namespace supple::cage {
 namespace {
 
-using Indices = std::vector<uint32_t>;
-using Faces = std::vector<Indices>;
-using Points = std::vector<glm::vec3>;
+using namespace test;
 
-Indices identity(size_t count) {
-    Indices map(count);
-    std::iota(map.begin(), map.end(), 0u);
-    return map;
-}
+using Points = std::vector<glm::vec3>;
 
 bool always(uint32_t, uint32_t) {
     return true;
@@ -28,31 +23,22 @@ PairedTriangles pair(const Indices& triangles, const Points& points, PairShape s
     return pairTriangles(triangles, welded, points, always, shape, spare);
 }
 
-Faces facesOf(const Polygons& polygons) {
-    Faces faces;
-    for (size_t f = 0; f < polygons.faceCount(); ++f) {
-        faces.emplace_back(polygons.vertices.begin() + polygons.starts[f],
-                           polygons.vertices.begin() + polygons.starts[f + 1]);
-    }
-    return faces;
-}
-
-const Points kSquare{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const Points kUnitSquare{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 TEST(TrianglePairs, TwoTrianglesThatRunAgainstEachOther) {
-    EXPECT_EQ(facesOf(pair({0, 1, 2, 0, 2, 3}, kSquare).polygons), (Faces{{0, 1, 2, 3}}));
-    EXPECT_EQ(facesOf(pair({1, 2, 0, 2, 3, 0}, kSquare).polygons), (Faces{{1, 2, 3, 0}})) << "any shared edge";
-    EXPECT_EQ(facesOf(pair({0, 1, 2, 0, 3, 2}, kSquare).polygons), (Faces{{0, 1, 2}, {0, 3, 2}})) << "flipped";
-    EXPECT_EQ(facesOf(pair({0, 1, 2, 2, 1, 0}, kSquare).polygons).size(), 2u) << "two sides of one triangle";
-    EXPECT_EQ(facesOf(pair({0, 1, 2, 0, 2, 3, 0, 2, 1}, kSquare).polygons).size(), 3u) << "three on an edge";
-    const PairedTriangles degenerate = pair({0, 1, 2, 1, 1, 2, 0, 2, 3}, kSquare);
+    EXPECT_EQ(facesOf(pair({0, 1, 2, 0, 2, 3}, kUnitSquare).polygons), (Faces{{0, 1, 2, 3}}));
+    EXPECT_EQ(facesOf(pair({1, 2, 0, 2, 3, 0}, kUnitSquare).polygons), (Faces{{1, 2, 3, 0}})) << "any shared edge";
+    EXPECT_EQ(facesOf(pair({0, 1, 2, 0, 3, 2}, kUnitSquare).polygons), (Faces{{0, 1, 2}, {0, 3, 2}})) << "flipped";
+    EXPECT_EQ(facesOf(pair({0, 1, 2, 2, 1, 0}, kUnitSquare).polygons).size(), 2u) << "two sides of one triangle";
+    EXPECT_EQ(facesOf(pair({0, 1, 2, 0, 2, 3, 0, 2, 1}, kUnitSquare).polygons).size(), 3u) << "three on an edge";
+    const PairedTriangles degenerate = pair({0, 1, 2, 1, 1, 2, 0, 2, 3}, kUnitSquare);
     EXPECT_EQ(facesOf(degenerate.polygons), (Faces{{0, 1, 2, 3}}));
     EXPECT_EQ(degenerate.polygons.degenerateTriangles, 1u);
 }
 
 TEST(TrianglePairs, CornersMustAgree) {
     const Indices triangles{0, 1, 2, 3, 4, 5};
-    const Points points{kSquare[0], kSquare[1], kSquare[2], kSquare[0], kSquare[2], kSquare[3]};
+    const Points points{kUnitSquare[0], kUnitSquare[1], kUnitSquare[2], kUnitSquare[0], kUnitSquare[2], kUnitSquare[3]};
     const Indices welded{0, 1, 2, 0, 2, 5};
     Indices asked;
     const auto pairWith = [&](bool same) {
@@ -89,7 +75,7 @@ TEST(TrianglePairs, CleanQuadsAreConvexAndNearlyFlat) {
 }
 
 TEST(TrianglePairs, SquarenessIsOneForRectangles) {
-    EXPECT_NEAR(pair({0, 1, 2, 0, 2, 3}, kSquare).squareness, 1.0, 1e-6);
+    EXPECT_NEAR(pair({0, 1, 2, 0, 2, 3}, kUnitSquare).squareness, 1.0, 1e-6);
     // Two equilateral triangles: corners of 60 and 120 degrees.
     const float h = std::sqrt(0.75f);
     EXPECT_NEAR(pair({0, 1, 2, 0, 2, 3}, {{0, 0, 0}, {1, 0, 0}, {0.5f, h, 0}, {-0.5f, h, 0}}).squareness, 2.0 / 3.0,

@@ -1,5 +1,7 @@
 #include "cage/weld.h"
 
+#include "tests/cage/face_lists.h"
+
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numeric>
@@ -9,7 +11,7 @@
 namespace supple::cage {
 namespace {
 
-using Indices = std::vector<uint32_t>;
+using namespace test;
 
 const MayJoin kAnyFaces = [](uint32_t, uint32_t) { return true; };
 
@@ -40,7 +42,7 @@ Polygons asFaces(const Indices& triangles, const Indices& roots) {
     return keepTriangles(triangles, roots);
 }
 
-const Indices kTetrahedron = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+const Indices kTetrahedronFaces = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
 
 Indices shifted(Indices triangles, const Indices& map) {
     for (uint32_t& v : triangles)
@@ -54,7 +56,7 @@ Indices joined(Indices a, const Indices& b) {
 }
 
 TEST(Weld, SoupOfClosedSurface) {
-    const Soup soup = soupOf(kTetrahedron);
+    const Soup soup = soupOf(kTetrahedronFaces);
     Welding welding = weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces);
     EXPECT_EQ(countSets(welding.roots), 4u);
     for (size_t i = 0; i < soup.candidates.size(); ++i)
@@ -65,13 +67,13 @@ TEST(Weld, SoupOfClosedSurface) {
 
 TEST(Weld, TouchingInAVertexStaysApart) {
     // Two tetrahedra that share vertex 0 in space.
-    const Soup soup = soupOf(joined(kTetrahedron, shifted(kTetrahedron, {0, 4, 5, 6})));
+    const Soup soup = soupOf(joined(kTetrahedronFaces, shifted(kTetrahedronFaces, {0, 4, 5, 6})));
     EXPECT_EQ(countSets(weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces).roots), 8u);
 }
 
 TEST(Weld, TouchingAlongAnEdgeStaysApart) {
     // Two tetrahedra that share edge 0-1 in space: four triangles meet there.
-    const Soup soup = soupOf(joined(kTetrahedron, shifted(kTetrahedron, {0, 1, 4, 5})));
+    const Soup soup = soupOf(joined(kTetrahedronFaces, shifted(kTetrahedronFaces, {0, 1, 4, 5})));
     Welding welding = weld(soup.candidates, trianglesOf(soup.triangles), kAnyFaces);
     EXPECT_EQ(countSets(welding.roots), 8u);
     EXPECT_EQ(unweldDefects(asFaces(soup.triangles, welding.roots), welding), 0u);

@@ -3,6 +3,7 @@
 #include "runtime/sized.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
+#include "tests/support/not_finite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,6 @@
 namespace supple::test {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kIdentity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 constexpr int kSilent = 0; ///< in place of a SuppleMessage
 constexpr uint32_t kClips = 1, kJoints = 3, kTargets = 4, kMaterials = 1, kImages = 1;

@@ -298,7 +298,7 @@ private:
 using Net = std::array<glm::dvec3, 16>; ///< i + 4 j
 
 /// Appends a grid of 3 x 3 quads whose middle one has this net.
-void appendNet(std::vector<glm::vec3>& positions, Polygons& polygons, Net net) {
+void appendNet(std::vector<glm::vec3>& positions, Faces& polygons, Net net) {
     for (const size_t axis : {0u, 1u}) { // cubic B-splines from Bezier coefficients, along u and then along v
         for (size_t k = 0; k < 4; ++k) {
             const auto at = [&](size_t i) -> glm::dvec3& { return net[axis == 0 ? i + 4 * k : k + 4 * i]; };
@@ -324,7 +324,7 @@ TEST_P(BackFaces, BordersThatAreCoarserThanTheInsideAreMinded) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     std::vector<glm::vec3> positions;
-    Polygons polygons;
+    Faces polygons;
     std::mt19937 random(31);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     constexpr size_t kNets = 240;

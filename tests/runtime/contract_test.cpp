@@ -6,6 +6,7 @@
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sample_assets.h"
 #include "tests/support/wrapped_vulkan.h"
 #include "tools/common/cage_arrays.h"
 
@@ -19,8 +20,6 @@
 
 namespace supple::test {
 namespace {
-
-const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb";
 
 /// A device of its own whose Supple calls go through the wrapped table, validation on.
 std::unique_ptr<host::Device> wrappedDevice(bool validation = true) {
@@ -80,7 +79,7 @@ TEST(Contract, OnlyPosesCrossPerFrame) {
         ASSERT_TRUE(context.ok()) << context.error().message;
         std::vector<std::byte> bytes;
         {
-            std::FILE* file = std::fopen(kPip.c_str(), "rb");
+            std::FILE* file = std::fopen(kPipQuads.c_str(), "rb");
             ASSERT_NE(file, nullptr);
             std::byte buffer[4096];
             for (size_t n = 0; (n = std::fread(buffer, 1, sizeof(buffer), file)) > 0;) {
@@ -221,9 +220,9 @@ TEST(Contract, InstancesHaveTheirOwnPoseAndTransform) {
     GpuOptions options;
     options.instanceCount = 3;
     options.rate = 2;
-    GpuSurface three(*device, kPip, options);
+    GpuSurface three(*device, kPipQuads, options);
     options.instanceCount = 1;
-    GpuSurface alone(*device, kPip, options);
+    GpuSurface alone(*device, kPipQuads, options);
     ASSERT_TRUE(three.valid() && alone.valid());
     const glm::mat4 transform =
         glm::rotate(glm::translate(glm::mat4(1.0f), {3.0f, 0.5f, -2.0f}), 0.7f, {0.0f, 1.0f, 0.0f});
@@ -253,7 +252,7 @@ TEST(Contract, MatrixPosesEqualClipPoses) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    const Result<cage::Character> character = cage::readGltfFile(kPip);
+    const Result<cage::Character> character = cage::readGltfFile(kPipQuads);
     ASSERT_TRUE(character.ok());
     std::vector<glm::mat4> nodes(character->skeleton.nodes.size()), joints;
     skinning::sampleClip(character->skeleton, character->clips[2], 1.1, nodes);
@@ -264,7 +263,7 @@ TEST(Contract, MatrixPosesEqualClipPoses) {
     GpuOptions options;
     options.instanceCount = 2;
     options.rate = 1;
-    GpuSurface gpu(*device, kPip, options);
+    GpuSurface gpu(*device, kPipQuads, options);
     ASSERT_TRUE(gpu.valid());
     SuppleContext context = gpu.context().handle();
     ASSERT_EQ(suppleSetClipPose(context, gpu.instance(0), 2, 1.1), SUPPLE_OK);
@@ -489,14 +488,14 @@ TEST(Contract, ClipsOfOtherFiles) {
     ASSERT_NE(device, nullptr);
     LoggedContext own(*device);
     ASSERT_EQ(own.result(), SUPPLE_OK);
-    cage::test::GltfBuilder quad = cage::test::skinnedQuad();
+    test::GltfBuilder quad = test::skinnedQuad();
     const std::vector<std::byte> character = quad.glb();
     quad.nodes = R"([{"mesh":0,"skin":0},{"name":"tip"},{"name":"extra","translation":[1,0,0]}])";
     const std::vector<std::byte> other = quad.glb();
     // The third lies in two files of the host's.
-    const std::string text = cage::test::skinnedQuad().json("motion.bin");
+    const std::string text = test::skinnedQuad().json("motion.bin");
     struct Files {
-        std::vector<std::byte> binary = cage::test::skinnedQuad().binary();
+        std::vector<std::byte> binary = test::skinnedQuad().binary();
         std::vector<std::string> asked;
     } state;
     const SuppleFiles files{[](const char* path, SuppleFileBytes* out, void* user) {
@@ -773,9 +772,9 @@ TEST(Contract, MappingsSkinAndEvaluateManyInstancesAlike) {
     options.instanceCount = 3;
     options.rate = 3;
     options.mapping = SUPPLE_MAPPING_NARROW;
-    GpuSurface narrow(*device, kPip, options);
+    GpuSurface narrow(*device, kPipQuads, options);
     options.mapping = SUPPLE_MAPPING_WIDE;
-    GpuSurface wide(*device, kPip, options);
+    GpuSurface wide(*device, kPipQuads, options);
     ASSERT_TRUE(narrow.valid() && wide.valid());
     for (uint32_t i = 0; i < 3; ++i) {
         ASSERT_EQ(suppleSetClipPose(narrow.context().handle(), narrow.instance(i), i, 0.7), SUPPLE_OK);

@@ -2,6 +2,7 @@
 #include "cage/gltf/reader.h"
 #include "skinning/rotation.h"
 #include "tests/support/dual_quaternion_reference.h"
+#include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
 #include "tests/support/posed_group.h"
 #include "tests/support/rigged_tube.h"
@@ -18,8 +19,6 @@
 
 namespace supple::test {
 namespace {
-
-constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
 /// Contexts of both mappings for all tests, made once: a context compiles every pipeline.
 class DeformOnGpu : public testing::Test {

@@ -17,9 +17,8 @@
 namespace supple::test {
 namespace {
 
-constexpr uint32_t kPartCount = 40; ///< more than a word of a mask has bits
-constexpr uint32_t kInstanceCount = 3;
-constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
+constexpr uint32_t kHiddenParts = 40; ///< more than a word of a mask has bits
+constexpr uint32_t kHiddenInstances = 3;
 
 /// A cage in runs of faces of about equal length, one part each, sewn where they meet; two materials in turns.
 cage::Character inParts(cage::Cage cage, uint32_t parts) {
@@ -54,7 +53,7 @@ cage::Character inParts(cage::Cage cage, uint32_t parts) {
     return c;
 }
 
-struct Case {
+struct HiddenCase {
     const char* name;
     SuppleScheme scheme;
     bool quads; ///< the scheme takes nothing else
@@ -64,7 +63,7 @@ struct Case {
 };
 
 constexpr uint32_t kMotion = SUPPLE_GROUP_MOTION, kViewMotion = SUPPLE_VIEW_MOTION;
-constexpr Case kCases[] = {
+constexpr HiddenCase kHiddenCases[] = {
     {"prep", SUPPLE_SCHEME_PREP, true, false, kMotion, 0},
     {"prepMesh", SUPPLE_SCHEME_PREP, true, false, kMotion | SUPPLE_GROUP_INDEXED_MESH, 0},
     {"prepLevels", SUPPLE_SCHEME_PREP, true, true, 0, kViewMotion | SUPPLE_VIEW_CULL},
@@ -83,14 +82,14 @@ constexpr Case kCases[] = {
     {"polygonsRates", SUPPLE_SCHEME_POLYGONS, false, true, 0, kViewMotion},
 };
 
-class HiddenParts : public CrowdContexts, public testing::WithParamInterface<Case> {};
-INSTANTIATE_TEST_SUITE_P(Kinds, HiddenParts, testing::ValuesIn(kCases),
+class HiddenParts : public CrowdContexts, public testing::WithParamInterface<HiddenCase> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, HiddenParts, testing::ValuesIn(kHiddenCases),
                          [](const auto& param) { return std::string(param.param.name); });
 
 /// Only patches at levels are counted.
-std::vector<Case> levelCases() {
-    std::vector<Case> cases;
-    std::copy_if(std::begin(kCases), std::end(kCases), std::back_inserter(cases), [](const Case& c) {
+std::vector<HiddenCase> levelCases() {
+    std::vector<HiddenCase> cases;
+    std::copy_if(std::begin(kHiddenCases), std::end(kHiddenCases), std::back_inserter(cases), [](const HiddenCase& c) {
         return c.viewed &&
                (c.scheme == SUPPLE_SCHEME_PREP || c.scheme == SUPPLE_SCHEME_PM || c.scheme == SUPPLE_SCHEME_BLEND);
     });
@@ -106,14 +105,14 @@ bool subdivides(SuppleScheme scheme) {
     return scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
 }
 
-using Hidden = std::array<std::set<uint32_t>, kInstanceCount>;
+using Hidden = std::array<std::set<uint32_t>, kHiddenInstances>;
 
 /// A group, with its view if it has one, and its instances.
-struct Stage {
-    Stage(CrowdContext& context, const Case& c, SuppleAsset asset) {
+struct HiddenStage {
+    HiddenStage(CrowdContext& context, const HiddenCase& c, SuppleAsset asset) {
         SuppleGroupDesc desc{};
         desc.asset = asset;
-        desc.capacity = kInstanceCount;
+        desc.capacity = kHiddenInstances;
         desc.scheme = c.scheme;
         desc.rate = c.viewed ? 8 : 4; // several rates
         desc.vertexFormat = SUPPLE_VERTEX_24;
@@ -127,7 +126,7 @@ struct Stage {
             desc.view = view->handle();
         }
         crowd = std::make_unique<Crowd>(context, desc);
-        for (uint32_t i = 0; i < kInstanceCount && crowd->valid(); ++i) {
+        for (uint32_t i = 0; i < kHiddenInstances && crowd->valid(); ++i) {
             instances.push_back(crowd->spawn());
         }
     }
@@ -140,8 +139,8 @@ struct Stage {
         }
     }
     void hide(const Hidden& hidden) const {
-        for (uint32_t i = 0; i < kInstanceCount; ++i) {
-            for (uint32_t p = 0; p < kPartCount; ++p) {
+        for (uint32_t i = 0; i < kHiddenInstances; ++i) {
+            for (uint32_t p = 0; p < kHiddenParts; ++p) {
                 EXPECT_EQ(suppleSetPartVisible(crowd->context().handle(), instances[i], p, hidden[i].count(p) ? 0 : 1),
                           SUPPLE_OK);
             }
@@ -153,26 +152,26 @@ struct Stage {
     std::vector<SuppleInstance> instances;
 };
 
-cage::Cage cageOf(const Case& c) {
+cage::Cage cageOf(const HiddenCase& c) {
     return c.quads ? biped() : withMergedFaces(withCutQuads(biped(), 0.3, 3), 4, 5);
 }
 
 TEST_P(HiddenParts, AreNotDrawnAndNothingElseChanges) {
     const ValidationGuard guard;
-    const Case& c = GetParam();
+    const HiddenCase& c = GetParam();
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
-        const SuppleAsset asset = own.createAsset(inParts(cageOf(c), kPartCount));
-        Stage hiding(own, c, asset), whole(own, c, asset);
+        const SuppleAsset asset = own.createAsset(inParts(cageOf(c), kHiddenParts));
+        HiddenStage hiding(own, c, asset), whole(own, c, asset);
         ASSERT_TRUE(hiding.crowd->valid() && whole.crowd->valid());
         const std::vector<uint32_t> parts = partsOfKeys(*whole.crowd, asset);
-        ASSERT_EQ(std::set<uint32_t>(parts.begin(), parts.end()).size(), kPartCount);
+        ASSERT_EQ(std::set<uint32_t>(parts.begin(), parts.end()).size(), kHiddenParts);
 
         const std::set<uint32_t> all = [] {
             std::set<uint32_t> every;
-            for (uint32_t p = 0; p < kPartCount; ++p) {
+            for (uint32_t p = 0; p < kHiddenParts; ++p) {
                 every.insert(p);
             }
             return every;
@@ -222,12 +221,12 @@ TEST_P(HiddenParts, AreNotDrawnAndNothingElseChanges) {
 }
 
 TEST_P(HiddenPartsAtLevels, ViewsCountThem) {
-    const Case& c = GetParam();
+    const HiddenCase& c = GetParam();
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        const SuppleAsset asset = own.createAsset(inParts(cageOf(c), kPartCount));
-        const Stage stage(own, c, asset);
+        const SuppleAsset asset = own.createAsset(inParts(cageOf(c), kHiddenParts));
+        const HiddenStage stage(own, c, asset);
         ASSERT_TRUE(stage.crowd->valid());
         const std::vector<uint32_t> parts = partsOfKeys(*stage.crowd, asset);
         const Hidden frames[] = {{{{2, 3}, {}, {38}}}, {{{2}, {5, 6}, {}}}, {}};
@@ -246,7 +245,7 @@ TEST_P(HiddenPartsAtLevels, ViewsCountThem) {
             EXPECT_EQ(statistics.hiddenPatchCount, count);
             EXPECT_EQ(statistics.patchCount, drawn);
             EXPECT_EQ(statistics.patchCount + statistics.hiddenPatchCount + statistics.backFaceCount,
-                      kInstanceCount * parts.size());
+                      kHiddenInstances * parts.size());
             const bool backFaces = (c.viewFlags & SUPPLE_VIEW_BACK_FACES) != 0 && c.scheme != SUPPLE_SCHEME_BLEND;
             EXPECT_EQ(statistics.backFaceCount > 0, backFaces);
         }
@@ -257,8 +256,8 @@ TEST_P(HiddenPartsAtLevels, ViewsCountThem) {
 TEST_F(HiddenPartsOnce, TakeNoRoomInTheBudget) {
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    const Case c{"levels", SUPPLE_SCHEME_PM, false, true, 0, 0};
-    const Stage stage(own, c, own.createAsset(inParts(cageOf(c), kPartCount)));
+    const HiddenCase c{"levels", SUPPLE_SCHEME_PM, false, true, 0, 0};
+    const HiddenStage stage(own, c, own.createAsset(inParts(cageOf(c), kHiddenParts)));
     ASSERT_TRUE(stage.crowd->valid());
     stage.view->camera.chordError = 0.05f;
     stage.view->camera.vertexBudget = 30000;
@@ -272,7 +271,7 @@ TEST_F(HiddenPartsOnce, TakeNoRoomInTheBudget) {
     const SuppleViewStatistics whole = statistics();
     EXPECT_LT(whole.levelScales[0], 1.0f);
     std::set<uint32_t> most;
-    for (uint32_t p = 2; p < kPartCount; ++p) {
+    for (uint32_t p = 2; p < kHiddenParts; ++p) {
         most.insert(p);
     }
     stage.hide({most, most, most});
@@ -284,8 +283,8 @@ TEST_F(HiddenPartsOnce, TakeNoRoomInTheBudget) {
 TEST_F(HiddenPartsOnce, AreStateOfAnInstance) {
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    const Case c{"grids", SUPPLE_SCHEME_PM, false, false, 0, 0};
-    Stage stage(own, c, own.createAsset(inParts(cageOf(c), kPartCount)));
+    const HiddenCase c{"grids", SUPPLE_SCHEME_PM, false, false, 0, 0};
+    HiddenStage stage(own, c, own.createAsset(inParts(cageOf(c), kHiddenParts)));
     ASSERT_TRUE(stage.crowd->valid());
     const auto hide = [&](SuppleInstance instance, uint32_t part, uint32_t visible) {
         return suppleSetPartVisible(own.handle(), instance, part, visible);
@@ -300,7 +299,7 @@ TEST_F(HiddenPartsOnce, AreStateOfAnInstance) {
     };
     stage.place(0);
     const size_t all = count();
-    refused(stage.instances[0], kPartCount, 0, SUPPLE_MESSAGE_OUT_OF_RANGE);
+    refused(stage.instances[0], kHiddenParts, 0, SUPPLE_MESSAGE_OUT_OF_RANGE);
     refused(stage.instances[0], ~0u, 0, SUPPLE_MESSAGE_OUT_OF_RANGE);
     refused(stage.instances[0], 0, 2, SUPPLE_MESSAGE_OUT_OF_RANGE);
     refused({stage.instances[0].group, 0, stage.instances[0].generation + 1}, 0, 0, SUPPLE_MESSAGE_STALE_HANDLE);

@@ -62,7 +62,7 @@ std::vector<std::vector<uint32_t>> sharedVertices(const GpuSurface& grid, const 
     return vertices;
 }
 
-struct Compared {
+struct ComparedMesh {
     ComparedBits positions;
     double inside = 0.0, border = 0.0; ///< largest angle between normals, degrees
     uint64_t above = 0;                ///< border normals more than 0.02 degrees apart
@@ -89,7 +89,7 @@ bool onBorder(surface::Domain domain, uint32_t rate, uint32_t sample) {
 
 /// Sample by sample; `singular` says which corners have no normal of their own.
 template <class Singular>
-void compareSamples(const GpuSurface& grid, const GpuSurface& shared, Compared& all, Singular&& singular) {
+void compareSamples(const GpuSurface& grid, const GpuSurface& shared, ComparedMesh& all, Singular&& singular) {
     const std::vector<uint32_t> indices = readIndices(shared);
     const std::vector<std::vector<uint32_t>> vertices = sharedVertices(grid, shared, indices);
     const uint32_t rate = grid.output().grid.rate;
@@ -123,7 +123,7 @@ void compareSamples(const GpuSurface& grid, const GpuSurface& shared, Compared& 
     all.vertices += used.size();
     EXPECT_TRUE(std::find(used.begin(), used.end(), false) == used.end()) << "a vertex that no triangle has";
 }
-void compareSamples(const GpuSurface& grid, const GpuSurface& shared, Compared& all) {
+void compareSamples(const GpuSurface& grid, const GpuSurface& shared, ComparedMesh& all) {
     compareSamples(grid, shared, all, [](uint32_t, uint32_t) { return false; });
 }
 
@@ -152,10 +152,6 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Mappings, IndexedMesh, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
                          [](const auto& param) { return mappingName(param.param); });
 
-struct NamedCage {
-    const char* name;
-    cage::Cage cage;
-};
 std::vector<NamedCage> quadCages() {
     return {{"cube", cube()},
             {"cube sphere", rotatedFaces(perturbed(cage::makeCubeSphere(4), 0.02f, 1))},
@@ -176,7 +172,7 @@ TEST_P(IndexedMesh, PrepHasTheGridsBits) {
         for (const cage::Topology::Edge& edge : topology->edges) {
             boundary += edge.twin == cage::kNone ? 1 : 0;
         }
-        Compared all;
+        ComparedMesh all;
         for (const SuppleCornerRule corners : {SUPPLE_CORNERS_SHARP, SUPPLE_CORNERS_SMOOTH}) {
             for (const uint32_t rate : {1u, 2u, 3u, 8u, 17u}) {
                 SCOPED_TRACE(std::string(named.name) + " at rate " + std::to_string(rate));
@@ -208,7 +204,7 @@ TEST_P(IndexedMesh, PrepHasTheGridsBits) {
 
 TEST_P(IndexedMesh, PmHasTheGridsBits) {
     const ValidationGuard guard;
-    Compared all;
+    ComparedMesh all;
     for (const PmCage& zoo : pmZoo()) {
         const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(zoo.cage);
         ASSERT_TRUE(mesh.ok()) << zoo.name;
@@ -324,7 +320,7 @@ TEST_P(IndexedMesh, CharactersInAPose) {
                 ASSERT_TRUE(gridded.valid() && shared.valid() && shared3.valid());
                 evaluateInAPose(gridded, character);
                 evaluateInAPose(shared, character);
-                Compared all;
+                ComparedMesh all;
                 compareSamples(gridded, shared, all, [](uint32_t, uint32_t) { return false; });
                 all.print(path.c_str());
                 EXPECT_EQ(all.positions.different, 0u);

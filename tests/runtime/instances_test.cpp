@@ -2,6 +2,7 @@
 #include "cage/procedural.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/sample_assets.h"
 
 #include <algorithm>
 #include <cstring>
@@ -15,9 +16,6 @@
 
 namespace supple::test {
 namespace {
-
-const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
-constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
 using Instances = CrowdContexts;
 

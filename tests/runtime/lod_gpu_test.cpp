@@ -51,10 +51,10 @@ struct LodCase {
         }
     }
 };
-constexpr LodCase kCases[] = {{"p-rep", SUPPLE_SCHEME_PREP},
-                              {"P_m", SUPPLE_SCHEME_PM},
-                              {"blend", SUPPLE_SCHEME_BLEND},
-                              {"blend, curves", SUPPLE_SCHEME_BLEND, SUPPLE_CREASES_CURVE}};
+constexpr LodCase kLodCases[] = {{"p-rep", SUPPLE_SCHEME_PREP},
+                                 {"P_m", SUPPLE_SCHEME_PM},
+                                 {"blend", SUPPLE_SCHEME_BLEND},
+                                 {"blend, curves", SUPPLE_SCHEME_BLEND, SUPPLE_CREASES_CURVE}};
 
 class LodCharacters : public CrowdContexts, public testing::WithParamInterface<SuppleMapping> {};
 INSTANTIATE_TEST_SUITE_P(Mappings, LodCharacters, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
@@ -65,7 +65,7 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
     const ValidationGuard guard;
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
-    for (const LodCase& c : kCases) {
+    for (const LodCase& c : kLodCases) {
         uint32_t characters = 0;
         size_t edges = 0, samples = 0, triangles = 0, scaledFrames = 0;
         std::set<uint32_t> capacities;
@@ -171,7 +171,7 @@ TEST(LodRandom, LevelsAndCapacitiesLeaveNoCracks) {
         ASSERT_TRUE(random.valid());
         size_t samples = 0, triangles = 0, groups = 0;
         std::set<uint32_t> capacities;
-        for (const LodCase& c : kCases) {
+        for (const LodCase& c : kLodCases) {
             for (const std::string& path : c.characters(mapping)) {
                 Result<cage::Character> character = cage::readGltfFile(path);
                 ASSERT_TRUE(character.ok());

@@ -168,9 +168,9 @@ double levelOf(const Crowd& crowd, uint32_t slot, const cage::Cage& bindPose, co
 }
 
 /// Groups of one rate, each rate of `crowd` one, whose instances do what those of the crowd do.
-class Twins {
+class RateTwins {
 public:
-    Twins(Crowd& crowd, const SuppleGroupDesc& desc, uint32_t flags, uint32_t firstRate) : crowd_(crowd) {
+    RateTwins(Crowd& crowd, const SuppleGroupDesc& desc, uint32_t flags, uint32_t firstRate) : crowd_(crowd) {
         SuppleGroupDesc own = desc;
         own.view = {};
         own.flags = flags;
@@ -279,7 +279,7 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
         const uint32_t rates = static_cast<uint32_t>(std::countr_zero(c.rate) - std::countr_zero(c.firstRate)) + 1;
         ASSERT_EQ(crowd.output().grid.rateCount, rates);
         ASSERT_EQ(crowd.output().levels.drawCount, 0u);
-        Twins twins(crowd, desc, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, c.firstRate);
+        RateTwins twins(crowd, desc, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, c.firstRate);
         for (uint32_t i = 0; i < c.instances; ++i) {
             twins.spawn();
         }
@@ -744,14 +744,14 @@ TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
 }
 
 /// What a view draws of a crowd on a device whose limits `limit` has set, and how many commands it took.
-struct Drawn {
+struct DrawnRates {
     std::map<uint32_t, std::pair<size_t, std::vector<std::byte>>> instances; ///< rate and its vertices, by slot
     std::map<uint32_t, std::vector<std::byte>> previous;
     WrappedVulkan counts;
 };
-Drawn drawThrough(SuppleMapping mapping, uint32_t count, uint32_t capacity, SuppleScheme scheme,
-                  const std::function<void(WrappedVulkan&)>& limit) {
-    Drawn drawn;
+DrawnRates drawRatesThrough(SuppleMapping mapping, uint32_t count, uint32_t capacity, SuppleScheme scheme,
+                            const std::function<void(WrappedVulkan&)>& limit) {
+    DrawnRates drawn;
     WrappedVulkan& wrapped = wrappedVulkan();
     limit(wrapped);
     const WrappedVulkan limits = wrapped;
@@ -800,9 +800,9 @@ Drawn drawThrough(SuppleMapping mapping, uint32_t count, uint32_t capacity, Supp
 TEST_P(LodRates, CommandsDoNotCountInstances) {
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
         const auto unlimited = [](WrappedVulkan&) {};
-        const Drawn one = drawThrough(GetParam(), 1, 1000, scheme, unlimited);
+        const DrawnRates one = drawRatesThrough(GetParam(), 1, 1000, scheme, unlimited);
         for (const uint32_t instances : {30u, 1000u}) {
-            const Drawn many = drawThrough(GetParam(), instances, 1000, scheme, unlimited);
+            const DrawnRates many = drawRatesThrough(GetParam(), instances, 1000, scheme, unlimited);
             EXPECT_EQ(many.counts.dispatches, one.counts.dispatches);
             EXPECT_EQ(many.counts.indirectDispatches, one.counts.indirectDispatches);
             EXPECT_EQ(many.counts.barriers, one.counts.barriers);
@@ -819,18 +819,18 @@ TEST_P(LodRates, CommandsDoNotCountInstances) {
 TEST_P(LodRates, SplitDispatchesAndWindowsDrawTheSame) {
     const uint32_t instances = 600, capacity = 1200;
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
-        const Drawn whole = drawThrough(GetParam(), instances, capacity, scheme, [](WrappedVulkan&) {});
+        const DrawnRates whole = drawRatesThrough(GetParam(), instances, capacity, scheme, [](WrappedVulkan&) {});
         std::set<size_t> rates;
         for (const auto& [slot, drawn] : whole.instances) {
             rates.insert(drawn.first);
         }
         EXPECT_GE(rates.size(), 2u);
-        const Drawn split = drawThrough(GetParam(), instances, capacity, scheme,
-                                        [](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = 3; });
+        const DrawnRates split = drawRatesThrough(GetParam(), instances, capacity, scheme,
+                                                  [](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = 3; });
         EXPECT_TRUE(split.instances == whole.instances);
         EXPECT_TRUE(split.previous == whole.previous);
-        const Drawn windows = drawThrough(GetParam(), instances, capacity, scheme,
-                                          [](WrappedVulkan& w) { w.maxStorageBufferRange = 4u << 20; });
+        const DrawnRates windows = drawRatesThrough(GetParam(), instances, capacity, scheme,
+                                                    [](WrappedVulkan& w) { w.maxStorageBufferRange = 4u << 20; });
         EXPECT_GT(windows.counts.indirectDispatches, whole.counts.indirectDispatches) << "there is one window";
         EXPECT_TRUE(windows.instances == whole.instances);
         EXPECT_TRUE(windows.previous == whole.previous);

@@ -12,7 +12,7 @@ namespace {
 
 /// A quad with three materials: one of everything, one of nothing, one with a trim of its own.
 std::vector<std::byte> paintedQuad() {
-    cage::test::GltfBuilder b = cage::test::skinnedQuad();
+    test::GltfBuilder b = test::skinnedQuad();
     b.more +=
         R"(,"materials":[{"name":"all","alphaMode":"MASK","alphaCutoff":0.25,"doubleSided":true,"pbrMetallicRoughness":)"
         R"({"baseColorFactor":[0.5,0.25,0.125,0.75],"baseColorTexture":{"index":0},"metallicFactor":0.375,)"

@@ -4,6 +4,7 @@
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sample_assets.h"
 #include "tests/support/wrapped_vulkan.h"
 
 #include <cstring>
@@ -15,19 +16,16 @@
 namespace supple::test {
 namespace {
 
-const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
 const std::string kHelmet = std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb";
-const std::string kPipQuads = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb";
-constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
 /// A pose that no other frame and instance has.
-struct Pose {
+struct MovingPose {
     uint32_t clip = 0;
     double time = 0.0;
     glm::mat4 transform{1.0f};
 };
-Pose poseOf(uint32_t frame, uint32_t instance) {
-    Pose pose;
+MovingPose poseOf(uint32_t frame, uint32_t instance) {
+    MovingPose pose;
     pose.clip = 1 + (frame + instance) % 2;
     pose.time = 0.11 * frame + 0.23 * instance;
     const auto f = static_cast<float>(frame), i = static_cast<float>(instance);
@@ -35,7 +33,7 @@ Pose poseOf(uint32_t frame, uint32_t instance) {
                                  0.2f * f + 0.5f * i, {0.0f, 1.0f, 0.0f});
     return pose;
 }
-void apply(Crowd& crowd, SuppleInstance instance, const Pose& pose) {
+void apply(Crowd& crowd, SuppleInstance instance, const MovingPose& pose) {
     const uint32_t clip = pose.clip == SUPPLE_BIND_POSE ? pose.clip : pose.clip % crowd.clipCount();
     crowd.pose(instance, clip, pose.time, pose.transform);
 }

@@ -2,6 +2,7 @@
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/sample_assets.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/wrapped_vulkan.h"
 
@@ -17,9 +18,6 @@
 
 namespace supple::test {
 namespace {
-
-const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
-constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
 // What the device's floats may be off by: of the extent of the cage for where things are, of 1 for linear parts,
 // rotations and morph weights.

@@ -26,8 +26,6 @@
 namespace supple::test {
 namespace {
 
-constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
-
 GpuOptions polygonsOptions(SuppleMapping mapping = SUPPLE_MAPPING_NARROW, uint32_t flags = 0) {
     GpuOptions options;
     options.mapping = mapping;

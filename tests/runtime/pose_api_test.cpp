@@ -5,8 +5,10 @@
 #include "skinning/layers.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/gpu_surface.h"
+#include "tests/support/not_finite.h"
 #include "tests/support/posed_group.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/sample_assets.h"
 #include "tests/support/wrapped_vulkan.h"
 
 #include <cmath>
@@ -20,10 +22,6 @@
 
 namespace supple::test {
 namespace {
-
-const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
-const float kNan = std::numeric_limits<float>::quiet_NaN();
-const double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<std::byte> bytesOf(const std::string& path) {
     std::ifstream file(path, std::ios::binary);

@@ -3,6 +3,7 @@
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/sample_assets.h"
 
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,9 +12,6 @@
 
 namespace supple::test {
 namespace {
-
-const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
-constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
 using PoseSources = CrowdContexts;
 

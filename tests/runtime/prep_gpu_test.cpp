@@ -84,10 +84,6 @@ ComparedBits countBorderBits(const GpuSurface& gpu, const cage::Cage& cage, cons
     return bits;
 }
 
-struct NamedCage {
-    const char* name;
-    cage::Cage cage;
-};
 std::vector<NamedCage> borderCages() {
     std::vector<NamedCage> cages;
     cages.push_back({"cube", cube()});

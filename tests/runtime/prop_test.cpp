@@ -11,6 +11,7 @@
 #include "shaders/prop_vert_PLACED.h"
 #include "shaders/prop_vert_SKINNED.h"
 #include "tests/support/crowd.h"
+#include "tests/support/sample_assets.h"
 
 #include <algorithm>
 #include <cstring>
@@ -23,7 +24,6 @@
 namespace supple::test {
 namespace {
 
-const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
 constexpr uint32_t kSize = 256;
 
 /// Triangles of the cage that follow one joint alone.

@@ -16,7 +16,7 @@
 namespace supple::test {
 namespace {
 
-constexpr uint32_t kPartCount = 3;
+constexpr uint32_t kSewnParts = 3;
 
 /// Per face: which of the slabs of equal height it lies in.
 std::vector<uint32_t> slabsOf(const cage::Cage& cage, uint32_t slabs) {
@@ -138,11 +138,11 @@ std::map<PatchName, uint32_t> patchesByName(const GpuSurface& gpu) {
     return names;
 }
 
-struct Compared {
+struct ComparedSewn {
     ComparedBits positions, normals;
 };
 
-void compare(const GpuSurface& whole, const GpuSurface& parts, Compared& compared) {
+void compare(const GpuSurface& whole, const GpuSurface& parts, ComparedSewn& compared) {
     const std::map<PatchName, uint32_t> a = patchesByName(whole), b = patchesByName(parts);
     ASSERT_EQ(a.size(), b.size());
     for (const auto& [name, patch] : a) {
@@ -157,19 +157,19 @@ void compare(const GpuSurface& whole, const GpuSurface& parts, Compared& compare
     }
 }
 
-struct Case {
+struct SewnCase {
     const char* name;
     const char* file;
     SuppleScheme scheme;
 };
-constexpr Case kCases[] = {{"Prep", "pip_quads.glb", SUPPLE_SCHEME_PREP},
-                           {"Pm", "pip.glb", SUPPLE_SCHEME_PM},
-                           {"CatmullClark", "pip.glb", SUPPLE_SCHEME_CATMULL_CLARK},
-                           {"Loop", "pip.glb", SUPPLE_SCHEME_LOOP},
-                           {"Blend", "pip.glb", SUPPLE_SCHEME_BLEND}};
+constexpr SewnCase kSewnCases[] = {{"Prep", "pip_quads.glb", SUPPLE_SCHEME_PREP},
+                                   {"Pm", "pip.glb", SUPPLE_SCHEME_PM},
+                                   {"CatmullClark", "pip.glb", SUPPLE_SCHEME_CATMULL_CLARK},
+                                   {"Loop", "pip.glb", SUPPLE_SCHEME_LOOP},
+                                   {"Blend", "pip.glb", SUPPLE_SCHEME_BLEND}};
 
-class SewnParts : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Schemes, SewnParts, testing::ValuesIn(kCases),
+class SewnParts : public testing::TestWithParam<SewnCase> {};
+INSTANTIATE_TEST_SUITE_P(Schemes, SewnParts, testing::ValuesIn(kSewnCases),
                          [](const auto& param) { return std::string(param.param.name); });
 
 TEST_P(SewnParts, AreTheWholeMesh) {
@@ -179,15 +179,15 @@ TEST_P(SewnParts, AreTheWholeMesh) {
     Result<cage::Character> character = cage::readGltfFile(path);
     ASSERT_TRUE(character.ok()) << character.error().message;
     ASSERT_EQ(character->parts.size(), 1u);
-    const std::vector<uint32_t> firstFaces = sortBySlabs(character->cage, kPartCount);
-    ASSERT_EQ(firstFaces.size(), kPartCount);
+    const std::vector<uint32_t> firstFaces = sortBySlabs(character->cage, kSewnParts);
+    ASSERT_EQ(firstFaces.size(), kSewnParts);
     const WrittenCharacter wholeFile(*character, std::string(GetParam().name) + "_whole");
     const WrittenCharacter partsFile(cut(*character, firstFaces), std::string(GetParam().name) + "_parts");
     const Result<cage::Character> sewn = cage::readGltfFile(partsFile.path());
     const Result<cage::Character> apart = cage::readGltfFile(partsFile.path(), {.sewParts = false});
     ASSERT_TRUE(sewn.ok() && apart.ok());
     EXPECT_TRUE(sewn->damages.empty());
-    EXPECT_EQ(sewn->parts.size(), kPartCount);
+    EXPECT_EQ(sewn->parts.size(), kSewnParts);
     EXPECT_EQ(sewn->cage.vertexCount(), character->cage.vertexCount());
     EXPECT_GT(apart->cage.vertexCount(), sewn->cage.vertexCount()) << "there is something to sew";
 
@@ -200,7 +200,7 @@ TEST_P(SewnParts, AreTheWholeMesh) {
         options.flags = 0;
         GpuSurface whole(*testDevice(), wholeFile.path(), options), parts(*testDevice(), partsFile.path(), options);
         ASSERT_TRUE(whole.valid() && parts.valid());
-        Compared compared;
+        ComparedSewn compared;
         const auto clips = static_cast<uint32_t>(std::min<size_t>(character->clips.size(), 3));
         ASSERT_GT(clips, 0u);
         for (uint32_t clip = 0; clip < clips; ++clip) {

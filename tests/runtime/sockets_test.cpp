@@ -3,6 +3,7 @@
 #include "tests/support/allocation_count.h"
 #include "tests/support/crowd.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/sample_assets.h"
 
 #include <array>
 #include <cstring>
@@ -14,7 +15,6 @@
 namespace supple::test {
 namespace {
 
-const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
 constexpr SupplePoseSource kKnown[] = {SUPPLE_POSES_SET, SUPPLE_POSES_PLAYBACK};
 
 using Matrix = std::array<float, 16>;
@@ -25,7 +25,7 @@ Matrix arrayOf(const glm::mat4& matrix) {
     return result;
 }
 
-SuppleGroupDesc cageGroup(SuppleAsset asset, uint32_t capacity, SupplePoseSource source = SUPPLE_POSES_SET) {
+SuppleGroupDesc socketGroup(SuppleAsset asset, uint32_t capacity, SupplePoseSource source = SUPPLE_POSES_SET) {
     SuppleGroupDesc desc{};
     desc.asset = asset;
     desc.capacity = capacity;
@@ -34,7 +34,7 @@ SuppleGroupDesc cageGroup(SuppleAsset asset, uint32_t capacity, SupplePoseSource
     return desc;
 }
 
-SupplePlaybackLayer playing(uint32_t clip, double offset = 0.0) {
+SupplePlaybackLayer layerOf(uint32_t clip, double offset = 0.0) {
     SupplePlaybackLayer layer{};
     layer.clip = clip;
     layer.flags = SUPPLE_LAYER_LOOP;
@@ -44,7 +44,7 @@ SupplePlaybackLayer playing(uint32_t clip, double offset = 0.0) {
 }
 
 /// A tube whose second joint turns and whose first walks.
-cage::Character walkingTube() {
+cage::Character socketTube() {
     cage::Character tube = riggedTube({.segments = 6, .sides = 6, .joints = 3});
     tube.skeleton.nodes[2].rotation = glm::angleAxis(0.3f, glm::vec3(0.0f, 0.0f, 1.0f)); // rest is not bind
     tube.clips.push_back(
@@ -105,7 +105,7 @@ protected:
 TEST_F(Sockets, MatrixPosesComeBackBitForBit) {
     const SuppleAsset asset = own->asset(kPip);
     const uint32_t joints = jointCount(asset);
-    Crowd crowd(*own, cageGroup(asset, 2));
+    Crowd crowd(*own, socketGroup(asset, 2));
     ASSERT_TRUE(crowd.valid());
     const SuppleInstance first = crowd.spawn(), second = crowd.spawn();
     Noise noise(7);
@@ -127,11 +127,11 @@ TEST_F(Sockets, MatrixPosesComeBackBitForBit) {
 
 TEST_F(Sockets, BindAndRestPosesAreThoseOfTheJointInfo) {
     for (const bool pip : {true, false}) {
-        const SuppleAsset asset = pip ? own->asset(kPip) : own->createAsset(walkingTube());
+        const SuppleAsset asset = pip ? own->asset(kPip) : own->createAsset(socketTube());
         const uint32_t joints = jointCount(asset);
         bool different = false;
         for (const SupplePoseSource source : kKnown) {
-            Crowd crowd(*own, cageGroup(asset, 2, source));
+            Crowd crowd(*own, socketGroup(asset, 2, source));
             ASSERT_TRUE(crowd.valid());
             const SuppleInstance bound = crowd.spawn(), rests = crowd.spawn();
             if (source == SUPPLE_POSES_SET) {
@@ -152,7 +152,7 @@ TEST_F(Sockets, BindAndRestPosesAreThoseOfTheJointInfo) {
 }
 
 TEST_F(Sockets, ASingularInverseBindGivesTheRestTransform) {
-    cage::Character tube = walkingTube();
+    cage::Character tube = socketTube();
     tube.skin.inverseBinds[0] = glm::scale(glm::mat4(1.0f), {1.0f, 0.0f, 1.0f});
     tube.skin.inverseBinds[1] = glm::scale(glm::mat4(1.0f), {1e-30f, 1e-30f, 1e-30f}); // whose inverse is far beyond
     tube.skin.inverseBinds[1][3] = glm::vec4(1e20f, 0.0f, 0.0f, 1.0f);                 // what floats hold
@@ -162,7 +162,7 @@ TEST_F(Sockets, ASingularInverseBindGivesTheRestTransform) {
         EXPECT_EQ(info.bindIsSingular, j < 2 ? 1u : 0u);
         EXPECT_EQ(std::memcmp(info.bindTransform, info.restTransform, sizeof(Matrix)) == 0, j < 2);
         for (const SupplePoseSource source : kKnown) {
-            Crowd crowd(*own, cageGroup(asset, 1, source));
+            Crowd crowd(*own, socketGroup(asset, 1, source));
             ASSERT_TRUE(crowd.valid());
             EXPECT_EQ(socket(crowd.spawn(), j), std::to_array(info.bindTransform));
         }
@@ -183,12 +183,12 @@ TEST_F(Sockets, AnOlderJointInfoIsNotWrittenBeyondItsEnd) {
 // once.
 TEST_F(Sockets, FollowWhatIsSet) {
     for (const size_t last : {0u, 1u}) { // whose pose is kept while things change
-        const SuppleAsset asset = own->createAsset(walkingTube());
-        const auto make = [&] { return std::make_unique<Crowd>(*own, cageGroup(asset, 2, SUPPLE_POSES_PLAYBACK)); };
+        const SuppleAsset asset = own->createAsset(socketTube());
+        const auto make = [&] { return std::make_unique<Crowd>(*own, socketGroup(asset, 2, SUPPLE_POSES_PLAYBACK)); };
         const auto asked = make();
         std::vector<SuppleInstance> instances = {asked->spawn(), asked->spawn()};
         const std::vector<float> half = {1.0f, 0.5f, 0.25f}, ones(3, 1.0f);
-        std::vector<SupplePlaybackLayer> masked = {playing(0, 0.2), playing(0, 1.1)};
+        std::vector<SupplePlaybackLayer> masked = {layerOf(0, 0.2), layerOf(0, 1.1)};
         masked[1].mask = 1;
         masked[1].weight = 0.6f;
         struct State {
@@ -245,7 +245,7 @@ TEST_F(Sockets, FollowWhatIsSet) {
 TEST_F(Sockets, BuffersOfTheHostsAreUnknown) {
     const SuppleAsset asset = own->asset(kPip);
     for (const SupplePoseSource source : {SUPPLE_POSES_PALETTE_BUFFER, SUPPLE_POSES_CAGE_BUFFER}) {
-        Crowd crowd(*own, cageGroup(asset, 1, source));
+        Crowd crowd(*own, socketGroup(asset, 1, source));
         ASSERT_TRUE(crowd.valid());
         const SuppleInstance instance = crowd.spawn();
         static_cast<void>(own->takeLines());
@@ -264,10 +264,10 @@ TEST_F(Sockets, BuffersOfTheHostsAreUnknown) {
 TEST_F(Sockets, AskingAllocatesNothing) {
     const SuppleAsset asset = own->asset(kPip);
     const uint32_t joints = jointCount(asset);
-    Crowd told(*own, cageGroup(asset, 2)), plays(*own, cageGroup(asset, 2, SUPPLE_POSES_PLAYBACK));
+    Crowd told(*own, socketGroup(asset, 2)), plays(*own, socketGroup(asset, 2, SUPPLE_POSES_PLAYBACK));
     ASSERT_TRUE(told.valid() && plays.valid());
     const SuppleInstance instances[] = {told.spawn(), told.spawn(), plays.spawn(), plays.spawn()};
-    std::vector<SupplePlaybackLayer> layers = {playing(0), playing(1, 0.3)};
+    std::vector<SupplePlaybackLayer> layers = {layerOf(0), layerOf(1, 0.3)};
     layers[1].mode = SUPPLE_LAYER_ADDITIVE;
     layers[1].mask = 1;
     setMask(plays.group(), std::vector<float>(joints, 0.5f));

@@ -17,14 +17,13 @@
 namespace supple::test {
 namespace {
 
-constexpr uint32_t kInstanceCount = 3;
-constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
+constexpr uint32_t kInstances = 3;
 
 /// The scheme of each part. Two parts have the first one, with others between them.
-constexpr SuppleScheme kSchemes[] = {SUPPLE_SCHEME_PM,    SUPPLE_SCHEME_LOOP,     SUPPLE_SCHEME_PREP,
-                                     SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_POLYGONS, SUPPLE_SCHEME_CATMULL_CLARK,
-                                     SUPPLE_SCHEME_PM};
-constexpr uint32_t kPartCount = std::size(kSchemes), kSurfaceCount = kPartCount - 1;
+constexpr SuppleScheme kPartSchemes[] = {SUPPLE_SCHEME_PM,    SUPPLE_SCHEME_LOOP,     SUPPLE_SCHEME_PREP,
+                                         SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_POLYGONS, SUPPLE_SCHEME_CATMULL_CLARK,
+                                         SUPPLE_SCHEME_PM};
+constexpr uint32_t kPartCount = std::size(kPartSchemes), kSurfaceCount = kPartCount - 1;
 
 /// Bipeds side by side, each a part with a joint of its own. All faces are quads, which every scheme takes.
 cage::Character bipeds() {
@@ -56,29 +55,30 @@ cage::Character bipeds() {
     return c;
 }
 
-struct Case {
+struct SurfacesCase {
     const char* name;
     bool viewed;
     uint32_t flags; ///< of the group
     uint32_t viewFlags;
 };
-constexpr Case kCases[] = {
+constexpr SurfacesCase kSurfacesCases[] = {
     {"grids", false, SUPPLE_GROUP_MOTION, 0},
     {"view", true, 0, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL},
     {"backFaces", true, 0, SUPPLE_VIEW_BACK_FACES},
 };
 
-class Surfaces : public CrowdContexts, public testing::WithParamInterface<Case> {};
-INSTANTIATE_TEST_SUITE_P(Kinds, Surfaces, testing::ValuesIn(kCases),
+class Surfaces : public CrowdContexts, public testing::WithParamInterface<SurfacesCase> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, Surfaces, testing::ValuesIn(kSurfacesCases),
                          [](const auto& param) { return std::string(param.param.name); });
 class SurfacesOnce : public CrowdContexts {};
 
 /// A group, with its view if it has one, and its instances.
-struct Stage {
+struct SurfacesStage {
     /// `desc` without asset, capacity and what follows from the case.
-    Stage(CrowdContext& context, const Case& c, SuppleAsset asset, SuppleGroupDesc desc, uint32_t room = 2000000) {
+    SurfacesStage(CrowdContext& context, const SurfacesCase& c, SuppleAsset asset, SuppleGroupDesc desc,
+                  uint32_t room = 2000000) {
         desc.asset = asset;
-        desc.capacity = kInstanceCount;
+        desc.capacity = kInstances;
         desc.rate = c.viewed ? 8 : 4;
         desc.vertexFormat = SUPPLE_VERTEX_24;
         desc.flags |= c.flags;
@@ -92,7 +92,7 @@ struct Stage {
             desc.view = view->handle();
         }
         crowd = std::make_unique<Crowd>(context, desc);
-        for (uint32_t i = 0; i < kInstanceCount && crowd->valid(); ++i) {
+        for (uint32_t i = 0; i < kInstances && crowd->valid(); ++i) {
             instances.push_back(crowd->spawn());
         }
     }
@@ -112,7 +112,7 @@ struct Stage {
 
 SuppleGroupDesc mixed() {
     SuppleGroupDesc desc{};
-    desc.partSchemes = kSchemes;
+    desc.partSchemes = kPartSchemes;
     desc.partSchemeCount = kPartCount;
     return desc;
 }
@@ -149,13 +149,13 @@ std::vector<uint32_t> partsOfSurface(const Crowd& crowd, SuppleAsset asset, uint
 
 TEST_P(Surfaces, DrawPartsAsGroupsOfOneSchemeDo) {
     const ValidationGuard guard;
-    const Case& c = GetParam();
+    const SurfacesCase& c = GetParam();
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
         const SuppleAsset asset = own.createAsset(bipeds());
-        const Stage several(own, c, asset, mixed());
+        const SurfacesStage several(own, c, asset, mixed());
         ASSERT_TRUE(several.crowd->valid());
         ASSERT_EQ(several.crowd->output().info.surfaceCount, kSurfaceCount);
         DrawnPatches drawn[2][kSurfaceCount];
@@ -169,12 +169,12 @@ TEST_P(Surfaces, DrawPartsAsGroupsOfOneSchemeDo) {
         for (uint32_t s = 0; s < kSurfaceCount; ++s) {
             SCOPED_TRACE("surface " + std::to_string(s));
             const SuppleSurfaceInfo surface = several.crowd->output(s).surface;
-            EXPECT_EQ(surface.scheme, kSchemes[s]);
+            EXPECT_EQ(surface.scheme, kPartSchemes[s]);
             const std::vector<uint32_t> expected = s == 0 ? std::vector<uint32_t>{0, 6} : std::vector<uint32_t>{s};
             EXPECT_TRUE(std::ranges::equal(std::span(surface.parts, surface.partCount), expected));
             SuppleGroupDesc desc{};
-            desc.scheme = kSchemes[s];
-            const Stage alone(own, c, asset, desc);
+            desc.scheme = kPartSchemes[s];
+            const SurfacesStage alone(own, c, asset, desc);
             ASSERT_TRUE(alone.crowd->valid());
             EXPECT_EQ(alone.crowd->output().info.surfaceCount, 1u);
             const std::vector<uint32_t> parts = partsOfSurface(*several.crowd, asset, s);
@@ -205,9 +205,9 @@ TEST_F(SurfacesOnce, OfCagesThatTheHostWrites) {
         ASSERT_TRUE(own.valid());
         const SuppleAsset asset = own.createAsset(bipeds());
         SuppleGroupDesc desc = mixed();
-        const Stage posed(own, kCases[0], asset, desc);
+        const SurfacesStage posed(own, kSurfacesCases[0], asset, desc);
         desc.poseSource = SUPPLE_POSES_CAGE_BUFFER;
-        const Stage written(own, kCases[0], asset, desc);
+        const SurfacesStage written(own, kSurfacesCases[0], asset, desc);
         ASSERT_TRUE(posed.crowd->valid() && written.crowd->valid());
         posed.place(1);
         posed.crowd->run();
@@ -228,11 +228,11 @@ TEST_F(SurfacesOnce, OfCagesThatTheHostWrites) {
 
 TEST_P(Surfaces, HidePartsOfAny) {
     const ValidationGuard guard;
-    const Case& c = GetParam();
+    const SurfacesCase& c = GetParam();
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
     const SuppleAsset asset = own.createAsset(bipeds());
-    const Stage hiding(own, c, asset, mixed()), whole(own, c, asset, mixed());
+    const SurfacesStage hiding(own, c, asset, mixed()), whole(own, c, asset, mixed());
     ASSERT_TRUE(hiding.crowd->valid() && whole.crowd->valid());
     const std::set<std::pair<uint32_t, uint32_t>> hidden = {{0, 1}, {0, 2}, {0, 4}, {1, 0}, {1, 3}, {1, 5}, {1, 6}};
     for (const auto& [instance, part] : hidden) {
@@ -269,7 +269,7 @@ TEST_F(SurfacesOnce, OfAnInstanceAreLeftOutTogether) {
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
     const SuppleAsset asset = own.createAsset(bipeds());
-    const Stage stage(own, kCases[1], asset, mixed());
+    const SurfacesStage stage(own, kSurfacesCases[1], asset, mixed());
     ASSERT_TRUE(stage.crowd->valid());
     stage.view->camera.vertexBudget = 8000;
     stage.view->look({18.0f, -60.0f, 3.0f});
@@ -285,7 +285,7 @@ TEST_F(SurfacesOnce, OfAnInstanceAreLeftOutTogether) {
     own.beginFrame();
     const SuppleViewStatistics statistics = stage.view->statistics();
     EXPECT_GT(statistics.droppedInstanceCount, 0u);
-    EXPECT_EQ(slots[0].size() + statistics.droppedInstanceCount, kInstanceCount);
+    EXPECT_EQ(slots[0].size() + statistics.droppedInstanceCount, kInstances);
     EXPECT_FALSE(slots[0].empty());
 }
 
@@ -297,14 +297,14 @@ TEST_F(SurfacesOnce, AreTimedPassByPass) {
     const DepthPicture picture{64, 64, false, std::vector<float>(64 * 64, 1.0f)};
     const auto pyramid = DepthPyramid::create(own.device(), picture, 64, 64);
     ASSERT_NE(pyramid, nullptr);
-    constexpr Case kAll{"all", true, 0,
-                        SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION};
+    constexpr SurfacesCase kAll{"all", true, 0,
+                                SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION};
     SuppleGroupDesc desc = mixed();
     desc.poseSource = SUPPLE_POSES_PLAYBACK;
     cage::Character walking = bipeds();
     walking.clips.push_back(
         {"walk", 1.0, {{0, cage::ChannelPath::translation, cage::Interpolation::linear, {0, 1}, {0, 0, 0, 1, 0, 0}}}});
-    const Stage stage(own, kAll, own.createAsset(walking), desc);
+    const SurfacesStage stage(own, kAll, own.createAsset(walking), desc);
     ASSERT_TRUE(stage.crowd->valid());
     SupplePlaybackLayer layer{};
     layer.weight = 1.0f;

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numbers>
 
 namespace supple::skinning {
 namespace {
 
 using namespace cage;
-
-constexpr double kPi = 3.14159265358979323846;
 
 Skeleton oneNode(const Node& node = {}) {
     return {{node}, {0}};
@@ -50,7 +49,7 @@ double angleAt(const Clip& clip, double time) {
 std::vector<float> aboutZ(std::initializer_list<double> degrees, double sign = 1.0) {
     std::vector<float> values;
     for (const double d : degrees) {
-        const double half = d * kPi / 360.0;
+        const double half = d * std::numbers::pi / 360.0;
         values.insert(values.end(),
                       {0, 0, static_cast<float>(sign * std::sin(half)), static_cast<float>(sign * std::cos(half))});
     }
@@ -106,7 +105,7 @@ TEST(Pose, LinearTranslation) {
 TEST(Pose, SlerpTurnsEvenly) {
     const Clip clip = oneChannel(ChannelPath::rotation, Interpolation::linear, {0, 1}, aboutZ({0, 120}));
     for (const double t : {0.0, 0.1, 0.25, 0.5, 0.9, 1.0})
-        EXPECT_NEAR(angleAt(clip, t), t * 120.0 * kPi / 180.0, 1e-6) << t;
+        EXPECT_NEAR(angleAt(clip, t), t * 120.0 * std::numbers::pi / 180.0, 1e-6) << t;
 }
 
 TEST(Pose, SlerpTakesTheShorterWay) {
@@ -115,15 +114,15 @@ TEST(Pose, SlerpTakesTheShorterWay) {
     const std::vector<float> far = aboutZ({50}, -1.0);
     values.insert(values.end(), far.begin(), far.end());
     const Clip clip = oneChannel(ChannelPath::rotation, Interpolation::linear, {0, 1}, values);
-    EXPECT_NEAR(angleAt(clip, 0.5), 30.0 * kPi / 180.0, 1e-6);
-    EXPECT_NEAR(angleAt(clip, 1.0), 50.0 * kPi / 180.0, 1e-6);
+    EXPECT_NEAR(angleAt(clip, 0.5), 30.0 * std::numbers::pi / 180.0, 1e-6);
+    EXPECT_NEAR(angleAt(clip, 1.0), 50.0 * std::numbers::pi / 180.0, 1e-6);
 }
 
 TEST(Pose, SlerpOverHalfATurn) {
     // 180 degrees apart: either way is as long, the one between the quaternions as written is taken.
     const Clip clip = oneChannel(ChannelPath::rotation, Interpolation::linear, {0, 1}, aboutZ({0, 180}));
     for (const double t : {0.25, 0.5, 0.75})
-        EXPECT_NEAR(angleAt(clip, t), t * kPi, 1e-6) << t;
+        EXPECT_NEAR(angleAt(clip, t), t * std::numbers::pi, 1e-6) << t;
     // A whole turn is no turn: the quaternions are opposite, their arc has no direction.
     const Clip whole = oneChannel(ChannelPath::rotation, Interpolation::linear, {0, 1}, {0, 0, 0, 1, 0, 0, 0, -1});
     expectNear(sampled(whole, 0.5), glm::mat4(1.0f));
@@ -136,7 +135,7 @@ TEST(Pose, SlerpOfNearKeysIsSmooth) {
     // Across the switch to straight interpolation nothing may jump.
     for (const double degrees : {1e-7, 1e-5, 1e-4, 1e-3, 1.0}) {
         const Clip clip = oneChannel(ChannelPath::rotation, Interpolation::linear, {0, 1}, aboutZ({0, degrees}));
-        EXPECT_NEAR(angleAt(clip, 0.5), 0.5 * degrees * kPi / 180.0, 1e-9 + 1e-7 * degrees);
+        EXPECT_NEAR(angleAt(clip, 0.5), 0.5 * degrees * std::numbers::pi / 180.0, 1e-9 + 1e-7 * degrees);
     }
 }
 
@@ -178,7 +177,7 @@ TEST(Pose, CubicSplineRotationsAreNormalised) {
     const glm::mat4 m = sampled(clip, 0.5);
     EXPECT_NEAR(glm::length(glm::vec3(m[0])), 1.0f, 1e-6f);
     EXPECT_NEAR(glm::length(glm::vec3(m[1])), 1.0f, 1e-6f);
-    EXPECT_NEAR(angleAt(clip, 0.5), kPi / 4, 1e-6);
+    EXPECT_NEAR(angleAt(clip, 0.5), std::numbers::pi / 4, 1e-6);
     // Straight through zero: no rotation, and no NaN.
     const Clip through = oneChannel(ChannelPath::rotation, Interpolation::cubicSpline, {0, 1},
                                     {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0});
@@ -214,7 +213,7 @@ TEST(Pose, NodesWithoutChannelsKeepTheirRest) {
 TEST(Pose, TranslationRotationScaleInThatOrder) {
     Node node;
     node.translation = {1, 2, 3};
-    node.rotation = glm::angleAxis(static_cast<float>(kPi / 2), glm::vec3(0, 0, 1));
+    node.rotation = glm::angleAxis(static_cast<float>(std::numbers::pi / 2), glm::vec3(0, 0, 1));
     node.scale = {2, 3, -4};
     std::vector<glm::mat4> locals(1);
     restPose(oneNode(node), locals);

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace supple::skinning {
 namespace {
@@ -18,13 +19,12 @@ using test::channel;
 using test::clipOf;
 
 constexpr uint32_t kAll = kRootGround | kRootHeight | kRootYaw;
-constexpr double kPi = 3.14159265358979323846;
 
 std::vector<float> aboutY(std::initializer_list<double> degrees) {
     std::vector<float> values;
     for (const double d : degrees) {
-        values.insert(values.end(), {0, static_cast<float>(std::sin(d * kPi / 360.0)), 0,
-                                     static_cast<float>(std::cos(d * kPi / 360.0))});
+        values.insert(values.end(), {0, static_cast<float>(std::sin(d * std::numbers::pi / 360.0)), 0,
+                                     static_cast<float>(std::cos(d * std::numbers::pi / 360.0))});
     }
     return values;
 }
@@ -134,7 +134,7 @@ TEST(RootMotion, ALoopEndsWhereTheNextBegins) {
     const cage::Character c = walker();
     const RootSelection root{1, kRootGround | kRootYaw};
     const RootMotion whole = rootMotionBetween(c, c.clips[0], root, 0.0, 2.0, true);
-    EXPECT_NEAR(whole.yaw, 120.0 * kPi / 180.0, 1e-6);
+    EXPECT_NEAR(whole.yaw, 120.0 * std::numbers::pi / 180.0, 1e-6);
     // Three loops of 120 degrees make a turn that ends where it began.
     const RootMotion three = rootMotionBetween(c, c.clips[0], root, 0.0, 6.0, true);
     EXPECT_NEAR(three.yaw, 0.0, 1e-6);
@@ -156,7 +156,7 @@ TEST(RootMotion, TurnsOfMoreThanHalfAreTakenStepByStep) {
     c.clips[1] = clipOf({channel(1, ChannelPath::rotation, {0, 1, 2, 3, 4}, aboutY({0, 90, 180, 270, 360}))});
     for (double time = 0.0; time < 8.0; time += 0.0625) {
         const RootMotion motion = rootMotionBetween(c, c.clips[1], {1, kRootYaw}, time, time + 0.0625, true);
-        EXPECT_NEAR(motion.yaw, 0.0625 * kPi / 2.0, 1e-6) << time;
+        EXPECT_NEAR(motion.yaw, 0.0625 * std::numbers::pi / 2.0, 1e-6) << time;
     }
 }
 

@@ -11,11 +11,6 @@ namespace {
 using nlohmann::json;
 using surface::blend::CreaseMode;
 
-json parseFile(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return json::parse(file);
-}
-
 /// Rows of grids of vectors, one a face.
 std::vector<std::vector<glm::dvec3>> gridsOf(const json& faces) {
     std::vector<std::vector<glm::dvec3>> grids;
@@ -29,14 +24,13 @@ std::vector<std::vector<glm::dvec3>> gridsOf(const json& faces) {
     return grids;
 }
 
-BlendVectors read(const std::filesystem::path& path) {
-    const json j = parseFile(path);
+BlendVectors readBlend(const json& j, const std::string& name) {
     BlendVectors v;
-    v.name = path.stem().string();
+    v.name = name;
     const bool cut = v.name.size() > 4 && v.name.substr(v.name.size() - 4) == "_cut";
     v.options.creases = cut ? CreaseMode::cut : CreaseMode::curve;
     v.positions = jsonVectors(j.at("vertices"));
-    v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces").get<Polygons>());
+    v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces").get<Faces>());
     for (const json& edge : j.at("sharp")) {
         v.cage.creases.push_back({edge.at(0), edge.at(1), 1.0f});
     }
@@ -63,7 +57,7 @@ BlendVectors read(const std::filesystem::path& path) {
 } // namespace
 
 const std::vector<BlendVectors>& blendVectors() {
-    static const std::vector<BlendVectors> kAll = readJsonFolder("blend", read);
+    static const std::vector<BlendVectors> kAll = readJsonFolder("blend", readBlend);
     return kAll;
 }
 

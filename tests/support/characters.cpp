@@ -7,17 +7,22 @@
 #include <numeric>
 #include <utility>
 
-namespace supple::cage::test {
+namespace supple::test {
 namespace {
+
+using cage::AlphaMode, cage::Cage, cage::Channel, cage::Character, cage::Crease, cage::Material, cage::Node;
+using cage::SharpVertex, cage::Texture, cage::Trim;
 
 /// Where each face of the cage goes when the faces of each part are grouped by material.
 std::vector<uint32_t> groupedFaces(const Character& character) {
     const Cage& cage = character.cage;
-    const auto materialOf = [&](uint32_t f) { return cage.faceMaterials.empty() ? kNone : cage.faceMaterials[f]; };
+    const auto materialOf = [&](uint32_t f) {
+        return cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[f];
+    };
     std::vector<uint32_t> faces(cage.faceCount());
     std::iota(faces.begin(), faces.end(), 0u);
     for (size_t p = 0; p < character.parts.size(); ++p) {
-        const uint32_t begin = character.parts[p].firstFace, end = endFace(character, p);
+        const uint32_t begin = character.parts[p].firstFace, end = cage::endFace(character, p);
         std::vector<uint32_t> firsts;
         for (uint32_t f = begin; f < end; ++f) {
             if (std::find(firsts.begin(), firsts.end(), materialOf(f)) == firsts.end()) {
@@ -57,10 +62,10 @@ void expectSameCage(const Character& of, const Character& ofOther) {
     for (uint32_t f = 0; f < b.faceCount(); ++f) {
         const uint32_t from = order[f];
         ASSERT_EQ(a.sides(from), b.sides(f)) << "face " << from;
-        EXPECT_EQ(a.faceMaterials.empty() ? kNone : a.faceMaterials[from],
-                  b.faceMaterials.empty() ? kNone : b.faceMaterials[f]);
-        EXPECT_EQ(a.faceTrimTiles.empty() ? kNone : a.faceTrimTiles[from],
-                  b.faceTrimTiles.empty() ? kNone : b.faceTrimTiles[f]);
+        EXPECT_EQ(a.faceMaterials.empty() ? cage::kNone : a.faceMaterials[from],
+                  b.faceMaterials.empty() ? cage::kNone : b.faceMaterials[f]);
+        EXPECT_EQ(a.faceTrimTiles.empty() ? cage::kNone : a.faceTrimTiles[from],
+                  b.faceTrimTiles.empty() ? cage::kNone : b.faceTrimTiles[f]);
         for (uint32_t k = 0; k < b.sides(f); ++k) {
             const uint32_t x = a.faceStarts[from] + k;
             const uint32_t y = b.faceStarts[f] + k;
@@ -157,8 +162,8 @@ void expectSameTexture(const Character& a, const Texture& x, const Character& b,
     numbered.alternateImage = x.alternateImage;
     EXPECT_TRUE(x == numbered);
     for (const auto& [from, to] : {std::pair(x.image, y.image), {x.alternateImage, y.alternateImage}}) {
-        ASSERT_EQ(from == kNone, to == kNone);
-        if (from != kNone) {
+        ASSERT_EQ(from == cage::kNone, to == cage::kNone);
+        if (from != cage::kNone) {
             EXPECT_EQ(a.images[from].name, b.images[to].name);
             EXPECT_EQ(a.images[from].bytes, b.images[to].bytes);
         }
@@ -185,9 +190,9 @@ void expectSameMaterials(const Character& a, const Character& b) {
             EXPECT_EQ(x.alphaCutoff, y.alphaCutoff);
         }
         EXPECT_EQ(x.doubleSided, y.doubleSided);
-        for (size_t k = 0; k < texturesOf(x).size(); ++k) {
+        for (size_t k = 0; k < cage::texturesOf(x).size(); ++k) {
             SCOPED_TRACE("texture " + std::to_string(k));
-            expectSameTexture(a, *texturesOf(x)[k], b, *texturesOf(y)[k]);
+            expectSameTexture(a, *cage::texturesOf(x)[k], b, *cage::texturesOf(y)[k]);
         }
         ASSERT_EQ(x.trim.has_value(), y.trim.has_value());
         if (x.trim) {
@@ -210,4 +215,4 @@ void expectSame(const Character& a, const Character& b) {
     expectSameMaterials(a, b);
 }
 
-} // namespace supple::cage::test
+} // namespace supple::test

@@ -62,7 +62,7 @@ public:
 private:
     uint32_t columns_;
     std::vector<glm::vec3> positions_;
-    Polygons faces_;
+    Faces faces_;
     std::vector<cage::Crease> creases_;
 };
 

@@ -7,6 +7,8 @@
 #include "tests/support/logged_context.h"
 
 #include <array>
+#include <cstddef>
+#include <cstring>
 #include <functional>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
@@ -18,6 +20,16 @@
 #include <vector>
 
 namespace supple::test {
+
+/// The bytes of a buffer as what it holds.
+template <class T>
+std::vector<T> as(const std::vector<std::byte>& bytes) {
+    std::vector<T> values(bytes.size() / sizeof(T));
+    if (!values.empty()) {
+        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    }
+    return values;
+}
 
 /// A command buffer that the test submits when it likes, or never. The device must outlive it.
 class Commands {

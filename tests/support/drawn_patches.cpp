@@ -8,15 +8,6 @@ namespace supple::test {
 
 namespace {
 
-template <class T>
-std::vector<T> as(const std::vector<std::byte>& bytes) {
-    std::vector<T> values(bytes.size() / sizeof(T));
-    if (!values.empty()) {
-        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    }
-    return values;
-}
-
 class Reader {
 public:
     Reader(const Crowd& crowd, uint32_t surface)

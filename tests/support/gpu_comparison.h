@@ -37,6 +37,8 @@ struct ComparedBits {
     }
 };
 
+inline constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
+
 inline std::string mappingName(SuppleMapping mapping) {
     return mapping == SUPPLE_MAPPING_NARROW ? "Narrow" : "Wide";
 }

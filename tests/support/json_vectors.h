@@ -3,6 +3,7 @@
 
 #include "tests/support/vector_files.h"
 
+#include <fstream>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -22,12 +23,17 @@ inline std::vector<glm::dvec3> jsonVectors(const nlohmann::json& j) {
     return result;
 }
 
-/// What `read` makes of every .json file in a folder of tests/data, by name.
+inline nlohmann::json parseFile(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return nlohmann::json::parse(file);
+}
+
+/// What `read` makes of every .json file in a folder of tests/data, and of its name.
 template <class Read>
 auto readJsonFolder(const std::string& folder, Read&& read) {
-    std::vector<decltype(read(std::filesystem::path()))> all;
+    std::vector<decltype(read(nlohmann::json(), std::string()))> all;
     for (const std::filesystem::path& path : vectorFiles(folder)) {
-        all.push_back(read(path));
+        all.push_back(read(parseFile(path), path.stem().string()));
     }
     return all;
 }

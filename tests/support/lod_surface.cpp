@@ -11,15 +11,6 @@ namespace supple::test {
 
 namespace {
 
-template <class T>
-std::vector<T> as(const std::vector<std::byte>& bytes) {
-    std::vector<T> values(bytes.size() / sizeof(T));
-    if (!values.empty()) {
-        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    }
-    return values;
-}
-
 PositionBits positionsOf(const std::vector<std::byte>& bytes, size_t stride) {
     PositionBits bits(stride > 0 ? bytes.size() / stride : 0);
     for (size_t v = 0; v < bits.size(); ++v) {

@@ -15,7 +15,7 @@
 
 namespace supple::test {
 
-cage::Cage makeCage(std::vector<glm::vec3> positions, const Polygons& polygons) {
+cage::Cage makeCage(std::vector<glm::vec3> positions, const Faces& polygons) {
     cage::Cage cage;
     cage.positions = std::move(positions);
     cage.faceStarts.push_back(0);
@@ -29,8 +29,8 @@ cage::Cage makeCage(std::vector<glm::vec3> positions, const Polygons& polygons) 
     return cage;
 }
 
-Polygons polygonsOf(const cage::Cage& cage) {
-    Polygons polygons;
+Faces facesOf(const cage::Cage& cage) {
+    Faces polygons;
     for (uint32_t f = 0; f < cage.faceCount(); ++f) {
         polygons.emplace_back(cage.faceVertices.begin() + cage.faceStarts[f],
                               cage.faceVertices.begin() + cage.faceStarts[f + 1]);
@@ -49,7 +49,7 @@ cage::Cage cube() {
 
 cage::Cage grid(uint32_t columns, uint32_t rows) {
     std::vector<glm::vec3> positions;
-    Polygons polygons;
+    Faces polygons;
     for (uint32_t y = 0; y <= rows; ++y) {
         for (uint32_t x = 0; x <= columns; ++x) {
             positions.push_back({static_cast<float>(x), static_cast<float>(y), 0.0f});
@@ -67,7 +67,7 @@ cage::Cage grid(uint32_t columns, uint32_t rows) {
 
 cage::Cage torus(uint32_t around, uint32_t across) {
     std::vector<glm::vec3> positions;
-    Polygons polygons;
+    Faces polygons;
     for (uint32_t i = 0; i < around; ++i) {
         for (uint32_t j = 0; j < across; ++j) {
             const double a = 2.0 * std::numbers::pi * i / around;
@@ -100,7 +100,7 @@ cage::Cage dodecahedron() {
             }
         }
     }
-    Polygons polygons;
+    Faces polygons;
     for (const glm::vec3& axis : axes) {
         std::vector<std::pair<double, uint32_t>> around; // angle about the axis, vertex
         const glm::vec3 e1 = glm::cross(axis, glm::vec3(0.3f, 0.5f, 0.7f));
@@ -121,7 +121,7 @@ cage::Cage dodecahedron() {
 
 cage::Cage voxels(const std::vector<glm::ivec3>& cubes) {
     std::vector<glm::vec3> positions;
-    Polygons polygons;
+    Faces polygons;
     const auto vertex = [&](const glm::ivec3& p) {
         const auto found = std::find(positions.begin(), positions.end(), glm::vec3(p));
         const auto index = static_cast<uint32_t>(found - positions.begin());
@@ -169,7 +169,7 @@ cage::Cage biped() {
 
 cage::Cage trapezohedron(uint32_t n) {
     std::vector<glm::vec3> positions{{0.0f, 0.0f, -1.3f}, {0.0f, 0.0f, 1.3f}};
-    Polygons polygons;
+    Faces polygons;
     const uint32_t belt = 2 * n;
     for (uint32_t i = 0; i < belt; ++i) {
         const double angle = std::numbers::pi * i / n;
@@ -186,7 +186,7 @@ cage::Cage trapezohedron(uint32_t n) {
 cage::Cage fan(uint32_t sectors, uint32_t rings, double angle, bool closed) {
     std::vector<glm::vec3> positions;
     std::map<std::pair<uint64_t, uint64_t>, uint32_t> known;
-    Polygons polygons;
+    Faces polygons;
     const uint32_t spokes = closed ? sectors : sectors + 1;
     const auto direction = [&](uint32_t k) {
         const double a = angle * k / sectors;
@@ -228,7 +228,7 @@ cage::Cage fan(uint32_t sectors, uint32_t rings, double angle, bool closed) {
 
 cage::Cage prism(uint32_t n) {
     std::vector<glm::vec3> positions;
-    Polygons polygons;
+    Faces polygons;
     std::vector<uint32_t> bottom;
     std::vector<uint32_t> top;
     for (const float z : {-1.0f, 1.0f}) {
@@ -249,7 +249,7 @@ cage::Cage prism(uint32_t n) {
 
 cage::Cage cappedCylinder(uint32_t n, uint32_t rings) {
     std::vector<glm::vec3> positions;
-    Polygons polygons;
+    Faces polygons;
     for (uint32_t r = 0; r < rings; ++r) {
         for (uint32_t i = 0; i < n; ++i) {
             const double a = 2.0 * std::numbers::pi * i / n;
@@ -273,7 +273,7 @@ cage::Cage cappedCylinder(uint32_t n, uint32_t rings) {
 
 cage::Cage gyroBipyramid(uint32_t n) {
     std::vector<glm::vec3> positions{{0.0f, 0.0f, -1.2f}, {0.0f, 0.0f, 1.2f}};
-    Polygons polygons;
+    Faces polygons;
     for (const double turn : {0.0, 0.5}) {
         for (uint32_t i = 0; i < n; ++i) {
             const double a = 2.0 * std::numbers::pi * (i + turn) / n;
@@ -295,7 +295,7 @@ cage::Cage gyroBipyramid(uint32_t n) {
 
 cage::Cage fanOverQuads(uint32_t n) {
     const cage::Cage source = prism(n);
-    Polygons polygons = polygonsOf(source);
+    Faces polygons = facesOf(source);
     const std::vector<uint32_t> lid = polygons.back();
     polygons.pop_back();
     std::vector<glm::vec3> positions = source.positions;
@@ -308,7 +308,7 @@ cage::Cage fanOverQuads(uint32_t n) {
 
 cage::Cage fanOverTriangles(uint32_t n) {
     std::vector<glm::vec3> positions{{0.0f, 0.0f, 1.0f}};
-    Polygons polygons;
+    Faces polygons;
     const auto add = [&](double angle, double z) {
         positions.push_back(glm::vec3(std::cos(angle), std::sin(angle), z));
     };
@@ -335,7 +335,7 @@ cage::Cage fanOverTriangles(uint32_t n) {
 
 cage::Cage fanOverPentagons(uint32_t n) {
     std::vector<glm::vec3> positions{{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}};
-    Polygons polygons;
+    Faces polygons;
     const auto ring = [&](double radius, double z, double turn) {
         for (uint32_t i = 0; i < n; ++i) {
             const double a = 2.0 * std::numbers::pi * (i + turn) / n;
@@ -359,7 +359,7 @@ cage::Cage fanOverPentagons(uint32_t n) {
 
 cage::Cage quartered(const cage::Cage& triangles) {
     std::vector<glm::vec3> positions = triangles.positions;
-    Polygons polygons;
+    Faces polygons;
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
     const auto middle = [&](uint32_t a, uint32_t b) {
         const auto [entry, isNew] =
@@ -369,7 +369,7 @@ cage::Cage quartered(const cage::Cage& triangles) {
         }
         return entry->second;
     };
-    for (const std::vector<uint32_t>& t : polygonsOf(triangles)) {
+    for (const std::vector<uint32_t>& t : facesOf(triangles)) {
         const uint32_t x = middle(t.at(0), t.at(1));
         const uint32_t y = middle(t.at(1), t.at(2));
         const uint32_t z = middle(t.at(2), t.at(0));
@@ -380,8 +380,8 @@ cage::Cage quartered(const cage::Cage& triangles) {
 
 cage::Cage withCutQuads(const cage::Cage& cage, double share, uint32_t seed) {
     std::mt19937 random(seed);
-    Polygons polygons;
-    for (const std::vector<uint32_t>& p : polygonsOf(cage)) {
+    Faces polygons;
+    for (const std::vector<uint32_t>& p : facesOf(cage)) {
         if (p.size() == 4 && random() < share * 4294967296.0) {
             polygons.push_back({p[0], p[1], p[2]});
             polygons.push_back({p[0], p[2], p[3]});
@@ -394,7 +394,7 @@ cage::Cage withCutQuads(const cage::Cage& cage, double share, uint32_t seed) {
 
 cage::Cage withMergedFaces(const cage::Cage& cage, uint32_t tries, uint32_t seed) {
     std::mt19937 random(seed);
-    Polygons polygons = polygonsOf(cage);
+    Faces polygons = facesOf(cage);
     std::vector<uint32_t> valences(cage.vertexCount(), 0); // of closed cages; boundaries only lose less
     for (const std::vector<uint32_t>& p : polygons) {
         for (const uint32_t v : p) {
@@ -432,7 +432,7 @@ cage::Cage withMergedFaces(const cage::Cage& cage, uint32_t tries, uint32_t seed
 
 cage::Cage withoutFaces(const cage::Cage& cage, const std::vector<uint32_t>& faces) {
     std::vector<glm::vec3> positions;
-    Polygons polygons;
+    Faces polygons;
     std::vector<uint32_t> renumbered(cage.vertexCount(), cage::kNone);
     for (uint32_t f = 0; f < cage.faceCount(); ++f) {
         if (std::find(faces.begin(), faces.end(), f) != faces.end()) {
@@ -529,7 +529,7 @@ RefinedCage refineCatmullClark(const cage::Cage& cage, const std::vector<glm::dv
     }
     const auto facePoint = static_cast<uint32_t>(refined.positions.size());
     refined.positions.insert(refined.positions.end(), facePoints.begin(), facePoints.end());
-    Polygons polygons;
+    Faces polygons;
     for (uint32_t f = 0; f < cage.faceCount(); ++f) {
         const uint32_t sides = cage.sides(f);
         for (uint32_t j = 0; j < sides; ++j) {

@@ -11,10 +11,10 @@
 
 namespace supple::test {
 
-using Polygons = std::vector<std::vector<uint32_t>>;
+using Faces = std::vector<std::vector<uint32_t>>;
 
-[[nodiscard]] cage::Cage makeCage(std::vector<glm::vec3> positions, const Polygons& polygons);
-[[nodiscard]] Polygons polygonsOf(const cage::Cage& cage);
+[[nodiscard]] cage::Cage makeCage(std::vector<glm::vec3> positions, const Faces& polygons);
+[[nodiscard]] Faces facesOf(const cage::Cage& cage);
 
 /// Corners at +-1.
 [[nodiscard]] cage::Cage cube();
@@ -61,6 +61,11 @@ using Polygons = std::vector<std::vector<uint32_t>>;
 [[nodiscard]] cage::Cage perturbed(cage::Cage cage, float amount, uint32_t seed);
 /// Rotates the corners of face f by f mod sides: the same surface, other starting corners.
 [[nodiscard]] cage::Cage rotatedFaces(cage::Cage cage);
+
+struct NamedCage {
+    const char* name;
+    cage::Cage cage;
+};
 
 /// One Catmull-Clark step in double on the cage's polygons, boundary as B-spline curves, corners with one face kept
 /// where they are. The first vertexCount() positions are the vertex points.

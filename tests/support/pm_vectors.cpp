@@ -48,13 +48,11 @@ PmVectors::Patch readPatch(const json& j) {
     return patch;
 }
 
-PmVectors read(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    const json j = json::parse(file);
+PmVectors readPm(const json& j, const std::string&) {
     PmVectors v;
     v.name = j.at("name").get<std::string>();
     v.positions = jsonVectors(j.at("vertices"));
-    v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces_in").get<Polygons>());
+    v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces_in").get<Faces>());
     for (const json& s : j.at("sharp")) {
         v.cage.creases.push_back({s.at(0), s.at(1), s.at(2)});
     }
@@ -65,7 +63,7 @@ PmVectors read(const std::filesystem::path& path) {
         v.alphas.push_back({a.at(0), a.at(1), a.at(2)});
         v.cage.creaseScalars.push_back({a.at(0), a.at(1), a.at(2)});
     }
-    v.faces = j.at("faces").get<Polygons>();
+    v.faces = j.at("faces").get<Faces>();
     v.sourceFaces = j.at("source_face").get<std::vector<uint32_t>>();
     v.apexes = j.at("polar").get<std::vector<uint32_t>>();
     for (const json& fan : j.at("sectors")) {
@@ -93,7 +91,7 @@ surface::pm::Mesh PmVectors::mesh() const {
 }
 
 const std::vector<PmVectors>& pmVectors() {
-    static const std::vector<PmVectors> kAll = readJsonFolder("pm", read);
+    static const std::vector<PmVectors> kAll = readJsonFolder("pm", readPm);
     return kAll;
 }
 

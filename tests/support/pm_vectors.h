@@ -21,7 +21,7 @@ struct PmVectors {
     };
     std::vector<Alpha> alphas; ///< as stored
 
-    Polygons faces; ///< after the split
+    Faces faces; ///< after the split
     std::vector<uint32_t> sourceFaces;
     std::vector<uint32_t> apexes; ///< of polar facets
     /// Closed fans begin at any of their edges.

@@ -25,7 +25,7 @@ private:
 
 std::vector<std::pair<uint32_t, uint32_t>> halfEdges(const cage::Cage& cage) {
     std::vector<std::pair<uint32_t, uint32_t>> all;
-    for (const std::vector<uint32_t>& p : polygonsOf(cage)) {
+    for (const std::vector<uint32_t>& p : facesOf(cage)) {
         for (size_t i = 0; i < p.size(); ++i) {
             all.emplace_back(p[i], p[(i + 1) % p.size()]);
         }
@@ -33,7 +33,7 @@ std::vector<std::pair<uint32_t, uint32_t>> halfEdges(const cage::Cage& cage) {
     return all;
 }
 
-cage::Cage jittered(const cage::Cage& cage, uint32_t seed) {
+cage::Cage jitteredPm(const cage::Cage& cage, uint32_t seed) {
     return perturbed(cage, static_cast<float>(0.02 * extent(doublePositions(cage))), seed);
 }
 
@@ -59,7 +59,7 @@ void addSharpVertices(cage::Cage& cage, Draws& draws) {
 /// Without one to three faces that leave a manifold with no stray vertices: faces that share no vertex.
 cage::Cage opened(const cage::Cage& cage, uint32_t seed) {
     Draws draws(seed);
-    const Polygons polygons = polygonsOf(cage);
+    const Faces polygons = facesOf(cage);
     std::set<uint32_t> touched;
     std::vector<uint32_t> dropped;
     for (uint32_t k = draws.below(3); k < 3; ++k) {
@@ -76,7 +76,7 @@ cage::Cage opened(const cage::Cage& cage, uint32_t seed) {
 
 /// The outer edges of the fan round `apex` hard.
 cage::Cage withHardRing(cage::Cage cage, uint32_t apex) {
-    for (const std::vector<uint32_t>& p : polygonsOf(cage)) {
+    for (const std::vector<uint32_t>& p : facesOf(cage)) {
         const auto at = std::find(p.begin(), p.end(), apex);
         if (at != p.end()) {
             const auto i = static_cast<size_t>(at - p.begin());
@@ -113,7 +113,7 @@ cage::Cage creased(cage::Cage cage, uint32_t seed) {
     return cage;
 }
 
-std::vector<std::pair<std::string, cage::Cage>> bases() {
+std::vector<std::pair<std::string, cage::Cage>> pmBases() {
     std::vector<std::pair<std::string, cage::Cage>> all{{"cube", cube()}, {"torus", torus(8, 6)}};
     for (const uint32_t n : {3u, 5u, 6u, 7u, 8u, 9u}) {
         all.emplace_back("prism " + std::to_string(n), prism(n));
@@ -154,9 +154,9 @@ const std::vector<PmCage>& pmZoo() {
     static const std::vector<PmCage> kAll = [] {
         std::vector<PmCage> all;
         uint32_t seed = 0;
-        for (const auto& [name, base] : bases()) {
+        for (const auto& [name, base] : pmBases()) {
             ++seed;
-            const cage::Cage moved = jittered(base, seed);
+            const cage::Cage moved = jitteredPm(base, seed);
             all.push_back({name, PmVariant::plain, base});
             all.push_back({name, PmVariant::jittered, moved});
             all.push_back({name, PmVariant::alphas, withRandomAlphas(moved, seed)});
@@ -173,17 +173,17 @@ const std::vector<PmCage>& pmZoo() {
                                                    {"fan over triangles ", fanOverTriangles(n), 0u},
                                                    {"fan over pentagons ", fanOverPentagons(n), 0u}}) {
                 all.push_back({name + std::to_string(n) + ", hard ring", PmVariant::creased,
-                               withHardRing(jittered(base, n), apex)});
+                               withHardRing(jitteredPm(base, n), apex)});
             }
             const cage::Cage open = withoutFaces(fanOverTriangles(n), {0});
             all.push_back({"fan over triangles " + std::to_string(n) + ", open", PmVariant::open,
-                           withRandomAlphas(jittered(open, n), n)});
+                           withRandomAlphas(jitteredPm(open, n), n)});
         }
         // Corners with inner edges, wide and straight, and rims.
         for (const ChessPiece& piece : chessPieces()) {
             if (piece.columns == 8) {
                 all.push_back({piece.name, PmVariant::creased, piece.cage});
-                all.push_back({piece.name + ", jittered", PmVariant::creased, jittered(piece.cage, ++seed)});
+                all.push_back({piece.name + ", jittered", PmVariant::creased, jitteredPm(piece.cage, ++seed)});
             }
         }
         return all;

@@ -21,13 +21,11 @@ std::array<glm::dvec3, N> fixedVectors(const json& j) {
     return result;
 }
 
-PrepVectors read(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    const json j = json::parse(file);
+PrepVectors readPrep(const json& j, const std::string&) {
     PrepVectors v;
     v.name = j.at("name").get<std::string>();
     v.positions = jsonVectors(j.at("vertices"));
-    v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces").get<Polygons>());
+    v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces").get<Faces>());
     v.options.cornerRule =
         j.at("corner_rule") == "smooth" ? surface::prep::CornerRule::smooth : surface::prep::CornerRule::sharp;
     v.options.tangentMode =
@@ -46,7 +44,7 @@ PrepVectors read(const std::filesystem::path& path) {
 } // namespace
 
 const std::vector<PrepVectors>& prepVectors() {
-    static const std::vector<PrepVectors> kAll = readJsonFolder("prep", read);
+    static const std::vector<PrepVectors> kAll = readJsonFolder("prep", readPrep);
     return kAll;
 }
 

@@ -25,7 +25,7 @@ inline surface::subdivision::Mesh subdivisionMesh(const cage::Cage& cage,
 
 /// The triangles a mesh of Loop's was refined from, with the given cage's creases, sharp vertices and holes.
 inline cage::Cage trianglesOf(const surface::subdivision::Mesh& mesh, const cage::Cage& given) {
-    Polygons triangles;
+    Faces triangles;
     std::vector<uint32_t> holes;
     for (uint32_t f = 0; f < mesh.cage.faceCount(); f += 4) { // the corners' faces, then the middle
         std::vector<uint32_t>& triangle = triangles.emplace_back();

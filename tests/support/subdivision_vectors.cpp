@@ -14,19 +14,13 @@ using surface::subdivision::Fan;
 using surface::subdivision::Rule;
 using surface::subdivision::Subdivision;
 
-json parseFile(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return json::parse(file);
-}
-
-SubdivisionVectors read(const std::filesystem::path& path) {
-    const json j = parseFile(path);
+SubdivisionVectors readSubdivision(const json& j, const std::string& name) {
     SubdivisionVectors v;
-    v.name = path.stem().string();
+    v.name = name;
     v.subdivision = j.at("scheme") == "cc" ? Subdivision::catmullClark : Subdivision::loop;
     v.depth = j.at("depth");
     v.positions = jsonVectors(j.at("vertices"));
-    v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces").get<Polygons>());
+    v.cage = makeCage({v.positions.begin(), v.positions.end()}, j.at("faces").get<Faces>());
     for (const json& crease : j.at("creases")) {
         v.cage.creases.push_back({crease.at(0), crease.at(1), crease.at(2)});
     }
@@ -64,7 +58,7 @@ StoredPattern patternOf(const Fan& fan, const json& rows) {
 } // namespace
 
 const std::vector<SubdivisionVectors>& subdivisionVectors() {
-    static const std::vector<SubdivisionVectors> kAll = readJsonFolder("subdivision", read);
+    static const std::vector<SubdivisionVectors> kAll = readJsonFolder("subdivision", readSubdivision);
     return kAll;
 }
 

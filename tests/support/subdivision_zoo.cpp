@@ -89,7 +89,7 @@ cage::Cage withRandomSharpness(cage::Cage cage, uint32_t seed) {
         return kind < 1.0f ? draw(1.0f) : kind < 2.0f ? draw(4.0f) : cage::kHardSharpness;
     };
     std::set<std::pair<uint32_t, uint32_t>> edges;
-    for (const std::vector<uint32_t>& p : polygonsOf(cage)) {
+    for (const std::vector<uint32_t>& p : facesOf(cage)) {
         for (size_t i = 0; i < p.size(); ++i) {
             const uint32_t a = p[i], b = p[(i + 1) % p.size()];
             edges.insert({std::min(a, b), std::max(a, b)});
@@ -109,9 +109,9 @@ cage::Cage withRandomSharpness(cage::Cage cage, uint32_t seed) {
 }
 
 cage::Cage inTriangles(const cage::Cage& cage) {
-    Polygons triangles;
+    Faces triangles;
     std::vector<uint32_t> holes;
-    const Polygons polygons = polygonsOf(cage);
+    const Faces polygons = facesOf(cage);
     for (uint32_t f = 0; f < polygons.size(); ++f) {
         const std::vector<uint32_t>& p = polygons[f];
         for (size_t k = 1; k + 1 < p.size(); ++k) {

@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using supple::cage::test::GltfBuilder;
-using supple::cage::test::packGlb;
+using supple::test::GltfBuilder;
 using supple::test::Outcome;
+using supple::test::packGlb;
 using supple::test::readText;
 using supple::test::writeText;
 
@@ -32,8 +32,7 @@ std::pair<Json, std::vector<std::byte>> unpack(const std::string& glb) {
         return size_t{word};
     };
     const size_t binary = 20 + wordAt(12);
-    return {Json::parse(glb.substr(20, wordAt(12))),
-            supple::cage::test::toBytes(glb.substr(binary + 8, wordAt(binary)))};
+    return {Json::parse(glb.substr(20, wordAt(12))), supple::test::toBytes(glb.substr(binary + 8, wordAt(binary)))};
 }
 
 class ClipFiles : public supple::test::CommandTest {
@@ -111,7 +110,7 @@ TEST_F(ClipFiles, EveryCommandThatReadsCharactersTakesThem) {
 }
 
 TEST_F(ClipFiles, WhatIsWrongIsSaid) {
-    GltfBuilder quad = supple::cage::test::skinnedQuad();
+    GltfBuilder quad = supple::test::skinnedQuad();
     writeText(file("quad.glb"), textOf(quad.glb()));
     GltfBuilder other = quad;
     other.nodes = R"([{"mesh":0,"skin":0},{"name":"hips","children":[2]},{"name":"tail"}])";
@@ -169,7 +168,7 @@ TEST_F(ClipFiles, MorphTargetsAreSetByName) {
     for (const char* wrong : {"rise", "=1", "rise=", "rise=x", "rise=nan", "rise=1x"}) {
         expectFailure(run(std::string("bake faces.glb -o out.obj --morph ") + wrong), 2, "--morph");
     }
-    writeText(file("quad.glb"), textOf(supple::cage::test::skinnedQuad().glb()));
+    writeText(file("quad.glb"), textOf(supple::test::skinnedQuad().glb()));
     expectFailure(run("render quad.glb --keep-triangles -o out.png --morph a=1"), 1,
                   "no morph target \"a\"; it has none");
     const Outcome profiled = run("profile faces.glb --frames 1 --rate 1 --instances 2 --morph rise=1");

@@ -8,11 +8,9 @@
 namespace {
 
 using Json = nlohmann::json;
+using supple::test::kCubeObj;
 using supple::test::Outcome;
 using supple::test::writeText;
-
-constexpr const char* kCube = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
-                              "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 1 5 8 4\nf 2 3 7 6\n";
 
 class Compare : public supple::test::CommandTest {
 protected:
@@ -26,7 +24,7 @@ protected:
 };
 
 TEST_F(Compare, FiguresOfACube) {
-    writeText(file("cube.obj"), kCube);
+    writeText(file("cube.obj"), kCubeObj);
     const Json json = comparisonOf("cube.obj");
     EXPECT_EQ(json["reference"], "catmull-clark");
     EXPECT_EQ(json["rate"], 8);
@@ -97,7 +95,7 @@ TEST_F(Compare, WhatNoSchemeTakesIsAnError) {
     EXPECT_EQ(run("inspect hole.obj").exitCode, 0) << "without --compare it is looked into all the same";
     expectFailure(runOnDevice("inspect --compare hole.obj"), 1, "hole.obj: every face is a hole");
     expectFailure(runOnDevice("inspect --compare hole.obj"), 1, "no scheme takes it");
-    writeText(file("cube.obj"), kCube);
+    writeText(file("cube.obj"), kCubeObj);
     expectFailure(run("inspect --compare --clip Run cube.obj"), 1, "no clip");
     expectFailure(run("inspect --compare --device none-such cube.obj"), 3, "none-such");
 }

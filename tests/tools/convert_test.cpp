@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using supple::cage::Character;
-using supple::cage::test::expectSame;
+using supple::test::expectSame;
 using supple::test::Outcome;
 using supple::test::readText;
 using supple::test::writeText;

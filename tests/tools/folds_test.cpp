@@ -124,7 +124,7 @@ TEST(PmFolds, SemiSharpChessPiecesHaveHardlyAny) {
 TEST(PmFolds, LidsOfSemiSharpCreasesKeepTheirSideUp) {
     for (const float sharpness : {0.5f, 1.0f, 2.0f, 3.0f, 5.0f, 8.0f, 9.9f}) {
         cage::Cage cage = test::cube();
-        const std::vector<uint32_t> lid = test::polygonsOf(cage)[1];
+        const std::vector<uint32_t> lid = test::facesOf(cage)[1];
         for (size_t i = 0; i < lid.size(); ++i) {
             cage.creases.push_back({lid[i], lid[(i + 1) % lid.size()], sharpness});
         }

@@ -12,15 +12,13 @@ namespace {
 
 using Json = nlohmann::json;
 
+using supple::test::kCubeObj;
 using supple::test::Outcome;
 using supple::test::readText;
 using supple::test::writeText;
 
 /// What glibc fills memory with is the complement of these: large numbers, and negative ones of about 1.5.
 constexpr int kFills[] = {0x80, 0x40};
-
-constexpr const char* kCube = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
-                              "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 1 5 8 4\nf 2 3 7 6\n";
 
 /// Open, with a sharp edge and a semi-sharp one.
 constexpr const char* kRidge = "v -1 0 0\nv 0 0 0\nv 1 0 0\nv -1 1 0\nv 0 1 1\nv 1 1 0\nv -1 2 0\nv 0 2 0\nv 1 2 0\n"
@@ -102,7 +100,7 @@ protected:
 };
 
 TEST_P(Pictures, AreTheSameWhenDrawnTwice) {
-    writeText(file("cube.obj"), kCube);
+    writeText(file("cube.obj"), kCubeObj);
     writeText(file("ridge.obj"), kRidge);
     std::string arguments = GetParam().arguments;
     if (const size_t at = arguments.find('%'); at != std::string::npos) {

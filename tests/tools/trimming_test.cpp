@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr VkExtent2D kSize{240, 200};
+constexpr VkExtent2D kSheetSize{240, 200};
 constexpr uint32_t kCells = 6; ///< of the sheet, a side
 constexpr float kHalf = 1.5f;  ///< of its width
 
@@ -127,7 +127,7 @@ protected:
             Result<std::unique_ptr<SurfaceRenderer>> renderer = SurfaceRenderer::create(*device_, {.quality = quality});
             ASSERT_TRUE(renderer.ok()) << renderer.error().message;
             renderers_[multisample] = std::move(*renderer);
-            Result<DrawTarget> target = DrawTarget::create(*device_, kSize, renderers_[multisample]->samples());
+            Result<DrawTarget> target = DrawTarget::create(*device_, kSheetSize, renderers_[multisample]->samples());
             ASSERT_TRUE(target.ok()) << target.error().message;
             targets_[multisample] = std::move(*target);
         }
@@ -187,7 +187,8 @@ protected:
                             renderers_[multisample]->record(commands, 0, targets_[multisample], scene);
                         })
                         .ok());
-        Result<Picture> picture = readPicture(*device_, targets_[multisample].color().handle(), kSize, kPictureFormat);
+        Result<Picture> picture =
+            readPicture(*device_, targets_[multisample].color().handle(), kSheetSize, kPictureFormat);
         EXPECT_TRUE(picture.ok());
         return *picture;
     }
@@ -205,16 +206,16 @@ bool isSheet(const Picture& normals, uint32_t x, uint32_t y) {
 }
 
 /// Where a pixel of the front view meets the flat sheet, in its unit square; and how wide a pixel is there.
-constexpr float kPixel = 0.9f / float{kSize.height};
+constexpr float kPixel = 0.9f / float{kSheetSize.height};
 glm::vec2 onSheet(uint32_t x, uint32_t y) {
-    return 0.5f + (glm::vec2(x, y) + 0.5f - glm::vec2(kSize.width, kSize.height) * 0.5f) * kPixel;
+    return 0.5f + (glm::vec2(x, y) + 0.5f - glm::vec2(kSheetSize.width, kSheetSize.height) * 0.5f) * kPixel;
 }
 
 /// Pixels that are on the wrong side of the contour though they are more than `margin` pixels away from it.
 uint32_t wrongPixels(const Picture& picture, const Distance& contour, float margin) {
     uint32_t count = 0;
-    for (uint32_t y = 0; y < kSize.height; ++y) {
-        for (uint32_t x = 0; x < kSize.width; ++x) {
+    for (uint32_t y = 0; y < kSheetSize.height; ++y) {
+        for (uint32_t x = 0; x < kSheetSize.width; ++x) {
             const glm::vec2 at = onSheet(x, y);
             const glm::vec2 fromRim = glm::min(at, 1.0f - at);
             if (std::min(fromRim.x, fromRim.y) < 2.0f * kPixel ||
@@ -230,8 +231,8 @@ uint32_t wrongPixels(const Picture& picture, const Distance& contour, float marg
 
 uint32_t differentPixels(const Picture& a, const Picture& b) {
     uint32_t count = 0;
-    for (uint32_t y = 0; y < kSize.height; ++y) {
-        for (uint32_t x = 0; x < kSize.width; ++x) {
+    for (uint32_t y = 0; y < kSheetSize.height; ++y) {
+        for (uint32_t x = 0; x < kSheetSize.width; ++x) {
             count += isSheet(a, x, y) != isSheet(b, x, y) ? 1 : 0;
         }
     }
@@ -337,8 +338,8 @@ TEST_F(TrimmingTest, MultisampledContoursCoverTheirShare) {
     const Picture hole = draw(trimmedSheet(flat, kCircle), {}, front(), true);
     double area = 0.0;
     uint32_t partial = 0;
-    for (uint32_t y = 0; y < kSize.height; ++y) {
-        for (uint32_t x = 0; x < kSize.width; ++x) {
+    for (uint32_t y = 0; y < kSheetSize.height; ++y) {
+        for (uint32_t x = 0; x < kSheetSize.width; ++x) {
             const float full = linear(whole.pixel(x, y)[2]), empty = linear(none.pixel(x, y)[2]);
             if (full - empty < 0.1f) {
                 continue;
@@ -377,8 +378,8 @@ TEST_F(TrimmingTest, LightFallsThroughHoles) {
     const Picture whole = draw(pair(false), {}, scene);
     const Picture hole = draw(pair(true), {}, scene);
     uint32_t brighter = 0, darker = 0;
-    for (uint32_t y = kSize.height / 2; y < kSize.height; ++y) { // the lower sheet is below the middle
-        for (uint32_t x = 0; x < kSize.width; ++x) {
+    for (uint32_t y = kSheetSize.height / 2; y < kSheetSize.height; ++y) { // the lower sheet is below the middle
+        for (uint32_t x = 0; x < kSheetSize.width; ++x) {
             const int change = int{hole.pixel(x, y)[1]} - int{whole.pixel(x, y)[1]};
             brighter += change > 20 ? 1 : 0;
             darker += change < -4 ? 1 : 0;

@@ -13,8 +13,8 @@ namespace supple::bench {
 namespace {
 
 /// A power of two, at which Catmull-Clark's samples lie where OpenSubdiv's grid has its own.
-constexpr uint32_t kRate = 8;
-constexpr uint32_t kSide = kRate + 1;
+constexpr uint32_t kAgreedRate = 8;
+constexpr uint32_t kSide = kAgreedRate + 1;
 constexpr double kArithmeticBound = 1e-5;
 /// Unit normals of small patches, from a device that rounds as it likes.
 constexpr double kDeviceBound = 1e-4;
@@ -46,7 +46,7 @@ Result<std::unique_ptr<Evaluated>> evaluated(host::Device& device, Workbench& wo
     SuppleGroupDesc desc{};
     desc.asset = *asset;
     desc.scheme = scheme;
-    desc.rate = kRate;
+    desc.rate = kAgreedRate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
     desc.flags = flags;
     Result<SuppleGroup> group = workbench.createGroup(desc);
@@ -108,12 +108,12 @@ Result<std::vector<Agreement>> compareEvaluations(host::Device& device, Workbenc
     std::vector<Agreement> result;
     const size_t patches = coefficients.size() / 64;
     std::vector<float> plain(patches * kSide * kSide * 6);
-    evaluatePlain(coefficients, kRate, plain);
+    evaluatePlain(coefficients, kAgreedRate, plain);
     if (hasAvx2Evaluation()) {
         BicubicWeights weights;
-        fillBicubicWeights(weights, kRate);
+        fillBicubicWeights(weights, kAgreedRate);
         std::vector<float> avx2(plain.size());
-        evaluateAvx2(coefficients.data(), patches, kRate, weights, avx2.data());
+        evaluateAvx2(coefficients.data(), patches, kAgreedRate, weights, avx2.data());
         result.push_back({"AVX2 against plain C++", largestDifference(avx2, plain), kArithmeticBound});
     }
     Result<std::unique_ptr<Evaluated>> frame = evaluated(device, workbench, sphere, SUPPLE_SCHEME_PREP, 0);
@@ -135,7 +135,7 @@ Result<std::vector<Agreement>> compareEvaluations(host::Device& device, Workbenc
 Result<std::vector<Agreement>> comparePeers(host::Device& device, Workbench& workbench, const OpensubdivPeers& peers,
                                             const BenchCage& quads) {
     std::vector<Agreement> result;
-    Result<std::vector<Peer>> all = peers.make(quads.character.cage, kRate);
+    Result<std::vector<Peer>> all = peers.make(quads.character.cage, kAgreedRate);
     if (!all) {
         return all.error();
     }

@@ -18,7 +18,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr VkDeviceSize kShareOfMemory = 4;
 constexpr SuppleScheme kSurface = SUPPLE_SCHEME_PREP; ///< whose triangles are the dense mesh
 constexpr const char* kDense = "polygons";
 constexpr const char* kDenseSkin = "polygons, skin alone";
@@ -36,7 +35,7 @@ struct Way {
     std::unique_ptr<PlayingGroup> group;
 };
 
-SuppleGroupDesc groupDesc(const Way& way, uint32_t rate, uint32_t characters) {
+SuppleGroupDesc groupOf(const Way& way, uint32_t rate, uint32_t characters) {
     SuppleGroupDesc desc{};
     desc.asset = way.asset;
     desc.scheme = way.scheme;
@@ -133,7 +132,7 @@ Status Race::makeGroups(uint32_t characters) {
     for (size_t w = 0; w < ways_.size();) {
         Way& way = ways_[w];
         way.group = std::make_unique<PlayingGroup>(device_, workbench_);
-        const Status status = way.group->create(groupDesc(way, rate_, characters));
+        const Status status = way.group->create(groupOf(way, rate_, characters));
         if (!status && way.scheme != SUPPLE_SCHEME_POLYGONS && status.error().code == ErrorCode::asset) {
             refused_.push_back({{"scheme", way.name}, {"reason", status.error().message}});
             ways_.erase(ways_.begin() + static_cast<ptrdiff_t>(w));
@@ -154,7 +153,7 @@ uint32_t Race::charactersThatFit() const {
         bytes += way.group->output().info.deviceBytes;
     }
     return static_cast<uint32_t>(
-        std::clamp<VkDeviceSize>(deviceMemory(device_) / kShareOfMemory / bytes, 1, desc_.characters));
+        std::clamp<VkDeviceSize>(deviceMemory(device_) / kCrowdShareOfMemory / bytes, 1, desc_.characters));
 }
 
 Status Race::addContestant(const std::string& name, const PlayingGroup& group, Passes passes) {
@@ -293,9 +292,9 @@ Result<std::vector<Agreement>> compareClassical(host::Device& device, Workbench&
             return cageAsset ? denseAsset.error() : cageAsset.error();
         }
         PlayingGroup surface(device, workbench), mesh(device, workbench);
-        Status status = surface.create(groupDesc({"", *cageAsset, kSurface, 0, 0, nullptr}, kRate, 2));
+        Status status = surface.create(groupOf({"", *cageAsset, kSurface, 0, 0, nullptr}, kRate, 2));
         if (status) {
-            status = mesh.create(groupDesc({"", *denseAsset, SUPPLE_SCHEME_POLYGONS, 0, 0, nullptr}, kRate, 2));
+            status = mesh.create(groupOf({"", *denseAsset, SUPPLE_SCHEME_POLYGONS, 0, 0, nullptr}, kRate, 2));
         }
         workbench.destroy(*cageAsset);
         workbench.destroy(*denseAsset);

@@ -20,7 +20,6 @@ namespace {
 
 constexpr uint32_t kVertexBytes = 16;
 constexpr uint32_t kOneCharacterRate = 8;
-constexpr VkDeviceSize kShareOfMemory = 4; ///< a quarter is the crowd's vertices, a quarter what is written beside them
 
 /// The device's clock where there is one.
 const std::vector<double>& clockOf(const Series& series) {
@@ -43,7 +42,7 @@ Json shareOf(const Series& evaluate, const Series& fill, const Series& store) {
     return {{"median", tools::quantile(shares, 0.5)}, {"least", shares.front()}, {"largest", shares.back()}};
 }
 
-SuppleGroupDesc groupDesc(SuppleAsset asset, SuppleScheme scheme, uint32_t rate, uint32_t characters) {
+SuppleGroupDesc crowdGroup(SuppleAsset asset, SuppleScheme scheme, uint32_t rate, uint32_t characters) {
     SuppleGroupDesc desc{};
     desc.asset = asset;
     desc.scheme = scheme;
@@ -129,20 +128,20 @@ Result<Json> measureCrowd(host::Device& device, Workbench& workbench, const Crow
         uint32_t characters = wanted;
         if (wanted > 1) { // what one takes tells how many there is room for
             PlayingGroup one(device, workbench);
-            Status status = one.create(groupDesc(*asset, scheme, rate, 1));
+            Status status = one.create(crowdGroup(*asset, scheme, rate, 1));
             if (!status) {
                 return status;
             }
             const VkDeviceSize bytes = VkDeviceSize{one.output().grid.verticesPerInstance} * kVertexBytes;
             characters = static_cast<uint32_t>(
-                std::clamp<VkDeviceSize>(deviceMemory(device) / kShareOfMemory / bytes, 2, wanted));
+                std::clamp<VkDeviceSize>(deviceMemory(device) / kCrowdShareOfMemory / bytes, 2, wanted));
         }
         if (desc.progress) {
             desc.progress(std::string(tools::schemeName(scheme)) + ", rate " + std::to_string(rate) + ", " +
                           std::to_string(characters));
         }
         PlayingGroup crowd(device, workbench);
-        const Status status = crowd.create(groupDesc(*asset, scheme, rate, characters));
+        const Status status = crowd.create(crowdGroup(*asset, scheme, rate, characters));
         Result<Json> row = status ? measureRow(device, desc, crowd) : Result<Json>(status.error());
         if (!row) {
             return row.error();
@@ -175,9 +174,9 @@ Result<std::vector<Agreement>> compareCrowd(host::Device& device, Workbench& wor
         return asset.error();
     }
     PlayingGroup alone(device, workbench), crowd(device, workbench);
-    Status status = alone.create(groupDesc(*asset, scheme, kRate, 1));
+    Status status = alone.create(crowdGroup(*asset, scheme, kRate, 1));
     if (status) {
-        status = crowd.create(groupDesc(*asset, scheme, kRate, kSmallCrowd));
+        status = crowd.create(crowdGroup(*asset, scheme, kRate, kSmallCrowd));
     }
     workbench.destroy(*asset);
     std::vector<std::vector<std::byte>> all;

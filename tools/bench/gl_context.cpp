@@ -10,7 +10,7 @@ namespace supple::bench {
 namespace {
 
 template <class Function>
-Function load(const char* name) {
+Function loadFunction(const char* name) {
     return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
@@ -26,10 +26,10 @@ EGLDisplay openDisplay() {
     const auto usable = [](EGLDisplay display) {
         return display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
     };
-    const auto platformDisplay = load<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+    const auto platformDisplay = loadFunction<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     if (platformDisplay != nullptr && has("EGL_EXT_platform_device") && has("EGL_EXT_device_enumeration")) {
         // A GPU's driver, where there is one; Mesa lists its software renderer last.
-        const auto queryDevices = load<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+        const auto queryDevices = loadFunction<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
         EGLDeviceEXT device = nullptr;
         EGLint count = 0;
         if (queryDevices != nullptr && queryDevices(1, &device, &count) == EGL_TRUE && count == 1) {
@@ -66,13 +66,13 @@ Result<std::unique_ptr<GlContext>> GlContext::create() {
         eglMakeCurrent(gl->display_, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context_) != EGL_TRUE) {
         return Error{ErrorCode::unsupported, "EGL has no OpenGL 4.3 context"};
     }
-    gl->finish_ = load<void (*)()>("glFinish");
-    const auto getString = load<const GLubyte* (*)(GLenum)>("glGetString");
-    gl->genQueries_ = load<decltype(gl->genQueries_)>("glGenQueries");
-    gl->deleteQueries_ = load<decltype(gl->deleteQueries_)>("glDeleteQueries");
-    gl->beginQuery_ = load<decltype(gl->beginQuery_)>("glBeginQuery");
-    gl->endQuery_ = load<decltype(gl->endQuery_)>("glEndQuery");
-    gl->queryResult_ = load<decltype(gl->queryResult_)>("glGetQueryObjectui64v");
+    gl->finish_ = loadFunction<void (*)()>("glFinish");
+    const auto getString = loadFunction<const GLubyte* (*)(GLenum)>("glGetString");
+    gl->genQueries_ = loadFunction<decltype(gl->genQueries_)>("glGenQueries");
+    gl->deleteQueries_ = loadFunction<decltype(gl->deleteQueries_)>("glDeleteQueries");
+    gl->beginQuery_ = loadFunction<decltype(gl->beginQuery_)>("glBeginQuery");
+    gl->endQuery_ = loadFunction<decltype(gl->endQuery_)>("glEndQuery");
+    gl->queryResult_ = loadFunction<decltype(gl->queryResult_)>("glGetQueryObjectui64v");
     if (gl->finish_ == nullptr || getString == nullptr || gl->genQueries_ == nullptr || gl->deleteQueries_ == nullptr ||
         gl->beginQuery_ == nullptr || gl->endQuery_ == nullptr || gl->queryResult_ == nullptr) {
         return Error{ErrorCode::unsupported, "EGL gives no OpenGL functions"};

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kAvx2 = "AVX2 bi-3";
 constexpr const char* kPlain = "plain C++ bi-3";
-constexpr const char* kWrite = "write 24 B";
+constexpr const char* kWrite24 = "write 24 B";
 
 /// What there is of a scheme: its plain form first, which the others' points are counted by.
 struct Variant {
@@ -203,7 +203,7 @@ void Heat::addYardsticks() {
             evaluateAvx2(desc_.yardstick.data(), patches, desc_.rate, weights_, avx2Out_.data());
         });
     }
-    addHost(kWrite, points, [this](uint32_t turn) { writeAll(writeOut_, turn); });
+    addHost(kWrite24, points, [this](uint32_t turn) { writeAll(writeOut_, turn); });
 }
 
 void Heat::addRatios(Json& row, std::span<const Series> series) const {
@@ -258,7 +258,7 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
         }
     }
     add(kPlain, kAvx2, false);
-    add(kAvx2, kWrite, false);
+    add(kAvx2, kWrite24, false);
 }
 
 Result<Json> Heat::run() {

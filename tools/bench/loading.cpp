@@ -13,14 +13,14 @@ namespace supple::bench {
 
 namespace {
 
-constexpr uint32_t kRate = 8;
+constexpr uint32_t kLoadedRate = 8;
 constexpr uint32_t kViewVertices = 1u << 20; ///< room for any of the cages
 
-SuppleGroupDesc groupDesc(const BenchCage& cage, SuppleScheme scheme, SuppleAsset asset) {
+SuppleGroupDesc loadedGroup(const BenchCage& cage, SuppleScheme scheme, SuppleAsset asset) {
     SuppleGroupDesc desc{};
     desc.asset = asset;
     desc.scheme = scheme;
-    desc.rate = kRate;
+    desc.rate = kLoadedRate;
     desc.flags = cage.character.cage.cornerUvs.empty() ? 0 : SUPPLE_GROUP_ATTRIBUTES;
     return desc;
 }
@@ -61,7 +61,7 @@ Result<OneLoad> load(host::Device& device, Workbench& workbench, const BenchCage
     if (!asset) {
         return asset.error();
     }
-    Result<SuppleGroup> group = workbench.createGroup(groupDesc(cage, scheme, *asset));
+    Result<SuppleGroup> group = workbench.createGroup(loadedGroup(cage, scheme, *asset));
     const double grouped = wallSeconds();
     workbench.destroy(*asset);
     if (!group) {
@@ -117,7 +117,7 @@ Result<SuppleGroup> groupFor(Workbench& workbench, const BenchCage& cage, Supple
     if (!asset) {
         return asset.error();
     }
-    SuppleGroupDesc desc = groupDesc(cage, scheme, *asset);
+    SuppleGroupDesc desc = loadedGroup(cage, scheme, *asset);
     if (use == PipelineUse::inView) {
         SuppleViewDesc view{};
         view.flags = SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;

@@ -9,10 +9,8 @@ using namespace OpenSubdiv;
 
 namespace {
 
-const Osd::BufferDescriptor kXyz(0, 3, 3);
-
-struct Output {
-    explicit Output(size_t points) : position(3 * points), du(3 * points), dv(3 * points) {}
+struct CpuOutput {
+    explicit CpuOutput(size_t points) : position(3 * points), du(3 * points), dv(3 * points) {}
     std::vector<float> position, du, dv;
 };
 
@@ -21,7 +19,7 @@ Status outcome(bool done) {
 }
 
 Peer limitStencils(const std::shared_ptr<const OpensubdivTables>& tables) {
-    const auto out = std::make_shared<Output>(tables->points());
+    const auto out = std::make_shared<CpuOutput>(tables->points());
     const auto run = [tables, out] {
         const Far::LimitStencilTable& stencils = *tables->limitStencils;
         return outcome(Osd::CpuEvaluator::EvalStencils(
@@ -34,7 +32,7 @@ Peer limitStencils(const std::shared_ptr<const OpensubdivTables>& tables) {
 }
 
 Peer patches(const std::shared_ptr<const OpensubdivTables>& tables) {
-    const auto out = std::make_shared<Output>(tables->points());
+    const auto out = std::make_shared<CpuOutput>(tables->points());
     const auto patchTable = std::make_shared<Osd::CpuPatchTable>(tables->patches.get());
     // The cage's points, then the refined ones.
     const auto points = std::make_shared<std::vector<float>>(tables->cage);

@@ -13,8 +13,6 @@ namespace {
 
 using Buffer = std::shared_ptr<Osd::GLVertexBuffer>;
 
-const Osd::BufferDescriptor kXyz(0, 3, 3);
-
 Buffer buffer(int elements, size_t count) {
     return Buffer(Osd::GLVertexBuffer::Create(elements, static_cast<int>(count)));
 }
@@ -46,8 +44,8 @@ Peer peer(const GlContext& gl, const std::string& name, size_t points, const std
     return {name, points, run, seconds, std::move(positions)};
 }
 
-struct Output {
-    explicit Output(size_t points) : position(buffer(3, points)), du(buffer(3, points)), dv(buffer(3, points)) {}
+struct GlOutput {
+    explicit GlOutput(size_t points) : position(buffer(3, points)), du(buffer(3, points)), dv(buffer(3, points)) {}
     Buffer position, du, dv;
 };
 
@@ -73,7 +71,7 @@ Result<std::vector<Peer>> opensubdivGlslPeers(const GlContext& gl,
     const Buffer coordinates = buffer(5, points);
     coordinates->UpdateData(reinterpret_cast<const float*>(tables->coordinates.data()), 0, static_cast<int>(points));
 
-    const auto limitOut = std::make_shared<Output>(points), patchOut = std::make_shared<Output>(points);
+    const auto limitOut = std::make_shared<GlOutput>(points), patchOut = std::make_shared<GlOutput>(points);
     const auto askLimits = [evaluator, limits, source, limitOut] {
         return evaluator->EvalStencils(source.get(), kXyz, limitOut->position.get(), kXyz, limitOut->du.get(), kXyz,
                                        limitOut->dv.get(), kXyz, limits.get());

@@ -8,6 +8,7 @@
 #include <memory>
 #include <opensubdiv/far/patchTable.h>
 #include <opensubdiv/far/stencilTable.h>
+#include <opensubdiv/osd/bufferDescriptor.h>
 #include <opensubdiv/osd/types.h>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace supple::bench {
 
 /// Levels of adaptive refinement round extraordinary vertices; Gregory patches end them.
 inline constexpr int kOpensubdivLevel = 3;
+
+/// A point of a buffer: x, y, z.
+inline const OpenSubdiv::Osd::BufferDescriptor kXyz(0, 3, 3);
 
 struct OpensubdivTables {
     std::vector<float> cage;                                                 ///< x, y, z

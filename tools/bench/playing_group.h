@@ -10,6 +10,9 @@
 
 namespace supple::bench {
 
+/// A crowd's vertices take at most this fraction of the device's memory; what is written beside them takes as much.
+inline constexpr VkDeviceSize kCrowdShareOfMemory = 4;
+
 /// The size of the largest heap on the device, in bytes.
 [[nodiscard]] VkDeviceSize deviceMemory(const host::Device& device);
 

@@ -13,7 +13,7 @@ namespace supple::tools {
 
 namespace {
 
-constexpr float kMargin = 0.06f;
+constexpr float kTileMargin = 0.06f;
 
 std::string timeLabel(double seconds) {
     char text[32];
@@ -88,7 +88,7 @@ Result<host::Picture> drawRow(Stage& stage, const ContactSheetOptions& options, 
         return cage.error();
     const float aspect = static_cast<float>(layout.cell.width) / static_cast<float>(layout.cell.height);
     scene.camera =
-        host::frameCamera(cage->points, radians(options.draw.yaw), radians(options.draw.pitch), aspect, kMargin);
+        host::frameCamera(cage->points, radians(options.draw.yaw), radians(options.draw.pitch), aspect, kTileMargin);
     scene.lightYaw = scene.camera.yaw;
     for (uint32_t column = 0; column < layout.columns; ++column) {
         if (const Status status = stage.pose(times[column]); !status)

@@ -11,7 +11,7 @@ namespace supple::tools {
 
 namespace {
 
-constexpr float kMargin = 0.10f;
+constexpr float kWindowMargin = 0.10f;
 constexpr float kSteepest = 1.5f; ///< radians; the camera never looks straight up or down
 /// Poses of each clip that the camera has to hold and the floor has to carry.
 constexpr uint32_t kMeasuredPoses = 5;
@@ -156,7 +156,7 @@ void ViewStage::advance(double seconds) {
 }
 
 void ViewStage::frameFigure(float aspect) {
-    camera_ = host::frameCamera(extent_.points, startYaw_, startPitch_, aspect, kMargin);
+    camera_ = host::frameCamera(extent_.points, startYaw_, startPitch_, aspect, kWindowMargin);
 }
 
 void ViewStage::orbit(float yaw, float pitch) {

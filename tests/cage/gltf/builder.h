@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace supple::cage::test {
+namespace supple::test {
 
 inline std::vector<std::byte> toBytes(const std::string& text) {
     std::vector<std::byte> bytes(text.size());
@@ -156,6 +156,9 @@ inline GltfBuilder skinnedTriangle(uint32_t jointCount, const std::vector<std::v
     return b;
 }
 
+/// A centre and a ring of four, in the xy plane.
+inline const std::vector<float> kRing = {0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0};
+
 // Accessors of skinnedQuad(), in their order.
 enum QuadAccessor { kPositions, kJoints, kWeights, kIndices, kInverseBinds, kTimes, kRotations, kTranslations, kUvs };
 
@@ -182,4 +185,4 @@ inline GltfBuilder skinnedQuad() {
     return b;
 }
 
-} // namespace supple::cage::test
+} // namespace supple::test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace supple::cage::test {
+namespace supple::test {
 
 inline size_t binaryOffset(const std::vector<std::byte>& glb) {
     uint32_t length = 0;
@@ -121,4 +121,4 @@ inline std::vector<std::byte> compressed(const GltfBuilder& builder, const std::
     return packGlb(root.dump(), packed);
 }
 
-} // namespace supple::cage::test
+} // namespace supple::test

@@ -81,7 +81,7 @@ TEST(GltfCompression, QuantizedVerticesAreWelded) {
 // ---- meshopt --------------------------------------------------------------------------------------------------------
 
 /// A strip of quads, in the order of FB_ngon_encoding, skinned to two joints and animated.
-GltfBuilder strip() {
+GltfBuilder longStrip() {
     constexpr uint32_t kQuads = 100;
     GltfBuilder b;
     std::vector<float> positions;
@@ -123,13 +123,13 @@ Strings compressionWarning(const std::string& extension, int views) {
 }
 
 TEST(GltfCompression, MeshoptDecodesToTheSame) {
-    const Character plain = readWell(strip().glb());
+    const Character plain = readWell(longStrip().glb());
     ASSERT_EQ(plain.cage.faceCount(), 100u);
     for (const std::string extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         for (const bool tagged : {true, false}) {
             SCOPED_TRACE(extension);
-            const std::vector<std::byte> bytes = compressed(strip(), extension, {.tagPlaceholder = tagged});
-            EXPECT_LT(bytes.size(), strip().glb().size());
+            const std::vector<std::byte> bytes = compressed(longStrip(), extension, {.tagPlaceholder = tagged});
+            EXPECT_LT(bytes.size(), longStrip().glb().size());
             const Character c = readWell(bytes);
             EXPECT_EQ(c.warnings, compressionWarning(extension, 7));
             EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::ngonEncoding);
@@ -149,14 +149,14 @@ TEST(GltfCompression, MeshoptDecodesToTheSame) {
         }
     }
     // Indices that are no triangle list, or not taken for one.
-    EXPECT_EQ(readWell(compressed(strip(), "EXT_meshopt_compression", {.sequences = true})).cage.faceVertices,
+    EXPECT_EQ(readWell(compressed(longStrip(), "EXT_meshopt_compression", {.sequences = true})).cage.faceVertices,
               plain.cage.faceVertices);
 }
 
 TEST(GltfCompression, MeshoptFilters) {
     const std::vector<std::byte> bytes =
-        compressed(strip(), "EXT_meshopt_compression", {.exponential = {6}, .quaternions = {5}});
-    const Character plain = readWell(strip().glb());
+        compressed(longStrip(), "EXT_meshopt_compression", {.exponential = {6}, .quaternions = {5}});
+    const Character plain = readWell(longStrip().glb());
     const Character c = readWell(bytes);
     ASSERT_EQ(c.clips.size(), 1u);
     for (size_t k = 0; k < 2; ++k) {
@@ -179,18 +179,20 @@ TEST(GltfCompression, PlaceholdersAreNotRead) {
         asked.push_back(path);
         return Error{ErrorCode::io, "no"};
     };
-    const auto bytes = compressed(strip(), "EXT_meshopt_compression", {.placeholderUri = "whole.bin"});
+    const auto bytes = compressed(longStrip(), "EXT_meshopt_compression", {.placeholderUri = "whole.bin"});
     EXPECT_TRUE(readGltf(bytes, "t.glb", "", options).ok());
     EXPECT_TRUE(asked.empty());
     // What is needed of it is.
-    const auto partly = compressed(strip(), "EXT_meshopt_compression", {.placeholderUri = "whole.bin", .plainView = 4});
+    const auto partly =
+        compressed(longStrip(), "EXT_meshopt_compression", {.placeholderUri = "whole.bin", .plainView = 4});
     EXPECT_FALSE(readGltf(partly, "t.glb", "", options).ok());
     EXPECT_EQ(asked, Strings{"whole.bin"});
-    EXPECT_EQ(messageOf(compressed(strip(), "EXT_meshopt_compression", {.plainView = 4})), "t.glb: buffer 1: no uri");
+    EXPECT_EQ(messageOf(compressed(longStrip(), "EXT_meshopt_compression", {.plainView = 4})),
+              "t.glb: buffer 1: no uri");
 }
 
 TEST(GltfCompression, MeshoptRefusals) {
-    const std::vector<std::byte> good = compressed(strip(), "EXT_meshopt_compression");
+    const std::vector<std::byte> good = compressed(longStrip(), "EXT_meshopt_compression");
     const auto with = [&](const std::string& view, const nlohmann::json& change, ErrorCode code = ErrorCode::asset) {
         return messageOf(
             changed(good,

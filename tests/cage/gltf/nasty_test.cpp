@@ -33,7 +33,7 @@ Nasty refused(const char* item, std::function<Bytes()> file, const char* refusal
 }
 
 /// skinnedQuad() with its JSON changed in one place.
-Bytes quadWith(const std::string& from, const std::string& to) {
+Bytes quadReplacing(const std::string& from, const std::string& to) {
     const GltfBuilder b = skinnedQuad();
     return packGlb(replaced(b.json(), from, to), b.binary());
 }
@@ -150,14 +150,14 @@ std::vector<Nasty> nastyList() {
                              "and 4) along a seam; joined, as the first vertex of each has it"}));
             }),
         loaded(
-            "joint outside the scene", [] { return quadWith(R"("nodes":[0,1])", R"("nodes":[0])"); },
+            "joint outside the scene", [] { return quadReplacing(R"("nodes":[0,1])", R"("nodes":[0])"); },
             [](const Character& c) {
                 EXPECT_EQ(c.skin.joints, (std::vector<uint32_t>{1, 2}));
                 EXPECT_EQ(c.skeleton.nodes[2].translation, glm::vec3(1, 0, 0));
                 EXPECT_EQ(c.skeleton.nodes[2].parent, 1u);
             }),
         loaded(
-            "inverse bind matrices absent", [] { return quadWith(R"(,"inverseBindMatrices":4)", ""); },
+            "inverse bind matrices absent", [] { return quadReplacing(R"(,"inverseBindMatrices":4)", ""); },
             [](const Character& c) {
                 EXPECT_EQ(c.skin.inverseBinds, (std::vector<glm::mat4>{glm::mat4(1.0f), glm::mat4(1.0f)}));
                 EXPECT_EQ(c.warnings, Strings());
@@ -179,14 +179,14 @@ std::vector<Nasty> nastyList() {
             }),
         loaded(
             "skinned mesh node with a transform of its own",
-            [] { return quadWith(R"({"mesh":0,"skin":0})", R"({"mesh":0,"skin":0,"scale":[2,3,4]})"); },
+            [] { return quadReplacing(R"({"mesh":0,"skin":0})", R"({"mesh":0,"skin":0,"scale":[2,3,4]})"); },
             [](const Character& c) {
                 EXPECT_EQ(c.skin.joints, (std::vector<uint32_t>{1, 2})) << "no joint, so no part in the palette";
                 EXPECT_EQ(c.cage.positions[2], glm::vec3(1, 1, 0));
             }),
         loaded(
             "negative joint scale",
-            [] { return quadWith(R"("translation":[1,0,0])", R"("translation":[1,0,0],"scale":[-1,1,-2])"); },
+            [] { return quadReplacing(R"("translation":[1,0,0])", R"("translation":[1,0,0],"scale":[-1,1,-2])"); },
             [](const Character& c) { EXPECT_EQ(c.skeleton.nodes[2].scale, glm::vec3(-1, 1, -2)); }),
         loaded(
             "more than 256 joints",
@@ -446,19 +446,20 @@ std::vector<Nasty> validatorShapes() {
         refused(
             "skin: ibm_invalid_count",
             [] {
-                return quadWith(R"({"joints":[1,2],"inverseBindMatrices":4})",
-                                R"({"joints":[1,2,0],"inverseBindMatrices":4})");
+                return quadReplacing(R"({"joints":[1,2],"inverseBindMatrices":4})",
+                                     R"({"joints":[1,2,0],"inverseBindMatrices":4})");
             },
             "skin 0 inverseBindMatrices: 2 matrices for 3 joints"),
         loaded(
-            "skin: no_common_root", [] { return quadWith(R"({"name":"root","children":[2]})", R"({"name":"root"})"); },
+            "skin: no_common_root",
+            [] { return quadReplacing(R"({"name":"root","children":[2]})", R"({"name":"root"})"); },
             [](const Character& c) {
                 EXPECT_EQ(c.skin.joints, (std::vector<uint32_t>{1, 2}));
                 EXPECT_EQ(c.skeleton.nodes[1].parent, kNone) << "two trees; every joint has its own way up";
                 EXPECT_EQ(c.skeleton.nodes[2].parent, kNone);
             }),
         refused(
-            "skin: unresolved_joint", [] { return quadWith(R"("joints":[1,2])", R"("joints":[1,9])"); },
+            "skin: unresolved_joint", [] { return quadReplacing(R"("joints":[1,2])", R"("joints":[1,9])"); },
             "skin 0 joints[1]: node 9 is out of range: the file has 3"),
         loaded(
             "skin: buffer_view_bytestride",
@@ -508,11 +509,11 @@ std::vector<Nasty> validatorShapes() {
             "mesh_data: joints_weights_complex, negative", [] { return quadWithFloat(kWeights, 4, -0.5f); },
             "mesh 0 primitive 0 WEIGHTS_0[1]: negative"),
         refused(
-            "mesh_data: joints_no_weights", [] { return quadWith(R"(,"WEIGHTS_0":2)", ""); },
+            "mesh_data: joints_no_weights", [] { return quadReplacing(R"(,"WEIGHTS_0":2)", ""); },
             "mesh 0 primitive 0: JOINTS_0 without WEIGHTS_0"),
         refused(
             "mesh: unequal_joints, within a primitive",
-            [] { return quadWith(R"("JOINTS_0":1)", R"("JOINTS_0":1,"JOINTS_1":1)"); },
+            [] { return quadReplacing(R"("JOINTS_0":1)", R"("JOINTS_0":1,"JOINTS_1":1)"); },
             "mesh 0 primitive 0: JOINTS_1 without WEIGHTS_1"),
         loaded(
             "mesh: unequal_joints, between primitives",
@@ -533,7 +534,7 @@ std::vector<Nasty> validatorShapes() {
             }),
         refused(
             "mesh: morph_weights_wrong_count",
-            [] { return quadWith(R"("mode":4}])", R"("targets":[{"POSITION":0}]}],"weights":[0.5,0.5])"); },
+            [] { return quadReplacing(R"("mode":4}])", R"("targets":[{"POSITION":0}]}],"weights":[0.5,0.5])"); },
             "mesh 0 weights: 2 weights for 1 morph target"),
         refused(
             "animation: sampler_too_few_cubic_frames",
@@ -549,11 +550,11 @@ std::vector<Nasty> validatorShapes() {
             "animation 0 channel 0 output: 1 element for 2 keys"),
         refused(
             "animation: channel_node_matrix",
-            [tip] { return quadWith(tip, R"({"name":"tip","matrix":[1,0,0,0,0,1,0,0,0,0,1,0,1,0,0,1]})"); },
+            [tip] { return quadReplacing(tip, R"({"name":"tip","matrix":[1,0,0,0,0,1,0,0,0,0,1,0,1,0,0,1]})"); },
             "animation 0 channel 0: animates node 2, which has a matrix"),
         refused(
             "animation: channel_duplicate_targets",
-            [rotation] { return quadWith(rotation, rotation + "," + rotation); },
+            [rotation] { return quadReplacing(rotation, rotation + "," + rotation); },
             "animation 0 channel 1: a second channel for rotation of node 2"),
         loaded(
             "animation_data: invalid_input_values, negative", [] { return quadWithFloat(kTimes, 0, -1.0f); },
@@ -579,20 +580,21 @@ std::vector<Nasty> validatorShapes() {
         refused(
             "accessor: invalid_sparse_count",
             [] {
-                return quadWith(R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})",
-                                R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":5,)"
-                                R"("indices":{"bufferView":3,"componentType":5123},"values":{"bufferView":0}}})");
+                return quadReplacing(
+                    R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})",
+                    R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":5,)"
+                    R"("indices":{"bufferView":3,"componentType":5123},"values":{"bufferView":0}}})");
             },
             "accessor 0 sparse count: 5 is not in 1..4"),
         refused(
             "accessor: invalid stride",
             [] {
-                return quadWith(R"({"buffer":0,"byteOffset":0,"byteLength":48})",
-                                R"({"buffer":0,"byteOffset":0,"byteLength":48,"byteStride":3})");
+                return quadReplacing(R"({"buffer":0,"byteOffset":0,"byteLength":48})",
+                                     R"({"buffer":0,"byteOffset":0,"byteLength":48,"byteStride":3})");
             },
             "bufferView 0 byteStride: 3 is not a multiple of 4 in 4..252"),
         refused(
-            "node: node_skin_without_skinned_mesh", [] { return quadWith(R"("JOINTS_0":1,"WEIGHTS_0":2,)", ""); },
+            "node: node_skin_without_skinned_mesh", [] { return quadReplacing(R"("JOINTS_0":1,"WEIGHTS_0":2,)", ""); },
             "mesh 0 primitive 0: no JOINTS_0 and WEIGHTS_0, but its node has a skin"),
     };
 }
@@ -602,23 +604,28 @@ std::vector<Nasty> extensionShapes() {
     return {
         refused(
             "KHR_draco_mesh_compression",
-            [] { return quadWith(R"("scene":0)", R"("scene":0,"extensionsRequired":["KHR_draco_mesh_compression"])"); },
+            [] {
+                return quadReplacing(R"("scene":0)",
+                                     R"("scene":0,"extensionsRequired":["KHR_draco_mesh_compression"])");
+            },
             "extensionsRequired: KHR_draco_mesh_compression is not supported: it may reorder or drop polygons; "
             "export the mesh uncompressed"),
         refused(
             "unknown extension, required",
-            [] { return quadWith(R"("scene":0)", R"("scene":0,"extensionsRequired":["ACME_soft_body"])"); },
+            [] { return quadReplacing(R"("scene":0)", R"("scene":0,"extensionsRequired":["ACME_soft_body"])"); },
             "extensionsRequired: ACME_soft_body is not supported"),
         loaded(
             "unknown extension, used",
-            [] { return quadWith(R"("mode":4)", R"("extensions":{"ACME_soft_body":{"a":[1,{"b":null}]}},"mode":4)"); },
+            [] {
+                return quadReplacing(R"("mode":4)", R"("extensions":{"ACME_soft_body":{"a":[1,{"b":null}]}},"mode":4)");
+            },
             [](const Character& c) { EXPECT_EQ(c.warnings, Strings()); }),
         loaded(
             "KHR_animation_pointer",
             [] {
-                return quadWith(R"({"sampler":0,"target":{"node":2,"path":"rotation"}})",
-                                R"({"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":)"
-                                R"({"pointer":"/nodes/2/rotation"}}}})");
+                return quadReplacing(R"({"sampler":0,"target":{"node":2,"path":"rotation"}})",
+                                     R"({"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":)"
+                                     R"({"pointer":"/nodes/2/rotation"}}}})");
             },
             [](const Character& c) {
                 EXPECT_EQ(c.clips[0].channels.size(), 1u);
@@ -627,9 +634,9 @@ std::vector<Nasty> extensionShapes() {
         loaded(
             "EXT_mesh_gpu_instancing",
             [] {
-                return quadWith(R"({"mesh":0,"skin":0})",
-                                R"({"mesh":0,"skin":0,"extensions":{"EXT_mesh_gpu_instancing":)"
-                                R"({"attributes":{"TRANSLATION":7}}}})");
+                return quadReplacing(R"({"mesh":0,"skin":0})",
+                                     R"({"mesh":0,"skin":0,"extensions":{"EXT_mesh_gpu_instancing":)"
+                                     R"({"attributes":{"TRANSLATION":7}}}})");
             },
             [](const Character& c) { EXPECT_EQ(c.cage.vertexCount(), 4u) << "how many there are is the host's"; }),
         loaded(

@@ -10,12 +10,12 @@ namespace {
 
 using namespace test;
 
-const std::vector<float> kSquare = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+const std::vector<float> kSquareFloats = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 
 /// Two triangles of a square, with normals.
 GltfBuilder square(const std::vector<float>& normals, const std::string& more = "") {
     GltfBuilder b;
-    b.addFloats("VEC3", kSquare);
+    b.addFloats("VEC3", kSquareFloats);
     b.addIntegers("SCALAR", 5123, {0, 1, 2, 0, 2, 3});
     const std::string normal = normals.empty() ? "" : R"(,"NORMAL":)" + std::to_string(b.addFloats("VEC3", normals));
     b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0)" + normal + R"(},"indices":1)" + more + "}]}]";
@@ -81,7 +81,7 @@ TEST(GltfNormals, ListedPolygonsAreNotCutByFansThatFold) {
 
 /// The file cuts the square along its other diagonal.
 TEST(GltfNormals, MergedPolygonsKeepTheFilesTriangles) {
-    GltfBuilder b = plainMesh(kSquare, {1, 2, 3, 1, 3, 0}, R"(,"extensions":{"FB_ngon_encoding":{}})");
+    GltfBuilder b = plainMesh(kSquareFloats, {1, 2, 3, 1, 3, 0}, R"(,"extensions":{"FB_ngon_encoding":{}})");
     b.more = R"(,"extensionsUsed":["FB_ngon_encoding"])";
     const Character c = readWell(b);
     ASSERT_EQ(c.cage.faceCount(), 1u);

@@ -3,6 +3,7 @@
 #include "cage/parts.h"
 #include "cage/sew.h"
 #include "cage/topology.h"
+#include "tests/cage/face_lists.h"
 #include "tests/cage/gltf/reading.h"
 #include "tests/support/characters.h"
 #include "tests/support/meshes.h"
@@ -180,14 +181,6 @@ Character cutGrid(const std::vector<uint32_t>& cuts) {
     weights.values = {0, 1};
     c.clips.push_back({"up", 1.0, {weights}});
     return c;
-}
-
-std::vector<glm::vec3> cornerPositions(const Cage& cage) {
-    std::vector<glm::vec3> positions;
-    for (const uint32_t v : cage.faceVertices) {
-        positions.push_back(cage.positions[v]);
-    }
-    return positions;
 }
 
 TEST(GltfParts, ACutCharacterIsSewnTogether) {

@@ -1,5 +1,6 @@
 // Where a glTF file's polygons come from: every source, their order, and how each is refused.
 #include "cage/topology.h"
+#include "tests/cage/face_lists.h"
 #include "tests/cage/gltf/reading.h"
 
 #include <functional>
@@ -9,16 +10,6 @@ namespace supple::cage {
 namespace {
 
 using namespace test;
-
-using Faces = std::vector<std::vector<uint32_t>>;
-
-Faces facesOf(const Character& c) {
-    Faces faces;
-    for (uint32_t f = 0; f < c.cage.faceCount(); ++f) {
-        faces.push_back(face(c.cage, f));
-    }
-    return faces;
-}
 
 /// Two quads and a pentagon round vertex 4 of a flat patch of eight vertices, in triangles that are no fans in order.
 ///
@@ -73,7 +64,7 @@ TEST(GltfPolygons, CageExtension) {
         EXPECT_EQ(c.warnings, Strings());
         EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::cageExtension);
         EXPECT_EQ(c.parts[0].weldSource, WeldSource::equality);
-        EXPECT_EQ(facesOf(c), kPolygons);
+        EXPECT_EQ(facesOf(c.cage), kPolygons);
         EXPECT_EQ(c.cage.holes, (std::vector<uint32_t>{1, 2}));
         EXPECT_TRUE(buildTopology(c.cage).ok());
     }
@@ -89,7 +80,7 @@ TEST(GltfPolygons, CageExtensionKeepsCornerAttributes) {
     b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"extensions":)"
                R"({"SUPPLE_mesh_cage":{"faceVertexCounts":2,"faceVertexIndices":3}}}]}])";
     const Character c = readWell(b);
-    EXPECT_EQ(facesOf(c), (Faces{{0, 1, 2, 3}}));
+    EXPECT_EQ(facesOf(c.cage), (Faces{{0, 1, 2, 3}}));
     EXPECT_EQ(c.cage.cornerUvs[2], glm::vec2(4, 0));
     EXPECT_EQ(c.cage.sourceVertices, (std::vector<uint32_t>{0, 1, 4, 5}));
     EXPECT_EQ(c.warnings, (Strings{"mesh 0: 2 vertices have no face; left out"}));
@@ -212,7 +203,7 @@ TEST(GltfPolygons, CreasesByCageVertex) {
     EXPECT_EQ(c.parts[0].weldSource, WeldSource::cageExtension);
     EXPECT_EQ(c.cage.positions,
               (std::vector<glm::vec3>{{1, 0, 0}, {1, 1, 0}, {2, 1, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 0}}));
-    EXPECT_EQ(facesOf(c), (Faces{{5, 0, 1, 4}, {1, 0, 3, 2}}));
+    EXPECT_EQ(facesOf(c.cage), (Faces{{5, 0, 1, 4}, {1, 0, 3, 2}}));
     EXPECT_EQ(c.seamVertexCount, 2u);
     ASSERT_EQ(c.cage.creases.size(), 1u);
     EXPECT_EQ(c.cage.creases[0].a, 0u);
@@ -285,11 +276,13 @@ TEST(GltfPolygons, MeshPolygon) {
             meshPolygon(patch, componentType, {0, 1, 4, 3, r, 1, 2, 5, 4, r, 3, 4, 5, 7, 6}, {0, 5, 10}, {0, 6, 12})));
         EXPECT_EQ(c.warnings, Strings());
         EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::meshPolygon);
-        EXPECT_EQ(facesOf(c), kPolygons);
+        EXPECT_EQ(facesOf(c.cage), kPolygons);
         // Some write no restart values between polygons, some one behind the last.
-        EXPECT_EQ(facesOf(readWell(patch.with(meshPolygon(
-                      patch, componentType, {0, 1, 4, 3, 1, 2, 5, 4, 3, 4, 5, 7, 6, r}, {0, 4, 8}, {0, 6, 12})))),
-                  kPolygons);
+        EXPECT_EQ(
+            facesOf(readWell(patch.with(meshPolygon(patch, componentType, {0, 1, 4, 3, 1, 2, 5, 4, 3, 4, 5, 7, 6, r},
+                                                    {0, 4, 8}, {0, 6, 12})))
+                        .cage),
+            kPolygons);
     }
 }
 
@@ -387,12 +380,12 @@ TEST(GltfPolygons, HiddenEdges) {
     Character c = readWell(patch.with(visibility(kEdges)));
     EXPECT_EQ(c.warnings, Strings());
     EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::hiddenEdges);
-    EXPECT_EQ(facesOf(c), kPolygons);
+    EXPECT_EQ(facesOf(c.cage), kPolygons);
 
     // A silhouette edge is written once, and hidden where it is met again: no edge to merge across.
     std::vector<uint32_t> edges = kEdges;
     edges[1] = 1;
-    EXPECT_EQ(facesOf(readWell(patch.with(visibility(edges)))),
+    EXPECT_EQ(facesOf(readWell(patch.with(visibility(edges))).cage),
               (Faces{{0, 1, 3}, {1, 4, 3}, {1, 2, 5, 4}, {3, 4, 5, 7, 6}}));
 
     // Hidden edges all round vertex 4 make no polygon.
@@ -411,8 +404,9 @@ TEST(GltfPolygons, LineStringsAreVisibleEdges) {
     }
     const std::string visibility = patch.list("visibility", packEdges(edges), 5121);
     const std::string strings = R"("lineStrings":[{)" + patch.list("indices", {1, 4, 3, 255, 0, 1}, 5121) + "}]";
-    EXPECT_EQ(facesOf(readWell(patch.with(extension("EXT_mesh_primitive_edge_visibility", {visibility, strings})))),
-              kPolygons);
+    EXPECT_EQ(
+        facesOf(readWell(patch.with(extension("EXT_mesh_primitive_edge_visibility", {visibility, strings}))).cage),
+        kPolygons);
 }
 
 TEST(GltfPolygons, HiddenEdgesAcrossSeams) {
@@ -422,7 +416,7 @@ TEST(GltfPolygons, HiddenEdgesAcrossSeams) {
     b.addIntegers("SCALAR", 5121, packEdges({2, 2, 0, 0, 2, 2}));
     b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"extensions":)"
                R"({"EXT_mesh_primitive_edge_visibility":{"visibility":1}}}]}])";
-    EXPECT_EQ(facesOf(readWell(b)), (Faces{{0, 1, 2, 3}}));
+    EXPECT_EQ(facesOf(readWell(b).cage), (Faces{{0, 1, 2, 3}}));
 }
 
 TEST(GltfPolygons, HiddenEdgeRefusals) {
@@ -575,7 +569,7 @@ TEST(GltfPolygons, EveryPrimitiveHasItsOwnSource) {
     b.addIntegers("SCALAR", 5121, {0});
     const Character c = readWell(b);
     EXPECT_EQ(c.parts[0].polygonSource, PolygonSource::cageExtension) << "the best of them names the whole";
-    EXPECT_EQ(facesOf(c), (Faces{{0, 1, 2}, {0, 2, 3}, {1, 4, 5, 2}}));
+    EXPECT_EQ(facesOf(c.cage), (Faces{{0, 1, 2}, {0, 2, 3}, {1, 4, 5, 2}}));
     EXPECT_EQ(c.cage.holes, (std::vector<uint32_t>{2}));
     EXPECT_TRUE(buildTopology(c.cage).ok());
 }

@@ -9,27 +9,28 @@
 #include <utility>
 #include <vector>
 
-namespace supple::cage::test {
+namespace supple::test {
 
 using Strings = std::vector<std::string>;
 
 /// Triangles as the file has them: most tests count these.
-inline const GltfOptions kKeepTriangles{.pairing = Pairing::never};
+inline const cage::GltfOptions kKeepTriangles{.pairing = cage::Pairing::never};
 
 /// What a right file reads as.
-inline Character readWell(const std::vector<std::byte>& bytes, const GltfOptions& options = kKeepTriangles) {
-    Result<Character> result = readGltf(bytes, "t.glb", "", options);
+inline cage::Character readWell(const std::vector<std::byte>& bytes,
+                                const cage::GltfOptions& options = kKeepTriangles) {
+    Result<cage::Character> result = cage::readGltf(bytes, "t.glb", "", options);
     EXPECT_TRUE(result.ok()) << result.error().message;
-    return result.ok() ? std::move(result.value()) : Character{};
+    return result.ok() ? std::move(result.value()) : cage::Character{};
 }
-inline Character readWell(const GltfBuilder& b, const GltfOptions& options = kKeepTriangles) {
+inline cage::Character readWell(const GltfBuilder& b, const cage::GltfOptions& options = kKeepTriangles) {
     return readWell(b.glb(), options);
 }
 
 /// Why a wrong file is refused; "accepted" where it is not.
 inline std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code = ErrorCode::asset,
-                             const GltfOptions& options = kKeepTriangles) {
-    const Result<Character> result = readGltf(bytes, "t.glb", "", options);
+                             const cage::GltfOptions& options = kKeepTriangles) {
+    const Result<cage::Character> result = cage::readGltf(bytes, "t.glb", "", options);
     if (result.ok()) {
         return "accepted";
     }
@@ -51,8 +52,8 @@ inline std::string replaced(const std::string& text, const std::string& from, co
     return text.substr(0, place) + to + text.substr(place + from.size());
 }
 
-inline std::vector<uint32_t> face(const Cage& cage, uint32_t f) {
+inline std::vector<uint32_t> face(const cage::Cage& cage, uint32_t f) {
     return {cage.faceVertices.begin() + cage.faceStarts[f], cage.faceVertices.begin() + cage.faceStarts[f + 1]};
 }
 
-} // namespace supple::cage::test
+} // namespace supple::test

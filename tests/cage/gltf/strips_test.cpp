@@ -1,5 +1,6 @@
 // Primitives of TRIANGLE_STRIP and TRIANGLE_FAN.
 #include "cage/topology.h"
+#include "tests/cage/face_lists.h"
 #include "tests/cage/gltf/reading.h"
 
 namespace supple::cage {
@@ -10,19 +11,6 @@ using namespace test;
 /// Two rows of five vertices, at y = 0 (even) and y = 1 (odd), in the xy plane.
 const std::vector<float> kRows = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0,
                                   2, 1, 0, 3, 0, 0, 3, 1, 0, 4, 0, 0, 4, 1, 0};
-/// A centre and a ring of four.
-const std::vector<float> kRing = {0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0};
-
-std::vector<std::vector<uint32_t>> facesOf(const Cage& cage) {
-    std::vector<std::vector<uint32_t>> faces;
-    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-        faces.push_back(face(cage, f));
-    }
-    return faces;
-}
-
-using Faces = std::vector<std::vector<uint32_t>>;
-
 TEST(GltfStrips, AStripTurnsEverySecondTriangle) {
     // Clockwise from above: (0, 1, 2), then (1, 3, 2) and not (1, 2, 3).
     const Character c = readWell(plainMesh(kRows, {0, 1, 2, 3, 4, 5}, R"(,"mode":5)"));

@@ -37,7 +37,7 @@ TEST(RepairFaces, EmptyOnesAreLeftOut) {
     EXPECT_EQ(r.found, (Strings{"cage: 4 faces have fewer than three different vertices or bound nothing, the first is "
                                 "face 1"}));
     EXPECT_EQ(r.repairs, Strings{"left out"});
-    EXPECT_EQ(polygonsOf(r.cage), (Polygons{{0, 1, 2}, {2, 1, 3}}));
+    EXPECT_EQ(facesOf(r.cage), (Faces{{0, 1, 2}, {2, 1, 3}}));
     EXPECT_EQ(r.cage.sourceVertices, (Indices{0, 1, 2, 5})) << "vertices that lost their faces are gone";
     EXPECT_EQ(r.cage.faceMaterials, (Indices{0, 5}));
     EXPECT_EQ(r.cage.faceTrimTiles, (Indices{9, 4}));
@@ -74,7 +74,7 @@ TEST(RepairFaces, RepeatedVerticesCutAFace) {
         << "vertex 10 was a spike's";
     EXPECT_EQ(r.repairs, (Strings{"cut into simple faces", "one vertex for each fan"}));
     // Vertex 10 is gone, 11 and 12 have become 10 and 11, and vertex 3 is repeated behind it.
-    EXPECT_EQ(polygonsOf(r.cage), (Polygons{{0, 1, 2}, {3, 4, 5}, {12, 6, 7}, {8, 9, 10}, {2, 1, 11}}));
+    EXPECT_EQ(facesOf(r.cage), (Faces{{0, 1, 2}, {3, 4, 5}, {12, 6, 7}, {8, 9, 10}, {2, 1, 11}}));
     EXPECT_EQ(r.cage.sourceVertices, (Indices{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12, 3}));
     EXPECT_EQ(r.cage.faceMaterials, (Indices{0, 1, 1, 2, 3}));
     EXPECT_EQ(marksOf(r.cage), (Indices{0, 1, 3, 4, 5, 6, 7, 8, 9, 10, 13, 14, 15, 16, 17}));
@@ -82,8 +82,8 @@ TEST(RepairFaces, RepeatedVerticesCutAFace) {
 
 TEST(RepairFaces, DuplicatesAreLeftOut) {
     // Once more, begun elsewhere, and turned round; the same vertices in another order are another face.
-    Polygons polygons = polygonsOf(supple::test::cube());
-    Polygons damaged = polygons;
+    Faces polygons = facesOf(supple::test::cube());
+    Faces damaged = polygons;
     std::vector<uint32_t> again = polygons[2];
     std::rotate(again.begin(), again.begin() + 1, again.end());
     damaged.push_back(again);
@@ -103,7 +103,7 @@ TEST(RepairFaces, DuplicatesAreLeftOut) {
 TEST(RepairFaces, ATwoSidedSheetIsOneFace) {
     const Repaired r = repaired(points(4), {{0, 1, 2, 3}, {3, 2, 1, 0}});
     EXPECT_EQ(r.found, Strings{"cage: 1 face is there twice: face 1 is face 0 again"});
-    EXPECT_EQ(polygonsOf(r.cage), (Polygons{{0, 1, 2, 3}}));
+    EXPECT_EQ(facesOf(r.cage), (Faces{{0, 1, 2, 3}}));
 }
 
 } // namespace

@@ -12,7 +12,7 @@ using namespace test;
 Cage cubeWithFold() {
     const Cage cube = supple::test::cube();
     std::vector<glm::vec3> positions = cube.positions;
-    Polygons polygons = polygonsOf(cube);
+    Faces polygons = facesOf(cube);
     const std::vector<uint32_t> q = polygons[0];
     positions.push_back(0.5f * (positions[q[0]] + positions[q[2]]));
     polygons[0] = {q[0], q[1], q[2], 8};
@@ -36,7 +36,7 @@ TEST(RepairFolds, TheTwoFacesAreMerged) {
     EXPECT_EQ(r.cage.vertexCount(), 8u);
     EXPECT_EQ(bySides(r.cage), (std::map<uint32_t, uint32_t>{{4, 6}}));
     for (uint32_t f = 1; f < 6; ++f) {
-        EXPECT_EQ(polygonsOf(r.cage)[f], polygonsOf(fold)[f]);
+        EXPECT_EQ(facesOf(r.cage)[f], facesOf(fold)[f]);
     }
 }
 
@@ -62,7 +62,7 @@ TEST(RepairFolds, AVertexInAnEdgeLeavesIt) {
     // A cube with a vertex in the middle of an edge: merging its two faces would fold the ends of the edge in turn.
     const Cage cube = supple::test::cube();
     std::vector<glm::vec3> positions = cube.positions;
-    Polygons polygons = polygonsOf(cube);
+    Faces polygons = facesOf(cube);
     const uint32_t a = polygons[0][0];
     const uint32_t b = polygons[0][1];
     positions.push_back(0.5f * (positions[a] + positions[b]));
@@ -125,7 +125,7 @@ TEST(RepairFolds, AChainOfThem) {
     // Two faces that share a path of three edges.
     const Cage cube = supple::test::cube();
     std::vector<glm::vec3> positions = cube.positions;
-    Polygons polygons = polygonsOf(cube);
+    Faces polygons = facesOf(cube);
     const std::vector<uint32_t> q = polygons[0];
     positions.push_back(0.7f * positions[q[0]] + 0.3f * positions[q[2]]);
     positions.push_back(0.3f * positions[q[0]] + 0.7f * positions[q[2]]);

@@ -12,7 +12,7 @@ namespace {
 using namespace test;
 
 Cage withTurned(const Cage& cage, const Indices& faces) {
-    Polygons polygons = polygonsOf(cage);
+    Faces polygons = facesOf(cage);
     for (const uint32_t f : faces) {
         std::reverse(polygons[f].begin(), polygons[f].end());
     }
@@ -110,7 +110,7 @@ TEST(RepairOrientation, AnyFacesOfAnyPiece) {
 /// A closed strip of quads with so many half twists.
 Cage strip(uint32_t quads, uint32_t twists) {
     std::vector<glm::vec3> positions;
-    Polygons polygons;
+    Faces polygons;
     for (uint32_t i = 0; i < quads; ++i) {
         const double turn = 2.0 * std::numbers::pi * i / quads;
         for (const double side : {-0.3, 0.3}) {

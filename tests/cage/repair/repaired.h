@@ -10,17 +10,15 @@
 #include <utility>
 #include <vector>
 
-namespace supple::cage::test {
+namespace supple::test {
 
-using supple::test::Polygons;
-using supple::test::polygonsOf;
 using Strings = std::vector<std::string>;
 using Indices = std::vector<uint32_t>;
 
 struct Repaired {
-    Cage cage;
-    SkinWeights weights;
-    Morphs morphs;
+    cage::Cage cage;
+    cage::SkinWeights weights;
+    cage::Morphs morphs;
     Strings found;   ///< "cage: 1 edge ..."
     Strings repairs; ///< what was done about each
     std::string refusal;
@@ -28,16 +26,17 @@ struct Repaired {
 
 /// Repairs a cage that has damage, and checks that a topology can be built of what comes out. Vertex i of the cage was
 /// vertex sourceVertices[i]; a skin is bound if there is one.
-inline Repaired repaired(Cage cage, SkinWeights weights = {}, Morphs morphs = {}) {
-    EXPECT_FALSE(buildTopology(cage).ok()) << "there is no damage";
+inline Repaired repaired(cage::Cage cage, cage::SkinWeights weights = {}, cage::Morphs morphs = {}) {
+    EXPECT_FALSE(cage::buildTopology(cage).ok()) << "there is no damage";
     Repaired result{std::move(cage), std::move(weights), std::move(morphs), {}, {}, {}};
     result.cage.sourceVertices.clear();
     for (uint32_t v = 0; v < result.cage.vertexCount(); ++v) {
         result.cage.sourceVertices.push_back(v);
     }
-    std::vector<Damage> damages;
-    const Status status = repairCage(result.cage, result.weights, result.morphs, CageNames{{"cage"}, {}}, damages);
-    for (const Damage& damage : damages) {
+    std::vector<cage::Damage> damages;
+    const Status status =
+        cage::repairCage(result.cage, result.weights, result.morphs, cage::CageNames{{"cage"}, {}}, damages);
+    for (const cage::Damage& damage : damages) {
         result.found.push_back(damage.found);
         result.repairs.push_back(damage.repair);
     }
@@ -45,13 +44,13 @@ inline Repaired repaired(Cage cage, SkinWeights weights = {}, Morphs morphs = {}
         result.refusal = status.error().message;
         return result;
     }
-    const Result<Topology> topology = buildTopology(result.cage);
+    const Result<cage::Topology> topology = cage::buildTopology(result.cage);
     EXPECT_TRUE(topology.ok()) << topology.error().message;
     EXPECT_EQ(result.cage.sourceVertices.size(), result.cage.positions.size());
     return result;
 }
 
-inline Repaired repaired(std::vector<glm::vec3> positions, const Polygons& polygons) {
+inline Repaired repaired(std::vector<glm::vec3> positions, const Faces& polygons) {
     return repaired(supple::test::makeCage(std::move(positions), polygons));
 }
 
@@ -65,4 +64,4 @@ inline std::vector<glm::vec3> points(uint32_t count) {
     return positions;
 }
 
-} // namespace supple::cage::test
+} // namespace supple::test

@@ -13,7 +13,7 @@ using namespace test;
 /// of 1000 and more run the other way, at the angle less 1000.
 Cage book(const std::vector<double>& angles) {
     std::vector<glm::vec3> positions{{0, 0, 0}, {0, 0, 1}};
-    Polygons polygons;
+    Faces polygons;
     for (const double angle : angles) {
         const double turn = std::fmod(angle, 1000.0) * std::numbers::pi / 180.0;
         const auto a = static_cast<uint32_t>(positions.size());
@@ -43,7 +43,7 @@ TEST(RepairSheets, AFinLeavesTheFlatPairJoined) {
     EXPECT_TRUE(joined(r.cage, 0, 2));
     EXPECT_FALSE(joined(r.cage, 0, 1));
     EXPECT_EQ(r.cage.sourceVertices, (Indices{0, 1, 2, 3, 4, 5, 6, 7, 0, 1})) << "copies come behind, in order";
-    EXPECT_EQ(polygonsOf(r.cage), (Polygons{{0, 1, 3, 2}, {8, 9, 5, 4}, {1, 0, 6, 7}}));
+    EXPECT_EQ(facesOf(r.cage), (Faces{{0, 1, 3, 2}, {8, 9, 5, 4}, {1, 0, 6, 7}}));
     EXPECT_EQ(r.cage.positions[8], r.cage.positions[0]);
 }
 
@@ -144,7 +144,7 @@ TEST(RepairSheets, CubesThatTouchAlongAnEdge) {
 TEST(RepairSheets, APinchedTubeIsCut) {
     // An octagonal tube along z, whose rings at z = 2 and z = 3 are pinched: two opposite corners are one vertex.
     std::vector<glm::vec3> positions;
-    Polygons polygons;
+    Faces polygons;
     Indices numbers;
     for (uint32_t ring = 0; ring < 6; ++ring) {
         for (uint32_t k = 0; k < 8; ++k) {

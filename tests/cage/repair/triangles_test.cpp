@@ -81,7 +81,7 @@ TEST(RepairTriangles, SheetsKeepThem) {
 TEST(RepairTriangles, MergedFacesAreCutAnew) {
     // A cube, one of whose quads is two with a vertex between them that only they have.
     const Cage cube = supple::test::cube();
-    supple::test::Polygons polygons = polygonsOf(cube);
+    supple::test::Faces polygons = facesOf(cube);
     const std::vector<uint32_t> first = polygons[0];
     polygons[0] = {first[0], first[1], first[2], 8};
     polygons.push_back({first[2], first[3], first[0], 8});

@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t kLevelsEach = 400;
 
-std::string trace(uint32_t capacity, float level) {
+std::string traceOf(uint32_t capacity, float level) {
     return "capacity " + std::to_string(capacity) + ", level " + std::to_string(level);
 }
 
@@ -138,7 +138,7 @@ TEST(LodPattern, samplesAreWhatTheWordsSay) {
             const LevelPair level = levelPair(static_cast<float>(2 * n + 1));
             for (uint32_t j = 0; 2 * j + 1 < capacity; ++j) {
                 EXPECT_EQ(parameter(capacity, j + 1, level).t > parameter(capacity, j, level).t, (word >> j & 1U) != 0)
-                    << trace(capacity, static_cast<float>(2 * n + 1)) << ", segment " << j;
+                    << traceOf(capacity, static_cast<float>(2 * n + 1)) << ", segment " << j;
             }
         }
     }
@@ -152,8 +152,8 @@ TEST(LodPattern, parametersRiseFromCornerToCorner) {
         EXPECT_EQ(parameter(capacity, capacity, pair).t, 1.0f);
         EXPECT_EQ(parameter(capacity, capacity, pair).s, 0.0f);
         for (uint32_t i = 0; i < capacity; ++i) {
-            ASSERT_LE(parameter(capacity, i, pair).t, parameter(capacity, i + 1, pair).t) << trace(capacity, level);
-            ASSERT_GE(parameter(capacity, i, pair).s, parameter(capacity, i + 1, pair).s) << trace(capacity, level);
+            ASSERT_LE(parameter(capacity, i, pair).t, parameter(capacity, i + 1, pair).t) << traceOf(capacity, level);
+            ASSERT_GE(parameter(capacity, i, pair).s, parameter(capacity, i + 1, pair).s) << traceOf(capacity, level);
         }
     });
 }
@@ -163,8 +163,8 @@ TEST(LodPattern, isItsOwnMirrorImageBitForBit) {
         for (uint32_t i = 0; i <= capacity; ++i) {
             const Parameter here = parameter(capacity, i, levelPair(level));
             const Parameter there = parameter(capacity, capacity - i, levelPair(level));
-            ASSERT_EQ(std::bit_cast<uint32_t>(here.t), std::bit_cast<uint32_t>(there.s)) << trace(capacity, level);
-            ASSERT_EQ(std::bit_cast<uint32_t>(here.s), std::bit_cast<uint32_t>(there.t)) << trace(capacity, level);
+            ASSERT_EQ(std::bit_cast<uint32_t>(here.t), std::bit_cast<uint32_t>(there.s)) << traceOf(capacity, level);
+            ASSERT_EQ(std::bit_cast<uint32_t>(here.s), std::bit_cast<uint32_t>(there.t)) << traceOf(capacity, level);
             ASSERT_NEAR(here.t + here.s, 1.0f, 1.2e-7f);
         }
     });
@@ -175,7 +175,7 @@ TEST(LodPattern, capacityDoesNotShow) {
         const std::set<uint32_t> expected = distinctBits(capacity, level);
         for (const uint32_t larger : kCapacities) {
             if (larger > capacity) {
-                ASSERT_EQ(distinctBits(larger, level), expected) << trace(larger, level) << ", not as " << capacity;
+                ASSERT_EQ(distinctBits(larger, level), expected) << traceOf(larger, level) << ", not as " << capacity;
             }
         }
     });
@@ -208,16 +208,16 @@ TEST(LodPattern, segmentsHaveTheWidthsOfTheLevel) {
             if (std::abs(width - 1.0) < 1e-5) {
                 ++full;
             } else if (width != 0.0) {
-                ASSERT_NEAR(width, fraction, 1e-5) << trace(capacity, level);
+                ASSERT_NEAR(width, fraction, 1e-5) << traceOf(capacity, level);
                 ++growing;
             }
         }
         const auto whole = static_cast<uint32_t>(pair.a);
         if (fraction > 2e-5 && fraction < 1.0 - 2e-5) {
-            EXPECT_EQ(full, 2 * whole + 1) << trace(capacity, level);
-            EXPECT_EQ(growing, 2U) << trace(capacity, level);
+            EXPECT_EQ(full, 2 * whole + 1) << traceOf(capacity, level);
+            EXPECT_EQ(growing, 2U) << traceOf(capacity, level);
         } else {
-            EXPECT_GE(full, 2 * whole + 1) << trace(capacity, level);
+            EXPECT_GE(full, 2 * whole + 1) << traceOf(capacity, level);
         }
     });
 }

@@ -12,11 +12,11 @@
 namespace supple::surface::pm {
 namespace {
 
+using test::Faces;
 using test::makeCage;
 using test::PmCage;
 using test::pmMesh;
 using test::pmZoo;
-using test::Polygons;
 
 std::string refusalOf(const cage::Cage& cage) {
     const Result<Mesh> mesh = buildMesh(cage);
@@ -314,12 +314,12 @@ TEST(PmMesh, splitsCarryAttributes) {
 
 /// The seven vertices of a torus in which every two are joined, with the six triangles round vertex 6 made one hexagon:
 /// each of its diagonals is an edge elsewhere.
-Polygons crowdedHexagon() {
+Faces crowdedHexagon() {
     std::map<uint32_t, uint32_t> after; // round the hexagon
-    Polygons polygons;
+    Faces polygons;
     for (uint32_t i = 0; i < 7; ++i) {
-        for (const Polygons::value_type& t :
-             {Polygons::value_type{i, (i + 1) % 7, (i + 3) % 7}, Polygons::value_type{i, (i + 3) % 7, (i + 2) % 7}}) {
+        for (const Faces::value_type& t :
+             {Faces::value_type{i, (i + 1) % 7, (i + 3) % 7}, Faces::value_type{i, (i + 3) % 7, (i + 2) % 7}}) {
             const auto at = std::find(t.begin(), t.end(), 6u);
             if (at == t.end()) {
                 polygons.push_back(t);
@@ -351,12 +351,12 @@ TEST(PmMesh, refusesAFaceWithoutAFreeSplit) {
 
 TEST(PmMesh, takesTheOneFreeSplit) {
     // Two triangles that share a diagonal of the hexagon become a quad: then that diagonal is free, and no other.
-    const Polygons crowded = crowdedHexagon();
+    const Faces crowded = crowdedHexagon();
     const std::vector<uint32_t>& hexagon = crowded.back();
     for (uint32_t d = 0; d < 3; ++d) {
         const uint32_t a = hexagon[d];
         const uint32_t b = hexagon[d + 3];
-        Polygons polygons;
+        Faces polygons;
         std::vector<uint32_t> quad{a, cage::kNone, b, cage::kNone};
         for (const std::vector<uint32_t>& p : crowded) {
             std::vector<uint32_t> t = p;
@@ -382,7 +382,7 @@ TEST(PmMesh, neighbouringSplitsKeepApart) {
     // Four paths of three edges from P = 0 to Q = 1. Two hexagons, opposite each other, both would like the diagonal
     // P Q, which is short; ladders of triangle, quad, triangle lie between them.
     std::vector<glm::vec3> positions{{0.0f, 0.0f, 0.1f}, {0.0f, 0.0f, -0.1f}};
-    Polygons polygons;
+    Faces polygons;
     const auto x = [](uint32_t i) { return 2 + 2 * (i % 4); };
     const auto y = [](uint32_t i) { return 3 + 2 * (i % 4); };
     for (uint32_t i = 0; i < 4; ++i) {
@@ -411,7 +411,7 @@ TEST(PmMesh, neighbouringSplitsKeepApart) {
 }
 
 TEST(PmMesh, refusals) {
-    Polygons flipped = test::polygonsOf(test::cube());
+    Faces flipped = test::facesOf(test::cube());
     std::reverse(flipped[0].begin(), flipped[0].end());
     EXPECT_NE(refusalOf(makeCage(test::cube().positions, flipped)).find("flipped orientation: faces 0 and "),
               std::string::npos);

@@ -375,7 +375,7 @@ TEST(PmReference, oneFacetAlone) {
     // All its corners are interpolated, its borders straight, and it is flat.
     for (const uint32_t sides : {3u, 4u, 5u}) {
         const cage::Cage solid = test::prism(sides);
-        test::Polygons lid(1);
+        test::Faces lid(1);
         for (uint32_t i = 0; i < sides; ++i) {
             lid[0].push_back(i);
         }

@@ -44,7 +44,7 @@ uint32_t slotOf(const Mesh& mesh, const Located& at, uint32_t j) {
 
 TEST_P(PmVectorFiles, facesAndClasses) {
     const Mesh mesh = v.mesh();
-    test::Polygons faces;
+    test::Faces faces;
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
         faces.emplace_back(mesh.cage.faceVertices.begin() + mesh.cage.faceStarts[f],
                            mesh.cage.faceVertices.begin() + mesh.cage.faceStarts[f + 1]);

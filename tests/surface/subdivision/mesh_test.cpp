@@ -152,8 +152,8 @@ TEST(SubdivisionMesh, loopSplitsFaces) {
     EXPECT_EQ(mesh.sourceFaces.back(), 6u);
     for (const test::SubdivisionCage& entry : test::subdivisionZoo()) {
         SCOPED_TRACE(entry.name);
-        EXPECT_EQ(test::polygonsOf(test::trianglesOf(subdivisionMesh(entry.cage, Subdivision::loop), entry.cage)),
-                  test::polygonsOf(test::inTriangles(entry.cage)));
+        EXPECT_EQ(test::facesOf(test::trianglesOf(subdivisionMesh(entry.cage, Subdivision::loop), entry.cage)),
+                  test::facesOf(test::inTriangles(entry.cage)));
     }
     const Mesh many = subdivisionMesh(test::torus(8, 8), Subdivision::loop);
     EXPECT_EQ(many.notes, Strings{"64 faces have more than 3 sides, the first is face 0; split into triangles"});
@@ -164,14 +164,14 @@ TEST(SubdivisionMesh, loopAvoidsDiagonalsThatAreEdges) {
     // A tetrahedron's face 0 1 2 with a corner 4 in the edge (2, 0): of its diagonals (0, 2) and (1, 4) the first is an
     // edge of the triangle behind.
     const std::vector<glm::vec3> points{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {0, 1, 0}};
-    const test::Polygons polygons{{0, 1, 2, 4}, {0, 3, 1}, {1, 3, 2}, {0, 4, 2}, {0, 2, 3}};
+    const test::Faces polygons{{0, 1, 2, 4}, {0, 3, 1}, {1, 3, 2}, {0, 4, 2}, {0, 2, 3}};
     const Mesh mesh = subdivisionMesh(test::withoutFaces(test::makeCage(points, polygons), {3}), Subdivision::loop);
     EXPECT_EQ(mesh.notes, Strings{"1 face has more than 3 sides: face 0; split into triangles"});
 
     // Moebius' torus, of whose seven vertices each two share an edge, with four triangles in zig-zag made a hexagon:
     // the three diagonals that are no edges leave from no one corner.
     const std::vector<std::vector<uint32_t>> merged{{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}};
-    test::Polygons torus{{0, 1, 3, 5, 4, 2}};
+    test::Faces torus{{0, 1, 3, 5, 4, 2}};
     for (uint32_t i = 0; i < 7; ++i) {
         for (const std::vector<uint32_t>& triangle :
              {std::vector<uint32_t>{i, (i + 1) % 7, (i + 3) % 7}, std::vector<uint32_t>{i, (i + 3) % 7, (i + 2) % 7}}) {

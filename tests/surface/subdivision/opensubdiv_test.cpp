@@ -34,7 +34,7 @@ TEST(SubdivisionOpenSubdiv, zoo) {
 namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 using test::raise;
-using Rule = Sdc::Crease::Rule;
+using SdcRule = Sdc::Crease::Rule;
 
 /// What OpenSubdiv asks of a point.
 struct Primvar {
@@ -94,7 +94,7 @@ public:
     SampleVertices(const cage::Cage& cage, Subdivision subdivision, const Uniform& uniform, uint32_t isolation,
                    uint32_t depth)
         : quads_(subdivision == Subdivision::catmullClark), uniform_(uniform) {
-        for (const std::vector<uint32_t>& p : test::polygonsOf(cage)) {
+        for (const std::vector<uint32_t>& p : test::facesOf(cage)) {
             grids_.emplace_back(p.begin(), p.end());
         }
         for (uint32_t k = 0; k < isolation; ++k) {
@@ -243,17 +243,17 @@ Figures compare(const cage::Cage& cage, const cage::Cage& plain, Subdivision sub
             raise(refined, glm::distance(glm::dvec3(sample.refined), uniform.refined(v)) / extent);
             raise(limits, glm::distance(glm::dvec3(sample.position), uniform.limit(v)) / extent);
             const glm::dvec3 normal = uniform.normal(v);
-            const Rule rule = last.GetVertexRule(own[i]);
+            const SdcRule rule = last.GetVertexRule(own[i]);
             const double off = glm::distance(glm::dvec3(sample.normal), normal);
             const bool folded = normal == glm::dvec3(0.0);
-            if (!folded && rule != Rule::RULE_CORNER && rule != Rule::RULE_CREASE) {
+            if (!folded && rule != SdcRule::RULE_CORNER && rule != SdcRule::RULE_CREASE) {
                 raise(normals, off);
             }
             if (all) {
                 ++figures.samples;
-                figures.corners += rule == Rule::RULE_CORNER ? 1 : 0;
-                figures.folded += folded && rule != Rule::RULE_CORNER ? 1 : 0;
-                if (rule == Rule::RULE_CREASE && !folded) {
+                figures.corners += rule == SdcRule::RULE_CORNER ? 1 : 0;
+                figures.folded += folded && rule != SdcRule::RULE_CORNER ? 1 : 0;
+                if (rule == SdcRule::RULE_CREASE && !folded) {
                     nearest[v] = std::min(nearest[v], off);
                 }
             }
