@@ -2,6 +2,7 @@
 
 #include "skinning/bits.h"
 #include "skinning/pose.h"
+#include "skinning/rotation.h"
 #include "skinning/split_time.h"
 
 #include <algorithm>
