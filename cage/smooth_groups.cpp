@@ -1,8 +1,7 @@
 #include "cage/smooth_groups.h"
 
-#include "cage/disjoint_sets.h"
-
 #include "cage/corner_normals.h"
+#include "cage/disjoint_sets.h"
 #include "cage/topology.h"
 
 #include <algorithm>

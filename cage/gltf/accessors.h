@@ -26,6 +26,7 @@ enum ComponentTypes : uint32_t {
     kS16 = 1u << 9,
 };
 
+// What indices and joints are stored as.
 inline constexpr uint32_t kIntegers = kU8 | kU16 | kU32;
 
 // What a use allows in files with KHR_mesh_quantization.

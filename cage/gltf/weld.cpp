@@ -167,7 +167,6 @@ Manifold checkManifold(const Document& document, const Mesh& mesh) {
 /// instead; so the vertices found there are one with these. Vertices count within one primitive.
 VertexPairs readMerges(const Document& document, const Manifold& manifold, size_t vertexCount) {
     const std::string& element = manifold.element;
-    constexpr uint32_t kIntegers = kU8 | kU16 | kU32;
     const auto read = [&](const json& number, const char* name, Sparse sparse) {
         return readIntegers(document, number.get<int>(), TINYGLTF_TYPE_SCALAR, kIntegers, element + " " + name, sparse);
     };

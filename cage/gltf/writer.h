@@ -20,9 +20,10 @@ struct GlbFile {
 /// Everything a Character holds but P_m's crease scalars, as one GLB; the same bytes for the same character.
 ///
 /// Polygons, creases, sharp vertices and holes go into SUPPLE_mesh_cage (docs/SUPPLE_mesh_cage.md), and the triangles
-/// that other viewers show follow FB_ngon_encoding. Materials are written as Supple reads them: base color and alpha
-/// mode; what else a material had in its file is not known here. Images no material uses are left out, and so are, with
-/// a warning, those that are not PNG or JPEG, and clips without channels, which glTF forbids.
+/// that other viewers show follow FB_ngon_encoding. Materials are those of glTF 2.0's core, with emissive strength, unlit
+/// and texture transforms; extensions that Supple does not read are not written. Images that no material uses are left
+/// out. So are images in a format that glTF does not know, and clips without channels, which glTF forbids; a warning
+/// names them.
 ///
 /// The character is one that a reader made: indices in range, weights normalised, numbers finite. Never throws. Errors
 /// are one line that begins with the character's name.

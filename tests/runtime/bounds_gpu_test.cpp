@@ -116,7 +116,7 @@ struct Scene {
     }
 };
 
-struct Written {
+struct Culled {
     std::vector<glm::vec4> bounds;
     std::vector<uint32_t> states, list, arguments;
 };
@@ -155,7 +155,7 @@ public:
     }
 
     /// A frame: states stay from one to the next as long as the count of slots does.
-    Written run(const Scene& scene) {
+    Culled run(const Scene& scene) {
         constexpr VkBufferUsageFlags kUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                             VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
         const auto upload = [&](const void* bytes, size_t size) {
@@ -388,7 +388,7 @@ public:
         }
     }
 
-    void compare(const Scene& scene, const Written& written) const {
+    void compare(const Scene& scene, const Culled& written) const {
         for (const uint32_t entry : scene.host) {
             const uint32_t slot = entry & kInstanceSlotMask;
             ASSERT_EQ(glm::vec3(written.bounds[2 * slot]), glm::vec3(bounds[2 * slot])) << "slot " << slot;
@@ -470,8 +470,8 @@ protected:
         ASSERT_NE(rig, nullptr);
     }
     /// A frame that must come out as on the CPU, and far enough from every decision's edge to say so.
-    Written check(const Scene& scene, Expected& expected) {
-        Written written = rig->run(scene);
+    Culled check(const Scene& scene, Expected& expected) {
+        Culled written = rig->run(scene);
         expected.frame(scene);
         EXPECT_GT(expected.closest, 1e-5) << "the scene does not decide";
         expected.compare(scene, written);
@@ -564,7 +564,7 @@ TEST_P(Bounds, LevelsComeFromTheBoxAndGoWithTheList) {
     scene.view.camera.errorScale = 3.0f;
     scene.view.camera.lengthScale = 1.0f / 3.0f;
     setPlanes(scene, openView());
-    const Written written = rig->run(scene);
+    const Culled written = rig->run(scene);
     uint32_t entries = 0;
     for (const ListWindow& window : scene.windows()) {
         const uint32_t seen = written.arguments[kListHeaderWords * (1 + window.firstSlot / scene.windowSize)];
@@ -593,7 +593,7 @@ TEST_P(Bounds, TheSmallestGoWhereThereIsNoRoom) {
         scene.room = room;
         scene.leastVertices = kVertices;
         setPlanes(scene, openView());
-        const Written written = rig->run(scene);
+        const Culled written = rig->run(scene);
         std::map<uint32_t, uint32_t> byRank; // of those that are seen
         uint32_t seen = 0, drawn = 0, smallestDrawn = ~0u, largestDropped = 0;
         for (const uint32_t entry : scene.host) {
@@ -667,7 +667,7 @@ TEST_P(Bounds, VerticesThatAreNoNumbersDoNotHide) {
     scene.addAll();
     setPlanes(scene, openView());
     Expected expected(scene);
-    const Written written = check(scene, expected);
+    const Culled written = check(scene, expected);
     EXPECT_EQ(expected.all, (std::vector<uint32_t>{1, 2, 3, 4}));
     for (uint32_t slot = 0; slot < 6; ++slot) {
         EXPECT_EQ(written.bounds[2 * slot + 1].w, slot >= 1 && slot <= 4 ? 1.0f : 0.0f);
@@ -688,7 +688,7 @@ TEST_P(Bounds, EmptyGroupsAndThoseOutOfSightHaveNothingToDo) {
         setPlanes(scene, openView());
         scene.arguments = {{100, 32, kCountWindow, kWindowArguments}};
         Expected expected(scene);
-        const Written written = check(scene, expected);
+        const Culled written = check(scene, expected);
         EXPECT_TRUE(expected.all.empty());
         for (uint32_t w = 0; w < 3; ++w) {
             const uint32_t* dispatch = &written.arguments[kWindowArguments + w * kArgumentStride];
@@ -721,17 +721,17 @@ TEST_P(Bounds, SeventyThousandInstances) {
                            {33, 4, kCountWindow, kWindowArguments + 4},
                            {64, 1, kCountWindow, kWindowArguments + 8}};
         Expected expected(scene);
-        const Written first = check(scene, expected);
+        const Culled first = check(scene, expected);
         EXPECT_GT(expected.all.size(), 10'000u);
         EXPECT_LT(expected.all.size(), 60'000u);
-        const Written second = check(scene, expected);
+        const Culled second = check(scene, expected);
         if (GetParam() == SUPPLE_MAPPING_NARROW) {
-            const Written third = rig->run(scene);
+            const Culled third = rig->run(scene);
             EXPECT_EQ(third.list, second.list);
             EXPECT_EQ(third.arguments, second.arguments);
         }
         bool split = false;
-        for (const Written* written : {&first, &second}) {
+        for (const Culled* written : {&first, &second}) {
             for (uint32_t w = 0; w < expected.windows.size(); ++w) {
                 const uint32_t seen = expected.windows[w][0];
                 const uint64_t groups[3] = {(uint64_t{seen} * 500 + 31) / 32, (uint64_t{seen} * 33 + 3) / 4,
@@ -832,7 +832,7 @@ TEST_P(Bounds, WhatAPyramidHidesIsHiddenAndNothingElse) {
             }
             scene.vertex(7, 2).x = kNaN;
             scene.addAll();
-            const Written written = rig->run(scene);
+            const Culled written = rig->run(scene);
             uint32_t hidden = 0, couldBe = 0, seen = 0;
             for (uint32_t slot = 0; slot < scene.slots; ++slot) {
                 // On the CPU from every pixel that the box touches.

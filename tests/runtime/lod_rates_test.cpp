@@ -47,7 +47,7 @@ struct RateOutput {
 };
 
 /// A group's outputs, read back.
-struct Written {
+struct ReadBack {
     host::GroupOutput output{};
     std::vector<RateOutput> rates;
     std::vector<std::byte> vertices, previous, attributes, uvs1;
@@ -95,8 +95,8 @@ struct Written {
 };
 
 enum class Parts { all, lists };
-Written readBack(const Crowd& crowd, Parts parts = Parts::all) {
-    Written written;
+ReadBack readBack(const Crowd& crowd, Parts parts = Parts::all) {
+    ReadBack written;
     written.output = crowd.output();
     const host::GroupOutput& o = written.output;
     if (parts == Parts::all) {
@@ -134,7 +134,7 @@ Written readBack(const Crowd& crowd, Parts parts = Parts::all) {
 }
 
 /// The list of all that are drawn.
-std::vector<uint32_t> allSlots(const Crowd& crowd, const Written& written) {
+std::vector<uint32_t> allSlots(const Crowd& crowd, const ReadBack& written) {
     size_t count = 0;
     for (const RateOutput& rate : written.rates) {
         count += rate.slots.size();
@@ -300,8 +300,8 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
             view.camera.pixelsPerUnit = 250.0f * std::pow(1.8f, static_cast<float>(frame));
             view.look({0.0f, 0.4f, 2.5f});
             twins.run();
-            const Written written = readBack(crowd);
-            std::vector<Written> alone;
+            const ReadBack written = readBack(crowd);
+            std::vector<ReadBack> alone;
             for (uint32_t r = 0; r < rates; ++r) {
                 alone.push_back(readBack(twins.at(r)));
                 ASSERT_EQ(alone[r].rates.size(), 1u);
@@ -316,17 +316,17 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
                     EXPECT_EQ(own.domain, theirs.domain);
                     EXPECT_EQ(own.samplesPerPatch, theirs.samplesPerPatch);
                     const auto triangles = [&](const Crowd& of, const SuppleDrawRange& range) {
-                        return Written::part(of.read(of.output().indices()), 2, range.firstIndex, range.indexCount);
+                        return ReadBack::part(of.read(of.output().indices()), 2, range.firstIndex, range.indexCount);
                     };
                     EXPECT_EQ(triangles(crowd, own), triangles(twins.at(r), theirs));
                 }
-                EXPECT_EQ(Written::part(written.attributes, 16, written.firstVertex(0, r), written.vertexCount(r)),
-                          Written::part(alone[r].attributes, 16, 0, alone[r].vertexCount(0)));
+                EXPECT_EQ(ReadBack::part(written.attributes, 16, written.firstVertex(0, r), written.vertexCount(r)),
+                          ReadBack::part(alone[r].attributes, 16, 0, alone[r].vertexCount(0)));
                 ASSERT_EQ(alone[r].uvs1.empty(), c.character.cage.cornerUvs1.empty());
                 ASSERT_EQ(written.uvs1.empty(), alone[r].uvs1.empty());
                 for (size_t v = 0; v < (written.uvs1.empty() ? 0 : written.vertexCount(r)); v += 1) {
-                    ASSERT_EQ(Written::part(written.uvs1, 8, written.firstVertex(0, r) + v, 1),
-                              Written::part(alone[r].uvs1, 8, v, 1));
+                    ASSERT_EQ(ReadBack::part(written.uvs1, 8, written.firstVertex(0, r) + v, 1),
+                              ReadBack::part(alone[r].uvs1, 8, v, 1));
                 }
                 ASSERT_TRUE(std::is_sorted(written.rates[r].slots.begin(), written.rates[r].slots.end()));
             }
@@ -379,7 +379,7 @@ cage::Cage bumpySphere() {
     return perturbed(cage::makeCubeSphere(2), 0.05f, 3);
 }
 
-std::vector<std::vector<uint32_t>> slotsByRate(const Written& written) {
+std::vector<std::vector<uint32_t>> slotsByRate(const ReadBack& written) {
     std::vector<std::vector<uint32_t>> slots;
     for (const RateOutput& rate : written.rates) {
         slots.push_back(rate.slots);
@@ -413,7 +413,7 @@ TEST_P(LodRates, OnlyWhatIsSeenIsEvaluatedAndDrawn) {
             std::memcpy(view.camera.viewProjection, &both, sizeof(both));
             view.look({left + 6.0f, 0.0f, 30.0f});
             context.run(crowd.group());
-            const Written written = readBack(crowd);
+            const ReadBack written = readBack(crowd);
             std::set<uint32_t> seen;
             for (const uint32_t slot : allSlots(crowd, written)) {
                 const size_t rate = written.rateOf(slot).value_or(0);
@@ -615,7 +615,7 @@ TEST_P(LodRates, TheBudgetHolds) {
             ASSERT_LE(now.levelScales[0], before * 1.0001f) << steps;
             ASSERT_NEAR(now.levelScales[1], std::sqrt(now.levelScales[0]), 1e-5f);
             ASSERT_EQ(now.levelScales[3], 1.0f);
-            const Written written = readBack(rates, Parts::lists);
+            const ReadBack written = readBack(rates, Parts::lists);
             if (alone) {
                 ASSERT_EQ(now.vertexCount, drawnVertices(rates));
             }
@@ -679,7 +679,7 @@ TEST_P(LodRates, TheBudgetHolds) {
         EXPECT_EQ(short_.shortfall, 1u);
         EXPECT_GE(short_.droppedInstanceCount, 1u);
         EXPECT_EQ(short_.drawnInstanceCount + short_.droppedInstanceCount, alone ? 48u : 64u);
-        const Written coarse = readBack(rates, Parts::lists);
+        const ReadBack coarse = readBack(rates, Parts::lists);
         const std::vector<uint32_t> kept = allSlots(rates, coarse);
         EXPECT_NE(std::find(kept.begin(), kept.end(), 9u), kept.end());
         for (const uint32_t slot : kept) {
@@ -712,7 +712,7 @@ TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
         (void)crowd.spawn();
         view.look({0.0f, 0.0f, 2.0f});
         context.run(crowd.group());
-        const Written written = readBack(crowd);
+        const ReadBack written = readBack(crowd);
         EXPECT_EQ(written.output.grid.rate, c.rate);
         ASSERT_EQ(written.output.grid.rateCount, c.rateCount);
         for (uint32_t r = 0; r < c.rateCount; ++r) {
@@ -782,7 +782,7 @@ DrawnRates drawRatesThrough(SuppleMapping mapping, uint32_t count, uint32_t capa
             context.run(crowd.group());
         }
         drawn.counts = wrapped;
-        const Written written = readBack(crowd);
+        const ReadBack written = readBack(crowd);
         for (size_t r = 0; r < written.rates.size(); ++r) {
             for (const uint32_t slot : written.rates[r].slots) {
                 const bool once = drawn.instances.try_emplace(slot, r, written.verticesOf(slot, r)).second;
