@@ -132,58 +132,82 @@ void beginAtFirstKey(Clip& clip, const std::string& element, Warnings& warnings)
     }
 }
 
-} // namespace
+/// Reads clips one after the other, and bounds what they hold together.
+class ClipReader {
+public:
+    ClipReader(const Document& document, const Skeleton& skeleton, std::span<const size_t> targetCounts,
+               Refusals& refusals, Warnings& warnings)
+        : document_(document), skeleton_(skeleton), targetCounts_(targetCounts), refusals_(refusals),
+          warnings_(warnings) {}
 
-std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, std::span<const size_t> targetCounts,
-                            Warnings& warnings) {
-    const auto& animations = document.model.animations;
-    std::vector<Clip> clips;
-    uint64_t floats = 0;
-
-    for (size_t i = 0; i < animations.size(); ++i) {
-        const auto& animation = animations[i];
+    Clip read(size_t index) {
+        const auto& animation = document_.model.animations[index];
+        const std::string element = at("animation", index);
         Clip clip;
-        clip.name = animation.name.empty() ? "clip_" + std::to_string(i) : animation.name;
-        std::map<std::string, size_t> ignored;
-        std::set<std::pair<int, std::string>> targets;
+        clip.name = animation.name.empty() ? "clip_" + std::to_string(index) : animation.name;
+        ignored_.clear();
+        targets_.clear();
         for (size_t k = 0; k < animation.channels.size(); ++k) {
-            const auto& channel = animation.channels[k];
-            const std::string& path = channel.target_path;
-            const std::optional<Output> kind =
-                outputOf(path, channel.target_node < 0 ? 0 : targetCounts[static_cast<size_t>(channel.target_node)]);
-            if (!kind) {
-                ++ignored[path];
-                continue;
-            }
-            const std::string element = at("animation", i) + " " + at("channel", k);
-            if (!targets.emplace(channel.target_node, path).second) {
-                refuse(element, "a second channel for " + path + " of node " + std::to_string(channel.target_node));
-            }
-            if (kind->path != ChannelPath::weights &&
-                skeleton.nodes[static_cast<size_t>(channel.target_node)].hasMatrix) {
-                refuse(element, "animates node " + std::to_string(channel.target_node) + ", which has a matrix");
-            }
-            clip.channels.push_back(readChannel(document, animation, channel, *kind, element));
-            floats += clip.channels.back().times.size() + clip.channels.back().values.size();
-            // Accessors may be shared, so a small file can ask for long clips.
-            if (floats > kMaxClipFloats) {
-                refuse(element, "the clips hold more than " + std::to_string(kMaxClipFloats) + " numbers",
-                       ErrorCode::limit);
-            }
+            refusals_.gather([&] { addChannel(animation, k, element + " " + at("channel", k), clip); });
         }
-        beginAtFirstKey(clip, at("animation", i), warnings);
+        beginAtFirstKey(clip, element, warnings_);
         for (const Channel& channel : clip.channels) {
             clip.duration = std::max(clip.duration, static_cast<double>(channel.times.back()));
         }
-        for (const auto& [path, count] : ignored) {
-            warn(warnings, at("animation", i),
+        for (const auto& [path, count] : ignored_) {
+            warn(warnings_, element,
                  counted(count, "channel", "channels") + " of " +
                      (path == "pointer"   ? "KHR_animation_pointer or no node"
                       : path == "weights" ? "weights of nodes without morph targets"
                                           : path) +
                      " ignored");
         }
-        clips.push_back(std::move(clip));
+        return clip;
+    }
+
+private:
+    void addChannel(const supple_tinygltf::Animation& animation, size_t k, const std::string& element, Clip& clip) {
+        const auto& channel = animation.channels[k];
+        const std::string& path = channel.target_path;
+        const std::optional<Output> kind =
+            outputOf(path, channel.target_node < 0 ? 0 : targetCounts_[static_cast<size_t>(channel.target_node)]);
+        if (!kind) {
+            ++ignored_[path];
+            return;
+        }
+        if (!targets_.emplace(channel.target_node, path).second) {
+            refuse(element, "a second channel for " + path + " of node " + std::to_string(channel.target_node));
+        }
+        if (kind->path != ChannelPath::weights && skeleton_.nodes[static_cast<size_t>(channel.target_node)].hasMatrix) {
+            refuse(element, "animates node " + std::to_string(channel.target_node) + ", which has a matrix");
+        }
+        clip.channels.push_back(readChannel(document_, animation, channel, *kind, element));
+        floats_ += clip.channels.back().times.size() + clip.channels.back().values.size();
+        // Accessors may be shared, so a small file can ask for long clips.
+        if (floats_ > kMaxClipFloats) {
+            refuse(element, "the clips hold more than " + std::to_string(kMaxClipFloats) + " numbers",
+                   ErrorCode::limit);
+        }
+    }
+
+    const Document& document_;
+    const Skeleton& skeleton_;
+    const std::span<const size_t> targetCounts_;
+    Refusals& refusals_;
+    Warnings& warnings_;
+    uint64_t floats_ = 0;
+    std::map<std::string, size_t> ignored_;         ///< of the clip: path -> channels
+    std::set<std::pair<int, std::string>> targets_; ///< of the clip
+};
+
+} // namespace
+
+std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, std::span<const size_t> targetCounts,
+                            Refusals& refusals, Warnings& warnings) {
+    ClipReader reader(document, skeleton, targetCounts, refusals, warnings);
+    std::vector<Clip> clips;
+    for (size_t i = 0; i < document.model.animations.size(); ++i) {
+        clips.push_back(reader.read(i));
     }
     return clips;
 }
@@ -204,7 +228,9 @@ ClipSet readMotion(const Document& document, const std::string& name) {
             node.mesh < 0 ? 0 : meshes[static_cast<size_t>(node.mesh)].primitives.front().targets.size();
         targetCounts.push_back(targets > 0 ? targets : kFromKeys);
     }
-    set.clips = readClips(document, set.skeleton, targetCounts, set.warnings);
+    Refusals refusals;
+    set.clips = readClips(document, set.skeleton, targetCounts, refusals, set.warnings);
+    refusals.raise();
     const auto& animations = document.model.animations;
     for (size_t i = 0; i < animations.size(); ++i) {
         if (animations[i].name.empty()) {

@@ -150,11 +150,13 @@ private:
 
 } // namespace
 
-std::vector<Material> readMaterials(const Document& document, Warnings& warnings) {
-    std::vector<Material> materials;
-    for (size_t i = 0; i < document.materials.size(); ++i) {
-        materials.push_back(MaterialReader(document, i, warnings).read());
-        materials.back().trim = readTrim(document, i, warnings);
+std::vector<Material> readMaterials(const Document& document, Refusals& refusals, Warnings& warnings) {
+    std::vector<Material> materials(document.materials.size());
+    for (size_t i = 0; i < materials.size(); ++i) {
+        refusals.gather([&] {
+            materials[i] = MaterialReader(document, i, warnings).read();
+            materials[i].trim = readTrim(document, i, warnings);
+        });
     }
     return materials;
 }

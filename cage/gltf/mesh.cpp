@@ -59,9 +59,12 @@ public:
             return std::nullopt;
         }
         findCageNumbers(mesh, numbers);
+        Refusals refusals;
         for (size_t i = 0; i < numbers.size(); ++i) {
-            readPrimitive(mesh.primitives[numbers[i]], primitiveJson(numbers[i]), out_.primitives[i]);
+            refusals.gather(
+                [&] { readPrimitive(mesh.primitives[numbers[i]], primitiveJson(numbers[i]), out_.primitives[i]); });
         }
+        refusals.raise();
         out_.weights.report(out_.element, warnings_);
         return std::move(out_);
     }

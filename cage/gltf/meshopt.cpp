@@ -173,12 +173,13 @@ void decodeMeshopt(json& root, Document& document) {
     const size_t bufferCount = document.buffers.size();
     std::vector<Compressed> all;
     uint64_t total = 0;
-    for (size_t i = 0; i < views.size(); ++i) {
+    Refusals refusals;
+    const auto add = [&](size_t i) {
         const auto [object, name] = extensionOf(views[i]);
         if (object == nullptr) {
             // Before the decoded buffers are among those it might name.
             checkIndexMember(views[i], "buffer", at("bufferView", i), "buffer", bufferCount, true);
-            continue;
+            return;
         }
         const std::string element = at("bufferView", i) + " " + name;
         if (!kCanDecode) {
@@ -195,7 +196,11 @@ void decodeMeshopt(json& root, Document& document) {
                    "the file's compressed data decodes to more than " + std::to_string(kMaxDecodedBytes) + " bytes",
                    ErrorCode::limit);
         }
+    };
+    for (size_t i = 0; i < views.size(); ++i) {
+        refusals.gather([&] { add(i); });
     }
+    refusals.raise();
     if (all.empty()) {
         return;
     }

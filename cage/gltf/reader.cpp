@@ -81,12 +81,14 @@ PartCage readPart(const Document& document, uint32_t node, const Skin& skin, con
     return part;
 }
 
-std::vector<PartCage> readParts(const Document& document, const GltfOptions& options, Character& character) {
+std::vector<PartCage> readParts(const Document& document, const GltfOptions& options, Character& character,
+                                Refusals& refusals) {
     const std::vector<uint32_t> nodes = findMeshNodes(document, options.scene, character.warnings);
     std::vector<Skin> skins;
     for (const uint32_t node : nodes) {
-        skins.push_back(readSkin(document, node));
+        refusals.gather([&] { skins.push_back(readSkin(document, node)); });
     }
+    refusals.raise();
     const BindSpace bindSpace(document, character.skeleton, nodes, skins);
     PaletteBuilder palette(character.skin);
     Amount amount;
@@ -95,8 +97,13 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
     std::set<std::string> whyEmpty;
     for (size_t i = 0; i < nodes.size(); ++i) {
         Warnings warnings;
-        PartCage part = readPart(document, nodes[i], skins[i], options, character, warnings);
-        amount.add(part);
+        PartCage part;
+        if (!refusals.gather([&] {
+                part = readPart(document, nodes[i], skins[i], options, character, warnings);
+                amount.add(part);
+            })) {
+            continue;
+        }
         for (std::string& warning : warnings) {
             if (said.insert(warning).second) {
                 character.warnings.push_back(std::move(warning));
@@ -115,12 +122,8 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
         part.part.joints = palette.add(skins[i]);
         parts.push_back(std::move(part));
     }
-    std::string reasons;
-    for (const std::string& reason : whyEmpty) {
-        reasons += (reasons.empty() ? "" : "; ") + reason;
-    }
-    if (parts.empty()) {
-        throw Refusal{ErrorCode::asset, reasons};
+    if (parts.empty() && refusals.none()) {
+        throw Refusal{ErrorCode::asset, {whyEmpty.begin(), whyEmpty.end()}};
     }
     for (const std::string& reason : whyEmpty) {
         character.warnings.push_back(reason + "; left out");
@@ -155,7 +158,11 @@ ClipSet readClipSet(const ClipFile& file) {
         const Document document = loadDocument(file.bytes, file.readFile ? file.readFile : readFolder, Content::motion);
         return readMotion(document, file.name);
     } catch (const Refusal& refusal) {
-        throw Refusal{refusal.code, file.name + ": " + refusal.message};
+        Refusal named{refusal.code, {}};
+        for (const std::string& fault : refusal.faults) {
+            named.faults.push_back(file.name + ": " + fault);
+        }
+        throw named;
     }
 }
 
@@ -166,8 +173,9 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     character.copyright = document.model.asset.copyright;
     character.skeleton = readSkeleton(document);
     character.images = document.images;
-    character.materials = readMaterials(document, warnings);
-    std::vector<PartCage> parts = readParts(document, options, character);
+    Refusals refusals;
+    character.materials = readMaterials(document, refusals, warnings);
+    std::vector<PartCage> parts = readParts(document, options, character, refusals);
     if (options.pairing == Pairing::whereClean) {
         warnOfPairs(parts, warnings);
     }
@@ -175,10 +183,11 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     for (const PartCage& part : parts) {
         targetCounts[part.part.node] = part.morphs.targets.size();
     }
-    character.clips = readClips(document, character.skeleton, targetCounts, warnings);
+    character.clips = readClips(document, character.skeleton, targetCounts, refusals, warnings);
     for (const ClipFile& file : options.clipFiles) {
-        takeClips(readClipSet(file), parts, character);
+        refusals.gather([&] { takeClips(readClipSet(file), parts, character); });
     }
+    refusals.raise();
     const CageNames names = joinParts(std::move(parts), character);
     if (options.sewParts) {
         sewParts(character);
@@ -186,7 +195,7 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     if (const Status repaired =
             repairCage(character.cage, character.weights, character.morphs, names, character.damages);
         !repaired) {
-        throw Refusal{repaired.error().code, repaired.error().message};
+        throw Refusal{repaired.error().code, {repaired.error().message}};
     }
     findFirstFaces(character);
     if (options.creasesFromNormals) {
@@ -221,7 +230,7 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
         }
         return character;
     } catch (const Refusal& refusal) {
-        return failure(refusal.code, name, refusal.message);
+        return asError(refusal, name);
     } catch (const std::bad_alloc&) {
         return failure(ErrorCode::hostMemory, name, "file: out of memory");
     } catch (const std::exception& error) {

@@ -33,46 +33,52 @@ Result<DataUri> fetch(const std::string& uri, const FileReader& readFile) {
     return DataUri{std::move(*bytes), ""};
 }
 
+/// The bytes of a buffer; owned by the document if they come from elsewhere than the container.
+std::span<const std::byte> loadBuffer(const json& buffer, size_t index, const Container& container,
+                                      const FileReader& readFile, Document& document) {
+    const std::string element = at("buffer", index);
+    const uint64_t length = unsignedMember(buffer, "byteLength", element, std::nullopt);
+    if (length == 0) {
+        refuse(element + " byteLength", "zero");
+    }
+    std::span<const std::byte> bytes;
+    const json* uri = member(buffer, "uri");
+    if (uri == nullptr) {
+        if (index != 0 || !container.isBinary) {
+            refuse(element, "no uri");
+        }
+        if (container.binary.empty()) {
+            refuse(element, "the GLB has no binary chunk or an empty one");
+        }
+        bytes = container.binary;
+    } else {
+        Result<DataUri> read = fetch(stringMember(buffer, "uri", element), readFile);
+        if (!read) {
+            refuse(element + " uri", read.error().message, read.error().code);
+        }
+        document.owned[index] = std::move(read->bytes);
+        bytes = document.owned[index];
+    }
+    if (bytes.size() < length) {
+        refuse(element, "truncated: byteLength is " + std::to_string(length) + ", " + std::to_string(bytes.size()) +
+                            " bytes present");
+    }
+    return bytes.first(static_cast<size_t>(length));
+}
+
 } // namespace
 
 void loadBuffers(const json& buffers, std::span<const uint8_t> placeholder, const Container& container,
                  const FileReader& readFile, Document& document) {
     document.owned.resize(buffers.size());
+    document.buffers.resize(buffers.size());
+    Refusals refusals;
     for (size_t i = 0; i < buffers.size(); ++i) {
-        if (placeholder[i] != 0) {
-            document.buffers.emplace_back();
-            continue;
+        if (placeholder[i] == 0) {
+            refusals.gather([&] { document.buffers[i] = loadBuffer(buffers[i], i, container, readFile, document); });
         }
-        const std::string element = at("buffer", i);
-        const uint64_t length = unsignedMember(buffers[i], "byteLength", element, std::nullopt);
-        if (length == 0) {
-            refuse(element + " byteLength", "zero");
-        }
-        std::span<const std::byte> bytes;
-        const json* uri = member(buffers[i], "uri");
-        if (uri == nullptr) {
-            if (i != 0 || !container.isBinary) {
-                refuse(element, "no uri");
-            }
-            if (container.binary.empty()) {
-                refuse(element, "the GLB has no binary chunk or an empty one");
-            }
-            bytes = container.binary;
-        } else {
-            const std::string text = stringMember(buffers[i], "uri", element);
-            Result<DataUri> read = fetch(text, readFile);
-            if (!read) {
-                refuse(element + " uri", read.error().message, read.error().code);
-            }
-            document.owned[i] = std::move(read->bytes);
-            bytes = document.owned[i];
-        }
-        if (bytes.size() < length) {
-            refuse(element, "truncated: byteLength is " + std::to_string(length) + ", " + std::to_string(bytes.size()) +
-                                " bytes present");
-        }
-        document.buffers.push_back(bytes.first(static_cast<size_t>(length)));
     }
+    refusals.raise();
 }
 
 /// A character without its texture is still a character: whatever is wrong with an image is a warning.

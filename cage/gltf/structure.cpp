@@ -116,29 +116,27 @@ void checkNodeTree(const json& nodes) {
     }
 }
 
-void checkBufferViews(const json& views, std::span<const std::span<const std::byte>> buffers) {
-    for (size_t i = 0; i < views.size(); ++i) {
-        const std::string element = at("bufferView", i);
-        checkIndexMember(views[i], "buffer", element, "buffer", buffers.size(), true);
-        const size_t available = buffers[views[i].at("buffer").get<size_t>()].size();
-        const uint64_t offset = unsignedMember(views[i], "byteOffset", element, 0);
-        const uint64_t length = unsignedMember(views[i], "byteLength", element, std::nullopt);
-        if (length == 0) {
-            refuse(element + " byteLength", "zero");
-        }
-        if (offset > available || length > available - offset) {
-            refuse(element, "bytes " + std::to_string(offset) + " + " + std::to_string(length) +
-                                " are out of range: the buffer has " + std::to_string(available));
-        }
-        const json* stride = member(views[i], "byteStride");
-        if (stride != nullptr) {
-            const uint64_t value = toUnsigned(*stride, element + " byteStride");
-            if (value < 4 || value > 252 || value % 4 != 0) {
-                refuse(element + " byteStride", std::to_string(value) + " is not a multiple of 4 in 4..252");
-            }
-        }
-        checkString(views[i], "name", element);
+void checkBufferView(const json& view, const std::string& element,
+                     std::span<const std::span<const std::byte>> buffers) {
+    checkIndexMember(view, "buffer", element, "buffer", buffers.size(), true);
+    const size_t available = buffers[view.at("buffer").get<size_t>()].size();
+    const uint64_t offset = unsignedMember(view, "byteOffset", element, 0);
+    const uint64_t length = unsignedMember(view, "byteLength", element, std::nullopt);
+    if (length == 0) {
+        refuse(element + " byteLength", "zero");
     }
+    if (offset > available || length > available - offset) {
+        refuse(element, "bytes " + std::to_string(offset) + " + " + std::to_string(length) +
+                            " are out of range: the buffer has " + std::to_string(available));
+    }
+    const json* stride = member(view, "byteStride");
+    if (stride != nullptr) {
+        const uint64_t value = toUnsigned(*stride, element + " byteStride");
+        if (value < 4 || value > 252 || value % 4 != 0) {
+            refuse(element + " byteStride", std::to_string(value) + " is not a multiple of 4 in 4..252");
+        }
+    }
+    checkString(view, "name", element);
 }
 
 void checkComponentType(const json& object, const std::string& element, bool indicesOnly) {
@@ -149,52 +147,52 @@ void checkComponentType(const json& object, const std::string& element, bool ind
     }
 }
 
-void checkAccessors(const json& accessors, size_t viewCount) {
-    constexpr std::array<const char*, 7> types{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-    for (size_t i = 0; i < accessors.size(); ++i) {
-        const std::string element = at("accessor", i);
-        const json& accessor = accessors[i];
-        checkIndexMember(accessor, "bufferView", element, "bufferView", viewCount);
-        unsignedMember(accessor, "byteOffset", element, 0);
-        checkComponentType(accessor, element, false);
-        if (unsignedMember(accessor, "count", element, std::nullopt) == 0) {
-            refuse(element + " count", "zero");
-        }
-        const std::string type = stringMember(accessor, "type", element);
-        if (std::none_of(types.begin(), types.end(), [&](const char* known) { return type == known; })) {
-            refuse(element + " type", quoted(type) + " is not allowed");
-        }
-        const json* normalized = member(accessor, "normalized");
-        if (normalized != nullptr && !normalized->is_boolean()) {
-            refuse(element + " normalized", "not a boolean");
-        }
-        const json* sparse = objectMember(accessor, "sparse", element);
-        if (sparse == nullptr) {
-            continue;
-        }
-        const std::string place = element + " sparse";
-        const uint64_t count = unsignedMember(*sparse, "count", place, std::nullopt);
-        if (count == 0 || count > accessor.at("count").get<uint64_t>()) {
-            refuse(place + " count",
-                   std::to_string(count) + " is not in 1.." + std::to_string(accessor.at("count").get<uint64_t>()));
-        }
-        for (const char* part : {"indices", "values"}) {
-            const json* object = objectMember(*sparse, part, place);
-            const std::string partPlace = place + " " + part;
-            if (object == nullptr) {
-                refuse(partPlace, "missing");
-            }
-            checkIndexMember(*object, "bufferView", partPlace, "bufferView", viewCount, true);
-            // tinygltf keeps sparse offsets as int.
-            if (unsignedMember(*object, "byteOffset", partPlace, 0) > std::numeric_limits<int>::max()) {
-                refuse(partPlace + " byteOffset", "out of range");
-            }
-        }
-        if (count > static_cast<uint64_t>(std::numeric_limits<int>::max())) {
-            refuse(place + " count", "out of range");
-        }
-        checkComponentType(sparse->at("indices"), place + " indices", true);
+void checkSparse(const json& accessor, const std::string& element, size_t viewCount) {
+    const json* sparse = objectMember(accessor, "sparse", element);
+    if (sparse == nullptr) {
+        return;
     }
+    const std::string place = element + " sparse";
+    const uint64_t count = unsignedMember(*sparse, "count", place, std::nullopt);
+    if (count == 0 || count > accessor.at("count").get<uint64_t>()) {
+        refuse(place + " count",
+               std::to_string(count) + " is not in 1.." + std::to_string(accessor.at("count").get<uint64_t>()));
+    }
+    for (const char* part : {"indices", "values"}) {
+        const json* object = objectMember(*sparse, part, place);
+        const std::string partPlace = place + " " + part;
+        if (object == nullptr) {
+            refuse(partPlace, "missing");
+        }
+        checkIndexMember(*object, "bufferView", partPlace, "bufferView", viewCount, true);
+        // tinygltf keeps sparse offsets as int.
+        if (unsignedMember(*object, "byteOffset", partPlace, 0) > std::numeric_limits<int>::max()) {
+            refuse(partPlace + " byteOffset", "out of range");
+        }
+    }
+    if (count > static_cast<uint64_t>(std::numeric_limits<int>::max())) {
+        refuse(place + " count", "out of range");
+    }
+    checkComponentType(sparse->at("indices"), place + " indices", true);
+}
+
+void checkAccessor(const json& accessor, const std::string& element, size_t viewCount) {
+    constexpr std::array<const char*, 7> types{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    checkIndexMember(accessor, "bufferView", element, "bufferView", viewCount);
+    unsignedMember(accessor, "byteOffset", element, 0);
+    checkComponentType(accessor, element, false);
+    if (unsignedMember(accessor, "count", element, std::nullopt) == 0) {
+        refuse(element + " count", "zero");
+    }
+    const std::string type = stringMember(accessor, "type", element);
+    if (std::none_of(types.begin(), types.end(), [&](const char* known) { return type == known; })) {
+        refuse(element + " type", quoted(type) + " is not allowed");
+    }
+    const json* normalized = member(accessor, "normalized");
+    if (normalized != nullptr && !normalized->is_boolean()) {
+        refuse(element + " normalized", "not a boolean");
+    }
+    checkSparse(accessor, element, viewCount);
 }
 
 void checkTargets(const json& primitive, const std::string& element, size_t accessorCount) {
@@ -210,130 +208,129 @@ void checkTargets(const json& primitive, const std::string& element, size_t acce
     }
 }
 
-void checkMeshes(const json& root) {
-    const json& meshes = table(root, "meshes");
-    const json& accessors = table(root, "accessors");
-    const size_t accessorCount = accessors.size();
-    const size_t materialCount = table(root, "materials").size();
-    for (size_t i = 0; i < meshes.size(); ++i) {
-        checkString(meshes[i], "name", at("mesh", i));
-        checkNumbers(meshes[i], "weights", at("mesh", i), std::nullopt);
-        const json* primitives = arrayMember(meshes[i], "primitives", at("mesh", i));
-        if (primitives == nullptr || primitives->empty()) {
-            refuse(at("mesh", i), "no primitives");
-        }
-        for (size_t k = 0; k < primitives->size(); ++k) {
-            const json& primitive = (*primitives)[k];
-            const std::string element = at("mesh", i) + " " + at("primitive", k);
-            if (!primitive.is_object()) {
-                refuse(element, "not an object");
-            }
-            const json* attributes = objectMember(primitive, "attributes", element);
-            if (attributes == nullptr) {
-                refuse(element, "no attributes");
-            }
-            for (const auto& [name, value] : attributes->items()) {
-                checkIndex(value, within(element, name), "accessor", accessorCount);
-            }
-            checkIndexMember(primitive, "indices", element, "accessor", accessorCount);
-            const json* indices = member(primitive, "indices");
-            if (indices != nullptr && member(accessors[indices->get<size_t>()], "bufferView") == nullptr) {
-                refuse(element + " indices", hasExtension(primitive, "KHR_draco_mesh_compression")
-                                                 ? "compressed with KHR_draco_mesh_compression; export the mesh "
-                                                   "uncompressed"
-                                                 : at("accessor", indices->get<size_t>()) + " has no bufferView");
-            }
-            checkIndexMember(primitive, "material", element, "material", materialCount);
-            if (unsignedMember(primitive, "mode", element, 4) > 6) {
-                refuse(element + " mode", "not in 0..6");
-            }
-            objectMember(primitive, "extensions", element);
-            checkTargets(primitive, element, accessorCount);
-        }
+/// What others name by number. (table() looks at all elements, so it is not called for each of them.)
+struct Named {
+    const json& accessors;
+    const json& materials;
+    const json& meshes;
+    const json& nodes;
+    const json& skins;
+};
+
+void checkPrimitive(const Named& named, const json& primitive, const std::string& element) {
+    if (!primitive.is_object()) {
+        refuse(element, "not an object");
+    }
+    const json& accessors = named.accessors;
+    const json* attributes = objectMember(primitive, "attributes", element);
+    if (attributes == nullptr) {
+        refuse(element, "no attributes");
+    }
+    for (const auto& [name, value] : attributes->items()) {
+        checkIndex(value, within(element, name), "accessor", accessors.size());
+    }
+    checkIndexMember(primitive, "indices", element, "accessor", accessors.size());
+    const json* indices = member(primitive, "indices");
+    if (indices != nullptr && member(accessors[indices->get<size_t>()], "bufferView") == nullptr) {
+        refuse(element + " indices", hasExtension(primitive, "KHR_draco_mesh_compression")
+                                         ? "compressed with KHR_draco_mesh_compression; export the mesh uncompressed"
+                                         : at("accessor", indices->get<size_t>()) + " has no bufferView");
+    }
+    checkIndexMember(primitive, "material", element, "material", named.materials.size());
+    if (unsignedMember(primitive, "mode", element, 4) > 6) {
+        refuse(element + " mode", "not in 0..6");
+    }
+    objectMember(primitive, "extensions", element);
+    checkTargets(primitive, element, accessors.size());
+}
+
+void checkMesh(const Named& named, const json& mesh, const std::string& element, Refusals& refusals) {
+    checkString(mesh, "name", element);
+    checkNumbers(mesh, "weights", element, std::nullopt);
+    const json* primitives = arrayMember(mesh, "primitives", element);
+    if (primitives == nullptr || primitives->empty()) {
+        refuse(element, "no primitives");
+    }
+    for (size_t k = 0; k < primitives->size(); ++k) {
+        refusals.gather([&] { checkPrimitive(named, (*primitives)[k], element + " " + at("primitive", k)); });
     }
 }
 
-void checkNodes(const json& root) {
-    const json& nodes = table(root, "nodes");
-    const json& skins = table(root, "skins");
-    const size_t meshCount = table(root, "meshes").size();
-    const size_t accessorCount = table(root, "accessors").size();
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        const std::string element = at("node", i);
-        checkString(nodes[i], "name", element);
-        checkIndexMember(nodes[i], "mesh", element, "mesh", meshCount);
-        checkIndexMember(nodes[i], "skin", element, "skin", skins.size());
-        checkIndexArray(nodes[i], "children", element, "node", nodes.size());
-        checkNumbers(nodes[i], "matrix", element, 16);
-        checkNumbers(nodes[i], "translation", element, 3);
-        checkNumbers(nodes[i], "rotation", element, 4);
-        checkNumbers(nodes[i], "scale", element, 3);
-        checkNumbers(nodes[i], "weights", element, std::nullopt);
-    }
-    checkNodeTree(nodes);
+void checkNode(const Named& named, const json& node, const std::string& element) {
+    checkString(node, "name", element);
+    checkIndexMember(node, "mesh", element, "mesh", named.meshes.size());
+    checkIndexMember(node, "skin", element, "skin", named.skins.size());
+    checkIndexArray(node, "children", element, "node", named.nodes.size());
+    checkNumbers(node, "matrix", element, 16);
+    checkNumbers(node, "translation", element, 3);
+    checkNumbers(node, "rotation", element, 4);
+    checkNumbers(node, "scale", element, 3);
+    checkNumbers(node, "weights", element, std::nullopt);
+}
 
-    const json& scenes = table(root, "scenes");
-    for (size_t i = 0; i < scenes.size(); ++i) {
-        checkIndexArray(scenes[i], "nodes", at("scene", i), "node", nodes.size());
+void checkSkin(const Named& named, const json& skin, const std::string& element) {
+    const size_t nodeCount = named.nodes.size();
+    const json* joints = arrayMember(skin, "joints", element);
+    if (joints == nullptr || joints->empty()) {
+        refuse(element, "no joints");
     }
-    checkIndexMember(root, "scene", "JSON", "scene", scenes.size());
+    checkIndexArray(skin, "joints", element, "node", nodeCount);
+    checkIndexMember(skin, "skeleton", element, "node", nodeCount);
+    checkIndexMember(skin, "inverseBindMatrices", element, "accessor", named.accessors.size());
+}
 
-    for (size_t i = 0; i < skins.size(); ++i) {
-        const std::string element = at("skin", i);
-        const json* joints = arrayMember(skins[i], "joints", element);
-        if (joints == nullptr || joints->empty()) {
-            refuse(element, "no joints");
-        }
-        checkIndexArray(skins[i], "joints", element, "node", nodes.size());
-        checkIndexMember(skins[i], "skeleton", element, "node", nodes.size());
-        checkIndexMember(skins[i], "inverseBindMatrices", element, "accessor", accessorCount);
+void checkSampler(const json& sampler, const std::string& element, size_t accessorCount) {
+    if (!sampler.is_object()) {
+        refuse(element, "not an object");
+    }
+    checkIndexMember(sampler, "input", element, "accessor", accessorCount, true);
+    checkIndexMember(sampler, "output", element, "accessor", accessorCount, true);
+    const std::string interpolation = stringMember(sampler, "interpolation", element);
+    if (!interpolation.empty() && interpolation != "STEP" && interpolation != "LINEAR" &&
+        interpolation != "CUBICSPLINE") {
+        refuse(element + " interpolation", quoted(interpolation) + " is not allowed");
     }
 }
 
 /// A channel without a target node (an extension may define its target) would be dropped by tinygltf and shift the
 /// numbers of those after it; it is given a path of its own, which the reader reports and ignores.
-void checkAnimations(json& root) {
-    const size_t accessorCount = table(root, "accessors").size();
-    const size_t nodeCount = table(root, "nodes").size();
-    const size_t count = table(root, "animations").size();
-    for (size_t i = 0; i < count; ++i) {
-        const std::string element = at("animation", i);
-        json& animation = root["animations"][i];
-        checkString(animation, "name", element);
-        const json* samplers = arrayMember(animation, "samplers", element);
-        const size_t samplerCount = samplers == nullptr ? 0 : samplers->size();
-        for (size_t k = 0; k < samplerCount; ++k) {
-            const std::string place = element + " " + at("sampler", k);
-            const json& sampler = (*samplers)[k];
-            if (!sampler.is_object()) {
-                refuse(place, "not an object");
-            }
-            checkIndexMember(sampler, "input", place, "accessor", accessorCount, true);
-            checkIndexMember(sampler, "output", place, "accessor", accessorCount, true);
-            const std::string interpolation = stringMember(sampler, "interpolation", place);
-            if (!interpolation.empty() && interpolation != "STEP" && interpolation != "LINEAR" &&
-                interpolation != "CUBICSPLINE") {
-                refuse(place + " interpolation", quoted(interpolation) + " is not allowed");
-            }
-        }
-        const json* channels = arrayMember(animation, "channels", element);
-        for (size_t k = 0; channels != nullptr && k < channels->size(); ++k) {
-            const std::string place = element + " " + at("channel", k);
-            json& channel = animation["channels"][k];
-            if (!channel.is_object()) {
-                refuse(place, "not an object");
-            }
-            checkIndexMember(channel, "sampler", place, "sampler", samplerCount, true);
-            const json* target = objectMember(channel, "target", place);
-            if (target == nullptr || member(*target, "node") == nullptr) {
-                channel["target"] = {{"node", 0}, {"path", "pointer"}};
-                continue;
-            }
-            checkIndexMember(*target, "node", place + " target", "node", nodeCount, true);
-            if (stringMember(*target, "path", place).empty()) {
-                refuse(place, "path is missing");
-            }
-        }
+void checkChannel(json& channel, const std::string& element, size_t samplerCount, size_t nodeCount) {
+    if (!channel.is_object()) {
+        refuse(element, "not an object");
+    }
+    checkIndexMember(channel, "sampler", element, "sampler", samplerCount, true);
+    const json* target = objectMember(channel, "target", element);
+    if (target == nullptr || member(*target, "node") == nullptr) {
+        channel["target"] = {{"node", 0}, {"path", "pointer"}};
+        return;
+    }
+    checkIndexMember(*target, "node", element + " target", "node", nodeCount, true);
+    if (stringMember(*target, "path", element).empty()) {
+        refuse(element, "path is missing");
+    }
+}
+
+void checkAnimation(const Named& named, json& animation, const std::string& element, Refusals& refusals) {
+    checkString(animation, "name", element);
+    const json* samplers = arrayMember(animation, "samplers", element);
+    const size_t samplerCount = samplers == nullptr ? 0 : samplers->size();
+    for (size_t k = 0; k < samplerCount; ++k) {
+        refusals.gather(
+            [&] { checkSampler((*samplers)[k], element + " " + at("sampler", k), named.accessors.size()); });
+    }
+    const json* channels = arrayMember(animation, "channels", element);
+    for (size_t k = 0; channels != nullptr && k < channels->size(); ++k) {
+        refusals.gather([&] {
+            checkChannel(animation["channels"][k], element + " " + at("channel", k), samplerCount, named.nodes.size());
+        });
+    }
+}
+
+/// Calls check(element, name) for each of a table.
+template <class Table, class Check>
+void checkEach(Table& elements, const char* what, Refusals& refusals, Check&& check) {
+    for (size_t i = 0; i < elements.size(); ++i) {
+        refusals.gather([&] { check(elements[i], at(what, i)); });
     }
 }
 
@@ -345,11 +342,29 @@ void checkHeader(const json& root) {
 }
 
 void checkStructure(json& root, std::span<const std::span<const std::byte>> buffers) {
-    checkBufferViews(table(root, "bufferViews"), buffers);
-    checkAccessors(table(root, "accessors"), table(root, "bufferViews").size());
-    checkNodes(root);
-    checkMeshes(root);
-    checkAnimations(root);
+    const Named named{table(root, "accessors"), table(root, "materials"), table(root, "meshes"), table(root, "nodes"),
+                      table(root, "skins")};
+    const json& views = table(root, "bufferViews");
+    const json& scenes = table(root, "scenes");
+    using Name = const std::string&;
+    Refusals refusals;
+    checkEach(views, "bufferView", refusals,
+              [&](const json& view, Name name) { checkBufferView(view, name, buffers); });
+    checkEach(named.accessors, "accessor", refusals,
+              [&](const json& accessor, Name name) { checkAccessor(accessor, name, views.size()); });
+    checkEach(named.nodes, "node", refusals, [&](const json& node, Name name) { checkNode(named, node, name); });
+    checkEach(scenes, "scene", refusals,
+              [&](const json& scene, Name name) { checkIndexArray(scene, "nodes", name, "node", named.nodes.size()); });
+    refusals.gather([&] { checkIndexMember(root, "scene", "JSON", "scene", scenes.size()); });
+    checkEach(named.skins, "skin", refusals, [&](const json& skin, Name name) { checkSkin(named, skin, name); });
+    checkEach(named.meshes, "mesh", refusals,
+              [&](const json& mesh, Name name) { checkMesh(named, mesh, name, refusals); });
+    if (!table(root, "animations").empty()) {
+        checkEach(root["animations"], "animation", refusals,
+                  [&](json& animation, Name name) { checkAnimation(named, animation, name, refusals); });
+    }
+    refusals.raise();
+    checkNodeTree(named.nodes);
 }
 
 } // namespace supple::cage::gltf

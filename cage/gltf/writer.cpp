@@ -341,7 +341,7 @@ Result<GlbFile> writeGlb(const Character& character) {
         }
         return file;
     } catch (const Refusal& refusal) {
-        return failure(refusal.code, refusal.message);
+        return asError(refusal, character.name);
     } catch (const std::bad_alloc&) {
         return failure(ErrorCode::hostMemory, "GLB: out of memory");
     } catch (const std::exception& error) {

@@ -172,12 +172,15 @@ public:
         }
         for (Lines lines(text); lines.next();) {
             line_ = lines.number();
-            parseLine(lines.line());
+            refusals_.gather([&] { parseLine(lines.line()); });
         }
+        refusals_.raise();
         if (faceLines_.empty()) {
             refuse("file", nameOfNoFaces());
         }
         checkCorners();
+        checkTags();
+        refusals_.raise();
         buildFaces();
         buildTags();
         compactVertices();
@@ -363,7 +366,7 @@ private:
         }
     }
 
-    /// Refuses with the first corner that is out of range, of each kind, and how many more there are.
+    /// Tells of the first corner that is out of range, of each kind, and how many more there are.
     void checkCorners() {
         Found vertices;
         Found uvs;
@@ -385,15 +388,32 @@ private:
                 }
             }
         }
-        std::string reasons;
         for (const Found& found : {vertices, uvs}) {
             if (found.count > 0) {
-                reasons += (reasons.empty() ? "" : "; ") + found.first +
-                           (found.count > 1 ? ", and " + std::to_string(found.count - 1) + " more like it" : "");
+                const std::string more =
+                    found.count > 1 ? ", and " + std::to_string(found.count - 1) + " more like it" : "";
+                refusals_.keep({ErrorCode::asset, {found.first + more}});
             }
         }
-        if (!reasons.empty()) {
-            throw Refusal{ErrorCode::asset, reasons};
+    }
+
+    void checkTags() {
+        const auto check = [&](int64_t index, size_t count, const char* tag, const char* what, size_t line) {
+            if (index < 0 || index >= static_cast<int64_t>(count)) {
+                refusals_.keep({ErrorCode::asset,
+                                {lineName(line) + ": t " + tag + ": " + what + " " + std::to_string(index) + " of " +
+                                 std::to_string(count)}});
+            }
+        };
+        for (const TaggedCrease& tag : creases_) {
+            check(tag.a, positions_.size(), "crease", "vertex", tag.line);
+            check(tag.b, positions_.size(), "crease", "vertex", tag.line);
+        }
+        for (const TaggedCorner& tag : sharpVertices_) {
+            check(tag.vertex, positions_.size(), "corner", "vertex", tag.line);
+        }
+        for (const TaggedHole& tag : holes_) {
+            check(tag.face, faceLines_.size(), "hole", "face", tag.line);
         }
     }
 
@@ -415,14 +435,6 @@ private:
         }
     }
 
-    uint32_t checkedIndex(int64_t index, size_t count, const char* tag, const char* what, size_t line) const {
-        if (index < 0 || index >= static_cast<int64_t>(count)) {
-            refuse(lineName(line) + ": t " + tag,
-                   std::string(what) + " " + std::to_string(index) + " of " + std::to_string(count));
-        }
-        return static_cast<uint32_t>(index);
-    }
-
     /// Creases, sharp vertices and holes; of several on one element the sharpest counts.
     void buildTags() {
         Cage& cage = out_.cage;
@@ -438,8 +450,8 @@ private:
         size_t strays = 0;
         size_t firstStray = 0;
         for (const TaggedCrease& tag : creases_) {
-            const uint32_t a = checkedIndex(tag.a, positions_.size(), "crease", "vertex", tag.line);
-            const uint32_t b = checkedIndex(tag.b, positions_.size(), "crease", "vertex", tag.line);
+            const auto a = static_cast<uint32_t>(tag.a);
+            const auto b = static_cast<uint32_t>(tag.b);
             const std::pair<uint32_t, uint32_t> edge = std::minmax(a, b);
             if (!std::binary_search(edges.begin(), edges.end(), edge)) {
                 firstStray = strays++ == 0 ? tag.line : firstStray;
@@ -461,7 +473,7 @@ private:
 
         std::map<uint32_t, float> sharpVertices;
         for (const TaggedCorner& tag : sharpVertices_) {
-            float& sharpness = sharpVertices[checkedIndex(tag.vertex, positions_.size(), "corner", "vertex", tag.line)];
+            float& sharpness = sharpVertices[static_cast<uint32_t>(tag.vertex)];
             sharpness = std::max(sharpness, tag.sharpness);
         }
         for (const auto& [vertex, sharpness] : sharpVertices) {
@@ -471,7 +483,7 @@ private:
         }
 
         for (const TaggedHole& tag : holes_) {
-            cage.holes.push_back(checkedIndex(tag.face, faceLines_.size(), "hole", "face", tag.line));
+            cage.holes.push_back(static_cast<uint32_t>(tag.face));
         }
         std::sort(cage.holes.begin(), cage.holes.end());
         cage.holes.erase(std::unique(cage.holes.begin(), cage.holes.end()), cage.holes.end());
@@ -580,6 +592,7 @@ private:
     std::vector<TaggedCrease> creases_;
     std::vector<TaggedCorner> sharpVertices_;
     std::vector<TaggedHole> holes_;
+    Refusals refusals_;
 };
 
 } // namespace
@@ -607,7 +620,7 @@ Result<Character> readObj(std::span<const std::byte> bytes, const std::string& n
         }
         return character;
     } catch (const Refusal& refusal) {
-        return failure(refusal.code, refusal.message);
+        return asError(refusal, name);
     } catch (const std::bad_alloc&) {
         return failure(ErrorCode::hostMemory, "file: out of memory");
     } catch (const std::exception& error) {

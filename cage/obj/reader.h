@@ -22,8 +22,8 @@ namespace supple::cage {
 /// normals that are no directions, creases that are not edges, vertex colors, points and lines, boundary rules other
 /// than sharp corners, statements and tags of other kinds.
 ///
-/// `name` begins every error and becomes Character::name; warnings are without it. Never throws. Errors are one line:
-/// "cube.obj: line 12: face corner 3: vertex 99 of 8".
+/// `name` begins every error and becomes Character::name; warnings are without it. Never throws. Errors have a line for
+/// each fault: "cube.obj: line 12: face corner 3: vertex 99 of 8".
 /// A damaged cage is repaired (cage/repair.h), or refused if `strict`: then the error has one line for each kind of
 /// damage.
 [[nodiscard]] Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name, bool strict = false);

@@ -31,8 +31,9 @@
  *     last of these frames is complete.
  *
  * Errors
- *   - Errors are negative results. The log callback gets the reason in one line, with an id that is the same in all
- *     versions. There may be no line for suppleQueryRequirements, a null context and SUPPLE_ERROR_HOST_MEMORY.
+ *   - Errors are negative results. The log callback gets the reason, with an id that is the same in all versions.
+ *     A file or a cage with several faults has one line for each. There may be no line for suppleQueryRequirements, a
+ * null context and SUPPLE_ERROR_HOST_MEMORY.
  *   - A call that fails has done nothing, unless its comment says otherwise. suppleCreate... may set *out to null.
  *   - Once a call has returned SUPPLE_ERROR_DEVICE_LOST, so does every later call that needs the device. Destroying
  *     still works.
@@ -157,8 +158,9 @@ typedef enum SuppleMessage {
     SUPPLE_MESSAGE_BUDGET = 500 /**< a pass took longer than suppleSetBudget allows */
 } SuppleMessage;
 
-/** Called on the thread that called Supple, before that call returns. It must not call Supple itself. text is one line
- * of UTF-8, if the names in the file and in the host's descriptions are; it is valid during the call. */
+/** Called on the thread that called Supple, before that call returns. It must not call Supple itself. text is
+ * UTF-8, if the names in the file and in the host's descriptions are. It is one line, or one for each of several
+ * faults, without a line feed at the end. It is valid during the call. */
 typedef void (*SuppleLogFunction)(SuppleSeverity severity, SuppleMessage message, const char* text, void* user);
 
 /* ---------------------------------------------------------------------------------------------------- device */

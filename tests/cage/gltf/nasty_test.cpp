@@ -551,7 +551,8 @@ std::vector<Nasty> validatorShapes() {
         refused(
             "animation: channel_node_matrix",
             [tip] { return quadReplacing(tip, R"({"name":"tip","matrix":[1,0,0,0,0,1,0,0,0,0,1,0,1,0,0,1]})"); },
-            "animation 0 channel 0: animates node 2, which has a matrix"),
+            "animation 0 channel 0: animates node 2, which has a matrix\n"
+            "nasty.glb: animation 0 channel 1: animates node 2, which has a matrix"),
         refused(
             "animation: channel_duplicate_targets",
             [rotation] { return quadReplacing(rotation, rotation + "," + rotation); },
@@ -565,7 +566,8 @@ std::vector<Nasty> validatorShapes() {
         refused(
             "animation_data: invalid_input_values, not finite",
             [] { return quadWithFloat(kTimes, 2, std::numeric_limits<float>::infinity()); },
-            "animation 0 channel 0 input[2]: not finite"),
+            "animation 0 channel 0 input[2]: not finite\n"
+            "nasty.glb: animation 0 channel 1 input[2]: not finite"),
         loaded(
             "animation_data: quaternion_cubic_non_unit_values",
             [] {

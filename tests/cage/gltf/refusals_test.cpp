@@ -1,7 +1,8 @@
-// Every way a file can be wrong has one line that names file, element and reason. Each case changes one thing in a file
+// Every way a file can be wrong has a line that names file, element and reason. Most cases change one thing in a file
 // that is right.
 #include "tests/cage/gltf/reading.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -496,7 +497,8 @@ TEST(GltfRefusals, Animations) {
               "t.glb: animation 0 channel 0 output: VEC4 instead of VEC3");
     EXPECT_EQ(withJson(R"({"name":"tip","translation":[1,0,0]})",
                        R"({"name":"tip","matrix":[1,0,0,0,0,1,0,0,0,0,1,0,1,0,0,1]})"),
-              "t.glb: animation 0 channel 0: animates node 2, which has a matrix");
+              "t.glb: animation 0 channel 0: animates node 2, which has a matrix\n"
+              "t.glb: animation 0 channel 1: animates node 2, which has a matrix");
     EXPECT_EQ(withJson(R"({"input":5,"output":6})", R"({"input":5,"output":6,"interpolation":"SMOOTH"})"),
               "t.glb: animation 0 sampler 0 interpolation: \"SMOOTH\" is not allowed");
     EXPECT_EQ(withJson(R"({"input":5,"output":6})", R"({"input":5})"),
@@ -512,7 +514,8 @@ TEST(GltfRefusals, Animations) {
         replaced(b.json(), R"({"input":5,"output":6})", R"({"input":5,"output":6,"interpolation":"CUBICSPLINE"})");
     EXPECT_EQ(
         messageOf(packGlb(replaced(cubic, R"("count":3,"type":"SCALAR")", R"("count":1,"type":"SCALAR")"), b.binary())),
-        "t.glb: animation 0 channel 0 input: CUBICSPLINE needs at least two keys");
+        "t.glb: animation 0 channel 0 input: CUBICSPLINE needs at least two keys\n"
+        "t.glb: animation 0 channel 1 output: 3 elements for 1 key");
     // Four rotations as weights: three keys of two targets need six.
     const GltfBuilder w = skinnedQuad();
     std::string weights = replaced(w.json(), R"("mode":4)", R"("targets":[{},{}])");
@@ -521,12 +524,44 @@ TEST(GltfRefusals, Animations) {
     weights = replaced(weights, R"({"input":5,"output":6})", R"({"input":5,"output":5})");
     EXPECT_EQ(messageOf(packGlb(weights, w.binary())),
               "t.glb: animation 0 channel 0 output: 3 elements for 3 keys of 2 morph targets");
-    EXPECT_EQ(withFloat(kTimes, 1, kNan), "t.glb: animation 0 channel 0 input[1]: not finite");
-    EXPECT_EQ(withFloat(kTimes, 1, 0.0f), "t.glb: animation 0 channel 0 input[1]: not later than the key before it");
-    EXPECT_EQ(withFloat(kTimes, 2, 0.5f), "t.glb: animation 0 channel 0 input[2]: not later than the key before it");
+    const auto bothInputs = [](const std::string& what) { // both channels have the same times
+        return "t.glb: animation 0 channel 0 input" + what + "\nt.glb: animation 0 channel 1 input" + what;
+    };
+    EXPECT_EQ(withFloat(kTimes, 1, kNan), bothInputs("[1]: not finite"));
+    EXPECT_EQ(withFloat(kTimes, 1, 0.0f), bothInputs("[1]: not later than the key before it"));
+    EXPECT_EQ(withFloat(kTimes, 2, 0.5f), bothInputs("[2]: not later than the key before it"));
     EXPECT_EQ(withFloat(kRotations, 5, kInf), "t.glb: animation 0 channel 0 output[1]: not finite");
     EXPECT_EQ(withFloat(kRotations, 3, 0.0f), "t.glb: animation 0 channel 0 output[0]: zero quaternion");
     EXPECT_EQ(withFloat(kTranslations, 8, kNan), "t.glb: animation 0 channel 1 output[2]: not finite");
+}
+
+// ---- several faults -------------------------------------------------------------------------------------------------
+
+TEST(GltfRefusals, AllFaultsAreToldAtOnce) {
+    GltfBuilder b = skinnedQuad();
+    b.setFloat(kRotations, 5, kInf);
+    b.setFloat(kTranslations, 8, kNan);
+    b.setFloat(kPositions, 0, kNan);
+    EXPECT_EQ(messageOf(b.glb()), "t.glb: mesh 0 primitive 0 POSITION[0]: not finite\n"
+                                  "t.glb: animation 0 channel 0 output[1]: not finite\n"
+                                  "t.glb: animation 0 channel 1 output[2]: not finite");
+    std::string json = replaced(b.json(), R"({"input":5,"output":6})", R"({"input":5,"output":99})");
+    json = replaced(json, R"("name":"tip","translation":[1,0,0])", R"("name":"tip","translation":[1,0])");
+    EXPECT_EQ(messageOf(packGlb(json, b.binary())),
+              "t.glb: node 2 translation: 2 numbers instead of 3\n"
+              "t.glb: animation 0 sampler 0 output: accessor 99 is out of range: the file has 9");
+}
+
+TEST(GltfRefusals, ManyFaultsEndInOneLine) {
+    const GltfBuilder b = skinnedQuad();
+    std::string nodes = R"({"name":"tip","translation":[1,0,0]})";
+    for (int i = 0; i < 100; ++i) {
+        nodes += R"(,{"scale":[1]})";
+    }
+    const std::string message =
+        messageOf(packGlb(replaced(b.json(), R"({"name":"tip","translation":[1,0,0]})", nodes), b.binary()));
+    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 32);
+    EXPECT_TRUE(message.ends_with("\nt.glb: file: so many faults that the rest was not read")) << message;
 }
 
 } // namespace
