@@ -5,13 +5,18 @@
 #include "cage/repair/found.h"
 #include "cage/repair/sheets.h"
 
+#include <cstddef>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace supple::cage {
 
 Polygons soundFaces(const Cage& cage) {
     using namespace repair;
-    const CageNames names{{""}, {}};
+    // Nobody reads the names, but every part has one.
+    const size_t parts = cage.faceParts.empty() ? 1 : size_t{cage.faceParts.back()} + 1;
+    const CageNames names{std::vector<std::string>(parts), {}};
     const Places places(cage, names);
     FaceDamage faces;
     SheetDamage sheets;
