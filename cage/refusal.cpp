@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 
 namespace supple::cage {
 namespace {
@@ -13,7 +14,8 @@ constexpr size_t kMostFaults = 32;
 } // namespace
 
 void Refusals::keep(const Refusal& refusal) {
-    if (kept_.faults.empty()) {
+    // Readers that gather for readers must learn of an exceeded limit, whatever came before it.
+    if (kept_.faults.empty() || refusal.code == ErrorCode::limit) {
         kept_.code = refusal.code;
     }
     for (const std::string& fault : refusal.faults) {
@@ -24,7 +26,7 @@ void Refusals::keep(const Refusal& refusal) {
     }
     if (kept_.faults.size() >= kMostFaults) {
         kept_.faults.resize(kMostFaults);
-        kept_.faults.push_back("file: so many faults that the rest was not read");
+        kept_.faults.push_back("file: the rest was not read after " + std::to_string(kMostFaults) + " faults");
     }
     if (refusal.code == ErrorCode::limit || kept_.faults.size() >= kMostFaults) {
         raise();

@@ -24,7 +24,7 @@ struct Refusal {
 class Refusals {
 public:
     /// Calls read(), keeps what it refuses, and tells whether it refused nothing. Throws all that is kept if a limit
-    /// was exceeded, or if there are more faults than anybody reads.
+    /// was exceeded, or if there are 32 faults.
     template <class Read>
     bool gather(Read&& read) {
         try {

@@ -72,8 +72,8 @@ struct GltfOptions {
 ///
 /// `name` begins every error and becomes Character::name; warnings are without it. External buffers and images are
 /// looked up below `baseDirectory` (no "..", no absolute paths, no URL schemes but data:); an empty baseDirectory
-/// allows none; with options.readFile it is not looked at. Never throws. Errors have a line for
-/// each fault, "NAME: element: reason".
+/// allows none; with options.readFile it is not looked at. Never throws. Errors have a line for each
+/// fault, "NAME: element: reason".
 [[nodiscard]] Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& name,
                                          const std::string& baseDirectory, const GltfOptions& options = {});
 

@@ -561,7 +561,7 @@ TEST(GltfRefusals, ManyFaultsEndInOneLine) {
     const std::string message =
         messageOf(packGlb(replaced(b.json(), R"({"name":"tip","translation":[1,0,0]})", nodes), b.binary()));
     EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 32);
-    EXPECT_TRUE(message.ends_with("\nt.glb: file: so many faults that the rest was not read")) << message;
+    EXPECT_TRUE(message.ends_with("\nt.glb: file: the rest was not read after 32 faults")) << message;
 }
 
 } // namespace
