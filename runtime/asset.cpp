@@ -105,6 +105,13 @@ Result<std::shared_ptr<AssetPiece>> Asset::pieceOf(const gpu::Device& device, co
     return piece;
 }
 
+const cage::Cage& Asset::cageOf(const std::shared_ptr<AssetPiece>& piece) const {
+    if (piece != nullptr) {
+        return piece->of.cage;
+    }
+    return character.cage;
+}
+
 Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device, const surface::Recipe& recipe,
                                                        const std::shared_ptr<AssetPiece>& piece) {
     for (const std::shared_ptr<SchemeTables>& scheme : schemes) {
@@ -112,7 +119,7 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
             return scheme;
         }
     }
-    Result<surface::Tables> tables = surface::buildTables(recipe, piece != nullptr ? piece->of.cage : character.cage);
+    Result<surface::Tables> tables = surface::buildTables(recipe, cageOf(piece));
     if (!tables) {
         return Error{tables.error().code, character.name + ": " + tables.error().message};
     }

@@ -58,6 +58,8 @@ struct Asset {
     /// Finds or makes the piece of some parts (rising).
     [[nodiscard]] Result<std::shared_ptr<AssetPiece>> pieceOf(const gpu::Device& device,
                                                               const std::vector<uint32_t>& parts);
+    /// The cage of the piece, or the whole cage if it is null.
+    [[nodiscard]] const cage::Cage& cageOf(const std::shared_ptr<AssetPiece>& piece) const;
     /// Finds or builds the tables of a recipe for the piece, or for the whole cage if it is null; refuses what the
     /// scheme cannot take.
     [[nodiscard]] Result<std::shared_ptr<SchemeTables>>

@@ -84,7 +84,7 @@ void InstanceSet::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
 }
 
 Status InstanceSet::createSets() {
-    const Status status = poses_->create({palettes_.buffer(), list_.buffer(), passListBytes(), windows_.size});
+    Status status = poses_->create({palettes_.buffer(), list_.buffer(), passListBytes(), windows_.size});
     if (!status || palettes_.buffer() == VK_NULL_HANDLE) {
         return status;
     }

@@ -154,6 +154,7 @@ private:
         const Path path = pathThrough(c, d);
         const bool smooth = !path.fixed && path.sharpest == 0.0f;
         const bool creased = !path.fixed && path.smoothest > 0.0f;
+        // NOLINTBEGIN(bugprone-branch-clone): what is tried, in this order
         if (path.closed) {
             parts_[path.face] = cornersOf(path.face); // the other face is its back
             ++damage_.dissolved[partOf(path.face)];
@@ -170,6 +171,7 @@ private:
         } else {
             cutOpen(d);
         }
+        // NOLINTEND(bugprone-branch-clone)
     }
 
     [[nodiscard]] size_t partOf(uint32_t face) const { return places_.partOf(draft_.faces[face]); }

@@ -147,7 +147,7 @@ private:
     [[nodiscard]] std::vector<uint32_t> keptTriangles(uint32_t face) const {
         const uint32_t source = draft_.faces[face], sourceStart = cage_.faceStarts[source], start = draft_.starts[face];
         const uint32_t sides = draft_.sides(face);
-        if (sides != cage_.sides(source)) {
+        if (sides < 3 || sides != cage_.sides(source)) {
             return {};
         }
         std::vector<uint32_t> places(sides, kNone); // per corner that it was: where it stands now

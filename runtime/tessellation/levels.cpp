@@ -64,7 +64,7 @@ Levels::~Levels() {
 }
 
 Status Levels::begin() {
-    const Status built = buildTables();
+    Status built = buildTables();
     if (!built) {
         return built;
     }

@@ -155,9 +155,7 @@ protected:
     [[nodiscard]] View* view() const { return desc_.view.get(); }
     [[nodiscard]] const InstanceWindows& windows() const { return instances_->windows(); }
     /// What the surface is made of: its piece, or all of the asset's cage.
-    [[nodiscard]] const cage::Cage& cage() const {
-        return desc_.piece != nullptr ? desc_.piece->of.cage : desc_.asset->character.cage;
-    }
+    [[nodiscard]] const cage::Cage& cage() const { return desc_.asset->cageOf(desc_.piece); }
 
     /// The instances of a window with the sets that passes of this frame bind.
     [[nodiscard]] surface::Window seen(uint32_t window) const;
