@@ -15,6 +15,8 @@ supple_test_packages=(
     libgtest-dev vulkan-validationlayers
     libosd-dev libegl-dev libgl-dev
     xvfb xauth
+    qt6-declarative-dev qml6-module-qtquick qml6-module-qtquick-controls
+    qml6-module-qtquick-templates qml6-module-qtqml-workerscript
     abigail-tools pkg-config
     doxygen python3
     g++-mingw-w64-x86-64-posix

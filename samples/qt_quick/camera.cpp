@@ -21,7 +21,9 @@ std::array<float, 16> columns(const QMatrix4x4& matrix) {
     return out;
 }
 
-std::array<float, 4> four(const QVector3D& v) { return {v.x(), v.y(), v.z(), 0.0f}; }
+std::array<float, 4> four(const QVector3D& v) {
+    return {v.x(), v.y(), v.z(), 0.0f};
+}
 
 } // namespace
 

@@ -13,7 +13,8 @@ namespace qt_quick {
 
 namespace {
 
-constexpr float kHeight = 1.7f;   // of every character, whatever the units of its file
+constexpr float kHeight = 1.7f;   // of everybody, whatever the units of the file
+constexpr float kLength = 2.1f;   // and no longer or wider than this
 constexpr float kSpacing = 1.55f; // between two of them
 
 std::atomic<int> errorCount = 0;
@@ -44,7 +45,9 @@ void Characters::onLog(SuppleSeverity severity, SuppleMessage message, const cha
     }
 }
 
-int Characters::errors() { return errorCount; }
+int Characters::errors() {
+    return errorCount;
+}
 
 Characters::Characters(const Device& device, uint32_t framesInFlight) {
     shown_.character = -1;
@@ -106,6 +109,28 @@ void Characters::load(const QString& path) {
         must(asset_.clipInfo(i, clip), "suppleGetClipInfo");
         clips_ += QString::fromUtf8(clip.name);
     }
+    measure();
+}
+
+/// Supple's bounds are those of the bind pose, which may lie on its side or have other units. How the first joint comes
+/// from there to the rest pose sets it upright.
+void Characters::measure() {
+    const float* ends[] = {assetInfo_.boundsMin, assetInfo_.boundsMax};
+    QMatrix4x4 upright;
+    auto joint = supple::sized<SuppleJointInfo>();
+    if (assetInfo_.jointCount > 0) {
+        must(asset_.jointInfo(0, joint), "suppleGetJointInfo");
+        // Qt reads rows, Supple has columns.
+        upright =
+            QMatrix4x4(joint.restTransform).transposed() * QMatrix4x4(joint.bindTransform).transposed().inverted();
+    }
+    for (int i = 0; i < 8; ++i) {
+        const QVector3D corner = upright.map(QVector3D(ends[i & 1][0], ends[i >> 1 & 1][1], ends[i >> 2][2]));
+        for (int k = 0; k < 3; ++k) {
+            box_[0][k] = i == 0 ? corner[k] : std::min(box_[0][k], corner[k]);
+            box_[1][k] = i == 0 ? corner[k] : std::max(box_[1][k], corner[k]);
+        }
+    }
 }
 
 /// False if the scheme refuses the cage; what was shown before stays. The old group may go while frames still draw it.
@@ -143,17 +168,17 @@ bool Characters::makeGroup(SuppleScheme scheme, uint32_t rate) {
 void Characters::stand(uint32_t count) {
     while (instances_.size() > count)
         instances_.pop_back();
-    const float* low = assetInfo_.boundsMin;
-    const float* high = assetInfo_.boundsMax;
-    const float scale = kHeight / std::max(high[1] - low[1], 1e-6f);
+    const QVector3D size = box_[1] - box_[0];
+    const float scale = std::min(kHeight / std::max(size.y(), 1e-6f), kLength / std::max({size.x(), size.z(), 1e-6f}));
     while (instances_.size() < count) {
         const QVector3D at = place(static_cast<uint32_t>(instances_.size()));
-        const auto variant = static_cast<float>(instances_.size() * 5 % 7) / 3.0f - 1.0f; // -1 to 1: nobody is quite alike
+        const auto variant =
+            static_cast<float>(instances_.size() * 5 % 7) / 3.0f - 1.0f; // -1 to 1: nobody is quite alike
         QMatrix4x4 transform;
         transform.translate(at);
         transform.rotate(16.0f * variant, 0.0f, 1.0f, 0.0f);
         transform.scale(scale * (1.0f - 0.08f * variant));
-        transform.translate(-0.5f * (low[0] + high[0]), -low[1], -0.5f * (low[2] + high[2]));
+        transform.translate(-0.5f * (box_[0].x() + box_[1].x()), -box_[0].y(), -0.5f * (box_[0].z() + box_[1].z()));
         supple::Instance& instance = instances_.emplace_back();
         must(supple::Instance::create(group_, instance), "suppleCreateInstance");
         must(instance.setTransform(std::span<const float, 16>(transform.constData(), 16)), "suppleSetTransform");

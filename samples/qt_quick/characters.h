@@ -5,6 +5,8 @@
 #include "device.h"
 #include "settings.h"
 
+#include <QVector3D>
+
 #include <array>
 #include <vector>
 
@@ -32,7 +34,8 @@ public:
     const std::vector<std::array<float, 4>>& feet() const { return feet_; }
     void report(Report& out) const;
 
-    /// The passes of Supple read and write nothing that the host draws before this has happened, and the other way round.
+    /// The passes of Supple read and write nothing that the host draws before this has happened, and the other way
+    /// round.
     static constexpr SuppleSyncScope kDraws{
         VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT |
             VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
@@ -43,6 +46,7 @@ public:
 
 private:
     void load(const QString& path);
+    void measure();
     bool makeGroup(SuppleScheme scheme, uint32_t rate);
     void stand(uint32_t count);
     static void onLog(SuppleSeverity severity, SuppleMessage message, const char* text, void* user);
@@ -54,6 +58,7 @@ private:
     supple::Context context_;
     supple::Asset asset_;
     SuppleAssetInfo assetInfo_{};
+    std::array<QVector3D, 2> box_; ///< of one, as the file has it, in the rest pose
     QStringList clips_;
     supple::Group group_;
     SuppleGroupInfo info_{};

@@ -1,6 +1,8 @@
-// Supple in someone else's engine: Qt Quick. The window is QML's; one of its items, the stage, shows Supple's characters.
+// Supple in someone else's engine: Qt Quick. The window is QML's; one of its items, the stage, shows Supple's
+// characters.
 //
-//     supple_qt_quick [--frames N --picture out.png [--without-timings]] [--set [FRAME:]PROPERTY=NUMBER ...] [CHARACTER.glb ...]
+//     supple_qt_quick [--frames N --picture out.png [--without-timings]] [--set [FRAME:]PROPERTY=NUMBER ...]
+//     [CHARACTER.glb ...]
 #include "characters.h"
 #include "device.h"
 #include "stage.h"
@@ -61,7 +63,8 @@ Options parse(const QGuiApplication& application) {
     const QCommandLineOption picture("picture", "Write what the window then shows.", "out.png");
     const QCommandLineOption quiet("without-timings", "Leave out the figures, which differ from run to run.");
     const QCommandLineOption size("size", "Size of the window.", "WxH", "1280x720");
-    const QCommandLineOption set("set", "Sets a property of the stage, at once or after so many frames.", "[FRAME:]P=V");
+    const QCommandLineOption set("set", "Sets a property of the stage, at once or after so many frames.",
+                                 "[FRAME:]P=V");
     parser.addOptions({frames, picture, quiet, size, set});
     parser.addPositionalArgument("files", "Characters; without any: Pip.", "[CHARACTER.glb ...]");
     parser.process(application);

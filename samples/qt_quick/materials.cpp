@@ -93,8 +93,7 @@ void Materials::setTexture(Material& material, const QImage& picture, const Supp
     upload.extent = {static_cast<uint32_t>(rgba.width()), static_cast<uint32_t>(rgba.height())};
     upload.levels = std::bit_width(std::max(upload.extent.width, upload.extent.height));
     ImageShape shape{VK_FORMAT_R8G8B8A8_SRGB, upload.extent};
-    shape.usage =
-        VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    shape.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     shape.levels = upload.levels;
     material.texture = createImage(gpu_, shape);
     material.sampler = createSampler(gpu_, info);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 
-
 namespace qt_quick {
 
 namespace {
@@ -50,7 +49,9 @@ void writeTexture(VkDevice device, VkDescriptorSet set, uint32_t binding, VkSamp
     vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
 }
 
-VkDescriptorBufferInfo whole(const SuppleBufferRange& range) { return {range.buffer, range.offset, range.size}; }
+VkDescriptorBufferInfo whole(const SuppleBufferRange& range) {
+    return {range.buffer, range.offset, range.size};
+}
 
 } // namespace
 

@@ -32,8 +32,8 @@ void beginRendering(VkCommandBuffer commands, VkExtent2D extent, const VkRenderi
     info.pColorAttachments = color;
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
-    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height), 0.0f,
-                              1.0f};
+    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0f, 1.0f};
     const VkRect2D scissor{{0, 0}, extent};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &scissor);
@@ -44,8 +44,7 @@ void beginRendering(VkCommandBuffer commands, VkExtent2D extent, const VkRenderi
 Picture::Picture(const Gpu& gpu, VkExtent2D extent) : gpu_(gpu), extent_(extent) {
     samples_ = createImage(gpu, {kColorFormat, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, kSamples});
     depth_ = createImage(gpu, {kDepthFormat, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, kSamples});
-    shown_ = createImage(gpu,
-                         {kColorFormat, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+    shown_ = createImage(gpu, {kColorFormat, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
 }
 
 void Picture::destroy() {

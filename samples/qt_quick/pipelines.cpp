@@ -115,8 +115,7 @@ Pipelines::Pipelines(const Gpu& on) : gpu(on) {
     textureSet = createSetLayout(gpu.device, texture);
     const VkDescriptorSetLayout sets[] = {frameSet, surfaceSet, textureSet};
     const VkPushConstantRange push{both, 0, sizeof(DrawPush)};
-    const VkPipelineLayoutCreateInfo info{
-        VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 3, sets, 1, &push};
+    const VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 3, sets, 1, &push};
     must(vkCreatePipelineLayout(gpu.device, &info, nullptr, &layout), "vkCreatePipelineLayout");
 
     shadow = createPipeline(gpu.device, layout, {character_shadow_vert, {}, VK_COMPARE_OP_LESS, true});

@@ -53,9 +53,9 @@ void StageNode::resize(VkExtent2D extent) {
     texture_ = std::move(texture);
 }
 
-/// Qt has waited for the fence of the slot that it now records into. So the last frame of that slot is complete, and with
-/// it all before it, because one queue ran them in order. A slot may come twice in a row: a frame that is only grabbed
-/// is not presented.
+/// Qt has waited for the fence of the slot that it now records into. So the last frame of that slot is complete, and
+/// with it all before it, because one queue ran them in order. A slot may come twice in a row: a frame that is only
+/// grabbed is not presented.
 void StageNode::countFrame() {
     uint64_t& last = frameOfSlot_[static_cast<size_t>(window_.graphicsStateInfo().currentFrameSlot)];
     completed_ = std::max(completed_, last);

@@ -19,7 +19,9 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 
 } // namespace
 
-bool validationWanted() { return qgetenv("SUPPLE_VALIDATION") == "1"; }
+bool validationWanted() {
+    return qgetenv("SUPPLE_VALIDATION") == "1";
+}
 
 void askForValidation(QVulkanInstance& instance) {
     // QVulkanInstance passes no VkValidationFeaturesEXT on, but the layer also reads its options from here.
@@ -49,6 +51,8 @@ void stopListening(VkInstance instance, VkDebugUtilsMessengerEXT messenger) {
         vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"))(instance, messenger, nullptr);
 }
 
-int validationMessages() { return messages; }
+int validationMessages() {
+    return messages;
+}
 
 } // namespace qt_quick
