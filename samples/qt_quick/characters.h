@@ -34,8 +34,7 @@ public:
     const std::vector<std::array<float, 4>>& feet() const { return feet_; }
     void report(Report& out) const;
 
-    /// The passes of Supple read and write nothing that the host draws before this has happened, and the other way
-    /// round.
+    /// How the draws use what Supple writes: both `before` and `after` of suppleRecord.
     static constexpr SuppleSyncScope kDraws{
         VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT |
             VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
