@@ -140,6 +140,7 @@ Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
     frame_ = frame;
     completedFrame_ = completedFrame;
     frameOpen_ = true;
+    origin_ = nextOrigin_;
     retire(completedFrame);
     return success();
 }
@@ -206,12 +207,37 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
         }
         pose_ = std::make_unique<skinning::PosePass>(std::move(*pose));
     }
-    // Instances of one group must not fit another that takes its place: groups' ids differ, and so do generations.
-    nextGeneration_ = nextGeneration_ * 1664525u + 1013904223u;
     std::shared_ptr<View> view;
     if (desc.view.id != 0 && (view = views.find(desc.view.id)) == nullptr) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign view handle"};
     }
+    GroupShared shared = sharedFor(std::move(view));
+    SuppleGroupDesc whole = desc;
+    if (desc.instancesOf.id != 0) {
+        const std::shared_ptr<Group> leader = groups.find(desc.instancesOf.id);
+        if (leader == nullptr) {
+            return Error{ErrorCode::staleHandle, "suppleCreateGroup: instancesOf: stale or foreign group handle"};
+        }
+        if (leader->follows() || leader->sharedAsset() != asset) {
+            return Error{ErrorCode::argument,
+                         "suppleCreateGroup: instancesOf: the group follows another one itself, or "
+                         "it has another asset"};
+        }
+        shared.instances = leader->sharedInstances();
+        whole.capacity = shared.instances->capacity();
+        whole.poseSource = shared.instances->source();
+    }
+    Result<std::shared_ptr<Group>> group = Group::create(shared, asset, whole);
+    if (!group) {
+        return group.error();
+    }
+    tellNotes(**group);
+    return groups.insert(std::move(*group));
+}
+
+GroupShared Context::sharedFor(std::shared_ptr<View> view) {
+    // Instances of one group must not fit another that takes its place: groups' ids differ, and so do generations.
+    nextGeneration_ = nextGeneration_ * 1664525u + 1013904223u;
     GroupShared shared;
     shared.device = device_.get();
     shared.deform = &deform_;
@@ -224,19 +250,116 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     shared.framesInFlight = framesInFlight_;
     shared.firstGeneration = nextGeneration_ | 1u;
     shared.handsOver = asyncCompute_;
-    Result<std::shared_ptr<Group>> group = Group::create(shared, asset, desc);
-    if (!group) {
-        return group.error();
-    }
-    for (const auto& surface : (*group)->surfaces()) {
+    return shared;
+}
+
+void Context::tellNotes(const Group& group) const {
+    const std::string& name = group.asset().character.name;
+    for (const auto& surface : group.surfaces()) {
         for (const std::string& note : surface->tables().notes) {
-            log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_SCHEME_NOTE, asset->character.name + ": " + note);
+            log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_SCHEME_NOTE, name + ": " + note);
         }
         if (!surface->rateNote().empty()) {
-            log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_RATE_CHANGED, asset->character.name + ": " + surface->rateNote());
+            log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_RATE_CHANGED, name + ": " + surface->rateNote());
         }
     }
-    return groups.insert(std::move(*group));
+}
+
+Status Context::remake(uint64_t id, const std::shared_ptr<Asset>& asset, const GroupRecipe& recipe,
+                       const AssetMatch& match, std::vector<Remade>& remade) {
+    const std::shared_ptr<Group> group = groups.find(id);
+    GroupShared shared = sharedFor(group->sharedView());
+    if (group->follows()) {
+        const auto leader = std::find_if(remade.begin(), remade.end(),
+                                         [&](const Remade& other) { return other.id == group->leader(); });
+        shared.instances = leader != remade.end() ? leader->group->sharedInstances() : group->sharedInstances();
+    }
+    Result<std::shared_ptr<Group>> made = group->remade(shared, asset, recipe, match);
+    if (!made) {
+        return made.error();
+    }
+    remade.push_back({id, std::move(*made)});
+    return success();
+}
+
+void Context::replace(std::vector<Remade>& remade) {
+    retired_.reserve(retired_.size() + remade.size());
+    for (Remade& own : remade) {
+        retired_.push_back(groups.replace(own.id, std::move(own.group)));
+    }
+}
+
+Status Context::setCapacity(uint64_t id, uint32_t capacity) {
+    const std::shared_ptr<Group> group = groups.find(id);
+    const std::string& name = group->asset().character.name;
+    if (group->follows()) {
+        return Error{ErrorCode::argument,
+                     name + ": the group draws the instances of another one, which has the capacity"};
+    }
+    if (capacity < group->slots().end()) {
+        return Error{ErrorCode::limit, name + ": capacity " + std::to_string(capacity) + ": the instance in slot " +
+                                           std::to_string(group->slots().end() - 1) + " would have no room"};
+    }
+    if (capacity == group->slots().capacity()) {
+        return success();
+    }
+    std::vector<Remade> remade;
+    Status status = success();
+    for (const bool follows : {false, true}) { // leaders first
+        groups.forEachId([&](uint64_t other, Group& member) {
+            if (status && (follows ? member.leader() == id : other == id)) {
+                GroupRecipe recipe = member.recipe();
+                recipe.setCapacity(capacity);
+                status = remake(other, member.sharedAsset(), recipe, {}, remade);
+            }
+        });
+    }
+    if (status) {
+        replace(remade);
+    }
+    return status;
+}
+
+Status Context::reloadAsset(uint64_t id, cage::Character character) {
+    const std::shared_ptr<Asset> before = assets.find(id);
+    const std::vector<std::string> warnings = character.warnings;
+    Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(character));
+    if (!asset) {
+        return asset.error();
+    }
+    const AssetMatch match = AssetMatch::of(before->character, (*asset)->character);
+    std::vector<Remade> remade;
+    Status status = success();
+    for (const bool follows : {false, true}) { // leaders first
+        groups.forEachId([&](uint64_t other, Group& member) {
+            if (status && member.sharedAsset() == before && member.follows() == follows) {
+                GroupRecipe recipe = member.recipe();
+                recipe.renumberParts(match.parts);
+                status = remake(other, *asset, recipe, match, remade);
+            }
+        });
+    }
+    if (!status) {
+        return status;
+    }
+    for (const std::string& warning : warnings) {
+        log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_ASSET_WARNING, (*asset)->character.name + ": " + warning);
+    }
+    for (const Remade& own : remade) {
+        tellNotes(*own.group);
+    }
+    replace(remade);
+    assets.replace(id, std::move(*asset));
+    return success();
+}
+
+void Context::setOrigin(const glm::dvec3& origin) {
+    nextOrigin_ = origin;
+    bool recorded = false;
+    groups.forEach([&](Group& group) { recorded = recorded || group.passesFrame() == frame_; });
+    if (!frameOpen_ || !recorded) {
+        origin_ = origin;
+    }
 }
 
 Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {

@@ -61,6 +61,14 @@ public:
     [[nodiscard]] Result<uint64_t> createAsset(cage::Character character);
     [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
     bool destroyGroup(uint64_t id);
+    /// Makes the group anew with another capacity, and those that follow it.
+    [[nodiscard]] Status setCapacity(uint64_t group, uint32_t capacity);
+    /// Puts a new version into the place of an asset, and makes its groups anew. If that fails nothing changes.
+    [[nodiscard]] Status reloadAsset(uint64_t id, cage::Character character);
+    /// Where the coordinates of the device begin.
+    [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
+    /// From now on or, if the frame has recorded a group, from the next frame on.
+    void setOrigin(const glm::dvec3& origin);
     [[nodiscard]] Result<uint64_t> createView(const SuppleViewDesc& desc);
     bool destroyView(uint64_t id);
 
@@ -75,6 +83,18 @@ private:
     void forViews(F&& visit); ///< those too that only groups hold
     /// Resolves the handles and links the groups (Group::Link), or says what is wrong with one; null: there are none.
     [[nodiscard]] Result<Group*> linkGroups(const SuppleRecordDesc& desc) const;
+    /// Why a group that follows another cannot be recorded; null if it can.
+    [[nodiscard]] const char* faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const;
+    [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
+    void tellNotes(const Group& group) const;
+    /// Groups that take the places of others, once all are made.
+    struct Remade {
+        uint64_t id = 0;
+        std::shared_ptr<Group> group;
+    };
+    [[nodiscard]] Status remake(uint64_t id, const std::shared_ptr<Asset>& asset, const GroupRecipe& recipe,
+                                const AssetMatch& match, std::vector<Remade>& remade);
+    void replace(std::vector<Remade>& remade);
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, Group& group);
     /// What the group hands to the queue family that draws, and with the first of its groups what the view does.
     [[nodiscard]] Transfers transfersOf(const Group& group, bool withView) const;
@@ -86,6 +106,7 @@ private:
     uint32_t queueFamily_ = 0, drawQueueFamily_ = 0;
     uint64_t frame_ = 0, completedFrame_ = 0;
     bool frameOpen_ = false; ///< begun and not cancelled
+    glm::dvec3 origin_{0.0}, nextOrigin_{0.0};
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     skinning::DeformPass deform_;

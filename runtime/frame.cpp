@@ -56,7 +56,7 @@ struct Frame {
 
 PassCost recordUpload(const Frame& frame, Group& group) {
     const VkDeviceSize statics = frame.context.recordPendingStatics(frame.commands, group);
-    PassCost cost = group.recordUpload(frame.commands, frame.number);
+    PassCost cost = group.recordUpload(frame.commands, frame.number, frame.context.origin());
     cost.bytes += statics;
     if (group.view() != nullptr && group.view()->lastRecordedFrame() != frame.number) {
         cost.bytes += group.view()->recordUpload(frame.commands, frame.number);
@@ -76,12 +76,17 @@ PassCost recordSurfaces(const Frame& frame, Group& group) {
 }
 
 template <Playback::Part part>
+bool poses(Group& group) {
+    return !group.follows() && group.poses().has(part);
+}
+
+template <Playback::Part part>
 PassCost recordPose(const Frame& frame, Group& group) {
-    return group.poses().recordPart(frame.commands, part, group.instances().windows());
+    return poses<part>(group) ? group.poses().recordPart(frame.commands, part, group.windows()) : PassCost{};
 }
 
 PassCost recordDeform(const Frame& frame, Group& group) {
-    return group.instances().recordDeform(frame.commands);
+    return group.recordDeform(frame.commands);
 }
 
 PassCost recordBounds(const Frame& frame, Group& group) {
@@ -138,7 +143,7 @@ PassCost recordSolve(const Frame& frame, Group& group) {
         return {};
     }
     uint32_t priorities = 0;
-    frame.forEach([&](Group& other) { priorities |= other.view() == group.view() ? other.slots().priorities() : 0; });
+    frame.forEach([&](Group& other) { priorities |= other.view() == group.view() ? other.listing().priorities() : 0; });
     group.view()->recordSolve(frame.commands, priorities);
     return {0, 0, true, group.view()};
 }
@@ -179,10 +184,6 @@ bool always(Group&) {
 bool isInView(Group& group) {
     return group.view() != nullptr;
 }
-template <Playback::Part part>
-bool poses(Group& group) {
-    return group.poses().has(part);
-}
 template <bool (Tessellation::*predicate)() const>
 bool anySurface(Group& group) {
     return group.surfaces().any([](const Tessellation& surface) { return (surface.*predicate)(); });
@@ -213,9 +214,7 @@ constexpr Row kPasses[] = {
     {Pass::deform, anySurface<&Tessellation::gathers>, recordSurfaces<&Tessellation::recordGather>},
     {Pass::bounds, isInView, recordBounds},
     {Pass::bounds,
-     [](Group& g) {
-         return g.view() != nullptr && g.view()->depthPyramid().has_value() && g.instances().windows().visible > 0;
-     },
+     [](Group& g) { return g.view() != nullptr && g.view()->depthPyramid().has_value() && g.windows().visible > 0; },
      recordOcclusion},
     {Pass::bounds, isInView, recordSizes, Behind::nothing, false},
     {Pass::list, isInView, recordList, Behind::arguments},
@@ -297,6 +296,20 @@ SuppleSyncScope Context::lastScope() {
     return {kLast.stages, kLast.access};
 }
 
+const char* Context::faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const {
+    if (!group.follows()) {
+        return nullptr;
+    }
+    const Group* const leader = groups.find(group.leader()).get();
+    if (leader == nullptr) {
+        return "the group whose instances it draws is destroyed";
+    }
+    const auto isLeader = [&](const SuppleGroup& other) { return other.id == group.leader(); };
+    const bool now = std::any_of(desc.groups, desc.groups + desc.groupCount, isLeader);
+    return now || leader->passesFrame() == frame_ ? nullptr
+                                                  : "the group whose instances it draws is not recorded in this frame";
+}
+
 Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
     Group* first = nullptr;
     Group** last = &first;
@@ -311,6 +324,9 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
         }
         if (group->passesFrame() == frame_) {
             return refuse(ErrorCode::order, "recorded twice in frame " + std::to_string(frame_));
+        }
+        if (const char* const fault = faultOfLeader(*group, desc)) {
+            return refuse(ErrorCode::order, fault);
         }
         View* const view = group->view();
         if (view != nullptr && !view->hasCamera()) {

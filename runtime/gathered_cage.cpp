@@ -11,17 +11,18 @@ void GatheredCage::plan(gpu::BufferPlan& device, uint32_t capacity) {
                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT});
 }
 
-Status GatheredCage::createSets(const gpu::Device& device, const InstanceSet& instances) {
+Status GatheredCage::createSets(const gpu::Device& device, const InstanceSet& instances,
+                                const InstanceListing& listing) {
     wholeStride_ = instances.cageStride();
     return sets_.create({&device,
                          &deform_->layout(),
-                         &instances.windows(),
+                         &listing.windows(),
                          piece_->vertices.buffer(0),
                          piece_->vertices.size(0),
                          {instances.cages().buffer(), wholeStride_},
                          {cages_.buffer(), stride()},
-                         instances.list().buffer(),
-                         instances.passListBytes()});
+                         listing.buffer().buffer(),
+                         listing.passBytes()});
 }
 
 PassCost GatheredCage::record(VkCommandBuffer commandBuffer, const InstanceWindows& windows) const {

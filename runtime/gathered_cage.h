@@ -14,7 +14,8 @@ public:
     GatheredCage(const skinning::DeformPass& deform, const AssetPiece& piece) : deform_(&deform), piece_(&piece) {}
 
     void plan(gpu::BufferPlan& device, uint32_t capacity);
-    [[nodiscard]] Status createSets(const gpu::Device& device, const InstanceSet& instances);
+    [[nodiscard]] Status createSets(const gpu::Device& device, const InstanceSet& instances,
+                                    const InstanceListing& listing);
 
     [[nodiscard]] const gpu::PlannedBuffer& cages() const { return cages_; }
     /// Vertices from one instance to the next.

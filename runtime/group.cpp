@@ -41,6 +41,10 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     auto group = std::make_shared<Group>();
     group->asset_ = std::move(asset);
     group->view_ = shared.view;
+    group->device_ = shared.device;
+    group->handsOver_ = shared.handsOver;
+    group->recipe_ = GroupRecipe(desc);
+    group->desc_ = desc;
     TessellationDesc tessellation;
     tessellation.device = shared.device;
     tessellation.passes = shared.surface;
@@ -57,63 +61,124 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         return surfaces.error();
     }
     group->surfaces_ = std::move(*surfaces);
-    const Status status = group->createRest(shared, desc);
+    group->desc_.prep = nullptr; // the caller's
+    group->desc_.blend = nullptr;
+    group->desc_.partSchemes = nullptr;
+    Status status = group->createInstances(shared);
+    status = status ? group->createListing(shared) : status;
+    status = status ? group->createRest(shared) : status;
     if (!status) {
         return Error{status.error().code, group->asset_->character.name + ": " + status.error().message};
     }
     return group;
 }
 
-Status Group::createRest(const GroupShared& shared, const SuppleGroupDesc& desc) {
-    InstanceSet::Desc set{shared.device,         shared.deform,    shared.pose,   asset_.get(),
-                          desc.poseSource,       skinningOf(desc), desc.capacity, shared.firstGeneration,
-                          shared.framesInFlight, shared.handsOver};
-    set.lists = view_ != nullptr ? Culling::lists(static_cast<uint32_t>(asset_->parts.size()), surfaces_.ladder().count)
-                                 : set.lists;
-    set.partPatches = surfaces_.partPatches();
-    set.listsParts = view_ == nullptr && surfaces_.haveGrids();
-    set.surface = surfaces_.boundBytes();
-    Result<std::unique_ptr<InstanceSet>> instances = InstanceSet::create(set);
+Result<std::shared_ptr<Group>> Group::remade(const GroupShared& shared, std::shared_ptr<Asset> asset,
+                                             const GroupRecipe& recipe, const AssetMatch& match) {
+    Result<std::shared_ptr<Group>> made = create(shared, std::move(asset), recipe.desc());
+    if (!made) {
+        return made;
+    }
+    Group& group = **made;
+    const Status rate = rate_ != 0 ? group.setRate(rate_) : success();
+    if (!rate) {
+        return rate.error();
+    }
+    group.origin_ = origin_;
+    if (!follows()) {
+        group.instances_->takeOver(*instances_, match);
+    }
+    return made;
+}
+
+Status Group::setRate(uint32_t rate) {
+    const Status status = surfaces_.setRate(rate);
+    rate_ = status ? rate : rate_;
+    return status;
+}
+
+Status Group::createInstances(const GroupShared& shared) {
+    if (shared.instances != nullptr) {
+        instances_ = shared.instances;
+        return success();
+    }
+    Result<std::shared_ptr<InstanceSet>> instances = InstanceSet::create(
+        {shared.device, shared.deform, shared.pose, asset_.get(), desc_.poseSource, skinningOf(desc_), desc_.capacity,
+         shared.firstGeneration, shared.framesInFlight, surfaces_.partPatches()});
     if (!instances) {
         return instances.error();
     }
     instances_ = std::move(*instances);
+    return success();
+}
+
+Status Group::createListing(const GroupShared& shared) {
+    const gpu::Device& device = *shared.device;
+    const uint32_t capacity = desc_.capacity;
+    const auto parts = static_cast<uint32_t>(asset_->parts.size());
+    const uint32_t lists = view_ != nullptr ? Culling::lists(parts, surfaces_.ladder().count) : 2;
+    if (!device.mapping.wide && uint64_t{lists} * capacity > device.limits.maxTexelBufferElements) {
+        return Error{ErrorCode::limit, std::to_string(capacity) +
+                                           " instances exceed the device's texel-buffer elements: the largest "
+                                           "capacity is " +
+                                           std::to_string(device.limits.maxTexelBufferElements / lists)};
+    }
+    const BoundBytes bound = surfaces_.boundBytes();
+    Result<InstanceWindows> windows =
+        InstanceWindows::layOut(device, capacity, bound.with(instances_->boundBytes(false)));
+    if (windows && windows->count() > 1) {
+        windows = InstanceWindows::layOut(device, capacity, bound.with(instances_->boundBytes(true)));
+    }
+    if (!windows) {
+        return windows.error();
+    }
+    const Status drawn = surfaces_.cutDraws(*windows, (desc_.flags & SUPPLE_GROUP_WINDOWS) != 0);
+    if (!drawn) {
+        return drawn;
+    }
+    const bool windowed = windows->count() > 1;
+    listing_ = InstanceListing(std::move(*windows), view_ == nullptr && surfaces_.haveGrids() ? parts : 0);
+    return follows() ? success() : instances_->makeBuffers(windowed);
+}
+
+Status Group::createRest(const GroupShared& shared) {
     const bool gathers = surfaces_.any([](const Tessellation& surface) { return surface.gathers(); });
     Status status = gathers ? shared.deform->prepareGather() : success();
     for (const auto& surface : surfaces_) {
-        status = status ? surface->join(instances_->windows()) : status;
+        status = status ? surface->join(windows()) : status;
     }
     if (!status) {
         return status;
     }
 
     gpu::BufferPlan device(buffers_), staging(staging_);
-    instances_->plan(device, staging);
+    listing_.plan(device, staging, shared.framesInFlight);
     for (const auto& surface : surfaces_) {
         surface->plan(device, staging);
     }
     if (view_ != nullptr) {
-        planCulling(shared, (desc.flags & SUPPLE_GROUP_ONE_LEVEL) != 0, device, staging);
+        planCulling(shared, device, staging);
     }
     status = device.create(*shared.device, gpu::MemoryKind::deviceLocal);
     status = status ? staging.create(*shared.device, gpu::MemoryKind::upload) : status;
-    status = status ? instances_->createSets() : status;
-    status = status ? createVisibility(set.listsParts) : status;
+    status = status && !follows() ? instances_->createSets(listing_) : status;
+    status = status ? createVisibility() : status;
     clear_.renew(culling_ != nullptr);
     for (const auto& surface : surfaces_) {
-        status = status ? surface->createSets(*instances_, *visibility_) : status;
+        status = status ? surface->createSets(*instances_, listing_, *visibility_) : status;
     }
     return status;
 }
 
-void Group::planCulling(const GroupShared& shared, bool oneLevel, gpu::BufferPlan& device, gpu::BufferPlan& staging) {
+void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging) {
+    const bool oneLevel = (desc_.flags & SUPPLE_GROUP_ONE_LEVEL) != 0;
     const uint32_t vertices = asset_->character.cage.vertexCount();
     Culling::Desc desc;
     desc.device = shared.device;
     desc.pass = shared.bounds;
     desc.occlusion = (view_->desc().flags & SUPPLE_VIEW_OCCLUSION) != 0 ? shared.occlusion : nullptr;
     desc.framesInFlight = shared.framesInFlight;
-    desc.windows = &instances_->windows();
+    desc.windows = &windows();
     desc.cageVertices = vertices;
     desc.cageStride = instances_->cageStride();
     desc.parts = static_cast<uint32_t>(asset_->parts.size());
@@ -131,16 +196,12 @@ void Group::planCulling(const GroupShared& shared, bool oneLevel, gpu::BufferPla
     visibility_ = std::move(culling);
 }
 
-Status Group::createVisibility(bool listsParts) {
-    const gpu::PlannedBuffer& list = instances_->list();
+Status Group::createVisibility() {
     if (culling_ != nullptr) {
         return culling_->createSets(
-            {instances_->cages().buffer(), list.buffer(), view_->cull(), view_->sizes(), view_->words()});
+            {instances_->cages().buffer(), listing_.buffer().buffer(), view_->cull(), view_->sizes(), view_->words()});
     }
-    const auto entries = static_cast<uint32_t>(list.size() / sizeof(uint32_t));
-    const InstanceWindows& windows = instances_->windows();
-    const InstanceList drawn{list.buffer(), instances_->passListBytes(), listsParts ? entries : windows.capacity};
-    visibility_ = std::make_unique<ListedByHost>(windows, drawn);
+    visibility_ = std::make_unique<ListedByHost>(listing_);
     return success();
 }
 
@@ -148,7 +209,9 @@ void Group::fill(SuppleGroupInfo& info) const {
     instances_->fill(info);
     info.surfaceCount = static_cast<uint32_t>(surfaces_.size());
     info.instances = visibility_->list().slots();
-    info.deviceBytes = buffers_.allocatedBytes() + instances_->deviceBytes();
+    info.windowSize = windows().size;
+    info.windowCount = windows().count();
+    info.deviceBytes = buffers_.allocatedBytes() + (follows() ? 0 : instances_->deviceBytes());
     for (const auto& surface : surfaces_) {
         info.deviceBytes += surface->deviceBytes();
     }
@@ -186,18 +249,34 @@ VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame)
     return bytes;
 }
 
-PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
+PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin) {
     passesFrame_ = lastRecordedFrame_ = frame;
-    const bool changed = instances_->changed();
-    PassCost cost = instances_->recordUpload(commandBuffer, frame, *visibility_);
+    const bool changed = listing_.changed(slots());
+    PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame, origin);
+    const glm::vec3 step(origin - origin_);
+    origin_ = origin;
+    if (changed) {
+        visibility_->list(slots(), listing_);
+    }
+    if (changed || handsOver_) {
+        cost.bytes += listing_.recordCopies(*device_, commandBuffer) + visibility_->recordUpload(commandBuffer);
+    }
     for (const auto& surface : surfaces_) {
+        surface->setPastStep(step);
         cost.bytes += surface->recordUpload(commandBuffer, frame, changed);
     }
     return cost;
 }
 
+PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
+    return follows() ? PassCost{} : instances_->recordDeform(commandBuffer, windows());
+}
+
 void Group::addTransfers(Transfers& transfers) const {
-    instances_->addTransfers(transfers);
+    if (!follows()) {
+        instances_->addTransfers(transfers);
+    }
+    transfers.add(listing_.buffer().buffer());
     visibility_->addTransfers(transfers);
     for (const auto& surface : surfaces_) {
         surface->addTransfers(transfers, passesFrame_);
@@ -207,13 +286,15 @@ void Group::addTransfers(Transfers& transfers) const {
 void Group::cancelFrame(uint64_t frame) {
     asset_->buffers.cancelUpload(frame);
     asset_->clips.cancelUpload(frame);
-    instances_->cancelFrame(frame);
+    if (!follows()) {
+        instances_->cancelFrame(frame);
+    }
     for (const auto& surface : surfaces_) {
         surface->cancelFrame(frame);
     }
     clear_.cancel(frame);
     if (passesFrame_ == frame) {
-        slots().forgetAll();
+        listing_.forgetAll();
     }
 }
 

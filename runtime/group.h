@@ -1,10 +1,13 @@
-// A group: instances of one asset, which instances are seen, and the surfaces that make their vertices.
+// A group: instances of one asset, which instances are seen, and the surfaces that make their vertices. A group may
+// draw the instances of another one, which it follows; then the other one deforms them.
 #pragma once
 
 #include "base/result.h"
 #include "gpu/memory.h"
 #include "runtime/asset.h"
+#include "runtime/asset_match.h"
 #include "runtime/culling/culling.h"
+#include "runtime/group_recipe.h"
 #include "runtime/instance_set.h"
 #include "runtime/surfaces.h"
 #include "runtime/transfers.h"
@@ -25,6 +28,7 @@ struct GroupShared {
     BoundsPass* bounds = nullptr;              ///< for groups of views
     const OcclusionPass* occlusion = nullptr;  ///< for groups of views with occlusion
     std::shared_ptr<View> view;                ///< of the description
+    std::shared_ptr<InstanceSet> instances;    ///< of the group that this one follows; null: it has its own
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
     bool handsOver = false;       ///< to another queue family: every output is written anew in every frame
@@ -35,16 +39,29 @@ public:
     [[nodiscard]] static Result<std::shared_ptr<Group>> create(const GroupShared& shared, std::shared_ptr<Asset> asset,
                                                                const SuppleGroupDesc& desc);
 
+    /// A group that is made of `recipe`, and of this group's instances if it has its own.
+    [[nodiscard]] Result<std::shared_ptr<Group>> remade(const GroupShared& shared, std::shared_ptr<Asset> asset,
+                                                        const GroupRecipe& recipe, const AssetMatch& match);
+    [[nodiscard]] const GroupRecipe& recipe() const { return recipe_; }
+
     [[nodiscard]] const Asset& asset() const { return *asset_; }
+    [[nodiscard]] const std::shared_ptr<Asset>& sharedAsset() const { return asset_; }
+    [[nodiscard]] const std::shared_ptr<View>& sharedView() const { return view_; }
+    [[nodiscard]] const std::shared_ptr<InstanceSet>& sharedInstances() const { return instances_; }
     /// Whether the indirect commands that draw an instance name a first instance when it hides parts.
     [[nodiscard]] bool drawsByRanges() const { return surfaces_.haveGrids(); }
     void fill(SuppleGroupInfo& info) const;
     /// `surface` is below surfaces().size().
     void fill(SuppleSurfaceInfo& info, uint32_t surface) const;
-    [[nodiscard]] Status setRate(uint32_t rate) { return surfaces_.setRate(rate); }
+    [[nodiscard]] Status setRate(uint32_t rate);
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }
+    [[nodiscard]] const InstanceListing& listing() const { return listing_; }
+    [[nodiscard]] const InstanceWindows& windows() const { return listing_.windows(); }
+    /// The group whose instances it draws, as its description says; 0: they are its own.
+    [[nodiscard]] uint64_t leader() const { return recipe_.leader(); }
+    [[nodiscard]] bool follows() const { return leader() != 0; }
     [[nodiscard]] InstanceSlots& slots() { return instances_->slots(); }
     [[nodiscard]] PoseSource& poses() { return instances_->poses(); }
     [[nodiscard]] Surfaces& surfaces() { return surfaces_; }
@@ -60,14 +77,15 @@ public:
     [[nodiscard]] bool staticsPending() const;
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
     /// This frame's poses, its list of instances and what to draw of them.
-    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
+    /// `origin`: where the coordinates of the device begin in this frame.
+    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin);
+    /// Nothing if the group follows another.
+    PassCost recordDeform(VkCommandBuffer commandBuffer) const;
     void addTransfers(Transfers& transfers) const;
 
     /// Vertices of the view's budget that an instance needs at its coarsest, and all that the host shows.
     [[nodiscard]] uint32_t leastVertices() const { return culling_ != nullptr ? surfaces_.leastVertices() : 0; }
-    [[nodiscard]] uint64_t leastVerticesOfAll() const {
-        return uint64_t{leastVertices()} * instances_->windows().visible;
-    }
+    [[nodiscard]] uint64_t leastVerticesOfAll() const { return uint64_t{leastVertices()} * windows().visible; }
 
     /// The last frame that has the group's passes, and the last that has anything of it.
     [[nodiscard]] uint64_t passesFrame() const { return passesFrame_; }
@@ -85,14 +103,23 @@ public:
     Link link;
 
 private:
-    [[nodiscard]] Status createRest(const GroupShared& shared, const SuppleGroupDesc& desc);
-    void planCulling(const GroupShared& shared, bool oneLevel, gpu::BufferPlan& device, gpu::BufferPlan& staging);
-    [[nodiscard]] Status createVisibility(bool listsParts);
+    [[nodiscard]] Status createInstances(const GroupShared& shared);
+    [[nodiscard]] Status createListing(const GroupShared& shared);
+    [[nodiscard]] Status createRest(const GroupShared& shared);
+    void planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
+    [[nodiscard]] Status createVisibility();
 
     std::shared_ptr<Asset> asset_;
     std::shared_ptr<View> view_;
-    gpu::BufferSet buffers_, staging_; ///< of all parts
-    std::unique_ptr<InstanceSet> instances_;
+    GroupRecipe recipe_;
+    SuppleGroupDesc desc_{}; ///< without pointers
+    uint32_t rate_ = 0;      ///< that was set last; 0: none
+    glm::dvec3 origin_{0.0}; ///< of the last recording
+    const gpu::Device* device_ = nullptr;
+    bool handsOver_ = false;           ///< to another queue family
+    gpu::BufferSet buffers_, staging_; ///< of all but the instances
+    std::shared_ptr<InstanceSet> instances_;
+    InstanceListing listing_;
     std::unique_ptr<Visibility> visibility_;
     Culling* culling_ = nullptr; ///< visibility_, if the group belongs to a view
     Surfaces surfaces_;

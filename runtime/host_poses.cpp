@@ -30,6 +30,7 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     hostWeights_.resize(instanceCount * targetCount_);
     hostWeighted_.resize(instanceCount, false);
     transforms_.assign(instanceCount, glm::mat4(1.0f));
+    positions_.assign(instanceCount, glm::dvec3(0.0));
     memory_ = skinning::PoseMemory(character);
     for (uint32_t instance = 0; instance < instanceCount; ++instance) {
         setBindPose(instance);
@@ -51,7 +52,7 @@ std::span<glm::mat4> HostPoses::joints(uint32_t instance) {
 }
 
 glm::mat4 HostPoses::jointTransform(uint32_t instance, uint32_t joint) const {
-    return skinning::placedJoint(glm::dmat4(transforms_[instance]),
+    return skinning::placedJoint(glm::dmat4(placement(instance)),
                                  joints_[size_t{instance} * layout_.jointCount + joint]);
 }
 
@@ -120,6 +121,52 @@ void HostPoses::setMorphWeights(uint32_t instance, const float* weights) {
     }
 }
 
+void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const AssetMatch& match) {
+    const skinning::Affine identity = skinning::toAffine(glm::mat4(1.0f));
+    const std::span before =
+        std::span(other.palettes_).subspan(size_t{instance} * other.layout_.jointCount, other.layout_.jointCount);
+    const auto isIdentity = [&](const skinning::Affine& joint) {
+        return std::ranges::equal(joint.rows, identity.rows);
+    };
+    if (std::ranges::all_of(before, isIdentity)) {
+        return; // in the bind pose, as here
+    }
+    const std::span<glm::mat4> own = joints(instance);
+    const std::span<skinning::Affine> target = palette(instance);
+    for (size_t j = 0; j < own.size(); ++j) {
+        const uint32_t from = match.joints[j];
+        own[j] = from != cage::kNone ? other.joints_[size_t{instance} * other.layout_.jointCount + from]
+                                     : asset_->jointFrames.rest[j];
+        target[j] = skinning::toAffine(own[j] * asset_->character.skin.inverseBinds[j]);
+    }
+    finishPalette(instance);
+}
+
+void HostPoses::takeOver(const HostPoses& other, uint32_t count, const AssetMatch& match) {
+    origin_ = other.origin_;
+    for (uint32_t i = 0; i < count; ++i) {
+        transforms_[i] = other.transforms_[i];
+        positions_[i] = other.positions_[i];
+        hostWeighted_[i] = other.hostWeighted_[i];
+        for (size_t t = 0; t < targetCount_; ++t) {
+            const auto from = match.same ? static_cast<uint32_t>(t) : match.targets[t];
+            const bool known = from != cage::kNone;
+            const float rest = asset_->character.morphs.weights[t];
+            poseWeights_[i * targetCount_ + t] = known ? other.poseWeights_[i * other.targetCount_ + from] : rest;
+            hostWeights_[i * targetCount_ + t] = known ? other.hostWeights_[i * other.targetCount_ + from] : rest;
+        }
+        if (!match.same) {
+            takeOverJoints(other, i, match);
+        }
+    }
+    if (match.same) {
+        const size_t joints = size_t{count} * layout_.jointCount;
+        std::copy_n(other.palettes_.begin(), joints, palettes_.begin());
+        std::copy_n(other.joints_.begin(), joints, joints_.begin());
+        std::copy_n(other.rotations_.begin(), std::min(joints, other.rotations_.size()), rotations_.begin());
+    }
+}
+
 void HostPoses::write(uint32_t count, std::byte* target) const {
     const size_t joints = layout_.jointCount;
     for (uint32_t instance = 0; instance < count; ++instance) {
@@ -130,7 +177,7 @@ void HostPoses::write(uint32_t count, std::byte* target) const {
             pose.rotations = std::span(rotations_).subspan(instance * joints, joints);
         }
         pose.morphWeights = std::span(weights).subspan(instance * targetCount_, targetCount_);
-        pose.transform = transforms_[instance];
+        pose.transform = placement(instance);
         skinning::writePose(layout_, pose, target);
         target += instanceBytes();
     }

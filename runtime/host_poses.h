@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/asset.h"
+#include "runtime/asset_match.h"
 #include "skinning/deform_pass.h"
 #include "skinning/layers.h"
 #include "supple/supple.h"
@@ -38,7 +39,16 @@ public:
     /// One column-major model-space matrix a joint; morph weights as in the rest pose.
     void setMatrixPose(uint32_t instance, const float* jointMatrices);
     void setMorphWeights(uint32_t instance, const float* weights); ///< null: the pose's own again
-    void setTransform(uint32_t instance, const glm::mat4& transform) { transforms_[instance] = transform; }
+    void setTransform(uint32_t instance, const glm::mat4& transform) {
+        transforms_[instance] = transform;
+        positions_[instance] = glm::dvec3(transform[3]);
+    }
+    void setPosition(uint32_t instance, const glm::dvec3& position) { positions_[instance] = position; }
+    /// Where the coordinates of the device begin.
+    void setOrigin(const glm::dvec3& origin) { origin_ = origin; }
+    /// Takes over the first `count` instances, of the same asset or of another version of it. Joints and morph targets
+    /// that the other version lacks are as in the rest pose.
+    void takeOver(const HostPoses& other, uint32_t count, const AssetMatch& match);
 
     /// Where the joint is, as the instance is posed and placed now.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t instance, uint32_t joint) const;
@@ -48,6 +58,12 @@ public:
 
 private:
     void setPose(uint32_t instance); ///< from pose_
+    void takeOverJoints(const HostPoses& other, uint32_t instance, const AssetMatch& match);
+    [[nodiscard]] glm::mat4 placement(uint32_t instance) const {
+        glm::mat4 placed = transforms_[instance];
+        placed[3] = glm::vec4(glm::vec3(positions_[instance] - origin_), 1.0f);
+        return placed;
+    }
     void finishPalette(uint32_t instance);
     [[nodiscard]] std::span<skinning::Affine> palette(uint32_t instance);
     [[nodiscard]] std::span<glm::mat4> joints(uint32_t instance);
@@ -62,7 +78,9 @@ private:
     std::vector<float> poseWeights_;   ///< morph weights of the pose
     std::vector<float> hostWeights_;   ///< and what the host set instead
     std::vector<bool> hostWeighted_;
-    std::vector<glm::mat4> transforms_;
+    std::vector<glm::mat4> transforms_; ///< but for the translation
+    std::vector<glm::dvec3> positions_; ///< that is here
+    glm::dvec3 origin_{0.0};
     skinning::PoseMemory memory_;
 };
 

@@ -1,6 +1,6 @@
 #include "runtime/instance_slots.h"
 
-#include "shaders/shared/instances.h"
+#include "cage/character.h"
 
 #include <algorithm>
 
@@ -23,10 +23,9 @@ std::optional<uint32_t> InstanceSlots::create() {
     Slot& slot = slots_[lowestFree_];
     slot.live = true;
     slot.visible = true;
-    slot.evaluated = false;
     slot.priority = 0;
     hidden_.reset(lowestFree_);
-    changed_ = true;
+    forget(lowestFree_);
     end_ = std::max(end_, lowestFree_ + 1);
     return lowestFree_++;
 }
@@ -34,7 +33,7 @@ std::optional<uint32_t> InstanceSlots::create() {
 void InstanceSlots::destroy(uint32_t slot) {
     slots_[slot].live = false;
     hidden_.reset(slot);
-    changed_ = true;
+    note(true);
     ++slots_[slot].generation;
     if (slots_[slot].generation == 0) {
         slots_[slot].generation = 1; // 0 is never valid
@@ -45,82 +44,34 @@ void InstanceSlots::destroy(uint32_t slot) {
     }
 }
 
+void InstanceSlots::takeOver(const InstanceSlots& other, std::span<const uint32_t> parts) {
+    for (uint32_t s = 0; s < std::min(capacity(), other.capacity()); ++s) {
+        slots_[s] = other.slots_[s];
+        ++slots_[s].life;
+        const auto count = static_cast<uint32_t>(hidden_.order().size());
+        for (uint32_t part = 0; part < count && other.hidden_.hidesAny(s); ++part) {
+            const uint32_t before = parts.empty() ? part : parts[part];
+            if (before != cage::kNone && other.hidden_.hides(s, before)) {
+                hidden_.set(s, part, true);
+            }
+        }
+    }
+    end_ = other.end_;
+    lowestFree_ = std::min(other.lowestFree_, capacity());
+    ++version_;
+}
+
 bool InstanceSlots::holds(uint32_t slot, uint32_t generation) const {
     return slot < capacity() && slots_[slot].live && slots_[slot].generation == generation;
 }
 
-void InstanceSlots::forgetAll() {
-    changed_ = true;
-    for (Slot& slot : slots_) {
-        slot.evaluated = false;
-    }
-}
-
-void InstanceSlots::listForCulling(std::span<uint32_t> all) const {
-    uint32_t count = 0;
-    for (uint32_t s = 0; s < end_; ++s) {
-        if (slots_[s].live && slots_[s].visible) {
-            all[count++] = s | slots_[s].priority << shared::kInstancePriorityShift |
-                           (slots_[s].evaluated ? 0 : shared::kInstanceIsNew) |
-                           (hidden_.hidesAny(s) ? shared::kInstanceHidesParts : 0);
-        }
-    }
-}
-
 bool InstanceSlots::isHidden(uint32_t part) const {
     for (uint32_t s = 0; s < end_; ++s) {
-        if (slots_[s].live && slots_[s].visible && hidden_.hides(s, part)) {
+        if (shows(s) && hidden_.hides(s, part)) {
             return true;
         }
     }
     return false;
-}
-
-uint32_t InstanceSlots::listPart(uint32_t part, std::span<uint32_t> slots) const {
-    uint32_t count = 0;
-    for (uint32_t s = 0; s < end_; ++s) {
-        if (slots_[s].live && slots_[s].visible && !hidden_.hides(s, part)) {
-            slots[count++] = s;
-        }
-    }
-    return count;
-}
-
-uint32_t InstanceSlots::list(std::span<uint32_t> all, std::span<uint32_t> byWindow, uint32_t windowSize,
-                             std::span<Listed> windows) {
-    uint32_t visible = 0;
-    priorities_ = 0;
-    changed_ = false;
-    for (size_t w = 0; w < windows.size(); ++w) {
-        const uint32_t first = static_cast<uint32_t>(w) * windowSize;
-        const uint32_t last = std::min(first + windowSize, end_);
-        Listed listed;
-        for (const bool past : {true, false}) {
-            for (uint32_t s = first; s < last; ++s) {
-                if (slots_[s].live && slots_[s].visible && slots_[s].evaluated == past) {
-                    byWindow[first + listed.count++] = (s - first) |
-                                                       slots_[s].priority << shared::kInstancePriorityShift |
-                                                       (past ? 0 : shared::kInstanceIsNew);
-                    priorities_ |= 1u << slots_[s].priority;
-                }
-            }
-            if (past) {
-                listed.withPast = listed.count;
-            }
-        }
-        windows[w] = listed;
-        changed_ = changed_ || listed.withPast < listed.count;
-    }
-    for (uint32_t s = 0; s < end_; ++s) {
-        slots_[s].evaluated = slots_[s].live && slots_[s].visible;
-        if (slots_[s].evaluated) {
-            if (!all.empty()) {
-                all[visible] = s;
-            }
-            ++visible;
-        }
-    }
-    return visible;
 }
 
 } // namespace supple::runtime

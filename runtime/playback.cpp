@@ -64,6 +64,8 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.jointMasks_.assign(size_t{kMaxMasks} * push.jointCount, 1.0f);
     playback.evaluated_.joints.resize(push.jointCount);
     playback.evaluated_.memory = skinning::PoseMemory(desc.asset->character);
+    playback.transforms_.resize(desc.capacity, glm::mat4(1.0f));
+    playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
     playback.changed_.resize(desc.capacity, false);
     playback.changedSlots_.reserve(desc.capacity);
     playback.uploadedSlots_.reserve(desc.capacity);
@@ -214,8 +216,7 @@ void Playback::reset(uint32_t slot) {
     skinning::PlaybackState own = state(slot);
     own.setMorphWeights(nullptr, 0);
     own.setBindPose();
-    own.setTransform(glm::mat4(1.0f));
-    markChanged(slot);
+    setTransform(slot, glm::mat4(1.0f));
 }
 
 void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
@@ -228,9 +229,30 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     markChanged(slot);
 }
 
-void Playback::setTransform(uint32_t slot, const glm::mat4& transform) {
-    state(slot).setTransform(transform);
+void Playback::place(uint32_t slot) {
+    glm::mat4 placed = transforms_[slot];
+    placed[3] = glm::vec4(glm::vec3(positions_[slot] - origin_), 1.0f);
+    state(slot).setTransform(placed);
     markChanged(slot);
+}
+
+void Playback::setTransform(uint32_t slot, const glm::mat4& transform) {
+    transforms_[slot] = transform;
+    setPosition(slot, glm::dvec3(transform[3]));
+}
+
+void Playback::setPosition(uint32_t slot, const glm::dvec3& position) {
+    positions_[slot] = position;
+    place(slot);
+}
+
+void Playback::setOrigin(const glm::dvec3& origin) {
+    if (origin_ != origin) {
+        origin_ = origin;
+        for (uint32_t slot = 0; slot < capacity_; ++slot) {
+            place(slot);
+        }
+    }
 }
 
 void Playback::setMorphWeights(uint32_t slot, const float* weights) {
@@ -251,6 +273,76 @@ void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<c
     evaluated_.slot = kNoSlot;
     masksSet_[mask - 1] = true;
     masksChanged_ = true;
+}
+
+void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& match) {
+    const skinning::PlaybackState before = other.state(slot);
+    if (const float* const weights = before.morphWeights()) {
+        std::vector<float> moved(push_.morphCount);
+        for (uint32_t t = 0; t < push_.morphCount; ++t) {
+            const uint32_t from = match.targets[t];
+            moved[t] = from != cage::kNone ? weights[from] : asset_->character.morphs.weights[t];
+        }
+        setMorphWeights(slot, moved.data());
+    }
+    if (before.inBindPose()) {
+        return;
+    }
+    skinning::PlaybackState::Layers memory, kept;
+    skinning::PlaybackDesc desc = before.read(other.asset_->clipTable, memory);
+    size_t count = 0;
+    for (skinning::PlaybackLayer layer : desc.layers) {
+        layer.clip = match.clips[layer.clip];
+        if (layer.clip != cage::kNone) {
+            kept[count++] = layer;
+        }
+    }
+    if (count == 0) {
+        return;
+    }
+    desc.layers = std::span(kept).first(count);
+    if (desc.root.node != cage::kNone) {
+        desc.root.node = match.nodes[desc.root.node];
+    }
+    set(slot, desc);
+}
+
+void Playback::takeOverMasks(const Playback& other, const AssetMatch& match) {
+    std::vector<float> joints(push_.jointCount);
+    for (uint32_t mask = 1; mask <= kMaxMasks; ++mask) {
+        if (!other.hasMask(mask)) {
+            continue;
+        }
+        for (uint32_t j = 0; j < joints.size(); ++j) {
+            const size_t from = size_t{mask - 1} * other.push_.jointCount + match.joints[j];
+            joints[j] = match.joints[j] != cage::kNone ? other.jointMasks_[from] : 1.0f;
+        }
+        setMask(mask, joints, {});
+    }
+}
+
+void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match) {
+    time_ = other.time_;
+    origin_ = other.origin_;
+    if (match.same) {
+        masks_ = other.masks_;
+        jointMasks_ = other.jointMasks_;
+        masksSet_ = other.masksSet_;
+        adds_ = other.adds_;
+        roots_ = other.roots_;
+        const size_t words = size_t{push_.stateStride} * 4 * count;
+        std::copy_n(other.states_.begin(), words, states_.begin());
+    } else {
+        takeOverMasks(other, match);
+    }
+    for (uint32_t slot = 0; slot < count; ++slot) {
+        if (!match.same) {
+            reset(slot);
+            takeOverState(other, slot, match);
+        }
+        transforms_[slot] = other.transforms_[slot];
+        setPosition(slot, other.positions_[slot]);
+    }
 }
 
 VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {

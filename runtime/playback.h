@@ -5,6 +5,7 @@
 #include "base/result.h"
 #include "gpu/memory.h"
 #include "runtime/asset.h"
+#include "runtime/asset_match.h"
 #include "skinning/deform_pass.h"
 #include "skinning/layers.h"
 #include "skinning/playback.h"
@@ -43,6 +44,9 @@ public:
     void reset(uint32_t slot); ///< bind pose, no morph weights of the host's, identity transform
     void set(uint32_t slot, const skinning::PlaybackDesc& desc);
     void setTransform(uint32_t slot, const glm::mat4& transform);
+    void setPosition(uint32_t slot, const glm::dvec3& position);
+    /// Where the coordinates of the device begin. A change places all instances anew.
+    void setOrigin(const glm::dvec3& origin);
     void setMorphWeights(uint32_t slot, const float* weights); ///< null: the clips' own again
     void setTime(double seconds);
 
@@ -53,6 +57,11 @@ public:
     /// Where the joint is at the group's time, computed on the CPU. The joints of the slot that was asked for last are
     /// kept until what plays, the time or a mask changes.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint);
+
+    /// Takes over the time, the masks and the first `count` instances, of the same asset or of another version of it.
+    /// Layers whose clip the other version lacks are left out; without layers an instance is in the bind pose. Masks
+    /// of another version keep their joints; their morph targets all count.
+    void takeOver(Playback& other, uint32_t count, const AssetMatch& match);
 
     /// What has changed since it was recorded last; the bytes of it.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
@@ -76,6 +85,9 @@ private:
     Status createSets(const Desc& desc);
     [[nodiscard]] VkDeviceSize stateBytes() const { return VkDeviceSize{push_.stateStride} * 16; }
     [[nodiscard]] skinning::PlaybackState state(uint32_t slot);
+    void place(uint32_t slot);
+    void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
+    void takeOverMasks(const Playback& other, const AssetMatch& match);
     void markChanged(uint32_t slot);
     void evaluate(uint32_t slot); ///< into evaluated_
     void forget(uint32_t slot);   ///< what plays there has changed
@@ -89,6 +101,9 @@ private:
     bool adds_ = false, roots_ = false; ///< what some instance has ever been set to play
     shared::PosePush push_{};           ///< but for the time and the instances
 
+    std::vector<glm::mat4> transforms_; ///< but for the translation
+    std::vector<glm::dvec3> positions_; ///< that is here
+    glm::dvec3 origin_{0.0};
     // As it shall be on the device.
     std::vector<uint32_t> states_;
     std::vector<float> masks_;

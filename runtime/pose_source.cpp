@@ -13,11 +13,16 @@ public:
 
     void reset(uint32_t slot) override { poses_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { poses_.setTransform(slot, transform); }
+    void setPosition(uint32_t slot, const glm::dvec3& position) override { poses_.setPosition(slot, position); }
+    void setOrigin(const glm::dvec3& origin) override { poses_.setOrigin(origin); }
     void setMorphWeights(uint32_t slot, const float* weights) override { poses_.setMorphWeights(slot, weights); }
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
         return poses_.jointTransform(slot, joint);
     }
     [[nodiscard]] HostPoses* host() override { return &poses_; }
+    void takeOver(PoseSource& other, uint32_t count, const AssetMatch& match) override {
+        poses_.takeOver(*other.host(), count, match);
+    }
 
     void plan(gpu::BufferPlan& staging) override {
         staging_ =
@@ -54,11 +59,16 @@ public:
 
     void reset(uint32_t slot) override { playback_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { playback_.setTransform(slot, transform); }
+    void setPosition(uint32_t slot, const glm::dvec3& position) override { playback_.setPosition(slot, position); }
+    void setOrigin(const glm::dvec3& origin) override { playback_.setOrigin(origin); }
     void setMorphWeights(uint32_t slot, const float* weights) override { playback_.setMorphWeights(slot, weights); }
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
         return playback_.jointTransform(slot, joint);
     }
     [[nodiscard]] Playback* playback() override { return &playback_; }
+    void takeOver(PoseSource& other, uint32_t count, const AssetMatch& match) override {
+        playback_.takeOver(*other.playback(), count, match);
+    }
 
     [[nodiscard]] Status create(const Buffers& buffers) override {
         Result<Playback> playback = Playback::create({desc_.device, desc_.posePass, desc_.asset, desc_.layout,

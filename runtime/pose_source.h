@@ -24,11 +24,17 @@ public:
     // Setting, on the CPU. Only sources of which the host sets something are asked.
     virtual void reset(uint32_t /*slot*/) {} ///< a new instance: bind pose, identity transform
     virtual void setTransform(uint32_t /*slot*/, const glm::mat4& /*transform*/) {}
+    virtual void setPosition(uint32_t /*slot*/, const glm::dvec3& /*position*/) {}
+    /// Where the coordinates of the device begin, for the next recording and for jointTransform().
+    virtual void setOrigin(const glm::dvec3& /*origin*/) {}
     virtual void setMorphWeights(uint32_t /*slot*/, const float* /*weights*/) {} ///< null: the pose's own again
     /// Where a joint is, as the next recording poses and places the instance.
     [[nodiscard]] virtual glm::mat4 jointTransform(uint32_t /*slot*/, uint32_t /*joint*/) { return glm::mat4(1.0f); }
     [[nodiscard]] virtual HostPoses* host() { return nullptr; }
     [[nodiscard]] virtual Playback* playback() { return nullptr; }
+
+    /// Takes over the instances of the first `count` slots of a source of the same kind.
+    virtual void takeOver(PoseSource& /*other*/, uint32_t /*count*/, const AssetMatch& /*match*/) {}
 
     // Creation, in this order.
     virtual void plan(gpu::BufferPlan& /*staging*/) {}

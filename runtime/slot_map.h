@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace supple::runtime {
@@ -45,6 +46,19 @@ public:
         ++slots_[index].generation;
         free_.push_back(index);
         return value;
+    }
+    /// Puts another value into the place of one that is there, which is returned.
+    std::shared_ptr<T> replace(uint64_t id, std::shared_ptr<T> value) {
+        std::swap(slots_[static_cast<uint32_t>((id & 0xFFFFFFFFu) - 1u)].value, value);
+        return value;
+    }
+    template <class F>
+    void forEachId(F&& visit) const {
+        for (size_t i = 0; i < slots_.size(); ++i) {
+            if (slots_[i].value != nullptr) {
+                visit((static_cast<uint64_t>(slots_[i].generation) << 32) | (i + 1u), *slots_[i].value);
+            }
+        }
     }
     template <class F>
     void forEach(F&& visit) const {

@@ -110,10 +110,17 @@ void Surfaces::setLadder() {
 BoundBytes Surfaces::boundBytes() const {
     BoundBytes most;
     for (const std::unique_ptr<Tessellation>& surface : all_) {
-        const BoundBytes own = surface->boundBytes();
-        most = {std::max(most.texels, own.texels), std::max(most.storage, own.storage)};
+        most = most.with(surface->boundBytes());
     }
     return most;
+}
+
+Status Surfaces::cutDraws(InstanceWindows& windows, bool byWindows) const {
+    Status status = success();
+    for (const std::unique_ptr<Tessellation>& surface : all_) {
+        status = status ? surface->cutDraws(windows, byWindows) : status;
+    }
+    return status;
 }
 
 std::vector<PartPatches> Surfaces::partPatches() const {

@@ -36,6 +36,7 @@ public:
     /// The rates that instances may have; a count of 0: none.
     [[nodiscard]] Tessellation::Ladder ladder() const { return ladder_; }
     [[nodiscard]] BoundBytes boundBytes() const;
+    [[nodiscard]] Status cutDraws(InstanceWindows& windows, bool byWindows) const;
     /// How many patches every part of the asset has.
     [[nodiscard]] std::vector<PartPatches> partPatches() const;
     /// Whether draws count in instances, with a first instance (SuppleGridOutput).

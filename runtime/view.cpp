@@ -68,11 +68,17 @@ Status View::createBuffers() {
     const gpu::Device& device = *device_;
     const VkDeviceSize vertices = desc_.maxVertices;
     const VkDeviceSize wordBytes = kLodRecords * VkDeviceSize{4} + vertices / kMinSamples * kRecordBytes;
-    const VkDeviceSize most = std::max(wordBytes, vertices * vertexBytes(desc_.vertexFormat));
-    if (most > device.limits.maxStorageBufferRange || (!device.mapping.wide && wordBytes > device.bufferWindow(16))) {
-        return Error{ErrorCode::limit, std::to_string(desc_.maxVertices) +
-                                           " surface vertices exceed the device's storage-buffer range or texel-buffer "
-                                           "elements"};
+    // Of the words, narrow devices read texels.
+    const VkDeviceSize wordLimit = device.mapping.wide ? device.limits.maxStorageBufferRange : device.bufferWindow(16);
+    const VkDeviceSize fixed = kLodRecords * VkDeviceSize{4};
+    const VkDeviceSize records = wordLimit > fixed ? (wordLimit - fixed) / kRecordBytes : 0;
+    const VkDeviceSize most = std::min<VkDeviceSize>(
+        (records + 1) * kMinSamples - 1, device.limits.maxStorageBufferRange / vertexBytes(desc_.vertexFormat));
+    if (records == 0 || vertices > most) {
+        return Error{ErrorCode::limit, "maxVertices is " + std::to_string(desc_.maxVertices) +
+                                           ": the device's storage-buffer range or its texel-buffer elements allow at "
+                                           "most " +
+                                           std::to_string(records == 0 ? 0 : most)};
     }
     gpu::BufferPlan plan(buffers_);
     words_ = plan.add(

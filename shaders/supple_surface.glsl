@@ -25,6 +25,10 @@
 //         vec4 color = suppleColor(at);
 //     }
 //
+// SUPPLE_GROUP_WINDOWS: for each window, bind its part of the vertices and of the previous positions, from the byte
+// firstSlot * verticesPerInstance * stride on, and draw command window * drawRangeCount + range. firstSlot is
+// window * SuppleGroupInfo.windowSize.
+//
 // A buffer that a shader does not read needs no descriptor: a shadow pass binds the first two.
 //
 // Groups with SUPPLE_GROUP_INDEXED_MESH: the same shader; bind the indices as uint32.
@@ -46,6 +50,8 @@ struct SuppleRange {
     uint firstVertex;         // SuppleDrawRange
     uint samplesPerPatch;     // SuppleDrawRange
     uint verticesPerInstance; // SuppleGridOutput
+    uint firstSlot;           // SUPPLE_GROUP_WINDOWS: of the window that is drawn and bound; else 0
+    uint previousWords;       // floats from one previous position to the next; 0: 3. See supplePreviousPosition
 };
 
 /// The same for a SuppleLevelDraw.
@@ -53,6 +59,7 @@ struct SuppleDraw {
     uint index;               // of the draw: SuppleLevelOutput.draws[index]
     uint verticesPerInstance; // SuppleLevelDraw
     uint samplesPerPatch;     // SuppleLevelDraw
+    uint previousWords;       // as SuppleRange has it
 };
 
 /// The surface vertex: an index into vertices, previousPositions, attributes, uvs1 and faceUvs.
@@ -61,7 +68,9 @@ uint suppleLodSurfaceVertex(SuppleDraw draw, uint instanceIndex, uint vertexInde
 }
 
 /// Which entry of SuppleGroupInfo.instances (SuppleRate.instances) this is, where its slot stands.
-uint suppleDrawnInstance(SuppleRange range, uint instanceIndex) { return instanceIndex / range.patchCount; }
+uint suppleDrawnInstance(SuppleRange range, uint instanceIndex) {
+    return range.firstSlot + instanceIndex / range.patchCount;
+}
 
 /// The patch within the instance, if the range's first one is known: an index of suppleGetPatches.
 uint suppleDrawnPatch(SuppleRange range, uint firstPatch, uint instanceIndex) {
@@ -73,10 +82,13 @@ uint suppleSharedVertex(SuppleRange range, uint instanceIndex, uint vertexIndex)
     return range.firstVertex + (instanceIndex % range.patchCount) * range.samplesPerPatch + vertexIndex;
 }
 
-/// The surface vertex: an index into vertices and previousPositions.
+/// The surface vertex: an index into what is bound of vertices and previousPositions.
 uint suppleSurfaceVertex(SuppleRange range, uint slot, uint sharedVertex) {
-    return slot * range.verticesPerInstance + sharedVertex;
+    return (slot - range.firstSlot) * range.verticesPerInstance + sharedVertex;
 }
+
+/// Where its previous position begins, in floats.
+uint supplePreviousWord(uint previousWords, uint vertex) { return (previousWords == 0u ? 3u : previousWords) * vertex; }
 
 /// The normal of SUPPLE_VERTEX_16: octahedral, two snorm16.
 vec3 suppleOctahedralNormal(uint word) {
@@ -133,7 +145,7 @@ layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_VERTICES_BINDING, std430) read
 };
 #endif
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_PREVIOUS_BINDING, std430) readonly buffer SupplePrevious {
-    float supplePrevious[]; // three a vertex
+    float supplePrevious[];
 };
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_ATTRIBUTES_BINDING, std430) readonly buffer SuppleAttributes {
     uvec4 suppleAttributes[]; // float2 uv, RGBA in 4 x unorm16
@@ -142,7 +154,8 @@ layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_ATTRIBUTES_BINDING, std430) re
 struct SuppleVertex {
     uint slot;  // of the instance: where a host keeps what it knows of its instances
     uint own;   // within the instance: index into attributes, uvs1, faceUvs
-    uint index; // index into vertices, previousPositions
+    uint index; // index into vertices
+    uint previous; // index into previousPositions, in floats
 };
 
 #ifdef SUPPLE_SURFACE_LOD
@@ -158,6 +171,7 @@ SuppleVertex suppleLodVertex(SuppleDraw draw, uint instanceIndex, uint vertexInd
     at.index = suppleLodSurfaceVertex(draw, instanceIndex, vertexIndex);
     at.own = at.index;
     at.slot = suppleLodPatch(draw, at.index).y;
+    at.previous = supplePreviousWord(draw.previousWords, at.index);
     return at;
 }
 #else
@@ -166,6 +180,7 @@ SuppleVertex suppleVertex(SuppleRange range, uint instanceIndex, uint vertexInde
     at.slot = suppleInstances[suppleDrawnInstance(range, instanceIndex)];
     at.own = suppleSharedVertex(range, instanceIndex, vertexIndex);
     at.index = suppleSurfaceVertex(range, at.slot, at.own);
+    at.previous = supplePreviousWord(range.previousWords, at.index);
     return at;
 }
 #endif
@@ -187,8 +202,10 @@ vec3 suppleNormal(SuppleVertex at) { return suppleOctahedralNormal(suppleVertice
 #endif
 
 /// Where the vertex was in the frame before. For motion vectors: project both without jitter, each with its frame's camera.
+/// A frame that does not record the group shows it as it was. Then bind the vertices in the place of the previous positions,
+/// and let previousWords be 4 (SUPPLE_VERTEX_16) or 6 (SUPPLE_VERTEX_24): the same shader finds no motion.
 vec3 supplePreviousPosition(SuppleVertex at) {
-    uint i = 3u * at.index;
+    uint i = at.previous;
     return vec3(supplePrevious[i], supplePrevious[i + 1u], supplePrevious[i + 2u]);
 }
 

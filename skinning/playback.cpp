@@ -115,6 +115,12 @@ void PlaybackState::setMorphWeights(const float* weights, size_t count) {
     }
 }
 
+const float* PlaybackState::morphWeights() const {
+    static_assert(sizeof(float) == sizeof(uint32_t));
+    const size_t first = 4 * size_t{kStateElements + kMaxPlaybackLayers * kLayerElements};
+    return (words_[1] & kStateHostWeights) != 0 ? reinterpret_cast<const float*>(&words_[first]) : nullptr;
+}
+
 glm::vec4 PlaybackState::floats(uint32_t element) const {
     glm::vec4 values;
     for (uint32_t i = 0; i < 4; ++i) {

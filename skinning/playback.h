@@ -48,6 +48,9 @@ public:
     void setTransform(const glm::mat4& transform);
     void setMorphWeights(const float* weights, size_t count); ///< null: the clips' own again
 
+    /// Null if none are set: what setMorphWeights() got.
+    [[nodiscard]] const float* morphWeights() const;
+
     // What the device reads.
     [[nodiscard]] bool inBindPose() const;
     [[nodiscard]] glm::mat4 transform() const;

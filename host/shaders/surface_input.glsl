@@ -6,7 +6,7 @@
 layout(set = 1, binding = kSurfaceVertexBinding, std430) readonly buffer SurfaceVertices { uint surfaceWords[]; };
 
 SuppleRange drawnRange() {
-    return SuppleRange(push.patchCount, push.firstVertex, push.samplesPerPatch, push.verticesPerInstance);
+    return SuppleRange(push.patchCount, push.firstVertex, push.samplesPerPatch, push.verticesPerInstance, 0u, 0u);
 }
 
 uint drawnPatch() { return suppleDrawnPatch(drawnRange(), push.firstPatch, gl_InstanceIndex); }

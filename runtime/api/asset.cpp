@@ -181,6 +181,34 @@ void tell(const cage::Material& from, SuppleMaterialInfo& info) {
     tellTrim(from, info);
 }
 
+/// Checks a description and reads the character. Null if that has worked.
+std::optional<SuppleResult> readAsset(Context& context, const char* function, const SuppleAssetDesc* given,
+                                      cage::Character& out) {
+    SuppleAssetDesc desc{};
+    if (const auto fault = takeIn(context, function, "desc", given, desc)) {
+        return fault;
+    }
+    if ((desc.bytes == nullptr) == (desc.cage == nullptr)) {
+        return refuse(context, ErrorCode::argument, function,
+                      nameOf(desc) + (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
+    }
+    if (const std::optional<Error> fault = faultOfFlags(desc.flags)) {
+        return refuse(context, fault->code, function, fault->message);
+    }
+    if (desc.files != nullptr && desc.files->read == nullptr) {
+        return refuse(context, ErrorCode::nullPointer, function, "files->read is null");
+    }
+    if (const std::optional<Error> fault = faultOfClipFiles(desc)) {
+        return refuse(context, fault->code, function, fault->message);
+    }
+    Result<cage::Character> character = characterOf(desc);
+    if (!character) {
+        return report(context, character.error());
+    }
+    out = std::move(*character);
+    return std::nullopt;
+}
+
 } // namespace
 
 SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* given, SuppleAsset* out) {
@@ -190,34 +218,30 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
             return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
         }
         out->id = 0;
-        SuppleAssetDesc desc{};
-        if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
+        cage::Character character;
+        if (const auto fault = readAsset(context, kHere, given, character)) {
             return *fault;
         }
-        if ((desc.bytes == nullptr) == (desc.cage == nullptr)) {
-            return refuse(context, ErrorCode::argument, kHere,
-                          nameOf(desc) +
-                              (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
-        }
-        if (const std::optional<Error> fault = faultOfFlags(desc.flags)) {
-            return refuse(context, fault->code, kHere, fault->message);
-        }
-        if (desc.files != nullptr && desc.files->read == nullptr) {
-            return refuse(context, ErrorCode::nullPointer, kHere, "files->read is null");
-        }
-        if (const std::optional<Error> fault = faultOfClipFiles(desc)) {
-            return refuse(context, fault->code, kHere, fault->message);
-        }
-        Result<cage::Character> character = characterOf(desc);
-        if (!character) {
-            return report(context, character.error());
-        }
-        Result<uint64_t> id = context.createAsset(std::move(*character));
+        Result<uint64_t> id = context.createAsset(std::move(character));
         if (!id) {
             return report(context, id.error());
         }
         out->id = *id;
         return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleReloadAsset(SuppleContext handle, SuppleAsset asset, const SuppleAssetDesc* given) {
+    constexpr const char* kHere = "suppleReloadAsset";
+    return onDevice(handle, kHere, [&](Context& context) {
+        if (context.assets.find(asset.id) == nullptr) {
+            return refuse(context, ErrorCode::staleHandle, kHere, "stale or foreign asset handle");
+        }
+        cage::Character character;
+        if (const auto fault = readAsset(context, kHere, given, character)) {
+            return *fault;
+        }
+        return reportStatus(context, context.reloadAsset(asset.id, std::move(character)));
     });
 }
 

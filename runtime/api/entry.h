@@ -101,7 +101,7 @@ SuppleResult withSurface(SuppleContext handle, SuppleGroup group, uint32_t surfa
 template <class Body>
 SuppleResult withInstance(SuppleContext handle, SuppleInstance instance, const char* function, Body&& body) noexcept {
     return withGroup(handle, instance.group, function, [&](Context& context, Group& found) {
-        if (!found.slots().holds(instance.slot, instance.generation)) {
+        if (found.follows() || !found.slots().holds(instance.slot, instance.generation)) {
             return refuse(context, ErrorCode::staleHandle, function,
                           "stale or foreign instance handle (slot " + std::to_string(instance.slot) + ")");
         }
@@ -176,8 +176,9 @@ bool within(const E& value, E last) {
     return runtime::rawValue(value) <= static_cast<uint32_t>(last);
 }
 
-inline bool finite(const float* values, size_t count) {
-    return std::all_of(values, values + count, [](float x) { return std::isfinite(x); });
+template <class Number>
+bool finite(const Number* values, size_t count) {
+    return std::all_of(values, values + count, [](Number x) { return std::isfinite(x); });
 }
 
 /// Copies as much of `source` as fits and reports the whole count.

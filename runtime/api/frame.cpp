@@ -14,6 +14,20 @@ SuppleResult suppleCancelFrame(SuppleContext handle) {
                    [&](Context& context) { return reportStatus(context, context.cancelFrame()); });
 }
 
+SuppleResult suppleSetOrigin(SuppleContext handle, const double* origin) {
+    constexpr const char* kHere = "suppleSetOrigin";
+    return guarded(handle, kHere, [&](Context& context) {
+        if (origin == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "origin is null");
+        }
+        if (!finite(origin, 3)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "origin is not finite");
+        }
+        context.setOrigin({origin[0], origin[1], origin[2]});
+        return SUPPLE_OK;
+    });
+}
+
 SuppleResult suppleRecordUploads(SuppleContext handle, VkCommandBuffer commandBuffer) {
     return onDevice(handle, "suppleRecordUploads", [&](Context& context) {
         if (commandBuffer == VK_NULL_HANDLE) {

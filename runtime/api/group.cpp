@@ -67,7 +67,12 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
             return *fault;
         }
-        if (desc.capacity == 0) {
+        if (desc.instancesOf.id != 0 &&
+            (desc.capacity != 0 || runtime::rawValue(desc.skinning) != 0 || runtime::rawValue(desc.poseSource) != 0)) {
+            return refuse(context, ErrorCode::argument, kHere,
+                          "capacity, skinning and poseSource are those of instancesOf: they must be 0");
+        }
+        if (desc.capacity == 0 && desc.instancesOf.id == 0) {
             return refuse(context, ErrorCode::range, kHere, "capacity is 0");
         }
         if (desc.rate > SUPPLE_MAX_RATE) {
@@ -78,7 +83,7 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
         constexpr uint32_t kFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
-                                    SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL;
+                                    SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_WINDOWS;
         if ((desc.flags & ~kFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
@@ -123,6 +128,19 @@ SuppleResult suppleDestroyGroup(SuppleContext handle, SuppleGroup group) {
         return context.destroyGroup(group.id)
                    ? SUPPLE_OK
                    : refuse(context, ErrorCode::staleHandle, "suppleDestroyGroup", "stale or foreign group handle");
+    });
+}
+
+SuppleResult suppleSetCapacity(SuppleContext handle, SuppleGroup group, uint32_t capacity) {
+    constexpr const char* kName = "suppleSetCapacity";
+    return onDevice(handle, kName, [&](Context& context) {
+        if (context.groups.find(group.id) == nullptr) {
+            return refuse(context, ErrorCode::staleHandle, kName, "stale or foreign group handle");
+        }
+        if (capacity == 0) {
+            return refuse(context, ErrorCode::range, kName, "capacity is 0");
+        }
+        return reportStatus(context, context.setCapacity(group.id, capacity));
     });
 }
 

@@ -11,6 +11,10 @@ SuppleResult suppleCreateInstance(SuppleContext handle, SuppleGroup group, Suppl
             return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
         }
         *out = {};
+        if (found.follows()) {
+            return refuse(context, ErrorCode::argument, kHere,
+                          found.asset().character.name + ": the group draws the instances of another one");
+        }
         const std::optional<uint32_t> slot = found.slots().create();
         if (!slot) {
             return refuse(context, ErrorCode::limit, kHere,

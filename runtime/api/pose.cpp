@@ -82,8 +82,23 @@ SuppleResult suppleGetJointTransform(SuppleContext handle, SuppleInstance instan
             return refuse(context, ErrorCode::range, kHere,
                           "joint " + std::to_string(joint) + " of " + std::to_string(joints));
         }
+        found.poses().setOrigin(context.origin());
         const glm::mat4 transform = found.poses().jointTransform(instance.slot, joint);
         std::memcpy(out, glm::value_ptr(transform), sizeof(transform));
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetPosition(SuppleContext handle, SuppleInstance instance, const double* position) {
+    constexpr const char* kHere = "suppleSetPosition";
+    return withAnyPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (position == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "position is null");
+        }
+        if (!finite(position, 3)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "position is not finite");
+        }
+        found.poses().setPosition(instance.slot, {position[0], position[1], position[2]});
         return SUPPLE_OK;
     });
 }

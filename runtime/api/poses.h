@@ -8,6 +8,9 @@ namespace supple::api {
 /// Whether the group's poses come from `source`, or from `other`.
 inline std::optional<SuppleResult> checkSource(Context& context, const char* function, const Group& group,
                                                SupplePoseSource source, SupplePoseSource other) {
+    if (group.follows()) {
+        return refuse(context, ErrorCode::argument, function, "the group draws the instances of another one");
+    }
     const SupplePoseSource own = group.instances().source();
     if (own == source || own == other) {
         return std::nullopt;

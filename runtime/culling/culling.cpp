@@ -182,10 +182,12 @@ void Culling::listParts(const InstanceSlots& slots) {
     }
 }
 
-void Culling::list(InstanceSlots& slots, const Lists& lists, InstanceWindows& windows) {
-    slots.listForCulling(lists.all);
-    windows.visible = slots.list({}, lists.byWindow, windows.size, windows.listed);
+void Culling::list(const InstanceSlots& slots, InstanceListing& listing) {
+    const InstanceListing::Lists lists = listing.next();
+    listing.listForCulling(slots, lists.all);
+    listing.list(slots, lists.byWindow);
     listParts(slots);
+    const InstanceWindows& windows = listing.windows();
     uint32_t first = 0;
     for (uint32_t w = 0; w < windows.count(); ++w) {
         listed_[w] = {first, windows.listed[w].count, windows.firstSlot(w), windows.firstEntry(w)};

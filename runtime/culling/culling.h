@@ -59,7 +59,7 @@ public:
     [[nodiscard]] Status createSets(const Buffers& buffers);
 
     // Visibility
-    void list(InstanceSlots& slots, const Lists& lists, InstanceWindows& windows) override;
+    void list(const InstanceSlots& slots, InstanceListing& listing) override;
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) override;
     [[nodiscard]] InstanceList list() const override { return {list_.buffer(), list_.size(), windows_->capacity}; }
     [[nodiscard]] surface::Window window(uint32_t window, size_t surface) const override;

@@ -1,13 +1,12 @@
 // Which instances the passes behind `deform` work on: all that the host shows, or those that a view sees.
 #pragma once
 
-#include "runtime/instance_windows.h"
+#include "runtime/instance_listing.h"
 #include "runtime/pass_cost.h"
 #include "runtime/transfers.h"
 #include "supple/supple.h"
 #include "surface/program.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -32,13 +31,8 @@ public:
     Visibility(const Visibility&) = delete;
     Visibility& operator=(const Visibility&) = delete;
 
-    /// Where a frame's instances are listed. `all` and `byWindow` have room for all instances, `byPart` for all
-    /// instances of each part of `windows`.
-    struct Lists {
-        std::span<uint32_t> all, byWindow, byPart;
-    };
-    /// Lists this frame's instances, for the device and in `windows`.
-    virtual void list(InstanceSlots& slots, const Lists& lists, InstanceWindows& windows) = 0;
+    /// Lists this frame's instances.
+    virtual void list(const InstanceSlots& slots, InstanceListing& listing) = 0;
     /// What it uploads itself when the list has changed; returns the bytes.
     virtual VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) = 0;
 
@@ -54,41 +48,34 @@ public:
 /// All instances that the host shows.
 class ListedByHost final : public Visibility {
 public:
-    /// Both must outlive this. `list`: the list of instances on the device (runtime/instance_windows.h).
-    ListedByHost(const InstanceWindows& windows, InstanceList list) : windows_(&windows), list_(list) {}
+    /// `listing` must outlive this.
+    explicit ListedByHost(const InstanceListing& listing) : listing_(&listing) {}
 
-    void list(InstanceSlots& slots, const Lists& lists, InstanceWindows& windows) override {
-        windows.visible = slots.list(lists.all, lists.byWindow, windows.size, windows.listed);
-        windows.partEntries = 0;
-        std::fill(windows.parts.begin(), windows.parts.end(), PartList{0, windows.visible});
-        if (windows.parts.empty() || !slots.hiddenParts().any()) {
-            return;
-        }
-        for (const uint32_t part : slots.hiddenParts().order()) {
-            if (slots.isHidden(part)) {
-                const uint32_t count = slots.listPart(part, lists.byPart.subspan(windows.partEntries));
-                windows.parts[part] = {windows.firstPartEntry() + windows.partEntries, count};
-                windows.partEntries += count;
-            }
-        }
+    void list(const InstanceSlots& slots, InstanceListing& listing) override {
+        const InstanceListing::Lists lists = listing.next();
+        listing.list(slots, lists.byWindow);
+        listing.listDrawn(slots, lists);
     }
     VkDeviceSize recordUpload(VkCommandBuffer) override { return 0; }
-    [[nodiscard]] InstanceList list() const override { return list_; }
+    [[nodiscard]] InstanceList list() const override {
+        return {listing_->buffer().buffer(), listing_->passBytes(), listing_->drawnEntries()};
+    }
     [[nodiscard]] surface::Window window(uint32_t window, size_t) const override {
+        const InstanceWindows& windows = listing_->windows();
         surface::Window result;
-        result.push.firstInstance = windows_->firstEntry(window);
-        result.push.instanceCount = windows_->listed[window].count;
-        result.push.firstSlot = windows_->firstSlot(window);
+        result.push.firstInstance = windows.firstEntry(window);
+        result.push.instanceCount = windows.listed[window].count;
+        result.push.firstSlot = windows.firstSlot(window);
         return result;
     }
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override {
-        return {points * windows_->visible, bytes * windows_->visible};
+        const uint32_t visible = listing_->windows().visible;
+        return {points * visible, bytes * visible};
     }
     void addTransfers(Transfers&) const override {}
 
 private:
-    const InstanceWindows* windows_;
-    InstanceList list_;
+    const InstanceListing* listing_;
 };
 
 } // namespace supple::runtime

@@ -212,7 +212,7 @@ PassCost Levels::recordMotion(VkCommandBuffer commandBuffer) const {
     if (!writesMotion()) {
         return {};
     }
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.motion, placed(w, pastSets(w))); });
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.motion, ofPast(placed(w, pastSets(w)))); });
     return {0, 0, windows().visible > 0};
 }
 

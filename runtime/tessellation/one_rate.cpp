@@ -17,12 +17,16 @@ VkDeviceSize HostDraws::recordUpload(const gpu::Device& device, VkCommandBuffer 
                                      std::span<const SuppleDrawRange> draws, const InstanceWindows& windows) {
     if (listed || changed_) {
         std::byte* target = staging_.next();
-        for (const SuppleDrawRange& range : draws) {
-            const PartList list = windows.parts[range.part];
-            const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * list.count,
-                                                       range.firstIndex, 0, range.patchCount * list.first};
-            std::memcpy(target, &command, sizeof(command));
-            target += sizeof(command);
+        const size_t parts = windows.parts.size() / windows.drawCount();
+        for (uint32_t w = 0; w < windows.drawCount(); ++w) {
+            for (const SuppleDrawRange& range : draws) {
+                const PartList list = windows.parts[w * parts + range.part];
+                const uint32_t first = list.first - windows.firstDrawnSlot(w);
+                const VkDrawIndexedIndirectCommand command{range.indexCount, range.patchCount * list.count,
+                                                           range.firstIndex, 0, range.patchCount * first};
+                std::memcpy(target, &command, sizeof(command));
+                target += sizeof(command);
+            }
         }
     } else if (!always) {
         return 0;
@@ -41,14 +45,20 @@ void OneRate::setDraws(std::vector<SuppleDrawRange> draws) {
 
 void OneRate::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     OwnVertices::plan(device, staging);
-    hostDraws_.plan(device, staging, draws_.size(), desc_.framesInFlight);
+    hostDraws_.plan(device, staging, size_t{drawWindows_} * draws_.size(), desc_.framesInFlight);
 }
 
-Status OneRate::createSets(const InstanceSet& instances, const Visibility& visibility) {
+Status OneRate::cutDraws(InstanceWindows& windows, bool byWindows) {
+    const Status status = OwnVertices::cutDraws(windows, byWindows);
+    drawWindows_ = windows.drawCount();
+    return status;
+}
+
+Status OneRate::createSets(const InstanceSet& instances, const InstanceListing& listing, const Visibility& visibility) {
     const Status made = createIndices(indexData_);
     indexData_ = {};
     rates_.front().instances = visibility.list().slots();
-    return made ? OwnVertices::createSets(instances, visibility) : made;
+    return made ? OwnVertices::createSets(instances, listing, visibility) : made;
 }
 
 void OneRate::fillGrid(SuppleGridOutput& output) const {
@@ -78,7 +88,7 @@ PassCost OneRate::recordMotion(VkCommandBuffer commandBuffer) const {
         return {};
     }
     bool first = true;
-    const auto evaluate = [&](const surface::Sets& sets, uint32_t from, uint32_t count) {
+    const auto evaluate = [&](const surface::Sets& sets, uint32_t from, uint32_t count, bool past) {
         if (count == 0) {
             return;
         }
@@ -90,13 +100,13 @@ PassCost OneRate::recordMotion(VkCommandBuffer commandBuffer) const {
         window.sets = sets;
         window.push.firstInstance = from;
         window.push.instanceCount = count;
-        record(commandBuffer, program_.motion, window);
+        record(commandBuffer, program_.motion, past ? ofPast(window) : window);
     };
     // Instances with a past from the coefficients of the frame before, new ones from today's.
     windows().forEach([&](uint32_t w) {
-        const InstanceSlots::Listed& listed = windows().listed[w];
-        evaluate(pastSets(w), windows().firstEntry(w), listed.withPast);
-        evaluate(todaysSets(w), windows().firstEntry(w) + listed.withPast, listed.count - listed.withPast);
+        const InstanceWindows::Listed& listed = windows().listed[w];
+        evaluate(pastSets(w), windows().firstEntry(w), listed.withPast, true);
+        evaluate(todaysSets(w), windows().firstEntry(w) + listed.withPast, listed.count - listed.withPast, false);
     });
     const uint64_t points = uint64_t{vertexCount_} * windows().visible;
     return {points, points * streams_.bytes(Stream::previousPositions)};

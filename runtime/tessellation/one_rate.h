@@ -6,7 +6,8 @@
 
 namespace supple::runtime {
 
-/// Indirect draws that the host counts: one command a draw range, for all visible instances that show its part.
+/// Indirect draws that the host counts: for each window that draws have, one command a draw range, for all visible
+/// instances that show its part.
 class HostDraws {
 public:
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, size_t count, uint32_t framesInFlight);
@@ -24,8 +25,10 @@ private:
 
 class OneRate : public OwnVertices {
 public:
+    [[nodiscard]] Status cutDraws(InstanceWindows& windows, bool byWindows) override;
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
-    [[nodiscard]] Status createSets(const InstanceSet& instances, const Visibility& visibility) override;
+    [[nodiscard]] Status createSets(const InstanceSet& instances, const InstanceListing& listing,
+                                    const Visibility& visibility) override;
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
@@ -39,6 +42,7 @@ protected:
 
     std::vector<std::byte> indexData_; ///< of the index buffer, until that is made
     HostDraws hostDraws_;
+    uint32_t drawWindows_ = 1;
 };
 
 } // namespace supple::runtime

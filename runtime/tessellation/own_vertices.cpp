@@ -31,6 +31,13 @@ BoundBytes OwnVertices::boundBytes() const {
     return bytes;
 }
 
+Status OwnVertices::cutDraws(InstanceWindows& windows, bool byWindows) {
+    const Status status = Tessellation::cutDraws(windows, byWindows);
+    const SuppleVertexFormat format = static_cast<SuppleVertexFormat>(needs().vertexFormat);
+    const VkDeviceSize bytes = VkDeviceSize{evaluation_.verticesPerInstance} * vertexBytes(format);
+    return status ? checkBinding(windows, bytes, "surface vertices") : status;
+}
+
 void OwnVertices::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     Tessellation::plan(device, staging);
     streams_.plan(device, wanted_, static_cast<SuppleVertexFormat>(needs().vertexFormat), vertexCount_,

@@ -12,6 +12,7 @@ namespace supple::runtime {
 class OwnVertices : public Tessellation {
 public:
     [[nodiscard]] BoundBytes boundBytes() const override;
+    [[nodiscard]] Status cutDraws(InstanceWindows& windows, bool byWindows) override;
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
     [[nodiscard]] VkDeviceSize deviceBytes() const override { return indices_.deviceBytes(); }
     [[nodiscard]] const VertexStreams* streams() const override { return &streams_; }

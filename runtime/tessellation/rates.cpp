@@ -27,7 +27,8 @@ public:
     void setLadder(Ladder ladder) override;
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
     [[nodiscard]] Culling::Needs cullingNeeds() const override;
-    [[nodiscard]] Status createSets(const InstanceSet& instances, const Visibility& visibility) override;
+    [[nodiscard]] Status createSets(const InstanceSet& instances, const InstanceListing& listing,
+                                    const Visibility& visibility) override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_RATES; }
     void fillGrid(SuppleGridOutput& output) const override;
     [[nodiscard]] Status canSetRate(uint32_t rate) const override;
@@ -182,10 +183,10 @@ Culling::Needs Rates::cullingNeeds() const {
     return needs;
 }
 
-Status Rates::createSets(const InstanceSet& instances, const Visibility& visibility) {
+Status Rates::createSets(const InstanceSet& instances, const InstanceListing& listing, const Visibility& visibility) {
     Status status = createIndices(indexData_);
     indexData_ = {};
-    status = status ? OwnVertices::createSets(instances, visibility) : status;
+    status = status ? OwnVertices::createSets(instances, listing, visibility) : status;
     for (Rate& rate : own_) {
         status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;
     }
@@ -262,7 +263,8 @@ void Rates::recordRates(VkCommandBuffer commandBuffer, bool previous) const {
             first = false;
             surface::Window window = culling().window(w, desc_.surface, r);
             window.sets = rate.sets.at({w, previous ? 1 - pool_ : pool_, previous});
-            record(commandBuffer, previous ? rate.program.motion : rate.program.evaluate, window);
+            record(commandBuffer, previous ? rate.program.motion : rate.program.evaluate,
+                   previous ? ofPast(window) : window);
         });
     }
 }

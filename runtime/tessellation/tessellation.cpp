@@ -140,6 +140,27 @@ Status Tessellation::checkVertices(uint64_t vertices) const {
     return success();
 }
 
+Status Tessellation::checkBinding(const InstanceWindows& windows, VkDeviceSize bytes, const char* what) const {
+    const VkDeviceSize limit = desc_.device->limits.maxStorageBufferRange, all = bytes * windows.drawSize;
+    if (all <= limit) {
+        return success();
+    }
+    std::string text = std::to_string(windows.capacity) + " instances at rate " + std::to_string(askedRate_) +
+                       " have " + std::to_string(all) + " bytes of " + what + ", but the device binds at most " +
+                       std::to_string(limit) + " at a time: the largest capacity is " + std::to_string(limit / bytes);
+    if (view() == nullptr) {
+        text += ", or draw by windows (SUPPLE_GROUP_WINDOWS)";
+    }
+    return Error{ErrorCode::limit, text};
+}
+
+Status Tessellation::cutDraws(InstanceWindows& windows, bool byWindows) {
+    windows.drawSize = byWindows ? windows.size : windows.capacity;
+    const bool patches = (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0;
+    const VkDeviceSize bytes = patches ? tables().patches.size() * kPatchStride * gpu::kVec4Bytes : 0;
+    return bytes > 0 ? checkBinding(windows, bytes, "patch coefficients") : success();
+}
+
 Status Tessellation::checkRate(uint32_t rate, uint32_t most) const {
     if (rate == 0 || rate > most) {
         return Error{ErrorCode::range, desc_.asset->character.name + ": rate " + std::to_string(rate) + " of at most " +
@@ -173,11 +194,13 @@ void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
     }
 }
 
-Status Tessellation::createSets(const InstanceSet& instances, const Visibility& visibility) {
+Status Tessellation::createSets(const InstanceSet& instances, const InstanceListing& listing,
+                                const Visibility& visibility) {
     instances_ = &instances;
+    listing_ = &listing;
     visibility_ = &visibility;
     clear_.renew(pools_[0].size() > 0);
-    const Status gathers = gathered_ ? gathered_->createSets(*desc_.device, instances) : success();
+    const Status gathers = gathered_ ? gathered_->createSets(*desc_.device, instances, listing) : success();
     return !gathers ? gathers : makeSets(sets_, *scheme_, program_);
 }
 

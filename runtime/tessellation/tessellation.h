@@ -81,13 +81,17 @@ public:
     /// The group's, if ladder() has rates.
     virtual void setLadder(Ladder /*ladder*/) {}
     [[nodiscard]] virtual BoundBytes boundBytes() const;
+    /// `byWindows`: the host draws the windows that passes have. Otherwise the device must be able to bind what draws
+    /// read as a whole.
+    [[nodiscard]] virtual Status cutDraws(InstanceWindows& windows, bool byWindows);
     /// Joins the view; asks it for room.
     [[nodiscard]] virtual Status join(const InstanceWindows& /*windows*/) { return success(); }
     /// Groups of a view.
     [[nodiscard]] virtual Culling::Needs cullingNeeds() const { return {}; }
     virtual void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
     /// When the plans are carried out. `visibility` is the group's Culling if it belongs to a view.
-    [[nodiscard]] virtual Status createSets(const InstanceSet& instances, const Visibility& visibility);
+    [[nodiscard]] virtual Status createSets(const InstanceSet& instances, const InstanceListing& listing,
+                                            const Visibility& visibility);
 
     [[nodiscard]] virtual VkDeviceSize deviceBytes() const { return 0; } ///< beside the planned buffers
     // Output; the API asks for what a tessellation of this kind has.
@@ -113,6 +117,8 @@ public:
     [[nodiscard]] bool gathers() const { return gathered_.has_value(); }
     /// The deformed vertices of its parts.
     PassCost recordGather(VkCommandBuffer commandBuffer) const;
+    /// How far the origin of the coordinates has moved since the group's last recording.
+    void setPastStep(const glm::vec3& step) { pastStep_ = step; }
     /// `changed`: the list of instances has.
     virtual VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed);
     [[nodiscard]] virtual bool attributesDue() const { return false; }
@@ -150,10 +156,12 @@ protected:
     [[nodiscard]] surface::Needs needs() const;
     [[nodiscard]] Status prepare();
     [[nodiscard]] Status checkVertices(uint64_t vertices) const;
+    /// Whether the device can bind what a window that draws have holds: `bytes` per instance.
+    [[nodiscard]] Status checkBinding(const InstanceWindows& windows, VkDeviceSize bytes, const char* what) const;
     [[nodiscard]] Status checkRate(uint32_t rate, uint32_t most) const;
     /// Null without a view.
     [[nodiscard]] View* view() const { return desc_.view.get(); }
-    [[nodiscard]] const InstanceWindows& windows() const { return instances_->windows(); }
+    [[nodiscard]] const InstanceWindows& windows() const { return listing_->windows(); }
     /// What the surface is made of: its piece, or all of the asset's cage.
     [[nodiscard]] const cage::Cage& cage() const { return desc_.asset->cageOf(desc_.piece); }
 
@@ -163,6 +171,13 @@ protected:
     /// Sets that write previous positions, from the coefficients of the frame before.
     [[nodiscard]] const surface::Sets& pastSets(uint32_t window) const { return sets_.at({window, 1 - pool_, true}); }
     [[nodiscard]] const surface::Sets& todaysSets(uint32_t window) const { return sets_.at({window, pool_, true}); }
+    /// A window whose previous positions are evaluated.
+    [[nodiscard]] surface::Window ofPast(surface::Window window) const {
+        window.push.pastX = pastStep_.x;
+        window.push.pastY = pastStep_.y;
+        window.push.pastZ = pastStep_.z;
+        return window;
+    }
     void record(VkCommandBuffer commandBuffer, std::span<const surface::Step> steps,
                 const surface::Window& window) const {
         surface::record(*desc_.device, commandBuffer, steps, window);
@@ -184,11 +199,13 @@ protected:
     surface::Program program_;
     StreamSet wanted_;
     const InstanceSet* instances_ = nullptr;
+    const InstanceListing* listing_ = nullptr;
     const Visibility* visibility_ = nullptr;
     std::array<gpu::PlannedBuffer, 2> pools_; ///< motion: the pools take turns
     gpu::PlannedBuffer patches_, scratch_;
     SurfaceSets sets_;
     uint32_t pool_ = 0; ///< of the newest frame
+    glm::vec3 pastStep_{0.0f};
     RecordedOnce clear_;
 
 private:

@@ -31,6 +31,8 @@ struct SheetPush {
     uint32_t firstVertex;
     uint32_t samplesPerPatch;
     uint32_t verticesPerInstance;
+    uint32_t firstSlot;
+    uint32_t previousWords;
     uint32_t shadow;
 };
 
@@ -144,7 +146,7 @@ void Scene::drawSheets(VkCommandBuffer commands, VkPipeline pipeline, bool shado
     vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset, VK_INDEX_TYPE_UINT16);
     for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
         const SuppleDrawRange& range = grid.drawRanges[r];
-        const SheetPush push{range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance,
+        const SheetPush push{range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance, 0, 0,
                              shadow ? 1u : 0u};
         vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
         vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,

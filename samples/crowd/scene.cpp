@@ -33,6 +33,7 @@ struct CharacterPush {
     uint32_t draw; ///< SuppleDraw of shaders/supple_surface.glsl
     uint32_t verticesPerInstance;
     uint32_t samplesPerPatch;
+    uint32_t previousWords;
     uint32_t capacity;
     uint32_t paint;
     uint32_t sun;
@@ -181,6 +182,7 @@ void Scene::drawCharacters(VkCommandBuffer commands, uint32_t slot, bool sun, bo
             const CharacterPush push{i,
                                      draw.verticesPerInstance,
                                      draw.samplesPerPatch,
+                                     0,
                                      draw.capacity,
                                      paint ? 1u : 0u,
                                      sun ? 1u : 0u,

@@ -51,9 +51,6 @@ int Characters::errors() {
 
 Characters::Characters(const Device& device, uint32_t framesInFlight) {
     shown_.character = -1;
-    VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(device.physical(), &properties);
-    largestBuffer_ = properties.limits.maxStorageBufferRange;
     auto desc = supple::sized<SuppleContextDesc>();
     desc.instance = device.instance();
     desc.physicalDevice = device.physical();
@@ -140,22 +137,23 @@ bool Characters::makeGroup(SuppleScheme scheme, uint32_t rate) {
     desc.capacity = kMaxCount;
     desc.scheme = scheme;
     desc.rate = rate;
-    desc.flags = SUPPLE_GROUP_ATTRIBUTES; // texture coordinates and colors
-    for (;; desc.capacity = (desc.capacity + 1) / 2) {
+    // Texture coordinates and colors. Of windows there shall be one: then a shader gets the vertices as one buffer.
+    desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_WINDOWS;
+    for (;;) {
         supple::Group group;
         if (supple::Group::create(context_, desc, group) != SUPPLE_OK)
             return false;
         SuppleGroupInfo info{};
         must(group.info(info), "suppleGetGroupInfo");
+        if (info.windowCount > 1) { // fewer instances
+            desc.capacity = info.windowSize;
+            continue;
+        }
         std::vector<Surface> surfaces(info.surfaceCount);
-        bool fits = true;
         for (uint32_t i = 0; i < info.surfaceCount; ++i) {
             must(group.vertexStreams(surfaces[i].streams, i), "suppleGetVertexStreams");
             must(group.gridOutput(surfaces[i].grid, i), "suppleGetGridOutput");
-            fits = fits && surfaces[i].streams.vertices.size <= largestBuffer_;
         }
-        if (!fits && desc.capacity > 1)
-            continue; // more than a shader can be given as one buffer: fewer of them
         instances_.clear();
         group_ = std::move(group);
         info_ = info;

@@ -50,7 +50,6 @@ private:
     void stand(uint32_t count);
     static void onLog(SuppleSeverity severity, SuppleMessage message, const char* text, void* user);
 
-    VkDeviceSize largestBuffer_ = 0;
     QString lastError_;
     QString refusal_;
     Settings shown_;

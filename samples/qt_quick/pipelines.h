@@ -11,7 +11,7 @@ constexpr VkSampleCountFlagBits kSamples = VK_SAMPLE_COUNT_4_BIT;
 
 /// One draw: shaders/range.glsl.
 struct DrawPush {
-    uint32_t range[4]; ///< SuppleRange of supple_surface.glsl
+    uint32_t range[8]; ///< SuppleRange of supple_surface.glsl, and padding
     float factor[4];
     float uvRows[8];
 };

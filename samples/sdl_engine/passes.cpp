@@ -29,6 +29,8 @@ struct RangePush {
     uint32_t firstVertex;
     uint32_t samplesPerPatch;
     uint32_t verticesPerInstance;
+    uint32_t firstSlot;
+    uint32_t previousWords;
 };
 
 constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
@@ -161,7 +163,8 @@ void Passes::drawCharacters(VkCommandBuffer commands, VkPipeline pipeline, uint3
         vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset, VK_INDEX_TYPE_UINT16);
         for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
             const SuppleDrawRange& range = grid.drawRanges[r];
-            const RangePush push{range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance};
+            const RangePush push{
+                range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance, 0, 0};
             vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
             vkCmdSetCullMode(commands, cull && !group.doubleSided[r] ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
             vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,

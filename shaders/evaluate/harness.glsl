@@ -26,6 +26,7 @@ struct PatchPlace {
 
 #ifdef LEVELS
 PatchPlace placeOf(const LodRecord r) {
+    setPast(r.isNew);
     return PatchPlace(push.table + kRecordElements * (r.patchIndex - push.firstPatch), r.slot * push.poolStride, r.firstVertex,
                       r.capacity, r.capacityIndex, r.isNew, r.patchIndex == kEmptyRecord);
 }

@@ -19,10 +19,19 @@ uint encodeOctahedral(vec3 n) {
     return (bits.x & 0xFFFFu) | bits.y << 16u;
 }
 
+// Previous positions lie in the space of this frame: they are less by what the origin has moved since the frame they come from.
+// Those of instances without a past are this frame's own.
+vec3 pastStep = vec3(push.window.pastX, push.window.pastY, push.window.pastZ);
+void setPast(bool isNew) {
+    if (kVertexFormat == kVertexPosition)
+        pastStep = isNew ? vec3(0.0) : vec3(push.window.pastX, push.window.pastY, push.window.pastZ);
+}
+
 // `normal`: of any length; a vanishing one stays zero instead of becoming NaN.
 void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
     if (kVertexFormat == kVertexPosition) {
-        surfaceVectors[vertex] = position;
+        precise vec3 past = position - pastStep; // the same bits if that is zero
+        surfaceVectors[vertex] = past;
     } else if (kVertexFormat == kVertex24) {
         surfaceVectors[2u * vertex] = position;
         surfaceVectors[2u * vertex + 1u] = normal * inversesqrt(max(dot(normal, normal), kTiny));
@@ -41,6 +50,7 @@ uvec3 normalWords(vec3 normal) {
 }
 void storePosition(uint vertex, vec3 position, uint word) {
     if (kVertexFormat == kVertex16) surface16[vertex] = uvec4(floatBitsToUint(position), word);
+    else if (kVertexFormat == kVertexPosition) storeSurfaceVertex(vertex, position, vec3(0.0));
     else surfaceVectors[kVertexStores * vertex] = position;
 }
 void storeNormal(uint vertex, uvec3 words) { surfaceVectors[kVertexStores * vertex + 1u] = uintBitsToFloat(words); }

@@ -20,6 +20,7 @@ void main() {
         // In a view, instances without a past come from today's frames, which are bound in the place of the cage.
         bool isNew = push.today != 0u && (entry & kInstanceIsNew) != 0u;
         vec3 position;
+        setPast(isNew);
         if (isNew) position = cageVertex(frame);
         else position = poolVector(frame);
         storeSurfaceVertex(vertex, position, vec3(0.0));

@@ -15,6 +15,8 @@ struct WindowPush {
     uint firstSlot;   // of the window, in the group
     uint firstRun;    // of the window, in the view (shared/lod.h)
     uint firstBucket; // likewise
+    // Previous positions: how far the origin of the coordinates has moved since the frame that they come from.
+    float pastX, pastY, pastZ;
 };
 
 SUPPLE_SHARED_END

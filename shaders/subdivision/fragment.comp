@@ -32,6 +32,7 @@ void writePoint(uint at, vec3 p) {
 void main() {
     // Workgroups past the last repeat it: all lanes must meet at the barriers.
     uint item = min(workgroupIndex(), itemCount() - 1u), entry = entryOf(item), instance = entry & kInstanceSlotMask;
+    setPast(push.today != 0u && (entry & kInstanceIsNew) != 0u);
     uvec4 record = tableElement(push.records + elementOf(item));
     uint header = record.x, fragment = record.y;
     uvec4 head = tableElement(header), last = tableElement(header + 2u);

@@ -49,6 +49,7 @@ void limitStrip() {
 
 void main() {
     findLane();
+    setPast(push.today != 0u && (lane.listed & kInstanceIsNew) != 0u);
     if (kKind == kInBulk) {
         limitStrip();
         return;

@@ -58,7 +58,7 @@ Character makeCharacter(SuppleContext context, uint32_t instances = 1) {
     groupDesc.asset = c.asset;
     groupDesc.capacity = instances;
     groupDesc.rate = 3;
-    groupDesc.flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
+    groupDesc.flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_WINDOWS;
     c.result = suppleCreateGroup(context, &groupDesc, &c.group);
     c.instances.resize(c.result == SUPPLE_OK ? instances : 0);
     for (SuppleInstance& instance : c.instances) {

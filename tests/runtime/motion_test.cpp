@@ -493,7 +493,7 @@ TEST_F(MotionFrames, WindowsOfInstancesMoveAlike) {
                     desc.capacity = kCapacity;
                     desc.scheme = scheme;
                     desc.rate = subdivides ? 8 : 4;
-                    desc.flags = SUPPLE_GROUP_MOTION;
+                    desc.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_WINDOWS;
                     return desc;
                 };
                 Crowd windows(small, desc(small)), one(large, desc(large));

@@ -280,11 +280,15 @@ std::vector<uint32_t> Crowd::listed() const {
     const host::GroupOutput now = output();
     const std::vector<std::byte> bytes = read(now.info.instances);
     const std::vector<VkDrawIndexedIndirectCommand> commands = draws();
-    const uint32_t visible = commands.empty() ? 0 : commands[0].instanceCount / now.grid.drawRanges[0].patchCount;
-    std::vector<uint32_t> slots(visible);
-    EXPECT_LE(visible * sizeof(uint32_t), bytes.size());
-    if (visible > 0) { // an empty list has no address to copy to
-        std::memcpy(slots.data(), bytes.data(), slots.size() * sizeof(uint32_t));
+    const std::vector<uint32_t> list = as<uint32_t>(bytes);
+    std::vector<uint32_t> slots;
+    // Window by window, if draws have several.
+    for (uint32_t w = 0; size_t{w} * now.grid.drawRangeCount < commands.size(); ++w) {
+        const VkDrawIndexedIndirectCommand& command = commands[size_t{w} * now.grid.drawRangeCount];
+        const uint32_t visible = command.instanceCount / now.grid.drawRanges[0].patchCount;
+        const uint32_t first = w * now.info.windowSize;
+        EXPECT_LE(first + visible, list.size());
+        slots.insert(slots.end(), list.begin() + first, list.begin() + first + visible);
     }
     return slots;
 }

@@ -52,25 +52,36 @@ private:
         const SuppleRate& rate = grid.rates[r];
         const std::vector<uint32_t> list = as<uint32_t>(crowd_.read(rate.instances));
         for (uint32_t d = 0; d < rate.drawRangeCount; ++d) {
-            const uint32_t index = rate.firstDrawRange + d;
-            const SuppleDrawRange& range = grid.drawRanges[index];
-            const VkDrawIndexedIndirectCommand& command = commands_[index];
-            ASSERT_EQ(command.indexCount, range.indexCount);
-            ASSERT_EQ(command.firstIndex, range.firstIndex);
-            ASSERT_EQ(command.vertexOffset, 0);
-            for (uint32_t n = 0; n < command.instanceCount; ++n) {
-                // As shaders/supple_surface.glsl does.
-                const uint32_t i = command.firstInstance + n, entry = i / range.patchCount;
-                ASSERT_LT(entry, list.size());
-                const uint32_t slot = list[entry], own = i % range.patchCount;
-                ASSERT_LT(slot, output_.info.capacity);
-                const bool mesh = range.domain == SUPPLE_DOMAIN_MESH;
-                DrawnCorners& corners = drawn_[{slot, r, mesh ? d : range.firstPatch + own}];
-                ASSERT_TRUE(corners.empty()) << "drawn twice: slot " << slot << ", range " << d << ", patch " << own;
-                for (uint32_t k = 0; k < command.indexCount; ++k) {
-                    addVertex(corners, size_t{slot} * grid.verticesPerInstance + range.firstVertex +
-                                           own * range.samplesPerPatch + indices_[command.firstIndex + k]);
-                }
+            for (uint32_t w = 0; size_t{w} * grid.drawRangeCount < commands_.size(); ++w) {
+                readCommand(r, d, w, list);
+            }
+        }
+    }
+
+    /// The command of a draw range in a window.
+    void readCommand(uint32_t r, uint32_t d, uint32_t window, const std::vector<uint32_t>& list) {
+        const SuppleGridOutput& grid = output_.grid;
+        const uint32_t index = grid.rates[r].firstDrawRange + d, firstSlot = window * output_.info.windowSize;
+        const bool cut = commands_.size() > grid.drawRangeCount;
+        const SuppleDrawRange& range = grid.drawRanges[index];
+        const VkDrawIndexedIndirectCommand& command = commands_[size_t{window} * grid.drawRangeCount + index];
+        ASSERT_EQ(command.indexCount, range.indexCount);
+        ASSERT_EQ(command.firstIndex, range.firstIndex);
+        ASSERT_EQ(command.vertexOffset, 0);
+        for (uint32_t n = 0; n < command.instanceCount; ++n) {
+            // As shaders/supple_surface.glsl does.
+            const uint32_t i = command.firstInstance + n, entry = firstSlot + i / range.patchCount;
+            ASSERT_LT(entry, list.size());
+            const uint32_t slot = list[entry], own = i % range.patchCount;
+            ASSERT_LT(slot, output_.info.capacity);
+            ASSERT_GE(slot, firstSlot);
+            ASSERT_TRUE(!cut || slot < firstSlot + output_.info.windowSize) << "not bound with this window";
+            const bool mesh = range.domain == SUPPLE_DOMAIN_MESH;
+            DrawnCorners& corners = drawn_[{slot, r, mesh ? d : range.firstPatch + own}];
+            ASSERT_TRUE(corners.empty()) << "drawn twice: slot " << slot << ", range " << d << ", patch " << own;
+            for (uint32_t k = 0; k < command.indexCount; ++k) {
+                addVertex(corners, size_t{slot} * grid.verticesPerInstance + range.firstVertex +
+                                       own * range.samplesPerPatch + indices_[command.firstIndex + k]);
             }
         }
     }

@@ -53,6 +53,9 @@ Result<SuppleAsset> Workbench::createAsset(cage::Character character) {
 Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc) {
     desc.structSize = sizeof desc;
     desc.capacity = std::max(desc.capacity, 1u);
+    if (desc.view.id == 0) { // nothing is drawn, so that it need not be bound as a whole
+        desc.flags |= SUPPLE_GROUP_WINDOWS;
+    }
     Result<uint64_t> id = inside_->context->createGroup(desc);
     if (!id) {
         return id.error();

@@ -112,7 +112,9 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     run.clip += (run.clip.empty() ? "" : " + ") + (bindPose ? "bind pose" : printable(clips[subject.clip].name));
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
-    desc.flags = options_.motion && !options_.view ? uint32_t{SUPPLE_GROUP_MOTION} : 0;
+    if (!options_.view) { // nothing is drawn, so that it need not be bound as a whole
+        desc.flags = SUPPLE_GROUP_WINDOWS | (options_.motion ? uint32_t{SUPPLE_GROUP_MOTION} : 0);
+    }
     desc.asset = subject.asset;
     desc.capacity = instances;
     desc.scheme = schemeOf(scheme);

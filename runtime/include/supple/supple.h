@@ -539,6 +539,17 @@ typedef struct SuppleImageInfo {
  * SUPPLE_ASSET_STRICT. If only a scheme cannot take the cage (a face that is no quad), suppleCreateGroup fails instead,
  * so the cage alone can still be used (SUPPLE_SCHEME_CAGE). */
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
+/** Loads an asset anew in its place (hot reload). desc is as for suppleCreateAsset. The handles of the asset, of its
+ * groups and of their instances stay valid. Instances keep their slots, transforms, visibility, user data and poses.
+ * What they have of the old version is found in the new one by name: joints, morph targets, hidden parts, clips and
+ * masks that play, schemes of parts. Joints and morph targets that are new are in the rest pose. A layer of
+ * suppleSetPlayback whose clip is gone is left out.
+ * All pointers that live as long as the asset, and all output of its groups (suppleGetGroupInfo, ...), are dead at
+ * once: ask for them again. The memory is freed when the frames that used it are complete. In the next suppleRecord all
+ * instances are new (suppleTeleport). With PALETTE_BUFFER and CAGE_BUFFER the host fills the new buffers.
+ * Takes as long as creating the asset and its groups. Errors: those of suppleCreateAsset and of suppleCreateGroup; then
+ * nothing has changed, and everything goes on as it was. */
+SUPPLE_API SuppleResult suppleReloadAsset(SuppleContext context, SuppleAsset asset, const SuppleAssetDesc* desc);
 /** The handle and all pointers that live as long as the asset are dead at once. The asset's groups keep what they
  * need. */
 SUPPLE_API SuppleResult suppleDestroyAsset(SuppleContext context, SuppleAsset asset);
@@ -617,7 +628,10 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_INDEXED_MESH = 8,
     /** Groups of a view: one level of detail per instance instead of one per edge. It is computed from the instance's
      * bounds, and from the longest edge and the sharpest bend in the bind pose. */
-    SUPPLE_GROUP_ONE_LEVEL = 32
+    SUPPLE_GROUP_ONE_LEVEL = 32,
+    /** Groups without a view: the host draws the group window by window (SuppleGroupInfo.windowCount). Without this
+     * flag suppleCreateGroup fails if the device cannot bind the surface vertices as a whole. */
+    SUPPLE_GROUP_WINDOWS = 64
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
@@ -650,6 +664,13 @@ typedef struct SuppleGroupDesc {
      * of them; it counts for the others. SUPPLE_SCHEME_CAGE is for all parts or none. */
     const SuppleScheme* partSchemes;
     uint32_t partSchemeCount;
+    /** Optional: the group draws the instances of this group, which it follows, instead of instances of its own: in a
+     * second view (split screen, a mirror), with another scheme or rate. Both groups have the same asset. capacity,
+     * skinning and poseSource are those of the followed group, and 0 here. Instances are created and posed in the
+     * followed group alone, and both use their slots. A frame that records the group must record the followed group
+     * too, in the same suppleRecord or an earlier one. A group that follows another cannot be followed. Once the
+     * followed group is destroyed, this group can only be destroyed. */
+    SuppleGroup instancesOf;
 } SuppleGroupDesc;
 
 /** Creates a group without instances. Compiles the pipelines that no earlier group of the context has needed, which may
@@ -659,6 +680,15 @@ SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGro
 /** Also destroys its instances. The handle is dead at once. The memory is freed when the frames that used the group are
  * complete (suppleBeginFrame). */
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
+/** Changes how many instances the group has room for, 1 or more. The handles of the group, of its instances and of
+ * groups that follow it (SuppleGroupDesc.instancesOf) stay valid. Instances keep their slots, poses, transforms,
+ * visibility and user data, and the group keeps its rate. All output of these groups (suppleGetGroupInfo, ...) is dead
+ * at once: ask for it again. Its memory is freed when the frames that used it are complete; until then both are there.
+ * In the next suppleRecord all instances are new (suppleTeleport). With PALETTE_BUFFER and CAGE_BUFFER the host fills
+ * the new buffers. Compiles no pipeline.
+ * Errors: an instance has a slot that is not below capacity; the group follows another one; those of suppleCreateGroup.
+ * Then nothing has changed. */
+SUPPLE_API SuppleResult suppleSetCapacity(SuppleContext context, SuppleGroup group, uint32_t capacity);
 /** Changes the rate of all surfaces from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must
  * be 1 to the rate that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND or POLYGONS, or with
  * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. Groups with levels
@@ -691,9 +721,13 @@ SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstan
  * Instances that were not visible in the group's last suppleRecord are new without this call. */
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
 /** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
- * are written in the space that it maps to. A mirroring transform reverses the winding and the normals. Errors: not
- * finite, another last row, or the host fills the group's poses (SupplePoseSource). */
+ * are written in the space that it maps to, relative to the origin (suppleSetOrigin). A mirroring transform reverses
+ * the winding and the normals. Errors: not finite, another last row, or the host fills the group's poses
+ * (SupplePoseSource). */
 SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance instance, const float* transform);
+/** Sets the translation of an instance's transform alone, with the precision that large worlds need. position: three
+ * doubles. The next suppleSetTransform replaces it. Errors: as suppleSetTransform. */
+SUPPLE_API SuppleResult suppleSetPosition(SuppleContext context, SuppleInstance instance, const double* position);
 
 /* ---------------------------------------------------------------------------------------------------- poses */
 
@@ -743,6 +777,17 @@ SUPPLE_API SuppleResult suppleGetJointTransform(SuppleContext context, SuppleIns
  * must not exceed framesInFlight. Frees what was destroyed and is no longer used, and reads finished timestamps. Never
  * waits. */
 SUPPLE_API SuppleResult suppleBeginFrame(SuppleContext context, uint64_t frame, uint64_t completedFrame);
+/** Large worlds: sets where the coordinates on the device begin, three doubles; (0, 0, 0) at first. Set it near the
+ * camera, as often as you like. It holds from now on; if a group is recorded in this frame already, from the next
+ * suppleBeginFrame on. Surface vertices, previous positions, bounds and
+ * suppleGetJointTransform are then relative to it: Supple subtracts it, in double precision, from the translation of
+ * every instance (suppleSetPosition). Previous positions are relative to the present origin, also in the frame of a
+ * change: so project them with the last frame's camera as seen from the present origin. Positions of cameras and of
+ * depth pyramids are relative to the present origin as well.
+ * A group that is not recorded in a frame stays relative to the origin that it was recorded with. Palettes and cages
+ * that the host writes (PALETTE_BUFFER, CAGE_BUFFER) are its own: it subtracts the origin itself.
+ * Errors: not finite. */
+SUPPLE_API SuppleResult suppleSetOrigin(SuppleContext context, const double* origin);
 /** Tells Supple that what was recorded since suppleBeginFrame will never be submitted (for example because the
  * swapchain is lost). The next frame repeats its uploads, and its instances are then new (suppleTeleport). Count the
  * frame as completed in suppleBeginFrame. Nothing can be recorded until the next suppleBeginFrame. */
@@ -842,9 +887,17 @@ typedef struct SuppleGroupInfo {
      * without a view have more entries behind these: for every part that some instance hides, the slots of the visible
      * instances that show it, in rising order. The draws of such a part begin there: firstInstance of the indirect
      * command is the first of these entries, times SuppleDrawRange.patchCount. gl_InstanceIndex counts from
-     * firstInstance, so shaders do the same as without hidden parts. */
+     * firstInstance, so shaders do the same as without hidden parts.
+     * With SUPPLE_GROUP_WINDOWS, the visible slots of window w begin at entry w * windowSize. The draws of a window
+     * count their entries from there, and firstInstance leads from there to the list of a part. */
     SuppleBufferRange instances;
     VkDeviceSize deviceBytes; /**< device memory that the group holds, without its share of the asset's tables */
+    /** A device bounds storage buffers (VkPhysicalDeviceLimits::maxStorageBufferRange), so a large group is cut into
+     * windows. Window w is the slots from
+     * w * windowSize on, windowSize or what is left of them. The device can bind what a window has of every buffer that
+     * has an entry per slot, at the offset of the window's first slot. Windows begin at multiples of 256 bytes. */
+    uint32_t windowCount;
+    uint32_t windowSize;
 } SuppleGroupInfo;
 
 /** Fills out. */
@@ -877,9 +930,10 @@ typedef struct SuppleVertexStreams {
     uint32_t structSize;
     SuppleVertexFormat vertexFormat;
     SuppleBufferRange vertices; /**< in vertexFormat */
-    /** MOTION: float3, where the vertex was in the group's suppleRecord before the last one, at the present rate. For
-     * new instances (suppleTeleport) it is the present position. In frames that do not record the group, nothing has
-     * moved: do not read this. */
+    /** MOTION: float3, where the vertex was in the group's suppleRecord before the last one, at the present rate,
+     * relative to the present origin. For new instances (suppleTeleport) it is the present position. In a frame that
+     * does not record the group, nothing has moved since the frame before: bind `vertices` in its place, with their
+     * stride (previousWords in supple_surface.glsl). */
     SuppleBufferRange previousPositions;
     SuppleBufferRange attributes; /**< ATTRIBUTES: float2 uv, linear RGBA in 4 x unorm16 */
     SuppleBufferRange uvs1;       /**< ATTRIBUTES, if the cage has a second UV set: float2 */
@@ -950,11 +1004,12 @@ typedef struct SuppleGridOutput {
      * (patch - r.firstPatch) * r.samplesPerPatch + sample. MESH: slot * verticesPerInstance + index. */
     const SuppleDrawRange* drawRanges;
     uint32_t drawRangeCount;
-    uint32_t rateCount;         /**< entries of rates */
-    const SuppleRate* rates;    /**< in rising order. RATES: each instance is drawn at one. Else there is one entry */
-    SuppleBufferRange indices;  /**< uint16, of meshes uint32: see `stride` and SuppleDrawRange */
-    SuppleBufferRange indirect; /**< VkDrawIndexedIndirectCommand per draw range, for the visible instances that show
-                                 * its part */
+    uint32_t rateCount;        /**< entries of rates */
+    const SuppleRate* rates;   /**< in rising order. RATES: each instance is drawn at one. Else there is one entry */
+    SuppleBufferRange indices; /**< uint16, of meshes uint32: see `stride` and SuppleDrawRange */
+    /** VkDrawIndexedIndirectCommand per draw range, for the visible instances that show its part. With
+     * SUPPLE_GROUP_WINDOWS: the same for each window, window after window. */
+    SuppleBufferRange indirect;
 } SuppleGridOutput;
 
 /** Fills out. Errors: no such surface, or it has another tessellation (SuppleSurfaceInfo.tessellation). */

@@ -1,0 +1,75 @@
+// Which instances the passes of a group work on in a frame: the list on the device, its windows, and which instances
+// have a past.
+#pragma once
+
+#include "gpu/buffer_plan.h"
+#include "runtime/change_staging.h"
+#include "runtime/instance_slots.h"
+#include "runtime/instance_windows.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace supple::runtime {
+
+class InstanceListing {
+public:
+    InstanceListing() = default;
+    /// `listsParts`: of so many parts the host lists the instances that show them; 0: it lists none.
+    InstanceListing(InstanceWindows windows, size_t listsParts);
+    void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t framesInFlight);
+
+    [[nodiscard]] const InstanceWindows& windows() const { return windows_; }
+    [[nodiscard]] const gpu::PlannedBuffer& buffer() const { return list_; }
+    /// Of the list, what passes read: capacity entries for draws, then as many by window.
+    [[nodiscard]] VkDeviceSize passBytes() const { return 2 * VkDeviceSize{windows_.capacity} * sizeof(uint32_t); }
+    /// What draws read: all of it if the host lists parts.
+    [[nodiscard]] uint32_t drawnEntries() const {
+        return windows_.parts.empty() ? windows_.capacity : static_cast<uint32_t>(list_.size() / sizeof(uint32_t));
+    }
+    /// Bits of the priorities that the last listed instances have.
+    [[nodiscard]] uint32_t priorities() const { return priorities_; }
+
+    /// Whether list() would give anything else than the last time: in the frame after a change too, when what was new
+    /// has come to have a past.
+    [[nodiscard]] bool changed(const InstanceSlots& slots) const {
+        return settles_ || slots.version() != listedVersion_;
+    }
+    /// Where a frame's instances are listed: for draws, by window, for every part.
+    struct Lists {
+        std::span<uint32_t> all, byWindow, byPart;
+    };
+    /// The memory for a change.
+    [[nodiscard]] Lists next();
+    /// Lists the frame's instances by window, as shaders/shared/instances.h has them, and notes them as evaluated.
+    void list(const InstanceSlots& slots, std::span<uint32_t> byWindow);
+    /// Behind list(): what draws of the host's read.
+    void listDrawn(const InstanceSlots& slots, const Lists& lists);
+    /// Before list(): the visible slots with flags, as culling takes them (shaders/shared/bounds.h).
+    void listForCulling(const InstanceSlots& slots, std::span<uint32_t> all) const;
+    /// Every instance is new to the next list().
+    void forgetAll();
+
+    /// Copies the newest lists to the device; the bytes.
+    VkDeviceSize recordCopies(const gpu::Device& device, VkCommandBuffer commandBuffer) const;
+
+private:
+    /// The visible slots of a draw window that show the part, rising; how many.
+    [[nodiscard]] uint32_t listPart(const InstanceSlots& slots, uint32_t part, uint32_t window,
+                                    std::span<uint32_t> out) const;
+    [[nodiscard]] bool hasPast(const InstanceSlots& slots, uint32_t slot) const {
+        return lives_[slot] == slots.life(slot);
+    }
+
+    InstanceWindows windows_;
+    size_t partCount_ = 0;        ///< of those that the host lists
+    std::vector<uint32_t> lives_; ///< by slot: InstanceSlots::life of what was evaluated last; 0: nothing
+    uint64_t listedVersion_ = 0;
+    bool settles_ = true; ///< the next list differs though nothing changes
+    uint32_t priorities_ = 1;
+    gpu::PlannedBuffer list_;
+    ChangeStaging staging_;
+};
+
+} // namespace supple::runtime
