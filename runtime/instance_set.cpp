@@ -30,6 +30,7 @@ Result<std::unique_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
         return status.error();
     }
     set->slots_ = InstanceSlots(desc.capacity, desc.firstGeneration, desc.partPatches);
+    set->userData_ = UserData(desc.capacity);
     set->windows_.parts.resize(desc.listsParts ? desc.partPatches.size() : 0);
     set->poses_ = makePoseSource(
         desc.source, {desc.device, desc.pose, desc.asset, set->layout_, desc.capacity, desc.framesInFlight});
@@ -80,6 +81,7 @@ void InstanceSet::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     const VkDeviceSize listBytes = passListBytes() + windows_.parts.size() * n * sizeof(uint32_t);
     list_ = device.add({"supple instances", listBytes, kInput});
     lists_.plan(staging, "supple list staging", listBytes, desc_.framesInFlight);
+    userData_.plan(device, staging, desc_.framesInFlight);
     poses_->plan(staging);
 }
 
@@ -108,6 +110,7 @@ void InstanceSet::fill(SuppleGroupInfo& output) const {
     output.cageVerticesPerInstance = cageStride_;
     output.deformedCage = whole(cages_, 16);
     output.poses = whole(palettes_, layout_.stride * 16);
+    output.userData = whole(userData_.buffer(), sizeof(UserData::Value));
 }
 
 void InstanceSet::addTransfers(Transfers& transfers) const {
@@ -119,11 +122,14 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
         transfers.add(palettes_.buffer());
     }
     transfers.add(list_.buffer());
+    transfers.add(userData_.buffer().buffer());
 }
 
 PassCost InstanceSet::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, Visibility& visibility) {
     const gpu::Device& device = *desc_.device;
     PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_.end());
+    cost.bytes += userData_.recordUpload(device, commandBuffer, desc_.handsOver, slots_.end());
+    uploadedFrame_ = frame;
     const bool listed = slots_.changed();
     if (listed) {
         const std::span entries(reinterpret_cast<uint32_t*>(lists_.next()), list_.size() / sizeof(uint32_t));
@@ -142,6 +148,13 @@ PassCost InstanceSet::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame
         cost.bytes += visibility.recordUpload(commandBuffer);
     }
     return cost;
+}
+
+void InstanceSet::cancelFrame(uint64_t frame) {
+    poses_->cancelUpload(frame);
+    if (uploadedFrame_ == frame) {
+        userData_.markAll();
+    }
 }
 
 PassCost InstanceSet::recordDeform(VkCommandBuffer commandBuffer) const {

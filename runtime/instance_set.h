@@ -10,6 +10,7 @@
 #include "runtime/instance_windows.h"
 #include "runtime/pose_source.h"
 #include "runtime/transfers.h"
+#include "runtime/user_data.h"
 #include "skinning/deform_pass.h"
 
 #include <memory>
@@ -50,8 +51,10 @@ public:
     [[nodiscard]] InstanceSlots& slots() { return slots_; }
     [[nodiscard]] const InstanceSlots& slots() const { return slots_; }
     [[nodiscard]] SupplePoseSource source() const { return desc_.source; }
+    [[nodiscard]] skinning::SkinningMode skinning() const { return desc_.mode; }
     [[nodiscard]] PoseSource& poses() { return *poses_; }
     [[nodiscard]] const PoseSource& poses() const { return *poses_; }
+    [[nodiscard]] UserData& userData() { return userData_; }
     [[nodiscard]] const InstanceWindows& windows() const { return windows_; }
     /// Cage vertices from one instance to the next.
     [[nodiscard]] static uint32_t cageStrideOf(uint32_t cageVertices);
@@ -70,7 +73,7 @@ public:
     /// This frame's poses and, if it has changed, the list of instances.
     PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, Visibility& visibility);
     PassCost recordDeform(VkCommandBuffer commandBuffer) const;
-    void cancelFrame(uint64_t frame) { poses_->cancelUpload(frame); }
+    void cancelFrame(uint64_t frame);
 
 private:
     [[nodiscard]] Status layOutWindows();
@@ -84,6 +87,8 @@ private:
 
     gpu::PlannedBuffer palettes_, cages_, list_;
     ChangeStaging lists_;
+    UserData userData_;
+    uint64_t uploadedFrame_ = 0; ///< the last that was recorded
     DeformSets deformSets_; ///< none if the host fills the cages
 };
 
