@@ -180,7 +180,7 @@ void Context::retire(uint64_t completedFrame) {
         return view.use_count() == 1 && view->lastRecordedFrame() <= completedFrame;
     });
     pairs_.releaseStaging(completedFrame);
-    groups.forEach([&](Group& group) { group.releaseStaging(completedFrame); });
+    groups.forEach([&](Group& group) { group.beginFrame(completedFrame); });
 }
 
 Result<uint64_t> Context::createAsset(cage::Character character) {
@@ -205,6 +205,11 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
             return pose.error();
         }
         pose_ = std::make_unique<skinning::PosePass>(std::move(*pose));
+    }
+    if ((desc.flags & SUPPLE_GROUP_BOUNDS) != 0) {
+        if (const Status prepared = prepareBounds(); !prepared) {
+            return prepared.error();
+        }
     }
     // Instances of one group must not fit another that takes its place: groups' ids differ, and so do generations.
     nextGeneration_ = nextGeneration_ * 1664525u + 1013904223u;
@@ -239,13 +244,21 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     return groups.insert(std::move(*group));
 }
 
+Status Context::prepareBounds() {
+    if (bounds_ != nullptr) {
+        return success();
+    }
+    Result<BoundsPass> bounds = BoundsPass::create(*device_, *pipelines_);
+    if (!bounds) {
+        return bounds.error();
+    }
+    bounds_ = std::make_unique<BoundsPass>(std::move(*bounds));
+    return success();
+}
+
 Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
-    if (bounds_ == nullptr) {
-        Result<BoundsPass> bounds = BoundsPass::create(*device_, *pipelines_);
-        if (!bounds) {
-            return bounds.error();
-        }
-        bounds_ = std::make_unique<BoundsPass>(std::move(*bounds));
+    if (const Status prepared = prepareBounds(); !prepared) {
+        return prepared.error();
     }
     if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0 && occlusion_ == nullptr) {
         Result<OcclusionPass> occlusion = OcclusionPass::create(*device_, *pipelines_);

@@ -2,6 +2,8 @@
 
 #include "surface/grid.h"
 
+#include <algorithm>
+
 namespace supple::runtime {
 
 namespace {
@@ -95,11 +97,12 @@ Status Group::createRest(const GroupShared& shared, const SuppleGroupDesc& desc)
     if (view_ != nullptr) {
         planCulling(shared, (desc.flags & SUPPLE_GROUP_ONE_LEVEL) != 0, device, staging);
     }
+    planBounds(shared, desc.flags, device, staging);
     status = device.create(*shared.device, gpu::MemoryKind::deviceLocal);
     status = status ? staging.create(*shared.device, gpu::MemoryKind::upload) : status;
     status = status ? instances_->createSets() : status;
     status = status ? createVisibility(set.listsParts) : status;
-    clear_.renew(culling_ != nullptr);
+    clear_.renew(hasBounds());
     for (const auto& surface : surfaces_) {
         status = status ? surface->createSets(*instances_, *visibility_) : status;
     }
@@ -131,6 +134,21 @@ void Group::planCulling(const GroupShared& shared, bool oneLevel, gpu::BufferPla
     visibility_ = std::move(culling);
 }
 
+void Group::planBounds(const GroupShared& shared, uint32_t flags, gpu::BufferPlan& device, gpu::BufferPlan& staging) {
+    if ((flags & SUPPLE_GROUP_BOUNDS) == 0) {
+        return;
+    }
+    boundsReadback_ =
+        std::make_unique<BoundsReadback>(*shared.device, instances_->windows().capacity, shared.framesInFlight);
+    boundsReadback_->plan(staging);
+    if (culling_ == nullptr) {
+        listedBounds_ = std::make_unique<ListedBounds>(
+            ListedBounds::Desc{shared.device, shared.bounds, &instances_->windows(),
+                               asset_->character.cage.vertexCount(), instances_->cageStride(), boundsMargin()});
+        listedBounds_->plan(device);
+    }
+}
+
 Status Group::createVisibility(bool listsParts) {
     const gpu::PlannedBuffer& list = instances_->list();
     if (culling_ != nullptr) {
@@ -141,7 +159,20 @@ Status Group::createVisibility(bool listsParts) {
     const InstanceWindows& windows = instances_->windows();
     const InstanceList drawn{list.buffer(), instances_->passListBytes(), listsParts ? entries : windows.capacity};
     visibility_ = std::make_unique<ListedByHost>(windows, drawn);
-    return success();
+    return listedBounds_ != nullptr ? listedBounds_->createSets(instances_->cages().buffer(), list.buffer())
+                                    : success();
+}
+
+SuppleBufferRange Group::bounds() const {
+    return culling_ != nullptr ? culling_->bounds() : listedBounds_->bounds();
+}
+
+float Group::boundsMargin() const {
+    float margin = 0.0f;
+    for (const auto& surface : surfaces_) {
+        margin = std::max(margin, surface->boundsMargin());
+    }
+    return margin;
 }
 
 void Group::fill(SuppleGroupInfo& info) const {
@@ -176,7 +207,11 @@ VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame)
     lastRecordedFrame_ = frame;
     if (clear_.due()) {
         clear_.record(frame);
-        culling_->recordClear(commandBuffer);
+        if (culling_ != nullptr) {
+            culling_->recordClear(commandBuffer);
+        } else {
+            listedBounds_->recordClear(commandBuffer);
+        }
     }
     VkDeviceSize bytes =
         asset_->buffers.recordUpload(commandBuffer, frame) + asset_->clips.recordUpload(commandBuffer, frame);
@@ -196,9 +231,20 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     return cost;
 }
 
+PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
+    return culling_ != nullptr ? culling_->recordBounds(commandBuffer) : listedBounds_->record(commandBuffer);
+}
+
+void Group::recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame) {
+    boundsReadback_->record(commandBuffer, frame, bounds().buffer, slots());
+}
+
 void Group::addTransfers(Transfers& transfers) const {
     instances_->addTransfers(transfers);
     visibility_->addTransfers(transfers);
+    if (listedBounds_ != nullptr) {
+        transfers.add(listedBounds_->bounds().buffer);
+    }
     for (const auto& surface : surfaces_) {
         surface->addTransfers(transfers, passesFrame_);
     }
@@ -212,6 +258,9 @@ void Group::cancelFrame(uint64_t frame) {
         surface->cancelFrame(frame);
     }
     clear_.cancel(frame);
+    if (boundsReadback_ != nullptr) {
+        boundsReadback_->cancelFrame(frame);
+    }
     if (passesFrame_ == frame) {
         slots().forgetAll();
     }
@@ -222,6 +271,13 @@ void Group::releaseStaging(uint64_t completedFrame) {
     asset_->clips.releaseStaging(completedFrame);
     for (const auto& surface : surfaces_) {
         surface->releaseStaging(completedFrame);
+    }
+}
+
+void Group::beginFrame(uint64_t completedFrame) {
+    releaseStaging(completedFrame);
+    if (boundsReadback_ != nullptr) {
+        boundsReadback_->beginFrame(completedFrame);
     }
 }
 

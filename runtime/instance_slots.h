@@ -67,6 +67,8 @@ public:
                   std::span<Listed> windows);
     /// `all` with flags, as culling takes it (shaders/shared/bounds.h); to be called before list().
     void listForCulling(std::span<uint32_t> all) const;
+    /// Behind list(): whether it has listed the slot's instance.
+    [[nodiscard]] bool isListed(uint32_t slot) const { return slots_[slot].evaluated; }
     /// Whether a visible instance hides the part.
     [[nodiscard]] bool isHidden(uint32_t part) const;
     /// Behind list(): the visible slots that show the part, rising. Returns how many there are.
