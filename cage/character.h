@@ -131,10 +131,17 @@ struct Channel {
     }
 };
 
+/// A named time of a clip.
+struct Marker {
+    std::string name;
+    double time = 0.0; ///< seconds, 0..Clip::duration
+};
+
 struct Clip {
     std::string name;
     double duration = 0.0; ///< seconds: the last key of any channel; the clip starts at 0
     std::vector<Channel> channels;
+    std::vector<Marker> markers; ///< by rising time
 };
 
 /// Displacements of cage vertices, added with a weight before skinning. Only vertices that move are listed.

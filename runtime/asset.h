@@ -5,6 +5,7 @@
 #include "cage/character.h"
 #include "cage/piece.h"
 #include "gpu/static_buffers.h"
+#include "runtime/clip_bounds.h"
 #include "skinning/clip_table.h"
 #include "skinning/joints.h"
 #include "skinning/layers.h"
@@ -48,6 +49,7 @@ struct Asset {
     uint32_t firstInfluences = 0;               ///< skinning::DeformTable
     skinning::Rig rig;
     skinning::JointFrames jointFrames;
+    mutable ClipBounds clipBounds; ///< what has been asked for
     // Made for the first group that plays on the device:
     skinning::ClipTable clipTable; ///< `words` is emptied once it lies in the staging memory
     gpu::StaticBuffers clips;      ///< 0: the clip table

@@ -181,7 +181,7 @@ void Context::retire(uint64_t completedFrame) {
         return view.use_count() == 1 && view->lastRecordedFrame() <= completedFrame;
     });
     pairs_.releaseStaging(completedFrame);
-    groups.forEach([&](Group& group) { group.releaseStaging(completedFrame); });
+    groups.forEach([&](Group& group) { group.beginFrame(completedFrame); });
 }
 
 Result<uint64_t> Context::createAsset(cage::Character character) {
@@ -206,6 +206,11 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
             return pose.error();
         }
         pose_ = std::make_unique<skinning::PosePass>(std::move(*pose));
+    }
+    if ((desc.flags & SUPPLE_GROUP_BOUNDS) != 0) {
+        if (const Status prepared = prepareBounds(); !prepared) {
+            return prepared.error();
+        }
     }
     std::shared_ptr<View> view;
     if (desc.view.id != 0 && (view = views.find(desc.view.id)) == nullptr) {
@@ -362,13 +367,21 @@ void Context::setOrigin(const glm::dvec3& origin) {
     }
 }
 
+Status Context::prepareBounds() {
+    if (bounds_ != nullptr) {
+        return success();
+    }
+    Result<BoundsPass> bounds = BoundsPass::create(*device_, *pipelines_);
+    if (!bounds) {
+        return bounds.error();
+    }
+    bounds_ = std::make_unique<BoundsPass>(std::move(*bounds));
+    return success();
+}
+
 Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
-    if (bounds_ == nullptr) {
-        Result<BoundsPass> bounds = BoundsPass::create(*device_, *pipelines_);
-        if (!bounds) {
-            return bounds.error();
-        }
-        bounds_ = std::make_unique<BoundsPass>(std::move(*bounds));
+    if (const Status prepared = prepareBounds(); !prepared) {
+        return prepared.error();
     }
     if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0 && occlusion_ == nullptr) {
         Result<OcclusionPass> occlusion = OcclusionPass::create(*device_, *pipelines_);

@@ -79,6 +79,7 @@ public:
 
 private:
     void retire(uint64_t completedFrame);
+    [[nodiscard]] Status prepareBounds(); ///< sees to it that bounds_ is there
     template <class F>
     void forViews(F&& visit); ///< those too that only groups hold
     /// Resolves the handles and links the groups (Group::Link), or says what is wrong with one; null: there are none.
@@ -110,7 +111,7 @@ private:
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     skinning::DeformPass deform_;
-    std::unique_ptr<BoundsPass> bounds_;       ///< made by the first view
+    std::unique_ptr<BoundsPass> bounds_;       ///< made by the first view or group with bounds
     std::unique_ptr<OcclusionPass> occlusion_; ///< and by the first with occlusion
     std::unique_ptr<skinning::PosePass> pose_; ///< made for the first group that plays on the device
     surface::Passes surface_;

@@ -90,7 +90,15 @@ PassCost recordDeform(const Frame& frame, Group& group) {
 }
 
 PassCost recordBounds(const Frame& frame, Group& group) {
-    return group.culling() != nullptr ? group.culling()->recordBounds(frame.commands) : PassCost{};
+    return group.hasBounds() ? group.recordBounds(frame.commands) : PassCost{};
+}
+
+/// What the host reads frames later.
+PassCost recordBoundsReadback(const Frame& frame, Group& group) {
+    if (group.boundsReadback() != nullptr) {
+        group.recordBoundsReadback(frame.commands, frame.number);
+    }
+    return {};
 }
 
 PassCost recordOcclusion(const Frame& frame, Group& group) {
@@ -184,6 +192,12 @@ bool always(Group&) {
 bool isInView(Group& group) {
     return group.view() != nullptr;
 }
+bool hasBounds(Group& group) {
+    return group.hasBounds();
+}
+bool readsBounds(Group& group) {
+    return group.boundsReadback() != nullptr;
+}
 template <bool (Tessellation::*predicate)() const>
 bool anySurface(Group& group) {
     return group.surfaces().any([](const Tessellation& surface) { return (surface.*predicate)(); });
@@ -194,7 +208,7 @@ bool constructs(Group& group) {
 }
 
 /// What stands behind a pass: who may read what it wrote.
-enum class Behind { nothing, compute, uploads, arguments, places, readback, scratch };
+enum class Behind { nothing, compute, uploads, bounds, arguments, places, readback, scratch };
 
 struct Row {
     Pass pass;
@@ -212,7 +226,8 @@ constexpr Row kPasses[] = {
     {Pass::pose, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
     {Pass::deform, always, recordDeform},
     {Pass::deform, anySurface<&Tessellation::gathers>, recordSurfaces<&Tessellation::recordGather>},
-    {Pass::bounds, isInView, recordBounds},
+    {Pass::bounds, hasBounds, recordBounds, Behind::bounds},
+    {Pass::bounds, readsBounds, recordBoundsReadback, Behind::readback, false},
     {Pass::bounds,
      [](Group& g) { return g.view() != nullptr && g.view()->depthPyramid().has_value() && g.windows().visible > 0; },
      recordOcclusion},
@@ -246,6 +261,10 @@ void recordBarrier(const Frame& frame, Behind behind) {
         break;
     case Behind::uploads:
         barrier({kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {kCompute, kRead | kWrite});
+        break;
+    case Behind::bounds:
+        barrier({kCompute, kWrite},
+                {kCompute | VK_PIPELINE_STAGE_2_COPY_BIT, kRead | kWrite | VK_ACCESS_2_TRANSFER_READ_BIT});
         break;
     case Behind::arguments:
         barrier({kCompute, kWrite}, {kCompute | kIndirect, kRead | kWrite | kIndirectRead});

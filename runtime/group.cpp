@@ -2,6 +2,8 @@
 
 #include "surface/grid.h"
 
+#include <algorithm>
+
 namespace supple::runtime {
 
 namespace {
@@ -104,7 +106,7 @@ Status Group::createInstances(const GroupShared& shared) {
     }
     Result<std::shared_ptr<InstanceSet>> instances = InstanceSet::create(
         {shared.device, shared.deform, shared.pose, asset_.get(), desc_.poseSource, skinningOf(desc_), desc_.capacity,
-         shared.firstGeneration, shared.framesInFlight, surfaces_.partPatches()});
+         shared.firstGeneration, shared.framesInFlight, shared.handsOver, surfaces_.partPatches()});
     if (!instances) {
         return instances.error();
     }
@@ -159,11 +161,12 @@ Status Group::createRest(const GroupShared& shared) {
     if (view_ != nullptr) {
         planCulling(shared, device, staging);
     }
+    planBounds(shared, device, staging);
     status = device.create(*shared.device, gpu::MemoryKind::deviceLocal);
     status = status ? staging.create(*shared.device, gpu::MemoryKind::upload) : status;
     status = status && !follows() ? instances_->createSets(listing_) : status;
     status = status ? createVisibility() : status;
-    clear_.renew(culling_ != nullptr);
+    clear_.renew(hasBounds());
     for (const auto& surface : surfaces_) {
         status = status ? surface->createSets(*instances_, listing_, *visibility_) : status;
     }
@@ -196,13 +199,41 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
     visibility_ = std::move(culling);
 }
 
+void Group::planBounds(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging) {
+    if ((desc_.flags & SUPPLE_GROUP_BOUNDS) == 0) {
+        return;
+    }
+    boundsReadback_ = std::make_unique<BoundsReadback>(*shared.device, windows().capacity, shared.framesInFlight);
+    boundsReadback_->plan(staging);
+    if (culling_ == nullptr) {
+        listedBounds_ = std::make_unique<ListedBounds>(ListedBounds::Desc{shared.device, shared.bounds, &windows(),
+                                                                          asset_->character.cage.vertexCount(),
+                                                                          instances_->cageStride(), boundsMargin()});
+        listedBounds_->plan(device);
+    }
+}
+
 Status Group::createVisibility() {
     if (culling_ != nullptr) {
         return culling_->createSets(
             {instances_->cages().buffer(), listing_.buffer().buffer(), view_->cull(), view_->sizes(), view_->words()});
     }
     visibility_ = std::make_unique<ListedByHost>(listing_);
-    return success();
+    return listedBounds_ != nullptr
+               ? listedBounds_->createSets(instances_->cages().buffer(), listing_.buffer().buffer())
+               : success();
+}
+
+SuppleBufferRange Group::bounds() const {
+    return culling_ != nullptr ? culling_->bounds() : listedBounds_->bounds();
+}
+
+float Group::boundsMargin() const {
+    float margin = 0.0f;
+    for (const auto& surface : surfaces_) {
+        margin = std::max(margin, surface->boundsMargin());
+    }
+    return margin;
 }
 
 void Group::fill(SuppleGroupInfo& info) const {
@@ -239,7 +270,11 @@ VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame)
     lastRecordedFrame_ = frame;
     if (clear_.due()) {
         clear_.record(frame);
-        culling_->recordClear(commandBuffer);
+        if (culling_ != nullptr) {
+            culling_->recordClear(commandBuffer);
+        } else {
+            listedBounds_->recordClear(commandBuffer);
+        }
     }
     VkDeviceSize bytes =
         asset_->buffers.recordUpload(commandBuffer, frame) + asset_->clips.recordUpload(commandBuffer, frame);
@@ -272,12 +307,23 @@ PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
     return follows() ? PassCost{} : instances_->recordDeform(commandBuffer, windows());
 }
 
+PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
+    return culling_ != nullptr ? culling_->recordBounds(commandBuffer) : listedBounds_->record(commandBuffer);
+}
+
+void Group::recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame) {
+    boundsReadback_->record(commandBuffer, frame, bounds().buffer, slots());
+}
+
 void Group::addTransfers(Transfers& transfers) const {
     if (!follows()) {
         instances_->addTransfers(transfers);
     }
     transfers.add(listing_.buffer().buffer());
     visibility_->addTransfers(transfers);
+    if (listedBounds_ != nullptr) {
+        transfers.add(listedBounds_->bounds().buffer);
+    }
     for (const auto& surface : surfaces_) {
         surface->addTransfers(transfers, passesFrame_);
     }
@@ -293,6 +339,9 @@ void Group::cancelFrame(uint64_t frame) {
         surface->cancelFrame(frame);
     }
     clear_.cancel(frame);
+    if (boundsReadback_ != nullptr) {
+        boundsReadback_->cancelFrame(frame);
+    }
     if (passesFrame_ == frame) {
         listing_.forgetAll();
     }
@@ -303,6 +352,13 @@ void Group::releaseStaging(uint64_t completedFrame) {
     asset_->clips.releaseStaging(completedFrame);
     for (const auto& surface : surfaces_) {
         surface->releaseStaging(completedFrame);
+    }
+}
+
+void Group::beginFrame(uint64_t completedFrame) {
+    releaseStaging(completedFrame);
+    if (boundsReadback_ != nullptr) {
+        boundsReadback_->beginFrame(completedFrame);
     }
 }
 

@@ -6,7 +6,9 @@
 #include "gpu/memory.h"
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
+#include "runtime/culling/bounds_readback.h"
 #include "runtime/culling/culling.h"
+#include "runtime/culling/listed_bounds.h"
 #include "runtime/group_recipe.h"
 #include "runtime/instance_set.h"
 #include "runtime/surfaces.h"
@@ -25,7 +27,7 @@ struct GroupShared {
     skinning::PosePass* pose = nullptr; ///< for groups that play on the device
     surface::Passes* surface = nullptr;
     const gpu::StaticBuffers* pairs = nullptr; ///< of parameters
-    BoundsPass* bounds = nullptr;              ///< for groups of views
+    BoundsPass* bounds = nullptr;              ///< for groups with bounds
     const OcclusionPass* occlusion = nullptr;  ///< for groups of views with occlusion
     std::shared_ptr<View> view;                ///< of the description
     std::shared_ptr<InstanceSet> instances;    ///< of the group that this one follows; null: it has its own
@@ -71,6 +73,14 @@ public:
     [[nodiscard]] Culling* culling() { return culling_; }
     [[nodiscard]] const Culling* culling() const { return culling_; }
 
+    /// Whether the device finds the bounds of instances.
+    [[nodiscard]] bool hasBounds() const { return culling_ != nullptr || listedBounds_ != nullptr; }
+    [[nodiscard]] SuppleBufferRange bounds() const; ///< if hasBounds()
+    /// Null unless the host reads them.
+    [[nodiscard]] BoundsReadback* boundsReadback() const { return boundsReadback_.get(); }
+    /// How far the surfaces may lie outside the box of the cage, as a part of its size.
+    [[nodiscard]] float boundsMargin() const;
+
     // Recording, in the order of a frame; runtime/frame.cpp has the passes.
     /// Static tables and first-use clears. The caller sees to it that no other thread does the same: the asset's tables
     /// are shared.
@@ -81,6 +91,10 @@ public:
     PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin);
     /// Nothing if the group follows another.
     PassCost recordDeform(VkCommandBuffer commandBuffer) const;
+    /// If hasBounds().
+    PassCost recordBounds(VkCommandBuffer commandBuffer) const;
+    /// If boundsReadback(): behind the bounds, once they may be copied.
+    void recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame);
     void addTransfers(Transfers& transfers) const;
 
     /// Vertices of the view's budget that an instance needs at its coarsest, and all that the host shows.
@@ -92,6 +106,7 @@ public:
     [[nodiscard]] uint64_t lastRecordedFrame() const { return lastRecordedFrame_; }
     void cancelFrame(uint64_t frame);
     void releaseStaging(uint64_t completedFrame);
+    void beginFrame(uint64_t completedFrame);
 
     /// The groups of a suppleRecord are linked, so that each handle is resolved once and nothing is allocated. Valid
     /// while that call records.
@@ -107,6 +122,7 @@ private:
     [[nodiscard]] Status createListing(const GroupShared& shared);
     [[nodiscard]] Status createRest(const GroupShared& shared);
     void planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
+    void planBounds(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
     [[nodiscard]] Status createVisibility();
 
     std::shared_ptr<Asset> asset_;
@@ -121,9 +137,11 @@ private:
     std::shared_ptr<InstanceSet> instances_;
     InstanceListing listing_;
     std::unique_ptr<Visibility> visibility_;
-    Culling* culling_ = nullptr; ///< visibility_, if the group belongs to a view
+    Culling* culling_ = nullptr;                 ///< visibility_, if the group belongs to a view
+    std::unique_ptr<ListedBounds> listedBounds_; ///< if it belongs to none and has bounds
+    std::unique_ptr<BoundsReadback> boundsReadback_;
     Surfaces surfaces_;
-    RecordedOnce clear_; ///< of what culling remembers from frame to frame
+    RecordedOnce clear_; ///< of what bounds and culling remember from frame to frame
     uint64_t passesFrame_ = 0, lastRecordedFrame_ = 0;
 };
 

@@ -29,6 +29,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
         return status.error();
     }
     set->slots_ = InstanceSlots(desc.capacity, desc.firstGeneration, desc.partPatches);
+    set->userData_ = UserData(desc.capacity);
     return set;
 }
 
@@ -55,6 +56,7 @@ Status InstanceSet::makeBuffers(bool windowed) {
     palettes_ = device.add({"supple poses", deforms ? n * layout_.stride * gpu::kVec4Bytes : 0, kInput});
     cages_ = device.add(
         {"supple deformed cage", n * cageStride_ * gpu::kVec4Bytes, kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+    userData_.plan(device, staging, desc_.framesInFlight);
     poses_->plan(staging);
     const Status status = device.create(*desc_.device, gpu::MemoryKind::deviceLocal);
     return status ? staging.create(*desc_.device, gpu::MemoryKind::upload) : status;
@@ -80,6 +82,7 @@ Status InstanceSet::createSets(const InstanceListing& listing) {
 void InstanceSet::takeOver(InstanceSet& other, const AssetMatch& match) {
     slots_.takeOver(other.slots_, match.parts);
     poses_->takeOver(*other.poses_, other.slots_.end(), match);
+    userData_.takeFrom(other.userData_, other.slots_.end());
 }
 
 void InstanceSet::fill(SuppleGroupInfo& output) const {
@@ -91,6 +94,7 @@ void InstanceSet::fill(SuppleGroupInfo& output) const {
     output.cageVerticesPerInstance = cageStride_;
     output.deformedCage = whole(cages_, 16);
     output.poses = whole(palettes_, layout_.stride * 16);
+    output.userData = whole(userData_.buffer(), sizeof(UserData::Value));
 }
 
 void InstanceSet::addTransfers(Transfers& transfers) const {
@@ -100,6 +104,22 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
     // What the host writes on the device is its own to hand over.
     if (desc_.source == SUPPLE_POSES_SET || desc_.source == SUPPLE_POSES_PLAYBACK) {
         transfers.add(palettes_.buffer());
+    }
+    transfers.add(userData_.buffer().buffer());
+}
+
+PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin) {
+    uploadedFrame_ = frame;
+    poses_->setOrigin(origin);
+    PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_.end());
+    cost.bytes += userData_.recordUpload(*desc_.device, commandBuffer, desc_.handsOver, slots_.end());
+    return cost;
+}
+
+void InstanceSet::cancelFrame(uint64_t frame) {
+    poses_->cancelUpload(frame);
+    if (uploadedFrame_ == frame) {
+        userData_.markAll();
     }
 }
 

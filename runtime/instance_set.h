@@ -8,6 +8,7 @@
 #include "runtime/instance_slots.h"
 #include "runtime/pose_source.h"
 #include "runtime/transfers.h"
+#include "runtime/user_data.h"
 #include "skinning/deform_pass.h"
 
 #include <memory>
@@ -27,6 +28,7 @@ public:
         uint32_t capacity = 0;
         uint32_t firstGeneration = 1;
         uint32_t framesInFlight = 2;
+        bool handsOver = false; ///< to another queue family: user data is written anew in every frame
         std::vector<PartPatches> partPatches; ///< of every part
     };
     /// Prepares the pipelines.
@@ -41,8 +43,10 @@ public:
     [[nodiscard]] InstanceSlots& slots() { return slots_; }
     [[nodiscard]] const InstanceSlots& slots() const { return slots_; }
     [[nodiscard]] SupplePoseSource source() const { return desc_.source; }
+    [[nodiscard]] skinning::SkinningMode skinning() const { return desc_.mode; }
     [[nodiscard]] PoseSource& poses() { return *poses_; }
     [[nodiscard]] const PoseSource& poses() const { return *poses_; }
+    [[nodiscard]] UserData& userData() { return userData_; }
     /// Cage vertices from one instance to the next.
     [[nodiscard]] static uint32_t cageStrideOf(uint32_t cageVertices);
 
@@ -55,13 +59,10 @@ public:
 
     /// Takes over the instances of another set, which has no more than this one's capacity: handles, poses, places.
     void takeOver(InstanceSet& other, const AssetMatch& match);
-    /// This frame's poses.
-    PassCost recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin) {
-        poses_->setOrigin(origin);
-        return poses_->recordUpload(commandBuffer, frame, slots_.end());
-    }
+    /// This frame's poses and user data.
+    PassCost recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin);
     PassCost recordDeform(VkCommandBuffer commandBuffer, const InstanceWindows& windows) const;
-    void cancelFrame(uint64_t frame) { poses_->cancelUpload(frame); }
+    void cancelFrame(uint64_t frame);
 
 private:
     Desc desc_;
@@ -72,6 +73,8 @@ private:
 
     gpu::BufferSet buffers_, staging_;
     gpu::PlannedBuffer palettes_, cages_;
+    UserData userData_;
+    uint64_t uploadedFrame_ = 0; ///< the last that was recorded
     DeformSets deformSets_; ///< none if the host fills the cages
 };
 

@@ -22,7 +22,7 @@ public:
     [[nodiscard]] std::span<VkBufferMemoryBarrier2> barriers() { return {barriers_.data(), count_}; }
 
 private:
-    static constexpr size_t kMost = 72; ///< of a group with a surface of every scheme, and its view
+    static constexpr size_t kMost = 74; ///< of a group with a surface of every scheme, and its view
     std::array<VkBufferMemoryBarrier2, kMost> barriers_{};
     size_t count_ = 0;
 };

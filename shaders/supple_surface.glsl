@@ -23,6 +23,7 @@
 //         vec3 before = supplePreviousPosition(at); // with SUPPLE_GROUP_MOTION
 //         vec2 uv = suppleUv(at);                   // with SUPPLE_GROUP_ATTRIBUTES
 //         vec4 color = suppleColor(at);
+//         vec4 mine = suppleUserData(at);           // if SUPPLE_USER_DATA_BINDING is defined: see suppleSetUserData
 //     }
 //
 // SUPPLE_GROUP_WINDOWS: for each window, bind its part of the vertices and of the previous positions, from the byte
@@ -151,6 +152,12 @@ layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_ATTRIBUTES_BINDING, std430) re
     uvec4 suppleAttributes[]; // float2 uv, RGBA in 4 x unorm16
 };
 
+#ifdef SUPPLE_USER_DATA_BINDING
+layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_USER_DATA_BINDING, std430) readonly buffer SuppleUserData {
+    vec4 suppleUserDatas[]; // SuppleGroupInfo.userData
+};
+#endif
+
 struct SuppleVertex {
     uint slot;  // of the instance: where a host keeps what it knows of its instances
     uint own;   // within the instance: index into attributes, uvs1, faceUvs
@@ -212,6 +219,11 @@ vec3 supplePreviousPosition(SuppleVertex at) {
 vec2 suppleUv(SuppleVertex at) { return uintBitsToFloat(suppleAttributes[at.own].xy); }
 
 vec4 suppleColor(SuppleVertex at) { return suppleUnpackColor(suppleAttributes[at.own].zw); }
+
+#ifdef SUPPLE_USER_DATA_BINDING
+/// What suppleSetUserData gave the instance.
+vec4 suppleUserData(SuppleVertex at) { return suppleUserDatas[at.slot]; }
+#endif
 
 #endif // SUPPLE_SURFACE_SET
 #endif

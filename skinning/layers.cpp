@@ -31,7 +31,7 @@ double morphWeight(const Layer& layer, size_t target) {
     return layer.weight * static_cast<double>(layer.morphMask[target]);
 }
 
-double mix(double a, double b, double t) {
+double mixed(double a, double b, double t) {
     return t == 1.0 ? b : a + (b - a) * t;
 }
 
@@ -122,7 +122,7 @@ void applyLayer(const cage::Character& character, const Rig& rig, const Layer& l
         const double weight = morphWeight(layer, target);
         double& to = pose.morphWeights[target];
         to = additive ? to + (sample.morphWeights[target] - reference.morphWeights[target]) * weight
-                      : mix(to, sample.morphWeights[target], weight);
+                      : mixed(to, sample.morphWeights[target], weight);
     }
 }
 
@@ -137,10 +137,10 @@ RootMotion layerRootMotion(const cage::Character& character, const Rig& rig, con
     if (layer.mode == LayerMode::additive) {
         return {before.translation + motion.translation * weight, before.yaw + motion.yaw * weight};
     }
-    return {{mix(before.translation.x, motion.translation.x, weight),
-             mix(before.translation.y, motion.translation.y, weight),
-             mix(before.translation.z, motion.translation.z, weight)},
-            mix(before.yaw, motion.yaw, weight)};
+    return {{mixed(before.translation.x, motion.translation.x, weight),
+             mixed(before.translation.y, motion.translation.y, weight),
+             mixed(before.translation.z, motion.translation.z, weight)},
+            mixed(before.yaw, motion.yaw, weight)};
 }
 
 void fillJointMask(const Rig& rig, uint32_t joint, float value, std::span<float> mask) {

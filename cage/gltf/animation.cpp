@@ -1,6 +1,7 @@
 #include "cage/gltf/animation.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/markers.h"
 #include "cage/gltf/morphs.h"
 #include "cage/gltf/nodes.h"
 #include "cage/refusal.h"
@@ -111,14 +112,14 @@ Channel readChannel(const Document& document, const supple_tinygltf::Animation& 
     return channel;
 }
 
-/// glTF knows no times before 0, and exporters write them.
-void beginAtFirstKey(Clip& clip, const std::string& element, Warnings& warnings) {
+/// glTF knows no times before 0, and exporters write them. Returns the time that becomes 0.
+float beginAtFirstKey(Clip& clip, const std::string& element, Warnings& warnings) {
     float first = 0.0f;
     for (const Channel& channel : clip.channels) {
         first = std::min(first, channel.times.front());
     }
     if (first == 0.0f) {
-        return;
+        return first;
     }
     warn(warnings, element, "keys before 0; its time begins at its first key, " + shortNumber(first) + " s");
     for (Channel& channel : clip.channels) {
@@ -130,6 +131,7 @@ void beginAtFirstKey(Clip& clip, const std::string& element, Warnings& warnings)
             }
         }
     }
+    return first;
 }
 
 /// Reads clips one after the other, and bounds what they hold together.
@@ -150,10 +152,11 @@ public:
         for (size_t k = 0; k < animation.channels.size(); ++k) {
             refusals_.gather([&] { addChannel(animation, k, element + " " + at("channel", k), clip); });
         }
-        beginAtFirstKey(clip, element, warnings_);
+        const float first = beginAtFirstKey(clip, element, warnings_);
         for (const Channel& channel : clip.channels) {
             clip.duration = std::max(clip.duration, static_cast<double>(channel.times.back()));
         }
+        clip.markers = readMarkers(document_.animationExtras[index], element, first, clip.duration, warnings_);
         for (const auto& [path, count] : ignored_) {
             warn(warnings_, element,
                  counted(count, "channel", "channels") + " of " +

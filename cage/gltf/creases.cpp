@@ -1,6 +1,7 @@
 #include "cage/gltf/creases.h"
 
 #include "cage/gltf/cage_extension.h"
+#include "cage/gltf/entry_faults.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -11,31 +12,6 @@
 
 namespace supple::cage::gltf {
 namespace {
-
-/// The faults of a list's entries: the first by name, the others counted, so that no file can fill the log.
-class EntryFaults {
-public:
-    explicit EntryFaults(std::string list) : list_(std::move(list)) {}
-
-    void add(size_t entry, const std::string& reason) {
-        if (count_++ == 0) {
-            first_ = item(list_, entry);
-            reason_ = reason;
-        }
-    }
-    void report(Warnings& warnings) const {
-        if (count_ > 0) {
-            warn(warnings, first_,
-                 reason_ + "; left out" + (count_ > 1 ? ", as are " + std::to_string(count_ - 1) + " more" : ""));
-        }
-    }
-
-private:
-    std::string list_;
-    std::string first_;
-    std::string reason_;
-    size_t count_ = 0;
-};
 
 /// Edges and vertices in the order of the file, each once, with the sharpest of what it says of them.
 class SharpFeatures {

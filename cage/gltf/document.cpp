@@ -128,6 +128,10 @@ Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFi
         document.materials = table(root, "materials");
     }
     document.meshes = table(root, "meshes");
+    for (const json& animation : table(root, "animations")) {
+        const json* extras = member(animation, "extras");
+        document.animationExtras.push_back(extras != nullptr ? *extras : json());
+    }
     document.model = toModel(root);
     return document;
 }

@@ -27,6 +27,7 @@ struct Document {
     supple_tinygltf::Model model;
     json meshes;    ///< as the file has them: with the extensions and extras that the model lacks, unchecked
     json materials; ///< likewise
+    std::vector<json> animationExtras;               ///< by animation; null where absent
     std::vector<Texture> textures;                   ///< see readTextures()
     std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each, or none
     std::vector<Image> images;                       ///< same indices as the file's; bytes empty where missing

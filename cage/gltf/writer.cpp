@@ -179,6 +179,9 @@ public:
                 samplers.push_back(writeSampler(clip, channel));
             }
             animations.push_back({{"name", clip.name}, {"channels", channels}, {"samplers", samplers}});
+            for (const Marker& marker : clip.markers) {
+                animations.back()["extras"]["markers"].push_back({{"name", marker.name}, {"time", marker.time}});
+            }
         }
         return animations;
     }

@@ -156,6 +156,21 @@ void tellTrim(const cage::Material& from, SuppleMaterialInfo& info) {
     info.trimTiles = trim->tiles;
 }
 
+SuppleResult clipBounds(Context& context, const char* function, const Asset& asset, uint32_t clip,
+                        const skinning::ClipBoundsDesc& desc, SuppleBounds* out) {
+    if (out == nullptr) {
+        return refuse(context, ErrorCode::nullPointer, function, "out is null");
+    }
+    const std::optional<SuppleBounds> found = asset.clipBounds.of(asset.character, clip, desc);
+    if (!found) {
+        return refuse(context, ErrorCode::range, function,
+                      asset.character.name + ": clip " + std::to_string(clip) + " of " +
+                          std::to_string(asset.character.clips.size()));
+    }
+    *out = *found;
+    return SUPPLE_OK;
+}
+
 void tell(const cage::Material& from, SuppleMaterialInfo& info) {
     info.name = from.name.c_str();
     info.alphaMode = static_cast<SuppleAlphaMode>(from.alphaMode);
@@ -312,6 +327,24 @@ SuppleResult suppleGetClipInfo(SuppleContext handle, SuppleAsset asset, uint32_t
             info.name = clips[clip].name.c_str();
             info.duration = clips[clip].duration;
         });
+    });
+}
+
+SuppleResult suppleGetClipBounds(SuppleContext handle, SuppleAsset asset, uint32_t clip, SuppleBounds* out) {
+    return withAsset(handle, asset, "suppleGetClipBounds", [&](Context& context, const Asset& found) {
+        return clipBounds(context, "suppleGetClipBounds", found, clip, {}, out);
+    });
+}
+
+SuppleResult suppleGetGroupClipBounds(SuppleContext handle, SuppleGroup group, uint32_t clip, SuppleBounds* out) {
+    constexpr const char* kHere = "suppleGetGroupClipBounds";
+    return withGroup(handle, group, kHere, [&](Context& context, const Group& found) {
+        if (found.instances().source() == SUPPLE_POSES_CAGE_BUFFER) {
+            return refuse(context, ErrorCode::argument, kHere, "the host deforms the cages of the group");
+        }
+        const bool dualQuaternions = found.instances().skinning() == skinning::SkinningMode::dualQuaternion;
+        return clipBounds(context, kHere, found.asset(), clip,
+                          {dualQuaternions, static_cast<double>(found.boundsMargin())}, out);
     });
 }
 

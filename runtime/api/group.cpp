@@ -83,7 +83,8 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
         constexpr uint32_t kFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
-                                    SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_WINDOWS;
+                                    SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
+                                    SUPPLE_GROUP_WINDOWS;
         if ((desc.flags & ~kFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
@@ -99,7 +100,7 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
             return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");
         }
-        if (desc.view.id != 0 && (desc.flags & ~uint32_t{SUPPLE_GROUP_ONE_LEVEL}) != 0) {
+        if (desc.view.id != 0 && (desc.flags & ~uint32_t{SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS}) != 0) {
             return refuse(context, ErrorCode::argument, kHere, "a group of a view has the view's flags");
         }
         if (const auto fault = checkPartSchemes(context, desc)) {

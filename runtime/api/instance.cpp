@@ -21,6 +21,7 @@ SuppleResult suppleCreateInstance(SuppleContext handle, SuppleGroup group, Suppl
                           "the group is full: its capacity is " + std::to_string(found.slots().capacity()));
         }
         found.poses().reset(*slot);
+        found.instances().userData().set(*slot, {});
         *out = {group, *slot, found.slots().generation(*slot)};
         return SUPPLE_OK;
     });
@@ -67,6 +68,17 @@ SuppleResult suppleSetPartVisible(SuppleContext handle, SuppleInstance instance,
 SuppleResult suppleTeleport(SuppleContext handle, SuppleInstance instance) {
     return withInstance(handle, instance, "suppleTeleport", [&](Context&, Group& found) {
         found.slots().forget(instance.slot);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetUserData(SuppleContext handle, SuppleInstance instance, const float* data) {
+    constexpr const char* kHere = "suppleSetUserData";
+    return withInstance(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (data == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "data is null");
+        }
+        found.instances().userData().set(instance.slot, {data[0], data[1], data[2], data[3]});
         return SUPPLE_OK;
     });
 }

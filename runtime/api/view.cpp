@@ -162,10 +162,33 @@ SuppleResult suppleGetInstanceBounds(SuppleContext handle, SuppleGroup group, Su
         if (out == nullptr) {
             return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
         }
-        if (found.culling() == nullptr) {
-            return refuse(context, ErrorCode::argument, kHere, "the group belongs to no view");
+        if (!found.hasBounds()) {
+            return refuse(context, ErrorCode::argument, kHere,
+                          "the group belongs to no view and was created without SUPPLE_GROUP_BOUNDS");
         }
-        *out = found.culling()->bounds();
+        *out = found.bounds();
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleReadInstanceBounds(SuppleContext handle, SuppleInstance instance, SuppleBounds* out,
+                                      uint64_t* frame) {
+    constexpr const char* kHere = "suppleReadInstanceBounds";
+    return withInstance(handle, instance, kHere, [&](Context& context, Group& found) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        if (found.boundsReadback() == nullptr) {
+            return refuse(context, ErrorCode::argument, kHere, "the group was created without SUPPLE_GROUP_BOUNDS");
+        }
+        const auto box = found.boundsReadback()->read(instance.slot, instance.generation);
+        if (!box) {
+            return SUPPLE_NOT_READY;
+        }
+        *out = box->bounds;
+        if (frame != nullptr) {
+            *frame = box->frame;
+        }
         return SUPPLE_OK;
     });
 }

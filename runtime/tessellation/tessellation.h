@@ -66,6 +66,11 @@ public:
     [[nodiscard]] bool isMesh() const {
         return kind() != SUPPLE_TESSELLATION_NONE && surface::schemeOf(scheme_->recipe.scheme).isMesh();
     }
+    /// How far the surface may lie outside the box of its cage, as a part of the box's size.
+    [[nodiscard]] float boundsMargin() const {
+        return kind() == SUPPLE_TESSELLATION_NONE ? 0.0f
+                                                  : surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage());
+    }
     /// Why the rate is not the one asked for, or empty.
     [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
 

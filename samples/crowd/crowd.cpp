@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -37,6 +38,14 @@ std::vector<Arc> arcs() {
         for (const float turn : {1.0f, -1.0f})
             all.push_back({"arc " + std::to_string(all.size()), radius, turn});
     return all;
+}
+
+/// Every kind has hues of its own, every slot a shade of them. character.vert says what the numbers are.
+std::array<float, 4> tintOf(size_t kind, uint32_t slot) {
+    constexpr std::array<float, kKinds> kHues = {0.0f, 2.9f, -1.75f};
+    const uint32_t hash = (slot * 3u + static_cast<uint32_t>(kind)) * 2654435761u;
+    const auto part = [&](uint32_t shift) { return static_cast<float>((hash >> shift) & 255u) / 255.0f; };
+    return {kHues[kind] + 0.5f * (part(0) - 0.5f), 0.8f + 0.4f * part(8), 0.0f, 0.0f};
 }
 
 std::vector<char> readGlb(const std::string& path) {
@@ -92,6 +101,7 @@ Crowd::Crowd(const Device& device, const CrowdOptions& options)
         desc.view = view_.handle();
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
         must(supple::Group::create(context_, desc, kind.group), "suppleCreateGroup");
+        must(kind.group.info(kind.info), "suppleGetGroupInfo");
         must(kind.group.vertexStreams(kind.streams), "suppleGetVertexStreams");
         must(kind.group.levelOutput(kind.levels), "suppleGetLevelOutput");
     }
@@ -119,6 +129,7 @@ Crowd::Crowd(const Device& device, const CrowdOptions& options)
         const float angle = uniform(0.0f, 6.2831853f), radius = all[arc].radius * kindDesc.size;
         supple::Instance& instance = instances_.emplace_back();
         must(supple::Instance::create(kind.group, instance), "suppleCreateInstance");
+        must(instance.setUserData(tintOf(i % kKinds, instance.handle().slot)), "suppleSetUserData");
 
         // All of it once. From then on the clip runs on the device, and where its root goes, the character goes.
         SupplePlaybackLayer layer{};

@@ -20,6 +20,7 @@ inline constexpr size_t kKinds = 3;
 struct Kind {
     supple::Asset asset;
     supple::Group group;
+    SuppleGroupInfo info{};
     SuppleVertexStreams streams{};
     SuppleLevelOutput levels{};
     uint32_t firstArc = 0; ///< clip of the first of its arcs

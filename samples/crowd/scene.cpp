@@ -37,7 +37,6 @@ struct CharacterPush {
     uint32_t capacity;
     uint32_t paint;
     uint32_t sun;
-    uint32_t kind;
 };
 
 struct TextCorner { // of stb_easy_font
@@ -67,11 +66,13 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
     const VkDescriptorSetLayout sceneLayout =
         must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
                                       {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}}));
-    // The bindings of shaders/supple_surface.glsl at levels of detail: vertices, attributes, buckets, patches.
+    // The bindings of shaders/supple_surface.glsl at levels of detail: vertices, attributes, buckets, patches, user
+    // data.
     const VkDescriptorSetLayout kindLayout = must(createSetLayout(device, {{1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
                                                                            {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
                                                                            {4, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                                                           {5, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
+                                                                           {5, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                                                           {6, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
     const VkDescriptorSetLayout textLayout = must(createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
     layout_ = must(
         createPipelineLayout(device, {sceneLayout, kindLayout}, sizeof(CharacterPush), VK_SHADER_STAGE_VERTEX_BIT));
@@ -93,7 +94,8 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
         const SuppleLevelOutput& levels = crowd.kinds()[k].levels;
         kindSets_[k] = must(pool.allocate(kindLayout));
         pool.write(kindSets_[k], {storageBuffer(1, streams.vertices), storageBuffer(3, streams.attributes),
-                                  storageBuffer(4, levels.buckets), storageBuffer(5, levels.patches)});
+                                  storageBuffer(4, levels.buckets), storageBuffer(5, levels.patches),
+                                  storageBuffer(6, crowd.kinds()[k].info.userData)});
     }
 
     sunPipeline_ = must(createGraphicsPipeline(device, {.layout = layout_,
@@ -179,14 +181,8 @@ void Scene::drawCharacters(VkCommandBuffer commands, uint32_t slot, bool sun, bo
         vkCmdBindIndexBuffer(commands, levels.indices.buffer, levels.indices.offset, VK_INDEX_TYPE_UINT16);
         for (uint32_t i = 0; i < levels.drawCount; ++i) {
             const SuppleLevelDraw& draw = levels.draws[i];
-            const CharacterPush push{i,
-                                     draw.verticesPerInstance,
-                                     draw.samplesPerPatch,
-                                     0,
-                                     draw.capacity,
-                                     paint ? 1u : 0u,
-                                     sun ? 1u : 0u,
-                                     static_cast<uint32_t>(k)};
+            const CharacterPush push{
+                i, draw.verticesPerInstance, draw.samplesPerPatch, 0, draw.capacity, paint ? 1u : 0u, sun ? 1u : 0u};
             vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
             vkCmdDrawIndexedIndirect(commands, levels.indirect.buffer,
                                      levels.indirect.offset + VkDeviceSize{i} * levels.indirect.stride, 1,

@@ -267,10 +267,11 @@ TEST(Allocation, FramesTakeNoMemory) {
         ASSERT_EQ(createTube(handle, asset), SUPPLE_OK);
         constexpr uint32_t kCapacity = 5;
         SmallGroup groups[] = {
-            createGroup(handle, asset,
-                        {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_PATCHES,
-                         .capacity = kCapacity,
-                         .rate = 1}),
+            createGroup(
+                handle, asset,
+                {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_BOUNDS,
+                 .capacity = kCapacity,
+                 .rate = 1}),
             createGroup(handle, asset, {.capacity = kCapacity, .rate = 1, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION}),
             createGroup(handle, asset, {.capacity = kCapacity, .rate = 1, .poseSource = SUPPLE_POSES_PLAYBACK})};
         const SuppleGroup all[] = {groups[0].group, groups[1].group, groups[2].group};
@@ -338,6 +339,8 @@ TEST(Allocation, FramesTakeNoMemory) {
                     ok(suppleDestroyInstance(handle, other));
                     ok(suppleCreateInstance(handle, group.group, &other));
                 }
+                const float data[4] = {static_cast<float>(n), 0.0f, 0.0f, 1.0f};
+                ok(suppleSetUserData(handle, groups[0].instances[n % kCapacity], data));
                 uint32_t room = SUPPLE_MAX_TIMINGS;
                 ok(suppleGetTimings(handle, timings.data(), &room));
                 SuppleBudget budget{};

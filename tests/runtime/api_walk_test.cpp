@@ -54,6 +54,7 @@ public:
         buffered =
             createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_CAGE_BUFFER});
         played = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
+        bounded = createGroup(handle(), mine.asset, {.flags = SUPPLE_GROUP_BOUNDS, .scheme = SUPPLE_SCHEME_CAGE});
         const SuppleViewDesc viewAsked = viewDesc();
         for (SuppleView* made : {&view, &blindView, &staleView}) {
             EXPECT_EQ(suppleCreateView(handle(), &viewAsked, made), SUPPLE_OK);
@@ -244,7 +245,7 @@ public:
         SuppleAsset asset{};
         SmallGroup main, subdivision;
     } mine, theirs;
-    SmallGroup spare, buffered, played, seen;
+    SmallGroup spare, buffered, played, seen, bounded;
     SuppleView view{}, cullingView{}, blindView{}, staleView{}, foreignView{}; ///< the blind one gets no camera
     SuppleAsset staleAsset{};
     SuppleGroup staleGroup{};
@@ -364,9 +365,8 @@ public:
         stale("asset for group", [](World& w) { return SuppleGroup{w.mine.asset.id}; });
         stale("no group at all", [](World&) { return SuppleGroup{~0ull}; });
     }
-    /// `valid`: whose instance takes the call.
     template <class Call>
-    void instances(const char* function, Call call, bool poses, SmallGroup World::*valid = &World::spare) {
+    void instancesRefused(const char* function, Call call) {
         nullContext(function, [=](World& w, SuppleContext c) { return call(w, c, w.instance()); });
         const auto stale = [&](const char* what, auto get) {
             refuse(function, what, SUPPLE_MESSAGE_STALE_HANDLE, [=](World& w) { return call(w, w.handle(), get(w)); });
@@ -388,6 +388,11 @@ public:
             return SuppleInstance{w.mine.main.group, ~0u, w.instance().generation};
         });
         stale("generation 0", [](World& w) { return SuppleInstance{w.mine.main.group, 0, 0}; });
+    }
+    /// `valid`: whose instance takes the call.
+    template <class Call>
+    void instances(const char* function, Call call, bool poses, SmallGroup World::*valid = &World::spare) {
+        instancesRefused(function, call);
         accept(function, "valid", [=](World& w) { return call(w, w.handle(), (w.*valid).instances[0]); });
         if (poses) {
             refuse(function, "the host's buffer poses the group", SUPPLE_MESSAGE_CONFLICT,
@@ -634,6 +639,48 @@ void createAsset(Rows& r) {
     // What names no edge or vertex is left out with a note, and sharpness that is no number is none.
 }
 
+void markers(Rows& r) {
+    constexpr const char* kAll = "suppleGetClipMarkers";
+    constexpr const char* kBetween = "suppleGetClipMarkersBetween";
+    const auto between = [](World& w, SuppleAsset asset, uint32_t clip, double from, double to, uint32_t flags) {
+        return suppleGetClipMarkersBetween(w.handle(), asset, clip, from, to, flags, w.plain<SuppleClipMarker>(),
+                                           w.number(1));
+    };
+    r.assets(kAll, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleGetClipMarkers(c, a, 0, w.plain<SuppleClipMarker>(), w.number(1));
+    });
+    r.assets(kBetween, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleGetClipMarkersBetween(c, a, 0, 0.0, 1.0, 0, w.plain<SuppleClipMarker>(), w.number(1));
+    });
+    r.refuse(kAll, "count null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        return suppleGetClipMarkers(w.handle(), w.mine.asset, 0, w.plain<SuppleClipMarker>(), nullptr);
+    });
+    r.refuse(kBetween, "count null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        return suppleGetClipMarkersBetween(w.handle(), w.mine.asset, 0, 0.0, 1.0, 0, w.plain<SuppleClipMarker>(),
+                                           nullptr);
+    });
+    for (const uint32_t clip : {kClips, SUPPLE_BIND_POSE, SUPPLE_REST_POSE}) {
+        r.refuse(kAll, "clip " + std::to_string(clip), SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
+            return suppleGetClipMarkers(w.handle(), w.mine.asset, clip, w.plain<SuppleClipMarker>(), w.number(1));
+        });
+        r.refuse(kBetween, "clip " + std::to_string(clip), SUPPLE_MESSAGE_OUT_OF_RANGE,
+                 [=](World& w) { return between(w, w.mine.asset, clip, 0.0, 1.0, 0); });
+    }
+    r.refuse(kBetween, "unknown flags", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [=](World& w) { return between(w, w.mine.asset, 0, 0.0, 1.0, 4); });
+    for (const double time : {static_cast<double>(kNan), static_cast<double>(kInfinity)}) {
+        r.refuse(kBetween, "from " + std::to_string(time), SUPPLE_MESSAGE_NOT_FINITE,
+                 [=](World& w) { return between(w, w.mine.asset, 0, time, 1.0, 0); });
+        r.refuse(kBetween, "to " + std::to_string(time), SUPPLE_MESSAGE_NOT_FINITE,
+                 [=](World& w) { return between(w, w.mine.asset, 0, 0.0, time, 0); });
+    }
+    r.refuse(kBetween, "from too early", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [=](World& w) { return between(w, w.mine.asset, 0, -1.1e9, 1.0, 0); });
+    r.refuse(kBetween, "to too late", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [=](World& w) { return between(w, w.mine.asset, 0, 0.0, 1.1e9, 0); });
+    r.accept(kBetween, "no markers", [=](World& w) { return between(w, w.mine.asset, 0, 0.0, 1e9, 3); });
+}
+
 void assetGetters(Rows& r) {
     r.assets("suppleDestroyAsset", [](World&, SuppleContext c, SuppleAsset a) { return suppleDestroyAsset(c, a); });
     const auto info = [](World& w, SuppleContext c, SuppleAsset a) {
@@ -660,6 +707,24 @@ void assetGetters(Rows& r) {
     part("suppleGetMorphTargetInfo", kTargets, &suppleGetMorphTargetInfo);
     part("suppleGetMaterialInfo", kMaterials, &suppleGetMaterialInfo);
     part("suppleGetImageInfo", kImages, &suppleGetImageInfo);
+
+    constexpr const char* kClipBounds = "suppleGetClipBounds";
+    r.assets(kClipBounds, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleGetClipBounds(c, a, 0, w.plain<SuppleBounds>());
+    });
+    r.refuse(kClipBounds, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetClipBounds(w.handle(), w.mine.asset, 0, nullptr); });
+    for (const uint32_t clip : {kClips, 0xFFFFFFFDu}) {
+        r.refuse(kClipBounds, "clip " + std::to_string(clip), SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
+            return suppleGetClipBounds(w.handle(), w.mine.asset, clip, w.plain<SuppleBounds>());
+        });
+    }
+    for (const uint32_t clip : {0u, SUPPLE_BIND_POSE, SUPPLE_REST_POSE}) {
+        r.accept(kClipBounds, "clip " + std::to_string(clip), [=](World& w) {
+            return suppleGetClipBounds(w.handle(), w.mine.asset, clip, w.plain<SuppleBounds>());
+        });
+    }
+    markers(r);
 
     constexpr const char* kMask = "suppleFillJointMask";
     r.assets(kMask, [](World& w, SuppleContext c, SuppleAsset a) {
@@ -1033,10 +1098,25 @@ void groups(Rows& r) {
     });
     r.refuse(kBounds, "out null", SUPPLE_MESSAGE_NULL_POINTER,
              [](World& w) { return suppleGetInstanceBounds(w.handle(), w.seen.group, nullptr); });
-    r.refuse(kBounds, "without a view", SUPPLE_MESSAGE_CONFLICT,
+    r.refuse(kBounds, "without a view or BOUNDS", SUPPLE_MESSAGE_CONFLICT,
              [](World& w) { return suppleGetInstanceBounds(w.handle(), w.spare.group, w.plain<SuppleBufferRange>()); });
     r.accept(kBounds, "of a view",
              [](World& w) { return suppleGetInstanceBounds(w.handle(), w.seen.group, w.plain<SuppleBufferRange>()); });
+    constexpr const char* kClipBounds = "suppleGetGroupClipBounds";
+    r.groups(kClipBounds, [](World& w, SuppleContext c, SuppleGroup g) {
+        return suppleGetGroupClipBounds(c, g, 0, w.plain<SuppleBounds>());
+    });
+    r.refuse(kClipBounds, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetGroupClipBounds(w.handle(), w.mine.main.group, 0, nullptr); });
+    r.refuse(kClipBounds, "no such clip", SUPPLE_MESSAGE_OUT_OF_RANGE, [](World& w) {
+        return suppleGetGroupClipBounds(w.handle(), w.mine.main.group, kClips, w.plain<SuppleBounds>());
+    });
+    r.refuse(kClipBounds, "the host deforms", SUPPLE_MESSAGE_CONFLICT, [](World& w) {
+        return suppleGetGroupClipBounds(w.handle(), w.buffered.group, 0, w.plain<SuppleBounds>());
+    });
+    r.accept(kClipBounds, "rest pose", [](World& w) {
+        return suppleGetGroupClipBounds(w.handle(), w.mine.main.group, SUPPLE_REST_POSE, w.plain<SuppleBounds>());
+    });
     constexpr const char* kPatches = "suppleGetPatches";
     r.groups(kPatches, [](World& w, SuppleContext c, SuppleGroup g) {
         return suppleGetPatches(c, g, 0, w.plain<SupplePatchInfo>(2), w.number(2));
@@ -1171,6 +1251,22 @@ void instances(Rows& r) {
     for (const int at : {3, 7, 11, 15}) {
         transform("last row at " + std::to_string(at), at, 0.5f, SUPPLE_MESSAGE_OUT_OF_RANGE);
     }
+    constexpr const char* kUserData = "suppleSetUserData";
+    r.instances(
+        kUserData, [](World&, SuppleContext c, SuppleInstance i) { return suppleSetUserData(c, i, kIdentity); }, false);
+    r.refuse(kUserData, "null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleSetUserData(w.handle(), w.spare.instances[0], nullptr); });
+    constexpr const char* kRead = "suppleReadInstanceBounds";
+    const auto read = [](World& w, SuppleContext c, SuppleInstance i) {
+        return suppleReadInstanceBounds(c, i, w.plain<SuppleBounds>(), w.plain<uint64_t>());
+    };
+    r.instancesRefused(kRead, read);
+    r.refuse(kRead, "without BOUNDS", SUPPLE_MESSAGE_CONFLICT,
+             [=](World& w) { return read(w, w.handle(), w.spare.instances[0]); });
+    r.refuse(kRead, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleReadInstanceBounds(w.handle(), w.bounded.instances[0], nullptr, nullptr); });
+    r.add(kRead, "never recorded", SUPPLE_NOT_READY, kSilent,
+          [=](World& w) { return read(w, w.handle(), w.bounded.instances[0]); });
     constexpr const char* kSocket = "suppleGetJointTransform";
     r.instances(
         kSocket,

@@ -104,10 +104,11 @@ protected:
         const host::GroupOutput output = outputOf(context->handle(), group);
         always = {output.streams.vertices.buffer,  output.streams.previousPositions.buffer,
                   output.info.deformedCage.buffer, output.info.poses.buffer,
-                  output.info.instances.buffer,    output.indirect().buffer};
+                  output.info.instances.buffer,    output.indirect().buffer,
+                  output.info.userData.buffer};
         attributes = {output.streams.attributes.buffer, output.streams.uvs1.buffer, output.streams.faceUvs.buffer};
         indices = output.indices().buffer;
-        EXPECT_EQ(sorted(always).size(), 6u);
+        EXPECT_EQ(sorted(always).size(), 7u);
     }
     /// A frame of the groups, drawn from in a second submission; the buffers that change hands.
     std::vector<VkBuffer> handedOver(std::span<const SuppleGroup> groups) { return buffersOf(barriersOf(groups)); }
@@ -170,13 +171,16 @@ TEST_F(AsyncCompute, HandsOverWhatTheFrameWrote) {
     EXPECT_EQ(handedOver({&group, 1}), wanted(true, false)) << "another rate has other attributes";
     EXPECT_EQ(handedOver({&group, 1}), wanted(false, false));
     // A second group of the same asset brings its own.
-    const SmallGroup second = createGroup(context->handle(), asset, {.scheme = SUPPLE_SCHEME_CATMULL_CLARK});
+    const SmallGroup second =
+        createGroup(context->handle(), asset, {.flags = SUPPLE_GROUP_BOUNDS, .scheme = SUPPLE_SCHEME_CATMULL_CLARK});
+    SuppleBufferRange bounds{};
+    ASSERT_EQ(suppleGetInstanceBounds(context->handle(), second.group, &bounds), SUPPLE_OK);
     const SuppleGroup both[] = {group, second.group};
     const host::GroupOutput output = outputOf(context->handle(), second.group);
     std::vector<VkBuffer> buffers = wanted(false, false);
-    for (const VkBuffer buffer :
-         {output.streams.vertices.buffer, output.info.deformedCage.buffer, output.info.poses.buffer,
-          output.info.instances.buffer, output.indirect().buffer, output.indices().buffer}) {
+    for (const VkBuffer buffer : {output.streams.vertices.buffer, output.info.deformedCage.buffer,
+                                  output.info.poses.buffer, output.info.instances.buffer, output.info.userData.buffer,
+                                  output.indirect().buffer, output.indices().buffer, bounds.buffer}) {
         buffers.push_back(buffer);
     }
     EXPECT_EQ(handedOver(both), sorted(buffers));

@@ -15,16 +15,17 @@ namespace supple::test {
 namespace {
 
 constexpr uint32_t kWindowCapacity = 23, kWindowRange = 1u << 18;
+constexpr uint32_t kViewRange = 1u << 20; ///< room for what every view has
 
 class GroupWindows : public CrowdContexts {
 protected:
     /// Runs `body` with a context whose device binds few bytes at a time.
     template <class Body>
-    static void onSmallDevice(SuppleMapping mapping, Body&& body) {
+    static void onSmallDevice(SuppleMapping mapping, uint32_t range, Body&& body) {
         WrappedVulkan& wrapped = wrappedVulkan();
         const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
         ASSERT_NE(device, nullptr);
-        wrapped.maxStorageBufferRange = kWindowRange;
+        wrapped.maxStorageBufferRange = range;
         {
             CrowdContext small(*device, mapping);
             ASSERT_TRUE(small.valid());
@@ -73,7 +74,7 @@ void stir(Crowd& crowd, std::vector<SuppleInstance>& instances, uint32_t frame, 
 
 TEST_F(GroupWindows, DrawWhatOneWindowDraws) {
     for (const SuppleMapping mapping : kMappings) {
-        onSmallDevice(mapping, [&](CrowdContext& small) {
+        onSmallDevice(mapping, kWindowRange, [&](CrowdContext& small) {
             CrowdContext& large = context(mapping);
             ASSERT_TRUE(large.valid());
             for (const WindowCase& c : kWindowCases) {
@@ -90,7 +91,7 @@ TEST_F(GroupWindows, DrawWhatOneWindowDraws) {
                 Crowd windows(small, desc(small)), one(large, desc(large));
                 ASSERT_TRUE(windows.valid() && one.valid());
                 const host::GroupOutput cut = windows.output();
-                EXPECT_GT(cut.info.windowCount, 2u) << "too small to need windows";
+                EXPECT_GE(cut.info.windowCount, 2u) << "too small to need windows";
                 EXPECT_EQ(one.output().info.windowCount, 1u);
                 for (const SuppleBufferRange& range : {cut.streams.vertices, cut.info.deformedCage, cut.info.poses}) {
                     const VkDeviceSize perSlot = range.size / kWindowCapacity;
@@ -127,7 +128,7 @@ uint32_t largestCapacityOf(const std::vector<LogLine>& lines) {
 }
 
 TEST_F(GroupWindows, AreAskedForOrTheLargestCapacityIsNamed) {
-    onSmallDevice(SUPPLE_MAPPING_NARROW, [&](CrowdContext& small) {
+    onSmallDevice(SUPPLE_MAPPING_NARROW, kViewRange, [&](CrowdContext& small) {
         TestView view(small, 1024);
         for (const bool viewed : {false, true}) {
             SuppleGroupDesc desc{};
@@ -148,7 +149,7 @@ TEST_F(GroupWindows, AreAskedForOrTheLargestCapacityIsNamed) {
             desc.capacity = largest;
             ASSERT_EQ(suppleCreateGroup(small.handle(), &desc, &group), SUPPLE_OK);
             const host::GroupOutput output = outputOf(small.handle(), group);
-            EXPECT_LE(output.streams.vertices.size, kWindowRange);
+            EXPECT_LE(output.streams.vertices.size, kViewRange);
             EXPECT_EQ(output.grid.indirect.size, output.grid.drawRangeCount * sizeof(VkDrawIndexedIndirectCommand));
             (void)small.takeLines();
         }
@@ -171,7 +172,7 @@ TEST_F(GroupWindows, AreNotOfViews) {
 }
 
 TEST_F(GroupWindows, ViewsNameTheMostVertices) {
-    onSmallDevice(SUPPLE_MAPPING_NARROW, [&](CrowdContext& small) {
+    onSmallDevice(SUPPLE_MAPPING_NARROW, kViewRange, [&](CrowdContext& small) {
         SuppleViewDesc desc{};
         desc.structSize = sizeof desc;
         desc.maxVertices = 1u << 20;

@@ -142,6 +142,11 @@ void expectSameMotion(const Character& a, const Character& b) {
         SCOPED_TRACE("clip " + a.clips[i].name);
         EXPECT_EQ(a.clips[i].name, b.clips[i].name);
         EXPECT_EQ(a.clips[i].duration, b.clips[i].duration);
+        ASSERT_EQ(a.clips[i].markers.size(), b.clips[i].markers.size());
+        for (size_t m = 0; m < a.clips[i].markers.size(); ++m) {
+            EXPECT_EQ(a.clips[i].markers[m].name, b.clips[i].markers[m].name);
+            EXPECT_EQ(a.clips[i].markers[m].time, b.clips[i].markers[m].time);
+        }
         ASSERT_EQ(a.clips[i].channels.size(), b.clips[i].channels.size());
         for (size_t k = 0; k < a.clips[i].channels.size(); ++k) {
             const Channel& x = a.clips[i].channels[k];

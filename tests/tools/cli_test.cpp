@@ -30,7 +30,8 @@ std::string cubeGltf(const std::string& binaryName, bool polygons) {
     Json gltf = Json::parse(R"({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "cube", "mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 4}, "indices": 1}]}],
-        "animations": [{"name": "Rise", "samplers": [{"input": 2, "output": 3}],
+        "animations": [{"name": "Rise", "extras": {"markers": [{"name": "top", "time": 2}, {"name": "lift", "time": 0.25}]},
+                        "samplers": [{"input": 2, "output": 3}],
                         "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],
         "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 96}, {"buffer": 0, "byteOffset": 96, "byteLength": 72},
                         {"buffer": 0, "byteOffset": 168, "byteLength": 8}, {"buffer": 0, "byteOffset": 176, "byteLength": 24},
@@ -199,11 +200,14 @@ TEST_F(Cli, InspectCountsACube) {
     ASSERT_EQ(json["clips"].size(), 1u);
     EXPECT_EQ(json["clips"][0]["name"], "Rise");
     EXPECT_DOUBLE_EQ(json["clips"][0]["duration"], 2.0);
+    EXPECT_EQ(json["clips"][0]["markers"],
+              Json::parse(R"([{"name": "lift", "time": 0.25}, {"name": "top", "time": 2.0}])"));
     EXPECT_EQ(json["schemes"]["prep"]["accepted"], true);
 
     const Outcome text = run("inspect cube.gltf");
     EXPECT_EQ(text.exitCode, 0);
     EXPECT_NE(text.out.find("Rise"), std::string::npos);
+    EXPECT_NE(text.out.find("marker lift  0.250 s"), std::string::npos) << text.out;
     EXPECT_NE(text.out.find("accepted"), std::string::npos);
 }
 

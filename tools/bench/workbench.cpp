@@ -136,11 +136,11 @@ void Workbench::recordSkin(SuppleGroup id, VkCommandBuffer commands) const {
     runtime::Group& group = inside_->group(id);
     for (const runtime::Playback::Part part : runtime::Playback::kParts) {
         if (group.poses().has(part)) {
-            group.poses().recordPart(commands, part, group.instances().windows());
+            group.poses().recordPart(commands, part, group.windows());
             computeBarrier(commands);
         }
     }
-    group.instances().recordDeform(commands);
+    group.recordDeform(commands);
 }
 
 void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {

@@ -197,7 +197,11 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     json["mostInfluences"] = findings.mostInfluences;
     json["clips"] = Json::array();
     for (const cage::Clip& clip : character.clips) {
-        json["clips"].push_back({{"name", clip.name}, {"duration", clip.duration}});
+        Json markers = Json::array();
+        for (const cage::Marker& marker : clip.markers) {
+            markers.push_back({{"name", marker.name}, {"time", marker.time}});
+        }
+        json["clips"].push_back({{"name", clip.name}, {"duration", clip.duration}, {"markers", markers}});
     }
     json["materials"] = Json::array();
     for (const cage::Material& material : character.materials) {
@@ -325,6 +329,11 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         char duration[32];
         std::snprintf(duration, sizeof duration, "  %.3f s", character.clips[i].duration);
         printLine("", std::to_string(i) + "  " + character.clips[i].name + duration);
+        for (const cage::Marker& marker : character.clips[i].markers) {
+            char time[32];
+            std::snprintf(time, sizeof time, "%.3f s", marker.time);
+            printLine("", "   marker " + marker.name + "  " + time);
+        }
     }
     printLine("materials", std::to_string(character.materials.size()));
     for (const cage::Material& material : character.materials) {

@@ -418,6 +418,12 @@ typedef struct SuppleClipInfo {
     double duration;  /**< seconds */
 } SuppleClipInfo;
 
+/** A box with sides along the axes. min is greater than max where there is nothing. */
+typedef struct SuppleBounds {
+    float min[3]; /**< the least corner */
+    float max[3]; /**< the greatest corner */
+} SuppleBounds;
+
 /** A joint of the skin. */
 typedef struct SuppleJointInfo {
     uint32_t structSize;
@@ -559,6 +565,19 @@ SUPPLE_API SuppleResult suppleGetAssetInfo(SuppleContext context, SuppleAsset as
 SUPPLE_API SuppleResult suppleGetPartInfo(SuppleContext context, SuppleAsset asset, uint32_t part, SupplePartInfo* out);
 /** Fills out. Errors: clip is not below SuppleAssetInfo.clipCount. */
 SUPPLE_API SuppleResult suppleGetClipInfo(SuppleContext context, SuppleAsset asset, uint32_t clip, SuppleClipInfo* out);
+/** A box in model space that holds every vertex of the cage, of all parts, at every time of a clip, between its keys
+ * too. Morph weights are those of the clip. clip may also be SUPPLE_BIND_POSE or SUPPLE_REST_POSE. The box is
+ * conservative: it may be a little larger than what it holds.
+ *
+ * It holds cages that linear skinning deforms. The smooth surface may lie a little outside its cage, and dual
+ * quaternions bulge: suppleGetGroupClipBounds has the box of a surface. An instance's transform is applied afterwards:
+ * transform the eight corners. The root moves as in the clip. If rootMotion takes the root's movement out of a pose,
+ * the box does not hold; make each side of it larger by the root's whole way (suppleGetRootMotion), which is right
+ * for GROUND and HEIGHT. It holds for one clip alone: poses of several layers may leave the boxes of their clips.
+ *
+ * The box of a clip is computed when it is first asked for, and kept with the asset. That takes
+ * milliseconds, or a few tenths of a second for long clips of large cages: ask while loading. Errors: no such clip. */
+SUPPLE_API SuppleResult suppleGetClipBounds(SuppleContext context, SuppleAsset asset, uint32_t clip, SuppleBounds* out);
 /** Fills out. Joints have the order of the file's skin. Errors: joint is not below jointCount. */
 SUPPLE_API SuppleResult suppleGetJointInfo(SuppleContext context, SuppleAsset asset, uint32_t joint,
                                            SuppleJointInfo* out);
@@ -629,9 +648,12 @@ typedef enum SuppleGroupFlags {
     /** Groups of a view: one level of detail per instance instead of one per edge. It is computed from the instance's
      * bounds, and from the longest edge and the sharpest bend in the bind pose. */
     SUPPLE_GROUP_ONE_LEVEL = 32,
+    /** Also compute the bounds of every visible instance (suppleGetInstanceBounds), which groups of a view have in any
+     * case, and copy them to the host (suppleReadInstanceBounds). */
+    SUPPLE_GROUP_BOUNDS = 64,
     /** Groups without a view: the host draws the group window by window (SuppleGroupInfo.windowCount). Without this
      * flag suppleCreateGroup fails if the device cannot bind the surface vertices as a whole. */
-    SUPPLE_GROUP_WINDOWS = 64
+    SUPPLE_GROUP_WINDOWS = 128
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
@@ -650,11 +672,11 @@ typedef struct SuppleGroupDesc {
     SuppleVertexFormat vertexFormat;
     SuppleSkinning skinning;
     SupplePoseSource poseSource; /**< PALETTE_BUFFER needs linear skinning */
-    /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags must then be
-     * 0 or ONE_LEVEL: the view's flags and vertexFormat apply. PREP, PM and BLEND ignore `rate` and have a
-     * SuppleLevelOutput. With CATMULL_CLARK and LOOP each instance gets the rate that its level asks for, at most
-     * `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of these
-     * three are in the group's own memory. They use none of the view's maxVertices, but count in
+    /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags may then
+     * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM and BLEND ignore `rate` and
+     * have a SuppleLevelOutput. With CATMULL_CLARK and LOOP each instance gets the rate that its level asks for, at
+     * most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of
+     * these three are in the group's own memory. They use none of the view's maxVertices, but count in
      * SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
@@ -728,6 +750,10 @@ SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance
 /** Sets the translation of an instance's transform alone, with the precision that large worlds need. position: three
  * doubles. The next suppleSetTransform replaces it. Errors: as suppleSetTransform. */
 SUPPLE_API SuppleResult suppleSetPosition(SuppleContext context, SuppleInstance instance, const double* position);
+/** Gives an instance four floats of the host's own, such as a tint, which its shaders read by slot
+ * (SuppleGroupInfo.userData, suppleUserData in supple_surface.glsl). Supple does not look at them. They are 0 in new
+ * instances, and stay until they are set again. The next suppleRecord uploads those that have changed. */
+SUPPLE_API SuppleResult suppleSetUserData(SuppleContext context, SuppleInstance instance, const float* data);
 
 /* ---------------------------------------------------------------------------------------------------- poses */
 
@@ -891,17 +917,24 @@ typedef struct SuppleGroupInfo {
      * With SUPPLE_GROUP_WINDOWS, the visible slots of window w begin at entry w * windowSize. The draws of a window
      * count their entries from there, and firstInstance leads from there to the list of a part. */
     SuppleBufferRange instances;
-    VkDeviceSize deviceBytes; /**< device memory that the group holds, without its share of the asset's tables */
+    VkDeviceSize deviceBytes;   /**< device memory that the group holds, without its share of the asset's tables */
+    SuppleBufferRange userData; /**< float4 per slot: suppleSetUserData */
     /** A device bounds storage buffers (VkPhysicalDeviceLimits::maxStorageBufferRange), so a large group is cut into
-     * windows. Window w is the slots from
-     * w * windowSize on, windowSize or what is left of them. The device can bind what a window has of every buffer that
-     * has an entry per slot, at the offset of the window's first slot. Windows begin at multiples of 256 bytes. */
+     * windows. Window w is the slots from w * windowSize on, windowSize or what is left of them. The device can bind
+     * what a window has of every buffer that has an entry per slot, at the offset of the window's first slot. Windows
+     * of vertices, previousPositions, deformedCage, poses and patchCoefficients begin at multiples of 256 bytes. */
     uint32_t windowCount;
     uint32_t windowSize;
 } SuppleGroupInfo;
 
 /** Fills out. */
 SUPPLE_API SuppleResult suppleGetGroupInfo(SuppleContext context, SuppleGroup group, SuppleGroupInfo* out);
+
+/** As suppleGetClipBounds, of the group's surfaces: with the group's skinning, and made larger by as far as a surface
+ * of its schemes may lie outside the box of its cage. Errors: no such clip; the group was created with
+ * SUPPLE_POSES_CAGE_BUFFER. */
+SUPPLE_API SuppleResult suppleGetGroupClipBounds(SuppleContext context, SuppleGroup group, uint32_t clip,
+                                                 SuppleBounds* out);
 
 /** A surface: what a group makes of the parts that have one scheme. A group has one surface per scheme, in the order of
  * their first parts. If all parts have the same scheme, that is one. The functions below that take a surface want its
@@ -1054,9 +1087,10 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 typedef struct SuppleTiming {
     /** A name in static storage: upload, attributes, pose (up to three times), deform (twice if the group has
      * several surfaces), vertex, assemble, patch, evaluate, motion. Groups of a view also have bounds (twice with
-     * OCCLUSION), list, level (twice), solve (once per view) and place; attributes come twice if some surfaces have
-     * levels and others rates. An entry `shortfall` is no pass and takes no time. It follows solve only in frames in
-     * which the view's budget was not enough (SuppleViewStatistics.shortfall). */
+     * OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have it as well), list, level (twice), solve (once per view) and
+     * place; attributes come twice if some surfaces have levels and others rates. An entry `shortfall` is no pass and
+     * takes no time. It follows solve only in frames in which the view's budget was not enough
+     * (SuppleViewStatistics.shortfall). */
     const char* pass;
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;

@@ -145,6 +145,19 @@ public:
         out = sized<SuppleClipInfo>();
         return suppleGetClipInfo(context_, handle_, clip, &out);
     }
+    /// Of the cage.
+    [[nodiscard]] SuppleResult clipBounds(uint32_t clip, SuppleBounds& out) const {
+        return suppleGetClipBounds(context_, handle_, clip, &out);
+    }
+    /// `count`: before the call how many markers `out` has room for, after it how many there are.
+    [[nodiscard]] SuppleResult clipMarkers(uint32_t clip, SuppleClipMarker* out, uint32_t& count) const {
+        return suppleGetClipMarkers(context_, handle_, clip, out, &count);
+    }
+    /// The same for those that playback passes.
+    [[nodiscard]] SuppleResult clipMarkersBetween(uint32_t clip, double from, double to, uint32_t flags,
+                                                  SuppleClipMarker* out, uint32_t& count) const {
+        return suppleGetClipMarkersBetween(context_, handle_, clip, from, to, flags, out, &count);
+    }
     [[nodiscard]] SuppleResult jointInfo(uint32_t joint, SuppleJointInfo& out) const {
         out = sized<SuppleJointInfo>();
         return suppleGetJointInfo(context_, handle_, joint, &out);
@@ -215,6 +228,10 @@ public:
     }
     [[nodiscard]] SuppleResult instanceBounds(SuppleBufferRange& out) const {
         return suppleGetInstanceBounds(context_, handle_, &out);
+    }
+    /// Of the surfaces.
+    [[nodiscard]] SuppleResult clipBounds(uint32_t clip, SuppleBounds& out) const {
+        return suppleGetGroupClipBounds(context_, handle_, clip, &out);
     }
 };
 
@@ -295,6 +312,14 @@ public:
     }
     [[nodiscard]] SuppleResult setTransform(std::span<const float, 16> transform) const {
         return suppleSetTransform(context_, handle_, transform.data());
+    }
+    /// What its shaders read by slot.
+    [[nodiscard]] SuppleResult setUserData(std::span<const float, 4> data) const {
+        return suppleSetUserData(context_, handle_, data.data());
+    }
+    /// `frame` may be null.
+    [[nodiscard]] SuppleResult readBounds(SuppleBounds& out, uint64_t* frame = nullptr) const {
+        return suppleReadInstanceBounds(context_, handle_, &out, frame);
     }
     [[nodiscard]] SuppleResult jointTransform(uint32_t joint, std::span<float, 16> out) const {
         return suppleGetJointTransform(context_, handle_, joint, out.data());

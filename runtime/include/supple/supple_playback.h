@@ -100,6 +100,44 @@ typedef struct SuppleRootMotion {
 SUPPLE_API SuppleResult suppleGetRootMotion(SuppleContext context, SuppleAsset asset, const SupplePoseDesc* pose,
                                             SuppleRootMotion* out);
 
+/* ---------------------------------------------------------------------------------------------------- markers */
+
+/** A named time of a clip: a footstep, the moment a blade hits. docs/gltf.md says how files name them. */
+typedef struct SuppleClipMarker {
+    const char* name; /**< lives as long as the asset; may be empty, and several markers may have one name */
+    double time;      /**< seconds */
+} SuppleClipMarker;
+
+/** Options of suppleGetClipMarkersBetween. */
+typedef enum SuppleMarkerFlags {
+    /** The clip loops: time 2.5 is the middle of the third pass of a clip of one second. Without it, nothing lies
+     * before 0 or behind the clip's end. A clip of no duration does not loop. */
+    SUPPLE_MARKERS_LOOP = 1,
+    /** Playback begins at `from`, so markers at `from` count too. Set it for the first interval after playback starts
+     * or jumps. With LOOP, the pass of the clip that ends at `from` does not count: it was not played. */
+    SUPPLE_MARKERS_START = 2
+} SuppleMarkerFlags;
+
+/** Fills out and count: the markers of a clip, by rising time, from 0 to the clip's duration. Errors: no such clip. */
+SUPPLE_API SuppleResult suppleGetClipMarkers(SuppleContext context, SuppleAsset asset, uint32_t clip,
+                                             SuppleClipMarker* out, uint32_t* count);
+/** Fills out and count: the markers that playback passes on its way from one time of a clip to another. Those with from
+ * < time <= to, by rising time. Backwards (to < from) those with to <= time < from, by falling time. flags is a
+ * combination of SuppleMarkerFlags. Times are unwrapped, as a game counts them, also in `out`: with LOOP, a marker
+ * occurs once in every pass. At the end of a pass, markers at the duration and those at 0 of the next pass have the
+ * same time.
+ *
+ * A host that passes the last call's `to` as `from` gets every marker exactly once: also if it turns round, because a
+ * marker counts when playback arrives at it. SUPPLE_MARKERS_START gives those at the very start:
+ *
+ *     suppleGetClipMarkersBetween(context, asset, clip, last, now, SUPPLE_MARKERS_LOOP |
+ *                                 (justStarted ? SUPPLE_MARKERS_START : 0), markers, &count);
+ *
+ * Errors: no such clip, unknown flags, a time beyond plus or minus SUPPLE_MAX_TIME. */
+SUPPLE_API SuppleResult suppleGetClipMarkersBetween(SuppleContext context, SuppleAsset asset, uint32_t clip,
+                                                    double from, double to, uint32_t flags, SuppleClipMarker* out,
+                                                    uint32_t* count);
+
 /* ---------------------------------------------------------------------------------------------------- playback */
 
 /** One clip that an instance plays. T is the group's time (suppleSetTime). The clip's time is

@@ -189,11 +189,22 @@ typedef struct SuppleLevelOutput {
 SUPPLE_API SuppleResult suppleGetLevelOutput(SuppleContext context, SuppleGroup group, uint32_t surface,
                                              SuppleLevelOutput* out);
 
-/** Bounds of the instances of a view's group. out gets a buffer of two float4 per slot, in the space of the surface
- * vertices. The first has the least corner of a box round the surface, and in w the level that the instance asks for as
- * a whole. The second has the greatest corner, and in w 1 if a cage vertex is not finite, else 0. Errors: the group
- * belongs to no view. */
+/* ---------------------------------------------------------------------------------------------------- bounds */
+
+/** Bounds of the instances of a view's group, or of a group with SUPPLE_GROUP_BOUNDS. out gets a buffer of two float4
+ * per slot, in the space of the surface vertices. The first has the least corner of a box round the surface, and in w
+ * the level that the instance asks for as a whole (without a view: 0). The second has the greatest corner, and in w 1
+ * if a cage vertex is not finite, else 0. suppleRecord writes the boxes of visible instances. Errors: the group has no
+ * bounds. */
 SUPPLE_API SuppleResult suppleGetInstanceBounds(SuppleContext context, SuppleGroup group, SuppleBufferRange* out);
+
+/** Groups with SUPPLE_GROUP_BOUNDS: the box of an instance in the newest completed frame (suppleBeginFrame) that
+ * recorded the group, as suppleGetInstanceBounds has it on the device. frame, which may be null, gets that frame.
+ * SUPPLE_NOT_READY: there is no such frame, the instance was not visible in it, or it did not exist yet. Never waits.
+ * If a cage vertex is not finite, the box holds the others only; without any, min is greater than max. Errors: the
+ * group was created without SUPPLE_GROUP_BOUNDS. */
+SUPPLE_API SuppleResult suppleReadInstanceBounds(SuppleContext context, SuppleInstance instance, SuppleBounds* out,
+                                                 uint64_t* frame);
 
 /* ---------------------------------------------------------------------------------------------------- statistics */
 

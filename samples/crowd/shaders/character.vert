@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define SUPPLE_SURFACE_SET 1
 #define SUPPLE_SURFACE_LOD
+#define SUPPLE_USER_DATA_BINDING 6
 #include "supple_surface.glsl"
 #include "scene.glsl"
 
@@ -10,20 +11,17 @@ layout(push_constant) uniform Push {
     uint capacity; // of its grids
     uint paint;    // 1: capacities as colors
     uint sun;      // 1: into the sun's map
-    uint kind;
 };
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec3 outColor;
 
-// Every kind has hues of its own, every slot a shade of them: turned round the grey axis, then a little lighter or darker.
-vec3 tinted(vec3 color, uint slot) {
-    const float kHues[3] = float[3](0.0, 2.9, -1.75);
-    uint h = (slot * 3u + kind) * 2654435761u;
-    float angle = kHues[kind % 3u] + 0.5 * (float(h & 255u) / 255.0 - 0.5);
+// Every instance has a tint of its own (crowd.cpp): turned round the grey axis by x, then lighter or darker by y.
+vec3 tinted(vec3 color, vec2 tint) {
+    float angle = tint.x;
     vec3 turned = cos(angle) * color + sin(angle) * cross(vec3(0.57735), color) + (1.0 - cos(angle)) * dot(vec3(1.0 / 3.0), color);
-    return max(turned, vec3(0.0)) * (0.8 + 0.4 * float((h >> 8u) & 255u) / 255.0);
+    return max(turned, vec3(0.0)) * tint.y;
 }
 
 // From blue, coarse, to red, fine.
@@ -41,6 +39,6 @@ void main() {
         return;
     }
     outNormal = suppleNormal(at);
-    outColor = paint != 0u ? capacityColor() : tinted(suppleColor(at).rgb, at.slot);
+    outColor = paint != 0u ? capacityColor() : tinted(suppleColor(at).rgb, suppleUserData(at).xy);
     gl_Position = scene.viewProjection * vec4(outPosition, 1.0);
 }

@@ -182,6 +182,7 @@ Character richCharacter() {
         {2, ChannelPath::rotation, Interpolation::cubicSpline, {0, 1}, {0, 0, 0, 0, 0, 0, 0,    1,    1, 0, 0, 0,
                                                                         0, 2, 0, 0, 0, 0, 0.6f, 0.8f, 0, 0, 0, 0}},
         {0, ChannelPath::weights, Interpolation::cubicSpline, {0, 1}, std::vector<float>(18, 0.5f)}};
+    c.clips[0].markers = {{"step", 0.0}, {"", 0.1}, {"step", 2.0}};
 
     c.materials.resize(2);
     c.materials[0].name = "painted";
@@ -339,7 +340,7 @@ TEST(GltfWriter, TexturesGetTheCoordinatesTheyName) {
 
 TEST(GltfWriter, SaysWhatItLeavesOut) {
     Character character = richCharacter();
-    character.clips.push_back({"still", 0.0, {}});
+    character.clips.push_back({"still", 0.0, {}, {}});
     character.cage.creases.push_back({0, 99, 3.0f});
     character.cage.creaseScalars = {{0, 1, 0.5f}};
     character.clips[1].channels[0].values[7] = 2.0f; // a key that is no unit quaternion

@@ -1,0 +1,37 @@
+// Entries of a list in `extras` that make no sense: left out with one warning. Private to cage/gltf/.
+#pragma once
+
+#include "cage/message.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace supple::cage::gltf {
+
+/// The faults of a list's entries: the first by name, the others counted, so that no file can fill the log.
+class EntryFaults {
+public:
+    explicit EntryFaults(std::string list) : list_(std::move(list)) {}
+
+    void add(size_t entry, const std::string& reason) {
+        if (count_++ == 0) {
+            first_ = item(list_, entry);
+            reason_ = reason;
+        }
+    }
+    void report(Warnings& warnings) const {
+        if (count_ > 0) {
+            warn(warnings, first_,
+                 reason_ + "; left out" + (count_ > 1 ? ", as are " + std::to_string(count_ - 1) + " more" : ""));
+        }
+    }
+
+private:
+    std::string list_;
+    std::string first_;
+    std::string reason_;
+    size_t count_ = 0;
+};
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,48 @@
+// The bounds of a group's instances, copied to where the host reads them frames later.
+#pragma once
+
+#include "base/result.h"
+#include "gpu/buffer_plan.h"
+#include "runtime/instance_slots.h"
+#include "runtime/instance_windows.h"
+#include "supple/supple.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace supple::runtime {
+
+/// A ring of copies, one more than there are frames in flight: whatever is recorded, the newest completed copy stays.
+/// Recording and reading allocate nothing.
+class BoundsReadback {
+public:
+    BoundsReadback(const gpu::Device& device, uint32_t capacity, uint32_t framesInFlight);
+    void plan(gpu::BufferPlan& staging);
+
+    /// Behind the bounds of the instances that are listed now, once they may be copied. `bounds`: by slot.
+    void record(VkCommandBuffer commandBuffer, uint64_t frame, VkBuffer bounds, const InstanceSlots& slots);
+    void beginFrame(uint64_t completedFrame) { completedFrame_ = completedFrame; }
+    void cancelFrame(uint64_t frame);
+
+    struct Box {
+        SuppleBounds bounds{};
+        uint64_t frame = 0;
+    };
+    /// Of the newest completed copy, if the instance was listed in it.
+    [[nodiscard]] std::optional<Box> read(uint32_t slot, uint32_t generation) const;
+
+private:
+    struct Copy {
+        uint64_t frame = 0;                ///< 0: none
+        std::vector<uint32_t> generations; ///< by slot; 0: it listed no instance
+    };
+    const gpu::Device* device_;
+    VkDeviceSize copyBytes_;
+    gpu::PlannedBuffer buffer_;
+    std::vector<Copy> copies_;
+    size_t next_ = 0; ///< the oldest
+    uint64_t completedFrame_ = 0;
+};
+
+} // namespace supple::runtime

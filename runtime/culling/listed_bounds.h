@@ -1,0 +1,45 @@
+// Bounds of the instances of a group that belongs to no view: the bounds pass of views (runtime/culling/bounds_pass.h)
+// without a camera.
+#pragma once
+
+#include "base/result.h"
+#include "gpu/buffer_plan.h"
+#include "runtime/culling/bounds_pass.h"
+#include "runtime/instance_windows.h"
+#include "runtime/pass_cost.h"
+
+#include <vector>
+
+namespace supple::runtime {
+
+/// Recording allocates nothing.
+class ListedBounds {
+public:
+    struct Desc {
+        const gpu::Device* device = nullptr;
+        const BoundsPass* pass = nullptr;
+        const InstanceWindows* windows = nullptr; ///< must outlive this, as all here
+        uint32_t cageVertices = 0, cageStride = 0;
+        float margin = 0.0f; ///< how far surfaces may lie outside the box of their cage, as a part of its size
+    };
+    explicit ListedBounds(const Desc& desc) : desc_(desc) {}
+    void plan(gpu::BufferPlan& device);
+    /// When the plan is carried out. `list`: all visible instances of the group by slot, capacity entries.
+    [[nodiscard]] Status createSets(VkBuffer cages, VkBuffer list);
+
+    /// Once, before anything else.
+    void recordClear(VkCommandBuffer commandBuffer) const;
+    PassCost record(VkCommandBuffer commandBuffer) const;
+
+    [[nodiscard]] SuppleBufferRange bounds() const; ///< by slot, as of Culling
+
+private:
+    Desc desc_;
+    gpu::PlannedBuffer bounds_;
+    gpu::PlannedBuffer rest_; ///< what the pass reads and writes for views: a view that sees everything, and states
+    gpu::DescriptorPoolHandle pool_;
+    gpu::TexelViews views_;
+    std::vector<VkDescriptorSet> sets_; ///< by window
+};
+
+} // namespace supple::runtime

@@ -1,0 +1,339 @@
+#include "skinning/clip_bounds.h"
+
+#include "skinning/chord.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace supple::skinning {
+
+namespace {
+
+constexpr int kMostHalvings = 8;
+/// Poses on the device are floats: of the products that lead to a vertex, and of the extent (docs/playback.md).
+constexpr double kProductSlack = 1e-6, kExtentSlack = 2e-5;
+
+Box nothing() {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+}
+
+void include(Box& box, const glm::dvec3& point, double around) {
+    box.low = glm::min(box.low, point - around);
+    box.high = glm::max(box.high, point + around);
+}
+
+Box grown(const Box& box, const glm::dvec3& by) {
+    return {box.low - by, box.high + by};
+}
+
+/// Finds the box of intervals, one after the other.
+class BoundsFinder {
+public:
+    BoundsFinder(const cage::Character& character, const cage::Clip* clip, const ClipBoundsDesc& desc)
+        : character_(character), desc_(desc), poser_(character, clip), positions_(character.cage.positions.size()) {
+        std::copy(character.cage.positions.begin(), character.cage.positions.end(), positions_.begin());
+        const cage::Skin& skin = character.skin;
+        inverseBinds_.assign(skin.inverseBinds.begin(), skin.inverseBinds.end());
+        reach_.resize(skin.joints.size(), -1.0);
+        for (size_t v = 0; v < positions_.size(); ++v) {
+            forInfluences(v, [&](const cage::Influence& influence) {
+                local_.push_back(glm::dvec3(inverseBinds_[influence.joint] * glm::dvec4(positions_[v], 1.0)));
+                distances_.push_back(glm::length(local_.back()));
+                reach_[influence.joint] = std::max(reach_[influence.joint], distances_.back());
+            });
+        }
+        joints_.resize(skin.joints.size());
+        placed_.resize(positions_.size());
+        if (clip != nullptr) {
+            steps_ = std::any_of(clip->channels.begin(), clip->channels.end(), [](const cage::Channel& channel) {
+                return channel.interpolation == cage::Interpolation::step;
+            });
+        }
+    }
+
+    /// Errors above `tolerance` halve the interval.
+    void follow(double first, double last, double tolerance, int halvings = 0) {
+        poser_.pose(first, last, pose_);
+        if (halvings < kMostHalvings && worstError() > tolerance) {
+            const double middle = 0.5 * (first + last);
+            follow(first, middle, tolerance, halvings + 1);
+            follow(middle, last, tolerance, halvings + 1);
+            return;
+        }
+        takeJoints();
+        morph();
+        Box box = nothing();
+        if (desc_.dualQuaternions || morphs_) {
+            for (size_t v = 0; v < positions_.size(); ++v) {
+                addVertex(v, box);
+            }
+            reached_ = -1.0;
+        } else {
+            addPlain(first, last, box);
+        }
+        const glm::dvec3 size = box.high - box.low;
+        box = grown(box, glm::dvec3(kProductSlack * products_ + kExtentSlack * glm::length(size)));
+        box = grown(box, desc_.margin * (box.high - box.low));
+        box_.low = glm::min(box_.low, box.low);
+        box_.high = glm::max(box_.high, box.high);
+        isSound_ = isSound_ && std::isfinite(sum_) && std::isfinite(glm::length(box.high - box.low));
+    }
+
+    [[nodiscard]] const Box& box() const { return box_; }
+    [[nodiscard]] bool isSound() const { return isSound_; }
+
+private:
+    struct Joint {
+        ChordNode place;
+        ChordMatrix rotation; ///< of the joint's matrix with the inverse bind
+        bool turns = false;   ///< whether that is a rotation times a positive number
+    };
+    /// Where a joint alone takes a vertex.
+    struct Moved {
+        ChordVector at;
+        double weight = 0.0;
+        uint32_t joint = 0;
+    };
+
+    template <class F>
+    void forInfluences(size_t vertex, F&& visit) const {
+        const cage::SkinWeights& weights = character_.weights;
+        for (uint32_t i = weights.starts[vertex]; i < weights.starts[vertex + 1]; ++i) {
+            visit(weights.influences[i]);
+        }
+    }
+
+    [[nodiscard]] double worstError() const {
+        double worst = 0.0;
+        for (size_t j = 0; j < reach_.size(); ++j) {
+            const ChordNode& node = pose_.nodes[character_.skin.joints[j]];
+            if (reach_[j] >= 0.0) {
+                worst = std::max(worst, node.linear.error * reach_[j] + node.translation.error);
+            }
+        }
+        return worst;
+    }
+
+    void takeJoints() {
+        products_ = 0.0;
+        for (size_t j = 0; j < joints_.size(); ++j) {
+            Joint& joint = joints_[j];
+            joint.place = pose_.nodes[character_.skin.joints[j]];
+            const ChordVector& t = joint.place.translation;
+            const glm::dvec3 bind(inverseBinds_[j][3]);
+            products_ = std::max({products_, glm::length(t.ends[0]), glm::length(t.ends[1]),
+                                  joint.place.linear.size * (glm::length(bind) + std::max(reach_[j], 0.0))});
+            if (!desc_.dualQuaternions) {
+                continue;
+            }
+            const glm::dmat3 linear(inverseBinds_[j]);
+            const double determinant = glm::determinant(linear), size = std::cbrt(determinant);
+            joint.turns = joint.place.turns && determinant > 0.0 &&
+                          normOf(glm::transpose(linear) * linear / (size * size) - glm::dmat3(1.0)) < 1e-3;
+            if (joint.turns) {
+                joint.rotation = joint.place.rotation * chordMatrix(linear / size, linear / size, 0.0);
+            }
+        }
+    }
+
+    /// The positions at both ends, and how far each vertex may be from its chord, as far as targets move it.
+    void morph() {
+        morphs_ = false;
+        for (size_t t = 0; t < character_.morphs.targets.size(); ++t) {
+            const double weights[2] = {pose_.weights[0][t], pose_.weights[1][t]}, error = pose_.weightErrors[t];
+            if (weights[0] == 0.0 && weights[1] == 0.0 && error == 0.0) {
+                continue;
+            }
+            if (!morphs_) {
+                morphed_[0] = morphed_[1] = positions_;
+                morphErrors_.assign(positions_.size(), 0.0);
+                morphs_ = true;
+            }
+            const cage::MorphTarget& target = character_.morphs.targets[t];
+            for (size_t k = 0; k < target.vertices.size(); ++k) {
+                const uint32_t v = target.vertices[k];
+                const glm::dvec3 delta(target.deltas[k]);
+                morphed_[0][v] += weights[0] * delta;
+                morphed_[1][v] += weights[1] * delta;
+                morphErrors_[v] += error * glm::length(delta);
+            }
+        }
+    }
+
+    [[nodiscard]] ChordVector moved(size_t vertex, uint32_t influence, uint32_t joint) const {
+        const ChordNode& place = joints_[joint].place;
+        if (!morphs_) {
+            return place.linear * ChordVector{{local_[influence], local_[influence]}, 0.0} + place.translation;
+        }
+        const glm::dmat4& bind = inverseBinds_[joint];
+        const ChordVector local{{glm::dvec3(bind * glm::dvec4(morphed_[0][vertex], 1.0)),
+                                 glm::dvec3(bind * glm::dvec4(morphed_[1][vertex], 1.0))},
+                                morphErrors_[vertex] * normOf(glm::dmat3(bind))};
+        return place.linear * local + place.translation;
+    }
+
+    void addVertex(size_t vertex, Box& box) {
+        moved_.clear();
+        uint32_t influence = character_.weights.starts[vertex];
+        glm::dvec3 ends[2]{glm::dvec3(0.0), glm::dvec3(0.0)};
+        double error = 0.0;
+        forInfluences(vertex, [&](const cage::Influence& of) {
+            const ChordVector at = moved(vertex, influence++, of.joint);
+            const double weight = static_cast<double>(of.weight);
+            ends[0] += weight * at.ends[0];
+            ends[1] += weight * at.ends[1];
+            error += weight * at.error;
+            if (desc_.dualQuaternions) {
+                moved_.push_back({at, weight, of.joint});
+            }
+        });
+        error += moved_.size() > 1 ? dualQuaternionError() : 0.0;
+        take(ends, error, box);
+    }
+
+    /// All vertices, linearly skinned and not morphed: the same as addVertex() without what is not needed. Where an
+    /// interval begins at which the last one ended, they are known there.
+    void addPlain(double first, double last, Box& box) {
+        const bool known = first == reached_ && !steps_;
+        const cage::SkinWeights& weights = character_.weights;
+        for (size_t v = 0; v < positions_.size(); ++v) {
+            glm::dvec3 ends[2]{known ? placed_[v] : glm::dvec3(0.0), glm::dvec3(0.0)};
+            double error = 0.0;
+            for (uint32_t i = weights.starts[v]; i < weights.starts[v + 1]; ++i) {
+                const ChordNode& place = joints_[weights.influences[i].joint].place;
+                const double weight = static_cast<double>(weights.influences[i].weight);
+                for (int end = known ? 1 : 0; end < 2; ++end) {
+                    ends[end] += weight * (place.linear.ends[end] * local_[i] + place.translation.ends[end]);
+                }
+                error += weight * (place.linear.error * distances_[i] + place.translation.error);
+            }
+            placed_[v] = ends[1];
+            take(ends, error, box);
+        }
+        reached_ = last;
+    }
+
+    void take(const glm::dvec3 (&ends)[2], double error, Box& box) {
+        include(box, ends[0], error);
+        include(box, ends[1], error);
+        sum_ += error + glm::dot(ends[0] + ends[1], glm::dvec3(1.0));
+    }
+
+    /// The most that half the angle between two joints' rotations can have as its sine: |R - S| is twice that.
+    [[nodiscard]] double sineBetween(const Joint& a, const Joint& b) const {
+        if (!a.turns || !b.turns) {
+            return 1.0;
+        }
+        double most = 0.0;
+        for (int end = 0; end < 2; ++end) {
+            double trace = 0.0;
+            for (int c = 0; c < 3; ++c) {
+                trace += glm::dot(a.rotation.ends[end][c], b.rotation.ends[end][c]);
+            }
+            most = std::max(most, std::sqrt(std::max(3.0 - trace, 0.0)) / 2.0);
+        }
+        return most + (a.rotation.error + b.rotation.error) / 2.0 + 1e-3; // scales are uniform but for rounding
+    }
+
+    /// How far a vertex that dual quaternions blend may be from where linear skinning takes it (shaders/deform).
+    ///
+    /// Let joint j take it to y_j, with the weight w_j and the unit quaternion q_j, q = sum w_j q_j, and let d_j = y_j
+    /// - y_0 be seen from the heaviest joint's. The result is y_0 + sum (re(a_j) d_j + d_j x v_j), where a_j = w_j q_j
+    /// conj(q) / |q|^2 and v_j is its vector part. If quaternions are p apart at most, less than a right angle, then
+    /// cos p <= |q|^2 <= 1, so |re(a_j) - w_j| <= w_j (1 / cos p - 1) and |v_j| <= w_j (1 - w_j) tan p. Linear skinning
+    /// has w_j instead of a_j. Quaternions that are further apart have |a_j| <= w_j / |q| and |q| >= w_0, because all
+    /// lie on the side of q_0.
+    [[nodiscard]] double dualQuaternionError() const {
+        size_t heaviest = 0;
+        for (size_t k = 1; k < moved_.size(); ++k) {
+            heaviest = moved_[k].weight > moved_[heaviest].weight ? k : heaviest;
+        }
+        const Moved& base = moved_[heaviest];
+        double sine = 0.0, toBase = 0.0;
+        for (size_t k = 0; k < moved_.size(); ++k) {
+            for (size_t l = 0; l < k; ++l) {
+                const double between = sineBetween(joints_[moved_[k].joint], joints_[moved_[l].joint]);
+                sine = std::max(sine, between);
+                toBase = k == heaviest || l == heaviest ? std::max(toBase, between) : toBase;
+            }
+        }
+        // Quaternions are turned to the side of the heaviest joint's; two of them are then on one side if both are
+        // within 45 degrees of it.
+        const bool together = sine < 0.985 && (moved_.size() == 2 || toBase < 0.7);
+        const double cosine = together ? std::sqrt(1.0 - sine * sine) : 0.0;
+        double error = 0.0;
+        for (const Moved& other : moved_) {
+            const double distance = std::max(glm::length(other.at.ends[0] - base.at.ends[0]),
+                                             glm::length(other.at.ends[1] - base.at.ends[1])) +
+                                    other.at.error + base.at.error;
+            const double share =
+                together ? 1.0 / cosine - 1.0 + (1.0 - other.weight) * sine / cosine : 1.0 + 1.0 / base.weight;
+            error += &other == &base ? 0.0 : other.weight * distance * share;
+        }
+        return error;
+    }
+
+    const cage::Character& character_;
+    ClipBoundsDesc desc_;
+    ChordPoser poser_;
+    ChordPose pose_;
+    std::vector<glm::dvec3> positions_, local_; ///< of the cage; by influence, in the space of the joint
+    std::vector<glm::dmat4> inverseBinds_;
+    std::vector<double> distances_;  ///< by influence: the length of local_
+    std::vector<glm::dvec3> placed_; ///< linearly skinned, at the time reached_
+    double reached_ = -1.0;
+    bool steps_ = false;        ///< what is right before a time is not what is at it
+    double sum_ = 0.0;          ///< of everything: finite if all of it is
+    std::vector<double> reach_; ///< by joint: the farthest vertex that follows it, or -1
+    std::vector<Joint> joints_;
+    bool morphs_ = false;
+    std::vector<glm::dvec3> morphed_[2];
+    std::vector<double> morphErrors_;
+    std::vector<Moved> moved_;
+    double products_ = 0.0; ///< the largest length among what is added up to a vertex
+    Box box_ = nothing();
+    bool isSound_ = true;
+};
+
+/// The times of all keys, and the clip's ends.
+std::vector<double> keysOf(const cage::Clip& clip) {
+    std::vector<double> times{0.0, clip.duration};
+    for (const cage::Channel& channel : clip.channels) {
+        for (const float time : channel.times) {
+            times.push_back(std::clamp(static_cast<double>(time), 0.0, clip.duration));
+        }
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+} // namespace
+
+Box clipBounds(const cage::Character& character, const cage::Clip* clip, const ClipBoundsDesc& desc) {
+    BoundsFinder finder(character, clip, desc);
+    finder.follow(0.0, 0.0, std::numeric_limits<double>::infinity());
+    if (clip != nullptr) {
+        const double tolerance = desc.tolerance * glm::length(finder.box().high - finder.box().low);
+        const std::vector<double> times = keysOf(*clip);
+        for (size_t k = 0; k + 1 < times.size(); ++k) {
+            finder.follow(times[k], times[k + 1], tolerance);
+        }
+        finder.follow(clip->duration, clip->duration, tolerance); // what a step begins there
+    }
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return finder.isSound() ? finder.box() : Box{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
+}
+
+Box bindBounds(const cage::Character& character, const ClipBoundsDesc& desc) {
+    Box box = nothing();
+    for (const glm::vec3& position : character.cage.positions) {
+        include(box, glm::dvec3(position), 0.0);
+    }
+    return grown(box, desc.margin * (box.high - box.low));
+}
+
+} // namespace supple::skinning
