@@ -17,6 +17,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,6 +71,13 @@ public:
     SlotMap<View> views;
 
 private:
+    /// Why the frame cannot begin, if it cannot.
+    [[nodiscard]] Status checkFrame(uint64_t frame, uint64_t completedFrame) const;
+    [[nodiscard]] Status takeFrame(uint64_t frame, uint64_t completedFrame);
+    /// For what needs a frame.
+    [[nodiscard]] Status checkOpen(const char* function) const;
+    /// Behind the frame that ends now: warns of groups that seem to be drawn and were never recorded.
+    void warnOfUnrecorded();
     void retire(uint64_t completedFrame);
     template <class F>
     void forViews(F&& visit); ///< those too that only groups hold
@@ -85,7 +93,8 @@ private:
     bool asyncCompute_ = false;
     uint32_t queueFamily_ = 0, drawQueueFamily_ = 0;
     uint64_t frame_ = 0, completedFrame_ = 0;
-    bool frameOpen_ = false; ///< begun and not cancelled
+    bool frameOpen_ = false;               ///< begun and not cancelled
+    std::optional<uint64_t> refusedFrame_; ///< by suppleBeginFrame, since the last one that it took
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     skinning::DeformPass deform_;

@@ -196,6 +196,20 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     return cost;
 }
 
+bool Group::noteUnrecordedFrame() {
+    constexpr uint32_t kFrames = 8;
+    if (passesFrame_ != 0 || !outputsAsked_ || unrecordedFrames_ >= kFrames) {
+        return false;
+    }
+    const InstanceSlots& slots = instances_->slots();
+    std::vector<uint32_t> scratch(slots.capacity());
+    bool anyVisible = false;
+    for (uint32_t part = 0; part < asset_->parts.size() && !anyVisible; ++part) {
+        anyVisible = slots.listPart(part, scratch) > 0;
+    }
+    return anyVisible && ++unrecordedFrames_ == kFrames;
+}
+
 void Group::addTransfers(Transfers& transfers) const {
     instances_->addTransfers(transfers);
     visibility_->addTransfers(transfers);

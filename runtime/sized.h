@@ -19,6 +19,8 @@ inline constexpr size_t kFirstSize<SuppleAssetDesc> = offsetof(SuppleAssetDesc, 
 template <>
 inline constexpr size_t kFirstSize<SuppleJointInfo> = offsetof(SuppleJointInfo, restTransform);
 template <>
+inline constexpr size_t kFirstSize<SuppleRequirements> = offsetof(SuppleRequirements, instanceVersion);
+template <>
 inline constexpr size_t kFirstSize<SuppleViewStatistics> = offsetof(SuppleViewStatistics, hiddenPatchCount);
 
 /// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with
