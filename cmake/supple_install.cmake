@@ -1,5 +1,5 @@
 # Install rules, in three components: runtime (the shared library), development (headers, libraries to link, packages for
-# CMake and pkg-config, GLSL), tools (the supple command).
+# CMake and pkg-config, GLSL, documents), tools (the supple command).
 include(CMakePackageConfigHelpers)
 
 set(config_directory ${CMAKE_INSTALL_LIBDIR}/cmake/supple)
@@ -34,6 +34,9 @@ install(FILES
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/supple COMPONENT development)
 list(TRANSFORM SUPPLE_HOST_SHADERS PREPEND ${supple_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE host_shaders)
 install(FILES ${host_shaders} DESTINATION ${shader_directory} COMPONENT development)
+# The headers cite documents.
+install(DIRECTORY ${supple_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/supple COMPONENT development
+    FILES_MATCHING PATTERN "*.md" PATTERN "images/*")
 
 # ---- for find_package
 

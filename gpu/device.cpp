@@ -1,6 +1,7 @@
 #include "gpu/device.h"
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 namespace supple::gpu {
@@ -21,6 +22,41 @@ constexpr NamedFeature12 kFeatures12[] = {{"scalarBlockLayout", &VkPhysicalDevic
 // maintenance4: workgroup sizes by specialization constant alone.
 constexpr NamedFeature13 kFeatures13[] = {{"synchronization2", &VkPhysicalDeviceVulkan13Features::synchronization2},
                                           {"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4}};
+
+constexpr const char* kNewInstance = "the VkInstance must be created with apiVersion 1.3 or more";
+/// No VkBool32 that a driver writes.
+constexpr VkBool32 kUntouched = 2;
+
+std::string versionText(uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
+}
+
+/// What the device offers of the features that are needed. Loaders answer for an instance of Vulkan 1.0 themselves, and
+/// know no structs of later versions: these stay untouched.
+struct OfferedFeatures {
+    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    bool untouched = true;
+
+    OfferedFeatures(const Functions& vk, VkPhysicalDevice physicalDevice) {
+        for (const NamedFeature12& feature : kFeatures12) {
+            features12.*feature.member = kUntouched;
+        }
+        for (const NamedFeature13& feature : kFeatures13) {
+            features13.*feature.member = kUntouched;
+        }
+        features12.pNext = &features13;
+        VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+        features.pNext = &features12;
+        vk.GetPhysicalDeviceFeatures2(physicalDevice, &features);
+        for (const NamedFeature12& feature : kFeatures12) {
+            untouched = untouched && features12.*feature.member == kUntouched;
+        }
+        for (const NamedFeature13& feature : kFeatures13) {
+            untouched = untouched && features13.*feature.member == kUntouched;
+        }
+    }
+};
 
 const char* resultName(VkResult result) {
     switch (result) {
@@ -72,33 +108,40 @@ Requirements requirements() {
     return r;
 }
 
+std::string missingInInstance(VkInstance instance, VkPhysicalDevice physicalDevice,
+                              PFN_vkGetInstanceProcAddr getInstanceProcAddr, uint32_t instanceVersion) {
+    if (instanceVersion != 0 && instanceVersion < VK_API_VERSION_1_3) {
+        return std::string(kNewInstance) + ": this one has " + versionText(instanceVersion);
+    }
+    Functions vk;
+    if (const char* missing = vk.loadInstance(instance, getInstanceProcAddr)) {
+        return std::string(kNewInstance) + ": this one has no " + missing;
+    }
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    vk.GetPhysicalDeviceProperties2(physicalDevice, &properties);
+    if (properties.properties.apiVersion >= VK_API_VERSION_1_3 && OfferedFeatures(vk, physicalDevice).untouched) {
+        return std::string(kNewInstance) + ": this one has 1.0";
+    }
+    return {};
+}
+
 std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDevice,
                                PFN_vkGetInstanceProcAddr getInstanceProcAddr) {
     Functions vk;
-    if (const char* missing = vk.loadInstance(instance, getInstanceProcAddr)) {
-        return std::string("entry point ") + missing + " (is the instance Vulkan 1.1 or later?)";
-    }
-
+    vk.loadInstance(instance, getInstanceProcAddr);
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     vk.GetPhysicalDeviceProperties2(physicalDevice, &properties);
     if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
-        return "Vulkan 1.3 (it offers " + std::to_string(VK_API_VERSION_MAJOR(properties.properties.apiVersion)) + "." +
-               std::to_string(VK_API_VERSION_MINOR(properties.properties.apiVersion)) + ")";
+        return "Vulkan 1.3 (it offers " + versionText(properties.properties.apiVersion) + ")";
     }
-
-    VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    features12.pNext = &features13;
-    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    features.pNext = &features12;
-    vk.GetPhysicalDeviceFeatures2(physicalDevice, &features);
+    const OfferedFeatures offered(vk, physicalDevice);
     for (const NamedFeature12& feature : kFeatures12) {
-        if (features12.*feature.member == VK_FALSE) {
+        if (offered.features12.*feature.member != VK_TRUE) {
             return std::string("feature ") + feature.name;
         }
     }
     for (const NamedFeature13& feature : kFeatures13) {
-        if (features13.*feature.member == VK_FALSE) {
+        if (offered.features13.*feature.member != VK_TRUE) {
             return std::string("feature ") + feature.name;
         }
     }
@@ -178,18 +221,31 @@ bool hasIndirectFirstInstance(const Functions& vk, VkPhysicalDevice physicalDevi
     return enabled;
 }
 
-Result<Device> Device::create(const DeviceDesc& desc) {
+namespace {
+
+/// Whether the host's instance and device have what is needed.
+Status checkFit(const DeviceDesc& desc) {
+    const std::string tooOld = missingInInstance(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr, 0);
+    if (!tooOld.empty()) {
+        return Error{ErrorCode::unsupported, tooOld};
+    }
     const std::string missing = missingRequirement(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr);
     if (!missing.empty()) {
         return Error{ErrorCode::unsupported, "the device lacks " + missing};
     }
-    if (desc.enabledFeatures != nullptr) {
-        const std::string disabled = disabledFeature(desc.enabledFeatures);
-        if (!disabled.empty()) {
-            return Error{ErrorCode::disabled, "the device was created without the feature " + disabled};
-        }
+    const std::string disabled = desc.enabledFeatures != nullptr ? disabledFeature(desc.enabledFeatures) : "";
+    if (!disabled.empty()) {
+        return Error{ErrorCode::disabled, "the device was created without the feature " + disabled};
     }
+    return success();
+}
 
+} // namespace
+
+Result<Device> Device::create(const DeviceDesc& desc) {
+    if (Status fit = checkFit(desc); !fit) {
+        return fit.error();
+    }
     Device d;
     d.physicalDevice = desc.physicalDevice;
     d.handle = desc.device;
@@ -199,7 +255,11 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.debugUtils = desc.debugUtils;
     d.vk.loadInstance(desc.instance, desc.getInstanceProcAddr);
     if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils)) {
-        return Error{ErrorCode::unsupported, std::string("device lacks entry point ") + name};
+        const std::string text = std::string("the device gives no ") + name;
+        // Loaders and drivers hand out what the instance's version has. Of what is loaded these alone are of 1.3.
+        const bool isNew =
+            std::strcmp(name, "vkCmdPipelineBarrier2") == 0 || std::strcmp(name, "vkCmdWriteTimestamp2") == 0;
+        return Error{ErrorCode::unsupported, isNew ? text + ": " + kNewInstance : text};
     }
 
     VkPhysicalDeviceMaintenance3Properties maintenance3{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};

@@ -84,7 +84,13 @@ struct Requirements {
     VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
 };
 [[nodiscard]] Requirements requirements();
-/// The first thing `physicalDevice` lacks, or empty.
+/// What speaks against the instance, in a sentence; or empty. `instanceVersion`: what it was created with; 0: not
+/// known. Then an instance of Vulkan 1.0 is found out by what it leaves untouched. Nothing tells one of 1.1 or 1.2:
+/// loaders hand out the functions of a physical device whatever the version, and only the functions of a device are
+/// missing.
+[[nodiscard]] std::string missingInInstance(VkInstance instance, VkPhysicalDevice physicalDevice,
+                                            PFN_vkGetInstanceProcAddr getInstanceProcAddr, uint32_t instanceVersion);
+/// The first thing `physicalDevice` lacks, or empty. The instance is fit.
 [[nodiscard]] std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDevice,
                                              PFN_vkGetInstanceProcAddr getInstanceProcAddr);
 

@@ -11,6 +11,7 @@ namespace supple::host {
 
 namespace {
 
+constexpr uint32_t kInstanceVersion = VK_API_VERSION_1_3;
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 /// Every platform's surface extension; those the instance has are enabled, so that this file needs no window library.
@@ -105,6 +106,7 @@ std::vector<VkExtensionProperties> deviceExtensions(VkPhysicalDevice physicalDev
 std::string shortcoming(VkInstance instance, VkPhysicalDevice physicalDevice, bool window) {
     SuppleRequirements requirements{};
     requirements.structSize = sizeof requirements;
+    requirements.instanceVersion = kInstanceVersion;
     if (suppleQueryRequirements(instance, physicalDevice, vkGetInstanceProcAddr, &requirements) != SUPPLE_OK)
         return requirements.reason[0] != 0 ? requirements.reason : "does not meet Supple's requirements";
     auto features13 = vkStruct<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
@@ -250,7 +252,7 @@ Status Device::createInstance(const DeviceOptions& options) {
 
     auto application = vkStruct<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
     application.pApplicationName = "supple";
-    application.apiVersion = VK_API_VERSION_1_3;
+    application.apiVersion = kInstanceVersion;
     auto info = vkStruct<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
     info.pApplicationInfo = &application;
 
@@ -344,19 +346,29 @@ Status Device::createDevice(const DeviceOptions& options) {
     vkGetPhysicalDeviceMemoryProperties(physicalDevice_, &memoryProperties_);
 
     requirements_.structSize = sizeof requirements_;
+    requirements_.instanceVersion = kInstanceVersion;
     if (suppleQueryRequirements(instance_, physicalDevice_, vkGetInstanceProcAddr, &requirements_) != SUPPLE_OK)
         return Error{ErrorCode::unsupported, requirements_.reason};
-    VkPhysicalDeviceFeatures supported{};
-    vkGetPhysicalDeviceFeatures(physicalDevice_, &supported);
+    auto supported11 =
+        vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
+    auto supported2 = vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &supported11);
+    vkGetPhysicalDeviceFeatures2(physicalDevice_, &supported2);
+    const VkPhysicalDeviceFeatures& supported = supported2.features;
 
     // Supple's features as they are, and what the hosts' own drawing wants on top.
     requirements_.features12.timelineSemaphore = VK_TRUE; // every Vulkan 1.3 device has it
     requirements_.features13.dynamicRendering = VK_TRUE;
     requirements_.features13.synchronization2 = VK_TRUE;
     requirements_.features12.pNext = &requirements_.features13;
+    // Many draws by one command (docs/integration.md).
+    features11_ = vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
+    manyDraws_ = supported.multiDrawIndirect == VK_TRUE && supported11.shaderDrawParameters == VK_TRUE;
+    features11_.shaderDrawParameters = manyDraws_ ? VK_TRUE : VK_FALSE;
+    requirements_.features13.pNext = &features11_;
     features_ =
         vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &requirements_.features12);
     features_.features.samplerAnisotropy = supported.samplerAnisotropy;
+    features_.features.multiDrawIndirect = manyDraws_ ? VK_TRUE : VK_FALSE;
     features_.features.drawIndirectFirstInstance = supported.drawIndirectFirstInstance; // suppleSetPartVisible
     anisotropy_ = supported.samplerAnisotropy == VK_TRUE;
 

@@ -112,6 +112,8 @@ public:
     [[nodiscard]] bool isCpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     [[nodiscard]] bool hasDebugUtils() const { return debugUtils_; }
     [[nodiscard]] bool hasAnisotropy() const { return anisotropy_; }
+    /// multiDrawIndirect and shaderDrawParameters.
+    [[nodiscard]] bool hasManyDraws() const { return manyDraws_; }
 
     /// The chain that vkCreateDevice was given, for SuppleContextDesc::enabledFeatures.
     [[nodiscard]] const void* enabledFeatures() const { return &features_; }
@@ -161,6 +163,7 @@ private:
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceMemoryProperties memoryProperties_{};
     SuppleRequirements requirements_{}; ///< the features that are enabled
+    VkPhysicalDeviceVulkan11Features features11_{};
     VkPhysicalDeviceFeatures2 features_{};
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
@@ -169,6 +172,7 @@ private:
     std::vector<std::function<void()>> atEnd_;
     bool debugUtils_ = false;
     bool anisotropy_ = false;
+    bool manyDraws_ = false;
 };
 
 /// "vkCreateBuffer: VK_ERROR_OUT_OF_DEVICE_MEMORY", with the ErrorCode that fits the VkResult.

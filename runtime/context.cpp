@@ -103,20 +103,73 @@ void Context::log(SuppleSeverity severity, SuppleMessage message, const std::str
     }
 }
 
-Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
+Status Context::checkFrame(uint64_t frame, uint64_t completedFrame) const {
+    const auto refuse = [&](ErrorCode code, const std::string& reason) {
+        return Error{code, "suppleBeginFrame: frame " + std::to_string(frame) + reason};
+    };
+    const auto refuseCompleted = [&](const std::string& reason) {
+        return refuse(ErrorCode::range, " with completed frame " + std::to_string(completedFrame) + ": " + reason);
+    };
     if (frame <= frame_) {
-        return Error{ErrorCode::order, "suppleBeginFrame: frame " + std::to_string(frame) +
-                                           " does not rise above frame " + std::to_string(frame_)};
+        return refuse(ErrorCode::order, " does not rise above frame " + std::to_string(frame_));
+    }
+    if (completedFrame >= frame) {
+        return refuseCompleted("a frame cannot be complete before it has been recorded");
     }
     if (completedFrame < completedFrame_) {
-        return Error{ErrorCode::range, "suppleBeginFrame: completed frame " + std::to_string(completedFrame) +
-                                           " after frame " + std::to_string(completedFrame_)};
+        return refuseCompleted("frame " + std::to_string(completedFrame_) + " was complete before");
     }
-    if (completedFrame >= frame || frame - completedFrame > framesInFlight_) {
-        return Error{ErrorCode::range, "suppleBeginFrame: frame " + std::to_string(frame) + " with completed frame " +
-                                           std::to_string(completedFrame) + ": the context keeps " +
-                                           std::to_string(framesInFlight_) + " frames in flight"};
+    const uint64_t needed = frame - completedFrame;
+    if (needed > framesInFlight_) {
+        const std::string more = needed <= SUPPLE_MAX_FRAMES_IN_FLIGHT
+                                     ? ", or create the context with framesInFlight = " + std::to_string(needed)
+                                     : "";
+        return refuseCompleted("the context keeps " + std::to_string(framesInFlight_) +
+                               " frames in flight, so wait for frame " + std::to_string(frame - framesInFlight_) +
+                               more);
     }
+    return success();
+}
+
+Status Context::checkOpen(const char* function) const {
+    const auto refuse = [function](const std::string& reason) {
+        return Error{ErrorCode::order, std::string(function) + ": " + reason};
+    };
+    if (refusedFrame_) {
+        return refuse("suppleBeginFrame refused frame " + std::to_string(*refusedFrame_) +
+                      ", so nothing can be recorded until it takes one");
+    }
+    if (frame_ == 0) {
+        return refuse("no frame has begun: call suppleBeginFrame");
+    }
+    return frameOpen_ ? success() : refuse("frame " + std::to_string(frame_) + " is cancelled: call suppleBeginFrame");
+}
+
+void Context::warnOfUnrecorded() {
+    bool recorded = false;
+    groups.forEach([&](const Group& group) { recorded = recorded || group.passesFrame() == frame_; });
+    if (!frameOpen_ || !recorded) {
+        return;
+    }
+    groups.forEach([&](Group& group) {
+        if (group.noteUnrecordedFrame()) {
+            log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_NEVER_RECORDED,
+                group.asset().character.name +
+                    ": outputs of this group were asked for and it has visible instances, but suppleRecord was never "
+                    "called for it: if it is drawn, its buffers hold nothing");
+        }
+    });
+}
+
+Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
+    Status status = checkFrame(frame, completedFrame);
+    status = status ? takeFrame(frame, completedFrame) : status;
+    refusedFrame_ = status ? std::nullopt : std::optional(frame);
+    return status;
+}
+
+Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
+    warnOfUnrecorded();
     // Before anything is freed: what was timed may be of views that go now.
     Status timed = timings.beginFrame(
         frame, completedFrame,
@@ -154,8 +207,8 @@ void Context::forViews(F&& visit) {
 }
 
 Status Context::cancelFrame() {
-    if (!frameOpen_) {
-        return Error{ErrorCode::order, "suppleCancelFrame: no frame has begun, or it is cancelled"};
+    if (Status open = checkOpen("suppleCancelFrame"); !open) {
+        return open;
     }
     frameOpen_ = false;
     pairs_.cancelUpload(frame_);

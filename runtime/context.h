@@ -17,6 +17,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,6 +79,13 @@ public:
     SlotMap<View> views;
 
 private:
+    /// Why the frame cannot begin, if it cannot.
+    [[nodiscard]] Status checkFrame(uint64_t frame, uint64_t completedFrame) const;
+    [[nodiscard]] Status takeFrame(uint64_t frame, uint64_t completedFrame);
+    /// For what needs a frame.
+    [[nodiscard]] Status checkOpen(const char* function) const;
+    /// Behind the frame that ends now: warns of groups that seem to be drawn and were never recorded.
+    void warnOfUnrecorded();
     void retire(uint64_t completedFrame);
     [[nodiscard]] Status prepareBounds(); ///< sees to it that bounds_ is there
     template <class F>
@@ -106,7 +114,8 @@ private:
     bool asyncCompute_ = false;
     uint32_t queueFamily_ = 0, drawQueueFamily_ = 0;
     uint64_t frame_ = 0, completedFrame_ = 0;
-    bool frameOpen_ = false; ///< begun and not cancelled
+    bool frameOpen_ = false;               ///< begun and not cancelled
+    std::optional<uint64_t> refusedFrame_; ///< by suppleBeginFrame, since the last one that it took
     glm::dvec3 origin_{0.0}, nextOrigin_{0.0};
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;

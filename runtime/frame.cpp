@@ -19,6 +19,16 @@ constexpr VkAccessFlags2 kIndirectRead = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
 constexpr gpu::SyncScope kFirst{kCompute | kTransfer, kRead | kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
 constexpr gpu::SyncScope kLast{kCompute | kTransfer, kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
 
+// Stages have the same values in Vulkan 1.0, where ALL_TRANSFER is called TRANSFER.
+static_assert(kCompute == VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT && kTransfer == VK_PIPELINE_STAGE_TRANSFER_BIT);
+/// The same accesses by flags that fit the 32 bits of Vulkan 1.0, for hosts.
+constexpr VkAccessFlags2 legacyAccess(VkAccessFlags2 access) {
+    return (access & ~(kRead | kWrite)) | ((access & kRead) != 0 ? VK_ACCESS_2_SHADER_READ_BIT : 0) |
+           ((access & kWrite) != 0 ? VK_ACCESS_2_SHADER_WRITE_BIT : 0);
+}
+static_assert(legacyAccess(kFirst.access) ==
+              (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT));
+
 /// What the passes of one suppleRecord work with.
 struct Frame {
     const gpu::Device& device;
@@ -249,6 +259,12 @@ constexpr Row kPasses[] = {
      Behind::nothing},
 };
 
+/// In messages: "group 1 (pip)". A handle that is no group has no name.
+std::string nameOf(size_t index, const Group* group) {
+    const std::string number = "group " + std::to_string(index);
+    return group != nullptr ? number + " (" + group->asset().character.name + ")" : number;
+}
+
 void recordBarrier(const Frame& frame, Behind behind) {
     const auto barrier = [&](gpu::SyncScope before, gpu::SyncScope after) {
         gpu::memoryBarrier(frame.device, frame.commands, before, after);
@@ -308,11 +324,11 @@ void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) 
 } // namespace
 
 SuppleSyncScope Context::firstScope() {
-    return {kFirst.stages, kFirst.access};
+    return {kFirst.stages, legacyAccess(kFirst.access)};
 }
 
 SuppleSyncScope Context::lastScope() {
-    return {kLast.stages, kLast.access};
+    return {kLast.stages, legacyAccess(kLast.access)};
 }
 
 const char* Context::faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const {
@@ -334,10 +350,10 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
     Group** last = &first;
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
         // The words are put together only where they are needed: recording allocates nothing.
-        const auto refuse = [g](ErrorCode code, const std::string& reason) {
-            return Error{code, "suppleRecord: group " + std::to_string(g) + ": " + reason};
-        };
         Group* const group = groups.find(desc.groups[g].id).get();
+        const auto refuse = [g, group](ErrorCode code, const std::string& reason) {
+            return Error{code, "suppleRecord: " + nameOf(g, group) + ": " + reason};
+        };
         if (group == nullptr) {
             return refuse(ErrorCode::staleHandle, "stale or foreign handle");
         }
@@ -379,8 +395,8 @@ VkDeviceSize Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group&
 }
 
 Status Context::recordUploads(VkCommandBuffer commandBuffer) {
-    if (!frameOpen_) {
-        return Error{ErrorCode::order, "suppleRecordUploads: no frame has begun, or it is cancelled"};
+    if (Status open = checkOpen("suppleRecordUploads"); !open) {
+        return open;
     }
     const std::scoped_lock lock(uploads_);
     bool recorded = false;
@@ -397,8 +413,8 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
 }
 
 Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc) {
-    if (!frameOpen_) {
-        return Error{ErrorCode::order, "suppleRecord: no frame has begun, or it is cancelled"};
+    if (Status open = checkOpen("suppleRecord"); !open) {
+        return open;
     }
     const Result<Group*> linked = linkGroups(desc);
     if (!linked) {
@@ -425,8 +441,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         frame.forEach([&](Group& group) {
             Transfers transfers = transfersOf(group, group.link.leadsView);
             for (VkBufferMemoryBarrier2& barrier : transfers.barriers()) {
-                barrier.srcStageMask = kLast.stages;
-                barrier.srcAccessMask = kLast.access;
+                barrier.srcStageMask = lastScope().stages;
+                barrier.srcAccessMask = lastScope().access;
             }
             VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
             info.bufferMemoryBarrierCount = static_cast<uint32_t>(transfers.barriers().size());
@@ -462,8 +478,8 @@ Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, S
     // All checks before the first barrier is written: a call that fails has done nothing.
     for (size_t g = 0; g < wanted.size(); ++g) {
         const std::shared_ptr<Group> group = groups.find(wanted[g].id);
-        const auto refuse = [g](ErrorCode code, const char* reason) {
-            return Error{code, "suppleGetAcquireBarriers: group " + std::to_string(g) + ": " + reason};
+        const auto refuse = [&](ErrorCode code, const char* reason) {
+            return Error{code, "suppleGetAcquireBarriers: " + nameOf(g, group.get()) + ": " + reason};
         };
         if (group == nullptr) {
             return refuse(ErrorCode::staleHandle, "stale or foreign handle");

@@ -315,6 +315,18 @@ void Group::recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame) 
     boundsReadback_->record(commandBuffer, frame, bounds().buffer, slots());
 }
 
+bool Group::noteUnrecordedFrame() {
+    constexpr uint32_t kFrames = 8;
+    if (passesFrame_ != 0 || !outputsAsked_ || unrecordedFrames_ >= kFrames) {
+        return false;
+    }
+    bool anyVisible = false;
+    for (uint32_t slot = 0; slot < slots().end() && !anyVisible; ++slot) {
+        anyVisible = slots().shows(slot);
+    }
+    return anyVisible && ++unrecordedFrames_ == kFrames;
+}
+
 void Group::addTransfers(Transfers& transfers) const {
     if (!follows()) {
         instances_->addTransfers(transfers);

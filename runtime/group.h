@@ -101,6 +101,12 @@ public:
     [[nodiscard]] uint32_t leastVertices() const { return culling_ != nullptr ? surfaces_.leastVertices() : 0; }
     [[nodiscard]] uint64_t leastVerticesOfAll() const { return uint64_t{leastVertices()} * windows().visible; }
 
+    /// The host has asked for what it draws of the group.
+    void noteOutputsAsked() { outputsAsked_ = true; }
+    /// Called behind every frame in which other groups were recorded. True once: when there have been so many of these
+    /// that the host seems to draw the group without recording it (SUPPLE_MESSAGE_NEVER_RECORDED).
+    [[nodiscard]] bool noteUnrecordedFrame();
+
     /// The last frame that has the group's passes, and the last that has anything of it.
     [[nodiscard]] uint64_t passesFrame() const { return passesFrame_; }
     [[nodiscard]] uint64_t lastRecordedFrame() const { return lastRecordedFrame_; }
@@ -143,6 +149,8 @@ private:
     Surfaces surfaces_;
     RecordedOnce clear_; ///< of what bounds and culling remember from frame to frame
     uint64_t passesFrame_ = 0, lastRecordedFrame_ = 0;
+    bool outputsAsked_ = false;
+    uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
 };
 
 } // namespace supple::runtime

@@ -21,6 +21,8 @@ inline constexpr size_t kFirstSize<SuppleJointInfo> = offsetof(SuppleJointInfo, 
 template <>
 inline constexpr size_t kFirstSize<SuppleGroupInfo> = offsetof(SuppleGroupInfo, userData);
 template <>
+inline constexpr size_t kFirstSize<SuppleRequirements> = offsetof(SuppleRequirements, instanceVersion);
+template <>
 inline constexpr size_t kFirstSize<SuppleViewStatistics> = offsetof(SuppleViewStatistics, hiddenPatchCount);
 
 /// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with

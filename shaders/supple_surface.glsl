@@ -32,6 +32,18 @@
 //
 // A buffer that a shader does not read needs no descriptor: a shadow pass binds the first two.
 //
+// All ranges by one call, without push constants: keep a SuppleRange for every draw range in a storage buffer, in the order of
+// SuppleGridOutput.drawRanges, and look it up by the number of the draw:
+//
+//     layout(set = 2, binding = 0, std430) readonly buffer Ranges { SuppleRange ranges[]; }; // uints without padding
+//     SuppleVertex at = suppleVertex(ranges[gl_DrawID], gl_InstanceIndex, gl_VertexIndex);
+//
+//     vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer, grid.indirect.offset, grid.drawRangeCount, grid.indirect.stride);
+//
+// The device features for this are multiDrawIndirect and shaderDrawParameters; drawIndirectFirstInstance only if parts are hidden.
+// gl_DrawID counts from 0 in every call: if a call begins with another command than the first, as for each SuppleRate, add its
+// number. docs/integration.md has more.
+//
 // Groups with SUPPLE_GROUP_INDEXED_MESH: the same shader; bind the indices as uint32.
 //
 // Groups of a view (level of detail): one draw a SuppleLevelDraw, bound and drawn alike. With SUPPLE_SURFACE_LOD defined there
@@ -40,8 +52,9 @@
 //     layout(push_constant) uniform Push { SuppleDraw draw; };
 //
 // Its vertex is the same index everywhere, for attributes of a view are written with the vertices, every frame.
-// SuppleLevelOutput.draws never change: a host with multiDrawIndirect and shaderDrawParameters keeps their two numbers in a buffer, draws all
-// that share a pipeline by one vkCmdDrawIndexedIndirect, their commands follow each other, and makes SuppleDraw of gl_DrawID.
+// SuppleLevelOutput.draws never change: a host with multiDrawIndirect and shaderDrawParameters keeps a SuppleDraw for each of them
+// in a buffer (three uints without padding), draws all that share a pipeline by one vkCmdDrawIndexedIndirect, as their commands
+// follow each other with the stride levels.indirect.stride, and looks SuppleDraw up by gl_DrawID.
 #ifndef SUPPLE_SURFACE_GLSL
 #define SUPPLE_SURFACE_GLSL
 

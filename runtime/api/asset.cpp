@@ -64,7 +64,8 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
     if (desc.cage != nullptr) {
         SuppleCageDesc cage{};
         if (!runtime::readSized(*desc.cage, cage)) {
-            return Error{ErrorCode::structSize, "suppleCreateAsset: cage->structSize is wrong"};
+            return Error{ErrorCode::structSize,
+                         "suppleCreateAsset: " + faultOfSize<SuppleCageDesc>("desc.cage", desc.cage->structSize)};
         }
         return runtime::characterFromArrays(cage, name, (desc.flags & SUPPLE_ASSET_STRICT) != 0);
     }

@@ -41,9 +41,21 @@ const char* suppleResultString(SuppleResult result) {
 
 SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physicalDevice,
                                      PFN_vkGetInstanceProcAddr getInstanceProcAddr, SuppleRequirements* out) {
-    if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr ||
-        out == nullptr || out->structSize < runtime::kFirstSize<SuppleRequirements>) {
+    if (out == nullptr) {
         return SUPPLE_ERROR_ARGUMENT;
+    }
+    // There is no log, so the reason says it. All versions of the struct have room for it at the same place, also those
+    // whose size the host has forgotten to set.
+    const auto refused = [out](const std::string& reason) {
+        std::snprintf(out->reason, sizeof(out->reason), "%s", reason.c_str());
+        return SUPPLE_ERROR_ARGUMENT;
+    };
+    if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr) {
+        return refused("instance, physicalDevice or getInstanceProcAddr is null");
+    }
+    if (out->structSize < runtime::kFirstSize<SuppleRequirements>) {
+        return out->structSize != 0 ? SUPPLE_ERROR_ARGUMENT
+                                    : refused(faultOfSize<SuppleRequirements>("out", out->structSize));
     }
     try {
         const gpu::Requirements requirements = gpu::requirements();
@@ -51,7 +63,16 @@ SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physi
         filled.apiVersion = requirements.apiVersion;
         filled.features12 = requirements.features12;
         filled.features13 = requirements.features13;
-        const std::string missing = gpu::missingRequirement(instance, physicalDevice, getInstanceProcAddr);
+        SuppleRequirements given{};
+        if (!runtime::readSized(*out, given)) { // in a newer struct the rest may hold anything
+            std::memcpy(&given, out, sizeof(given));
+        }
+        filled.instanceVersion = given.instanceVersion;
+        std::string missing =
+            gpu::missingInInstance(instance, physicalDevice, getInstanceProcAddr, given.instanceVersion);
+        if (missing.empty()) {
+            missing = gpu::missingRequirement(instance, physicalDevice, getInstanceProcAddr);
+        }
         std::snprintf(filled.reason, sizeof(filled.reason), "%s", missing.c_str());
         runtime::writeSized(filled, *out);
         return missing.empty() ? SUPPLE_OK : SUPPLE_ERROR_UNSUPPORTED;
@@ -64,9 +85,9 @@ SuppleResult suppleCreateContext(const SuppleContextDesc* given, SuppleContext* 
     if (out != nullptr) {
         *out = nullptr;
     }
-    // Without a description of a known size there is no callback to tell.
+    // A struct that says another size than any version's has no callback to tell. Without a size it is one of ours.
     SuppleContextDesc desc{};
-    if (given == nullptr || given->structSize < runtime::kFirstSize<SuppleContextDesc>) {
+    if (given == nullptr || (given->structSize != 0 && given->structSize < runtime::kFirstSize<SuppleContextDesc>)) {
         return SUPPLE_ERROR_ARGUMENT;
     }
     try {
@@ -77,11 +98,11 @@ SuppleResult suppleCreateContext(const SuppleContextDesc* given, SuppleContext* 
             }
             return verdict.result;
         };
-        const auto refusedHere = [&](ErrorCode code, const char* reason) {
-            return refused(code, std::string("suppleCreateContext: ") + reason);
+        const auto refusedHere = [&](ErrorCode code, const std::string& reason) {
+            return refused(code, "suppleCreateContext: " + reason);
         };
         if (!runtime::readSized(*given, desc)) {
-            return refusedHere(ErrorCode::structSize, "desc has fields in use that this library lacks");
+            return refusedHere(ErrorCode::structSize, faultOfSize<SuppleContextDesc>("desc", given->structSize));
         }
         if (out == nullptr || desc.instance == VK_NULL_HANDLE || desc.physicalDevice == VK_NULL_HANDLE ||
             desc.device == VK_NULL_HANDLE || desc.getInstanceProcAddr == nullptr) {

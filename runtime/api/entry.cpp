@@ -52,6 +52,11 @@ SuppleResult refuse(Context& context, ErrorCode code, const char* function, cons
     return report(context, {code, std::string(function) + ": " + reason});
 }
 
+SuppleResult refuse(Context& context, const Group& group, ErrorCode code, const char* function,
+                    const std::string& reason) {
+    return refuse(context, code, function, group.asset().character.name + ": " + reason);
+}
+
 SuppleResult reportStatus(Context& context, const Status& status) {
     return status ? SUPPLE_OK : report(context, status.error());
 }

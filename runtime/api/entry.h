@@ -2,6 +2,7 @@
 // into results and log lines, and lets nothing thrown escape.
 #pragma once
 
+#include "runtime/api/struct_size.h"
 #include "runtime/context.h"
 #include "runtime/sized.h"
 #include "supple/supple.h"
@@ -28,6 +29,9 @@ using runtime::View;
 /// Logs the error; a lost device is remembered.
 SuppleResult report(Context& context, const Error& error);
 SuppleResult refuse(Context& context, ErrorCode code, const char* function, const std::string& reason);
+/// The same of a group: the reason begins with the name of its asset.
+SuppleResult refuse(Context& context, const Group& group, ErrorCode code, const char* function,
+                    const std::string& reason);
 SuppleResult reportStatus(Context& context, const Status& status);
 /// What an error becomes.
 struct Verdict {
@@ -91,7 +95,7 @@ SuppleResult withSurface(SuppleContext handle, SuppleGroup group, uint32_t surfa
                          Body&& body) noexcept {
     return withGroup(handle, group, function, [&](Context& context, Group& found) {
         if (surface >= found.surfaces().size()) {
-            return refuse(context, ErrorCode::range, function,
+            return refuse(context, found, ErrorCode::range, function,
                           "surface " + std::to_string(surface) + " of " + std::to_string(found.surfaces().size()));
         }
         return body(context, found, found.surfaces()[surface]);
@@ -102,7 +106,7 @@ template <class Body>
 SuppleResult withInstance(SuppleContext handle, SuppleInstance instance, const char* function, Body&& body) noexcept {
     return withGroup(handle, instance.group, function, [&](Context& context, Group& found) {
         if (found.follows() || !found.slots().holds(instance.slot, instance.generation)) {
-            return refuse(context, ErrorCode::staleHandle, function,
+            return refuse(context, found, ErrorCode::staleHandle, function,
                           "stale or foreign instance handle (slot " + std::to_string(instance.slot) + ")");
         }
         return body(context, found);
@@ -125,9 +129,7 @@ std::optional<SuppleResult> takeIn(Context& context, const char* function, const
         return refuse(context, ErrorCode::nullPointer, function, std::string(name) + " is null");
     }
     if (!runtime::readSized(*from, to)) {
-        return refuse(context, ErrorCode::structSize, function,
-                      std::string(name) + "->structSize is " + std::to_string(from->structSize) +
-                          ": too small, or a newer version's with fields in use that this library lacks");
+        return refuse(context, ErrorCode::structSize, function, faultOfSize<T>(name, from->structSize));
     }
     return std::nullopt;
 }
@@ -139,8 +141,7 @@ std::optional<SuppleResult> checkOut(Context& context, const char* function, con
         return refuse(context, ErrorCode::nullPointer, function, "out is null");
     }
     if (out->structSize < runtime::kFirstSize<T>) {
-        return refuse(context, ErrorCode::structSize, function,
-                      "out->structSize is " + std::to_string(out->structSize));
+        return refuse(context, ErrorCode::structSize, function, faultOfSize<T>("out", out->structSize));
     }
     return std::nullopt;
 }

@@ -146,6 +146,8 @@ SuppleResult suppleSetCapacity(SuppleContext handle, SuppleGroup group, uint32_t
 }
 
 SuppleResult suppleSetRate(SuppleContext handle, SuppleGroup group, uint32_t rate) {
-    return withGroup(handle, group, "suppleSetRate",
-                     [&](Context& context, Group& found) { return reportStatus(context, found.setRate(rate)); });
+    return withGroup(handle, group, "suppleSetRate", [&](Context& context, Group& found) {
+        const Status set = found.setRate(rate);
+        return set ? SUPPLE_OK : refuse(context, set.error().code, "suppleSetRate", set.error().message);
+    });
 }

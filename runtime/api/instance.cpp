@@ -17,7 +17,7 @@ SuppleResult suppleCreateInstance(SuppleContext handle, SuppleGroup group, Suppl
         }
         const std::optional<uint32_t> slot = found.slots().create();
         if (!slot) {
-            return refuse(context, ErrorCode::limit, kHere,
+            return refuse(context, found, ErrorCode::limit, kHere,
                           "the group is full: its capacity is " + std::to_string(found.slots().capacity()));
         }
         found.poses().reset(*slot);
@@ -37,7 +37,7 @@ SuppleResult suppleDestroyInstance(SuppleContext handle, SuppleInstance instance
 SuppleResult suppleSetVisible(SuppleContext handle, SuppleInstance instance, uint32_t visible) {
     return withInstance(handle, instance, "suppleSetVisible", [&](Context& context, Group& found) {
         if (visible > 1) {
-            return refuse(context, ErrorCode::range, "suppleSetVisible", "visible must be 0 or 1");
+            return refuse(context, found, ErrorCode::range, "suppleSetVisible", "visible must be 0 or 1");
         }
         found.slots().setVisible(instance.slot, visible == 1);
         return SUPPLE_OK;
@@ -49,15 +49,14 @@ SuppleResult suppleSetPartVisible(SuppleContext handle, SuppleInstance instance,
     return withInstance(handle, instance, kHere, [&](Context& context, Group& found) {
         const size_t parts = found.asset().character.parts.size();
         if (part >= parts) {
-            return refuse(context, ErrorCode::range, kHere,
-                          found.asset().character.name + ": part " + std::to_string(part) + " of " +
-                              std::to_string(parts));
+            return refuse(context, found, ErrorCode::range, kHere,
+                          "part " + std::to_string(part) + " of " + std::to_string(parts));
         }
         if (visible > 1) {
-            return refuse(context, ErrorCode::range, kHere, "visible must be 0 or 1");
+            return refuse(context, found, ErrorCode::range, kHere, "visible must be 0 or 1");
         }
         if (visible == 0 && found.drawsByRanges() && !context.hidesInDraws()) {
-            return refuse(context, ErrorCode::disabled, kHere,
+            return refuse(context, found, ErrorCode::disabled, kHere,
                           "the device was created without the feature drawIndirectFirstInstance");
         }
         found.slots().setPartVisible(instance.slot, part, visible == 1);

@@ -21,21 +21,23 @@ SuppleResult suppleGetSurfaceInfo(SuppleContext handle, SuppleGroup group, uint3
 SuppleResult suppleGetVertexStreams(SuppleContext handle, SuppleGroup group, uint32_t surface,
                                     SuppleVertexStreams* out) {
     constexpr const char* kHere = "suppleGetVertexStreams";
-    return withSurface(handle, group, surface, kHere, [&](Context& context, Group&, const Tessellation& found) {
+    return withSurface(handle, group, surface, kHere, [&](Context& context, Group& group, const Tessellation& found) {
         const runtime::VertexStreams* streams = found.streams();
         if (streams == nullptr) {
-            return refuse(context, ErrorCode::argument, kHere, "a cage has no surface vertices");
+            return refuse(context, group, ErrorCode::argument, kHere, "a cage has no surface vertices");
         }
+        group.noteOutputsAsked();
         return describe(context, kHere, out, [&](SuppleVertexStreams& output) { streams->fill(output); });
     });
 }
 
 SuppleResult suppleGetGridOutput(SuppleContext handle, SuppleGroup group, uint32_t surface, SuppleGridOutput* out) {
     constexpr const char* kHere = "suppleGetGridOutput";
-    return withSurface(handle, group, surface, kHere, [&](Context& context, Group&, const Tessellation& found) {
+    return withSurface(handle, group, surface, kHere, [&](Context& context, Group& group, const Tessellation& found) {
         if (found.kind() == SUPPLE_TESSELLATION_NONE || found.kind() == SUPPLE_TESSELLATION_LEVELS) {
-            return refuse(context, ErrorCode::argument, kHere, "the surface has no grids of a rate");
+            return refuse(context, group, ErrorCode::argument, kHere, "the surface has no grids of a rate");
         }
+        group.noteOutputsAsked();
         return describe(context, kHere, out, [&](SuppleGridOutput& output) { found.fillGrid(output); });
     });
 }

@@ -39,7 +39,7 @@ SuppleResult suppleSetPose(SuppleContext handle, SuppleInstance instance, const 
         }
         const Status valid = runtime::checkPose(found.asset(), pose);
         if (!valid) {
-            return refuse(context, valid.error().code, kHere, valid.error().message);
+            return refuse(context, found, valid.error().code, kHere, valid.error().message);
         }
         found.poses().host()->setLayers(instance.slot, pose);
         return SUPPLE_OK;
@@ -84,7 +84,7 @@ SuppleResult suppleSetPlayback(SuppleContext handle, SuppleInstance instance, co
                          }
                          const Status valid = runtime::checkPlayback(found.asset(), *found.poses().playback(), desc);
                          if (!valid) {
-                             return refuse(context, valid.error().code, kHere, valid.error().message);
+                             return refuse(context, found, valid.error().code, kHere, valid.error().message);
                          }
                          runtime::PlaybackLayers layers;
                          found.poses().playback()->set(instance.slot, runtime::playbackOf(found.asset(), desc, layers));
@@ -97,7 +97,7 @@ SuppleResult suppleSetTime(SuppleContext handle, SuppleGroup group, double secon
     return withPlayback(handle, group, kHere, [&](Context& context, Group& found) {
         const Status valid = runtime::checkTime(seconds);
         if (!valid) {
-            return refuse(context, valid.error().code, kHere, valid.error().message);
+            return refuse(context, found, valid.error().code, kHere, valid.error().message);
         }
         found.poses().playback()->setTime(seconds);
         return SUPPLE_OK;
@@ -113,7 +113,7 @@ SuppleResult suppleSetMask(SuppleContext handle, SuppleGroup group, const Supple
         }
         const Status valid = runtime::checkMask(found.asset(), desc);
         if (!valid) {
-            return refuse(context, valid.error().code, kHere, valid.error().message);
+            return refuse(context, found, valid.error().code, kHere, valid.error().message);
         }
         found.poses().playback()->setMask(desc.mask, {desc.jointMask, desc.jointMaskCount},
                                           {desc.morphMask, desc.morphMaskCount});

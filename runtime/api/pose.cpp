@@ -20,11 +20,11 @@ SuppleResult suppleSetClipPose(SuppleContext handle, SuppleInstance instance, ui
         }
         const size_t clips = found.asset().character.clips.size();
         if (clip >= clips) {
-            return refuse(context, ErrorCode::range, kHere,
+            return refuse(context, found, ErrorCode::range, kHere,
                           "clip " + std::to_string(clip) + " of " + std::to_string(clips));
         }
         if (!std::isfinite(time)) {
-            return refuse(context, ErrorCode::notFinite, kHere, "time is not finite");
+            return refuse(context, found, ErrorCode::notFinite, kHere, "time is not finite");
         }
         found.poses().host()->setClipPose(instance.slot, clip, time);
         return SUPPLE_OK;
@@ -38,12 +38,12 @@ SuppleResult suppleSetMorphWeights(SuppleContext handle, SuppleInstance instance
         if (weights != nullptr) {
             const size_t targets = found.asset().character.morphs.targets.size();
             if (morphTargetCount != targets) {
-                return refuse(context, ErrorCode::range, kHere,
+                return refuse(context, found, ErrorCode::range, kHere,
                               "morphTargetCount " + std::to_string(morphTargetCount) + ": the asset has " +
                                   std::to_string(targets));
             }
             if (!finite(weights, morphTargetCount)) {
-                return refuse(context, ErrorCode::notFinite, kHere, "a weight is not finite");
+                return refuse(context, found, ErrorCode::notFinite, kHere, "a weight is not finite");
             }
         }
         found.poses().setMorphWeights(instance.slot, weights);
@@ -60,11 +60,11 @@ SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleInstance instance, 
         }
         const size_t joints = found.asset().character.skin.joints.size();
         if (jointCount != joints) {
-            return refuse(context, ErrorCode::range, kHere,
+            return refuse(context, found, ErrorCode::range, kHere,
                           "jointCount " + std::to_string(jointCount) + ": the skin has " + std::to_string(joints));
         }
         if (!finite(jointMatrices, 16 * size_t{jointCount})) {
-            return refuse(context, ErrorCode::notFinite, kHere, "a joint matrix is not finite");
+            return refuse(context, found, ErrorCode::notFinite, kHere, "a joint matrix is not finite");
         }
         found.poses().host()->setMatrixPose(instance.slot, jointMatrices);
         return SUPPLE_OK;
@@ -79,7 +79,7 @@ SuppleResult suppleGetJointTransform(SuppleContext handle, SuppleInstance instan
         }
         const size_t joints = found.asset().character.skin.joints.size();
         if (joint >= joints) {
-            return refuse(context, ErrorCode::range, kHere,
+            return refuse(context, found, ErrorCode::range, kHere,
                           "joint " + std::to_string(joint) + " of " + std::to_string(joints));
         }
         found.poses().setOrigin(context.origin());
@@ -110,10 +110,10 @@ SuppleResult suppleSetTransform(SuppleContext handle, SuppleInstance instance, c
             return refuse(context, ErrorCode::nullPointer, kHere, "transform is null");
         }
         if (!finite(transform, 16)) {
-            return refuse(context, ErrorCode::notFinite, kHere, "transform is not finite");
+            return refuse(context, found, ErrorCode::notFinite, kHere, "transform is not finite");
         }
         if (transform[3] != 0.0f || transform[7] != 0.0f || transform[11] != 0.0f || transform[15] != 1.0f) {
-            return refuse(context, ErrorCode::range, kHere, "the last row is not 0, 0, 0, 1");
+            return refuse(context, found, ErrorCode::range, kHere, "the last row is not 0, 0, 0, 1");
         }
         found.poses().setTransform(instance.slot, glm::make_mat4(transform));
         return SUPPLE_OK;

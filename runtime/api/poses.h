@@ -18,7 +18,7 @@ inline std::optional<SuppleResult> checkSource(Context& context, const char* fun
     const char* reason = own == SUPPLE_POSES_SET        ? "the group was created without SUPPLE_POSES_PLAYBACK"
                          : own == SUPPLE_POSES_PLAYBACK ? "the group plays its clips on the device: suppleSetPlayback"
                                                         : "the group takes its poses from a buffer that the host fills";
-    return refuse(context, ErrorCode::argument, function, reason);
+    return refuse(context, group, ErrorCode::argument, function, reason);
 }
 
 template <class Body>

@@ -58,10 +58,10 @@ SuppleResult suppleSetPriority(SuppleContext handle, SuppleInstance instance, ui
     constexpr const char* kHere = "suppleSetPriority";
     return withInstance(handle, instance, kHere, [&](Context& context, Group& found) {
         if (found.view() == nullptr) {
-            return refuse(context, ErrorCode::argument, kHere, "the group belongs to no view");
+            return refuse(context, found, ErrorCode::argument, kHere, "the group belongs to no view");
         }
         if (priority >= SUPPLE_PRIORITY_COUNT) {
-            return refuse(context, ErrorCode::range, kHere,
+            return refuse(context, found, ErrorCode::range, kHere,
                           "priority " + std::to_string(priority) + " of " + std::to_string(SUPPLE_PRIORITY_COUNT));
         }
         found.slots().setPriority(instance.slot, priority);
@@ -148,10 +148,11 @@ SuppleResult suppleSetDepthPyramid(SuppleContext handle, SuppleView view, const 
 
 SuppleResult suppleGetLevelOutput(SuppleContext handle, SuppleGroup group, uint32_t surface, SuppleLevelOutput* out) {
     constexpr const char* kHere = "suppleGetLevelOutput";
-    return withSurface(handle, group, surface, kHere, [&](Context& context, Group&, const Tessellation& found) {
+    return withSurface(handle, group, surface, kHere, [&](Context& context, Group& group, const Tessellation& found) {
         if (found.kind() != SUPPLE_TESSELLATION_LEVELS) {
-            return refuse(context, ErrorCode::argument, kHere, "the surface has no levels");
+            return refuse(context, group, ErrorCode::argument, kHere, "the surface has no levels");
         }
+        group.noteOutputsAsked();
         return describe(context, kHere, out, [&](SuppleLevelOutput& output) { found.fillLevels(output); });
     });
 }
@@ -163,7 +164,7 @@ SuppleResult suppleGetInstanceBounds(SuppleContext handle, SuppleGroup group, Su
             return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
         }
         if (!found.hasBounds()) {
-            return refuse(context, ErrorCode::argument, kHere,
+            return refuse(context, found, ErrorCode::argument, kHere,
                           "the group belongs to no view and was created without SUPPLE_GROUP_BOUNDS");
         }
         *out = found.bounds();
@@ -179,7 +180,8 @@ SuppleResult suppleReadInstanceBounds(SuppleContext handle, SuppleInstance insta
             return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
         }
         if (found.boundsReadback() == nullptr) {
-            return refuse(context, ErrorCode::argument, kHere, "the group was created without SUPPLE_GROUP_BOUNDS");
+            return refuse(context, found, ErrorCode::argument, kHere,
+                          "the group was created without SUPPLE_GROUP_BOUNDS");
         }
         const auto box = found.boundsReadback()->read(instance.slot, instance.generation);
         if (!box) {

@@ -77,6 +77,7 @@ static void pickPhysicalDevice(HostDevice* host) {
     }
     for (i = 0; i < count; ++i) {
         host->requirements.structSize = sizeof host->requirements;
+        host->requirements.instanceVersion = VK_API_VERSION_1_3;
         if (suppleQueryRequirements(host->instance, devices[i], vkGetInstanceProcAddr, &host->requirements) ==
             SUPPLE_OK) {
             host->physicalDevice = devices[i];

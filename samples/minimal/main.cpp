@@ -160,6 +160,7 @@ int main(int argc, char** argv) {
 
     // The first device that Supple can use, with exactly the features that it asks for.
     auto requirements = supple::sized<SuppleRequirements>();
+    requirements.instanceVersion = VK_API_VERSION_1_3;
     VkPhysicalDevice gpus[16];
     uint32_t gpuCount = 16, chosen = 0;
     vkEnumeratePhysicalDevices(instance, &gpuCount, gpus);

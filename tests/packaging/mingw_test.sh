@@ -34,7 +34,7 @@ echo "${SECONDS}s  built, exports are supple's alone"
 
 include=(-I"$prefix/include" -I"$work/build/mingw-headers/include" -static-libgcc)
 c=(x86_64-w64-mingw32-gcc-posix -std=c99 -pedantic -Wall -Wextra -Werror "$source/tests/packaging/consumer/main.c")
-cpp=(x86_64-w64-mingw32-g++-posix -std=c++20 -pedantic -Wall -Wextra -Werror "$source/tests/packaging/consumer/main.cpp")
+cpp=(x86_64-w64-mingw32-g++-posix -std=c++17 -pedantic -Wall -Wextra -Werror "$source/tests/packaging/consumer/main.cpp")
 quietly "${c[@]}" "${include[@]}" -DSUPPLE_SHARED -o "$work/shared_c.exe" "$prefix/lib/libsupple.dll.a"
 quietly "${cpp[@]}" "${include[@]}" -DSUPPLE_SHARED -o "$work/shared_cpp.exe" "$prefix/lib/libsupple.dll.a"
 quietly "${c[@]}" "${include[@]}" -o "$work/static_c.exe" "$prefix/lib/libsupple.a" -static -lstdc++

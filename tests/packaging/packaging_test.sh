@@ -67,6 +67,7 @@ lib=$(dirname "$library")
 strangers=$(nm -D --defined-only "$library" | awk '$3 !~ /^supple[A-Z]/ {print $3}')
 [ -z "$strangers" ] || fail "the shared library shows $strangers"
 [[ $(readelf -d "$library") =~ SONAME.*libsupple\.so\.[0-9]+\] ]] || fail "SONAME"
+"$source/tests/packaging/cited_files.py" "$prefix" "$source" || fail "files that are cited are not there"
 say "installed"
 
 # ---- find_package
@@ -94,7 +95,7 @@ fi
 
 if command -v pkg-config >/dev/null; then
     c=(cc -std=c99 -pedantic -Wall -Wextra -Werror "$consumer/main.c")
-    cpp=(c++ -std=c++20 -pedantic -Wall -Wextra -Werror -fno-exceptions -fno-rtti "$consumer/main.cpp")
+    cpp=(c++ -std=c++17 -pedantic -Wall -Wextra -Werror -fno-exceptions -fno-rtti "$consumer/main.cpp")
     export PKG_CONFIG_PATH=$lib/pkgconfig
     [ "$(pkg-config --modversion supple)" = "$version" ] || fail "pkg-config's version"
     [ -e "$(pkg-config --variable=shaderdir supple)/trim.glsl" ] || fail "pkg-config's shaderdir"

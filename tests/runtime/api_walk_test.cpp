@@ -318,8 +318,13 @@ public:
         const int size = logs ? int{SUPPLE_MESSAGE_STRUCT_SIZE} : kSilent;
         refuse(function, "out null", null, [=](World& w) { return call(w, static_cast<T*>(nullptr)); });
         for (const size_t small : {size_t{0}, size_t{4}, runtime::kFirstSize<T> - 1}) {
-            refuse(function, "out->structSize " + std::to_string(small), size,
-                   [=](World& w) { return call(w, w.template watched<T>(static_cast<uint32_t>(small))); });
+            refuse(function, "out->structSize " + std::to_string(small), size, [=](World& w) {
+                T* const out = w.template watched<T>(static_cast<uint32_t>(small));
+                if (!logs) {
+                    w.snapshots.clear(); // what has no log writes its reason
+                }
+                return call(w, out);
+            });
         }
         add(function, "out", good, kSilent, [=](World& w) { return call(w, w.template watched<T>(sizeof(T))); });
         add(function, "out of a later version", good, kSilent, [=](World& w) {
@@ -425,17 +430,23 @@ void withoutContext(Rows& r) {
         return suppleQueryRequirements(w.device.instance(), w.device.physicalDevice(), vkGetInstanceProcAddr, out);
     };
     r.output<SuppleRequirements>(kQuery, query, SUPPLE_OK, false);
-    r.refuse(kQuery, "null instance", kSilent, [](World& w) {
-        return suppleQueryRequirements(VK_NULL_HANDLE, w.device.physicalDevice(), vkGetInstanceProcAddr,
-                                       w.watched<SuppleRequirements>(sizeof(SuppleRequirements)));
+    const auto null = [&](const char* what, auto call) {
+        r.refuse(kQuery, what, kSilent, [=](World& w) {
+            SuppleRequirements out{};
+            out.structSize = sizeof(out);
+            const SuppleResult result = call(w, &out);
+            EXPECT_STREQ(out.reason, "instance, physicalDevice or getInstanceProcAddr is null");
+            return result;
+        });
+    };
+    null("null instance", [](World& w, SuppleRequirements* out) {
+        return suppleQueryRequirements(VK_NULL_HANDLE, w.device.physicalDevice(), vkGetInstanceProcAddr, out);
     });
-    r.refuse(kQuery, "null physical device", kSilent, [](World& w) {
-        return suppleQueryRequirements(w.device.instance(), VK_NULL_HANDLE, vkGetInstanceProcAddr,
-                                       w.watched<SuppleRequirements>(sizeof(SuppleRequirements)));
+    null("null physical device", [](World& w, SuppleRequirements* out) {
+        return suppleQueryRequirements(w.device.instance(), VK_NULL_HANDLE, vkGetInstanceProcAddr, out);
     });
-    r.refuse(kQuery, "null getInstanceProcAddr", kSilent, [](World& w) {
-        return suppleQueryRequirements(w.device.instance(), w.device.physicalDevice(), nullptr,
-                                       w.watched<SuppleRequirements>(sizeof(SuppleRequirements)));
+    null("null getInstanceProcAddr", [](World& w, SuppleRequirements* out) {
+        return suppleQueryRequirements(w.device.instance(), w.device.physicalDevice(), nullptr, out);
     });
 }
 
@@ -457,7 +468,8 @@ void contexts(Rows& r) {
     };
     r.refuse(kCreate, "desc null", kSilent, [=](World& w) { return create(w, nullptr); });
     for (const size_t size : {size_t{0}, size_t{4}, sizeof(SuppleContextDesc) - 1}) {
-        r.refuse(kCreate, "desc->structSize " + std::to_string(size), kSilent, [=](World& w) {
+        const int message = size == 0 ? int{SUPPLE_MESSAGE_STRUCT_SIZE} : kSilent;
+        r.refuse(kCreate, "desc->structSize " + std::to_string(size), message, [=](World& w) {
             SuppleContextDesc desc = w.contextDesc();
             desc.structSize = static_cast<uint32_t>(size);
             return create(w, &desc);
@@ -1778,7 +1790,9 @@ std::vector<std::byte> frameWith(World& w, const Row* row) {
         submit(record);
     } else {
         submit([&] {
-            const bool first = row != nullptr && row->phase == Phase::recorded;
+            // When suppleBeginFrame refuses a frame, nothing can be recorded until it takes one.
+            const bool refusesFrame = row != nullptr && row->function == "suppleBeginFrame" && row->result < 0;
+            const bool first = row != nullptr && (row->phase == Phase::recorded || refusesFrame);
             if (first) {
                 record();
             }

@@ -319,11 +319,23 @@ TEST_F(AsyncCompute, ShortArraysAndWrongCalls) {
     EXPECT_EQ(count, 3u);
 }
 
+TEST(RecordScopes, AreMadeOfFlagsOfVulkan10) {
+    constexpr VkPipelineStageFlags kStages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    constexpr VkAccessFlags kWrites = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    SuppleSyncScope first{}, last{};
+    ASSERT_EQ(suppleGetRecordScopes(&first, &last), SUPPLE_OK);
+    EXPECT_EQ(first.stages, kStages);
+    EXPECT_EQ(first.access, VkAccessFlags{VK_ACCESS_SHADER_READ_BIT} | kWrites);
+    EXPECT_EQ(last.stages, kStages);
+    EXPECT_EQ(last.access, kWrites);
+}
+
 TEST(RecordScopes, AHostsOwnBarrierIsEnoughAndNeeded) {
     SuppleSyncScope first{}, last{};
     ASSERT_EQ(suppleGetRecordScopes(&first, &last), SUPPLE_OK);
     EXPECT_EQ(suppleGetRecordScopes(nullptr, nullptr), SUPPLE_OK);
     constexpr SuppleSyncScope kCopy{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+    constexpr SuppleSyncScope kCopy10{VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT};
     wrappedVulkan();
     std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
     ASSERT_NE(device, nullptr);
@@ -340,14 +352,29 @@ TEST(RecordScopes, AHostsOwnBarrierIsEnoughAndNeeded) {
                                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT, host::MemoryKind::device);
         ASSERT_TRUE(copy.ok());
         // Four frames that follow each other in one command buffer, each read by a copy of the host's.
-        const auto frames = [&](uint64_t completed, bool barriers) {
+        enum class Barriers { none, synchronization2, vulkan10 };
+        const auto barrier = [&](VkCommandBuffer commands, Barriers kind, SuppleSyncScope before,
+                                 SuppleSyncScope after) {
+            if (kind == Barriers::synchronization2) {
+                host::memoryBarrier(commands, before, after);
+                return;
+            }
+            VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+            memory.srcAccessMask = static_cast<VkAccessFlags>(before.access);
+            memory.dstAccessMask = static_cast<VkAccessFlags>(after.access);
+            vkCmdPipelineBarrier(commands, static_cast<VkPipelineStageFlags>(before.stages),
+                                 static_cast<VkPipelineStageFlags>(after.stages), 0, 1, &memory, 0, nullptr, 0,
+                                 nullptr);
+        };
+        const auto frames = [&](uint64_t completed, Barriers barriers) {
+            const SuppleSyncScope copied = barriers == Barriers::vulkan10 ? kCopy10 : kCopy;
             ASSERT_TRUE(device
                             ->submitAndWait([&](VkCommandBuffer commands) {
                                 for (uint64_t frame = completed + 1; frame <= completed + 4; ++frame) {
                                     EXPECT_EQ(suppleBeginFrame(context.handle(), frame, completed), SUPPLE_OK);
-                                    if (barriers) {
-                                        host::memoryBarrier(
-                                            commands, {last.stages | kCopy.stages, last.access | kCopy.access}, first);
+                                    if (barriers != Barriers::none) {
+                                        barrier(commands, barriers,
+                                                {last.stages | copied.stages, last.access | copied.access}, first);
                                     }
                                     SuppleRecordDesc desc{};
                                     desc.structSize = sizeof(desc);
@@ -355,8 +382,8 @@ TEST(RecordScopes, AHostsOwnBarrierIsEnoughAndNeeded) {
                                     desc.groups = &group.group;
                                     desc.groupCount = 1;
                                     EXPECT_EQ(suppleRecord(context.handle(), commands, &desc), SUPPLE_OK);
-                                    if (barriers) {
-                                        host::memoryBarrier(commands, last, kCopy);
+                                    if (barriers != Barriers::none) {
+                                        barrier(commands, barriers, last, copied);
                                         const VkBufferCopy region{0, 0, output.info.deformedCage.size};
                                         vkCmdCopyBuffer(commands, output.info.deformedCage.buffer, copy->handle(), 1,
                                                         &region);
@@ -365,10 +392,11 @@ TEST(RecordScopes, AHostsOwnBarrierIsEnoughAndNeeded) {
                             })
                             .ok());
         };
-        frames(0, true);
+        frames(0, Barriers::synchronization2);
+        frames(4, Barriers::vulkan10);
         EXPECT_EQ(validation->messageCount(), 0u);
         const_cast<host::ValidationLog&>(*validation).setQuiet(true);
-        frames(4, false);
+        frames(8, Barriers::none);
         EXPECT_GT(validation->messageCount(), 0u);
     }
 }

@@ -5,7 +5,8 @@
  * A control cage is the polygon mesh that a surface is made from. The host is the program that uses Supple. Supple
  * loads a character (glTF/GLB, OBJ or arrays), poses its instances, deforms the cage, and evaluates a smooth surface
  * over it. It records this work, as a sequence of passes, into the host's command buffer. The host gets surface
- * vertices, indices and indirect draw arguments. Every pass can be timed. docs/glossary.md explains all words.
+ * vertices, indices and indirect draw arguments. Every pass can be timed. docs/glossary.md explains all words. (docs/
+ * is installed as share/doc/supple, shaders/ as share/supple/shaders.)
  *
  * Supple does not create a Vulkan instance or device, submit, wait, draw, decode images, open windows or link a loader.
  *
@@ -16,7 +17,7 @@
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
  *     fills. Zero in any other field of a description means the default. Later versions add fields at the end only.
  *     Missing trailing fields read as zero. Unknown trailing fields must be zero, and come back as zero. Structs
- *     without structSize never change.
+ *     without structSize never change. A structSize of 0 is refused by name.
  *   - Matrices are column-major float[16] for column vectors. Space is right-handed with +Y up, as in glTF. Angles are
  *     radians, times are seconds.
  *   - Pointers in a description are read during the call only, unless a comment says otherwise.
@@ -155,7 +156,12 @@ typedef enum SuppleMessage {
     SUPPLE_MESSAGE_DEVICE_MEMORY = 401,
     SUPPLE_MESSAGE_DEVICE_LOST = 402,
     SUPPLE_MESSAGE_VULKAN = 403,
-    SUPPLE_MESSAGE_BUDGET = 500 /**< a pass took longer than suppleSetBudget allows */
+    SUPPLE_MESSAGE_BUDGET = 500, /**< a pass took longer than suppleSetBudget allows */
+    /** A group may be drawn without ever being recorded. Given once for a group, as a warning: its outputs were asked
+     * for (suppleGetVertexStreams, suppleGetGridOutput or suppleGetLevelOutput), it has visible instances, other groups
+     * were recorded in 8 frames since then, and it was recorded in none. Hide the instances of a group that you hold
+     * ready (suppleSetVisible), or ignore the line. */
+    SUPPLE_MESSAGE_NEVER_RECORDED = 501
 } SuppleMessage;
 
 /** Called on the thread that called Supple, before that call returns. It must not call Supple itself. text is
@@ -172,11 +178,16 @@ typedef struct SuppleRequirements {
     uint32_t apiVersion; /**< lowest VkPhysicalDeviceProperties::apiVersion */
     VkPhysicalDeviceVulkan12Features features12;
     VkPhysicalDeviceVulkan13Features features13;
-    char reason[256]; /**< the first thing that the device lacks; empty if it has all */
+    char reason[256]; /**< the first thing that is lacking; empty if nothing is */
+    /** Set it before the call: VkApplicationInfo::apiVersion of the VkInstance, or 0 if you do not know. It must be 1.3
+     * or more: Vulkan gives an older instance no functions of 1.3, whatever the device has. A VkInstance does not tell
+     * its version, so with 0 an instance of 1.0 is refused here, but one of 1.1 or 1.2 only by suppleCreateContext. */
+    uint32_t instanceVersion;
 } SuppleRequirements;
 
-/** SUPPLE_OK: the device is suitable. SUPPLE_ERROR_UNSUPPORTED: out->reason says what it lacks. Fills out in both
- * cases. */
+/** SUPPLE_OK: device and instance are suitable. SUPPLE_ERROR_UNSUPPORTED: out->reason says what is lacking. Fills out
+ * in both cases. SUPPLE_ERROR_ARGUMENT: out->reason says why, unless out is null or structSize is neither 0 nor right.
+ */
 SUPPLE_API SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physicalDevice,
                                                 PFN_vkGetInstanceProcAddr getInstanceProcAddr, SuppleRequirements* out);
 
@@ -209,8 +220,18 @@ typedef struct SuppleMemory {
  * groups and views are created or destroyed, and in suppleBeginFrame, but never while recording. */
 typedef struct SuppleMemoryCallbacks {
     /** Fills out and returns VK_SUCCESS, or returns an error of vkAllocateMemory. The memory is for buffers (linear).
-     * Its type must be in requirements->memoryTypeBits and have all of `required` and, if possible, `preferred`. name
-     * is for the host's statistics, and valid during the call. */
+     * Its type must be in requirements->memoryTypeBits and have all of `required` and, if possible, `preferred`.
+     *
+     * name is for the host's statistics, and valid during the call. It is the name of the first buffer in the memory,
+     * and says whose memory it is:
+     * - context: "supple parameter pairs";
+     * - asset: "supple skin tables", "supple vertices of a piece", "supple surface tables", "supple clip tables";
+     * - group: "supple poses" (this holds its outputs, too), "supple list staging", "supple grid indices", "supple
+     *   playback", "supple playback staging";
+     * - view: "supple view", "supple view staging", "supple view statistics", "supple view, grid indices".
+     *
+     * The tables of an asset, parameter pairs and grid indices come twice under one name: the second piece is
+     * host-visible. It is freed when the frame that copied it is complete. Later versions may add names. */
     VkResult (*allocate)(const VkMemoryRequirements* requirements, VkMemoryPropertyFlags required,
                          VkMemoryPropertyFlags preferred, const char* name, SuppleMemory* out, void* user);
     /** Called once per successful allocate. By then the buffers in the memory are destroyed and no frame uses it. */
@@ -222,7 +243,8 @@ typedef struct SuppleMemoryCallbacks {
 typedef struct SuppleContextDesc {
     uint32_t structSize;
     uint32_t flags; /**< SuppleContextFlags */
-    /** Borrowed, as all Vulkan handles here: it must outlive the context. */
+    /** Borrowed, as all Vulkan handles here: it must outlive the context. It must have been created with an apiVersion
+     * of 1.3 or more: see SuppleRequirements.instanceVersion. */
     VkInstance instance;
     VkPhysicalDevice physicalDevice;
     /** It must have been created with what suppleQueryRequirements asks for. */
@@ -242,8 +264,8 @@ typedef struct SuppleContextDesc {
     uint32_t drawQueueFamily;            /**< with SUPPLE_CONTEXT_ASYNC_COMPUTE: see suppleGetAcquireBarriers */
 } SuppleContextDesc;
 
-/** Loads the device's functions. suppleCreateGroup compiles almost all pipelines. Errors: the device lacks a
- * requirement, the host has not enabled one, queueFamily has no compute, or memory is short. */
+/** Loads the device's functions. suppleCreateGroup compiles almost all pipelines. Errors: the device or the instance
+ * lacks a requirement, the host has not enabled one, queueFamily has no compute, or memory is short. */
 SUPPLE_API SuppleResult suppleCreateContext(const SuppleContextDesc* desc, SuppleContext* out);
 /** Also frees all assets, groups and views. No command buffer that uses them may be pending. Null is allowed. */
 SUPPLE_API void suppleDestroyContext(SuppleContext context);
@@ -743,9 +765,9 @@ SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstan
  * Instances that were not visible in the group's last suppleRecord are new without this call. */
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
 /** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
- * are written in the space that it maps to, relative to the origin (suppleSetOrigin). A mirroring transform reverses
- * the winding and the normals. Errors: not finite, another last row, or the host fills the group's poses
- * (SupplePoseSource). */
+ * are written in the space that it maps to, relative to the origin (suppleSetOrigin). A mirroring transform (negative
+ * determinant) reverses the winding and the normals: both then show the inside as the outside. Errors: not finite,
+ * another last row, or the host fills the group's poses (SupplePoseSource). */
 SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance instance, const float* transform);
 /** Sets the translation of an instance's transform alone, with the precision that large worlds need. position: three
  * doubles. The next suppleSetTransform replaces it. Errors: as suppleSetTransform. */
@@ -799,9 +821,11 @@ SUPPLE_API SuppleResult suppleGetJointTransform(SuppleContext context, SuppleIns
 /* ---------------------------------------------------------------------------------------------------- frame */
 
 /** Starts a frame. frame is the host's number for it: 1 or more, and larger in every call. completedFrame is the last
- * frame whose command buffers have all finished, or 0 if there is none. It must never fall, and frame - completedFrame
- * must not exceed framesInFlight. Frees what was destroyed and is no longer used, and reads finished timestamps. Never
- * waits. */
+ * frame whose command buffers have all finished, or 0 if there is none. It must never fall, and must be below frame.
+ * frame - completedFrame must not exceed framesInFlight, so wait for the fence of frame - framesInFlight first. Frees
+ * what was destroyed and is no longer used, and reads finished timestamps. Never waits.
+ * If the call is refused, the frame has not begun: until a call succeeds, suppleRecord, suppleRecordUploads and
+ * suppleCancelFrame are refused, too, and name the frame that was. */
 SUPPLE_API SuppleResult suppleBeginFrame(SuppleContext context, uint64_t frame, uint64_t completedFrame);
 /** Large worlds: sets where the coordinates on the device begin, three doubles; (0, 0, 0) at first. Set it near the
  * camera, as often as you like. It holds from now on; if a group is recorded in this frame already, from the next
@@ -819,7 +843,8 @@ SUPPLE_API SuppleResult suppleSetOrigin(SuppleContext context, const double* ori
  * frame as completed in suppleBeginFrame. Nothing can be recorded until the next suppleBeginFrame. */
 SUPPLE_API SuppleResult suppleCancelFrame(SuppleContext context);
 
-/** Stages and accesses on buffers, as in synchronization2. */
+/** Stages and accesses on buffers, as in synchronization2. The flags of Vulkan 1.0 (VkPipelineStageFlags,
+ * VkAccessFlags) have the same values and the same meaning here, so hosts that use 32-bit masks pass them on. */
 typedef struct SuppleSyncScope {
     VkPipelineStageFlags2 stages;
     VkAccessFlags2 access;
@@ -858,7 +883,9 @@ SUPPLE_API SuppleResult suppleRecord(SuppleContext context, VkCommandBuffer comm
                                      const SuppleRecordDesc* desc);
 
 /** For hosts whose frame graph places the barriers. `first` gets the accesses of suppleRecord's commands that a barrier
- * before them must cover, and `last` their writes. Either may be null. They are the same in every context and frame. */
+ * before them must cover, and `last` their writes. Either may be null. They are the same in every context and frame.
+ * All flags are those of Vulkan 1.0: cast to VkPipelineStageFlags and VkAccessFlags, they can go into
+ * vkCmdPipelineBarrier as well as into vkCmdPipelineBarrier2. */
 SUPPLE_API SuppleResult suppleGetRecordScopes(SuppleSyncScope* first, SuppleSyncScope* last);
 
 /** With SUPPLE_CONTEXT_ASYNC_COMPUTE, suppleRecord ends with barriers that release the outputs to drawQueueFamily. This
@@ -877,7 +904,12 @@ SUPPLE_API SuppleResult suppleGetAcquireBarriers(SuppleContext context, const Su
  * UNIFORM_TEXEL and TRANSFER_SRC, and, as needed, TRANSFER_DST, VERTEX, INDEX or INDIRECT. Offsets and sizes are in
  * bytes. */
 
-/** A part of one of Supple's buffers, to read, bind and copy from. */
+/** A part of one of Supple's buffers, to read, bind and copy from.
+ *
+ * Alignment: offset is a multiple of 256, so that it suits the descriptors of every device; only that of `indirect` is
+ * a multiple of 4. size is a multiple of stride. stride is a multiple of 16, 12, 8 or 4 (of 2 for uint16 indices), as
+ * the element has float4, float3, float2 or uint32 members, so buffers that can be vertex input satisfy every vertex
+ * format with 32-bit components. */
 typedef struct SuppleBufferRange {
     VkBuffer buffer; /**< null: the group was created without it */
     VkDeviceSize offset;
@@ -906,8 +938,10 @@ typedef struct SuppleGroupInfo {
     /** float4 (x, y, z, 1) per cage vertex: slot * cageVerticesPerInstance + vertex. */
     SuppleBufferRange deformedCage;
     /** Per slot (stride bytes): per joint three rows of four floats, the 3x4 matrix transform * joint * inverse bind,
-     * which takes a cage vertex from the bind pose to its place; then a float weight per morph target. Dual
-     * quaternions: see shaders/shared/deform.h. Null with SUPPLE_POSES_CAGE_BUFFER. */
+     * which takes a cage vertex from the bind pose to its place; then a float weight per morph target. With
+     * SUPPLE_SKINNING_DUAL_QUATERNION: first the three rows of the transform; per joint the three rows of joint *
+     * inverse bind, then its rotation as a quaternion (x, y, z, w); then the weights. Null with
+     * SUPPLE_POSES_CAGE_BUFFER. */
     SuppleBufferRange poses;
     /** uint32 per visible instance (in a view: per instance that its camera sees): the slot, in rising order. Groups
      * without a view have more entries behind these: for every part that some instance hides, the slots of the visible
@@ -980,7 +1014,10 @@ SUPPLE_API SuppleResult suppleGetVertexStreams(SuppleContext context, SuppleGrou
                                                SuppleVertexStreams* out);
 
 /** The shape that a patch is sampled over. R is the rate. Samples are numbered row by row, from 0. Corner i of the
- * patch is corner i of the domain.
+ * patch is corner i of the domain. Triangles of all domains are counter-clockwise seen from outside, in the space of
+ * the surface vertices, and their normals point outside, as the faces of the cage do: in Vulkan that is
+ * VK_FRONT_FACE_COUNTER_CLOCKWISE, if the projection shows the world unmirrored. A mirroring transform reverses both
+ * (suppleSetTransform).
  * - QUAD: (R+1)^2 samples. Sample (i, j) is number j (R+1) + i. u = i/R runs from corner 0 to 1, v = j/R from corner 0
  *   to 3.
  * - POLAR: the same samples. The row j = R is one point, corner 2.

@@ -1,11 +1,13 @@
-// supple.hpp - a thin C++20 layer over supple.h: ownership and sized structs, nothing more. Header only; no exceptions;
+// supple.hpp - a thin C++17 layer over supple.h: ownership and sized structs, nothing more. Header only; no exceptions;
 // every call returns the SuppleResult of the C function it stands for. Threads, units and lifetimes are supple.h's.
 #pragma once
 
 #include <supple/supple.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,55 @@ template <class T>
     value.structSize = sizeof(T);
     return value;
 }
+
+/// Values that lie in a row somewhere else. It is made of an array, a std::vector, a std::array, a std::span, whatever
+/// else has data() and size(), or a pointer and a count. (std::span itself is C++20.)
+template <class T>
+class Span {
+    template <class Container>
+    using Fits = std::enable_if_t<
+        std::is_convertible<std::remove_pointer_t<decltype(std::declval<Container&>().data())> (*)[], T (*)[]>::value &&
+        std::is_convertible<decltype(std::declval<Container&>().size()), std::size_t>::value>;
+
+public:
+    constexpr Span() = default;                                                 ///< no values
+    constexpr Span(T* first, std::size_t count) : data_(first), size_(count) {} ///< pointer and count
+    template <std::size_t N>
+    constexpr Span(T (&values)[N]) : data_(values), size_(N) {} ///< an array
+    template <class Container, class = Fits<Container>>
+    constexpr Span(Container&& values) : data_(values.data()), size_(values.size()) {} ///< what has data() and size()
+
+    [[nodiscard]] constexpr T* data() const { return data_; }          ///< the first value
+    [[nodiscard]] constexpr std::size_t size() const { return size_; } ///< how many there are
+    [[nodiscard]] constexpr bool empty() const { return size_ == 0; }  ///< whether there are none
+
+private:
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+/// The 16 floats of a column-major matrix that lies somewhere else: an array, a std::array, a std::span of 16, or,
+/// said explicitly, a pointer.
+template <class T>
+class MatrixSpan {
+    template <class FixedSpan>
+    using Fits = std::enable_if_t<FixedSpan::extent == 16 &&
+                                  std::is_convertible<decltype(std::declval<FixedSpan&>().data()), T*>::value>;
+
+public:
+    explicit constexpr MatrixSpan(T* first) : data_(first) {}                                      ///< of 16 floats
+    constexpr MatrixSpan(T (&values)[16]) : data_(values) {}                                       ///< an array
+    constexpr MatrixSpan(std::array<std::remove_const_t<T>, 16>& values) : data_(values.data()) {} ///< an array
+    template <class U = T, class = std::enable_if_t<std::is_const<U>::value>>
+    constexpr MatrixSpan(const std::array<std::remove_const_t<U>, 16>& values) : data_(values.data()) {} ///< an array
+    template <class FixedSpan, class = Fits<FixedSpan>, class = void>
+    constexpr MatrixSpan(const FixedSpan& values) : data_(values.data()) {} ///< std::span of 16
+
+    [[nodiscard]] constexpr T* data() const { return data_; } ///< the first float
+
+private:
+    T* data_;
+};
 
 /// Owns a SuppleContext. The device must outlive it, and no command buffer that uses it may be pending when it goes.
 class Context {
@@ -46,11 +97,15 @@ public:
     [[nodiscard]] SuppleResult beginFrame(uint64_t frame, uint64_t completedFrame) const {
         return suppleBeginFrame(handle_, frame, completedFrame);
     }
+    /// Where the coordinates on the device begin, for large worlds.
+    [[nodiscard]] SuppleResult setOrigin(const std::array<double, 3>& origin) const {
+        return suppleSetOrigin(handle_, origin.data());
+    }
     [[nodiscard]] SuppleResult cancelFrame() const { return suppleCancelFrame(handle_); }
     [[nodiscard]] SuppleResult recordUploads(VkCommandBuffer commandBuffer) const {
         return suppleRecordUploads(handle_, commandBuffer);
     }
-    [[nodiscard]] SuppleResult record(VkCommandBuffer commandBuffer, std::span<const SuppleGroup> groups,
+    [[nodiscard]] SuppleResult record(VkCommandBuffer commandBuffer, Span<const SuppleGroup> groups,
                                       SuppleSyncScope before, SuppleSyncScope after, uint32_t flags = 0) const {
         SuppleRecordDesc desc = sized<SuppleRecordDesc>();
         desc.flags = flags;
@@ -141,6 +196,10 @@ public:
         out = sized<SuppleAssetInfo>();
         return suppleGetAssetInfo(context_, handle_, &out);
     }
+    /// Loads it anew in its place.
+    [[nodiscard]] SuppleResult reload(const SuppleAssetDesc& desc) const {
+        return suppleReloadAsset(context_, handle_, &desc);
+    }
     [[nodiscard]] SuppleResult clipInfo(uint32_t clip, SuppleClipInfo& out) const {
         out = sized<SuppleClipInfo>();
         return suppleGetClipInfo(context_, handle_, clip, &out);
@@ -174,7 +233,7 @@ public:
         out = sized<SuppleImageInfo>();
         return suppleGetImageInfo(context_, handle_, image, &out);
     }
-    [[nodiscard]] SuppleResult fillJointMask(uint32_t joint, float value, std::span<float> mask) const {
+    [[nodiscard]] SuppleResult fillJointMask(uint32_t joint, float value, Span<float> mask) const {
         return suppleFillJointMask(context_, handle_, joint, value, mask.data(), static_cast<uint32_t>(mask.size()));
     }
     [[nodiscard]] SuppleResult rootMotion(const SupplePoseDesc& pose, SuppleRootMotion& out) const {
@@ -192,12 +251,14 @@ public:
                            [&](SuppleGroup& made) { return suppleCreateGroup(context.handle(), &desc, &made); });
     }
 
+    [[nodiscard]] SuppleResult setCapacity(uint32_t capacity) const {
+        return suppleSetCapacity(context_, handle_, capacity);
+    }
     [[nodiscard]] SuppleResult setRate(uint32_t rate) const { return suppleSetRate(context_, handle_, rate); }
     /// By which its instances play (SUPPLE_POSES_PLAYBACK).
     [[nodiscard]] SuppleResult setTime(double seconds) const { return suppleSetTime(context_, handle_, seconds); }
     /// Empty: none of the kind.
-    [[nodiscard]] SuppleResult setMask(uint32_t mask, std::span<const float> joints,
-                                       std::span<const float> morphs = {}) const {
+    [[nodiscard]] SuppleResult setMask(uint32_t mask, Span<const float> joints, Span<const float> morphs = {}) const {
         SuppleMaskDesc desc = sized<SuppleMaskDesc>();
         desc.mask = mask;
         desc.jointMask = joints.empty() ? nullptr : joints.data();
@@ -284,7 +345,7 @@ public:
         return suppleSetPose(context_, handle_, &pose);
     }
     /// Crossfades and plain layers without root motion.
-    [[nodiscard]] SuppleResult setPose(std::span<const SuppleClipLayer> layers) const {
+    [[nodiscard]] SuppleResult setPose(Span<const SuppleClipLayer> layers) const {
         SupplePoseDesc pose = sized<SupplePoseDesc>();
         pose.layers = layers.data();
         pose.layerCount = static_cast<uint32_t>(layers.size());
@@ -295,33 +356,37 @@ public:
         return suppleSetPlayback(context_, handle_, &playback);
     }
     /// Plain layers without root motion.
-    [[nodiscard]] SuppleResult setPlayback(std::span<const SupplePlaybackLayer> layers) const {
+    [[nodiscard]] SuppleResult setPlayback(Span<const SupplePlaybackLayer> layers) const {
         SupplePlaybackDesc playback = sized<SupplePlaybackDesc>();
         playback.layers = layers.data();
         playback.layerCount = static_cast<uint32_t>(layers.size());
         return suppleSetPlayback(context_, handle_, &playback);
     }
     /// Empty: the poses' own again.
-    [[nodiscard]] SuppleResult setMorphWeights(std::span<const float> weights) const {
+    [[nodiscard]] SuppleResult setMorphWeights(Span<const float> weights) const {
         return suppleSetMorphWeights(context_, handle_, weights.empty() ? nullptr : weights.data(),
                                      static_cast<uint32_t>(weights.size()));
     }
-    [[nodiscard]] SuppleResult setMatrixPose(std::span<const float> jointMatrices) const {
+    [[nodiscard]] SuppleResult setMatrixPose(Span<const float> jointMatrices) const {
         return suppleSetMatrixPose(context_, handle_, jointMatrices.data(),
                                    static_cast<uint32_t>(jointMatrices.size() / 16));
     }
-    [[nodiscard]] SuppleResult setTransform(std::span<const float, 16> transform) const {
+    [[nodiscard]] SuppleResult setTransform(MatrixSpan<const float> transform) const {
         return suppleSetTransform(context_, handle_, transform.data());
     }
+    /// The translation alone, for large worlds.
+    [[nodiscard]] SuppleResult setPosition(const std::array<double, 3>& position) const {
+        return suppleSetPosition(context_, handle_, position.data());
+    }
     /// What its shaders read by slot.
-    [[nodiscard]] SuppleResult setUserData(std::span<const float, 4> data) const {
+    [[nodiscard]] SuppleResult setUserData(const std::array<float, 4>& data) const {
         return suppleSetUserData(context_, handle_, data.data());
     }
     /// `frame` may be null.
     [[nodiscard]] SuppleResult readBounds(SuppleBounds& out, uint64_t* frame = nullptr) const {
         return suppleReadInstanceBounds(context_, handle_, &out, frame);
     }
-    [[nodiscard]] SuppleResult jointTransform(uint32_t joint, std::span<float, 16> out) const {
+    [[nodiscard]] SuppleResult jointTransform(uint32_t joint, MatrixSpan<float> out) const {
         return suppleGetJointTransform(context_, handle_, joint, out.data());
     }
 };

@@ -1,4 +1,4 @@
-// The same in C++20, without exceptions and run-time types.
+// The same in C++17, without exceptions and run-time types.
 #include <cstdio>
 #include <cstring>
 #include <supple/supple.hpp>

@@ -1,0 +1,186 @@
+// All draw ranges of a group by one indirect call, as docs/integration.md and shaders/supple_surface.glsl say: it draws
+// the same picture as a call per range with push constants.
+#include "host/draw_target.h"
+#include "host/pipelines.h"
+#include "host/rendering.h"
+#include "shaders/prop_frag.h"
+#include "shaders/ranges_vert.h"
+#include "shaders/ranges_vert_DRAW_ID.h"
+#include "tests/support/crowd.h"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+namespace supple::test {
+namespace {
+
+constexpr uint32_t kPictureSide = 256;
+
+/// SuppleRange of shaders/supple_surface.glsl.
+struct ShaderRange {
+    uint32_t patchCount = 0;
+    uint32_t firstVertex = 0;
+    uint32_t samplesPerPatch = 0;
+    uint32_t verticesPerInstance = 0;
+};
+struct RangePush {
+    glm::vec4 window{};
+    ShaderRange range;
+};
+
+std::vector<ShaderRange> shaderRanges(const SuppleGridOutput& grid) {
+    std::vector<ShaderRange> ranges;
+    for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+        ShaderRange& range = ranges.emplace_back();
+        range.patchCount = grid.drawRanges[r].patchCount;
+        range.firstVertex = grid.drawRanges[r].firstVertex;
+        range.samplesPerPatch = grid.drawRanges[r].samplesPerPatch;
+        range.verticesPerInstance = grid.verticesPerInstance;
+    }
+    return ranges;
+}
+
+/// Draws a group in both ways.
+class RangeDrawing {
+public:
+    RangeDrawing(host::Device& device, const host::GroupOutput& output, std::span<const ShaderRange> ranges)
+        : device_(device), output_(output), ranges_(ranges.begin(), ranges.end()) {
+        constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
+        const VkDescriptorSetLayout setLayout =
+            *host::createSetLayout(device, {{0, kStorage, kVertex}, {1, kStorage, kVertex}, {4, kStorage, kVertex}});
+        layout_ = *host::createPipelineLayout(device, {setLayout}, sizeof(RangePush), kVertex);
+        pool_ = std::move(*host::DescriptorPool::create(device, 1));
+        set_ = *pool_.allocate(setLayout);
+        buffer_ =
+            std::move(*device.uploadBuffer(ranges.data(), ranges.size_bytes(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
+        pool_.write(set_, {host::storageBuffer(0, output.grid.rates[0].instances),
+                           host::storageBuffer(1, output.streams.vertices),
+                           host::storageBuffer(4, buffer_.handle(), 0, VK_WHOLE_SIZE)});
+        target_ = std::move(*host::DrawTarget::create(device, {kPictureSide, kPictureSide}, VK_SAMPLE_COUNT_1_BIT));
+    }
+
+    host::Picture draw(bool byDrawId, const glm::vec4& window) {
+        host::GraphicsDesc desc;
+        desc.name = "test ranges";
+        desc.layout = layout_;
+        desc.vertexShader =
+            byDrawId ? std::span<const uint32_t>(ranges_vert_DRAW_ID) : std::span<const uint32_t>(ranges_vert);
+        desc.fragmentShader = prop_frag;
+        desc.colors = {host::kPictureFormat};
+        desc.depth = host::kDepthFormat;
+        const VkPipeline pipeline = *host::createGraphicsPipeline(device_, desc);
+        constexpr VkImageLayout kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+        EXPECT_TRUE(
+            device_
+                .submitAndWait([&](VkCommandBuffer commands) {
+                    const SuppleSyncScope any = kAnyUse;
+                    host::imageBarrier(commands, target_.color(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kColor, any});
+                    host::imageBarrier(commands, target_.depth(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kDepth, any});
+                    const VkRenderingAttachmentInfo color = host::attachment(target_.color(), kColor);
+                    host::beginRendering(commands, target_.extent(), {&color, 1},
+                                         host::attachment(target_.depth(), kDepth, {.depthStencil = {1.0f, 0}}));
+                    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+                    recordDraws(commands, byDrawId, window);
+                    vkCmdEndRendering(commands);
+                    host::imageBarrier(commands, target_.color(), {kColor, any},
+                                       {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, any});
+                })
+                .ok());
+        Result<host::Picture> picture = host::readPicture(device_, target_.color());
+        EXPECT_TRUE(picture.ok());
+        return picture.ok() ? std::move(*picture) : host::Picture::blank(kPictureSide, kPictureSide);
+    }
+
+private:
+    void recordDraws(VkCommandBuffer commands, bool byDrawId, const glm::vec4& window) const {
+        const SuppleGridOutput& grid = output_.grid;
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set_, 0, nullptr);
+        vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset,
+                             grid.indices.stride == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
+        RangePush push;
+        push.window = window;
+        if (byDrawId) {
+            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(push), &push);
+            vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer, grid.indirect.offset, grid.drawRangeCount,
+                                     grid.indirect.stride);
+            return;
+        }
+        for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+            push.range = ranges_[r];
+            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(push), &push);
+            vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,
+                                     grid.indirect.offset + VkDeviceSize{r} * grid.indirect.stride, 1, 0);
+        }
+    }
+
+    host::Device& device_;
+    const host::GroupOutput output_;
+    std::vector<ShaderRange> ranges_;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    host::DescriptorPool pool_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    host::Buffer buffer_;
+    host::DrawTarget target_;
+};
+
+uint32_t pixelsThatDiffer(const host::Picture& a, const host::Picture& b) {
+    uint32_t count = 0;
+    for (size_t i = 0; i < a.rgba.size(); i += 4) {
+        count += std::equal(a.rgba.begin() + static_cast<ptrdiff_t>(i), a.rgba.begin() + static_cast<ptrdiff_t>(i) + 4,
+                            b.rgba.begin() + static_cast<ptrdiff_t>(i))
+                     ? 0
+                     : 1;
+    }
+    return count;
+}
+
+using DrawRanges = CrowdContexts;
+
+TEST_F(DrawRanges, OfAGroupAreDrawnByOneCall) {
+    ASSERT_TRUE(testDevice()->hasManyDraws());
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    ASSERT_TRUE(own.valid());
+    const host::Picture blank = host::Picture::blank(kPictureSide, kPictureSide);
+    for (const uint32_t flags : {0u, uint32_t{SUPPLE_GROUP_INDEXED_MESH}}) {
+        SuppleGroupDesc desc{};
+        desc.asset = own.asset(std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb"); // three materials
+        desc.capacity = 3;
+        desc.scheme = SUPPLE_SCHEME_PM;
+        desc.rate = 4;
+        desc.flags = flags;
+        Crowd crowd(own, desc);
+        ASSERT_TRUE(crowd.valid());
+        for (uint32_t i = 0; i < desc.capacity; ++i) {
+            const SuppleInstance instance = crowd.spawn();
+            crowd.pose(instance, SUPPLE_BIND_POSE, 0.0,
+                       glm::translate(glm::mat4(1.0f), {0.8f * static_cast<float>(i) - 0.8f, 0.0f, 0.0f}));
+            // The first instance of some draws is not 0 then.
+            EXPECT_EQ(suppleSetPartVisible(own.handle(), instance, 0, i == 1 ? 0 : 1), SUPPLE_OK);
+        }
+        crowd.run();
+        const host::GroupOutput output = crowd.output();
+        std::vector<ShaderRange> ranges = shaderRanges(output.grid);
+        ASSERT_GE(ranges.size(), 3u);
+        const auto draws = crowd.draws();
+        EXPECT_TRUE(std::ranges::any_of(draws, [](const auto& draw) { return draw.firstInstance > 0; }));
+        const glm::vec4 window(0.0f, 0.8f, 1.3f, 0.0f);
+        RangeDrawing drawing(own.device(), output, ranges);
+        const host::Picture pushed = drawing.draw(false, window), byDrawId = drawing.draw(true, window);
+        std::printf("%zu ranges, %u pixels\n", ranges.size(), pixelsThatDiffer(pushed, blank));
+        EXPECT_GT(pixelsThatDiffer(pushed, blank), kPictureSide * kPictureSide / 16);
+        EXPECT_EQ(pixelsThatDiffer(pushed, byDrawId), 0u);
+        // And it can be told: with the ranges in another order they are other vertices.
+        std::ranges::reverse(ranges);
+        RangeDrawing mistaken(own.device(), output, ranges);
+        if (flags == 0) {
+            EXPECT_GT(pixelsThatDiffer(pushed, mistaken.draw(true, window)), 100u);
+        }
+    }
+}
+
+} // namespace
+} // namespace supple::test
