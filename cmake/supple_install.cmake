@@ -36,7 +36,7 @@ list(TRANSFORM SUPPLE_HOST_SHADERS PREPEND ${supple_SOURCE_DIR}/shaders/ OUTPUT_
 install(FILES ${host_shaders} DESTINATION ${shader_directory} COMPONENT development)
 # The headers cite documents.
 install(DIRECTORY ${supple_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/supple COMPONENT development
-    FILES_MATCHING PATTERN "*.md" PATTERN "images/*")
+    FILES_MATCHING PATTERN "*.md" PATTERN "*.schema.json" PATTERN "images/*")
 
 # ---- for find_package
 

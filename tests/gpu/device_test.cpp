@@ -23,8 +23,10 @@ TEST(Device, NamesTheFirstFeatureThatIsNotEnabled) {
 
 TEST(Device, NamesTheEntryPointThatIsMissing) {
     const auto nothing = [](VkInstance, const char*) -> PFN_vkVoidFunction { return nullptr; };
-    EXPECT_EQ(missingRequirement(VK_NULL_HANDLE, VK_NULL_HANDLE, nothing),
-              "entry point vkGetPhysicalDeviceProperties2 (is the instance Vulkan 1.1 or later?)");
+    const std::string text = "the VkInstance must be created with apiVersion 1.3 or more: this one has ";
+    EXPECT_EQ(missingInInstance(VK_NULL_HANDLE, VK_NULL_HANDLE, nothing, 0),
+              text + "no vkGetPhysicalDeviceProperties2");
+    EXPECT_EQ(missingInInstance(VK_NULL_HANDLE, VK_NULL_HANDLE, nothing, VK_API_VERSION_1_1), text + "1.1");
 
     const auto allButOne = [](VkInstance, const char* name) -> PFN_vkVoidFunction {
         return std::string(name) == "vkGetDeviceProcAddr" ? nullptr : reinterpret_cast<PFN_vkVoidFunction>(1);
