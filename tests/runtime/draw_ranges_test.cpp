@@ -23,6 +23,8 @@ struct ShaderRange {
     uint32_t firstVertex = 0;
     uint32_t samplesPerPatch = 0;
     uint32_t verticesPerInstance = 0;
+    uint32_t firstSlot = 0;
+    uint32_t previousWords = 0;
 };
 struct RangePush {
     glm::vec4 window{};
