@@ -543,6 +543,20 @@ void createAsset(Rows& r) {
     });
     r.description<SuppleAssetDesc>(
         kCreate, "desc", [](World&) { return World::assetDesc(); }, create);
+    constexpr const char* kReload = "suppleReloadAsset";
+    r.assets(kReload, [](World&, SuppleContext c, SuppleAsset a) {
+        const SuppleAssetDesc desc = World::assetDesc();
+        return suppleReloadAsset(c, a, &desc);
+    });
+    r.description<SuppleAssetDesc>(
+        kReload, "desc", [](World&) { return World::assetDesc(); },
+        [](World& w, const SuppleAssetDesc* desc) {
+            SuppleAsset own{};
+            EXPECT_EQ(createTube(w.handle(), own), SUPPLE_OK);
+            const SuppleResult result = suppleReloadAsset(w.handle(), own, desc);
+            EXPECT_EQ(suppleDestroyAsset(w.handle(), own), SUPPLE_OK);
+            return result;
+        });
     const auto spoiled = [&](const char* what, SuppleResult result, int message, auto spoil) {
         r.add(kCreate, what, result, message, [=](World& w) {
             SuppleAssetDesc desc = World::assetDesc();
@@ -1067,6 +1081,16 @@ void groups(Rows& r) {
         r.refuse("suppleSetRate", "rate " + std::to_string(rate), SUPPLE_MESSAGE_OUT_OF_RANGE,
                  [=](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, rate); });
     }
+    constexpr const char* kCapacity = "suppleSetCapacity";
+    r.groups(kCapacity, [](World&, SuppleContext c, SuppleGroup g) { return suppleSetCapacity(c, g, 4); });
+    r.refuse(kCapacity, "0", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [](World& w) { return suppleSetCapacity(w.handle(), w.mine.main.group, 0); });
+    r.accept(kCapacity, "as it is", [](World& w) {
+        SuppleGroupInfo info = {};
+        info.structSize = sizeof info;
+        EXPECT_EQ(suppleGetGroupInfo(w.handle(), w.spare.group, &info), SUPPLE_OK);
+        return suppleSetCapacity(w.handle(), w.spare.group, info.capacity);
+    });
     r.accept("suppleSetRate", "as it is", [](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, 2); });
     r.add("suppleSetRate", "of a scheme of one rate", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
           [](World& w) { return suppleSetRate(w.handle(), w.mine.subdivision.group, 64); });
@@ -1263,6 +1287,14 @@ void instances(Rows& r) {
     for (const int at : {3, 7, 11, 15}) {
         transform("last row at " + std::to_string(at), at, 0.5f, SUPPLE_MESSAGE_OUT_OF_RANGE);
     }
+    constexpr const char* kPosition = "suppleSetPosition";
+    static const double kHome[3] = {0, 0, 0}, kNowhere[3] = {0, NAN, 0};
+    r.instances(
+        kPosition, [](World&, SuppleContext c, SuppleInstance i) { return suppleSetPosition(c, i, kHome); }, true);
+    r.refuse(kPosition, "null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleSetPosition(w.handle(), w.instance(), nullptr); });
+    r.refuse(kPosition, "NaN", SUPPLE_MESSAGE_NOT_FINITE,
+             [](World& w) { return suppleSetPosition(w.handle(), w.instance(), kNowhere); });
     constexpr const char* kUserData = "suppleSetUserData";
     r.instances(
         kUserData, [](World&, SuppleContext c, SuppleInstance i) { return suppleSetUserData(c, i, kIdentity); }, false);
@@ -1543,6 +1575,14 @@ void frames(Rows& r) {
         begin(
             "too far ahead", kRange, phase, [](uint64_t f) { return f + 3; }, same);
     }
+
+    constexpr const char* kOrigin = "suppleSetOrigin";
+    static const double kHome[3] = {0, 0, 0}, kNowhere[3] = {0, NAN, 0};
+    r.nullContext(kOrigin, [](World&, SuppleContext c) { return suppleSetOrigin(c, kHome); });
+    r.refuse(kOrigin, "null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleSetOrigin(w.handle(), nullptr); });
+    r.refuse(kOrigin, "NaN", SUPPLE_MESSAGE_NOT_FINITE, [](World& w) { return suppleSetOrigin(w.handle(), kNowhere); });
+    r.accept(kOrigin, "as it is", [](World& w) { return suppleSetOrigin(w.handle(), kHome); });
 
     constexpr const char* kCancel = "suppleCancelFrame";
     r.nullContext(kCancel, [](World&, SuppleContext c) { return suppleCancelFrame(c); });

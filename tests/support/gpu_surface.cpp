@@ -125,7 +125,7 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     }
     SuppleGroupDesc group{};
     group.structSize = sizeof(group);
-    group.flags = options.flags;
+    group.flags = options.flags | SUPPLE_GROUP_WINDOWS; // read back, never bound
     group.asset = asset_;
     group.capacity = options.instanceCount;
     group.scheme = options.scheme;
