@@ -386,6 +386,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             recordPass(frame, row, timing);
         }
     }
+    timing.end();
     if (asyncCompute_) {
         frame.forEach([&](Group& group) {
             Transfers transfers = transfersOf(group, group.link.leadsView);

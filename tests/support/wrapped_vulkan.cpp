@@ -24,6 +24,7 @@ struct Table {
     PFN_vkInvalidateMappedMemoryRanges InvalidateMappedMemoryRanges;
     PFN_vkGetPhysicalDeviceProperties2 GetPhysicalDeviceProperties2;
     PFN_vkGetQueryPoolResults GetQueryPoolResults;
+    PFN_vkCmdCopyQueryPoolResults CmdCopyQueryPoolResults;
 };
 Table real;
 WrappedVulkan state;
@@ -97,6 +98,7 @@ VKAPI_ATTR VkResult VKAPI_CALL invalidate(VkDevice device, uint32_t count, const
 }
 VKAPI_ATTR VkResult VKAPI_CALL queryResults(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count,
                                             size_t size, void* data, VkDeviceSize stride, VkQueryResultFlags flags) {
+    ++state.queryReads;
     if (state.queryFailure < 0) {
         return state.queryFailure;
     }
@@ -107,6 +109,12 @@ VKAPI_ATTR VkResult VKAPI_CALL queryResults(VkDevice device, VkQueryPool pool, u
     }
     return result;
 }
+VKAPI_ATTR void VKAPI_CALL copyQueryResults(VkCommandBuffer commands, VkQueryPool pool, uint32_t first, uint32_t count,
+                                            VkBuffer target, VkDeviceSize offset, VkDeviceSize stride,
+                                            VkQueryResultFlags flags) {
+    ++state.queryCopies;
+    real.CmdCopyQueryPoolResults(commands, pool, first, count, target, offset, stride, flags);
+}
 VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
     real.GetPhysicalDeviceProperties2(device, out);
     VkPhysicalDeviceLimits& limits = out->properties.limits;
@@ -115,6 +123,9 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceP
     }
     if (state.maxComputeWorkGroupCountX != 0) {
         limits.maxComputeWorkGroupCount[0] = state.maxComputeWorkGroupCountX;
+    }
+    if (state.deviceType != VK_PHYSICAL_DEVICE_TYPE_MAX_ENUM) {
+        out->properties.deviceType = state.deviceType;
     }
 }
 VKAPI_ATTR void VKAPI_CALL features(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* out) {
@@ -174,6 +185,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     }
     if (is("vkGetQueryPoolResults")) {
         return wrap(real.GetQueryPoolResults, function, &queryResults);
+    }
+    if (is("vkCmdCopyQueryPoolResults")) {
+        return wrap(real.CmdCopyQueryPoolResults, function, &copyQueryResults);
     }
     if (is("vkInvalidateMappedMemoryRanges")) {
         return wrap(real.InvalidateMappedMemoryRanges, function, &invalidate);
