@@ -24,7 +24,7 @@ Result<Timers> Timers::create(const Device& device, uint32_t capacity, const cha
         return timers;
     }
     const BufferRequest request{name, capacity * sizeof(Tick), VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    Result<BufferSet> readback = BufferSet::create(device, {&request, 1}, MemoryKind::upload);
+    Result<BufferSet> readback = BufferSet::create(device, {&request, 1}, MemoryKind::readback);
     if (!readback) {
         return readback.error();
     }

@@ -42,7 +42,7 @@ private:
     QueryPoolHandle pool_;
     uint32_t capacity_ = 0;
     std::atomic<uint32_t> taken_ = 0;
-    [[nodiscard]] bool copies() const { return readback_.allocatedBytes() > 0; }
+    [[nodiscard]] bool copies() const { return device_->mapping.lazyTimestamps; }
     [[nodiscard]] Tick* copied() const { return reinterpret_cast<Tick*>(readback_.mapped(0)); }
 
     BufferSet readback_;    ///< ticks, if the command buffer copies them

@@ -148,9 +148,27 @@ void Group::fill(SuppleGroupInfo& info) const {
     instances_->fill(info);
     info.surfaceCount = static_cast<uint32_t>(surfaces_.size());
     info.instances = visibility_->list().slots();
-    info.deviceBytes = buffers_.allocatedBytes() + instances_->deviceBytes();
+}
+
+gpu::MemoryUse Group::memoryUse() const {
+    gpu::MemoryUse use = buffers_.use();
+    use += staging_.use();
+    use += instances_->memoryUse();
     for (const auto& surface : surfaces_) {
-        info.deviceBytes += surface->deviceBytes();
+        use += surface->memoryUse();
+    }
+    return use;
+}
+
+void Group::recordWarmUp(VkCommandBuffer commandBuffer, uint64_t frame) {
+    lastRecordedFrame_ = frame;
+    instances_->recordWarmUp(commandBuffer);
+    if (culling_ != nullptr) {
+        culling_->recordWarmUp(commandBuffer);
+        view_->recordWarmUp(commandBuffer);
+    }
+    for (const auto& surface : surfaces_) {
+        surface->recordWarmUp(commandBuffer);
     }
 }
 

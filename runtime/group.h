@@ -42,6 +42,8 @@ public:
     /// `surface` is below surfaces().size().
     void fill(SuppleSurfaceInfo& info, uint32_t surface) const;
     [[nodiscard]] Status setRate(uint32_t rate) { return surfaces_.setRate(rate); }
+    /// Without the asset's tables and the view's buffers.
+    [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }
@@ -61,6 +63,8 @@ public:
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
     /// This frame's poses, its list of instances and what to draw of them.
     PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
+    /// Context::recordWarmUp.
+    void recordWarmUp(VkCommandBuffer commandBuffer, uint64_t frame);
     void addTransfers(Transfers& transfers) const;
 
     /// Vertices of the view's budget that an instance needs at its coarsest, and all that the host shows.

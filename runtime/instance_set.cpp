@@ -74,9 +74,10 @@ void InstanceSet::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkDeviceSize n = desc_.capacity;
     const bool deforms = desc_.source != SUPPLE_POSES_CAGE_BUFFER;
-    palettes_ = device.add({"supple poses", deforms ? n * layout_.stride * gpu::kVec4Bytes : 0, kInput});
-    cages_ = device.add(
-        {"supple deformed cage", n * cageStride_ * gpu::kVec4Bytes, kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+    palettes_ = device.add(
+        {"supple poses", deforms ? n * layout_.stride * gpu::kVec4Bytes : 0, kInput, gpu::MemoryPurpose::poses});
+    cages_ = device.add({"supple deformed cage", n * cageStride_ * gpu::kVec4Bytes,
+                         kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::MemoryPurpose::cages});
     const VkDeviceSize listBytes = passListBytes() + windows_.parts.size() * n * sizeof(uint32_t);
     list_ = device.add({"supple instances", listBytes, kInput});
     lists_.plan(staging, "supple list staging", listBytes, desc_.framesInFlight);
@@ -142,6 +143,16 @@ PassCost InstanceSet::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame
         cost.bytes += visibility.recordUpload(commandBuffer);
     }
     return cost;
+}
+
+void InstanceSet::recordWarmUp(VkCommandBuffer commandBuffer) const {
+    poses_->recordWarmUp(commandBuffer);
+    if (!deformSets_.empty()) {
+        gpu::computeBarrier(*desc_.device, commandBuffer);
+        shared::DeformPush push{}; // of no instances
+        push.firstInfluences = desc_.asset->firstInfluences;
+        desc_.deform->record(commandBuffer, deformSets_[0], layout_.mode, push);
+    }
 }
 
 PassCost InstanceSet::recordDeform(VkCommandBuffer commandBuffer) const {

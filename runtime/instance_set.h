@@ -61,7 +61,9 @@ public:
     [[nodiscard]] const gpu::PlannedBuffer& list() const { return list_; }
     /// Of the list, what passes read: capacity entries of all instances, then as many by window.
     [[nodiscard]] VkDeviceSize passListBytes() const { return 2 * VkDeviceSize{desc_.capacity} * sizeof(uint32_t); }
-    [[nodiscard]] VkDeviceSize deviceBytes() const { return poses_->deviceBytes(); }
+    [[nodiscard]] gpu::MemoryUse memoryUse() const { return poses_->memoryUse(); } ///< beside the planned buffers
+    /// Context::recordWarmUp.
+    void recordWarmUp(VkCommandBuffer commandBuffer) const;
     void fill(SuppleGroupInfo& output) const;
     void addTransfers(Transfers& transfers) const;
 

@@ -13,7 +13,7 @@ class OwnVertices : public Tessellation {
 public:
     [[nodiscard]] BoundBytes boundBytes() const override;
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
-    [[nodiscard]] VkDeviceSize deviceBytes() const override { return indices_.deviceBytes(); }
+    [[nodiscard]] gpu::MemoryUse memoryUse() const override { return indices_.use(); }
     [[nodiscard]] const VertexStreams* streams() const override { return &streams_; }
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;

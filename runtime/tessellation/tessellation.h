@@ -89,7 +89,9 @@ public:
     /// When the plans are carried out. `visibility` is the group's Culling if it belongs to a view.
     [[nodiscard]] virtual Status createSets(const InstanceSet& instances, const Visibility& visibility);
 
-    [[nodiscard]] virtual VkDeviceSize deviceBytes() const { return 0; } ///< beside the planned buffers
+    [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
+    /// Context::recordWarmUp.
+    virtual void recordWarmUp(VkCommandBuffer commandBuffer) const;
     // Output; the API asks for what a tessellation of this kind has.
     [[nodiscard]] virtual SuppleTessellation kind() const = 0;
     /// Null without surface vertices.
@@ -168,6 +170,7 @@ protected:
         surface::record(*desc_.device, commandBuffer, steps, window);
     }
 
+    void recordWarmUp(VkCommandBuffer commandBuffer, const surface::Program& program, const SurfaceSets& sets) const;
     [[nodiscard]] Status makeSets(SurfaceSets& target, const SchemeTables& scheme,
                                   const surface::Program& program) const;
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.

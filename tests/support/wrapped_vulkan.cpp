@@ -16,6 +16,7 @@ struct Table {
     PFN_vkCreateBuffer CreateBuffer;
     PFN_vkCmdCopyBuffer CmdCopyBuffer;
     PFN_vkCmdFillBuffer CmdFillBuffer;
+    PFN_vkCmdBindPipeline CmdBindPipeline;
     PFN_vkCmdDispatch CmdDispatch;
     PFN_vkCmdDispatchIndirect CmdDispatchIndirect;
     PFN_vkCmdPipelineBarrier2 CmdPipelineBarrier2;
@@ -65,8 +66,13 @@ VKAPI_ATTR void VKAPI_CALL fillBuffer(VkCommandBuffer commands, VkBuffer buffer,
     ++state.fills;
     real.CmdFillBuffer(commands, buffer, offset, size, value);
 }
+VKAPI_ATTR void VKAPI_CALL bindPipeline(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) {
+    state.pipelinesBound.insert(pipeline);
+    real.CmdBindPipeline(commands, point, pipeline);
+}
 VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32_t y, uint32_t z) {
     ++state.dispatches;
+    state.workgroups += uint64_t{x} * y * z;
     real.CmdDispatch(commands, x, y, z);
 }
 VKAPI_ATTR void VKAPI_CALL dispatchIndirect(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset) {
@@ -167,6 +173,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     }
     if (is("vkCmdFillBuffer")) {
         return wrap(real.CmdFillBuffer, function, &fillBuffer);
+    }
+    if (is("vkCmdBindPipeline")) {
+        return wrap(real.CmdBindPipeline, function, &bindPipeline);
     }
     if (is("vkCmdDispatch")) {
         return wrap(real.CmdDispatch, function, &dispatch);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <vector>
 #include <vulkan/vulkan.h>
 
@@ -14,6 +15,8 @@ struct WrappedVulkan {
     uint64_t copies = 0, copiedBytes = 0;
     uint64_t fills = 0, barriers = 0, allocations = 0;
     uint64_t dispatches = 0, indirectDispatches = 0;
+    uint64_t workgroups = 0; ///< of all vkCmdDispatch
+    std::set<VkPipeline> pipelinesBound;
     uint64_t queryReads = 0, queryCopies = 0;           ///< vkGetQueryPoolResults, vkCmdCopyQueryPoolResults
     std::vector<VkBufferMemoryBarrier2> bufferBarriers; ///< of all vkCmdPipelineBarrier2
     // provoked
