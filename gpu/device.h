@@ -4,9 +4,11 @@
 #include "base/result.h"
 #include "gpu/functions.h"
 #include "gpu/mapping.h"
+#include "gpu/memory_use.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vulkan/vulkan_core.h>
 
@@ -55,6 +57,7 @@ struct Device {
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const VkAllocationCallbacks* allocator = nullptr;
     MemorySource memorySource;
+    std::shared_ptr<MemoryLedger> ledger = std::make_shared<MemoryLedger>(); ///< what it counts does change
     bool debugUtils = false;
     Functions vk;
     Mapping mapping;

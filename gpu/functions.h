@@ -41,6 +41,7 @@ namespace supple::gpu {
     X(DestroyQueryPool)                                                                                                \
     X(GetQueryPoolResults)                                                                                             \
     X(CmdResetQueryPool)                                                                                               \
+    X(CmdCopyQueryPoolResults)                                                                                         \
     X(CmdWriteTimestamp2)                                                                                              \
     X(CmdPipelineBarrier2)                                                                                             \
     X(CmdBindPipeline)                                                                                                 \

@@ -10,6 +10,8 @@ struct Mapping {
     bool wide = false;          ///< many lanes a patch and storage-buffer loads, else one lane a patch and texel loads
     bool exactDivision = false; ///< the device rounds float division correctly, so k / rate needs no table
     uint32_t localSize = 32;
+    /// The driver writes timestamps late and reads them only from an idle device: gpu/timers.h.
+    bool lazyTimestamps = false;
 };
 
 enum class MappingChoice { automatic, narrow, wide };

@@ -53,12 +53,34 @@ Status checkHeap(const Device& device, VkDeviceSize bytes, const char* name) {
     return success();
 }
 
+/// Asks the host if the allocation would exceed its budget.
+Status checkBudget(const Device& device, const MemoryRequest& wanted, const std::string& what) {
+    const MemoryLedger& ledger = *device.ledger;
+    MemoryRequest request = wanted;
+    request.used = ledger.use.total();
+    request.budget = ledger.budget;
+    if (ledger.budget == 0 || request.used + request.bytes <= ledger.budget ||
+        (ledger.allowsMore && ledger.allowsMore(request))) {
+        return success();
+    }
+    return Error{ErrorCode::deviceMemory, what + ": the budget of " + std::to_string(request.budget) +
+                                              " bytes, of which " + std::to_string(request.used) +
+                                              " are in use, does not allow it"};
+}
+
+MemoryPurpose purposeOf(const BufferRequest& request, MemoryKind kind) {
+    return kind == MemoryKind::deviceLocal ? request.purpose
+           : kind == MemoryKind::upload    ? MemoryPurpose::staging
+                                           : MemoryPurpose::readback;
+}
+
 } // namespace
 
 DeviceMemory::~DeviceMemory() {
     if (piece_.memory == VK_NULL_HANDLE) {
         return;
     }
+    device_->ledger->use -= use_;
     if (device_->memorySource.free) {
         device_->memorySource.free(piece_);
     } else {
@@ -67,26 +89,33 @@ DeviceMemory::~DeviceMemory() {
 }
 
 Result<DeviceMemory> DeviceMemory::allocate(const Device& device, const VkMemoryRequirements& requirements,
-                                            MemoryKind kind, const char* name) {
+                                            MemoryKind kind, const char* name, const MemoryUse& use) {
     // Every device has a type of memory that is both visible and coherent, for all buffers.
-    const bool upload = kind == MemoryKind::upload;
+    const bool mapped = kind != MemoryKind::deviceLocal;
     const VkMemoryPropertyFlags required =
-        upload ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0;
-    const VkMemoryPropertyFlags preferred =
-        upload ? required : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
+        mapped ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0;
+    VkMemoryPropertyFlags preferred = required;
+    if (kind == MemoryKind::deviceLocal) {
+        preferred = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    } else if (kind == MemoryKind::readback) {
+        preferred |= VK_MEMORY_PROPERTY_HOST_CACHED_BIT; // else the CPU reads slowly
+    }
     const std::string what =
         std::string("memory for ") + name + " and its neighbours, " + std::to_string(requirements.size) + " bytes";
+    if (Status allowed = checkBudget(device, {name, requirements.size, mapped}, what); !allowed) {
+        return allowed.error();
+    }
     HostMemory piece;
     if (device.memorySource.allocate) {
         const VkResult result = device.memorySource.allocate(requirements, required, preferred, name, piece);
-        if (result == VK_SUCCESS && (piece.memory == VK_NULL_HANDLE || (upload && piece.mapped == nullptr))) {
+        if (result == VK_SUCCESS && (piece.memory == VK_NULL_HANDLE || (mapped && piece.mapped == nullptr))) {
             device.memorySource.free(piece); // every success has its free
             return Error{ErrorCode::argument, what + ": the host's callback gave none, or did not map it"};
         }
         if (result != VK_SUCCESS) {
             return vulkanError(result, what);
         }
-        return DeviceMemory(device, piece);
+        return DeviceMemory(device, piece, use);
     }
 
     uint32_t type = findMemoryType(device, requirements.memoryTypeBits, required | preferred);
@@ -103,9 +132,9 @@ Result<DeviceMemory> DeviceMemory::allocate(const Device& device, const VkMemory
     if (result != VK_SUCCESS) {
         return vulkanError(result, what);
     }
-    DeviceMemory memory(device, piece);
+    DeviceMemory memory(device, piece, use);
     device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(piece.memory), name);
-    if (upload) {
+    if (mapped) {
         result = device.vk.MapMemory(device.handle, piece.memory, 0, VK_WHOLE_SIZE, 0, &memory.piece_.mapped);
         if (result != VK_SUCCESS) {
             return vulkanError(result, std::string("mapping ") + name);
@@ -118,6 +147,7 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
     BufferSet set;
     // Buffers share an allocation until it would exceed what the device allocates at once.
     std::vector<VkMemoryRequirements> pieces;
+    std::vector<MemoryUse> uses; ///< of the pieces
     for (const BufferRequest& request : requests) {
         Entry& entry = set.buffers_.emplace_back();
         entry.size = request.size;
@@ -139,24 +169,27 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
         }
         if (pieces.empty() || roundUp(pieces.back().size, needs.alignment) + needs.size > device.maxAllocationSize) {
             pieces.push_back({0, 1, 0xFFFFFFFFu});
+            uses.push_back({{}, 1});
         }
         VkMemoryRequirements& piece = pieces.back();
         entry.offset = roundUp(piece.size, needs.alignment);
         entry.allocation = pieces.size() - 1;
+        uses.back().of(purposeOf(request, kind)) += entry.offset + needs.size - piece.size;
         piece.size = entry.offset + needs.size;
         piece.alignment = std::max(piece.alignment, needs.alignment);
         piece.memoryTypeBits &= needs.memoryTypeBits;
     }
 
     const char* name = requests.empty() ? "" : requests.front().name;
+    VkDeviceSize bytes = 0;
     for (const VkMemoryRequirements& piece : pieces) {
-        set.allocatedBytes_ += piece.size;
+        bytes += piece.size;
     }
-    if (Status fits = checkHeap(device, set.allocatedBytes_, name); !fits) {
+    if (Status fits = checkHeap(device, bytes, name); !fits) {
         return fits.error();
     }
-    for (const VkMemoryRequirements& piece : pieces) {
-        Result<DeviceMemory> memory = DeviceMemory::allocate(device, piece, kind, name);
+    for (size_t i = 0; i < pieces.size(); ++i) {
+        Result<DeviceMemory> memory = DeviceMemory::allocate(device, pieces[i], kind, name, uses[i]);
         if (!memory) {
             return memory.error();
         }
@@ -167,6 +200,14 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
         return vulkanError(result, std::string("binding memory of ") + name);
     }
     return set;
+}
+
+MemoryUse BufferSet::use() const {
+    MemoryUse use;
+    for (const DeviceMemory& memory : allocations_) {
+        use += memory.use();
+    }
+    return use;
 }
 
 VkResult BufferSet::bind(const Device& device) const {

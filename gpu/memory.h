@@ -19,11 +19,13 @@ struct BufferRequest {
     const char* name = ""; ///< for debuggers and messages
     VkDeviceSize size = 0; ///< 0 leaves the buffer out: its handle is null
     VkBufferUsageFlags usage = 0;
+    MemoryPurpose purpose = MemoryPurpose::lists; ///< of device-local memory; the other kinds are their own purpose
 };
 
 enum class MemoryKind {
     deviceLocal, ///< never mapped
     upload,      ///< host visible and coherent, mapped for its whole life
+    readback,    ///< the same, for the host to read: cached if it can be
 };
 
 /// Device memory, Supple's own or the host's: freed the way it came.
@@ -31,22 +33,29 @@ class DeviceMemory {
 public:
     DeviceMemory() = default;
     DeviceMemory(DeviceMemory&& other) noexcept
-        : device_(std::exchange(other.device_, nullptr)), piece_(std::exchange(other.piece_, {})) {}
+        : device_(std::exchange(other.device_, nullptr)), piece_(std::exchange(other.piece_, {})),
+          use_(std::exchange(other.use_, {})) {}
     DeviceMemory& operator=(DeviceMemory&& other) noexcept {
         std::swap(device_, other.device_);
         std::swap(piece_, other.piece_);
+        std::swap(use_, other.use_);
         return *this;
     }
     ~DeviceMemory();
 
     [[nodiscard]] static Result<DeviceMemory> allocate(const Device& device, const VkMemoryRequirements& requirements,
-                                                       MemoryKind kind, const char* name);
+                                                       MemoryKind kind, const char* name, const MemoryUse& use);
     [[nodiscard]] const HostMemory& piece() const { return piece_; }
+    [[nodiscard]] const MemoryUse& use() const { return use_; }
 
 private:
-    DeviceMemory(const Device& device, const HostMemory& piece) : device_(&device), piece_(piece) {}
+    DeviceMemory(const Device& device, const HostMemory& piece, const MemoryUse& use)
+        : device_(&device), piece_(piece), use_(use) {
+        device.ledger->use += use;
+    }
     const Device* device_ = nullptr;
     HostMemory piece_;
+    MemoryUse use_;
 };
 
 /// Buffers in the order of the requests, every offset aligned as its buffer needs.
@@ -61,8 +70,10 @@ public:
 
     [[nodiscard]] VkBuffer buffer(size_t index) const { return buffers_[index].handle.get(); }
     [[nodiscard]] VkDeviceSize size(size_t index) const { return buffers_[index].size; }
-    [[nodiscard]] VkDeviceSize allocatedBytes() const { return allocatedBytes_; }
-    /// Mapped bytes of an upload buffer.
+    /// What is allocated, alignment included: each byte counts for the buffer that it, or the gap before it, is for.
+    [[nodiscard]] MemoryUse use() const;
+    [[nodiscard]] VkDeviceSize allocatedBytes() const { return use().total(); }
+    /// Mapped bytes of an upload or readback buffer.
     [[nodiscard]] std::byte* mapped(size_t index) const {
         const HostMemory& piece = allocations_[buffers_[index].allocation].piece();
         return static_cast<std::byte*>(piece.mapped) + buffers_[index].offset;
@@ -79,7 +90,6 @@ private:
 
     std::vector<DeviceMemory> allocations_; // declared before the buffers: destroyed after them
     std::vector<Entry> buffers_;
-    VkDeviceSize allocatedBytes_ = 0;
 };
 
 /// A uniform texel view of a part of a buffer.

@@ -175,7 +175,7 @@ uint32_t maxGroupsInX(const Device& device) {
 
 void dispatchLinear(const Device& device, VkCommandBuffer commandBuffer, uint64_t groups) {
     const uint64_t limit = maxGroupsInX(device);
-    const uint64_t rows = (groups + limit - 1) / limit;
+    const uint64_t rows = std::max<uint64_t>(1, (groups + limit - 1) / limit);
     // Even rows: the last one would otherwise be nearly empty for a count just above the limit.
     const uint64_t columns = (groups + rows - 1) / rows;
     device.vk.CmdDispatch(commandBuffer, static_cast<uint32_t>(columns), static_cast<uint32_t>(rows), 1);

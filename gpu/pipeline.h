@@ -97,7 +97,8 @@ void bind(const Device& device, VkCommandBuffer commandBuffer, const Kernel& ker
 [[nodiscard]] uint32_t maxGroupsInX(const Device& device);
 
 /// Records a dispatch of at least `groups` workgroups, split in x and y at the device's limit
-/// (shaders/shared/mapping.glsl puts the linear index together again).
+/// (shaders/shared/mapping.glsl puts the linear index together again). 0 workgroups do nothing, but drivers that
+/// compile a pipeline at its first dispatch do it then.
 void dispatchLinear(const Device& device, VkCommandBuffer commandBuffer, uint64_t groups);
 
 } // namespace supple::gpu

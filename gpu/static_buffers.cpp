@@ -7,7 +7,8 @@ namespace supple::gpu {
 Result<StaticBuffers> StaticBuffers::create(const Device& device, std::span<const StaticRequest> requests) {
     std::vector<BufferRequest> local, staging;
     for (const StaticRequest& request : requests) {
-        local.push_back({request.name, request.bytes.size(), request.usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+        local.push_back({request.name, request.bytes.size(), request.usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                         MemoryPurpose::tables});
         staging.push_back({request.name, request.bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     }
     StaticBuffers buffers;
@@ -30,6 +31,12 @@ Result<StaticBuffers> StaticBuffers::create(const Device& device, std::span<cons
         std::memcpy(buffers.staging_.mapped(i), requests[i].bytes.data(), requests[i].bytes.size());
     }
     return buffers;
+}
+
+MemoryUse StaticBuffers::use() const {
+    MemoryUse use = device_.use();
+    use += staging_.use();
+    return use;
 }
 
 VkDeviceSize StaticBuffers::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {

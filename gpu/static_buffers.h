@@ -22,7 +22,9 @@ public:
 
     [[nodiscard]] VkBuffer buffer(size_t index) const { return device_.buffer(index); }
     [[nodiscard]] VkDeviceSize size(size_t index) const { return device_.size(index); }
-    [[nodiscard]] VkDeviceSize deviceBytes() const { return device_.allocatedBytes(); }
+    /// With the staging memory, as long as that is there.
+    [[nodiscard]] MemoryUse use() const;
+    [[nodiscard]] bool empty() const { return count_ == 0; }
 
     /// Records the copies if that has not been done; returns the bytes copied. The caller puts the barrier after it.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);

@@ -13,18 +13,22 @@ namespace {
 constexpr VkBufferUsageFlags kTableUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 
-/// Tables on the device, in a buffer that debuggers see as "supple <table>".
-Result<gpu::StaticBuffers> upload(const gpu::Device& device, const std::string& character, const std::string& table,
+/// Tables on the device, in a buffer that debuggers see as "supple <table>". `of` begins the messages.
+Result<gpu::StaticBuffers> upload(const gpu::Device& device, const std::string& of, const std::string& table,
                                   std::span<const uint32_t> words) {
     // The narrow mapping also reads tables word by word through a texel view.
     const bool texelsFit = device.mapping.wide || words.size() <= device.limits.maxTexelBufferElements;
     if (words.size_bytes() > device.bufferWindow(16) || !texelsFit) {
-        return Error{ErrorCode::limit, character + ": " + table + " of " + std::to_string(words.size_bytes()) +
+        return Error{ErrorCode::limit, of + table + " of " + std::to_string(words.size_bytes()) +
                                            " bytes exceed the device's storage-buffer range or texel-buffer elements"};
     }
     const std::string name = "supple " + table;
     const gpu::StaticRequest request{name.c_str(), kTableUsage, std::as_bytes(words)};
-    return gpu::StaticBuffers::create(device, {&request, 1});
+    Result<gpu::StaticBuffers> buffers = gpu::StaticBuffers::create(device, {&request, 1});
+    if (!buffers) {
+        return Error{buffers.error().code, of + buffers.error().message};
+    }
+    return buffers;
 }
 
 PartSummary summaryOf(const cage::Character& character, size_t part) {
@@ -63,7 +67,7 @@ void nameInWhole(const cage::CagePiece& piece, std::vector<surface::PatchInfo>& 
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Character character) {
     auto asset = std::make_shared<Asset>();
     const skinning::DeformTable table = skinning::buildDeformTable(character.cage, character.weights, character.morphs);
-    Result<gpu::StaticBuffers> buffers = upload(device, character.name, "skin tables", table.words);
+    Result<gpu::StaticBuffers> buffers = upload(device, character.name + ": ", "skin tables", table.words);
     if (!buffers) {
         return buffers.error();
     }
@@ -96,7 +100,7 @@ Result<std::shared_ptr<AssetPiece>> Asset::pieceOf(const gpu::Device& device, co
     piece->of = cage::takeFaces(character.cage, faces);
     std::vector<uint32_t> words = piece->of.vertices;
     words.resize((words.size() + 3) / 4 * 4);
-    Result<gpu::StaticBuffers> buffers = upload(device, character.name, "vertices of a piece", words);
+    Result<gpu::StaticBuffers> buffers = upload(device, character.name + ": ", "vertices of a piece", words);
     if (!buffers) {
         return buffers.error();
     }
@@ -131,7 +135,7 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
     scheme->piece = piece;
     scheme->tables = std::move(*tables);
     std::vector<uint32_t>& words = scheme->tables.words;
-    Result<gpu::StaticBuffers> buffers = upload(device, character.name, "surface tables", words);
+    Result<gpu::StaticBuffers> buffers = upload(device, character.name + ": ", "surface tables", words);
     if (!buffers) {
         return buffers.error();
     }
@@ -142,11 +146,11 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
 }
 
 Status Asset::makeClips(const gpu::Device& device) {
-    if (clips.deviceBytes() > 0) {
+    if (!clips.empty()) {
         return success();
     }
     skinning::ClipTable table = skinning::buildClipTable(character);
-    Result<gpu::StaticBuffers> buffers = upload(device, character.name, "clip tables", table.words);
+    Result<gpu::StaticBuffers> buffers = upload(device, "", "clip tables", table.words);
     if (!buffers) {
         return buffers.error();
     }
@@ -154,6 +158,18 @@ Status Asset::makeClips(const gpu::Device& device) {
     clipTable = std::move(table);
     clipTable.words = {};
     return success();
+}
+
+gpu::MemoryUse Asset::memoryUse() const {
+    gpu::MemoryUse use = buffers.use();
+    use += clips.use();
+    for (const std::shared_ptr<AssetPiece>& piece : pieces) {
+        use += piece->vertices.use();
+    }
+    for (const std::shared_ptr<SchemeTables>& scheme : schemes) {
+        use += scheme->buffers.use();
+    }
+    return use;
 }
 
 } // namespace supple::runtime

@@ -68,6 +68,7 @@ struct Asset {
     tablesFor(const gpu::Device& device, const surface::Recipe& recipe, const std::shared_ptr<AssetPiece>& piece);
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
+    [[nodiscard]] gpu::MemoryUse memoryUse() const;
 };
 
 /// A character without skeleton or clips from the host's arrays: one joint, every vertex bound to it. A damaged cage is

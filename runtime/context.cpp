@@ -198,6 +198,11 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     return success();
 }
 
+void Context::setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::MemoryRequest&)> allowsMore) {
+    device_->ledger->budget = bytes;
+    device_->ledger->allowsMore = std::move(allowsMore);
+}
+
 template <class F>
 void Context::forViews(F&& visit) {
     views.forEach(visit);

@@ -15,6 +15,7 @@
 #include "surface/passes.h"
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -44,6 +45,9 @@ public:
     [[nodiscard]] Status beginFrame(uint64_t frame, uint64_t completedFrame);
     [[nodiscard]] Status cancelFrame();
     [[nodiscard]] Status recordUploads(VkCommandBuffer commandBuffer);
+    /// Every kernel that the groups may run, as dispatches of nothing, behind the uploads of recordUploads: drivers
+    /// that compile a pipeline at its first dispatch do it then.
+    [[nodiscard]] Status recordWarmUp(VkCommandBuffer commandBuffer, std::span<const SuppleGroup> wanted);
     /// Static tables of the group, if any are due; returns their bytes. Groups of other threads may share them.
     VkDeviceSize recordPendingStatics(VkCommandBuffer commandBuffer, Group& group);
     /// The frame's passes in order; see frame.cpp.
@@ -53,6 +57,11 @@ public:
     /// Fills as much of `out` as there is; the number of barriers.
     [[nodiscard]] Result<uint32_t> acquireBarriers(std::span<const SuppleGroup> groups, SuppleSyncScope use,
                                                    std::span<VkBufferMemoryBarrier2> out) const;
+
+    /// Of everything that is not yet freed.
+    [[nodiscard]] const gpu::MemoryUse& memoryUse() const { return device_->ledger->use; }
+    /// 0: none. `allowsMore` is asked when an allocation would exceed it.
+    void setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::MemoryRequest&)> allowsMore);
 
     /// Whether draws can leave out parts: their indirect commands then have a first instance.
     [[nodiscard]] bool hidesInDraws() const { return device_->drawIndirectFirstInstance; }

@@ -412,6 +412,31 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
     return success();
 }
 
+Status Context::recordWarmUp(VkCommandBuffer commandBuffer, std::span<const SuppleGroup> wanted) {
+    if (const Status open = checkOpen("suppleRecordWarmUp"); !open) {
+        return open.error();
+    }
+    for (size_t g = 0; g < wanted.size(); ++g) {
+        if (groups.find(wanted[g].id) == nullptr) {
+            return Error{ErrorCode::staleHandle,
+                         "suppleRecordWarmUp: group " + std::to_string(g) + ": stale or foreign handle"};
+        }
+    }
+    const Status uploaded = recordUploads(commandBuffer);
+    if (!uploaded) {
+        return uploaded;
+    }
+    // Nothing is read or written, but barriers keep validation from taking these dispatches for ones that race.
+    constexpr gpu::SyncScope kAll{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                  VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+    gpu::memoryBarrier(*device_, commandBuffer, kAll, kFirst);
+    for (const SuppleGroup& handle : wanted) {
+        groups.find(handle.id)->recordWarmUp(commandBuffer, frame_);
+    }
+    gpu::memoryBarrier(*device_, commandBuffer, kFirst, kAll);
+    return success();
+}
+
 Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc) {
     if (Status open = checkOpen("suppleRecord"); !open) {
         return open;
@@ -437,6 +462,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
             recordPass(frame, row, timing);
         }
     }
+    timing.end();
     if (asyncCompute_) {
         frame.forEach([&](Group& group) {
             Transfers transfers = transfersOf(group, group.link.leadsView);

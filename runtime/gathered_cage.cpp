@@ -8,7 +8,8 @@ uint32_t GatheredCage::stride() const {
 
 void GatheredCage::plan(gpu::BufferPlan& device, uint32_t capacity) {
     cages_ = device.add({"supple deformed piece", capacity * stride() * gpu::kVec4Bytes,
-                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT});
+                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                         gpu::MemoryPurpose::cages});
 }
 
 Status GatheredCage::createSets(const gpu::Device& device, const InstanceSet& instances,
@@ -38,6 +39,10 @@ PassCost GatheredCage::record(VkCommandBuffer commandBuffer, const InstanceWindo
     });
     const uint64_t points = uint64_t{vertices} * windows.visible;
     return {points, points * gpu::kVec4Bytes};
+}
+
+void GatheredCage::recordWarmUp(VkCommandBuffer commandBuffer) const {
+    deform_->recordGather(commandBuffer, sets_[0], {}); // of no instances
 }
 
 } // namespace supple::runtime

@@ -21,6 +21,7 @@ public:
     /// Vertices from one instance to the next.
     [[nodiscard]] uint32_t stride() const;
     /// Behind the deform pass.
+    void recordWarmUp(VkCommandBuffer commandBuffer) const;
     PassCost record(VkCommandBuffer commandBuffer, const InstanceWindows& windows) const;
 
 private:

@@ -242,9 +242,31 @@ void Group::fill(SuppleGroupInfo& info) const {
     info.instances = visibility_->list().slots();
     info.windowSize = windows().size;
     info.windowCount = windows().count();
-    info.deviceBytes = buffers_.allocatedBytes() + (follows() ? 0 : instances_->deviceBytes());
+}
+
+gpu::MemoryUse Group::memoryUse() const {
+    gpu::MemoryUse use = buffers_.use();
+    use += staging_.use();
+    if (!follows()) {
+        use += instances_->memoryUse();
+    }
     for (const auto& surface : surfaces_) {
-        info.deviceBytes += surface->deviceBytes();
+        use += surface->memoryUse();
+    }
+    return use;
+}
+
+void Group::recordWarmUp(VkCommandBuffer commandBuffer, uint64_t frame) {
+    lastRecordedFrame_ = frame;
+    if (!follows()) {
+        instances_->recordWarmUp(commandBuffer);
+    }
+    if (culling_ != nullptr) {
+        culling_->recordWarmUp(commandBuffer);
+        view_->recordWarmUp(commandBuffer);
+    }
+    for (const auto& surface : surfaces_) {
+        surface->recordWarmUp(commandBuffer);
     }
 }
 

@@ -56,6 +56,8 @@ public:
     /// `surface` is below surfaces().size().
     void fill(SuppleSurfaceInfo& info, uint32_t surface) const;
     [[nodiscard]] Status setRate(uint32_t rate);
+    /// Without the asset's tables, the view's buffers, and the instances of another group.
+    [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }
@@ -89,6 +91,8 @@ public:
     /// This frame's poses, its list of instances and what to draw of them.
     /// `origin`: where the coordinates of the device begin in this frame.
     PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin);
+    /// Context::recordWarmUp.
+    void recordWarmUp(VkCommandBuffer commandBuffer, uint64_t frame);
     /// Nothing if the group follows another.
     PassCost recordDeform(VkCommandBuffer commandBuffer) const;
     /// If hasBounds().

@@ -53,9 +53,10 @@ Status InstanceSet::makeBuffers(bool windowed) {
     const VkDeviceSize n = desc_.capacity;
     const bool deforms = desc_.source != SUPPLE_POSES_CAGE_BUFFER;
     gpu::BufferPlan device(buffers_), staging(staging_);
-    palettes_ = device.add({"supple poses", deforms ? n * layout_.stride * gpu::kVec4Bytes : 0, kInput});
-    cages_ = device.add(
-        {"supple deformed cage", n * cageStride_ * gpu::kVec4Bytes, kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+    palettes_ = device.add(
+        {"supple poses", deforms ? n * layout_.stride * gpu::kVec4Bytes : 0, kInput, gpu::MemoryPurpose::poses});
+    cages_ = device.add({"supple deformed cage", n * cageStride_ * gpu::kVec4Bytes,
+                         kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::MemoryPurpose::cages});
     userData_.plan(device, staging, desc_.framesInFlight);
     poses_->plan(staging);
     const Status status = device.create(*desc_.device, gpu::MemoryKind::deviceLocal);
@@ -120,6 +121,16 @@ void InstanceSet::cancelFrame(uint64_t frame) {
     poses_->cancelUpload(frame);
     if (uploadedFrame_ == frame) {
         userData_.markAll();
+    }
+}
+
+void InstanceSet::recordWarmUp(VkCommandBuffer commandBuffer) const {
+    poses_->recordWarmUp(commandBuffer);
+    if (!deformSets_.empty()) {
+        gpu::computeBarrier(*desc_.device, commandBuffer);
+        shared::DeformPush push{}; // of no instances
+        push.firstInfluences = desc_.asset->firstInfluences;
+        desc_.deform->record(commandBuffer, deformSets_[0], layout_.mode, push);
     }
 }
 

@@ -28,7 +28,7 @@ public:
         uint32_t capacity = 0;
         uint32_t firstGeneration = 1;
         uint32_t framesInFlight = 2;
-        bool handsOver = false; ///< to another queue family: user data is written anew in every frame
+        bool handsOver = false;               ///< to another queue family: user data is written anew in every frame
         std::vector<PartPatches> partPatches; ///< of every part
     };
     /// Prepares the pipelines.
@@ -52,8 +52,15 @@ public:
 
     [[nodiscard]] uint32_t cageStride() const { return cageStride_; }
     [[nodiscard]] const gpu::PlannedBuffer& cages() const { return cages_; }
-    [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes() + poses_->deviceBytes(); }
+    [[nodiscard]] gpu::MemoryUse memoryUse() const {
+        gpu::MemoryUse use = buffers_.use();
+        use += staging_.use();
+        use += poses_->memoryUse();
+        return use;
+    }
     [[nodiscard]] uint32_t capacity() const { return desc_.capacity; }
+    /// Context::recordWarmUp.
+    void recordWarmUp(VkCommandBuffer commandBuffer) const;
     void fill(SuppleGroupInfo& output) const;
     void addTransfers(Transfers& transfers) const;
 
@@ -75,7 +82,7 @@ private:
     gpu::PlannedBuffer palettes_, cages_;
     UserData userData_;
     uint64_t uploadedFrame_ = 0; ///< the last that was recorded
-    DeformSets deformSets_; ///< none if the host fills the cages
+    DeformSets deformSets_;      ///< none if the host fills the cages
 };
 
 } // namespace supple::runtime

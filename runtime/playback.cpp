@@ -86,10 +86,11 @@ Status Playback::createBuffers(const Desc& desc) {
     constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkDeviceSize maskBytes = masks_.size() * sizeof(float);
     std::vector<gpu::BufferRequest> requests(kBufferCount);
-    requests[kStates] = {"supple playback", capacity_ * stateBytes(), kStorage | kTexels | kCopied};
-    requests[kMasks] = {"supple masks", maskBytes, kStorage | kTexels | kCopied};
-    requests[kScratch] = {"supple node matrices", capacity_ * push_.scratchStride * gpu::kVec4Bytes,
-                          kStorage | kTexels};
+    requests[kStates] = {"supple playback", capacity_ * stateBytes(), kStorage | kTexels | kCopied,
+                         gpu::MemoryPurpose::poses};
+    requests[kMasks] = {"supple masks", maskBytes, kStorage | kTexels | kCopied, gpu::MemoryPurpose::poses};
+    requests[kScratch] = {"supple node matrices", capacity_ * push_.scratchStride * gpu::kVec4Bytes, kStorage | kTexels,
+                          gpu::MemoryPurpose::scratch};
     Result<gpu::BufferSet> buffers = gpu::BufferSet::create(*desc.device, requests, gpu::MemoryKind::deviceLocal);
     if (!buffers) {
         return buffers.error();
@@ -411,6 +412,25 @@ void Playback::record(VkCommandBuffer commandBuffer, Part part, uint32_t window,
         pass_->recordPalette(commandBuffer, sets_[window], mode_, push);
         break;
     }
+}
+
+void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
+    const auto dispatch = [&](auto&& record) {
+        gpu::computeBarrier(*device_, commandBuffer);
+        record(sets_[0], PosePush{}); // of no instances
+    };
+    for (const bool adds : {false, true}) {
+        dispatch(
+            [&](VkDescriptorSet set, const PosePush& push) { pass_->recordLocals(commandBuffer, set, adds, push); });
+    }
+    dispatch([&](VkDescriptorSet set, const PosePush& push) { pass_->recordRoots(commandBuffer, set, push); });
+    dispatch([&](VkDescriptorSet set, const PosePush& push) { pass_->recordPalette(commandBuffer, set, mode_, push); });
+}
+
+gpu::MemoryUse Playback::memoryUse() const {
+    gpu::MemoryUse use = buffers_.use();
+    use += staging_.use();
+    return use;
 }
 
 } // namespace supple::runtime

@@ -75,7 +75,10 @@ public:
     /// Without there is nothing to record of the roots.
     [[nodiscard]] bool hasRoots() const { return roots_; }
 
-    [[nodiscard]] VkDeviceSize deviceBytes() const { return buffers_.allocatedBytes(); }
+    /// Context::recordWarmUp.
+    void recordWarmUp(VkCommandBuffer commandBuffer) const;
+
+    [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
 private:
     enum BufferIndex : size_t { kStates, kMasks, kScratch, kBufferCount };

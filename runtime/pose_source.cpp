@@ -80,7 +80,8 @@ public:
         playback_ = std::move(*playback);
         return success();
     }
-    [[nodiscard]] VkDeviceSize deviceBytes() const override { return playback_.deviceBytes(); }
+    [[nodiscard]] gpu::MemoryUse memoryUse() const override { return playback_.memoryUse(); }
+    void recordWarmUp(VkCommandBuffer commandBuffer) const override { playback_.recordWarmUp(commandBuffer); }
 
     PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t) override {
         return {0, playback_.recordUpload(commandBuffer, frame)};

@@ -45,7 +45,7 @@ public:
         uint32_t windowSize = 0;
     };
     [[nodiscard]] virtual Status create(const Buffers& /*buffers*/) { return success(); }
-    [[nodiscard]] virtual VkDeviceSize deviceBytes() const { return 0; }
+    [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
 
     // Recording.
     /// `end`: slots below it may be in use.
@@ -55,6 +55,8 @@ public:
     virtual void cancelUpload(uint64_t /*frame*/) {}
     /// The pose pass has three parts with a barrier between each two. Whether the source has this one.
     [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
+    /// Context::recordWarmUp.
+    virtual void recordWarmUp(VkCommandBuffer /*commandBuffer*/) const {}
     virtual PassCost recordPart(VkCommandBuffer /*commandBuffer*/, Playback::Part /*part*/,
                                 const InstanceWindows& /*windows*/) const {
         return {};

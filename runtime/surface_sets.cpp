@@ -3,6 +3,7 @@
 namespace supple::runtime {
 
 Status SurfaceSets::create(const Desc& desc, const std::function<void(const Which&, SetContents&)>& fill) {
+    sets_.assign(size_t{desc.windows} * 4, {}); // also without kinds: passes ask for them and bind none
     if (desc.kinds.empty()) {
         return success();
     }
@@ -15,7 +16,6 @@ Status SurfaceSets::create(const Desc& desc, const std::function<void(const Whic
             }
         }
     }
-    sets_.assign(size_t{desc.windows} * 4, {});
     for (const surface::SetKind kind : desc.kinds) {
         Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(
             *desc.device, desc.passes->layout(kind), static_cast<uint32_t>(all.size()), "supple surface");

@@ -124,6 +124,7 @@ Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t groupCo
             return recording;
         }
         current_->timers.mark(commandBuffer, recording.mark_);
+        recording.first_ = recording.mark_;
     }
     recording.timings_ = this;
     recording.commandBuffer_ = commandBuffer;
@@ -143,7 +144,7 @@ void Timings::Recording::endPass(Pass pass, SuppleGroup group, const PassCost& c
     Slot& slot = *timings_->current_;
     const uint32_t entry = slot.count.fetch_add(1);
     if (entry >= SUPPLE_MAX_TIMINGS) {
-        timings_ = nullptr;
+        end();
         return;
     }
     const double cpu = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - passBegin_).count();
@@ -153,6 +154,13 @@ void Timings::Recording::endPass(Pass pass, SuppleGroup group, const PassCost& c
     slot.entries[entry] = {passName(pass), group, slot.frame, 0.0, 0.0, cpu, cost.points, cost.bytes};
     slot.marks[entry] = mark_;
     slot.solved[entry] = cost.solved;
+}
+
+void Timings::Recording::end() {
+    if (timings_ != nullptr && timings_->timestamps_) {
+        timings_->current_->timers.finish(commandBuffer_, first_, mark_ - first_ + 1);
+    }
+    timings_ = nullptr;
 }
 
 size_t Timings::budgetIndex(const char* pass) {

@@ -64,12 +64,14 @@ public:
     public:
         void beginPass();
         void endPass(Pass pass, SuppleGroup group, const PassCost& cost);
+        /// Behind the last pass.
+        void end();
 
     private:
         friend class Timings;
         Timings* timings_ = nullptr; ///< null: nothing is measured
         VkCommandBuffer commandBuffer_ = VK_NULL_HANDLE;
-        uint32_t mark_ = 0;
+        uint32_t first_ = 0, mark_ = 0; ///< timestamps: the first, and the last that is recorded
         std::chrono::steady_clock::time_point passBegin_;
     };
     /// Makes room for as many passes as the groups can have.

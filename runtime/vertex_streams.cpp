@@ -56,7 +56,8 @@ void VertexStreams::plan(gpu::BufferPlan& plan, StreamSet set, SuppleVertexForma
         buffers_[static_cast<size_t>(stream)] =
             plan.add({row.name, set.has(stream) ? count * bytes(stream) : 0,
                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                      stream == Stream::vertices ? gpu::MemoryPurpose::vertices : gpu::MemoryPurpose::streams});
     });
 }
 

@@ -103,8 +103,13 @@ Status View::createBuffers() {
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     const gpu::BufferRequest readback{"supple view statistics", kReadbackBytes * framesInFlight_,
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    for (const auto& [target, wanted] : {std::pair(&staging_, staging), std::pair(&readback_, readback)}) {
-        Result<gpu::BufferSet> set = gpu::BufferSet::create(device, {&wanted, 1}, gpu::MemoryKind::upload);
+    const struct {
+        gpu::BufferSet* target;
+        const gpu::BufferRequest& wanted;
+        gpu::MemoryKind kind;
+    } sets[] = {{&staging_, staging, gpu::MemoryKind::upload}, {&readback_, readback, gpu::MemoryKind::readback}};
+    for (const auto& [target, wanted, kind] : sets) {
+        Result<gpu::BufferSet> set = gpu::BufferSet::create(device, {&wanted, 1}, kind);
         if (!set) {
             return set.error();
         }
@@ -319,6 +324,20 @@ void View::recordSolve(VkCommandBuffer commandBuffer, uint32_t priorities) const
     std::copy_n(desc_.elasticities, kPriorityCount, push.elasticity);
     gpu::bind(*device_, commandBuffer, solver_, solverSet_, push);
     device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
+}
+
+void View::recordWarmUp(VkCommandBuffer commandBuffer) const {
+    gpu::computeBarrier(*device_, commandBuffer);
+    gpu::bind(*device_, commandBuffer, solver_, solverSet_, LodSolvePush{});
+    device_->vk.CmdDispatch(commandBuffer, 0, 1, 1);
+}
+
+gpu::MemoryUse View::memoryUse() const {
+    gpu::MemoryUse use = buffers_.use();
+    use += staging_.use();
+    use += readback_.use();
+    use += static_.use();
+    return use;
 }
 
 void View::recordReadback(VkCommandBuffer commandBuffer) {

@@ -59,6 +59,9 @@ public:
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
     /// `priorities`: bits of those that instances have.
+    /// Context::recordWarmUp.
+    void recordWarmUp(VkCommandBuffer commandBuffer) const;
+    [[nodiscard]] gpu::MemoryUse memoryUse() const;
     void recordSolve(VkCommandBuffer commandBuffer, uint32_t priorities) const;
     /// What an instance of a group has: patches of the view's, and surface vertices of the budget at its coarsest.
     struct SolvedGroup {

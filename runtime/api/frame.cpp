@@ -37,6 +37,17 @@ SuppleResult suppleRecordUploads(SuppleContext handle, VkCommandBuffer commandBu
     });
 }
 
+SuppleResult suppleRecordWarmUp(SuppleContext handle, VkCommandBuffer commandBuffer, const SuppleGroup* groups,
+                                uint32_t groupCount) {
+    constexpr const char* kHere = "suppleRecordWarmUp";
+    return onDevice(handle, kHere, [&](Context& context) {
+        if (commandBuffer == VK_NULL_HANDLE || (groups == nullptr && groupCount > 0)) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "commandBuffer or groups is null");
+        }
+        return reportStatus(context, context.recordWarmUp(commandBuffer, {groups, groupCount}));
+    });
+}
+
 SuppleResult suppleRecord(SuppleContext handle, VkCommandBuffer commandBuffer, const SuppleRecordDesc* given) {
     constexpr const char* kHere = "suppleRecord";
     return onDevice(handle, kHere, [&](Context& context) {

@@ -32,6 +32,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleGridOutput)                                                                                                \
     X(SuppleRecordDesc)                                                                                                \
     X(SuppleBudget)                                                                                                    \
+    X(SuppleMemoryUse)                                                                                                 \
     X(SupplePoseDesc)                                                                                                  \
     X(SuppleRootMotion)                                                                                                \
     X(SupplePlaybackDesc)                                                                                              \

@@ -7,6 +7,7 @@
 #include "shaders/bounds_size_comp.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace supple::runtime {
@@ -138,6 +139,18 @@ void BoundsPass::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, 
 void BoundsPass::recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, RatesPush push) const {
     push.maxGroups = gpu::maxGroupsInX(*device_);
     record(commandBuffer, rates_, set, push, 1);
+}
+
+void BoundsPass::recordWarmUp(VkCommandBuffer commandBuffer, VkDescriptorSet ofWindow, VkDescriptorSet ofGroup) const {
+    const std::array<std::byte, kPushBytes> push{};
+    for (const gpu::Kernel* kernel : {&bounds_, &sizes_, &list_, &demand_, &rates_}) {
+        if (kernel->pipeline != VK_NULL_HANDLE) { // rates are made when a group has some
+            gpu::computeBarrier(*device_, commandBuffer);
+            gpu::bind(*device_, commandBuffer, *kernel, kernel == &bounds_ ? ofWindow : ofGroup,
+                      std::span<const std::byte>(push));
+            gpu::dispatchLinear(*device_, commandBuffer, 0);
+        }
+    }
 }
 
 } // namespace supple::runtime

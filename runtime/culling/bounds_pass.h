@@ -73,6 +73,8 @@ public:
     void recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::DemandPush& push) const;
     /// As recordList, behind it and the view's solution.
     void recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::RatesPush push) const;
+    /// Context::recordWarmUp.
+    void recordWarmUp(VkCommandBuffer commandBuffer, VkDescriptorSet ofWindow, VkDescriptorSet ofGroup) const;
 
 private:
     [[nodiscard]] Status make(gpu::Kernel& target, const gpu::ComputeLayout& layout, const gpu::Spirv& spirv,

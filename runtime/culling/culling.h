@@ -67,6 +67,10 @@ public:
     void addTransfers(Transfers& transfers) const override;
 
     /// Once, before anything else.
+    /// Context::recordWarmUp.
+    void recordWarmUp(VkCommandBuffer commandBuffer) const {
+        pass_->recordWarmUp(commandBuffer, boundsSets_[0], listSet_);
+    }
     void recordClear(VkCommandBuffer commandBuffer) const;
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
     /// Behind the bounds, before sizes and list. `place`: of the frame among those in flight, whose descriptor set no

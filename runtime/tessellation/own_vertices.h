@@ -14,7 +14,7 @@ public:
     [[nodiscard]] BoundBytes boundBytes() const override;
     [[nodiscard]] Status cutDraws(InstanceWindows& windows, bool byWindows) override;
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
-    [[nodiscard]] VkDeviceSize deviceBytes() const override { return indices_.deviceBytes(); }
+    [[nodiscard]] gpu::MemoryUse memoryUse() const override { return indices_.use(); }
     [[nodiscard]] const VertexStreams* streams() const override { return &streams_; }
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;

@@ -37,6 +37,7 @@ public:
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
     void cancelFrame(uint64_t frame) override;
     void releaseStaging(uint64_t completedFrame) override;
+    void recordWarmUp(VkCommandBuffer commandBuffer) const override;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
     PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
     [[nodiscard]] bool isBudgeted() const override { return view()->countsRates(); }
@@ -190,7 +191,7 @@ Status Rates::createSets(const InstanceSet& instances, const InstanceListing& li
     for (Rate& rate : own_) {
         status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;
     }
-    for (uint32_t r = 0; r < rates_.size(); ++r) {
+    for (uint32_t r = 0; status && r < rates_.size(); ++r) {
         rates_[r].instances = culling().rateList(r);
     }
     return status;
@@ -243,6 +244,13 @@ void Rates::releaseStaging(uint64_t completedFrame) {
     OwnVertices::releaseStaging(completedFrame);
     for (const Rate& rate : own_) {
         rate.scheme->buffers.releaseStaging(completedFrame);
+    }
+}
+
+void Rates::recordWarmUp(VkCommandBuffer commandBuffer) const {
+    OwnVertices::recordWarmUp(commandBuffer);
+    for (const Rate& rate : own_) {
+        Tessellation::recordWarmUp(commandBuffer, rate.program, rate.sets);
     }
 }
 

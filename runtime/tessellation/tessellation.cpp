@@ -182,13 +182,16 @@ void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
     const VkDeviceSize poolBytes = n * tables().poolStride * gpu::kVec4Bytes;
     const bool motion = wanted_.has(Stream::previousPositions) && !tables().patches.empty();
     const bool patches = (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0;
-    pools_[0] = device.add({"supple coefficient pool", poolBytes, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
-    pools_[1] = device.add(
-        {"supple second coefficient pool", motion ? poolBytes : 0, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    constexpr gpu::MemoryPurpose kCoefficients = gpu::MemoryPurpose::coefficients;
+    pools_[0] =
+        device.add({"supple coefficient pool", poolBytes, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
+    pools_[1] = device.add({"supple second coefficient pool", motion ? poolBytes : 0,
+                            kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
     patches_ = device.add({"supple patch coefficients",
                            patches ? n * tables().patches.size() * kPatchStride * gpu::kVec4Bytes : 0,
-                           kScratch | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
-    scratch_ = device.add({"supple scratch", n * scratchStride() * gpu::kVec4Bytes, kScratch});
+                           kScratch | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kCoefficients});
+    scratch_ =
+        device.add({"supple scratch", n * scratchStride() * gpu::kVec4Bytes, kScratch, gpu::MemoryPurpose::scratch});
     if (gathered_) {
         gathered_->plan(device, desc_.group.capacity);
     }
@@ -285,6 +288,32 @@ void Tessellation::releaseStaging(uint64_t completedFrame) {
     scheme_->buffers.releaseStaging(completedFrame);
     if (desc_.piece != nullptr) {
         desc_.piece->vertices.releaseStaging(completedFrame);
+    }
+}
+
+void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer) const {
+    if (gathered_) {
+        gpu::computeBarrier(*desc_.device, commandBuffer);
+        gathered_->recordWarmUp(commandBuffer);
+    }
+    recordWarmUp(commandBuffer, program_, sets_);
+}
+
+void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer, const surface::Program& program,
+                                const SurfaceSets& sets) const {
+    const auto nothing = [&](const surface::Steps& steps, const surface::Sets& bound) {
+        surface::Window window; // of no instances
+        window.sets = bound;
+        gpu::computeBarrier(*desc_.device, commandBuffer);
+        record(commandBuffer, steps, window);
+    };
+    for (const surface::Steps* steps :
+         {&program.vertex, &program.assemble, &program.patch, &program.attributes, &program.edgeLevels,
+          &program.patchLevels, &program.places, &program.evaluate}) {
+        nothing(*steps, sets.at({0, 0, false}));
+    }
+    if (writesMotion()) {
+        nothing(program.motion, sets.at({0, 1, true}));
     }
 }
 

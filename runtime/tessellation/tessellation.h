@@ -98,7 +98,9 @@ public:
     [[nodiscard]] virtual Status createSets(const InstanceSet& instances, const InstanceListing& listing,
                                             const Visibility& visibility);
 
-    [[nodiscard]] virtual VkDeviceSize deviceBytes() const { return 0; } ///< beside the planned buffers
+    [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
+    /// Context::recordWarmUp.
+    virtual void recordWarmUp(VkCommandBuffer commandBuffer) const;
     // Output; the API asks for what a tessellation of this kind has.
     [[nodiscard]] virtual SuppleTessellation kind() const = 0;
     /// Null without surface vertices.
@@ -188,6 +190,7 @@ protected:
         surface::record(*desc_.device, commandBuffer, steps, window);
     }
 
+    void recordWarmUp(VkCommandBuffer commandBuffer, const surface::Program& program, const SurfaceSets& sets) const;
     [[nodiscard]] Status makeSets(SurfaceSets& target, const SchemeTables& scheme,
                                   const surface::Program& program) const;
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.

@@ -115,6 +115,17 @@ VKAPI_ATTR VkResult VKAPI_CALL queryPoolResults(VkDevice, VkQueryPool, uint32_t,
     std::memcpy(data, fake->queryResults.data(), std::min(size, fake->queryResults.size() * sizeof(uint64_t)));
     return VK_NOT_READY;
 }
+/// As if the device had run at once.
+VKAPI_ATTR void VKAPI_CALL copyQueryPoolResults(VkCommandBuffer, VkQueryPool, uint32_t first, uint32_t count,
+                                                VkBuffer to, VkDeviceSize offset, VkDeviceSize stride,
+                                                VkQueryResultFlags) {
+    const FakeVulkan::BoundBuffer& target = fake->buffers.at(to);
+    for (uint32_t i = 0; i < count; ++i) {
+        std::memcpy(fake->memory.at(target.memory).data() + target.offset + offset + i * stride,
+                    &fake->queryResults.at(2 * (size_t{first} + i)), 2 * sizeof(uint64_t));
+    }
+}
+VKAPI_ATTR void VKAPI_CALL writeTimestamp(VkCommandBuffer, VkPipelineStageFlags2, VkQueryPool, uint32_t) {}
 VKAPI_ATTR void VKAPI_CALL resetQueryPool(VkCommandBuffer, VkQueryPool, uint32_t first, uint32_t count) {
     const std::lock_guard lock(fake->mutex);
     fake->resets.emplace_back(first, count);
@@ -162,6 +173,8 @@ FakeVulkan::FakeVulkan() {
     vk.CreateQueryPool = createQueryPool;
     vk.DestroyQueryPool = destroyQueryPool;
     vk.GetQueryPoolResults = queryPoolResults;
+    vk.CmdCopyQueryPoolResults = copyQueryPoolResults;
+    vk.CmdWriteTimestamp2 = writeTimestamp;
     vk.CmdResetQueryPool = resetQueryPool;
     vk.CmdPipelineBarrier2 = pipelineBarrier;
     vk.CmdDispatch = dispatch;

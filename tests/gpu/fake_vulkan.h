@@ -25,7 +25,7 @@ struct FakeVulkan {
     // What the device says and does.
     VkDeviceSize alignment = 64;        ///< of buffers
     int64_t failAllocation = -1;        ///< index of the vkAllocateMemory that fails
-    std::vector<uint64_t> queryResults; ///< vkGetQueryPoolResults: value and availability of each timestamp
+    std::vector<uint64_t> queryResults; ///< value and availability of each timestamp
 
     // What was called.
     struct BoundBuffer {

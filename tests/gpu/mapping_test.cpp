@@ -23,6 +23,15 @@ TEST(Mapping, IsWhatTheCallerChooses) {
     }
 }
 
+TEST(Mapping, WaitsForTimestampsOnCpusAlone) {
+    for (const MappingChoice choice : {MappingChoice::automatic, MappingChoice::narrow, MappingChoice::wide}) {
+        EXPECT_TRUE(chooseMapping(VK_PHYSICAL_DEVICE_TYPE_CPU, VK_DRIVER_ID_MESA_LLVMPIPE, choice).lazyTimestamps);
+        for (const VkPhysicalDeviceType type : kGpus) {
+            EXPECT_FALSE(chooseMapping(type, VK_DRIVER_ID_MESA_RADV, choice).lazyTimestamps) << type;
+        }
+    }
+}
+
 TEST(Mapping, TrustsTheDivisionOfLlvmpipeAlone) {
     const auto exact = [](VkDriverId driver, MappingChoice choice) {
         return chooseMapping(VK_PHYSICAL_DEVICE_TYPE_CPU, driver, choice).exactDivision;

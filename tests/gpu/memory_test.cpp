@@ -123,6 +123,58 @@ TEST(BufferSet, GivesBackMemoryThatTheHostDidNotMap) {
     EXPECT_EQ(host.frees, 1);
 }
 
+TEST(BufferSet, CountsByPurposeAndGivesBack) {
+    test::FakeVulkan vulkan; // aligns to 64
+    const std::vector<BufferRequest> requests{{"a", 10, kUsage, MemoryPurpose::cages},
+                                              {"none", 0, kUsage, MemoryPurpose::tables},
+                                              {"b", 100, kUsage, MemoryPurpose::vertices},
+                                              {"c", 1, kUsage, MemoryPurpose::cages}};
+    const MemoryLedger& ledger = *vulkan.device.ledger;
+    {
+        Result<BufferSet> set = BufferSet::create(vulkan.device, requests, MemoryKind::deviceLocal);
+        ASSERT_TRUE(set.ok());
+        EXPECT_EQ(set->use().of(MemoryPurpose::vertices), 54u + 100u) << "the gap before it is its own";
+        EXPECT_EQ(set->use().of(MemoryPurpose::cages), 10u + 28u + 1u);
+        EXPECT_EQ(set->use().of(MemoryPurpose::tables), 0u);
+        EXPECT_EQ(set->allocatedBytes(), 193u);
+        EXPECT_EQ(set->use().allocations, 1u);
+        const BufferSet moved = std::move(*set);
+        Result<BufferSet> staging = BufferSet::create(vulkan.device, requests, MemoryKind::upload);
+        ASSERT_TRUE(staging.ok());
+        EXPECT_EQ(staging->use().of(MemoryPurpose::staging), 193u) << "whatever the requests say";
+        EXPECT_EQ(ledger.use.total(), 2u * 193u);
+        EXPECT_EQ(ledger.use.hostVisible(), 193u);
+    }
+    EXPECT_EQ(ledger.use.total(), 0u);
+    EXPECT_EQ(ledger.use.allocations, 0u);
+}
+
+TEST(BufferSet, AsksBeforeTheBudgetIsExceeded) {
+    test::FakeVulkan vulkan;
+    MemoryLedger& ledger = *vulkan.device.ledger;
+    const std::vector<BufferRequest> requests{{"a", 100, kUsage}};
+    ledger.budget = 100;
+    const Result<BufferSet> first = BufferSet::create(vulkan.device, requests, MemoryKind::deviceLocal);
+    ASSERT_TRUE(first.ok()) << "it fits";
+    const Result<BufferSet> refused = BufferSet::create(vulkan.device, requests, MemoryKind::upload);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::deviceMemory);
+    EXPECT_EQ(vulkan.allocations, 1u);
+    EXPECT_EQ(vulkan.buffers.size(), 1u) << "its buffer is gone";
+    uint32_t asked = 0;
+    ledger.allowsMore = [&](const MemoryRequest& request) {
+        ++asked;
+        EXPECT_EQ(request.bytes, 100u);
+        EXPECT_EQ(request.used, 100u);
+        EXPECT_EQ(request.budget, 100u);
+        EXPECT_TRUE(request.hostVisible);
+        return true;
+    };
+    const Result<BufferSet> allowed = BufferSet::create(vulkan.device, requests, MemoryKind::upload);
+    EXPECT_TRUE(allowed.ok());
+    EXPECT_EQ(asked, 1u);
+}
+
 TEST(TexelViews, SeeNoMoreThanTheDeviceReads) {
     test::FakeVulkan vulkan;
     vulkan.device.limits.maxTexelBufferElements = 100;

@@ -76,5 +76,36 @@ TEST(Timers, TellWhatTheDeviceHasNotWritten) {
     EXPECT_EQ((*ticks)[1].available, 0u);
 }
 
+TEST(Timers, OfLazyTimestampsAreCopiedByTheCommandBuffer) {
+    test::FakeVulkan vulkan;
+    vulkan.device.mapping.lazyTimestamps = true;
+    vulkan.device.vk.GetQueryPoolResults = nullptr;
+    vulkan.queryResults = {100, 1, 200, 1, 300, 1, 400, 1};
+    Result<Timers> timers = Timers::create(vulkan.device, 4, "frame 0");
+    ASSERT_TRUE(timers.ok());
+    uint32_t first = 0;
+    ASSERT_TRUE(timers->take(test::kCommands, 1, first));
+    ASSERT_TRUE(timers->take(test::kCommands, 3, first));
+    timers->mark(test::kCommands, first);
+    ASSERT_EQ(vulkan.barriers.size(), 1u) << "what comes behind a mark waits for it";
+    timers->mark(test::kCommands, first + 1);
+    timers->finish(test::kCommands, first, 2);
+    ASSERT_EQ(vulkan.barriers.size(), 3u);
+    EXPECT_EQ(vulkan.barriers[2].dstStageMask, VK_PIPELINE_STAGE_2_HOST_BIT);
+    const auto available = [&] {
+        std::vector<uint64_t> values;
+        const Result<std::span<const Timers::Tick>> ticks = timers->read();
+        EXPECT_TRUE(ticks.ok());
+        for (const Timers::Tick& tick : *ticks) {
+            values.push_back(tick.available != 0 ? tick.value : 0);
+        }
+        return values;
+    };
+    EXPECT_EQ(available(), (std::vector<uint64_t>{0, 200, 300, 0})) << "those that were finished";
+    timers->clear();
+    ASSERT_TRUE(timers->take(test::kCommands, 4, first));
+    EXPECT_EQ(available(), (std::vector<uint64_t>{0, 0, 0, 0})) << "none of the frame before";
+}
+
 } // namespace
 } // namespace supple::gpu

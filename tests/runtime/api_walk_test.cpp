@@ -912,6 +912,12 @@ void views(Rows& r) {
         kStatistics,
         [](World& w, SuppleViewStatistics* out) { return suppleGetViewStatistics(w.handle(), w.view, out); },
         SUPPLE_NOT_READY);
+    constexpr const char* kMemory = "suppleGetViewMemory";
+    handles(kMemory, [](World& w, SuppleContext c, SuppleView v) {
+        return suppleGetViewMemory(c, v, w.watched<SuppleMemoryUse>(sizeof(SuppleMemoryUse)));
+    });
+    r.output<SuppleMemoryUse>(
+        kMemory, [](World& w, SuppleMemoryUse* out) { return suppleGetViewMemory(w.handle(), w.view, out); });
 
     r.instances(
         kPriority, [](World&, SuppleContext c, SuppleInstance i) { return suppleSetPriority(c, i, 1); }, false,
@@ -1604,6 +1610,26 @@ void frames(Rows& r) {
             kUploads, "valid", [](World& w) { return suppleRecordUploads(w.handle(), w.commands); }, phase);
     }
 
+    constexpr const char* kWarmUp = "suppleRecordWarmUp";
+    r.refuse(kWarmUp, "commandBuffer null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleRecordWarmUp(w.handle(), VK_NULL_HANDLE, &w.mine.main.group, 1); });
+    r.refuse(kWarmUp, "groups null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleRecordWarmUp(w.handle(), w.commands, nullptr, 1); });
+    for (const Phase phase : {Phase::fresh, Phase::cancelled}) {
+        r.refuse(
+            kWarmUp, "no frame", kOrder,
+            [](World& w) { return suppleRecordWarmUp(w.handle(), w.commands, &w.mine.main.group, 1); }, phase);
+    }
+    r.groups(kWarmUp, [](World& w, SuppleContext c, SuppleGroup g) {
+        const SuppleGroup second[2] = {w.mine.main.group, g};
+        return suppleRecordWarmUp(c, w.commands, *w.kept(second), 2);
+    });
+    for (const Phase phase : {Phase::begun, Phase::recorded}) {
+        r.accept(
+            kWarmUp, "valid",
+            [](World& w) { return suppleRecordWarmUp(w.handle(), w.commands, &w.mine.main.group, 1); }, phase);
+    }
+
     constexpr const char* kRecord = "suppleRecord";
     const auto record = [](World& w, const SuppleRecordDesc* desc) {
         const SuppleResult result = suppleRecord(w.handle(), w.commands, desc);
@@ -1757,6 +1783,27 @@ void measurements(Rows& r) {
         kGet, [](World& w, SuppleBudget* out) { return suppleGetBudget(w.handle(), "deform", out); }, SUPPLE_NOT_READY);
 }
 
+void memoryUses(Rows& r) {
+    constexpr const char *kContext = "suppleGetContextMemory", *kAsset = "suppleGetAssetMemory",
+                         *kGroup = "suppleGetGroupMemory", *kBudget = "suppleSetMemoryBudget";
+    const auto out = [](World& w) { return w.watched<SuppleMemoryUse>(sizeof(SuppleMemoryUse)); };
+    r.nullContext(kContext, [=](World& w, SuppleContext c) { return suppleGetContextMemory(c, out(w)); });
+    r.output<SuppleMemoryUse>(kContext,
+                              [](World& w, SuppleMemoryUse* use) { return suppleGetContextMemory(w.handle(), use); });
+    r.assets(kAsset, [=](World& w, SuppleContext c, SuppleAsset a) { return suppleGetAssetMemory(c, a, out(w)); });
+    r.output<SuppleMemoryUse>(
+        kAsset, [](World& w, SuppleMemoryUse* use) { return suppleGetAssetMemory(w.handle(), w.mine.asset, use); });
+    r.groups(kGroup, [=](World& w, SuppleContext c, SuppleGroup g) { return suppleGetGroupMemory(c, g, out(w)); });
+    r.output<SuppleMemoryUse>(kGroup, [](World& w, SuppleMemoryUse* use) {
+        return suppleGetGroupMemory(w.handle(), w.mine.main.group, use);
+    });
+    r.nullContext(kBudget, [](World&, SuppleContext c) { return suppleSetMemoryBudget(c, 1, nullptr, nullptr); });
+    r.accept(kBudget, "valid, and taken away", [](World& w) {
+        EXPECT_EQ(suppleSetMemoryBudget(w.handle(), 1, nullptr, nullptr), SUPPLE_OK);
+        return suppleSetMemoryBudget(w.handle(), 0, nullptr, nullptr);
+    });
+}
+
 std::vector<Row> allRows() {
     Rows r;
     withoutContext(r);
@@ -1770,6 +1817,7 @@ std::vector<Row> allRows() {
     playback(r);
     frames(r);
     measurements(r);
+    memoryUses(r);
     return std::move(r.rows);
 }
 

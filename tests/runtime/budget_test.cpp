@@ -11,7 +11,7 @@ namespace {
 class Budget : public testing::Test {
 protected:
     static void SetUpTestSuite() {
-        wrappedVulkan();
+        wrappedVulkan().deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU; // whose timestamps the CPU reads
         device = deviceThrough(&wrappedGetInstanceProcAddr);
         ASSERT_NE(device, nullptr);
         uint32_t count = 0;
@@ -20,7 +20,10 @@ protected:
         vkGetPhysicalDeviceQueueFamilyProperties(device->physicalDevice(), &count, families.data());
         timestamps = families[device->queueFamily()].timestampValidBits > 0;
         period = static_cast<double>(device->properties().limits.timestampPeriod);
-        context = std::make_unique<LoggedContext>(*device, [](SuppleContextDesc& desc) { desc.framesInFlight = 3; });
+        context = std::make_unique<LoggedContext>(*device, [](SuppleContextDesc& desc) {
+            desc.framesInFlight = 3;
+            desc.mapping = SUPPLE_MAPPING_NARROW;
+        });
         ASSERT_EQ(context->result(), SUPPLE_OK);
         ASSERT_EQ(createTube(context->handle(), asset), SUPPLE_OK);
         group = createGroup(context->handle(), asset).group;

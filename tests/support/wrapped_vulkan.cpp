@@ -16,6 +16,7 @@ struct Table {
     PFN_vkCreateBuffer CreateBuffer;
     PFN_vkCmdCopyBuffer CmdCopyBuffer;
     PFN_vkCmdFillBuffer CmdFillBuffer;
+    PFN_vkCmdBindPipeline CmdBindPipeline;
     PFN_vkCmdDispatch CmdDispatch;
     PFN_vkCmdDispatchIndirect CmdDispatchIndirect;
     PFN_vkCmdPipelineBarrier2 CmdPipelineBarrier2;
@@ -24,6 +25,7 @@ struct Table {
     PFN_vkInvalidateMappedMemoryRanges InvalidateMappedMemoryRanges;
     PFN_vkGetPhysicalDeviceProperties2 GetPhysicalDeviceProperties2;
     PFN_vkGetQueryPoolResults GetQueryPoolResults;
+    PFN_vkCmdCopyQueryPoolResults CmdCopyQueryPoolResults;
 };
 Table real;
 WrappedVulkan state;
@@ -64,8 +66,13 @@ VKAPI_ATTR void VKAPI_CALL fillBuffer(VkCommandBuffer commands, VkBuffer buffer,
     ++state.fills;
     real.CmdFillBuffer(commands, buffer, offset, size, value);
 }
+VKAPI_ATTR void VKAPI_CALL bindPipeline(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) {
+    state.pipelinesBound.insert(pipeline);
+    real.CmdBindPipeline(commands, point, pipeline);
+}
 VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32_t y, uint32_t z) {
     ++state.dispatches;
+    state.workgroups += uint64_t{x} * y * z;
     real.CmdDispatch(commands, x, y, z);
 }
 VKAPI_ATTR void VKAPI_CALL dispatchIndirect(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset) {
@@ -97,6 +104,7 @@ VKAPI_ATTR VkResult VKAPI_CALL invalidate(VkDevice device, uint32_t count, const
 }
 VKAPI_ATTR VkResult VKAPI_CALL queryResults(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count,
                                             size_t size, void* data, VkDeviceSize stride, VkQueryResultFlags flags) {
+    ++state.queryReads;
     if (state.queryFailure < 0) {
         return state.queryFailure;
     }
@@ -107,6 +115,12 @@ VKAPI_ATTR VkResult VKAPI_CALL queryResults(VkDevice device, VkQueryPool pool, u
     }
     return result;
 }
+VKAPI_ATTR void VKAPI_CALL copyQueryResults(VkCommandBuffer commands, VkQueryPool pool, uint32_t first, uint32_t count,
+                                            VkBuffer target, VkDeviceSize offset, VkDeviceSize stride,
+                                            VkQueryResultFlags flags) {
+    ++state.queryCopies;
+    real.CmdCopyQueryPoolResults(commands, pool, first, count, target, offset, stride, flags);
+}
 VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
     real.GetPhysicalDeviceProperties2(device, out);
     VkPhysicalDeviceLimits& limits = out->properties.limits;
@@ -115,6 +129,9 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceP
     }
     if (state.maxComputeWorkGroupCountX != 0) {
         limits.maxComputeWorkGroupCount[0] = state.maxComputeWorkGroupCountX;
+    }
+    if (state.deviceType != VK_PHYSICAL_DEVICE_TYPE_MAX_ENUM) {
+        out->properties.deviceType = state.deviceType;
     }
 }
 VKAPI_ATTR void VKAPI_CALL features(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* out) {
@@ -157,6 +174,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     if (is("vkCmdFillBuffer")) {
         return wrap(real.CmdFillBuffer, function, &fillBuffer);
     }
+    if (is("vkCmdBindPipeline")) {
+        return wrap(real.CmdBindPipeline, function, &bindPipeline);
+    }
     if (is("vkCmdDispatch")) {
         return wrap(real.CmdDispatch, function, &dispatch);
     }
@@ -174,6 +194,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     }
     if (is("vkGetQueryPoolResults")) {
         return wrap(real.GetQueryPoolResults, function, &queryResults);
+    }
+    if (is("vkCmdCopyQueryPoolResults")) {
+        return wrap(real.CmdCopyQueryPoolResults, function, &copyQueryResults);
     }
     if (is("vkInvalidateMappedMemoryRanges")) {
         return wrap(real.InvalidateMappedMemoryRanges, function, &invalidate);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <vector>
 #include <vulkan/vulkan.h>
 
@@ -14,6 +15,9 @@ struct WrappedVulkan {
     uint64_t copies = 0, copiedBytes = 0;
     uint64_t fills = 0, barriers = 0, allocations = 0;
     uint64_t dispatches = 0, indirectDispatches = 0;
+    uint64_t workgroups = 0; ///< of all vkCmdDispatch
+    std::set<VkPipeline> pipelinesBound;
+    uint64_t queryReads = 0, queryCopies = 0;           ///< vkGetQueryPoolResults, vkCmdCopyQueryPoolResults
     std::vector<VkBufferMemoryBarrier2> bufferBarriers; ///< of all vkCmdPipelineBarrier2
     // provoked
     int64_t dropBarrier = -1;    ///< index of the vkCmdPipelineBarrier2 to leave out
@@ -21,11 +25,13 @@ struct WrappedVulkan {
     int64_t failBuffer = -1;     ///< index of the vkCreateBuffer that fails
     VkResult allocationFailure = VK_ERROR_OUT_OF_DEVICE_MEMORY, bufferFailure = VK_ERROR_OUT_OF_HOST_MEMORY;
     VkResult queryFailure = VK_SUCCESS; ///< when not a success: of vkGetQueryPoolResults
-    uint64_t ticksAPass = 0;            ///< when not 0: timestamps are this far apart, one from the next
+    uint64_t ticksAPass = 0;            ///< when not 0: timestamps read are this far apart, one from the next
     uint64_t buffers = 0;
     bool hideSynchronization2 = false;
     uint32_t maxStorageBufferRange = 0;     ///< when not 0: what the device says
     uint32_t maxComputeWorkGroupCountX = 0; ///< the same
+    /// When another: what the device says.
+    VkPhysicalDeviceType deviceType = VK_PHYSICAL_DEVICE_TYPE_MAX_ENUM;
 };
 
 /// The state, reset.

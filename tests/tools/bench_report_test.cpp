@@ -131,6 +131,25 @@ TEST(BenchCheck, OtherSettingsAreSaid) {
     EXPECT_EQ(lines[1], "quick: false in the stored result, true in this one");
 }
 
+TEST(BenchCheck, FirstFramesAreForInformation) {
+    const auto with = [](const char* use, double cold, double prepared) {
+        Json result = madeUp();
+        result["pipelines"].push_back({{"scheme", "pm"}, {"use", use}, {"coldFirstFrameMs", cold}});
+        if (prepared > 0.0) { // an earlier version had none
+            result["pipelines"][0]["preparedFirstFrameMs"] = prepared;
+        }
+        return result;
+    };
+    const std::vector<std::string> lines = firstFrames(with("", 700.0, 0.0), with("", 2000.0, 12.4));
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0], "pm: first frame: 2000 ms, was 700");
+    EXPECT_EQ(lines[1], "pm: first frame after a warm-up: 12 ms");
+    EXPECT_EQ(firstFrames(with("", 1.0, 2.0), with("in a view", 3.0, 0.0)),
+              std::vector<std::string>{"pm, in a view: first frame: 3 ms"});
+    EXPECT_TRUE(firstFrames(madeUp(), madeUp()).empty());
+    EXPECT_TRUE(findRegressions(with("", 700.0, 1.0), with("", 2000.0, 9.0)).empty()) << "not judged";
+}
+
 TEST(BenchCheck, StaticDataMayGrowByFifteenPercent) {
     const auto with = [](double bytes) {
         Json result = madeUp();

@@ -154,7 +154,9 @@ TEST_F(Cli, BadUsageIsTwo) {
     expectFailure(run("bake cube.gltf -o out.obj --time nan"), 2, "--time");
     expectFailure(run("bake cube.gltf -o out.obj --mapping sideways"), 2, "--mapping");
     expectFailure(run("inspect cube.gltf --rate 4"), 2, "--compare");
+    expectFailure(run("inspect cube.gltf --mapping wide"), 2, "--memory");
     expectFailure(run("inspect cube.gltf --clip Rise"), 2, "--compare");
+    expectFailure(run("inspect cube.gltf --memory --clip Rise"), 2, "--compare");
     expectFailure(run("profile cube.gltf --frames 0"), 2, "--frames");
     expectFailure(run("profile cube.gltf --instances 0"), 2, "--instances");
 }

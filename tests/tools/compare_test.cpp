@@ -23,6 +23,30 @@ protected:
     }
 };
 
+TEST_F(Compare, MemoryOfACubeByPurpose) {
+    writeText(file("cube.obj"), kCubeObj);
+    const Outcome outcome = runOnDevice("inspect --json --memory --rate 4 cube.obj");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Json json = Json::parse(outcome.out, nullptr, false)["memory"];
+    EXPECT_EQ(json["rate"], 4);
+    EXPECT_GE(json["group"]["verticesBytes"], 6 * 25 * 16);
+    EXPECT_EQ(json["asset"]["deviceLocalBytes"], json["asset"]["tablesBytes"]);
+    EXPECT_EQ(json["asset"]["hostVisibleBytes"], 0) << "what tables were staged in is freed";
+    uint64_t sum = 0;
+    for (const auto& [name, value] : json["group"].items()) {
+        sum += name == "allocations" || name.find("deviceLocal") == 0 || name.find("hostVisible") == 0
+                   ? 0
+                   : value.get<uint64_t>();
+    }
+    EXPECT_EQ(sum,
+              json["group"]["deviceLocalBytes"].get<uint64_t>() + json["group"]["hostVisibleBytes"].get<uint64_t>());
+
+    const Outcome text = runOnDevice("inspect --memory cube.obj");
+    ASSERT_EQ(text.exitCode, 0) << text.err;
+    EXPECT_NE(text.out.find("memory, asset      0."), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("one instance at rate 8"), std::string::npos) << text.out;
+}
+
 TEST_F(Compare, FiguresOfACube) {
     writeText(file("cube.obj"), kCubeObj);
     const Json json = comparisonOf("cube.obj");

@@ -17,7 +17,7 @@ ProfileRun sampleRun() {
                    .patchRate = 8,
                    .instances = 2,
                    .patches = 10,
-                   .deviceBytes = 0,
+                   .memory = {},
                    .frames = {}};
     for (int i = 0; i < 3; ++i) {
         const double gpu = 9e15 + i * 16 * kMillisecond;
@@ -95,6 +95,27 @@ TEST(ProfileReport, AViewTellsWhatItDrew) {
     EXPECT_NE(csv.find(",view_budget,view_wanted_vertices,view_shortfall_frames\n"), std::string::npos) << csv;
     EXPECT_NE(csv.find(",5000,9000,1\n"), std::string::npos) << csv;
     EXPECT_EQ(toCsv(std::vector{sampleRun()}).find("5000"), std::string::npos);
+}
+
+TEST(ProfileReport, MemoryIsToldByPurposeTheLargestFirst) {
+    ProfileRun run = sampleRun();
+    run.memory.allocationCount = 7;
+    run.memory.tables = 512 << 10;
+    run.memory.vertices = 3 << 20;
+    run.memory.readback = 1 << 20;
+    run.memory.deviceLocal = run.memory.tables + run.memory.vertices;
+    run.memory.hostVisible = run.memory.readback;
+    const std::string table = toTable(run, summarizeRun(run));
+    EXPECT_NE(table.find("memory: 3.5 MiB on the device (vertices 3.0, tables 0.500), 1.0 MiB mapped (readback 1.0), "
+                         "in 7 allocations\n"),
+              std::string::npos)
+        << table;
+    const auto json = toJson({}, std::vector{run})["runs"][0]["memory"];
+    EXPECT_EQ(json["deviceLocalBytes"], 7 << 19);
+    EXPECT_EQ(json["hostVisibleBytes"], 1 << 20);
+    EXPECT_EQ(json["verticesBytes"], 3 << 20);
+    EXPECT_EQ(json["scratchBytes"], 0);
+    EXPECT_EQ(json["allocations"], 7);
 }
 
 TEST(ProfileReport, NoFramesGiveZeros) {

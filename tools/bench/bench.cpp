@@ -394,6 +394,9 @@ Status Run::pipelines(const BenchCage& cage, SuppleScheme scheme) {
                                         {"coldSecondFrameMs", made->coldSecondFrame},
                                         {"warmFirstFrameMs", made->warmFirstFrame},
                                         {"warmSecondFrameMs", made->warmSecondFrame},
+                                        {"warmUpMs", made->warmUp},
+                                        {"preparedFirstFrameMs", made->preparedFirstFrame},
+                                        {"preparedSecondFrameMs", made->preparedSecondFrame},
                                         {"createdWhileRecording", made->createdWhileRecording},
                                         {"pipelines", list}});
     }

@@ -72,7 +72,8 @@ std::map<std::string, double> valuesOf(const Json& rows, std::initializer_list<c
         std::string of;
         for (const char* const name : names) {
             const Json part = row.value(name, Json());
-            of += (of.empty() ? "" : ", ") + (part.is_string() ? part.get<std::string>() : name + (" " + part.dump()));
+            const std::string text = part.is_string() ? part.get<std::string>() : name + (" " + part.dump());
+            of += (of.empty() || text.empty() ? "" : ", ") + text;
         }
         if (value.is_number() && value.get<double>() > 0.0) {
             values.emplace(of, value.get<double>());
@@ -129,6 +130,30 @@ std::vector<std::string> otherSettings(const Json& stored, const Json& now) {
         if (stored.contains(what) && now.contains(what) && stored[what] != now[what]) {
             lines.push_back(std::string(what) + ": " + stored[what].dump() + " in the stored result, " +
                             now[what].dump() + " in this one");
+        }
+    }
+    return lines;
+}
+
+std::vector<std::string> firstFrames(const Json& stored, const Json& now) {
+    const std::pair<const char*, const char*> kinds[] = {{"first frame", "coldFirstFrameMs"},
+                                                         {"first frame after a warm-up", "preparedFirstFrameMs"}};
+    std::vector<std::string> lines;
+    for (const auto& [name, key] : kinds) {
+        const auto of = [&, key = key](const Json& result) {
+            return valuesOf(result.value("pipelines", Json::array()), {"scheme", "use"},
+                            [&](const Json& row) { return row.value(key, Json()); });
+        };
+        const std::map<std::string, double> before = of(stored);
+        for (const auto& [what, after] : of(now)) {
+            char text[160];
+            std::snprintf(text, sizeof text, "%.0f ms", after);
+            const auto known = before.find(what);
+            lines.push_back(what + ": " + name + ": " + text);
+            if (known != before.end()) {
+                std::snprintf(text, sizeof text, ", was %.0f", known->second);
+                lines.back() += text;
+            }
         }
     }
     return lines;

@@ -18,6 +18,11 @@ inline constexpr double kRegression = 1.15;
 [[nodiscard]] std::vector<std::string> otherSettings(const nlohmann::ordered_json& stored,
                                                      const nlohmann::ordered_json& now);
 
+/// One line for every first frame, of this result and of the stored one if that has it: what drivers do in it differs
+/// too much to be judged.
+[[nodiscard]] std::vector<std::string> firstFrames(const nlohmann::ordered_json& stored,
+                                                   const nlohmann::ordered_json& now);
+
 /// One line for every contestant that has become dearer by more than 15 % beside each of its yardsticks (all of them,
 /// since one of them alone may have had a good day), and for every stored ratio over a yardstick that is gone. Of what
 /// both results have also: on GPUs a line for every crowd whose share of the write bandwidth has become lower by more

@@ -150,7 +150,7 @@ Status Race::makeGroups(uint32_t characters) {
 uint32_t Race::charactersThatFit() const {
     VkDeviceSize bytes = 0;
     for (const Way& way : ways_) {
-        bytes += way.group->output().info.deviceBytes;
+        bytes += way.group->staticBytes().group;
     }
     return static_cast<uint32_t>(
         std::clamp<VkDeviceSize>(deviceMemory(device_) / kCrowdShareOfMemory / bytes, 1, desc_.characters));

@@ -8,6 +8,7 @@
 #include "tools/common/statistics.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace supple::bench {
 
@@ -29,13 +30,14 @@ struct FrameTimes {
     double record = 0.0, submit = 0.0; ///< milliseconds
 };
 
-Result<FrameTimes> frame(host::Device& device, Workbench& workbench, SuppleGroup group) {
+/// Records, submits and waits.
+Result<FrameTimes> timed(host::Device& device, const std::function<Status(VkCommandBuffer)>& record) {
     FrameTimes times;
     Status recorded = success();
     double end = 0.0;
     const Status submitted = device.submitAndWait([&](VkCommandBuffer commands) {
         const double begin = wallSeconds();
-        recorded = workbench.recordFrame(group, commands);
+        recorded = record(commands);
         end = wallSeconds();
         times.record = 1e3 * (end - begin);
     });
@@ -45,6 +47,17 @@ Result<FrameTimes> frame(host::Device& device, Workbench& workbench, SuppleGroup
     }
     return times;
 }
+
+Result<FrameTimes> frame(host::Device& device, Workbench& workbench, SuppleGroup group) {
+    return timed(device, [&](VkCommandBuffer commands) { return workbench.recordFrame(group, commands); });
+}
+
+Result<FrameTimes> warmUp(host::Device& device, Workbench& workbench, SuppleGroup group) {
+    return timed(device, [&](VkCommandBuffer commands) { return workbench.recordWarmUp(group, commands); });
+}
+
+/// What a context has before its first frame.
+enum class Start { cold, warm, prepared };
 
 struct OneLoad {
     LoadTimes times;
@@ -147,7 +160,8 @@ Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, 
         return host::vulkanError(created, "vkCreatePipelineCache");
     }
     Status status = success();
-    for (const bool warm : {false, true}) {
+    for (const Start start : {Start::cold, Start::warm, Start::prepared}) {
+        const bool warm = start == Start::warm;
         PipelineWatch watch;
         SuppleContextDesc desc = host::contextDesc(device);
         desc.mapping = mapping;
@@ -160,11 +174,21 @@ Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, 
         }
         Result<SuppleGroup> group = groupFor(**workbench, cage, scheme, use);
         const size_t made = watch.pipelines().size();
-        Result<FrameTimes> first = group ? frame(device, **workbench, *group) : Result<FrameTimes>(group.error());
+        Result<FrameTimes> prepared = group && start == Start::prepared ? warmUp(device, **workbench, *group)
+                                      : group                           ? Result<FrameTimes>(FrameTimes{})
+                                                                        : Result<FrameTimes>(group.error());
+        Result<FrameTimes> first = prepared ? frame(device, **workbench, *group) : prepared;
         Result<FrameTimes> second = first ? frame(device, **workbench, *group) : first;
         if (!second) {
             status = second.error();
             break;
+        }
+        if (start == Start::prepared) {
+            result.warmUp = prepared->record + prepared->submit;
+            result.preparedFirstFrame = first->submit;
+            result.preparedSecondFrame = second->submit;
+            result.createdWhileRecording += static_cast<uint32_t>(watch.pipelines().size() - made);
+            continue;
         }
         (warm ? result.warmFirstFrame : result.coldFirstFrame) = first->submit;
         (warm ? result.warmSecondFrame : result.coldSecondFrame) = second->submit;

@@ -46,6 +46,8 @@ struct Pipelines {
     double coldCpu = 0.0, warmCpu = 0.0;               ///< of these, CPU time of the process
     double coldFirstFrame = 0.0, warmFirstFrame = 0.0; ///< submit to end: drivers that compile at first use do it here
     double coldSecondFrame = 0.0, warmSecondFrame = 0.0; ///< the same of the next frame
+    double warmUp = 0.0; ///< recording and running suppleRecordWarmUp, in a context that has done nothing else
+    double preparedFirstFrame = 0.0, preparedSecondFrame = 0.0; ///< submit to end of the frames behind it
     uint32_t createdWhileRecording = 0;
 };
 
@@ -55,7 +57,7 @@ enum class PipelineUse {
 };
 
 /// Everything a group of the cage needs, in a context of its own with an empty VkPipelineCache, then in another with
-/// that cache filled.
+/// that cache filled, then in a third one that records a warm-up before its first frame.
 [[nodiscard]] Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, const BenchCage& cage,
                                                  SuppleScheme scheme, PipelineUse use);
 

@@ -128,6 +128,12 @@ Status Workbench::recordFrame(SuppleGroup group, VkCommandBuffer commands) {
     return inside_->context->record(commands, desc);
 }
 
+Status Workbench::recordWarmUp(SuppleGroup group, VkCommandBuffer commands) {
+    const uint64_t frame = ++inside_->frame;
+    const Status status = inside_->context->beginFrame(frame, frame - 1);
+    return status ? inside_->context->recordWarmUp(commands, {&group, 1}) : status;
+}
+
 void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const {
     inside_->group(group).surfaces()[0].recordEvaluate(commands);
 }
@@ -201,7 +207,8 @@ Workbench::StaticBytes Workbench::staticBytes(SuppleGroup id) const {
     }
     const host::GroupOutput out = output(id);
     bytes.indices = out.grid.indices.size; // with levels the view has them for all
-    bytes.group = out.info.deviceBytes;
+    const gpu::MemoryUse use = group.memoryUse();
+    bytes.group = use.total() - use.hostVisible();
     return bytes;
 }
 

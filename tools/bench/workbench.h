@@ -45,6 +45,8 @@ public:
 
     /// What suppleBeginFrame and suppleRecord do, all earlier frames being done. Timestamps off.
     [[nodiscard]] Status recordFrame(SuppleGroup group, VkCommandBuffer commands);
+    /// A frame of suppleRecordWarmUp alone.
+    [[nodiscard]] Status recordWarmUp(SuppleGroup group, VkCommandBuffer commands);
     /// The evaluation alone, from the coefficients of the last frame.
     void recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const;
     /// Deformation alone; of groups that play, from sampling their poses on.

@@ -63,6 +63,9 @@ Status check(const Json& stored, const Json& result) {
     for (const std::string& line : bench::otherSettings(stored, result)) {
         warn(line);
     }
+    for (const std::string& line : bench::firstFrames(stored, result)) {
+        std::printf("for information: %s\n", line.c_str());
+    }
     const std::vector<std::string> regressions = bench::findRegressions(stored, result);
     for (const std::string& line : regressions) {
         std::printf("REGRESSION %s\n", line.c_str());

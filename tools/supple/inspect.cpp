@@ -1,5 +1,5 @@
 // supple inspect: what a character file holds, and which schemes take it. Needs no device; --compare, which evaluates
-// every scheme's surface, does.
+// every scheme's surface, and --memory do.
 #include "cage/topology.h"
 #include "surface/schemes.h"
 #include "tools/common/character_file.h"
@@ -8,6 +8,7 @@
 #include "tools/supple/folds.h"
 #include "tools/supple/inspect_materials.h"
 #include "tools/supple/inspect_parts.h"
+#include "tools/supple/memory_report.h"
 #include "tools/supple/options.h"
 
 #include <CLI/CLI.hpp>
@@ -24,7 +25,8 @@ struct InspectOptions {
     std::string file;
     bool json = false;
     bool compare = false;
-    SurfaceFlags surface; ///< of its fields those that --compare has flags for; `reading` always
+    bool memory = false;
+    SurfaceFlags surface; ///< of its fields those that --compare and --memory have flags for; `reading` always
     std::string clip;     ///< name or index; empty: the bind pose
     double time = 0.0;
     DeviceFlags device;
@@ -161,8 +163,52 @@ nlohmann::ordered_json toJson(const InspectOptions& options, const Comparison& c
     return json;
 }
 
+/// What one character takes, under the scheme that each part is given by itself.
+struct MemoryFindings {
+    SuppleMemoryUse asset{}, group{};
+};
+
+Result<MemoryFindings> measureMemory(Session& session, const host::CharacterFile& file, uint32_t rate) {
+    host::Context& context = *session.context;
+    const Result<SuppleAsset> asset = host::createAsset(context, file);
+    if (!asset) {
+        return asset.error();
+    }
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.asset = *asset;
+    desc.capacity = 1;
+    desc.rate = rate;
+    desc.flags = SUPPLE_GROUP_ATTRIBUTES;
+    SuppleGroup group{};
+    MemoryFindings found;
+    found.asset.structSize = found.group.structSize = sizeof(SuppleMemoryUse);
+    Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
+    status = status ? context.evaluate({&group, 1}) : status; // uploads the tables
+    if (status) {                                             // and frees what they were staged in
+        const uint64_t frame = context.nextFrame();
+        status = context.check(suppleBeginFrame(context.handle(), frame, frame - 1), "suppleBeginFrame");
+    }
+    if (status) {
+        status = context.check(suppleGetAssetMemory(context.handle(), *asset, &found.asset), "suppleGetAssetMemory");
+    }
+    if (status) {
+        status = context.check(suppleGetGroupMemory(context.handle(), group, &found.group), "suppleGetGroupMemory");
+    }
+    if (!status) {
+        return status.error();
+    }
+    return found;
+}
+
+/// What was measured on a device, if asked for.
+struct Measured {
+    std::optional<Comparison> comparison;
+    std::optional<MemoryFindings> memory;
+};
+
 void printJson(const InspectOptions& options, const cage::Character& character, const Findings& findings,
-               const Comparison* comparison) {
+               const Measured& measured) {
     using Json = nlohmann::ordered_json;
     const cage::Cage& cage = character.cage;
     Json json;
@@ -229,8 +275,13 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
             entry["folds"] = toJson(verdict.folds);
         }
     }
-    if (comparison != nullptr) {
-        json["comparison"] = toJson(options, *comparison);
+    if (measured.memory) {
+        json["memory"] = {{"rate", options.surface.rate},
+                          {"asset", memoryJson(measured.memory->asset)},
+                          {"group", memoryJson(measured.memory->group)}};
+    }
+    if (measured.comparison) {
+        json["comparison"] = toJson(options, *measured.comparison);
     }
     // Names come from the file as they are: replace what is not UTF-8 rather than refuse to print it.
     std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
@@ -297,7 +348,7 @@ void printText(const InspectOptions& options, const Comparison& comparison) {
 }
 
 void printText(const InspectOptions& options, const cage::Character& character, const Findings& findings,
-               const Comparison* comparison) {
+               const Measured& measured) {
     const cage::Cage& cage = character.cage;
     printLine("file", options.file);
     printLine("parts", std::to_string(character.parts.size()));
@@ -359,8 +410,13 @@ void printText(const InspectOptions& options, const cage::Character& character, 
             printLine("  folds", toText(verdict.folds));
         }
     }
-    if (comparison != nullptr) {
-        printText(options, *comparison);
+    if (measured.memory) {
+        printLine("memory, asset", memoryText(measured.memory->asset));
+        printLine("memory, group", memoryText(measured.memory->group));
+        printLine("", "one instance at rate " + std::to_string(options.surface.rate) + ", with attributes");
+    }
+    if (measured.comparison) {
+        printText(options, *measured.comparison);
     }
 }
 
@@ -369,16 +425,16 @@ int runInspect(const InspectOptions& options) {
     if (!file) {
         return fail(kExitBadInput, file.error().message);
     }
-    const auto print = [&](const Comparison* comparison) {
+    const auto print = [&](const Measured& measured) {
         const Findings findings = examine(file->character);
         if (options.json) {
-            printJson(options, file->character, findings, comparison);
+            printJson(options, file->character, findings, measured);
         } else {
-            printText(options, file->character, findings, comparison);
+            printText(options, file->character, findings, measured);
         }
     };
-    if (!options.compare) {
-        print(nullptr);
+    if (!options.compare && !options.memory) {
+        print({});
         return kExitOk;
     }
     const Result<uint32_t> clip = host::findClip(file->character, options.clip);
@@ -386,11 +442,22 @@ int runInspect(const InspectOptions& options) {
         return fail(kExitBadInput, clip.error().message);
     }
     return withSession(options.device, [&](Session& session) -> Status {
-        const Result<Comparison> comparison = compareSchemes(session, *file, options.surface, {*clip, options.time});
-        if (!comparison) {
-            return comparison.error();
+        Measured measured;
+        if (options.memory) {
+            const Result<MemoryFindings> memory = measureMemory(session, *file, options.surface.rate);
+            if (!memory) {
+                return memory.error();
+            }
+            measured.memory = *memory;
         }
-        print(&*comparison);
+        if (options.compare) {
+            Result<Comparison> comparison = compareSchemes(session, *file, options.surface, {*clip, options.time});
+            if (!comparison) {
+                return comparison.error();
+            }
+            measured.comparison = std::move(*comparison);
+        }
+        print(measured);
         return success();
     });
 }
@@ -406,13 +473,23 @@ void bindInspect(CLI::App& app, int& exitCode) {
     command->add_flag("--compare", options->compare,
                       "Also evaluate every scheme that takes the cage, and say how far its surface is from the "
                       "Catmull-Clark limit");
+    command->add_flag("--memory", options->memory,
+                      "Also make a group of one instance, with the scheme that suits each part, and say what asset and "
+                      "group take of the device's memory, by purpose");
     bindRate(*command, options->surface.rate);
     bindPose(*command, options->clip, options->time);
     bindDevice(*command, options->device);
-    for (const char* flag : {"--rate", "--clip", "--time", "--device", "--mapping", "--validate"}) {
+    for (const char* flag : {"--clip", "--time"}) {
         command->get_option(flag)->needs("--compare");
     }
-    command->callback([options, &exitCode] { exitCode = runInspect(*options); });
+    command->callback([command, options, &exitCode] {
+        for (const char* flag : {"--rate", "--device", "--mapping", "--validate"}) {
+            if (command->count(flag) > 0 && !options->compare && !options->memory) {
+                throw CLI::RequiresError(flag, "--compare or --memory");
+            }
+        }
+        exitCode = runInspect(*options);
+    });
 }
 
 } // namespace supple::tools

@@ -122,6 +122,10 @@ public:
         if (status) {
             status = frames(stage, result);
         }
+        if (status) {
+            result.memory.structSize = sizeof result.memory;
+            status = check(suppleGetContextMemory(context(), &result.memory), "suppleGetContextMemory");
+        }
         if (status && !options_.hashes.empty()) {
             Result<std::string> hashes = hashView(*session_.context, stage.groups());
             status = hashes ? success() : Status(hashes.error());

@@ -1,5 +1,7 @@
 #include "tools/supple/profile_report.h"
 
+#include "tools/supple/memory_report.h"
+
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
@@ -183,10 +185,11 @@ std::string toTable(const ProfileRun& run, const RunSummary& summary) {
     const std::string patchRate = run.patchRate == run.rate ? "" : format(" (%u a patch)", run.patchRate);
     const std::string fineness = run.budget > 0 ? format("in a view of %u vertices", run.budget)
                                                 : format("rate %u%s", run.rate, patchRate.c_str());
-    std::string table = run.file + format(": scheme %s, %s, clip ", run.scheme.c_str(), fineness.c_str()) + run.clip +
-                        format(", %u instance%s of %s%u patches, %zu frames, %.1f MiB\n", run.instances,
-                               run.instances == 1 ? "" : "s", run.budget > 0 ? "up to " : "", run.patches,
-                               run.frames.size(), static_cast<double>(run.deviceBytes) / (1024.0 * 1024.0));
+    std::string table =
+        run.file + format(": scheme %s, %s, clip ", run.scheme.c_str(), fineness.c_str()) + run.clip +
+        format(", %u instance%s of %s%u patches, %zu frames\n", run.instances, run.instances == 1 ? "" : "s",
+               run.budget > 0 ? "up to " : "", run.patches, run.frames.size());
+    table += "  memory: " + memoryText(run.memory) + "\n";
     table += format("  %-12s %10s %10s %10s %10s %12s %13s %10s\n", "pass", "GPU ms", "p95", "max", "CPU ms", "points",
                     "bytes", "Mpoints/s");
     for (const PassSummary& pass : summary.passes) {
@@ -224,7 +227,7 @@ nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun
                       {"playback", run.playback},
                       {"patches", run.patches},
                       {"frames", run.frames.size()},
-                      {"deviceBytes", run.deviceBytes},
+                      {"memory", memoryJson(run.memory)},
                       {"passes", Json::array()}};
         for (const PassSummary& pass : summary.passes) {
             entry["passes"].push_back(toJson(pass));

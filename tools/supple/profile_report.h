@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <supple/supple.h>
 #include <vector>
 
 namespace supple::tools {
@@ -51,7 +52,7 @@ struct ProfileRun {
     bool playback = false;    ///< poses on the device
     uint32_t budget = 0;      ///< of the view, surface vertices; 0: no view
     uint32_t patches = 0;     ///< an instance; of several kinds the most
-    uint64_t deviceBytes = 0; ///< of the groups
+    SuppleMemoryUse memory{}; ///< of the context, after the last frame
     std::vector<FrameSample> frames;
     std::string hashes; ///< where they were asked for: hashView
 };

@@ -154,7 +154,6 @@ Status ProfileStage::report(SuppleGroup group, ProfileRun& run) const {
         patches += output.surface.patchCount;
         const bool none = output.surface.tessellation == SUPPLE_TESSELLATION_NONE;
         run.patchRate = std::max(run.patchRate, none ? run.rate : output.grid.rate);
-        run.deviceBytes += surface == 0 ? output.info.deviceBytes : 0;
         const std::string scheme = schemeName(output.surface.scheme);
         if (("+" + run.scheme + "+").find("+" + scheme + "+") == std::string::npos) {
             run.scheme += (run.scheme.empty() ? "" : "+") + scheme;

@@ -855,6 +855,17 @@ typedef struct SuppleSyncScope {
  * a command buffer that is submitted before the others. */
 SUPPLE_API SuppleResult suppleRecordUploads(SuppleContext context, VkCommandBuffer commandBuffer);
 
+/** Lets drivers finish at load time what they would do in the first frames: lavapipe compiles a pipeline at its first
+ * dispatch, which may take a second. Records the uploads of suppleRecordUploads, then every kernel that the groups may
+ * ever run as a dispatch of no workgroups: also those that the first frame would not run, as of additive layers, root
+ * motion, previous positions or budgets. Groups need no instances and views no camera. The groups may be recorded by
+ * suppleRecord in the same frame and command buffer, after this call. Without a loop of frames yet: suppleBeginFrame
+ * with frame 1, this call, submit, wait, and go on with frame 2. Two things still wait for their first use:
+ * suppleSetDepthPyramid, and another rate (call this again after suppleSetRate). Errors: no frame has begun, a stale
+ * handle. */
+SUPPLE_API SuppleResult suppleRecordWarmUp(SuppleContext context, VkCommandBuffer commandBuffer,
+                                           const SuppleGroup* groups, uint32_t groupCount);
+
 /** Options of recording. */
 typedef enum SuppleRecordFlags {
     SUPPLE_RECORD_TIMINGS = 1, /**< write GPU timestamps round every pass */
@@ -951,7 +962,6 @@ typedef struct SuppleGroupInfo {
      * With SUPPLE_GROUP_WINDOWS, the visible slots of window w begin at entry w * windowSize. The draws of a window
      * count their entries from there, and firstInstance leads from there to the list of a part. */
     SuppleBufferRange instances;
-    VkDeviceSize deviceBytes;   /**< device memory that the group holds, without its share of the asset's tables */
     SuppleBufferRange userData; /**< float4 per slot: suppleSetUserData */
     /** A device bounds storage buffers (VkPhysicalDeviceLimits::maxStorageBufferRange), so a large group is cut into
      * windows. Window w is the slots from w * windowSize on, windowSize or what is left of them. The device can bind
@@ -1120,7 +1130,9 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 
 /* ---------------------------------------------------------------------------------------------------- timings */
 
-/** What a pass cost, for one group and frame. */
+/** What a pass cost, for one group and frame. Its time is that from the end of what was recorded before it to its own
+ * end, so it includes the barrier before it. Draws of the host are in no pass, also if they are in the same command
+ * buffer. On a GPU, work of the host that runs at the same time takes its share of the device. */
 typedef struct SuppleTiming {
     /** A name in static storage: upload, attributes, pose (up to three times), deform (twice if the group has
      * several surfaces), vertex, assemble, patch, evaluate, motion. Groups of a view also have bounds (twice with
@@ -1162,6 +1174,59 @@ typedef struct SuppleBudget {
 SUPPLE_API SuppleResult suppleSetBudget(SuppleContext context, const char* pass, double nanoseconds);
 /** Fills out. SUPPLE_NOT_READY: the pass has no budget. */
 SUPPLE_API SuppleResult suppleGetBudget(SuppleContext context, const char* pass, SuppleBudget* out);
+
+/* ---------------------------------------------------------------------------------------------------- memory */
+
+/** Device memory in bytes, by purpose. It is what vkAllocateMemory or SuppleMemoryCallbacks gave, alignment included.
+ * Each byte counts for one purpose, so the purposes add up to deviceLocal + hostVisible. */
+typedef struct SuppleMemoryUse {
+    uint32_t structSize;
+    uint32_t allocationCount;  /**< successful calls of vkAllocateMemory or SuppleMemoryCallbacks.allocate */
+    VkDeviceSize deviceLocal;  /**< never mapped */
+    VkDeviceSize hostVisible;  /**< mapped: staging and readback */
+    VkDeviceSize tables;       /**< static: skins, clips, the tables of schemes, indices */
+    VkDeviceSize poses;        /**< palettes, morph weights, what instances play */
+    VkDeviceSize cages;        /**< deformed cages */
+    VkDeviceSize coefficients; /**< of patches; with MOTION those of two frames */
+    VkDeviceSize vertices;     /**< surface vertices */
+    VkDeviceSize streams;      /**< beside them: previous positions, attributes */
+    VkDeviceSize lists;        /**< of instances and patches, with bounds, levels and indirect arguments */
+    VkDeviceSize scratch;      /**< what one pass leaves for the next */
+    VkDeviceSize staging;      /**< what goes up: per frame in flight, and of static tables until they are uploaded */
+    VkDeviceSize readback;     /**< what comes back: statistics of views, timings on CPU devices */
+} SuppleMemoryUse;
+
+/** Fills out: all that the context has allocated and not yet freed. That is its assets, groups and views, the context's
+ * own, and what is destroyed but may still be used by frames in flight: suppleBeginFrame frees that. */
+SUPPLE_API SuppleResult suppleGetContextMemory(SuppleContext context, SuppleMemoryUse* out);
+/** Fills out: what all groups of the asset share. Groups add to it the tables of their schemes, which stay as long as
+ * the asset and its groups. */
+SUPPLE_API SuppleResult suppleGetAssetMemory(SuppleContext context, SuppleAsset asset, SuppleMemoryUse* out);
+/** Fills out: what the group has beside its asset and its view. */
+SUPPLE_API SuppleResult suppleGetGroupMemory(SuppleContext context, SuppleGroup group, SuppleMemoryUse* out);
+/** Fills out: what the view has for all its groups. */
+SUPPLE_API SuppleResult suppleGetViewMemory(SuppleContext context, SuppleView view, SuppleMemoryUse* out);
+
+/** An allocation that would exceed the budget. */
+typedef struct SuppleMemoryRequest {
+    uint32_t structSize;
+    uint32_t hostVisible; /**< 0 or 1: mapped memory */
+    const char* name;     /**< as in SuppleMemoryCallbacks.allocate; valid during the call */
+    VkDeviceSize bytes;   /**< of this allocation */
+    VkDeviceSize used;    /**< deviceLocal + hostVisible of the context before it */
+    VkDeviceSize budget;
+} SuppleMemoryRequest;
+
+/** Returns 1 to allow the allocation, or 0 to refuse it. It may free memory of the host's own before it answers. It
+ * must not call Supple. Called on the thread that called Supple. */
+typedef uint32_t (*SuppleMemoryBudgetFunction)(const SuppleMemoryRequest* request, void* user);
+
+/** Limits the context's memory, deviceLocal and hostVisible together. If an allocation would exceed it, Supple asks
+ * `ask`; null: it is refused. Then the call that needed it fails with SUPPLE_ERROR_DEVICE_MEMORY, the log names what
+ * was to be allocated, and all that exists goes on as before. bytes = 0 removes the limit. A limit below what is in use
+ * frees nothing. Hosts that follow VK_EXT_memory_budget set the limit anew when their share changes. */
+SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSize bytes, SuppleMemoryBudgetFunction ask,
+                                              void* user);
 
 #ifdef __cplusplus
 }

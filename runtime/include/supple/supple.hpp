@@ -105,6 +105,9 @@ public:
     [[nodiscard]] SuppleResult recordUploads(VkCommandBuffer commandBuffer) const {
         return suppleRecordUploads(handle_, commandBuffer);
     }
+    [[nodiscard]] SuppleResult recordWarmUp(VkCommandBuffer commandBuffer, Span<const SuppleGroup> groups) const {
+        return suppleRecordWarmUp(handle_, commandBuffer, groups.data(), static_cast<uint32_t>(groups.size()));
+    }
     [[nodiscard]] SuppleResult record(VkCommandBuffer commandBuffer, Span<const SuppleGroup> groups,
                                       SuppleSyncScope before, SuppleSyncScope after, uint32_t flags = 0) const {
         SuppleRecordDesc desc = sized<SuppleRecordDesc>();
@@ -114,6 +117,10 @@ public:
         desc.before = before;
         desc.after = after;
         return suppleRecord(handle_, commandBuffer, &desc);
+    }
+    [[nodiscard]] SuppleResult memory(SuppleMemoryUse& out) const {
+        out = sized<SuppleMemoryUse>();
+        return suppleGetContextMemory(handle_, &out);
     }
     /// The newest completed frame's passes, into `out` (resized; its capacity is reused). SUPPLE_NOT_READY empties it.
     [[nodiscard]] SuppleResult timings(std::vector<SuppleTiming>& out) const {
@@ -200,6 +207,10 @@ public:
     [[nodiscard]] SuppleResult reload(const SuppleAssetDesc& desc) const {
         return suppleReloadAsset(context_, handle_, &desc);
     }
+    [[nodiscard]] SuppleResult memory(SuppleMemoryUse& out) const {
+        out = sized<SuppleMemoryUse>();
+        return suppleGetAssetMemory(context_, handle_, &out);
+    }
     [[nodiscard]] SuppleResult clipInfo(uint32_t clip, SuppleClipInfo& out) const {
         out = sized<SuppleClipInfo>();
         return suppleGetClipInfo(context_, handle_, clip, &out);
@@ -267,6 +278,10 @@ public:
         desc.morphMaskCount = static_cast<uint32_t>(morphs.size());
         return suppleSetMask(context_, handle_, &desc);
     }
+    [[nodiscard]] SuppleResult memory(SuppleMemoryUse& out) const {
+        out = sized<SuppleMemoryUse>();
+        return suppleGetGroupMemory(context_, handle_, &out);
+    }
     [[nodiscard]] SuppleResult info(SuppleGroupInfo& out) const {
         out = sized<SuppleGroupInfo>();
         return suppleGetGroupInfo(context_, handle_, &out);
@@ -307,6 +322,10 @@ public:
 
     [[nodiscard]] SuppleResult setCamera(const SuppleCameraDesc& camera) const {
         return suppleSetCamera(context_, handle_, &camera);
+    }
+    [[nodiscard]] SuppleResult memory(SuppleMemoryUse& out) const {
+        out = sized<SuppleMemoryUse>();
+        return suppleGetViewMemory(context_, handle_, &out);
     }
     /// Null: nothing hides.
     [[nodiscard]] SuppleResult setDepthPyramid(const SuppleDepthPyramidDesc* pyramid) const {
