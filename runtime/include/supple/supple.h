@@ -829,11 +829,11 @@ SUPPLE_API SuppleResult suppleGetJointTransform(SuppleContext context, SuppleIns
 SUPPLE_API SuppleResult suppleBeginFrame(SuppleContext context, uint64_t frame, uint64_t completedFrame);
 /** Large worlds: sets where the coordinates on the device begin, three doubles; (0, 0, 0) at first. Set it near the
  * camera, as often as you like. It holds from now on; if a group is recorded in this frame already, from the next
- * suppleBeginFrame on. Surface vertices, previous positions, bounds and
- * suppleGetJointTransform are then relative to it: Supple subtracts it, in double precision, from the translation of
- * every instance (suppleSetPosition). Previous positions are relative to the present origin, also in the frame of a
- * change: so project them with the last frame's camera as seen from the present origin. Positions of cameras and of
- * depth pyramids are relative to the present origin as well.
+ * suppleBeginFrame on. Surface vertices, previous positions, bounds and suppleGetJointTransform are then relative to
+ * it: Supple subtracts it, in double precision, from the translation of every instance (suppleSetPosition).
+ * Previous positions are relative to the present origin, also in the frame of a change: so project them with the last
+ * frame's camera as seen from the present origin. Positions of cameras and of depth pyramids are relative to the
+ * present origin as well. A box of suppleReadInstanceBounds is relative to the origin of its frame.
  * A group that is not recorded in a frame stays relative to the origin that it was recorded with. Palettes and cages
  * that the host writes (PALETTE_BUFFER, CAGE_BUFFER) are its own: it subtracts the origin itself.
  * Errors: not finite. */
@@ -858,11 +858,11 @@ SUPPLE_API SuppleResult suppleRecordUploads(SuppleContext context, VkCommandBuff
 /** Lets drivers finish at load time what they would do in the first frames: lavapipe compiles a pipeline at its first
  * dispatch, which may take a second. Records the uploads of suppleRecordUploads, then every kernel that the groups may
  * ever run as a dispatch of no workgroups: also those that the first frame would not run, as of additive layers, root
- * motion, previous positions or budgets. Groups need no instances and views no camera. The groups may be recorded by
- * suppleRecord in the same frame and command buffer, after this call. Without a loop of frames yet: suppleBeginFrame
- * with frame 1, this call, submit, wait, and go on with frame 2. Two things still wait for their first use:
- * suppleSetDepthPyramid, and another rate (call this again after suppleSetRate). Errors: no frame has begun, a stale
- * handle. */
+ * motion or budgets. Groups need no instances and views no camera. The groups may be recorded by suppleRecord in the
+ * same frame and command buffer, after this call. Without a loop of frames yet: suppleBeginFrame with frame 1, this
+ * call, submit, wait, and go on with frame 2.
+ * Two things still wait for their first use: suppleSetDepthPyramid, and another rate (call this again after
+ * suppleSetRate). Errors: no frame has begun, a stale handle. */
 SUPPLE_API SuppleResult suppleRecordWarmUp(SuppleContext context, VkCommandBuffer commandBuffer,
                                            const SuppleGroup* groups, uint32_t groupCount);
 
