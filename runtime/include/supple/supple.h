@@ -968,7 +968,7 @@ typedef struct SuppleGroupInfo {
      * what a window has of every buffer that has an entry per slot, at the offset of the window's first slot. Windows
      * of vertices, previousPositions, deformedCage, poses and patchCoefficients begin at multiples of 256 bytes. */
     uint32_t windowCount;
-    uint32_t windowSize;
+    uint32_t windowSize; /**< slots per window; the last one may have fewer */
 } SuppleGroupInfo;
 
 /** Fills out. */
@@ -1214,7 +1214,7 @@ typedef struct SuppleMemoryRequest {
     const char* name;     /**< as in SuppleMemoryCallbacks.allocate; valid during the call */
     VkDeviceSize bytes;   /**< of this allocation */
     VkDeviceSize used;    /**< deviceLocal + hostVisible of the context before it */
-    VkDeviceSize budget;
+    VkDeviceSize budget;  /**< that suppleSetMemoryBudget has set */
 } SuppleMemoryRequest;
 
 /** Returns 1 to allow the allocation, or 0 to refuse it. It may free memory of the host's own before it answers. It
