@@ -179,7 +179,7 @@ void Characters::stand(uint32_t count) {
         transform.translate(-0.5f * (box_[0].x() + box_[1].x()), -box_[0].y(), -0.5f * (box_[0].z() + box_[1].z()));
         supple::Instance& instance = instances_.emplace_back();
         must(supple::Instance::create(group_, instance), "suppleCreateInstance");
-        must(instance.setTransform(std::span<const float, 16>(transform.constData(), 16)), "suppleSetTransform");
+        must(instance.setTransform(supple::MatrixSpan<const float>(transform.constData())), "suppleSetTransform");
     }
     feet_.clear();
     for (uint32_t i = 0; i < count; ++i) {
