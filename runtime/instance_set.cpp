@@ -110,16 +110,17 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
 }
 
 PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin) {
-    uploadedFrame_ = frame;
     poses_->setOrigin(origin);
     PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_.end());
-    cost.bytes += userData_.recordUpload(*desc_.device, commandBuffer, desc_.handsOver, slots_.end());
+    const VkDeviceSize data = userData_.recordUpload(*desc_.device, commandBuffer, desc_.handsOver, slots_.end());
+    dataFrame_ = data > 0 ? frame : dataFrame_;
+    cost.bytes += data;
     return cost;
 }
 
 void InstanceSet::cancelFrame(uint64_t frame) {
     poses_->cancelUpload(frame);
-    if (uploadedFrame_ == frame) {
+    if (dataFrame_ == frame) {
         userData_.markAll();
     }
 }

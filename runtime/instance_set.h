@@ -81,8 +81,8 @@ private:
     gpu::BufferSet buffers_, staging_;
     gpu::PlannedBuffer palettes_, cages_;
     UserData userData_;
-    uint64_t uploadedFrame_ = 0; ///< the last that was recorded
-    DeformSets deformSets_;      ///< none if the host fills the cages
+    uint64_t dataFrame_ = 0; ///< the last that uploaded user data
+    DeformSets deformSets_;  ///< none if the host fills the cages
 };
 
 } // namespace supple::runtime

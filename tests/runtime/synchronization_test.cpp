@@ -151,7 +151,9 @@ protected:
     }
     void refused(SuppleResult result, SuppleMessage message) {
         EXPECT_EQ(result, SUPPLE_ERROR_ARGUMENT);
-        const std::vector<LogLine> lines = context->takeLines();
+        std::vector<LogLine> lines = context->takeLines();
+        // The context warns of groups of earlier tests.
+        std::erase_if(lines, [](const LogLine& line) { return line.message == SUPPLE_MESSAGE_NEVER_RECORDED; });
         ASSERT_EQ(lines.size(), 1u);
         EXPECT_EQ(lines[0].message, message) << lines[0].text;
     }
@@ -378,7 +380,10 @@ TEST(RecordScopes, AHostsOwnBarrierIsEnoughAndNeeded) {
                                     }
                                     SuppleRecordDesc desc{};
                                     desc.structSize = sizeof(desc);
-                                    desc.flags = SUPPLE_RECORD_NO_ENTRY_BARRIER | SUPPLE_RECORD_TIMINGS;
+                                    desc.flags = SUPPLE_RECORD_NO_ENTRY_BARRIER;
+                                    if (barriers != Barriers::none) { // on CPU devices marks have barriers of their own
+                                        desc.flags |= SUPPLE_RECORD_TIMINGS;
+                                    }
                                     desc.groups = &group.group;
                                     desc.groupCount = 1;
                                     EXPECT_EQ(suppleRecord(context.handle(), commands, &desc), SUPPLE_OK);

@@ -15,7 +15,7 @@ namespace supple::test {
 namespace {
 
 constexpr uint32_t kWindowCapacity = 23, kWindowRange = 1u << 18;
-constexpr uint32_t kViewRange = 1u << 20; ///< room for what every view has
+constexpr uint32_t kViewRange = 1u << 23; ///< room for what every view has
 
 class GroupWindows : public CrowdContexts {
 protected:

@@ -224,10 +224,10 @@ typedef struct SuppleMemoryCallbacks {
      *
      * name is for the host's statistics, and valid during the call. It is the name of the first buffer in the memory,
      * and says whose memory it is:
-     * - context: "supple parameter pairs";
+     * - context: "supple parameter pairs"; on CPU devices "supple timings";
      * - asset: "supple skin tables", "supple vertices of a piece", "supple surface tables", "supple clip tables";
-     * - group: "supple poses" (this holds its outputs, too), "supple list staging", "supple grid indices", "supple
-     *   playback", "supple playback staging";
+     * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices"; of its
+     *   instances "supple poses", "supple user data staging", "supple playback", "supple playback staging";
      * - view: "supple view", "supple view staging", "supple view statistics", "supple view, grid indices".
      *
      * The tables of an asset, parameter pairs and grid indices come twice under one name: the second piece is
