@@ -9,6 +9,9 @@ using namespace supple::api; // NOLINT
 namespace {
 
 constexpr const char* kHere = "suppleCreateGroup";
+constexpr uint32_t kFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
+                            SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
+                            SUPPLE_GROUP_WINDOWS;
 
 /// Copies the options that desc points to, and lets it point to the copies. Null if they are sound.
 std::optional<SuppleResult> takeSchemeOptions(Context& context, SuppleGroupDesc& desc, SupplePrepOptions& prep,
@@ -55,6 +58,19 @@ std::optional<SuppleResult> checkPartSchemes(Context& context, const SuppleGroup
     return std::nullopt;
 }
 
+/// Null if it says whose instances they are, and how many.
+std::optional<SuppleResult> checkInstances(Context& context, const SuppleGroupDesc& desc) {
+    if (desc.instancesOf.id != 0 &&
+        (desc.capacity != 0 || runtime::rawValue(desc.skinning) != 0 || runtime::rawValue(desc.poseSource) != 0)) {
+        return refuse(context, ErrorCode::argument, kHere,
+                      "capacity, skinning and poseSource are those of instancesOf: they must be 0");
+    }
+    if (desc.capacity == 0 && desc.instancesOf.id == 0) {
+        return refuse(context, ErrorCode::range, kHere, "capacity is 0");
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* given, SuppleGroup* out) {
@@ -67,13 +83,8 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (const auto fault = takeIn(context, kHere, "desc", given, desc)) {
             return *fault;
         }
-        if (desc.instancesOf.id != 0 &&
-            (desc.capacity != 0 || runtime::rawValue(desc.skinning) != 0 || runtime::rawValue(desc.poseSource) != 0)) {
-            return refuse(context, ErrorCode::argument, kHere,
-                          "capacity, skinning and poseSource are those of instancesOf: they must be 0");
-        }
-        if (desc.capacity == 0 && desc.instancesOf.id == 0) {
-            return refuse(context, ErrorCode::range, kHere, "capacity is 0");
+        if (const auto fault = checkInstances(context, desc)) {
+            return *fault;
         }
         if (desc.rate > SUPPLE_MAX_RATE) {
             return refuse(context, ErrorCode::range, kHere, "rate must be 1..64");
@@ -82,9 +93,6 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
             runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
-        constexpr uint32_t kFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
-                                    SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
-                                    SUPPLE_GROUP_WINDOWS;
         if ((desc.flags & ~kFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
