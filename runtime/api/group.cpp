@@ -9,9 +9,9 @@ using namespace supple::api; // NOLINT
 namespace {
 
 constexpr const char* kHere = "suppleCreateGroup";
-constexpr uint32_t kFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
-                            SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
-                            SUPPLE_GROUP_WINDOWS;
+constexpr uint32_t kGroupFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
+                                 SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
+                                 SUPPLE_GROUP_WINDOWS;
 
 /// Copies the options that desc points to, and lets it point to the copies. Null if they are sound.
 std::optional<SuppleResult> takeSchemeOptions(Context& context, SuppleGroupDesc& desc, SupplePrepOptions& prep,
@@ -93,7 +93,7 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
             runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
-        if ((desc.flags & ~kFlags) != 0) {
+        if ((desc.flags & ~kGroupFlags) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
         if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.skinning, SUPPLE_SKINNING_DUAL_QUATERNION) ||
