@@ -256,7 +256,7 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.vk.loadInstance(desc.instance, desc.getInstanceProcAddr);
     if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils)) {
         const std::string text = std::string("the device gives no ") + name;
-        // Loaders and drivers hand out what the instance's version has. Of what is loaded these alone are of 1.3.
+        // Loaders and drivers hand out what the instance's version has. Only these functions are newer than 1.2.
         const bool isNew =
             std::strcmp(name, "vkCmdPipelineBarrier2") == 0 || std::strcmp(name, "vkCmdWriteTimestamp2") == 0;
         return Error{ErrorCode::unsupported, isNew ? text + ": " + kNewInstance : text};

@@ -14,7 +14,7 @@ namespace supple::runtime {
 
 class ClipBounds {
 public:
-    /// Of a clip, SUPPLE_BIND_POSE or SUPPLE_REST_POSE; nothing if there is no such clip.
+    /// The box of a clip, or of SUPPLE_BIND_POSE or SUPPLE_REST_POSE. Nothing if there is no such clip.
     [[nodiscard]] std::optional<SuppleBounds> of(const cage::Character& character, uint32_t clip,
                                                  const skinning::ClipBoundsDesc& desc);
 

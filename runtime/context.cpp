@@ -145,10 +145,14 @@ Status Context::checkOpen(const char* function) const {
     return frameOpen_ ? success() : refuse("frame " + std::to_string(frame_) + " is cancelled: call suppleBeginFrame");
 }
 
-void Context::warnOfUnrecorded() {
+bool Context::hasRecorded() const {
     bool recorded = false;
     groups.forEach([&](const Group& group) { recorded = recorded || group.passesFrame() == frame_; });
-    if (!frameOpen_ || !recorded) {
+    return frameOpen_ && recorded;
+}
+
+void Context::warnOfUnrecorded() {
+    if (!hasRecorded()) {
         return;
     }
     groups.forEach([&](Group& group) {
@@ -418,9 +422,7 @@ Status Context::reloadAsset(uint64_t id, cage::Character character) {
 
 void Context::setOrigin(const glm::dvec3& origin) {
     nextOrigin_ = origin;
-    bool recorded = false;
-    groups.forEach([&](Group& group) { recorded = recorded || group.passesFrame() == frame_; });
-    if (!frameOpen_ || !recorded) {
+    if (!hasRecorded()) {
         origin_ = origin;
     }
 }

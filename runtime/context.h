@@ -58,7 +58,7 @@ public:
     [[nodiscard]] Result<uint32_t> acquireBarriers(std::span<const SuppleGroup> groups, SuppleSyncScope use,
                                                    std::span<VkBufferMemoryBarrier2> out) const;
 
-    /// Of everything that is not yet freed.
+    /// What everything takes that is not yet freed.
     [[nodiscard]] const gpu::MemoryUse& memoryUse() const { return device_->ledger->use; }
     /// 0: none. `allowsMore` is asked when an allocation would exceed it.
     void setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::MemoryRequest&)> allowsMore);
@@ -93,6 +93,8 @@ private:
     [[nodiscard]] Status takeFrame(uint64_t frame, uint64_t completedFrame);
     /// For what needs a frame.
     [[nodiscard]] Status checkOpen(const char* function) const;
+    /// Whether the open frame has a group recorded.
+    [[nodiscard]] bool hasRecorded() const;
     /// Behind the frame that ends now: warns of groups that seem to be drawn and were never recorded.
     void warnOfUnrecorded();
     void retire(uint64_t completedFrame);

@@ -22,7 +22,7 @@ public:
 
     [[nodiscard]] const InstanceWindows& windows() const { return windows_; }
     [[nodiscard]] const gpu::PlannedBuffer& buffer() const { return list_; }
-    /// Of the list, what passes read: capacity entries for draws, then as many by window.
+    /// What passes read of the list: capacity entries for draws, then as many by window.
     [[nodiscard]] VkDeviceSize passBytes() const { return 2 * VkDeviceSize{windows_.capacity} * sizeof(uint32_t); }
     /// What draws read: all of it if the host lists parts.
     [[nodiscard]] uint32_t drawnEntries() const {

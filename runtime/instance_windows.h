@@ -55,7 +55,7 @@ struct InstanceWindows {
     [[nodiscard]] uint32_t firstPartEntry() const { return 2 * capacity; }
 
     [[nodiscard]] uint32_t drawCount() const { return (capacity + drawSize - 1) / drawSize; }
-    /// Of a window that draws have: also where its visible slots begin in the list.
+    /// The first slot of a window that draws have. Its visible slots begin in the list at the same number.
     [[nodiscard]] uint32_t firstDrawnSlot(uint32_t window) const { return window * drawSize; }
 
     /// Calls record(window) for each window that has instances in this frame.

@@ -67,10 +67,10 @@ Status View::createBuffers() {
         kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     const gpu::Device& device = *device_;
     const VkDeviceSize vertices = desc_.maxVertices;
-    const VkDeviceSize wordBytes = kLodRecords * VkDeviceSize{4} + vertices / kMinSamples * kRecordBytes;
-    // Of the words, narrow devices read texels.
-    const VkDeviceSize wordLimit = device.mapping.wide ? device.limits.maxStorageBufferRange : device.bufferWindow(16);
     const VkDeviceSize fixed = kLodRecords * VkDeviceSize{4};
+    const VkDeviceSize wordBytes = fixed + vertices / kMinSamples * kRecordBytes;
+    // Narrow devices read the words as texels.
+    const VkDeviceSize wordLimit = device.mapping.wide ? device.limits.maxStorageBufferRange : device.bufferWindow(16);
     const VkDeviceSize records = wordLimit > fixed ? (wordLimit - fixed) / kRecordBytes : 0;
     const VkDeviceSize most = std::min<VkDeviceSize>(
         (records + 1) * kMinSamples - 1, device.limits.maxStorageBufferRange / vertexBytes(desc_.vertexFormat));

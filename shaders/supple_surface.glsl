@@ -53,7 +53,7 @@
 //
 // Its vertex is the same index everywhere, for attributes of a view are written with the vertices, every frame.
 // SuppleLevelOutput.draws never change: a host with multiDrawIndirect and shaderDrawParameters keeps a SuppleDraw for each of them
-// in a buffer (three uints without padding), draws all that share a pipeline by one vkCmdDrawIndexedIndirect, as their commands
+// in a buffer (four uints without padding), draws all that share a pipeline by one vkCmdDrawIndexedIndirect, as their commands
 // follow each other with the stride levels.indirect.stride, and looks SuppleDraw up by gl_DrawID.
 #ifndef SUPPLE_SURFACE_GLSL
 #define SUPPLE_SURFACE_GLSL
@@ -172,9 +172,9 @@ layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_USER_DATA_BINDING, std430) rea
 #endif
 
 struct SuppleVertex {
-    uint slot;  // of the instance: where a host keeps what it knows of its instances
-    uint own;   // within the instance: index into attributes, uvs1, faceUvs
-    uint index; // index into vertices
+    uint slot;     // of the instance: where a host keeps what it knows of its instances
+    uint own;      // within the instance: index into attributes, uvs1, faceUvs
+    uint index;    // index into vertices
     uint previous; // index into previousPositions, in floats
 };
 

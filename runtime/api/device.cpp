@@ -50,12 +50,12 @@ SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physi
         std::snprintf(out->reason, sizeof(out->reason), "%s", reason.c_str());
         return SUPPLE_ERROR_ARGUMENT;
     };
-    if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr) {
-        return refused("instance, physicalDevice or getInstanceProcAddr is null");
-    }
     if (out->structSize < runtime::kFirstSize<SuppleRequirements>) {
         return out->structSize != 0 ? SUPPLE_ERROR_ARGUMENT
                                     : refused(faultOfSize<SuppleRequirements>("out", out->structSize));
+    }
+    if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr) {
+        return refused("instance, physicalDevice or getInstanceProcAddr is null");
     }
     try {
         const gpu::Requirements requirements = gpu::requirements();

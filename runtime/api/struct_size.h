@@ -49,7 +49,7 @@ SUPPLE_SIZED_STRUCTS(SUPPLE_NAME_STRUCT)
 #undef SUPPLE_NAME_STRUCT
 #undef SUPPLE_SIZED_STRUCTS
 
-/// Of the argument `name`, which readSized or checkOut has refused.
+/// Why readSized or checkOut has refused the argument `name`.
 template <class T>
 std::string faultOfSize(const std::string& name, uint32_t size) {
     static_assert(kStructName<T> != nullptr, "add the struct to the list above");

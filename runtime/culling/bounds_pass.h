@@ -18,6 +18,9 @@
 
 namespace supple::runtime {
 
+/// What a slot takes of the buffers that kBoundsBinding and kBoundsStateBinding bind.
+inline constexpr VkDeviceSize kBoundsBytes = 32, kStateBytes = 8;
+
 struct ListWindow {
     uint32_t firstEntry = 0; ///< in the host's list
     uint32_t entries = 0;

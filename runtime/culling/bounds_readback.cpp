@@ -1,18 +1,14 @@
 #include "runtime/culling/bounds_readback.h"
 
+#include "runtime/culling/bounds_pass.h"
+
 #include <algorithm>
 #include <cstring>
 
 namespace supple::runtime {
 
-namespace {
-
-constexpr VkDeviceSize kReadBoundsBytes = 32; ///< of a slot: see shaders/shared/bounds.h
-
-} // namespace
-
 BoundsReadback::BoundsReadback(const gpu::Device& device, uint32_t capacity, uint32_t framesInFlight)
-    : device_(&device), copyBytes_(capacity * kReadBoundsBytes), copies_(framesInFlight + size_t{1}) {
+    : device_(&device), copyBytes_(capacity * kBoundsBytes), copies_(framesInFlight + size_t{1}) {
     for (Copy& copy : copies_) {
         copy.generations.resize(capacity);
     }
@@ -31,7 +27,7 @@ void BoundsReadback::record(VkCommandBuffer commandBuffer, uint64_t frame, VkBuf
         copy.generations[slot] = slot < end && slots.shows(slot) ? slots.generation(slot) : 0;
     }
     if (end > 0) {
-        const VkBufferCopy region{0, next_ * copyBytes_, end * kReadBoundsBytes};
+        const VkBufferCopy region{0, next_ * copyBytes_, end * kBoundsBytes};
         device_->vk.CmdCopyBuffer(commandBuffer, bounds, buffer_.buffer(), 1, &region);
     }
     next_ = (next_ + 1) % copies_.size();
@@ -54,7 +50,7 @@ std::optional<BoundsReadback::Box> BoundsReadback::read(uint32_t slot, uint32_t 
     }
     const auto place = static_cast<VkDeviceSize>(newest - copies_.data());
     float corners[8];
-    std::memcpy(corners, buffer_.mapped() + place * copyBytes_ + slot * kReadBoundsBytes, sizeof(corners));
+    std::memcpy(corners, buffer_.mapped() + place * copyBytes_ + slot * kBoundsBytes, sizeof(corners));
     Box box;
     box.frame = newest->frame;
     std::copy_n(corners, 3, box.bounds.min);

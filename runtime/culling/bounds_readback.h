@@ -29,7 +29,7 @@ public:
         SuppleBounds bounds{};
         uint64_t frame = 0;
     };
-    /// Of the newest completed copy, if the instance was listed in it.
+    /// The box in the newest completed copy, if the instance was listed in it.
     [[nodiscard]] std::optional<Box> read(uint32_t slot, uint32_t generation) const;
 
 private:

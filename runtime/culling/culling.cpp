@@ -8,7 +8,7 @@ using namespace supple::shared;
 
 namespace {
 
-constexpr VkDeviceSize kBoundsBytes = 32, kStateBytes = 8, kWordBytes = 4;
+constexpr VkDeviceSize kWordBytes = 4;
 constexpr uint32_t kDrawWords = 5;    ///< VkDrawIndexedIndirectCommand
 constexpr uint32_t kOffsetWords = 64; ///< descriptor offsets need at most 256-byte alignment
 

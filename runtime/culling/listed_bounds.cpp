@@ -6,7 +6,6 @@ using namespace supple::shared;
 
 namespace {
 
-constexpr VkDeviceSize kListedBoundsBytes = 32, kListedStateBytes = 8; ///< of a slot
 constexpr VkDeviceSize kViewBytes = 256; ///< descriptor offsets need at most 256-byte alignment
 static_assert(sizeof(CullView) <= kViewBytes);
 
@@ -16,9 +15,9 @@ void ListedBounds::plan(gpu::BufferPlan& device) {
     constexpr VkBufferUsageFlags kStorage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     const VkDeviceSize n = desc_.windows->capacity;
-    bounds_ = device.add({"supple bounds", n * kListedBoundsBytes, kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+    bounds_ = device.add({"supple bounds", n * kBoundsBytes, kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     rest_ = device.add(
-        {"supple bounds, no view", kViewBytes + n * kListedStateBytes, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+        {"supple bounds, no view", kViewBytes + n * kStateBytes, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
 }
 
 Status ListedBounds::createSets(VkBuffer cages, VkBuffer list) {
@@ -64,7 +63,7 @@ Status ListedBounds::createSets(VkBuffer cages, VkBuffer list) {
 }
 
 SuppleBufferRange ListedBounds::bounds() const {
-    return {bounds_.buffer(), 0, bounds_.size(), static_cast<uint32_t>(kListedBoundsBytes)};
+    return {bounds_.buffer(), 0, bounds_.size(), static_cast<uint32_t>(kBoundsBytes)};
 }
 
 void ListedBounds::recordClear(VkCommandBuffer commandBuffer) const {
@@ -87,7 +86,7 @@ PassCost ListedBounds::record(VkCommandBuffer commandBuffer) const {
         desc_.pass->recordBounds(commandBuffer, sets_[w], push);
         push.firstEntry += push.instanceCount;
     }
-    return {windows.visible, windows.visible * kListedBoundsBytes};
+    return {windows.visible, windows.visible * kBoundsBytes};
 }
 
 } // namespace supple::runtime

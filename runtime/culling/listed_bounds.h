@@ -7,6 +7,7 @@
 #include "runtime/culling/bounds_pass.h"
 #include "runtime/instance_windows.h"
 #include "runtime/pass_cost.h"
+#include "supple/supple.h"
 
 #include <vector>
 

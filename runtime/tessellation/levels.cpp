@@ -125,7 +125,7 @@ Culling::Needs Levels::cullingNeeds() const {
     needs.sizes = program_.constructionSizes();
     needs.measure = surface::lod::measureInstance(cage(), tables().isolationSteps, tables().lod.charts,
                                                   &desc_.asset->character.cage);
-    needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage());
+    needs.margin = boundsMargin();
     return needs;
 }
 

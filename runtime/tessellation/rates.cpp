@@ -176,7 +176,7 @@ Culling::Needs Rates::cullingNeeds() const {
     needs.sizes = program_.constructionSizes();
     // Rates count along edges of the cage.
     needs.measure = surface::lod::measureInstance(cage(), 0, false, &desc_.asset->character.cage);
-    needs.margin = surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage());
+    needs.margin = boundsMargin();
     for (const uint32_t place : places_) {
         const Rate& own = own_[place];
         needs.rates.push_back({own.vertices, own.program.evaluationSizes(), own.draws});

@@ -215,7 +215,7 @@ public:
         out = sized<SuppleClipInfo>();
         return suppleGetClipInfo(context_, handle_, clip, &out);
     }
-    /// Of the cage.
+    /// The box of the cage.
     [[nodiscard]] SuppleResult clipBounds(uint32_t clip, SuppleBounds& out) const {
         return suppleGetClipBounds(context_, handle_, clip, &out);
     }
@@ -305,7 +305,7 @@ public:
     [[nodiscard]] SuppleResult instanceBounds(SuppleBufferRange& out) const {
         return suppleGetInstanceBounds(context_, handle_, &out);
     }
-    /// Of the surfaces.
+    /// The box of the surfaces.
     [[nodiscard]] SuppleResult clipBounds(uint32_t clip, SuppleBounds& out) const {
         return suppleGetGroupClipBounds(context_, handle_, clip, &out);
     }
