@@ -1,9 +1,9 @@
 // What supple.h says of all outputs, whatever the scheme and tessellation: how they are aligned, which way round
 // triangles go, and what memory callbacks are told.
 #include "cage/gltf/writer.h"
-#include "cage/parts.h"
 #include "cage/procedural.h"
 #include "tests/support/lod_surface.h"
+#include "tests/support/side_by_side.h"
 #include "tests/support/test_view.h"
 
 #include <algorithm>
@@ -44,35 +44,8 @@ std::string nameOfCase(const OutputCase& c) {
            (c.flags == SUPPLE_GROUP_INDEXED_MESH ? " as a mesh" : "");
 }
 
-/// Two spheres side by side, parts of one character with a joint each.
 cage::Character spheres() {
-    cage::Character c;
-    c.name = "spheres";
-    c.skeleton.nodes.resize(2);
-    std::vector<cage::PartCage> parts;
-    for (uint32_t p = 0; p < 2; ++p) {
-        cage::PartCage& part = parts.emplace_back();
-        part.cage = cage::makeCubeSphere(3);
-        part.cage.sourceVertices.clear();
-        for (uint32_t v = 0; v < part.cage.vertexCount(); ++v) {
-            part.cage.positions[v].x += 6.0f * static_cast<float>(p);
-            part.cage.sourceVertices.push_back(v);
-            part.weights.influences.push_back({0, 1.0f});
-        }
-        for (uint32_t v = 0; v <= part.cage.vertexCount(); ++v) {
-            part.weights.starts.push_back(v);
-        }
-        part.part.name = "sphere " + std::to_string(p);
-        part.part.node = p;
-        part.part.joints = {p};
-        part.sourceVertexCount = part.cage.vertexCount();
-        c.skeleton.nodes[p].name = part.part.name;
-        c.skeleton.parentsFirst.push_back(p);
-        c.skin.joints.push_back(p);
-        c.skin.inverseBinds.emplace_back(1.0f);
-    }
-    cage::joinParts(std::move(parts), c);
-    return c;
+    return sideBySide(cage::makeCubeSphere(3), "sphere", 2);
 }
 
 class Outputs : public CrowdContexts {

@@ -1,9 +1,9 @@
 // Groups of several surfaces: each part is drawn as in a group that has its scheme for all parts, to the bit.
-#include "cage/parts.h"
 #include "tests/support/depth_pyramid.h"
 #include "tests/support/drawn_patches.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
+#include "tests/support/side_by_side.h"
 #include "tests/support/test_view.h"
 
 #include <algorithm>
@@ -25,34 +25,9 @@ constexpr SuppleScheme kPartSchemes[] = {SUPPLE_SCHEME_PM,    SUPPLE_SCHEME_LOOP
                                          SUPPLE_SCHEME_PM};
 constexpr uint32_t kPartCount = std::size(kPartSchemes), kSurfaceCount = kPartCount - 1;
 
-/// Bipeds side by side, each a part with a joint of its own. All faces are quads, which every scheme takes.
+/// All faces are quads, which every scheme takes.
 cage::Character bipeds() {
-    cage::Character c;
-    c.name = "bipeds";
-    c.skeleton.nodes.resize(kPartCount);
-    std::vector<cage::PartCage> parts;
-    for (uint32_t p = 0; p < kPartCount; ++p) {
-        cage::PartCage& part = parts.emplace_back();
-        part.cage = biped();
-        for (uint32_t v = 0; v < part.cage.vertexCount(); ++v) {
-            part.cage.positions[v].x += 6.0f * static_cast<float>(p);
-            part.cage.sourceVertices.push_back(v);
-            part.weights.influences.push_back({0, 1.0f});
-        }
-        for (uint32_t v = 0; v <= part.cage.vertexCount(); ++v) {
-            part.weights.starts.push_back(v);
-        }
-        part.part.name = "biped " + std::to_string(p);
-        part.part.node = p;
-        part.part.joints = {p};
-        part.sourceVertexCount = part.cage.vertexCount();
-        c.skeleton.nodes[p].name = part.part.name;
-        c.skeleton.parentsFirst.push_back(p);
-        c.skin.joints.push_back(p);
-        c.skin.inverseBinds.emplace_back(1.0f);
-    }
-    cage::joinParts(std::move(parts), c);
-    return c;
+    return sideBySide(biped(), "biped", kPartCount);
 }
 
 struct SurfacesCase {

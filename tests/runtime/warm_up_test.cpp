@@ -1,6 +1,6 @@
 // suppleRecordWarmUp dispatches every pipeline that later frames run, and changes nothing.
-#include "cage/parts.h"
 #include "tests/support/meshes.h"
+#include "tests/support/side_by_side.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
 
@@ -13,32 +13,7 @@ namespace {
 
 /// Two parts, so that a group can have two surfaces.
 cage::Character twoBipeds() {
-    cage::Character c;
-    c.name = "two bipeds";
-    c.skeleton.nodes.resize(2);
-    std::vector<cage::PartCage> parts(2);
-    for (uint32_t p = 0; p < 2; ++p) {
-        cage::PartCage& part = parts[p];
-        part.cage = biped();
-        for (uint32_t v = 0; v < part.cage.vertexCount(); ++v) {
-            part.cage.positions[v].x += 6.0f * static_cast<float>(p);
-            part.cage.sourceVertices.push_back(v);
-            part.weights.influences.push_back({0, 1.0f});
-        }
-        for (uint32_t v = 0; v <= part.cage.vertexCount(); ++v) {
-            part.weights.starts.push_back(v);
-        }
-        part.part.name = "biped " + std::to_string(p);
-        part.part.node = p;
-        part.part.joints = {p};
-        part.sourceVertexCount = part.cage.vertexCount();
-        c.skeleton.nodes[p].name = part.part.name;
-        c.skeleton.parentsFirst.push_back(p);
-        c.skin.joints.push_back(p);
-        c.skin.inverseBinds.emplace_back(1.0f);
-    }
-    cage::joinParts(std::move(parts), c);
-    return c;
+    return sideBySide(biped(), "biped", 2);
 }
 
 /// Groups of many kinds, without a view and in one.
