@@ -298,8 +298,20 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     if (!group) {
         return group.error();
     }
+    if (!hidesInDraws() && (*group)->drawsByRanges() && (*group)->slots().hiddenParts().any()) {
+        return Error{ErrorCode::disabled, "suppleCreateGroup: instancesOf: an instance hides a part: the device was "
+                                          "created without the feature drawIndirectFirstInstance"};
+    }
     tellNotes(**group);
     return groups.insert(std::move(*group));
+}
+
+bool Context::drawsByRanges(const InstanceSet& instances) const {
+    bool ranges = false;
+    groups.forEachId([&](uint64_t, const Group& group) {
+        ranges = ranges || (&group.instances() == &instances && group.drawsByRanges());
+    });
+    return ranges;
 }
 
 GroupShared Context::sharedFor(std::shared_ptr<View> view) {
@@ -321,32 +333,59 @@ GroupShared Context::sharedFor(std::shared_ptr<View> view) {
 }
 
 void Context::tellNotes(const Group& group) const {
-    const std::string& name = group.asset().character.name;
+    const auto tell = [&](SuppleMessage id, const std::string& note) {
+        log(SUPPLE_SEVERITY_INFO, id, group.asset().character.name + ": " + note);
+    };
     for (const auto& surface : group.surfaces()) {
         for (const std::string& note : surface->tables().notes) {
-            log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_SCHEME_NOTE, name + ": " + note);
+            tell(SUPPLE_MESSAGE_SCHEME_NOTE, note);
         }
         if (!surface->rateNote().empty()) {
-            log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_RATE_CHANGED, name + ": " + surface->rateNote());
+            tell(SUPPLE_MESSAGE_RATE_CHANGED, surface->rateNote());
         }
     }
 }
 
-Status Context::remake(uint64_t id, const std::shared_ptr<Asset>& asset, const GroupRecipe& recipe,
-                       const AssetMatch& match, std::vector<Remade>& remade) {
-    const std::shared_ptr<Group> group = groups.find(id);
-    GroupShared shared = sharedFor(group->sharedView());
-    if (group->follows()) {
-        const auto leader = std::find_if(remade.begin(), remade.end(),
-                                         [&](const Remade& other) { return other.id == group->leader(); });
-        shared.instances = leader != remade.end() ? leader->group->sharedInstances() : group->sharedInstances();
+Status Context::remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade) {
+    GroupShared shared = sharedFor(group.sharedView());
+    if (group.follows()) {
+        const auto leader =
+            std::ranges::find_if(remade, [&](const Remade& other) { return other.id == group.leader(); });
+        shared.instances = leader->group->sharedInstances();
     }
-    Result<std::shared_ptr<Group>> made = group->remade(shared, asset, recipe, match);
+    GroupRecipe recipe = group.recipe();
+    remaking.change(recipe);
+    Result<std::shared_ptr<Group>> made =
+        group.remade(shared, remaking.asset != nullptr ? remaking.asset : group.sharedAsset(), recipe, remaking.match);
     if (!made) {
         return made.error();
     }
     remade.push_back({id, std::move(*made)});
     return success();
+}
+
+Result<std::vector<Context::Remade>> Context::remake(const Remaking& remaking) {
+    std::vector<Remade> remade;
+    Status status = success();
+    groups.forEachId([&](uint64_t id, Group& group) {
+        if (status && !group.follows() && remaking.wants(id, group)) {
+            status = remake(remaking, id, group, remade);
+        }
+    });
+    const size_t leaders = remade.size();
+    const auto isRemade = [&](uint64_t id) {
+        return std::any_of(remade.begin(), remade.begin() + static_cast<ptrdiff_t>(leaders),
+                           [&](const Remade& other) { return other.id == id; });
+    };
+    groups.forEachId([&](uint64_t id, Group& group) {
+        if (status && group.follows() && isRemade(group.leader())) { // without its leader it can only be destroyed
+            status = remake(remaking, id, group, remade);
+        }
+    });
+    if (!status) {
+        return status.error();
+    }
+    return remade;
 }
 
 void Context::replace(std::vector<Remade>& remade) {
@@ -360,31 +399,26 @@ Status Context::setCapacity(uint64_t id, uint32_t capacity) {
     const std::shared_ptr<Group> group = groups.find(id);
     const std::string& name = group->asset().character.name;
     if (group->follows()) {
-        return Error{ErrorCode::argument,
-                     name + ": the group draws the instances of another one, which has the capacity"};
+        return Error{ErrorCode::argument, "suppleSetCapacity: " + name +
+                                              ": the group draws the instances of another one, which has the capacity"};
     }
     if (capacity < group->slots().end()) {
-        return Error{ErrorCode::limit, name + ": capacity " + std::to_string(capacity) + ": the instance in slot " +
-                                           std::to_string(group->slots().end() - 1) + " would have no room"};
+        return Error{ErrorCode::limit, "suppleSetCapacity: " + name + ": capacity " + std::to_string(capacity) +
+                                           ": the instance in slot " + std::to_string(group->slots().end() - 1) +
+                                           " would have no room"};
     }
     if (capacity == group->slots().capacity()) {
         return success();
     }
-    std::vector<Remade> remade;
-    Status status = success();
-    for (const bool follows : {false, true}) { // leaders first
-        groups.forEachId([&](uint64_t other, Group& member) {
-            if (status && (follows ? member.leader() == id : other == id)) {
-                GroupRecipe recipe = member.recipe();
-                recipe.setCapacity(capacity);
-                status = remake(other, member.sharedAsset(), recipe, {}, remade);
-            }
-        });
+    const AssetMatch same;
+    Result<std::vector<Remade>> remade =
+        remake({[&](uint64_t other, const Group&) { return other == id; },
+                [&](GroupRecipe& recipe) { recipe.setCapacity(capacity); }, nullptr, same});
+    if (!remade) {
+        return remade.error();
     }
-    if (status) {
-        replace(remade);
-    }
-    return status;
+    replace(*remade);
+    return success();
 }
 
 Status Context::reloadAsset(uint64_t id, cage::Character character) {
@@ -395,27 +429,19 @@ Status Context::reloadAsset(uint64_t id, cage::Character character) {
         return asset.error();
     }
     const AssetMatch match = AssetMatch::of(before->character, (*asset)->character);
-    std::vector<Remade> remade;
-    Status status = success();
-    for (const bool follows : {false, true}) { // leaders first
-        groups.forEachId([&](uint64_t other, Group& member) {
-            if (status && member.sharedAsset() == before && member.follows() == follows) {
-                GroupRecipe recipe = member.recipe();
-                recipe.renumberParts(match.parts);
-                status = remake(other, *asset, recipe, match, remade);
-            }
-        });
-    }
-    if (!status) {
-        return status;
+    Result<std::vector<Remade>> remade =
+        remake({[&](uint64_t, const Group& group) { return group.sharedAsset() == before; },
+                [&](GroupRecipe& recipe) { recipe.renumberParts(match.parts); }, *asset, match});
+    if (!remade) {
+        return remade.error();
     }
     for (const std::string& warning : warnings) {
         log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_ASSET_WARNING, (*asset)->character.name + ": " + warning);
     }
-    for (const Remade& own : remade) {
+    for (const Remade& own : *remade) {
         tellNotes(*own.group);
     }
-    replace(remade);
+    replace(*remade);
     assets.replace(id, std::move(*asset));
     return success();
 }

@@ -65,7 +65,9 @@ public:
 
     /// Whether draws can leave out parts: their indirect commands then have a first instance.
     [[nodiscard]] bool hidesInDraws() const { return device_->drawIndirectFirstInstance; }
-    /// Of 2D images of the device.
+    /// Whether a group draws these instances by indirect commands of ranges: those have a first instance if parts hide.
+    [[nodiscard]] bool drawsByRanges(const InstanceSet& instances) const;
+    /// The device's limit for the sides of 2D images.
     [[nodiscard]] uint32_t maxImageSide() const { return device_->limits.maxImageDimension2D; }
 
     [[nodiscard]] Result<uint64_t> createAsset(cage::Character character);
@@ -108,12 +110,19 @@ private:
     [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
     void tellNotes(const Group& group) const;
     /// Groups that take the places of others, once all are made.
+    /// Which groups are made anew, and how. Groups that follow them are made anew with them.
+    struct Remaking {
+        std::function<bool(uint64_t, const Group&)> wants; ///< asked of groups that follow none
+        std::function<void(GroupRecipe&)> change;
+        std::shared_ptr<Asset> asset; ///< null: they keep theirs
+        const AssetMatch& match;
+    };
     struct Remade {
         uint64_t id = 0;
         std::shared_ptr<Group> group;
     };
-    [[nodiscard]] Status remake(uint64_t id, const std::shared_ptr<Asset>& asset, const GroupRecipe& recipe,
-                                const AssetMatch& match, std::vector<Remade>& remade);
+    [[nodiscard]] Result<std::vector<Remade>> remake(const Remaking& remaking);
+    [[nodiscard]] Status remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade);
     void replace(std::vector<Remade>& remade);
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, Group& group);
     /// What the group hands to the queue family that draws, and with the first of its groups what the view does.

@@ -422,7 +422,7 @@ Status Context::recordWarmUp(VkCommandBuffer commandBuffer, std::span<const Supp
                          "suppleRecordWarmUp: group " + std::to_string(g) + ": stale or foreign handle"};
         }
     }
-    const Status uploaded = recordUploads(commandBuffer);
+    Status uploaded = recordUploads(commandBuffer);
     if (!uploaded) {
         return uploaded;
     }

@@ -63,6 +63,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
         return surfaces.error();
     }
     group->surfaces_ = std::move(*surfaces);
+    group->drawnParts_ = DrawnParts(group->surfaces_.partPatches());
     group->desc_.prep = nullptr; // the caller's
     group->desc_.blend = nullptr;
     group->desc_.partSchemes = nullptr;
@@ -82,8 +83,7 @@ Result<std::shared_ptr<Group>> Group::remade(const GroupShared& shared, std::sha
         return made;
     }
     Group& group = **made;
-    const Status rate = rate_ != 0 ? group.setRate(rate_) : success();
-    if (!rate) {
+    if (const Status rate = rate_ != 0 ? group.setRate(rate_) : success(); !rate) {
         return rate.error();
     }
     group.origin_ = origin_;
@@ -94,7 +94,7 @@ Result<std::shared_ptr<Group>> Group::remade(const GroupShared& shared, std::sha
 }
 
 Status Group::setRate(uint32_t rate) {
-    const Status status = surfaces_.setRate(rate);
+    Status status = surfaces_.setRate(rate);
     rate_ = status ? rate : rate_;
     return status;
 }
@@ -104,9 +104,9 @@ Status Group::createInstances(const GroupShared& shared) {
         instances_ = shared.instances;
         return success();
     }
-    Result<std::shared_ptr<InstanceSet>> instances = InstanceSet::create(
-        {shared.device, shared.deform, shared.pose, asset_.get(), desc_.poseSource, skinningOf(desc_), desc_.capacity,
-         shared.firstGeneration, shared.framesInFlight, shared.handsOver, surfaces_.partPatches()});
+    Result<std::shared_ptr<InstanceSet>> instances =
+        InstanceSet::create({shared.device, shared.deform, shared.pose, asset_, desc_.poseSource, skinningOf(desc_),
+                             desc_.capacity, shared.firstGeneration, shared.framesInFlight, shared.handsOver});
     if (!instances) {
         return instances.error();
     }
@@ -117,8 +117,7 @@ Status Group::createInstances(const GroupShared& shared) {
 Status Group::createListing(const GroupShared& shared) {
     const gpu::Device& device = *shared.device;
     const uint32_t capacity = desc_.capacity;
-    const auto parts = static_cast<uint32_t>(asset_->parts.size());
-    const uint32_t lists = view_ != nullptr ? Culling::lists(parts, surfaces_.ladder().count) : 2;
+    const uint32_t lists = view_ != nullptr ? Culling::lists(drawnParts_.count(), surfaces_.ladder().count) : 2;
     if (!device.mapping.wide && uint64_t{lists} * capacity > device.limits.maxTexelBufferElements) {
         return Error{ErrorCode::limit, std::to_string(capacity) +
                                            " instances exceed the device's texel-buffer elements: the largest "
@@ -134,12 +133,12 @@ Status Group::createListing(const GroupShared& shared) {
     if (!windows) {
         return windows.error();
     }
-    const Status drawn = surfaces_.cutDraws(*windows, (desc_.flags & SUPPLE_GROUP_WINDOWS) != 0);
+    Status drawn = surfaces_.cutDraws(*windows, (desc_.flags & SUPPLE_GROUP_WINDOWS) != 0);
     if (!drawn) {
         return drawn;
     }
     const bool windowed = windows->count() > 1;
-    listing_ = InstanceListing(std::move(*windows), view_ == nullptr && surfaces_.haveGrids() ? parts : 0);
+    listing_ = InstanceListing(std::move(*windows), view_ == nullptr && surfaces_.haveGrids() ? &drawnParts_ : nullptr);
     return follows() ? success() : instances_->makeBuffers(windowed);
 }
 
@@ -161,9 +160,10 @@ Status Group::createRest(const GroupShared& shared) {
     if (view_ != nullptr) {
         planCulling(shared, device, staging);
     }
-    planBounds(shared, device, staging);
+    planBounds(shared, device);
     status = device.create(*shared.device, gpu::MemoryKind::deviceLocal);
     status = status ? staging.create(*shared.device, gpu::MemoryKind::upload) : status;
+    status = status && boundsReadback_ != nullptr ? boundsReadback_->create() : status;
     status = status && !follows() ? instances_->createSets(listing_) : status;
     status = status ? createVisibility() : status;
     clear_.renew(hasBounds());
@@ -184,7 +184,7 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
     desc.windows = &windows();
     desc.cageVertices = vertices;
     desc.cageStride = instances_->cageStride();
-    desc.parts = static_cast<uint32_t>(asset_->parts.size());
+    desc.parts = &drawnParts_;
     desc.firstRate = surfaces_.ladder().first;
     std::vector<Culling::Needs> needs;
     for (const auto& surface : surfaces_) {
@@ -199,12 +199,11 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
     visibility_ = std::move(culling);
 }
 
-void Group::planBounds(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging) {
+void Group::planBounds(const GroupShared& shared, gpu::BufferPlan& device) {
     if ((desc_.flags & SUPPLE_GROUP_BOUNDS) == 0) {
         return;
     }
     boundsReadback_ = std::make_unique<BoundsReadback>(*shared.device, windows().capacity, shared.framesInFlight);
-    boundsReadback_->plan(staging);
     if (culling_ == nullptr) {
         listedBounds_ = std::make_unique<ListedBounds>(ListedBounds::Desc{shared.device, shared.bounds, &windows(),
                                                                           asset_->character.cage.vertexCount(),
@@ -247,6 +246,9 @@ void Group::fill(SuppleGroupInfo& info) const {
 gpu::MemoryUse Group::memoryUse() const {
     gpu::MemoryUse use = buffers_.use();
     use += staging_.use();
+    if (boundsReadback_ != nullptr) {
+        use += boundsReadback_->memoryUse();
+    }
     if (!follows()) {
         use += instances_->memoryUse();
     }

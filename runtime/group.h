@@ -132,7 +132,7 @@ private:
     [[nodiscard]] Status createListing(const GroupShared& shared);
     [[nodiscard]] Status createRest(const GroupShared& shared);
     void planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
-    void planBounds(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
+    void planBounds(const GroupShared& shared, gpu::BufferPlan& device);
     [[nodiscard]] Status createVisibility();
 
     std::shared_ptr<Asset> asset_;
@@ -145,6 +145,7 @@ private:
     bool handsOver_ = false;           ///< to another queue family
     gpu::BufferSet buffers_, staging_; ///< of all but the instances
     std::shared_ptr<InstanceSet> instances_;
+    DrawnParts drawnParts_;
     InstanceListing listing_;
     std::unique_ptr<Visibility> visibility_;
     Culling* culling_ = nullptr;                 ///< visibility_, if the group belongs to a view

@@ -1,6 +1,7 @@
-// Which parts of a character each instance of a group hides.
+// Which parts of a character each instance hides, and what that means for the surfaces of a group.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,9 +24,9 @@ struct PartPatches {
 class HiddenParts {
 public:
     HiddenParts() = default;
-    /// `patches`: of every part.
-    HiddenParts(uint32_t capacity, std::vector<PartPatches> patches);
+    HiddenParts(uint32_t capacity, uint32_t partCount);
 
+    [[nodiscard]] uint32_t partCount() const { return partCount_; }
     /// Whether that is a change.
     bool set(uint32_t slot, uint32_t part, bool hidden);
     /// The slot hides nothing.
@@ -38,26 +39,41 @@ public:
     /// Whether any slot hides anything.
     [[nodiscard]] bool any() const { return hidingSlots_ > 0; }
 
+    [[nodiscard]] static uint32_t maskWords(size_t parts) { return static_cast<uint32_t>((parts + 31) / 32); }
+    /// A bit per part.
+    [[nodiscard]] std::span<const uint32_t> mask(uint32_t slot) const {
+        return std::span(masks_).subspan(size_t{slot} * stride_, stride_);
+    }
+
+private:
+    uint32_t partCount_ = 0;
+    uint32_t stride_ = 0; ///< words of a mask
+    std::vector<uint32_t> masks_;
+    std::vector<uint32_t> hiddenParts_; ///< by slot: how many
+    uint32_t hidingSlots_ = 0;
+};
+
+/// The parts as the surfaces of a group draw them. Groups that share instances have patches of their own.
+class DrawnParts {
+public:
+    DrawnParts() = default;
+    /// `patches`: of every part.
+    explicit DrawnParts(std::vector<PartPatches> patches);
+
+    [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(patches_.size()); }
     /// The parts, those with the most patches first. If lists of instances follow each other in this order, the k-th is
     /// drawn with at most 1/k of an instance's patches. So an entry's number times the patches that are drawn with it
     /// stays below three times all patches of all instances, which fits 32 bits.
     [[nodiscard]] std::span<const uint32_t> order() const { return order_; }
 
     // As the device reads them: per slot the number of hidden patches at levels, then a bit per part.
-    [[nodiscard]] static uint32_t wordsOf(size_t parts) { return 1 + static_cast<uint32_t>((parts + 31) / 32); }
-    [[nodiscard]] std::span<const uint32_t> words(uint32_t slots) const {
-        return std::span(words_).first(size_t{slots} * stride_);
-    }
+    [[nodiscard]] static uint32_t wordsOf(size_t parts) { return 1 + HiddenParts::maskWords(parts); }
+    /// Writes the first `slots` slots; the bytes.
+    size_t write(const HiddenParts& hidden, uint32_t slots, std::byte* target) const;
 
 private:
-    [[nodiscard]] const uint32_t* mask(uint32_t slot) const { return &words_[size_t{slot} * stride_ + 1]; }
-
     std::vector<PartPatches> patches_;
     std::vector<uint32_t> order_;
-    uint32_t stride_ = 1; ///< words of a slot
-    std::vector<uint32_t> words_;
-    std::vector<uint32_t> hiddenParts_; ///< by slot: how many
-    uint32_t hidingSlots_ = 0;
 };
 
 } // namespace supple::runtime

@@ -4,13 +4,13 @@
 
 namespace supple::runtime {
 
-InstanceListing::InstanceListing(InstanceWindows windows, size_t listsParts)
-    : windows_(std::move(windows)), partCount_(listsParts), lives_(windows_.capacity, 0) {
-    windows_.parts.resize(listsParts * windows_.drawCount());
+InstanceListing::InstanceListing(InstanceWindows windows, const DrawnParts* parts)
+    : windows_(std::move(windows)), parts_(parts), lives_(windows_.capacity, 0) {
+    windows_.parts.resize(size_t{partCount()} * windows_.drawCount());
 }
 
 void InstanceListing::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t framesInFlight) {
-    const VkDeviceSize bytes = passBytes() + partCount_ * windows_.capacity * sizeof(uint32_t);
+    const VkDeviceSize bytes = passBytes() + VkDeviceSize{partCount()} * windows_.capacity * sizeof(uint32_t);
     list_ = device.add({"supple instances", bytes,
                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
@@ -56,7 +56,7 @@ void InstanceListing::list(const InstanceSlots& slots, std::span<uint32_t> byWin
 }
 
 void InstanceListing::listDrawn(const InstanceSlots& slots, const Lists& lists) {
-    const auto parts = static_cast<uint32_t>(partCount_);
+    const uint32_t parts = partCount();
     windows_.allEntries = 0;
     for (uint32_t w = 0; w < windows_.drawCount(); ++w) {
         const uint32_t first = windows_.firstDrawnSlot(w), last = std::min(first + windows_.drawSize, slots.end());
@@ -72,7 +72,7 @@ void InstanceListing::listDrawn(const InstanceSlots& slots, const Lists& lists) 
     if (parts == 0 || !slots.hiddenParts().any()) {
         return;
     }
-    for (const uint32_t part : slots.hiddenParts().order()) {
+    for (const uint32_t part : parts_->order()) {
         if (!slots.isHidden(part)) {
             continue;
         }

@@ -16,8 +16,9 @@ namespace supple::runtime {
 class InstanceListing {
 public:
     InstanceListing() = default;
-    /// `listsParts`: of so many parts the host lists the instances that show them; 0: it lists none.
-    InstanceListing(InstanceWindows windows, size_t listsParts);
+    /// `parts`: those of which the host lists the instances that show them. They must outlive this. Null: it lists
+    /// none.
+    InstanceListing(InstanceWindows windows, const DrawnParts* parts);
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t framesInFlight);
 
     [[nodiscard]] const InstanceWindows& windows() const { return windows_; }
@@ -55,6 +56,8 @@ public:
     VkDeviceSize recordCopies(const gpu::Device& device, VkCommandBuffer commandBuffer) const;
 
 private:
+    /// Of those that the host lists.
+    [[nodiscard]] uint32_t partCount() const { return parts_ != nullptr ? parts_->count() : 0; }
     /// The visible slots of a draw window that show the part, rising; how many.
     [[nodiscard]] uint32_t listPart(const InstanceSlots& slots, uint32_t part, uint32_t window,
                                     std::span<uint32_t> out) const;
@@ -63,7 +66,7 @@ private:
     }
 
     InstanceWindows windows_;
-    size_t partCount_ = 0;        ///< of those that the host lists
+    const DrawnParts* parts_ = nullptr;
     std::vector<uint32_t> lives_; ///< by slot: InstanceSlots::life of what was evaluated last; 0: nothing
     uint64_t listedVersion_ = 0;
     bool settles_ = true; ///< the next list differs though nothing changes

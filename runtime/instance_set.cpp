@@ -28,7 +28,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     if (!status) {
         return status.error();
     }
-    set->slots_ = InstanceSlots(desc.capacity, desc.firstGeneration, desc.partPatches);
+    set->slots_ = InstanceSlots(desc.capacity, desc.firstGeneration, static_cast<uint32_t>(desc.asset->parts.size()));
     set->userData_ = UserData(desc.capacity);
     return set;
 }
@@ -48,8 +48,8 @@ Status InstanceSet::makeBuffers(bool windowed) {
                                           VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     layout_ = poseLayoutOf(*desc_.asset, desc_.mode, windowed ? kPosePadding : 1);
-    poses_ = makePoseSource(desc_.source,
-                            {desc_.device, desc_.pose, desc_.asset, layout_, desc_.capacity, desc_.framesInFlight});
+    poses_ = makePoseSource(
+        desc_.source, {desc_.device, desc_.pose, desc_.asset.get(), layout_, desc_.capacity, desc_.framesInFlight});
     const VkDeviceSize n = desc_.capacity;
     const bool deforms = desc_.source != SUPPLE_POSES_CAGE_BUFFER;
     gpu::BufferPlan device(buffers_), staging(staging_);
@@ -110,7 +110,7 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
 }
 
 PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin) {
-    poses_->setOrigin(origin);
+    poses_->setOrigin(origin, slots_.end());
     PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_.end());
     const VkDeviceSize data = userData_.recordUpload(*desc_.device, commandBuffer, desc_.handsOver, slots_.end());
     dataFrame_ = data > 0 ? frame : dataFrame_;

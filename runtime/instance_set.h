@@ -22,14 +22,13 @@ public:
         const gpu::Device* device = nullptr;
         skinning::DeformPass* deform = nullptr;
         skinning::PosePass* pose = nullptr; ///< null unless instances play on the device
-        Asset* asset = nullptr;             ///< must outlive the set
+        std::shared_ptr<Asset> asset;
         SupplePoseSource source = SUPPLE_POSES_SET;
         skinning::SkinningMode mode = skinning::SkinningMode::linear;
         uint32_t capacity = 0;
         uint32_t firstGeneration = 1;
         uint32_t framesInFlight = 2;
-        bool handsOver = false;               ///< to another queue family: user data is written anew in every frame
-        std::vector<PartPatches> partPatches; ///< of every part
+        bool handsOver = false; ///< to another queue family: user data is written anew in every frame
     };
     /// Prepares the pipelines.
     [[nodiscard]] static Result<std::shared_ptr<InstanceSet>> create(const Desc& desc);

@@ -6,8 +6,8 @@
 
 namespace supple::runtime {
 
-InstanceSlots::InstanceSlots(uint32_t capacity, uint32_t firstGeneration, std::vector<PartPatches> partPatches)
-    : slots_(capacity), hidden_(capacity, std::move(partPatches)) {
+InstanceSlots::InstanceSlots(uint32_t capacity, uint32_t firstGeneration, uint32_t partCount)
+    : slots_(capacity), hidden_(capacity, partCount) {
     for (Slot& slot : slots_) {
         slot.generation = firstGeneration;
     }
@@ -48,8 +48,7 @@ void InstanceSlots::takeOver(const InstanceSlots& other, std::span<const uint32_
     for (uint32_t s = 0; s < std::min(capacity(), other.capacity()); ++s) {
         slots_[s] = other.slots_[s];
         ++slots_[s].life;
-        const auto count = static_cast<uint32_t>(hidden_.order().size());
-        for (uint32_t part = 0; part < count && other.hidden_.hidesAny(s); ++part) {
+        for (uint32_t part = 0; part < hidden_.partCount() && other.hidden_.hidesAny(s); ++part) {
             const uint32_t before = parts.empty() ? part : parts[part];
             if (before != cage::kNone && other.hidden_.hides(s, before)) {
                 hidden_.set(s, part, true);

@@ -14,8 +14,8 @@ namespace supple::runtime {
 class InstanceSlots {
 public:
     InstanceSlots() = default;
-    /// Generations begin at `firstGeneration` (not 0). `partPatches`: how many patches every part has.
-    InstanceSlots(uint32_t capacity, uint32_t firstGeneration, std::vector<PartPatches> partPatches = {});
+    /// Generations begin at `firstGeneration` (not 0).
+    InstanceSlots(uint32_t capacity, uint32_t firstGeneration, uint32_t partCount);
 
     /// The lowest free slot, now taken and visible with all parts; nothing when all are.
     [[nodiscard]] std::optional<uint32_t> create();

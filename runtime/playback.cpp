@@ -247,10 +247,10 @@ void Playback::setPosition(uint32_t slot, const glm::dvec3& position) {
     place(slot);
 }
 
-void Playback::setOrigin(const glm::dvec3& origin) {
+void Playback::setOrigin(const glm::dvec3& origin, uint32_t end) {
     if (origin_ != origin) {
         origin_ = origin;
-        for (uint32_t slot = 0; slot < capacity_; ++slot) {
+        for (uint32_t slot = 0; slot < end; ++slot) {
             place(slot);
         }
     }
@@ -262,9 +262,8 @@ void Playback::setMorphWeights(uint32_t slot, const float* weights) {
 }
 
 void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs) {
-    const size_t values = size_t{push_.maskStride} * 4;
     skinning::writeMask(asset_->clipTable, asset_->rig, joints, morphs,
-                        std::span(masks_).subspan((mask - 1) * values, values));
+                        std::span(masks_).subspan((mask - 1) * maskFloats(), maskFloats()));
     const std::span<float> own = std::span(jointMasks_).subspan(size_t{mask - 1} * push_.jointCount, push_.jointCount);
     if (joints.empty()) {
         std::ranges::fill(own, 1.0f);
@@ -272,7 +271,7 @@ void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<c
         std::ranges::copy(joints, own.begin());
     }
     evaluated_.slot = kNoSlot;
-    masksSet_[mask - 1] = true;
+    masksSet_[mask - 1] = joints.empty() ? MaskKind::morphs : MaskKind::joints;
     masksChanged_ = true;
 }
 
@@ -282,7 +281,8 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
         std::vector<float> moved(push_.morphCount);
         for (uint32_t t = 0; t < push_.morphCount; ++t) {
             const uint32_t from = match.targets[t];
-            moved[t] = from != cage::kNone ? weights[from] : asset_->character.morphs.weights[t];
+            // Targets that moved nothing there had no weights.
+            moved[t] = from < other.push_.morphCount ? weights[from] : asset_->character.morphs.weights[t];
         }
         setMorphWeights(slot, moved.data());
     }
@@ -291,15 +291,15 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
     }
     skinning::PlaybackState::Layers memory, kept;
     skinning::PlaybackDesc desc = before.read(other.asset_->clipTable, memory);
+    if (!desc.layers.empty() && match.clips[desc.layers.front().clip] == cage::kNone) {
+        desc.travels = false; // it was the first layer's movement
+    }
     size_t count = 0;
     for (skinning::PlaybackLayer layer : desc.layers) {
         layer.clip = match.clips[layer.clip];
         if (layer.clip != cage::kNone) {
             kept[count++] = layer;
         }
-    }
-    if (count == 0) {
-        return;
     }
     desc.layers = std::span(kept).first(count);
     if (desc.root.node != cage::kNone) {
@@ -309,16 +309,24 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
 }
 
 void Playback::takeOverMasks(const Playback& other, const AssetMatch& match) {
-    std::vector<float> joints(push_.jointCount);
+    std::vector<float> joints(push_.jointCount), morphs(asset_->clipTable.targetCount);
     for (uint32_t mask = 1; mask <= kMaxMasks; ++mask) {
-        if (!other.hasMask(mask)) {
+        const MaskKind kind = other.masksSet_[mask - 1];
+        if (kind == MaskKind::none) {
             continue;
         }
         for (uint32_t j = 0; j < joints.size(); ++j) {
             const size_t from = size_t{mask - 1} * other.push_.jointCount + match.joints[j];
             joints[j] = match.joints[j] != cage::kNone ? other.jointMasks_[from] : 1.0f;
         }
-        setMask(mask, joints, {});
+        const std::span<const float> values =
+            std::span(other.masks_).subspan((mask - 1) * other.maskFloats(), other.maskFloats());
+        const std::span<const float> before = skinning::morphMaskOf(other.asset_->clipTable, values);
+        for (uint32_t t = 0; t < morphs.size(); ++t) {
+            const float unnamed = kind == MaskKind::joints ? 0.0f : 1.0f;
+            morphs[t] = match.targets[t] != cage::kNone ? before[match.targets[t]] : unnamed;
+        }
+        setMask(mask, kind == MaskKind::joints ? std::span<const float>(joints) : std::span<const float>(), morphs);
     }
 }
 

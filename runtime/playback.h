@@ -45,22 +45,23 @@ public:
     void set(uint32_t slot, const skinning::PlaybackDesc& desc);
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setPosition(uint32_t slot, const glm::dvec3& position);
-    /// Where the coordinates of the device begin. A change places all instances anew.
-    void setOrigin(const glm::dvec3& origin);
+    /// Where the coordinates of the device begin. A change places the instances of the slots below `end` anew; others
+    /// must begin with reset().
+    void setOrigin(const glm::dvec3& origin, uint32_t end);
     void setMorphWeights(uint32_t slot, const float* weights); ///< null: the clips' own again
     void setTime(double seconds);
 
     /// Masks are numbered from 1; a layer's mask must have been set.
     void setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs);
-    [[nodiscard]] bool hasMask(uint32_t mask) const { return masksSet_[mask - 1]; }
+    [[nodiscard]] bool hasMask(uint32_t mask) const { return masksSet_[mask - 1] != MaskKind::none; }
 
     /// Where the joint is at the group's time, computed on the CPU. The joints of the slot that was asked for last are
     /// kept until what plays, the time or a mask changes.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint);
 
     /// Takes over the time, the masks and the first `count` instances, of the same asset or of another version of it.
-    /// Layers whose clip the other version lacks are left out; without layers an instance is in the bind pose. Masks
-    /// of another version keep their joints; their morph targets all count.
+    /// Layers whose clip the other version lacks are left out. Joints and morph targets that it lacks have in a mask
+    /// what they would have if the mask did not name them.
     void takeOver(Playback& other, uint32_t count, const AssetMatch& match);
 
     /// What has changed since it was recorded last; the bytes of it.
@@ -91,6 +92,7 @@ private:
     void place(uint32_t slot);
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
     void takeOverMasks(const Playback& other, const AssetMatch& match);
+    [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
     void markChanged(uint32_t slot);
     void evaluate(uint32_t slot); ///< into evaluated_
     void forget(uint32_t slot);   ///< what plays there has changed
@@ -110,7 +112,8 @@ private:
     // As it shall be on the device.
     std::vector<uint32_t> states_;
     std::vector<float> masks_;
-    std::array<bool, shared::kMaxMasks> masksSet_{};
+    enum class MaskKind : uint8_t { none, joints, morphs }; ///< joints: with or without morph targets
+    std::array<MaskKind, shared::kMaxMasks> masksSet_{};
 
     std::vector<float> jointMasks_; ///< one run a mask, one value a joint
 

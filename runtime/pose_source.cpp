@@ -14,7 +14,7 @@ public:
     void reset(uint32_t slot) override { poses_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { poses_.setTransform(slot, transform); }
     void setPosition(uint32_t slot, const glm::dvec3& position) override { poses_.setPosition(slot, position); }
-    void setOrigin(const glm::dvec3& origin) override { poses_.setOrigin(origin); }
+    void setOrigin(const glm::dvec3& origin, uint32_t) override { poses_.setOrigin(origin); }
     void setMorphWeights(uint32_t slot, const float* weights) override { poses_.setMorphWeights(slot, weights); }
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
         return poses_.jointTransform(slot, joint);
@@ -60,7 +60,7 @@ public:
     void reset(uint32_t slot) override { playback_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { playback_.setTransform(slot, transform); }
     void setPosition(uint32_t slot, const glm::dvec3& position) override { playback_.setPosition(slot, position); }
-    void setOrigin(const glm::dvec3& origin) override { playback_.setOrigin(origin); }
+    void setOrigin(const glm::dvec3& origin, uint32_t end) override { playback_.setOrigin(origin, end); }
     void setMorphWeights(uint32_t slot, const float* weights) override { playback_.setMorphWeights(slot, weights); }
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
         return playback_.jointTransform(slot, joint);

@@ -25,8 +25,9 @@ public:
     virtual void reset(uint32_t /*slot*/) {} ///< a new instance: bind pose, identity transform
     virtual void setTransform(uint32_t /*slot*/, const glm::mat4& /*transform*/) {}
     virtual void setPosition(uint32_t /*slot*/, const glm::dvec3& /*position*/) {}
-    /// Where the coordinates of the device begin, for the next recording and for jointTransform().
-    virtual void setOrigin(const glm::dvec3& /*origin*/) {}
+    /// Where the coordinates of the device begin, for the next recording and for jointTransform(). `end`: slots below
+    /// it may be in use.
+    virtual void setOrigin(const glm::dvec3& /*origin*/, uint32_t /*end*/) {}
     virtual void setMorphWeights(uint32_t /*slot*/, const float* /*weights*/) {} ///< null: the pose's own again
     /// Where a joint is, as the next recording poses and places the instance.
     [[nodiscard]] virtual glm::mat4 jointTransform(uint32_t /*slot*/, uint32_t /*joint*/) { return glm::mat4(1.0f); }

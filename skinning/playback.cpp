@@ -24,6 +24,11 @@ double beginOf(const cage::Character& character, const PlaybackLayer& layer) {
     return layer.loop ? loopTime(layer.offset, character.clips[layer.clip].duration).time : layer.offset;
 }
 
+/// Where the morph targets begin in a run of the masks.
+size_t firstTarget(const ClipTable& table) {
+    return (table.nodes.size() + 3) / 4 * 4;
+}
+
 } // namespace
 
 uint32_t PlaybackState::elements(uint32_t morphCount) {
@@ -163,6 +168,10 @@ PlaybackDesc PlaybackState::read(const ClipTable& table, Layers& layers) const {
     return desc;
 }
 
+std::span<const float> morphMaskOf(const ClipTable& table, std::span<const float> values) {
+    return values.subspan(firstTarget(table), table.targetCount);
+}
+
 uint32_t maskElements(const ClipTable& table) {
     return static_cast<uint32_t>((table.nodes.size() + 3) / 4 + (table.targetCount + 3) / 4);
 }
@@ -173,7 +182,7 @@ void writeMask(const ClipTable& table, const Rig& rig, std::span<const float> jo
         const uint32_t joint = rig.maskJoints[table.nodes[place]];
         values[place] = jointMask.empty() || joint == cage::kNone ? 1.0f : jointMask[joint];
     }
-    const std::span<float> targets = values.subspan((table.nodes.size() + 3) / 4 * 4);
+    const std::span<float> targets = values.subspan(firstTarget(table));
     for (size_t target = 0; target < table.targetCount; ++target) {
         targets[target] = !morphMask.empty() ? morphMask[target] : jointMask.empty() ? 1.0f : 0.0f;
     }

@@ -73,5 +73,7 @@ private:
 [[nodiscard]] uint32_t maskElements(const ClipTable& table);
 void writeMask(const ClipTable& table, const Rig& rig, std::span<const float> jointMask,
                std::span<const float> morphMask, std::span<float> values);
+/// The morph targets' values within a run of the masks.
+[[nodiscard]] std::span<const float> morphMaskOf(const ClipTable& table, std::span<const float> values);
 
 } // namespace supple::skinning

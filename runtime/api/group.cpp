@@ -109,7 +109,8 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
             return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");
         }
         if (desc.view.id != 0 && (desc.flags & ~uint32_t{SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS}) != 0) {
-            return refuse(context, ErrorCode::argument, kHere, "a group of a view has the view's flags");
+            return refuse(context, ErrorCode::argument, kHere,
+                          "a group of a view takes the flags ONE_LEVEL and BOUNDS alone: the view has the others");
         }
         if (const auto fault = checkPartSchemes(context, desc)) {
             return *fault;

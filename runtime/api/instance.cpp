@@ -55,7 +55,7 @@ SuppleResult suppleSetPartVisible(SuppleContext handle, SuppleInstance instance,
         if (visible > 1) {
             return refuse(context, found, ErrorCode::range, kHere, "visible must be 0 or 1");
         }
-        if (visible == 0 && found.drawsByRanges() && !context.hidesInDraws()) {
+        if (visible == 0 && !context.hidesInDraws() && context.drawsByRanges(found.instances())) {
             return refuse(context, found, ErrorCode::disabled, kHere,
                           "the device was created without the feature drawIndirectFirstInstance");
         }

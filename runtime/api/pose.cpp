@@ -82,7 +82,7 @@ SuppleResult suppleGetJointTransform(SuppleContext handle, SuppleInstance instan
             return refuse(context, found, ErrorCode::range, kHere,
                           "joint " + std::to_string(joint) + " of " + std::to_string(joints));
         }
-        found.poses().setOrigin(context.origin());
+        found.poses().setOrigin(context.origin(), found.slots().end());
         const glm::mat4 transform = found.poses().jointTransform(instance.slot, joint);
         std::memcpy(out, glm::value_ptr(transform), sizeof(transform));
         return SUPPLE_OK;

@@ -14,8 +14,15 @@ BoundsReadback::BoundsReadback(const gpu::Device& device, uint32_t capacity, uin
     }
 }
 
-void BoundsReadback::plan(gpu::BufferPlan& staging) {
-    buffer_ = staging.add({"supple bounds, read back", copyBytes_ * copies_.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+Status BoundsReadback::create() {
+    const gpu::BufferRequest request{"supple bounds, read back", copyBytes_ * copies_.size(),
+                                     VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    Result<gpu::BufferSet> buffer = gpu::BufferSet::create(*device_, {&request, 1}, gpu::MemoryKind::readback);
+    if (!buffer) {
+        return buffer.error();
+    }
+    buffer_ = std::move(*buffer);
+    return success();
 }
 
 void BoundsReadback::record(VkCommandBuffer commandBuffer, uint64_t frame, VkBuffer bounds,
@@ -28,7 +35,7 @@ void BoundsReadback::record(VkCommandBuffer commandBuffer, uint64_t frame, VkBuf
     }
     if (end > 0) {
         const VkBufferCopy region{0, next_ * copyBytes_, end * kBoundsBytes};
-        device_->vk.CmdCopyBuffer(commandBuffer, bounds, buffer_.buffer(), 1, &region);
+        device_->vk.CmdCopyBuffer(commandBuffer, bounds, buffer_.buffer(0), 1, &region);
     }
     next_ = (next_ + 1) % copies_.size();
 }
@@ -50,7 +57,7 @@ std::optional<BoundsReadback::Box> BoundsReadback::read(uint32_t slot, uint32_t 
     }
     const auto place = static_cast<VkDeviceSize>(newest - copies_.data());
     float corners[8];
-    std::memcpy(corners, buffer_.mapped() + place * copyBytes_ + slot * kBoundsBytes, sizeof(corners));
+    std::memcpy(corners, buffer_.mapped(0) + place * copyBytes_ + slot * kBoundsBytes, sizeof(corners));
     Box box;
     box.frame = newest->frame;
     std::copy_n(corners, 3, box.bounds.min);

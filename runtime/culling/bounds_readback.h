@@ -18,7 +18,8 @@ namespace supple::runtime {
 class BoundsReadback {
 public:
     BoundsReadback(const gpu::Device& device, uint32_t capacity, uint32_t framesInFlight);
-    void plan(gpu::BufferPlan& staging);
+    [[nodiscard]] Status create();
+    [[nodiscard]] gpu::MemoryUse memoryUse() const { return buffer_.use(); }
 
     /// Behind the bounds of the instances that are listed now, once they may be copied. `bounds`: by slot.
     void record(VkCommandBuffer commandBuffer, uint64_t frame, VkBuffer bounds, const InstanceSlots& slots);
@@ -39,7 +40,7 @@ private:
     };
     const gpu::Device* device_;
     VkDeviceSize copyBytes_;
-    gpu::PlannedBuffer buffer_;
+    gpu::BufferSet buffer_;
     std::vector<Copy> copies_;
     size_t next_ = 0; ///< the oldest
     uint64_t completedFrame_ = 0;

@@ -84,7 +84,8 @@ std::unique_ptr<Culling> Culling::create(const Desc& desc, std::span<const Needs
     culling->firstRate_ = desc.firstRate;
     culling->push_.vertexCount = desc.cageVertices;
     culling->push_.cageStride = desc.cageStride;
-    culling->parts_.resize(desc.parts);
+    culling->drawnParts_ = desc.parts;
+    culling->parts_.resize(desc.parts->count());
     for (const Needs& own : needs) {
         culling->add(own);
     }
@@ -104,7 +105,7 @@ void Culling::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
                         kStorage | kCopied | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
     table_ = device.add({"supple list table", tableBytes, kStorage | kCopied});
     tables_.plan(staging, "supple list table staging", tableBytes, framesInFlight_);
-    masks_.plan(staging, "supple parts staging", n * HiddenParts::wordsOf(parts_.size()) * kWordBytes, framesInFlight_);
+    masks_.plan(staging, "supple parts staging", n * DrawnParts::wordsOf(parts_.size()) * kWordBytes, framesInFlight_);
 }
 
 Status Culling::createSets(const Buffers& buffers) {
@@ -162,16 +163,11 @@ Status Culling::createSets(const Buffers& buffers) {
 void Culling::listParts(const InstanceSlots& slots) {
     const HiddenParts& hidden = slots.hiddenParts();
     hiddenParts_ = 0;
-    maskBytes_ = 0;
-    if (hidden.any()) {
-        const std::span<const std::byte> masks = std::as_bytes(hidden.words(slots.end()));
-        maskBytes_ = masks.size();
-        std::copy(masks.begin(), masks.end(), masks_.next());
-    }
+    maskBytes_ = hidden.any() ? drawnParts_->write(hidden, slots.end(), masks_.next()) : 0;
     for (size_t d = 0; d < draws_.size(); ++d) {
         draws_[d].rate &= (1u << kDrawListShift) - 1;
     }
-    for (const uint32_t part : hidden.order()) {
+    for (const uint32_t part : drawnParts_->order()) {
         if (draws_.empty() || !hidden.any() || !slots.isHidden(part)) {
             continue;
         }
@@ -293,7 +289,7 @@ PassCost Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const
     push.capacity = windows_->capacity;
     push.partCount = hiddenParts_;
     push.masks = firstMask(windows_->capacity);
-    push.maskWords = HiddenParts::wordsOf(parts_.size());
+    push.maskWords = DrawnParts::wordsOf(parts_.size());
     std::ranges::copy(rateVertices_, push.vertices);
     pass_->recordRates(commandBuffer, listSet_, push);
     return {0, 0, windows_->visible > 0};

@@ -42,7 +42,7 @@ public:
         uint32_t framesInFlight = 2;
         const InstanceWindows* windows = nullptr; ///< must outlive this, as all here
         uint32_t cageVertices = 0, cageStride = 0;
-        uint32_t parts = 1;     ///< of the asset
+        const DrawnParts* parts = nullptr;
         uint32_t firstRate = 0; ///< segments along an edge of the cage; each further rate has twice as many
     };
     /// `needs`: of every surface of the group.
@@ -66,11 +66,11 @@ public:
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override;
     void addTransfers(Transfers& transfers) const override;
 
-    /// Once, before anything else.
     /// Context::recordWarmUp.
     void recordWarmUp(VkCommandBuffer commandBuffer) const {
         pass_->recordWarmUp(commandBuffer, boundsSets_[0], listSet_);
     }
+    /// Once, before anything else.
     void recordClear(VkCommandBuffer commandBuffer) const;
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
     /// Behind the bounds, before sizes and list. `place`: of the frame among those in flight, whose descriptor set no
@@ -101,7 +101,7 @@ public:
     [[nodiscard]] static uint32_t firstMask(uint32_t capacity) { return 3 * capacity; }
     /// How many times `capacity` words lie before the arguments.
     [[nodiscard]] static uint32_t lists(uint32_t parts, uint32_t rates) {
-        return 3 + HiddenParts::wordsOf(parts) + rates * (2 + parts);
+        return 3 + DrawnParts::wordsOf(parts) + rates * (2 + parts);
     }
 
 private:
@@ -113,7 +113,7 @@ private:
     };
     void add(const Needs& needs);
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(arguments_.size()); }
-    [[nodiscard]] uint32_t partCount() const { return static_cast<uint32_t>(parts_.size()); }
+    [[nodiscard]] uint32_t partCount() const { return drawnParts_->count(); }
     void listParts(const InstanceSlots& slots);
     // Words of the list: all that are seen, those of every window, their levels; masks of parts; for every rate all,
     // those of every window, those that show a part; then the arguments, the counts of rates and their draws.
@@ -129,6 +129,7 @@ private:
     const BoundsPass* pass_ = nullptr;
     const OcclusionPass* occlusion_ = nullptr;
     const InstanceWindows* windows_ = nullptr;
+    const DrawnParts* drawnParts_ = nullptr;
     uint32_t framesInFlight_ = 2;
     shared::BoundsPush push_{};
     std::vector<ListWindow> listed_; ///< of the table written last

@@ -49,7 +49,7 @@ void OneRate::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
 }
 
 Status OneRate::cutDraws(InstanceWindows& windows, bool byWindows) {
-    const Status status = OwnVertices::cutDraws(windows, byWindows);
+    Status status = OwnVertices::cutDraws(windows, byWindows);
     drawWindows_ = windows.drawCount();
     return status;
 }

@@ -10,7 +10,7 @@ namespace supple::runtime {
 using namespace supple::shared;
 
 Status OwnVertices::setVertexCount(uint64_t vertices) {
-    const Status fits = checkVertices(vertices);
+    Status fits = checkVertices(vertices);
     if (!fits) {
         return fits;
     }

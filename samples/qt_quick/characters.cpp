@@ -106,28 +106,7 @@ void Characters::load(const QString& path) {
         must(asset_.clipInfo(i, clip), "suppleGetClipInfo");
         clips_ += QString::fromUtf8(clip.name);
     }
-    measure();
-}
-
-/// Supple's bounds are those of the bind pose, which may lie on its side or have other units. How the first joint comes
-/// from there to the rest pose sets it upright.
-void Characters::measure() {
-    const float* ends[] = {assetInfo_.boundsMin, assetInfo_.boundsMax};
-    QMatrix4x4 upright;
-    auto joint = supple::sized<SuppleJointInfo>();
-    if (assetInfo_.jointCount > 0) {
-        must(asset_.jointInfo(0, joint), "suppleGetJointInfo");
-        // Qt reads rows, Supple has columns.
-        upright =
-            QMatrix4x4(joint.restTransform).transposed() * QMatrix4x4(joint.bindTransform).transposed().inverted();
-    }
-    for (int i = 0; i < 8; ++i) {
-        const QVector3D corner = upright.map(QVector3D(ends[i & 1][0], ends[i >> 1 & 1][1], ends[i >> 2][2]));
-        for (int k = 0; k < 3; ++k) {
-            box_[0][k] = i == 0 ? corner[k] : std::min(box_[0][k], corner[k]);
-            box_[1][k] = i == 0 ? corner[k] : std::max(box_[1][k], corner[k]);
-        }
-    }
+    must(asset_.clipBounds(SUPPLE_REST_POSE, box_), "suppleGetClipBounds");
 }
 
 /// False if the scheme refuses the cage; what was shown before stays. The old group may go while frames still draw it.
@@ -166,7 +145,8 @@ bool Characters::makeGroup(SuppleScheme scheme, uint32_t rate) {
 void Characters::stand(uint32_t count) {
     while (instances_.size() > count)
         instances_.pop_back();
-    const QVector3D size = box_[1] - box_[0];
+    const QVector3D least(box_.min[0], box_.min[1], box_.min[2]), most(box_.max[0], box_.max[1], box_.max[2]);
+    const QVector3D size = most - least;
     const float scale = std::min(kHeight / std::max(size.y(), 1e-6f), kLength / std::max({size.x(), size.z(), 1e-6f}));
     while (instances_.size() < count) {
         const QVector3D at = place(static_cast<uint32_t>(instances_.size()));
@@ -176,7 +156,7 @@ void Characters::stand(uint32_t count) {
         transform.translate(at);
         transform.rotate(16.0f * variant, 0.0f, 1.0f, 0.0f);
         transform.scale(scale * (1.0f - 0.08f * variant));
-        transform.translate(-0.5f * (box_[0].x() + box_[1].x()), -box_[0].y(), -0.5f * (box_[0].z() + box_[1].z()));
+        transform.translate(-0.5f * (least.x() + most.x()), -least.y(), -0.5f * (least.z() + most.z()));
         supple::Instance& instance = instances_.emplace_back();
         must(supple::Instance::create(group_, instance), "suppleCreateInstance");
         must(instance.setTransform(supple::MatrixSpan<const float>(transform.constData())), "suppleSetTransform");

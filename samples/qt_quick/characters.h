@@ -45,7 +45,6 @@ public:
 
 private:
     void load(const QString& path);
-    void measure();
     bool makeGroup(SuppleScheme scheme, uint32_t rate);
     void stand(uint32_t count);
     static void onLog(SuppleSeverity severity, SuppleMessage message, const char* text, void* user);
@@ -56,7 +55,7 @@ private:
     supple::Context context_;
     supple::Asset asset_;
     SuppleAssetInfo assetInfo_{};
-    std::array<QVector3D, 2> box_; ///< of one, as the file has it, in the rest pose
+    SuppleBounds box_{}; ///< a character's, in the rest pose
     QStringList clips_;
     supple::Group group_;
     SuppleGroupInfo info_{};

@@ -1,6 +1,7 @@
 #include "tests/gpu/fake_vulkan.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace supple::gpu::test {
@@ -11,7 +12,7 @@ FakeVulkan* fake = nullptr; // the one there is
 template <class T>
 T newHandle() {
     static uintptr_t last = 0;
-    return reinterpret_cast<T>(++last);
+    return std::bit_cast<T>(++last);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice, const VkBufferCreateInfo* info, const VkAllocationCallbacks*,

@@ -3,6 +3,7 @@
 #include "tests/gpu/fake_vulkan.h"
 
 #include <array>
+#include <bit>
 #include <gtest/gtest.h>
 #include <set>
 #include <vector>
@@ -90,7 +91,7 @@ struct HostAllocator {
         device.memorySource.free = [this](const HostMemory&) { ++frees; };
     }
     std::array<std::byte, 256> bytes{};
-    VkDeviceMemory piece = reinterpret_cast<VkDeviceMemory>(uintptr_t{77});
+    VkDeviceMemory piece = std::bit_cast<VkDeviceMemory>(uintptr_t{77});
     std::byte* mapped = bytes.data();
     int allocations = 0;
     int frees = 0;
@@ -180,7 +181,7 @@ TEST(TexelViews, SeeNoMoreThanTheDeviceReads) {
     vulkan.device.limits.maxTexelBufferElements = 100;
     TexelViews views;
     Status status = success();
-    const auto buffer = reinterpret_cast<VkBuffer>(uintptr_t{1});
+    const auto buffer = std::bit_cast<VkBuffer>(uintptr_t{1});
     const VkBufferView whole = views.make(vulkan.device, buffer, VK_FORMAT_R32_UINT, 0, 80, "a", status);
     EXPECT_EQ(vulkan.views.at(whole).range, 80u);
     const VkBufferView cut = views.make(vulkan.device, buffer, VK_FORMAT_R32G32B32A32_SFLOAT, 64, 5000, "b", status);

@@ -4,6 +4,7 @@
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
 
+#include <bit>
 #include <cstdlib>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
@@ -212,8 +213,8 @@ private:
         out.memory = block->memory;
         out.offset = offset;
         // Where it need not be mapped, what stands there is ignored.
-        out.mapped = mustMap ? block->mapped + offset : reinterpret_cast<void*>(uintptr_t{0x10});
-        out.allocation = reinterpret_cast<void*>(++lastPiece_);
+        out.mapped = mustMap ? block->mapped + offset : std::bit_cast<std::byte*>(uintptr_t{0x10});
+        out.allocation = std::bit_cast<void*>(++lastPiece_);
         if (mustMap && static_cast<int64_t>(visible++) == unmappedAt) {
             out.mapped = nullptr;
         }

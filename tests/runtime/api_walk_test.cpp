@@ -6,6 +6,7 @@
 #include "tests/support/not_finite.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <deque>
@@ -215,7 +216,7 @@ public:
     [[nodiscard]] static SuppleDepthPyramidDesc pyramidDesc() {
         SuppleDepthPyramidDesc desc{};
         desc.structSize = sizeof(desc);
-        desc.imageView = reinterpret_cast<VkImageView>(uintptr_t{8});
+        desc.imageView = std::bit_cast<VkImageView>(uintptr_t{8});
         desc.layout = VK_IMAGE_LAYOUT_GENERAL;
         desc.width = 640;
         desc.height = 360;
@@ -1400,8 +1401,8 @@ void poses(Rows& r) {
         d.flags = SUPPLE_POSE_ROOT_JOINT;
         d.rootJoint = kJoints;
     });
-    const auto layer = [&](const char* what, int message, std::function<void(Layer&)> spoil) {
-        pose(what, message, {}, std::move(spoil));
+    const auto layer = [&](const char* what, int message, const std::function<void(Layer&)>& spoil) {
+        pose(what, message, {}, spoil);
     };
     static const float kOutside[] = {0.5f, 0.5f, 1.5f, 0.5f, 0.5f}, kNans[] = {0.5f, 0.5f, kNan, 0.5f, 0.5f},
                        kHalf[] = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
@@ -1482,8 +1483,8 @@ void playback(Rows& r) {
         d.rootJoint = kJoints;
     });
     spoiled("travel by nothing", kConflict, [](Desc& d) { d.flags = SUPPLE_PLAYBACK_TRAVEL; });
-    const auto layer = [&](const char* what, int message, std::function<void(Layer&)> spoil) {
-        spoiled(what, message, {}, std::move(spoil));
+    const auto layer = [&](const char* what, int message, const std::function<void(Layer&)>& spoil) {
+        spoiled(what, message, {}, spoil);
     };
     layer("clip", kRange, [](Layer& l) { l.clip = kClips; });
     layer("bind pose for a clip", kRange, [](Layer& l) { l.clip = SUPPLE_BIND_POSE; });

@@ -40,6 +40,10 @@ TEST(CppLayer, OwnsWhatItMakes) {
         SuppleAssetInfo info;
         ASSERT_EQ(asset.info(info), SUPPLE_OK);
         EXPECT_EQ(info.faceCount, 6u);
+        SupplePartInfo part;
+        ASSERT_EQ(asset.partInfo(0, part), SUPPLE_OK);
+        EXPECT_EQ(part.faceCount, 6u);
+        EXPECT_EQ(asset.partInfo(1, part), SUPPLE_ERROR_ARGUMENT);
         auto groupDesc = supple::sized<SuppleGroupDesc>();
         groupDesc.asset = asset.handle();
         groupDesc.capacity = 1;
@@ -47,6 +51,17 @@ TEST(CppLayer, OwnsWhatItMakes) {
         groupDesc.poseSource = SUPPLE_POSES_PLAYBACK;
         ASSERT_EQ(supple::Group::create(context, groupDesc, players), SUPPLE_OK);
     } // the group keeps what it needs of the asset
+
+    std::vector<SupplePatchInfo> patches(99);
+    EXPECT_EQ(group.patches(patches), SUPPLE_OK);
+    EXPECT_EQ(patches.size(), 6u);
+    std::vector<VkBufferMemoryBarrier2> barriers;
+    EXPECT_EQ(context.acquireBarriers({}, {}, barriers), SUPPLE_ERROR_ARGUMENT) << "one queue family";
+    EXPECT_EQ(context.setBudget("evaluate", 1e6), SUPPLE_OK);
+    SuppleBudget budget;
+    EXPECT_EQ(context.budget("evaluate", budget), SUPPLE_OK);
+    EXPECT_EQ(budget.limit, 1e6);
+    EXPECT_EQ(context.setMemoryBudget(VkDeviceSize{1} << 30), SUPPLE_OK);
 
     std::array<float, 16> identity{};
     identity[0] = identity[5] = identity[10] = identity[15] = 1.0f;

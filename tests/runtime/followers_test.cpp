@@ -1,8 +1,10 @@
 // Groups that draw the instances of another group (SuppleGroupDesc.instancesOf): a second view, another scheme or rate.
+#include "cage/procedural.h"
 #include "tests/support/drawn_patches.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/side_by_side.h"
 #include "tests/support/test_view.h"
 
 #include <array>
@@ -115,6 +117,62 @@ TEST_F(Followers, DrawWhatGroupsOfTheirOwnDraw) {
             }
         }
     }
+}
+
+TEST_F(Followers, CountWhatTheyHideThemselves) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    const SuppleAsset asset = own.createAsset(sideBySide(cage::makeCubeSphere(3), "sphere", 3));
+    TestView view(own, 300000), viewAlone(own, 300000);
+    SuppleGroupDesc desc = followedDesc(asset, {});
+    desc.rate = 2;
+    Crowd leader(own, desc);
+    ASSERT_TRUE(leader.valid());
+    Crowd follower(own, followerDesc(leader, asset, SUPPLE_SCHEME_PM, view.handle()));
+    Crowd alone(own, followedDesc(asset, viewAlone.handle()));
+    ASSERT_TRUE(follower.valid() && alone.valid());
+    for (Crowd* crowd : {&leader, &alone}) {
+        const SuppleInstance instances[] = {crowd->spawn(), crowd->spawn()};
+        EXPECT_EQ(suppleSetPartVisible(own.handle(), instances[0], 1, 0), SUPPLE_OK);
+        EXPECT_EQ(suppleSetPartVisible(own.handle(), instances[1], 0, 0), SUPPLE_OK);
+        EXPECT_EQ(suppleSetPartVisible(own.handle(), instances[1], 2, 0), SUPPLE_OK);
+    }
+    for (TestView* const both : {&view, &viewAlone}) {
+        both->look({0, 1, 20});
+    }
+    const SuppleGroup groups[] = {leader.group(), follower.group(), alone.group()};
+    own.run(groups);
+    own.beginFrame(); // the frame is complete
+    const SuppleViewStatistics found = view.statistics(), expected = viewAlone.statistics();
+    EXPECT_EQ(expected.hiddenPatchCount, follower.output().surface.patchCount);
+    EXPECT_EQ(found.hiddenPatchCount, expected.hiddenPatchCount);
+    EXPECT_EQ(found.backFaceCount, expected.backFaceCount);
+    EXPECT_EQ(found.patchCount, expected.patchCount);
+}
+
+TEST_F(Followers, OutliveALeaderWhoseAssetIsReloaded) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    const SuppleAsset asset = own.createAsset(sideBySide(cage::makeCubeSphere(3), "sphere", 2));
+    Crowd leader(own, followedDesc(asset, {}));
+    ASSERT_TRUE(leader.valid());
+    Crowd follower(own, followerDesc(leader, asset, SUPPLE_SCHEME_PM, {}));
+    ASSERT_TRUE(follower.valid());
+    (void)leader.spawn();
+    const SuppleGroup groups[] = {leader.group(), follower.group()};
+    own.run(groups);
+    leader.end();
+    ASSERT_EQ(own.reloadAsset(asset, sideBySide(cage::makeCubeSphere(4), "sphere", 2)), SUPPLE_OK);
+    for (int frame = 0; frame < 4; ++frame) { // what was replaced is freed
+        own.run(std::span<const SuppleGroup>{});
+    }
+    SuppleGroupInfo info{};
+    info.structSize = sizeof info;
+    EXPECT_EQ(suppleGetGroupInfo(own.handle(), follower.group(), &info), SUPPLE_OK);
+    EXPECT_EQ(info.capacity, kFollowedCount);
+    (void)own.takeLines();
 }
 
 TEST_F(Followers, AreRecordedWithTheirLeader) {

@@ -380,6 +380,20 @@ TEST_F(HiddenPartsOnce, NeedFirstInstanceInIndirectCommands) {
     const SmallGroup levels = createGroup(own.handle(), asset, desc);
     ASSERT_EQ(levels.result, SUPPLE_OK);
     EXPECT_EQ(suppleSetPartVisible(own.handle(), levels.instances[0], 0, 0), SUPPLE_OK) << "its draws need nothing";
+
+    // Nor may a group draw these instances in grids while one hides a part.
+    SuppleGroupDesc follows{};
+    follows.structSize = sizeof follows;
+    follows.asset = asset;
+    follows.rate = 2;
+    follows.instancesOf = levels.group;
+    SuppleGroup follower{};
+    EXPECT_EQ(suppleCreateGroup(own.handle(), &follows, &follower), SUPPLE_ERROR_UNSUPPORTED);
+    EXPECT_EQ(suppleSetPartVisible(own.handle(), levels.instances[0], 0, 1), SUPPLE_OK);
+    EXPECT_EQ(suppleCreateGroup(own.handle(), &follows, &follower), SUPPLE_OK);
+    EXPECT_EQ(suppleSetPartVisible(own.handle(), levels.instances[0], 0, 0), SUPPLE_ERROR_UNSUPPORTED);
+    EXPECT_EQ(suppleDestroyGroup(own.handle(), follower), SUPPLE_OK);
+    EXPECT_EQ(suppleSetPartVisible(own.handle(), levels.instances[0], 0, 0), SUPPLE_OK);
 }
 
 } // namespace

@@ -476,7 +476,7 @@ TEST_P(LodRates, WithoutAVertexBudgetTheyAreNotCounted) {
     const auto run = [&](std::span<const SuppleGroup> groups) {
         view.look({0.0f, 0.0f, 3.0f});
         context.run(groups);
-        const std::vector<std::vector<uint32_t>> slots = slotsByRate(readBack(rates));
+        std::vector<std::vector<uint32_t>> slots = slotsByRate(readBack(rates));
         context.run(groups); // statistics come with the frame after
         return slots;
     };
@@ -568,7 +568,8 @@ TEST_P(LodRates, TheBudgetHolds) {
         ASSERT_TRUE(rates.valid() && levels.valid());
         for (int i = 0; i < 48; ++i) {
             const SuppleInstance instance = rates.spawn();
-            const glm::vec3 at(3.0f * static_cast<float>(i % 8) - 10.5f, 0.0f, -3.1f * static_cast<float>(i / 8));
+            const uint32_t row = i / 8;
+            const glm::vec3 at(3.0f * static_cast<float>(i % 8) - 10.5f, 0.0f, -3.1f * static_cast<float>(row));
             rates.pose(instance, SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
             EXPECT_EQ(suppleSetPriority(context.handle(), instance, i % 7 == 0 ? 1 : i == 9 ? 3 : 0), SUPPLE_OK);
         }

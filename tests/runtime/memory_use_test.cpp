@@ -208,6 +208,10 @@ TEST_F(MemoryUse, PurposesAreThoseOfTheBuffers) {
     EXPECT_GT(use.lists, 0u);
     EXPECT_GT(use.staging, 0u);
     EXPECT_EQ(use.readback, 0u);
+    desc.flags = SUPPLE_GROUP_BOUNDS;
+    const SmallGroup boxes = createGroup(context->handle(), tube, desc);
+    ASSERT_EQ(boxes.result, SUPPLE_OK);
+    EXPECT_GE(useOf(suppleGetGroupMemory, context->handle(), boxes.group).readback, desc.capacity * 32u);
     EXPECT_GT(useOf(suppleGetViewMemory, context->handle(), createView()).readback, 0u);
 }
 

@@ -337,6 +337,45 @@ void addOutputs(std::vector<Mistake>& rows) {
                     }});
 }
 
+/// What concerns several groups, or a group that is made anew.
+void addShared(std::vector<Mistake>& rows) {
+    static const auto follower = [](Scene& s, uint32_t capacity, SuppleGroup& group) {
+        auto desc = Scene::asking<SuppleGroupDesc>();
+        desc.asset = s.asset;
+        desc.scheme = SUPPLE_SCHEME_POLYGONS;
+        desc.capacity = capacity;
+        desc.instancesOf = s.cage.group;
+        return suppleCreateGroup(s.context(), &desc, &group);
+    };
+    rows.push_back({"a capacity for a group that follows another one", [](Scene& s) {
+                        SuppleGroup group{};
+                        return follower(s, 4, group);
+                    }});
+    rows.push_back({"an instance is created in a group that follows another one", [](Scene& s) {
+                        SuppleGroup group{};
+                        s.good(follower(s, 0, group));
+                        SuppleInstance instance{};
+                        return suppleCreateInstance(s.context(), group, &instance);
+                    }});
+    rows.push_back({"a group is recorded without the group that it follows", [](Scene& s) {
+                        SuppleGroup group{};
+                        s.good(follower(s, 0, group));
+                        s.good(s.begin(1, 0));
+                        return s.record(group);
+                    }});
+    rows.push_back({"the capacity shrinks below an instance's slot", [](Scene& s) {
+                        const SmallGroup two = s.group({.capacity = 2, .scheme = SUPPLE_SCHEME_CAGE});
+                        return suppleSetCapacity(s.context(), two.group, 1);
+                    }});
+    rows.push_back({"boxes of a group without `SUPPLE_GROUP_BOUNDS`", [](Scene& s) {
+                        SuppleBounds box{};
+                        uint64_t frame = 0;
+                        return suppleReadInstanceBounds(s.context(), s.instance(), &box, &frame);
+                    }});
+    rows.push_back({"`suppleRecordWarmUp` without a frame",
+                    [](Scene& s) { return suppleRecordWarmUp(s.context(), s.commands, &s.cage.group, 1); }});
+}
+
 /// A row of the table.
 std::string rowOf(const char* what, const Told& told) {
     std::string row = std::string("| ") + what + " | `" + suppleResultString(told.result) + "` | ";
@@ -375,6 +414,7 @@ TEST(Mistakes, AreAnsweredAsTheDocumentSays) {
     addInstances(mistakes);
     addFrames(mistakes);
     addOutputs(mistakes);
+    addShared(mistakes);
     for (const Mistake& mistake : mistakes) {
         SCOPED_TRACE(mistake.what);
         Commands commands(*device); // never submitted

@@ -7,8 +7,6 @@
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
 
-#include "cage/gltf/writer.h"
-
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <gtest/gtest.h>
@@ -193,17 +191,6 @@ TEST_F(Remake, CapacityThatThereIsNoMemoryForChangesNothing) {
     EXPECT_EQ(device->validationMessageCount(), 0u);
 }
 
-SuppleResult reload(CrowdContext& own, SuppleAsset asset, const cage::Character& character) {
-    const Result<cage::GlbFile> glb = cage::writeGlb(character);
-    EXPECT_TRUE(glb.ok());
-    SuppleAssetDesc desc{};
-    desc.structSize = sizeof desc;
-    desc.name = "tube";
-    desc.bytes = glb->bytes.data();
-    desc.byteCount = glb->bytes.size();
-    return suppleReloadAsset(own.handle(), asset, &desc);
-}
-
 TEST_P(RemakeOf, AssetIsReloadedInPlace) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
@@ -220,7 +207,7 @@ TEST_P(RemakeOf, AssetIsReloadedInPlace) {
         const DrawnPatches before = tubes.drawn();
 
         // The same file: the same character, whose instances are new.
-        ASSERT_EQ(reload(own, asset, tube()), SUPPLE_OK);
+        ASSERT_EQ(own.reloadAsset(asset, tube()), SUPPLE_OK);
         DrawnPatches same = tubes.drawn();
         same = tubes.drawn();
         EXPECT_TRUE(same == before);
@@ -228,7 +215,7 @@ TEST_P(RemakeOf, AssetIsReloadedInPlace) {
         // A file with more sides, a joint's node and the clips in another order: as if the group had begun with it.
         cage::Character other = tube(11);
         std::swap(other.clips[0], other.clips[1]);
-        ASSERT_EQ(reload(own, asset, other), SUPPLE_OK);
+        ASSERT_EQ(own.reloadAsset(asset, other), SUPPLE_OK);
         const SuppleAsset fresh = own.createAsset(other);
         Tubes wanted(own, GetParam(), fresh, 4);
         ASSERT_TRUE(wanted.crowd->valid());
@@ -260,6 +247,71 @@ TEST_P(RemakeOf, AssetIsReloadedInPlace) {
         ASSERT_EQ(suppleGetAssetInfo(own.handle(), asset, &info), SUPPLE_OK);
         EXPECT_EQ(info.cageVertexCount, other.cage.vertexCount());
     }
+}
+
+TEST_F(Remake, ReloadKeepsMasksAndPosesWithoutClips) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    // Both clips move the morph targets too; the first node is no longer where it was bound.
+    const auto moving = [](bool secondClip) {
+        cage::Character c = tube();
+        c.skeleton.nodes[1].translation.x = 0.4f;
+        for (cage::Clip& clip : c.clips) {
+            clip.channels.push_back(channel(0, cage::ChannelPath::weights, {0, 1}, {0.2f, 0.9f, 0.7f, 0.1f}));
+        }
+        c.clips.resize(secondClip ? 2 : 1);
+        return c;
+    };
+    const SuppleAsset asset = own.createAsset(moving(true));
+    SuppleGroupDesc desc{};
+    desc.asset = asset;
+    desc.capacity = 4;
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.rate = 2;
+    desc.poseSource = SUPPLE_POSES_PLAYBACK;
+    Crowd crowd(own, desc);
+    ASSERT_TRUE(crowd.valid());
+    const float morphs[] = {0.25f, 1.0f};
+    const float joints[] = {1.0f, 0.5f, 0.0f};
+    SuppleMaskDesc mask{};
+    mask.structSize = sizeof mask;
+    mask.mask = 1;
+    mask.morphMask = morphs;
+    mask.morphMaskCount = 2;
+    EXPECT_EQ(suppleSetMask(own.handle(), crowd.group(), &mask), SUPPLE_OK);
+    mask.mask = 2;
+    mask.jointMask = joints;
+    mask.jointMaskCount = 3;
+    EXPECT_EQ(suppleSetMask(own.handle(), crowd.group(), &mask), SUPPLE_OK);
+    for (uint32_t i = 0; i < 4; ++i) { // two masks, no layer, a layer whose clip will be gone
+        const SuppleInstance instance = crowd.spawn();
+        SupplePlaybackLayer layer{};
+        layer.clip = i == 3 ? 1 : 0;
+        layer.mask = i < 2 ? i + 1 : 0;
+        layer.weight = 1.0f;
+        layer.speed = 1.0f;
+        SupplePlaybackDesc plays{};
+        plays.structSize = sizeof plays;
+        plays.layers = &layer;
+        plays.layerCount = i == 2 ? 0 : 1;
+        EXPECT_EQ(suppleSetPlayback(own.handle(), instance, &plays), SUPPLE_OK);
+    }
+    EXPECT_EQ(suppleSetTime(own.handle(), crowd.group(), 0.6), SUPPLE_OK);
+    crowd.run();
+    std::vector<PositionBits> before;
+    for (uint32_t slot = 0; slot < 4; ++slot) {
+        before.push_back(crowd.positions(slot));
+    }
+    EXPECT_GT(differences(before[0], before[1]), 0u);
+    EXPECT_GT(differences(before[2], before[3]), 0u);
+    ASSERT_EQ(own.reloadAsset(asset, moving(false)), SUPPLE_OK);
+    crowd.run();
+    for (uint32_t slot = 0; slot < 4; ++slot) {
+        const PositionBits& expected = before[slot == 3 ? 2 : slot]; // without its layer it is in the rest pose
+        EXPECT_EQ(differences(crowd.positions(slot), expected), 0u) << "slot " << slot;
+    }
+    (void)own.takeLines();
 }
 
 TEST_F(Remake, AssetThatDoesNotLoadChangesNothing) {
@@ -299,14 +351,14 @@ TEST_F(Remake, AssetThatDoesNotLoadChangesNothing) {
     }
     triangles.morphs = {};
     triangles.parts[0].targetCount = 0;
-    EXPECT_EQ(reload(own, asset, triangles), SUPPLE_ERROR_ASSET);
+    EXPECT_EQ(own.reloadAsset(asset, triangles), SUPPLE_ERROR_ASSET);
     EXPECT_TRUE(tubes.drawn() == before);
     quads.run();
     EXPECT_TRUE(drawnPatches(quads) == quadsBefore);
 
     // Without the group that cannot take it, it goes.
     quads.end();
-    EXPECT_EQ(reload(own, asset, triangles), SUPPLE_OK);
+    EXPECT_EQ(own.reloadAsset(asset, triangles), SUPPLE_OK);
     EXPECT_FALSE(tubes.drawn().empty());
     (void)own.takeLines();
 }

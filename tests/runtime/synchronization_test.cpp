@@ -125,7 +125,7 @@ protected:
                             EXPECT_EQ(suppleRecord(context->handle(), commands, &desc), SUPPLE_OK);
                         })
                         .ok());
-        const std::vector<VkBufferMemoryBarrier2> acquired = acquires(*context, groups);
+        std::vector<VkBufferMemoryBarrier2> acquired = acquires(*context, groups);
         expectHalves(currentWrappedVulkan().bufferBarriers, acquired, device->queueFamily(), device->queueFamily(),
                      partly);
         EXPECT_TRUE(device

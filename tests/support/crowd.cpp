@@ -103,15 +103,31 @@ SuppleAsset CrowdContext::createAsset(const cage::Character& character) {
     return glb ? createAsset(glb->bytes, character.name.c_str()) : SuppleAsset{};
 }
 
-SuppleAsset CrowdContext::createAsset(std::span<const std::byte> glb, const char* name) {
+namespace {
+
+SuppleAssetDesc describe(std::span<const std::byte> glb, const char* name) {
     SuppleAssetDesc desc{};
     desc.structSize = sizeof(desc);
     desc.name = name;
     desc.bytes = glb.data();
     desc.byteCount = glb.size();
+    return desc;
+}
+
+} // namespace
+
+SuppleAsset CrowdContext::createAsset(std::span<const std::byte> glb, const char* name) {
+    const SuppleAssetDesc desc = describe(glb, name);
     SuppleAsset asset{};
     EXPECT_EQ(suppleCreateAsset(handle(), &desc, &asset), SUPPLE_OK);
     return asset;
+}
+
+SuppleResult CrowdContext::reloadAsset(SuppleAsset asset, const cage::Character& character) {
+    const Result<cage::GlbFile> glb = cage::writeGlb(character);
+    EXPECT_TRUE(glb.ok()) << glb.error().message;
+    const SuppleAssetDesc desc = describe(glb->bytes, character.name.c_str());
+    return suppleReloadAsset(handle(), asset, &desc);
 }
 
 SuppleResult CrowdContext::record(VkCommandBuffer commands, std::span<const SuppleGroup> groups) {

@@ -66,6 +66,7 @@ public:
     [[nodiscard]] SuppleAsset createAsset(const cage::Cage& cage);
     [[nodiscard]] SuppleAsset createAsset(const cage::Character& character);
     [[nodiscard]] SuppleAsset createAsset(std::span<const std::byte> glb, const char* name);
+    SuppleResult reloadAsset(SuppleAsset asset, const cage::Character& character);
 
     /// A frame from its beginning until it has run. `first` is what the host records ahead of Supple.
     void run(std::span<const SuppleGroup> groups, const std::function<void(VkCommandBuffer)>& first = {});

@@ -329,8 +329,8 @@ TEST(BenchReport, CrowdAndWorstShareAreShown) {
     const std::string text = toTables(result);
     for (const char* piece : {"## Crowd: the sphere of 1350 faces with 64 joints, 4 influences a vertex",
                               "| 1000       | pm, rate 4   |", "left out: man_casual_quads: not there", "not complete",
-                              "| crowd's evaluation / write bandwidth       | pm, rate 4, 1000 characters |  0.65 | "
-                              "at least 0.70 | 1 of 2 |"}) {
+                              ("| crowd's evaluation / write bandwidth       | pm, rate 4, 1000 characters |  0.65 | "
+                               "at least 0.70 | 1 of 2 |")}) {
         EXPECT_NE(text.find(piece), std::string::npos) << piece << "\n" << text;
     }
 }
@@ -426,7 +426,8 @@ std::vector<float> coefficients(size_t patches) {
     std::vector<float> result;
     for (size_t p = 0; p < patches; ++p) {
         for (int k = 0; k < 16; ++k) {
-            const float x = static_cast<float>(k % 4) + noise(random), y = static_cast<float>(k / 4) + noise(random);
+            const auto row = k / 4;
+            const float x = static_cast<float>(k % 4) + noise(random), y = static_cast<float>(row) + noise(random);
             result.insert(result.end(), {x, y, noise(random), 1.0f});
         }
     }

@@ -291,12 +291,13 @@ TEST_F(Cli, DamageIsRepairedOrRefusedByName) {
     for (const char* scheme : {"pm", "catmull-clark", "loop", "blend"}) {
         EXPECT_EQ(json["schemes"][scheme]["accepted"], true) << scheme;
     }
+    const std::string bothLines = "supple: fin.obj: " + twice + "\nsupple: fin.obj: " + edge + "\n";
     for (const char* command : {"inspect", "convert -o out.glb", "bake -o out.obj", "render -o out.png"}) {
         const std::string line = std::string(command) + " --strict fin.obj";
         const bool onDevice = line.starts_with("bake") || line.starts_with("render");
         const Outcome strict = onDevice ? runOnDevice(line) : run(line);
         EXPECT_EQ(strict.exitCode, 1) << command;
-        EXPECT_EQ(strict.err, "supple: fin.obj: " + twice + "\nsupple: fin.obj: " + edge + "\n") << command;
+        EXPECT_EQ(strict.err, bothLines) << command;
     }
     EXPECT_EQ(run("inspect cube.gltf --strict").exitCode, 0);
 }

@@ -237,7 +237,7 @@ Status Run::classical() {
             return measured.error();
         }
         result_["classical"].insert(result_["classical"].end(), measured->begin(), measured->end());
-        const Status kept = keep();
+        Status kept = keep();
         if (!kept) {
             return kept;
         }
@@ -307,7 +307,7 @@ Status Run::heats() {
                 return row.error();
             }
             result_["rows"].push_back(std::move(*row));
-            const Status kept = keep();
+            Status kept = keep();
             if (!kept) {
                 return kept;
             }

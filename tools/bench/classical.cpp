@@ -132,7 +132,7 @@ Status Race::makeGroups(uint32_t characters) {
     for (size_t w = 0; w < ways_.size();) {
         Way& way = ways_[w];
         way.group = std::make_unique<PlayingGroup>(device_, workbench_);
-        const Status status = way.group->create(groupOf(way, rate_, characters));
+        Status status = way.group->create(groupOf(way, rate_, characters));
         if (!status && way.scheme != SUPPLE_SCHEME_POLYGONS && status.error().code == ErrorCode::asset) {
             refused_.push_back({{"scheme", way.name}, {"reason", status.error().message}});
             ways_.erase(ways_.begin() + static_cast<ptrdiff_t>(w));
@@ -152,8 +152,8 @@ uint32_t Race::charactersThatFit() const {
     for (const Way& way : ways_) {
         bytes += way.group->staticBytes().group;
     }
-    return static_cast<uint32_t>(
-        std::clamp<VkDeviceSize>(deviceMemory(device_) / kCrowdShareOfMemory / bytes, 1, desc_.characters));
+    return static_cast<uint32_t>(std::clamp<VkDeviceSize>(
+        deviceMemory(device_) / kCrowdShareOfMemory / std::max<VkDeviceSize>(bytes, 1), 1, desc_.characters));
 }
 
 Status Race::addContestant(const std::string& name, const PlayingGroup& group, Passes passes) {

@@ -298,7 +298,7 @@ Status profile(Session& session, const ProfileOptions& options, const std::vecto
             std::fflush(stdout);
             runs.push_back(std::move(*run));
             if (!options.json.empty()) { // after every run: a later one's failure loses nothing
-                const Status kept = writeTextFile(options.json, dump(toJson(machine, runs), 2));
+                Status kept = writeTextFile(options.json, dump(toJson(machine, runs), 2));
                 if (!kept) {
                     return kept;
                 }

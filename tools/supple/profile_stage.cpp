@@ -120,7 +120,7 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     desc.scheme = schemeOf(scheme);
     desc.rate = options_.surface.rate;
     SchemeOptions schemeOptions;
-    if (const Status described = describeSurface(options_.surface, file.character, schemeOptions, desc); !described) {
+    if (Status described = describeSurface(options_.surface, file.character, schemeOptions, desc); !described) {
         return described;
     }
     desc.poseSource = options_.plays() ? SUPPLE_POSES_PLAYBACK : SUPPLE_POSES_SET;
@@ -146,7 +146,7 @@ Status ProfileStage::report(SuppleGroup group, ProfileRun& run) const {
     uint32_t patches = 0, count = 1;
     for (uint32_t surface = 0; surface < count; ++surface) {
         host::GroupOutput output{};
-        const Status status = check(host::getGroupOutput(handle(), group, output, surface), "suppleGetGroupInfo");
+        Status status = check(host::getGroupOutput(handle(), group, output, surface), "suppleGetGroupInfo");
         if (!status) {
             return status;
         }
@@ -210,7 +210,8 @@ Status ProfileStage::place() {
     for (size_t k = 0; k < subjects_.size(); ++k) {
         for (size_t i = 0; status && i < subjects_[k].instances.size(); ++i) {
             const size_t place = i * subjects_.size() + k; // kinds side by side
-            const auto column = static_cast<float>(place % side), row = static_cast<float>(place / side);
+            const size_t rowNumber = place / side;
+            const auto column = static_cast<float>(place % side), row = static_cast<float>(rowNumber);
             const glm::mat4 transform =
                 glm::translate(glm::mat4(1.0f), spacing_ * glm::vec3(column - middle, 0.0f, row - middle));
             status =

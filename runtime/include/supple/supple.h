@@ -44,7 +44,7 @@
  *     one suppleBeginFrame and the next. Functions that set and query instances may run at the same time for different
  *     groups. Once suppleRecordUploads has been recorded for the frame, suppleRecord may run at the same time for
  *     different groups, into different command buffers. The log callback must then expect calls from these threads at
- *     the same time.
+ *     the same time. A group and those that follow it (SuppleGroupDesc.instancesOf) are one group in this.
  *   - Different contexts are independent.
  *
  * Recording
@@ -172,7 +172,8 @@ typedef void (*SuppleLogFunction)(SuppleSeverity severity, SuppleMessage message
 /* ---------------------------------------------------------------------------------------------------- device */
 
 /** What a device must have. Feature structs have their sType set and a null pNext, so a host can chain them into
- * VkDeviceCreateInfo. Only what Supple needs is VK_TRUE. No device extensions are needed. */
+ * VkDeviceCreateInfo. Only what Supple needs is VK_TRUE; a host may set more of them for itself. No device extensions
+ * are needed. */
 typedef struct SuppleRequirements {
     uint32_t structSize;
     uint32_t apiVersion; /**< lowest VkPhysicalDeviceProperties::apiVersion */
@@ -217,7 +218,8 @@ typedef struct SuppleMemory {
 } SuppleMemory;
 
 /** Where device memory comes from. Supple calls these functions on the thread that called it: when contexts, assets,
- * groups and views are created or destroyed, and in suppleBeginFrame, but never while recording. */
+ * groups and views are created or destroyed, in suppleSetCapacity, suppleReloadAsset and suppleBeginFrame, but never
+ * while recording. */
 typedef struct SuppleMemoryCallbacks {
     /** Fills out and returns VK_SUCCESS, or returns an error of vkAllocateMemory. The memory is for buffers (linear).
      * Its type must be in requirements->memoryTypeBits and have all of `required` and, if possible, `preferred`.
@@ -226,8 +228,9 @@ typedef struct SuppleMemoryCallbacks {
      * and says whose memory it is:
      * - context: "supple parameter pairs"; on CPU devices "supple timings";
      * - asset: "supple skin tables", "supple vertices of a piece", "supple surface tables", "supple clip tables";
-     * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices"; of its
-     *   instances "supple poses", "supple user data staging", "supple playback", "supple playback staging";
+     * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices", "supple
+     *   bounds, read back"; of its instances "supple poses", "supple user data staging", "supple playback", "supple
+     * playback staging";
      * - view: "supple view", "supple view staging", "supple view statistics", "supple view, grid indices".
      *
      * The tables of an asset, parameter pairs and grid indices come twice under one name: the second piece is
@@ -335,7 +338,7 @@ typedef struct SuppleFileBytes {
 typedef struct SuppleFiles {
     /** Fills out and returns non-zero, or returns 0 if there is no such file. The bytes must stay valid until release.
      * path is relative to the asset and percent-decoded. It has forward slashes, and no "..", "." or URI scheme. Supple
-     * calls both functions in suppleCreateAsset, on the thread that called it. */
+     * calls both functions in suppleCreateAsset and suppleReloadAsset, on the thread that called it. */
     int (*read)(const char* path, SuppleFileBytes* out, void* user);
     void (*release)(SuppleFileBytes* bytes, void* user); /**< optional; called once per successful read */
     void* user;
@@ -571,10 +574,12 @@ SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAss
  * groups and of their instances stay valid. Instances keep their slots, transforms, visibility, user data and poses.
  * What they have of the old version is found in the new one by name: joints, morph targets, hidden parts, clips and
  * masks that play, schemes of parts. Joints and morph targets that are new are in the rest pose. A layer of
- * suppleSetPlayback whose clip is gone is left out.
+ * suppleSetPlayback whose clip is gone is left out. Numbers of clips, joints, parts, morph targets and materials may
+ * change: look them up by name again. What is not given again is gone: pass the same clipFiles.
+ * With SUPPLE_POSES_SET an instance keeps the joint matrices of its pose, so a clip or a bone that was edited shows
+ * when the pose is set again.
  * All pointers that live as long as the asset, and all output of its groups (suppleGetGroupInfo, ...), are dead at
- * once: ask for them again. The memory is freed when the frames that used it are complete. In the next suppleRecord all
- * instances are new (suppleTeleport). With PALETTE_BUFFER and CAGE_BUFFER the host fills the new buffers.
+ * once: see suppleSetCapacity for what that means.
  * Takes as long as creating the asset and its groups. Errors: those of suppleCreateAsset and of suppleCreateGroup; then
  * nothing has changed, and everything goes on as it was. */
 SUPPLE_API SuppleResult suppleReloadAsset(SuppleContext context, SuppleAsset asset, const SuppleAssetDesc* desc);
@@ -594,11 +599,13 @@ SUPPLE_API SuppleResult suppleGetClipInfo(SuppleContext context, SuppleAsset ass
  * It holds cages that linear skinning deforms. The smooth surface may lie a little outside its cage, and dual
  * quaternions bulge: suppleGetGroupClipBounds has the box of a surface. An instance's transform is applied afterwards:
  * transform the eight corners. The root moves as in the clip. If rootMotion takes the root's movement out of a pose,
- * the box does not hold; make each side of it larger by the root's whole way (suppleGetRootMotion), which is right
- * for GROUND and HEIGHT. It holds for one clip alone: poses of several layers may leave the boxes of their clips.
+ * the box does not hold: move each side out by the farthest that the root gets from where it starts, or use the boxes
+ * of instances (suppleReadInstanceBounds). With YAW, use those. The box holds for one clip alone: poses of several
+ * layers may leave the boxes of their clips.
  *
  * The box of a clip is computed when it is first asked for, and kept with the asset. That takes
- * milliseconds, or a few tenths of a second for long clips of large cages: ask while loading. Errors: no such clip. */
+ * milliseconds, or a few tenths of a second for long clips of large cages: ask while loading, and from one thread
+ * alone. Errors: no such clip. */
 SUPPLE_API SuppleResult suppleGetClipBounds(SuppleContext context, SuppleAsset asset, uint32_t clip, SuppleBounds* out);
 /** Fills out. Joints have the order of the file's skin. Errors: joint is not below jointCount. */
 SUPPLE_API SuppleResult suppleGetJointInfo(SuppleContext context, SuppleAsset asset, uint32_t joint,
@@ -674,7 +681,9 @@ typedef enum SuppleGroupFlags {
      * case, and copy them to the host (suppleReadInstanceBounds). */
     SUPPLE_GROUP_BOUNDS = 64,
     /** Groups without a view: the host draws the group window by window (SuppleGroupInfo.windowCount). Without this
-     * flag suppleCreateGroup fails if the device cannot bind the surface vertices as a whole. */
+     * flag suppleCreateGroup fails if the device cannot bind the surface vertices as a whole, and the log names the
+     * largest capacity. To learn it in a program, create the group with this flag: if its windowCount is not 1, its
+     * windowSize is a capacity that fits. */
     SUPPLE_GROUP_WINDOWS = 128
 } SuppleGroupFlags;
 
@@ -713,7 +722,10 @@ typedef struct SuppleGroupDesc {
      * skinning and poseSource are those of the followed group, and 0 here. Instances are created and posed in the
      * followed group alone, and both use their slots. A frame that records the group must record the followed group
      * too, in the same suppleRecord or an earlier one. A group that follows another cannot be followed. Once the
-     * followed group is destroyed, this group can only be destroyed. */
+     * followed group is destroyed, this group can only be destroyed.
+     * What belongs to the instances is asked of the followed group alone: priorities (so it needs a view if they are to
+     * count), the boxes of suppleReadInstanceBounds, the memory of poses and cages, and the acquire barriers of poses,
+     * cages and user data. */
     SuppleGroup instancesOf;
 } SuppleGroupDesc;
 
@@ -726,12 +738,17 @@ SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGro
 SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup group);
 /** Changes how many instances the group has room for, 1 or more. The handles of the group, of its instances and of
  * groups that follow it (SuppleGroupDesc.instancesOf) stay valid. Instances keep their slots, poses, transforms,
- * visibility and user data, and the group keeps its rate. All output of these groups (suppleGetGroupInfo, ...) is dead
- * at once: ask for it again. Its memory is freed when the frames that used it are complete; until then both are there.
- * In the next suppleRecord all instances are new (suppleTeleport). With PALETTE_BUFFER and CAGE_BUFFER the host fills
- * the new buffers. Compiles no pipeline.
- * Errors: an instance has a slot that is not below capacity; the group follows another one; those of suppleCreateGroup.
- * Then nothing has changed. */
+ * visibility, hidden parts, priorities and user data. The group keeps its rate, its time and its masks. Compiles no
+ * pipeline. It may become smaller too. If it has this capacity already, nothing is done.
+ *
+ * All output of these groups (suppleGetGroupInfo, ...) is dead at once: ask for it again, and write your descriptors
+ * anew. Command buffers that are recorded may still use the old buffers, which are freed when their frames are
+ * complete. Call this before the frame's suppleRecord of the group, which then writes the new buffers. In it all
+ * instances are new (suppleTeleport). suppleReadInstanceBounds has no box until that frame is complete. With
+ * PALETTE_BUFFER and CAGE_BUFFER the host fills the new buffers. Until the call returns, both groups are there: they
+ * need memory for both and, in a view, runs for both (docs/lod.md).
+ * Errors: an instance has a slot that is not below capacity (SUPPLE_ERROR_LIMIT); the group follows another one; those
+ * of suppleCreateGroup. Then nothing has changed. */
 SUPPLE_API SuppleResult suppleSetCapacity(SuppleContext context, SuppleGroup group, uint32_t capacity);
 /** Changes the rate of all surfaces from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must
  * be 1 to the rate that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND or POLYGONS, or with
@@ -828,14 +845,19 @@ SUPPLE_API SuppleResult suppleGetJointTransform(SuppleContext context, SuppleIns
  * suppleCancelFrame are refused, too, and name the frame that was. */
 SUPPLE_API SuppleResult suppleBeginFrame(SuppleContext context, uint64_t frame, uint64_t completedFrame);
 /** Large worlds: sets where the coordinates on the device begin, three doubles; (0, 0, 0) at first. Set it near the
- * camera, as often as you like. It holds from now on; if a group is recorded in this frame already, from the next
- * suppleBeginFrame on. Surface vertices, previous positions, bounds and suppleGetJointTransform are then relative to
- * it: Supple subtracts it, in double precision, from the translation of every instance (suppleSetPosition).
- * Previous positions are relative to the present origin, also in the frame of a change: so project them with the last
- * frame's camera as seen from the present origin. Positions of cameras and of depth pyramids are relative to the
- * present origin as well. A box of suppleReadInstanceBounds is relative to the origin of its frame.
- * A group that is not recorded in a frame stays relative to the origin that it was recorded with. Palettes and cages
- * that the host writes (PALETTE_BUFFER, CAGE_BUFFER) are its own: it subtracts the origin itself.
+ * camera, after suppleBeginFrame and before the frame's first suppleRecord. The origin applies at once. If this frame
+ * has recorded a group, it applies from the next suppleBeginFrame on. Move it in steps, for example when the camera has
+ * gone 1 km: a new origin places all instances anew, and groups with SUPPLE_POSES_PLAYBACK upload the playback of all
+ * slots in use.
+ *
+ * suppleSetTransform and suppleSetPosition take places in the world. Supple subtracts the origin from them in double
+ * precision. Surface vertices, previous positions, bounds and suppleGetJointTransform are relative to it. So are
+ * cameras and depth pyramids: set both again after a change (suppleSetCamera, suppleSetDepthPyramid). Previous
+ * positions always use the present origin: for motion vectors, subtract the present origin from the last camera's
+ * position. A box of suppleReadInstanceBounds is relative to the origin of its frame.
+ * A group that is not recorded in a frame stays relative to the origin that it was recorded with: draw it with a camera
+ * as seen from that one. Palettes and cages that the host writes (PALETTE_BUFFER, CAGE_BUFFER) are its own: it
+ * subtracts the origin itself.
  * Errors: not finite. */
 SUPPLE_API SuppleResult suppleSetOrigin(SuppleContext context, const double* origin);
 /** Tells Supple that what was recorded since suppleBeginFrame will never be submitted (for example because the
@@ -856,13 +878,14 @@ typedef struct SuppleSyncScope {
 SUPPLE_API SuppleResult suppleRecordUploads(SuppleContext context, VkCommandBuffer commandBuffer);
 
 /** Lets drivers finish at load time what they would do in the first frames: lavapipe compiles a pipeline at its first
- * dispatch, which may take a second. Records the uploads of suppleRecordUploads, then every kernel that the groups may
- * ever run as a dispatch of no workgroups: also those that the first frame would not run, as of additive layers, root
- * motion or budgets. Groups need no instances and views no camera. The groups may be recorded by suppleRecord in the
- * same frame and command buffer, after this call. Without a loop of frames yet: suppleBeginFrame with frame 1, this
- * call, submit, wait, and go on with frame 2.
- * Two things still wait for their first use: suppleSetDepthPyramid, and another rate (call this again after
- * suppleSetRate). Errors: no frame has begun, a stale handle. */
+ * dispatch, which may take a second. Records the uploads of suppleRecordUploads, for all groups. Then it dispatches,
+ * over no workgroups, every kernel that the given groups can use. This includes kernels that a first frame may not run:
+ * those of additive layers, root motion and budgets. Name followed groups too. Groups need no instances and views no
+ * camera. Record it outside a render pass, and not beside other calls of the context. The groups may be recorded by
+ * suppleRecord in the same frame and command buffer, after this call. Without a loop of frames yet: suppleBeginFrame
+ * with frame 1, this call, submit, wait, and go on with frame 2. Two things still wait for their first use:
+ * suppleSetDepthPyramid, and another rate (call this again after suppleSetRate). Errors: no frame has begun, or it was
+ * refused or cancelled; a stale handle. */
 SUPPLE_API SuppleResult suppleRecordWarmUp(SuppleContext context, VkCommandBuffer commandBuffer,
                                            const SuppleGroup* groups, uint32_t groupCount);
 
@@ -887,14 +910,16 @@ typedef struct SuppleRecordDesc {
 } SuppleRecordDesc;
 
 /** Records the passes of the groups, outside a render pass, for the visible instances as they are set now. Each group
- * may be recorded once per frame. Groups of one view must be recorded in one call. The host must submit what is
- * recorded once, in the order of recording, on one queue, or else call suppleCancelFrame. If the call fails, nothing is
- * recorded. */
+ * may be recorded once per frame. Groups of one view must be recorded in one call. A frame may leave out a group; it
+ * is then drawn as it was. Of the groups of a view leave out all or none, because they write into the same buffers: the
+ * vertices of those left out would be lost. The host must submit what is recorded once, in the order of recording, on
+ * one queue, or else call suppleCancelFrame. If the call fails, nothing is recorded. */
 SUPPLE_API SuppleResult suppleRecord(SuppleContext context, VkCommandBuffer commandBuffer,
                                      const SuppleRecordDesc* desc);
 
-/** For hosts whose frame graph places the barriers. `first` gets the accesses of suppleRecord's commands that a barrier
- * before them must cover, and `last` their writes. Either may be null. They are the same in every context and frame.
+/** For hosts whose frame graph places the barriers. `first` gets how suppleRecord's commands begin, and `last` what
+ * they write. The barrier before suppleRecord: from your uses and from `last`, to `first`. The barrier after it: from
+ * `last`, to your uses. Either pointer may be null. They are the same in every context and frame, on any thread.
  * All flags are those of Vulkan 1.0: cast to VkPipelineStageFlags and VkAccessFlags, they can go into
  * vkCmdPipelineBarrier as well as into vkCmdPipelineBarrier2. */
 SUPPLE_API SuppleResult suppleGetRecordScopes(SuppleSyncScope* first, SuppleSyncScope* last);
@@ -911,9 +936,9 @@ SUPPLE_API SuppleResult suppleGetAcquireBarriers(SuppleContext context, const Su
 /* ---------------------------------------------------------------------------------------------------- output */
 
 /** Where a group's buffers are. These calls may be made outside frames. suppleRecord fills the buffers. They are valid
- * until the group is destroyed. Data per instance lies at the instance's slot. Buffers have usage STORAGE,
- * UNIFORM_TEXEL and TRANSFER_SRC, and, as needed, TRANSFER_DST, VERTEX, INDEX or INDIRECT. Offsets and sizes are in
- * bytes. */
+ * until the group is destroyed or made anew (suppleSetCapacity, suppleReloadAsset). Data per instance lies at the
+ * instance's slot. Buffers have usage STORAGE, UNIFORM_TEXEL and TRANSFER_SRC, and, as needed, TRANSFER_DST, VERTEX,
+ * INDEX or INDIRECT. Offsets and sizes are in bytes. */
 
 /** A part of one of Supple's buffers, to read, bind and copy from.
  *
@@ -964,9 +989,10 @@ typedef struct SuppleGroupInfo {
     SuppleBufferRange instances;
     SuppleBufferRange userData; /**< float4 per slot: suppleSetUserData */
     /** A device bounds storage buffers (VkPhysicalDeviceLimits::maxStorageBufferRange), so a large group is cut into
-     * windows. Window w is the slots from w * windowSize on, windowSize or what is left of them. The device can bind
-     * what a window has of every buffer that has an entry per slot, at the offset of the window's first slot. Windows
-     * of vertices, previousPositions, deformedCage, poses and patchCoefficients begin at multiples of 256 bytes. */
+     * windows. Window w is the slots from w * windowSize on, windowSize or what is left of them. vertices,
+     * previousPositions, deformedCage, poses and patchCoefficients can be bound for one window, from its first slot on.
+     * That is a multiple of 256 bytes, but not in `poses` of a group that follows another one. Bind all other buffers
+     * as a whole. Without SUPPLE_GROUP_WINDOWS draws need no windows, however many there are. */
     uint32_t windowCount;
     uint32_t windowSize; /**< slots per window; the last one may have fewer */
 } SuppleGroupInfo;
@@ -989,7 +1015,7 @@ typedef struct SuppleSurfaceInfo {
     SuppleTessellation tessellation;
     uint32_t patchCount;     /**< per instance */
     uint32_t patchesPerEdge; /**< along an edge of the cage: 1, or 2 or 4 if the scheme subdivides the cage first */
-    const uint32_t* parts;   /**< that the surface has, in rising order. Lives as long as the group */
+    const uint32_t* parts;   /**< that the surface has, in rising order. Lives as long as the group's buffers */
     uint32_t partCount;
     /** SUPPLE_GROUP_PATCHES: float4 per coefficient, SUPPLE_PATCH_STRIDE per patch; see SupplePatchInfo. */
     SuppleBufferRange patchCoefficients;
@@ -1010,7 +1036,7 @@ typedef struct SuppleVertexStreams {
     /** MOTION: float3, where the vertex was in the group's suppleRecord before the last one, at the present rate,
      * relative to the present origin. For new instances (suppleTeleport) it is the present position. In a frame that
      * does not record the group, nothing has moved since the frame before: bind `vertices` in its place, with their
-     * stride (previousWords in supple_surface.glsl). */
+     * stride (previousWords in supple_surface.glsl). Groups of a view: see suppleRecord. */
     SuppleBufferRange previousPositions;
     SuppleBufferRange attributes; /**< ATTRIBUTES: float2 uv, linear RGBA in 4 x unorm16 */
     SuppleBufferRange uvs1;       /**< ATTRIBUTES, if the cage has a second UV set: float2 */
@@ -1074,7 +1100,7 @@ typedef struct SuppleRate {
 } SuppleRate;
 
 /** Tessellation GRIDS, INDEXED_MESH and RATES: what is drawn. All of it, arrays too, is valid until the group is
- * destroyed or its rate is set. */
+ * destroyed or made anew, or its rate is set. */
 typedef struct SuppleGridOutput {
     uint32_t structSize;
     uint32_t rate;        /**< segments along a patch edge: R of SuppleDomain. RATES: the largest */
@@ -1193,7 +1219,7 @@ typedef struct SuppleMemoryUse {
     VkDeviceSize lists;        /**< of instances and patches, with bounds, levels and indirect arguments */
     VkDeviceSize scratch;      /**< what one pass leaves for the next */
     VkDeviceSize staging;      /**< what goes up: per frame in flight, and of static tables until they are uploaded */
-    VkDeviceSize readback;     /**< what comes back: statistics of views, timings on CPU devices */
+    VkDeviceSize readback;     /**< what comes back: statistics of views, boxes, timings on CPU devices */
 } SuppleMemoryUse;
 
 /** Fills out: all that the context has allocated and not yet freed. That is its assets, groups and views, the context's
@@ -1202,7 +1228,7 @@ SUPPLE_API SuppleResult suppleGetContextMemory(SuppleContext context, SuppleMemo
 /** Fills out: what all groups of the asset share. Groups add to it the tables of their schemes, which stay as long as
  * the asset and its groups. */
 SUPPLE_API SuppleResult suppleGetAssetMemory(SuppleContext context, SuppleAsset asset, SuppleMemoryUse* out);
-/** Fills out: what the group has beside its asset and its view. */
+/** Fills out: what the group has beside its asset, its view and the group that it follows. */
 SUPPLE_API SuppleResult suppleGetGroupMemory(SuppleContext context, SuppleGroup group, SuppleMemoryUse* out);
 /** Fills out: what the view has for all its groups. */
 SUPPLE_API SuppleResult suppleGetViewMemory(SuppleContext context, SuppleView view, SuppleMemoryUse* out);
@@ -1223,8 +1249,10 @@ typedef uint32_t (*SuppleMemoryBudgetFunction)(const SuppleMemoryRequest* reques
 
 /** Limits the context's memory, deviceLocal and hostVisible together. If an allocation would exceed it, Supple asks
  * `ask`; null: it is refused. Then the call that needed it fails with SUPPLE_ERROR_DEVICE_MEMORY, the log names what
- * was to be allocated, and all that exists goes on as before. bytes = 0 removes the limit. A limit below what is in use
- * frees nothing. Hosts that follow VK_EXT_memory_budget set the limit anew when their share changes. */
+ * was to be allocated (SUPPLE_MESSAGE_DEVICE_MEMORY), and all that exists goes on as before. `ask` and `user` are kept
+ * until the next call or until the context is destroyed. suppleSetCapacity and suppleReloadAsset need the old and the
+ * new memory together. bytes = 0 removes the limit. A limit below what is in use frees nothing. Hosts that follow
+ * VK_EXT_memory_budget set the limit anew when their share changes. */
 SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSize bytes, SuppleMemoryBudgetFunction ask,
                                               void* user);
 

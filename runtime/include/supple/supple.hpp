@@ -70,6 +70,18 @@ private:
     T* data_;
 };
 
+/// What a function gives that fills an array, into `out` (resized; its capacity is reused).
+template <class T, class Fill>
+[[nodiscard]] SuppleResult filled(std::vector<T>& out, Fill&& fill) {
+    uint32_t count = 0;
+    SuppleResult result = fill(nullptr, &count);
+    out.resize(count);
+    if (result == SUPPLE_OK && count > 0) {
+        result = fill(out.data(), &count);
+    }
+    return result;
+}
+
 /// Owns a SuppleContext. The device must outlive it, and no command buffer that uses it may be pending when it goes.
 class Context {
 public:
@@ -118,19 +130,35 @@ public:
         desc.after = after;
         return suppleRecord(handle_, commandBuffer, &desc);
     }
+    /// The barriers that take over what the groups' last record() released, into `out` (resized).
+    [[nodiscard]] SuppleResult acquireBarriers(Span<const SuppleGroup> groups, SuppleSyncScope use,
+                                               std::vector<VkBufferMemoryBarrier2>& out) const {
+        const auto groupCount = static_cast<uint32_t>(groups.size());
+        return filled(out, [&](VkBufferMemoryBarrier2* to, uint32_t* count) {
+            return suppleGetAcquireBarriers(handle_, groups.data(), groupCount, use, to, count);
+        });
+    }
+    /// The limit of a pass's time on the device; a null pass means all together.
+    [[nodiscard]] SuppleResult setBudget(const char* pass, double nanoseconds) const {
+        return suppleSetBudget(handle_, pass, nanoseconds);
+    }
+    /// How well a pass has kept to its limit.
+    [[nodiscard]] SuppleResult budget(const char* pass, SuppleBudget& out) const {
+        out = sized<SuppleBudget>();
+        return suppleGetBudget(handle_, pass, &out);
+    }
+    /// The limit of the context's memory; without `ask`, nothing may exceed it.
+    [[nodiscard]] SuppleResult setMemoryBudget(VkDeviceSize bytes, SuppleMemoryBudgetFunction ask = nullptr,
+                                               void* user = nullptr) const {
+        return suppleSetMemoryBudget(handle_, bytes, ask, user);
+    }
     [[nodiscard]] SuppleResult memory(SuppleMemoryUse& out) const {
         out = sized<SuppleMemoryUse>();
         return suppleGetContextMemory(handle_, &out);
     }
     /// The newest completed frame's passes, into `out` (resized; its capacity is reused). SUPPLE_NOT_READY empties it.
     [[nodiscard]] SuppleResult timings(std::vector<SuppleTiming>& out) const {
-        uint32_t count = 0;
-        SuppleResult result = suppleGetTimings(handle_, nullptr, &count);
-        out.resize(count);
-        if (result == SUPPLE_OK) {
-            result = suppleGetTimings(handle_, out.data(), &count);
-        }
-        return result;
+        return filled(out, [&](SuppleTiming* to, uint32_t* count) { return suppleGetTimings(handle_, to, count); });
     }
 
 private:
@@ -210,6 +238,11 @@ public:
     [[nodiscard]] SuppleResult memory(SuppleMemoryUse& out) const {
         out = sized<SuppleMemoryUse>();
         return suppleGetAssetMemory(context_, handle_, &out);
+    }
+    /// What a part of the character is.
+    [[nodiscard]] SuppleResult partInfo(uint32_t part, SupplePartInfo& out) const {
+        out = sized<SupplePartInfo>();
+        return suppleGetPartInfo(context_, handle_, part, &out);
     }
     [[nodiscard]] SuppleResult clipInfo(uint32_t clip, SuppleClipInfo& out) const {
         out = sized<SuppleClipInfo>();
@@ -302,6 +335,12 @@ public:
         out = sized<SuppleLevelOutput>();
         return suppleGetLevelOutput(context_, handle_, surface, &out);
     }
+    /// The patches of an instance, into `out` (resized).
+    [[nodiscard]] SuppleResult patches(std::vector<SupplePatchInfo>& out, uint32_t surface = 0) const {
+        return filled(out, [&](SupplePatchInfo* to, uint32_t* count) {
+            return suppleGetPatches(context_, handle_, surface, to, count);
+        });
+    }
     [[nodiscard]] SuppleResult instanceBounds(SuppleBufferRange& out) const {
         return suppleGetInstanceBounds(context_, handle_, &out);
     }
@@ -337,7 +376,7 @@ public:
     }
 };
 
-/// Owns a SuppleInstance. Its context and its group must outlive it.
+/// Owns a SuppleInstance. Its context and its group must outlive it: destroy a list of instances before their group.
 class Instance : public Owner<SuppleInstance> {
 public:
     /// Replaces what `out` held.

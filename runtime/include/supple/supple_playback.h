@@ -114,7 +114,8 @@ typedef enum SuppleMarkerFlags {
      * before 0 or behind the clip's end. A clip of no duration does not loop. */
     SUPPLE_MARKERS_LOOP = 1,
     /** Playback begins at `from`, so markers at `from` count too. Set it for the first interval after playback starts
-     * or jumps. With LOOP, the pass of the clip that ends at `from` does not count: it was not played. */
+     * or jumps. With LOOP, if one pass ends and the next begins at `from`, markers at the end of the earlier
+     * pass are left out. */
     SUPPLE_MARKERS_START = 2
 } SuppleMarkerFlags;
 
@@ -125,7 +126,8 @@ SUPPLE_API SuppleResult suppleGetClipMarkers(SuppleContext context, SuppleAsset 
  * < time <= to, by rising time. Backwards (to < from) those with to <= time < from, by falling time. flags is a
  * combination of SuppleMarkerFlags. Times are unwrapped, as a game counts them, also in `out`: with LOOP, a marker
  * occurs once in every pass. At the end of a pass, markers at the duration and those at 0 of the next pass have the
- * same time.
+ * same time. Layers, weights and masks make no difference. If the result is SUPPLE_INCOMPLETE, call again with more
+ * room, and with the same times.
  *
  * A host that passes the last call's `to` as `from` gets every marker exactly once: also if it turns round, because a
  * marker counts when playback arrives at it. SUPPLE_MARKERS_START gives those at the very start:
@@ -180,9 +182,9 @@ typedef struct SupplePlaybackDesc {
 
 /** Groups with SUPPLE_POSES_PLAYBACK: sets what an instance plays from the next suppleRecord on, until it is set again.
  * The array is read during the call. The device then computes poses from the group's time alone. In a frame in which
- * no playback is set, none is uploaded, and the CPU's work is the same for any number of instances. Such groups also
- * take suppleSetTransform and suppleSetMorphWeights. Poses agree with those of suppleSetPose except for rounding
- * (docs/playback.md). */
+ * no playback and no new origin is set, none is uploaded, and the CPU's work is the same for any number of instances.
+ * Such groups also take suppleSetTransform and suppleSetMorphWeights. Poses agree with those of suppleSetPose except
+ * for rounding (docs/playback.md). */
 SUPPLE_API SuppleResult suppleSetPlayback(SuppleContext context, SuppleInstance instance,
                                           const SupplePlaybackDesc* playback);
 /** Sets T, the time in seconds by which all instances of a group with SUPPLE_POSES_PLAYBACK play; 0 at first. It may
