@@ -46,7 +46,8 @@ function(supple_embed_kernels target)
         foreach(mapping NARROW WIDE)
             supple_shader_entry(${entry}+${mapping})
             set(base ${directory}/shaders/${shader_name})
-            add_custom_command(OUTPUT ${base}.h
+            # The SPIR-V comes first: it is what the dependencies that glslang writes are of.
+            add_custom_command(OUTPUT ${base}.spv ${base}.h
                 COMMAND ${SUPPLE_GLSLANG} ${shader_flags} --depfile ${base}.d -o ${base}.spv ${shader_source}
                 COMMAND ${SUPPLE_SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout ${SUPPLE_SPIRV_PASSES} ${base}.spv
                         -o ${base}.opt.spv
