@@ -218,7 +218,7 @@ bool constructs(Group& group) {
 }
 
 /// What stands behind a pass: who may read what it wrote.
-enum class Behind { nothing, compute, uploads, bounds, arguments, places, readback, scratch };
+enum class Behind { nothing, compute, uploads, bounds, arguments, places, readback, directions, scratch };
 
 struct Row {
     Pass pass;
@@ -253,7 +253,7 @@ constexpr Row kPasses[] = {
     {Pass::place, isInView, recordPlaces, Behind::places},
     {Pass::place, isInView, recordReadback, Behind::readback, false},
     {Pass::attributes, anySurface<&Tessellation::writesLevelAttributes>,
-     recordSurfaces<&Tessellation::recordLevelAttributes>, Behind::nothing},
+     recordSurfaces<&Tessellation::recordLevelAttributes>, Behind::directions},
     {Pass::evaluate, always, recordSurfaces<&Tessellation::recordEvaluate>, Behind::scratch},
     {Pass::motion, anySurface<&Tessellation::writesMotion>, recordSurfaces<&Tessellation::recordMotion>,
      Behind::nothing},
@@ -292,6 +292,11 @@ void recordBarrier(const Frame& frame, Behind behind) {
     case Behind::readback:
         barrier({VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                 {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+        break;
+    case Behind::directions: // of tangents
+        if (frame.any(anySurface<&Tessellation::writesTangents>)) {
+            frame.computeBarrier();
+        }
         break;
     case Behind::scratch: // evaluate and motion use the same memory
         if (frame.any([](Group& group) {

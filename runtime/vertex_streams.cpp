@@ -66,6 +66,10 @@ uint32_t VertexStreams::bytes(Stream stream) const {
     return bytes != 0 ? bytes : vertexBytes(format_);
 }
 
+uint32_t VertexStreams::frameBytes() const {
+    return bytes(Stream::vertices) + (has(Stream::tangents) ? bytes(Stream::tangents) : 0);
+}
+
 VkDeviceSize VertexStreams::staticBytes() const {
     VkDeviceSize sum = 0;
     forEachStream(
@@ -76,13 +80,15 @@ VkDeviceSize VertexStreams::staticBytes() const {
 void VertexStreams::fill(SuppleVertexStreams& output) const {
     output.vertexFormat = format_;
     forEachStream([&](Stream stream, const StreamRow& row) {
-        output.*row.output = {buffer(stream), 0, size(stream), bytes(stream)};
+        if (row.output != nullptr) {
+            output.*row.output = {buffer(stream), 0, size(stream), bytes(stream)};
+        }
     });
 }
 
 void VertexStreams::addTransfers(Transfers& transfers, bool statics) const {
     forEachStream([&](Stream stream, const StreamRow& row) {
-        if (row.written == Written::perFrame || statics) {
+        if (row.output != nullptr && (row.written == Written::perFrame || statics)) {
             transfers.add(buffer(stream));
         }
     });

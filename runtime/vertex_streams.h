@@ -11,7 +11,7 @@
 
 namespace supple::runtime {
 
-enum class Stream : uint32_t { vertices, previousPositions, attributes, uvs1, faceUvs, count };
+enum class Stream : uint32_t { vertices, previousPositions, tangents, attributes, uvs1, faceUvs, directions, count };
 inline constexpr size_t kStreamCount = static_cast<size_t>(Stream::count);
 
 /// When a stream is written.
@@ -28,7 +28,7 @@ struct StreamRow {
     uint32_t viewFlag;  ///< SuppleViewFlags
     uint32_t binding;   ///< shaders/shared/surface.h
     uint32_t attribute; ///< shared::kOutput..., if only cages that have it fill the stream; else 0
-    SuppleBufferRange SuppleVertexStreams::*output;
+    SuppleBufferRange SuppleVertexStreams::*output; ///< null: hosts do not see it
 };
 /// To add a stream, add a row, the binding, the member of the output, and the shader that writes it
 /// (docs/architecture.md).
@@ -36,12 +36,16 @@ inline constexpr StreamRow kStreams[kStreamCount] = {
     {"supple surface vertices", 0, Written::perFrame, 0, 0, shared::kSurfaceBinding, 0, &SuppleVertexStreams::vertices},
     {"supple previous positions", 12, Written::perFrame, SUPPLE_GROUP_MOTION, SUPPLE_VIEW_MOTION,
      shared::kSurfaceBinding, 0, &SuppleVertexStreams::previousPositions},
+    {"supple tangents", 4, Written::perFrame, SUPPLE_GROUP_TANGENTS, SUPPLE_VIEW_TANGENTS, shared::kTangentBinding, 0,
+     &SuppleVertexStreams::tangents},
     {"supple surface attributes", 16, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_ATTRIBUTES,
      shared::kAttributeBinding, 0, &SuppleVertexStreams::attributes},
     {"supple second UV set", 8, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_UVS1, shared::kUv1Binding,
      shared::kOutputUvs1, &SuppleVertexStreams::uvs1},
     {"supple face UVs", 8, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_FACE_UVS, shared::kFaceUvBinding,
      shared::kOutputFaceUvs, &SuppleVertexStreams::faceUvs},
+    {"supple tangent directions", 4, Written::static_, SUPPLE_GROUP_TANGENTS, SUPPLE_VIEW_TANGENTS,
+     shared::kDirectionOutputBinding, shared::kOutputDirections, nullptr},
 };
 
 /// The flags that ask for streams: all of SuppleGroupFlags, or of SuppleViewFlags.
@@ -88,6 +92,7 @@ public:
     [[nodiscard]] VkBuffer buffer(Stream stream) const { return buffers_[static_cast<size_t>(stream)].buffer(); }
     [[nodiscard]] VkDeviceSize size(Stream stream) const { return buffers_[static_cast<size_t>(stream)].size(); }
     [[nodiscard]] uint32_t bytes(Stream stream) const; ///< per surface vertex
+    [[nodiscard]] uint32_t frameBytes() const;         ///< that evaluation writes per surface vertex
     [[nodiscard]] VkDeviceSize staticBytes() const;    ///< of all streams that are Written::static_
 
     void fill(SuppleVertexStreams& output) const;

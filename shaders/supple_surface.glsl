@@ -23,6 +23,7 @@
 //         vec3 before = supplePreviousPosition(at); // with SUPPLE_GROUP_MOTION
 //         vec2 uv = suppleUv(at);                   // with SUPPLE_GROUP_ATTRIBUTES
 //         vec4 color = suppleColor(at);
+//         vec4 tangent = suppleTangent(at);         // if SUPPLE_TANGENTS_BINDING is defined: SUPPLE_GROUP_TANGENTS
 //         vec4 mine = suppleUserData(at);           // if SUPPLE_USER_DATA_BINDING is defined: see suppleSetUserData
 //     }
 //
@@ -113,6 +114,16 @@ vec3 suppleOctahedralNormal(uint word) {
     return normalize(n);
 }
 
+/// A tangent of SuppleVertexStreams.tangents, as glTF's TANGENT: the direction, and the sign of the frame. In the fragment shader,
+/// B = tangent.w * cross(normal, tangent.xyz) is the bitangent; take it before you normalize, as other programs do.
+vec4 suppleDecodeTangent(uint word) {
+    vec2 p = vec2(float(int(word << 16u) >> 16u) / 32767.0, float(int(word << 1u) >> 17u) / 16383.0);
+    vec3 t = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (t.z < 0.0)
+        t.xy = (1.0 - abs(t.yx)) * vec2(t.x >= 0.0 ? 1.0 : -1.0, t.y >= 0.0 ? 1.0 : -1.0);
+    return vec4(normalize(t), (word & 0x80000000u) != 0u ? -1.0 : 1.0);
+}
+
 /// The color of SuppleVertexStreams.attributes: linear, four unorm16.
 vec4 suppleUnpackColor(uvec2 words) { return vec4(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y)); }
 
@@ -164,6 +175,12 @@ layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_PREVIOUS_BINDING, std430) read
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_ATTRIBUTES_BINDING, std430) readonly buffer SuppleAttributes {
     uvec4 suppleAttributes[]; // float2 uv, RGBA in 4 x unorm16
 };
+
+#ifdef SUPPLE_TANGENTS_BINDING
+layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_TANGENTS_BINDING, std430) readonly buffer SuppleTangents {
+    uint suppleTangents[];
+};
+#endif
 
 #ifdef SUPPLE_USER_DATA_BINDING
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_USER_DATA_BINDING, std430) readonly buffer SuppleUserData {
@@ -232,6 +249,10 @@ vec3 supplePreviousPosition(SuppleVertex at) {
 vec2 suppleUv(SuppleVertex at) { return uintBitsToFloat(suppleAttributes[at.own].xy); }
 
 vec4 suppleColor(SuppleVertex at) { return suppleUnpackColor(suppleAttributes[at.own].zw); }
+
+#ifdef SUPPLE_TANGENTS_BINDING
+vec4 suppleTangent(SuppleVertex at) { return suppleDecodeTangent(suppleTangents[at.index]); }
+#endif
 
 #ifdef SUPPLE_USER_DATA_BINDING
 /// What suppleSetUserData gave the instance.

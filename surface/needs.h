@@ -12,9 +12,10 @@ struct Needs {
     uint32_t vertexFormat = shared::kVertex16;
     bool motion = false; ///< also writes the positions of the frame before
     bool patches = false;
+    bool tangents = false; ///< also writes tangents, from the directions that `attributes` writes
     bool attributes = false;
     /// What `attributes` writes beside the first UV set and the color, if the tables have it.
-    uint32_t attributeOutputs = ~0u;
+    uint32_t attributeOutputs = ~shared::kOutputDirections;
     bool view = false;        ///< the group belongs to a view. Its motion sets bind the coefficients of this frame in
                               ///< the place of the cage, for instances without a past
     bool lod = false;         ///< the view draws patches at levels, not at a rate

@@ -58,6 +58,8 @@ struct PatchClassRow {
                                              ///< mapping, where a lane takes a row of its samples. Of others a lane
                                              ///< takes a sample
     [[nodiscard]] constexpr bool isBicubic() const { return netElements > 0; }
+    /// P_m: triangular sectors round a centre.
+    [[nodiscard]] constexpr bool hasSectors() const { return form != lod::Form::quad; }
 };
 
 inline constexpr PatchClassRow kPatchClasses[] = {

@@ -154,8 +154,11 @@ struct Tables {
     [[nodiscard]] bool has(Stage stage) const;
     /// What corners have beside the first UV set and the color: shared::kOutput... bits.
     [[nodiscard]] uint32_t attributeOutputs() const {
-        return (uvSets == 2 ? shared::kOutputUvs1 : 0) | (faceUvs ? shared::kOutputFaceUvs : 0);
+        return (uvSets == 2 ? shared::kOutputUvs1 : 0) | (faceUvs ? shared::kOutputFaceUvs : 0) |
+               (hasTangents() ? shared::kOutputDirections : 0);
     }
+    /// Whether evaluation can write tangents: patches have kernels of their own, and no sample is another patch's.
+    [[nodiscard]] bool hasTangents() const;
     /// Whether samples on borders are stored once for all patches that meet there.
     [[nodiscard]] bool hasIndexedMesh() const { return !mesh.edges.empty(); }
 };

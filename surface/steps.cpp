@@ -33,6 +33,10 @@ uint32_t cornerNormals(const ProgramBuilder& builder) {
     return builder.tables.cornerNormals ? 1 : 0;
 }
 
+uint32_t tangents(const ProgramBuilder& builder, uint32_t format) {
+    return builder.needs.tangents && format != kVertexPosition ? VK_TRUE : VK_FALSE;
+}
+
 /// Patches a workgroup takes in the wide mapping: the count that leaves the fewest lanes idle.
 uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
     uint32_t best = 1;
@@ -69,6 +73,7 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint3
                                {kVertexFormatConstant, format},
                                {kCornerNormalsConstant, cornerNormals(builder)},
                                {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
+                               {kTangentsConstant, tangents(builder, format)},
                                {kRateConstant, rate}},
                               atRate(name + className(patchClass), rate));
     };
@@ -102,11 +107,13 @@ void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass
 void addAttributes(ProgramBuilder& builder, size_t range) {
     const PatchRange& from = builder.tables.ranges[range];
     const bool indexed = builder.tables.hasIndexedMesh();
-    const gpu::Kernel kernel = builder.kernel(SetKind::attributes, Kernel::evaluateAttributes,
-                                              {{kKindConstant, static_cast<uint32_t>(domainOf(from.patchClass))},
-                                               {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
-                                               {kOutputsConstant, outputsOf(builder)}},
-                                              indexed ? "supple attributes inside" : "supple attributes");
+    const gpu::Kernel kernel =
+        builder.kernel(SetKind::attributes, Kernel::evaluateAttributes,
+                       {{kKindConstant, static_cast<uint32_t>(domainOf(from.patchClass))},
+                        {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
+                        {kSectorsConstant, rowOf(from.patchClass).hasSectors() ? VK_TRUE : VK_FALSE},
+                        {kOutputsConstant, outputsOf(builder)}},
+                       indexed ? "supple attributes inside" : "supple attributes");
     const uint32_t samples = samplesOf(builder, from.patchClass);
     SurfacePush push = pushFor(builder, {from.attributes, from.section.count * samples});
     push.samples = samples;
@@ -261,6 +268,7 @@ void addRangesAtLevels(ProgramBuilder& builder) {
             const gpu::Kernel kernel = builder.kernel(SetKind::evaluateLevels, row.atLevels,
                                                       {{kKindConstant, static_cast<uint32_t>(range.patchClass)},
                                                        {kVertexFormatConstant, pass.format},
+                                                       {kTangentsConstant, tangents(builder, pass.format)},
                                                        {kCornerNormalsConstant, cornerNormals(builder)}},
                                                       std::string("supple evaluate at levels, ") + row.name);
             builder.add(*pass.steps, SetKind::evaluateLevels, kernel, builder.lanes(push.count), push, r);

@@ -101,6 +101,12 @@ uint32_t noteAttributes(const cage::Cage& cage, Tables& tables) {
     return tables.uvSets == 2 || tables.faceUvs ? 8 : 4;
 }
 
+bool Tables::hasTangents() const {
+    return !hasIndexedMesh() && !ranges.empty() &&
+           std::all_of(ranges.begin(), ranges.end(),
+                       [](const PatchRange& range) { return rowOf(range.patchClass).evaluate != Kernel::count; });
+}
+
 bool Tables::has(Stage stage) const {
     return std::any_of(constructions.begin(), constructions.end(),
                        [&](const Construction& c) { return c.stage == stage && c.section.count > 0; });

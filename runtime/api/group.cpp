@@ -58,6 +58,28 @@ std::optional<SuppleResult> checkPartSchemes(Context& context, const SuppleGroup
     return std::nullopt;
 }
 
+/// Null if the flags go with each other and with the rest.
+std::optional<SuppleResult> checkFlags(Context& context, const SuppleGroupDesc& desc) {
+    const auto has = [&](uint32_t flag) { return (desc.flags & flag) != 0; };
+    if (has(~kGroupFlags)) {
+        return refuse(context, ErrorCode::range, kHere, "unknown flags");
+    }
+    if (desc.view.id != 0 && has(~uint32_t{SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS})) {
+        return refuse(context, ErrorCode::argument, kHere,
+                      "a group of a view takes the flags ONE_LEVEL and BOUNDS alone: the view has the others");
+    }
+    if (desc.view.id == 0 && has(SUPPLE_GROUP_ONE_LEVEL)) {
+        return refuse(context, ErrorCode::argument, kHere, "SUPPLE_GROUP_ONE_LEVEL without a view");
+    }
+    if (has(SUPPLE_GROUP_INDEXED_MESH) && desc.scheme == SUPPLE_SCHEME_CAGE) {
+        return refuse(context, ErrorCode::argument, kHere, "a cage has no samples to share");
+    }
+    if (has(SUPPLE_GROUP_TANGENTS) && !has(SUPPLE_GROUP_ATTRIBUTES)) {
+        return refuse(context, ErrorCode::argument, kHere, "TANGENTS go with ATTRIBUTES");
+    }
+    return std::nullopt;
+}
+
 /// Null if it says whose instances they are, and how many.
 std::optional<SuppleResult> checkInstances(Context& context, const SuppleGroupDesc& desc) {
     if (desc.instancesOf.id != 0 &&
@@ -93,12 +115,12 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
             runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::range, kHere, "no such scheme");
         }
-        if ((desc.flags & ~kGroupFlags) != 0) {
-            return refuse(context, ErrorCode::range, kHere, "unknown flags");
-        }
         if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.skinning, SUPPLE_SKINNING_DUAL_QUATERNION) ||
             !within(desc.poseSource, SUPPLE_POSES_PLAYBACK)) {
             return refuse(context, ErrorCode::range, kHere, "no such vertexFormat, skinning or poseSource");
+        }
+        if (const auto fault = checkFlags(context, desc)) {
+            return *fault;
         }
         SupplePrepOptions prep{};
         SuppleBlendOptions blend{};
@@ -108,18 +130,8 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
         if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
             return refuse(context, ErrorCode::argument, kHere, "a palette buffer goes with linear skinning only");
         }
-        if (desc.view.id != 0 && (desc.flags & ~uint32_t{SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS}) != 0) {
-            return refuse(context, ErrorCode::argument, kHere,
-                          "a group of a view takes the flags ONE_LEVEL and BOUNDS alone: the view has the others");
-        }
         if (const auto fault = checkPartSchemes(context, desc)) {
             return *fault;
-        }
-        if ((desc.flags & SUPPLE_GROUP_INDEXED_MESH) != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
-            return refuse(context, ErrorCode::argument, kHere, "a cage has no samples to share");
-        }
-        if (desc.view.id == 0 && (desc.flags & SUPPLE_GROUP_ONE_LEVEL) != 0) {
-            return refuse(context, ErrorCode::argument, kHere, "SUPPLE_GROUP_ONE_LEVEL without a view");
         }
         if (desc.view.id != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
             return refuse(context, ErrorCode::argument, kHere, "a cage has no levels of detail");

@@ -23,9 +23,9 @@ SuppleResult suppleCreateView(SuppleContext handle, const SuppleViewDesc* given,
         if ((desc.flags & ~kFlags) != 0 || !within(desc.vertexFormat, SUPPLE_VERTEX_24)) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags, or no such vertexFormat");
         }
-        if ((desc.flags & (SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_FACE_UVS)) != 0 &&
+        if ((desc.flags & (SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_FACE_UVS | SUPPLE_VIEW_TANGENTS)) != 0 &&
             (desc.flags & SUPPLE_VIEW_ATTRIBUTES) == 0) {
-            return refuse(context, ErrorCode::argument, kHere, "UVS1 and FACE_UVS go with ATTRIBUTES");
+            return refuse(context, ErrorCode::argument, kHere, "UVS1, FACE_UVS and TANGENTS go with ATTRIBUTES");
         }
         if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0 && (desc.flags & SUPPLE_VIEW_CULL) == 0) {
             return refuse(context, ErrorCode::argument, kHere, "OCCLUSION goes with CULL");

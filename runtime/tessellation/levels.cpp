@@ -131,14 +131,19 @@ Culling::Needs Levels::cullingNeeds() const {
 
 void Levels::bindOutput(const SurfaceSets::Which& which, SetContents& contents) const {
     const VertexStreams& streams = view()->streams();
-    const VkBuffer vertices = streams.buffer(Stream::vertices);
-    contents.buffer(kSurfaceBinding, which.previous ? streams.buffer(Stream::previousPositions) : vertices, 0,
+    const Stream target = which.previous ? Stream::previousPositions : Stream::vertices;
+    contents.buffer(kSurfaceBinding, streams.buffer(target), 0, VK_WHOLE_SIZE);
+    // Without a stream, or where only positions are written, the kernels still name it, but do not touch it.
+    const Stream tangents = streams.has(Stream::tangents) && !which.previous ? Stream::tangents : target;
+    contents.buffer(kTangentBinding, streams.buffer(tangents), 0, VK_WHOLE_SIZE);
+    const VkBuffer directions = streams.buffer(Stream::directions);
+    contents.buffer(kDirectionBinding, directions != VK_NULL_HANDLE ? directions : pools_[which.pool].buffer(), 0,
                     VK_WHOLE_SIZE);
     for (const StreamRow& row : kStreams) {
         if (row.written == Written::static_) {
             const VkBuffer buffer = streams.buffer(static_cast<Stream>(&row - kStreams));
-            // Without the stream the kernel still names it, but does not write it.
-            contents.buffer(row.binding, buffer != VK_NULL_HANDLE ? buffer : vertices, 0, VK_WHOLE_SIZE);
+            contents.buffer(row.binding, buffer != VK_NULL_HANDLE ? buffer : streams.buffer(Stream::vertices), 0,
+                            VK_WHOLE_SIZE);
         }
     }
     const VkBuffer words = view()->words();

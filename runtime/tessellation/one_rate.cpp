@@ -80,7 +80,7 @@ VkDeviceSize OneRate::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame
 PassCost OneRate::recordEvaluate(VkCommandBuffer commandBuffer) const {
     windows().forEach([&](uint32_t w) { record(commandBuffer, program_.evaluate, seen(w)); });
     const uint64_t points = uint64_t{vertexCount_} * windows().visible;
-    return {points, points * streams_.bytes(Stream::vertices)};
+    return {points, points * streams_.frameBytes()};
 }
 
 PassCost OneRate::recordMotion(VkCommandBuffer commandBuffer) const {

@@ -77,13 +77,20 @@ Status OwnVertices::createIndices(std::span<const std::byte> indices) {
 
 void OwnVertices::bindOutput(const SurfaceSets::Which& which, SetContents& contents) const {
     const Stream target = which.previous ? Stream::previousPositions : Stream::vertices;
-    const VkDeviceSize bytes = VkDeviceSize{evaluation_.verticesPerInstance} * streams_.bytes(target);
-    contents.buffer(kSurfaceBinding, streams_.buffer(target), windows().firstSlot(which.window) * bytes,
-                    windows().slots(which.window) * bytes);
+    const auto bindSlots = [&](uint32_t binding, Stream stream) {
+        const VkDeviceSize bytes = VkDeviceSize{evaluation_.verticesPerInstance} * streams_.bytes(stream);
+        contents.buffer(binding, streams_.buffer(stream), windows().firstSlot(which.window) * bytes,
+                        windows().slots(which.window) * bytes);
+    };
+    bindSlots(kSurfaceBinding, target);
+    // Without a stream, or where only positions are written, the kernels still name it, but do not touch it.
+    bindSlots(kTangentBinding, streams_.has(Stream::tangents) && !which.previous ? Stream::tangents : target);
+    const bool directed = streams_.size(Stream::directions) > 0;
+    contents.buffer(kDirectionBinding, directed ? streams_.buffer(Stream::directions) : pools_[which.pool].buffer(), 0,
+                    VK_WHOLE_SIZE);
     for (const StreamRow& row : kStreams) {
         if (row.written == Written::static_) {
             const auto stream = static_cast<Stream>(&row - kStreams);
-            // Without the stream the kernel still names it, but does not write it.
             const bool there = streams_.size(stream) > 0;
             contents.buffer(row.binding, there ? streams_.buffer(stream) : pools_[which.pool].buffer(), 0,
                             there ? VK_WHOLE_SIZE : VkDeviceSize{16});

@@ -101,11 +101,28 @@ Status Tessellation::buildTables() {
         rateNote_ = "rate " + std::to_string(askedRate_) + ": " + scheme.name + " has " + scheme.ratesInWords +
                     " segments an edge of the cage, here " + std::to_string(taken);
     }
+    const Status tangents = keepTangents();
+    if (!tangents) {
+        return tangents;
+    }
     wanted_.keepAttributes(own.attributeOutputs());
     if (own.patches.empty()) {
         wanted_.remove(Stream::previousPositions);
     }
     evaluation_.rate = own.rate == 0 ? askedRate_ : own.rate;
+    return success();
+}
+
+Status Tessellation::keepTangents() {
+    if (!wanted_.has(Stream::tangents) || tables().hasTangents()) {
+        return success();
+    }
+    if (view() == nullptr && !desc_.schemeChosen) {
+        return Error{ErrorCode::argument, desc_.asset->character.name + ": " +
+                                              surface::schemeOf(scheme_->recipe.scheme).name + " has no tangents" +
+                                              (tables().hasIndexedMesh() ? " as an indexed mesh" : "")};
+    }
+    wanted_.remove(Stream::tangents);
     return success();
 }
 
@@ -115,6 +132,7 @@ surface::Needs Tessellation::needs() const {
         static_cast<uint32_t>(view() != nullptr ? view()->desc().vertexFormat : desc_.group.vertexFormat);
     needs.motion = wanted_.has(Stream::previousPositions);
     needs.patches = (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0;
+    needs.tangents = wanted_.has(Stream::tangents);
     needs.attributes = wanted_.has(Stream::attributes);
     needs.attributeOutputs = wanted_.attributeOutputs();
     needs.rate = tables().rate == 0 ? askedRate_ : tables().rate; // though another may be set later

@@ -141,6 +141,7 @@ public:
     [[nodiscard]] virtual bool writesLevelAttributes() const { return false; }
     virtual PassCost recordLevelAttributes(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     virtual PassCost recordEvaluate(VkCommandBuffer commandBuffer) const = 0;
+    [[nodiscard]] bool writesTangents() const { return wanted_.has(Stream::tangents); }
     /// Previous positions.
     [[nodiscard]] bool writesMotion() const { return pools_[1].buffer() != VK_NULL_HANDLE; }
     /// Evaluation and motion write the same memory, so that a barrier stands between the two.
@@ -159,6 +160,8 @@ protected:
 
     /// Builds the tables of the description; `rate` in segments along an edge of the cage.
     [[nodiscard]] Status buildTables();
+    /// Leaves tangents out, or refuses, if the scheme has none.
+    [[nodiscard]] Status keepTangents();
     /// What the passes write for this group.
     [[nodiscard]] surface::Needs needs() const;
     [[nodiscard]] Status prepare();

@@ -1,6 +1,6 @@
 // Evaluates the blending surface: four local geometries per face, blended by Hermite weights (docs/blend.md). At a rate, tables
 // say where samples lie in the charts: nothing transcendental is computed here. Narrow mapping: a lane has all coefficients of a
-// patch in registers. Wide mapping: the parts that lanes load are single coefficients. Both use blend() and normalOf(), so
+// patch in registers. Wide mapping: the parts that lanes load are single coefficients. Both use blend() and checkedFrame(), so
 // positions agree bit for bit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -64,30 +64,51 @@ bool liesStill(Corner corners[4], uint i, uint j) {
     return still;
 }
 
-// Of any length. Where even the face has a longer one, that.
-vec3 normalOf(Corner corners[4], vec3 n) {
-    vec3 diagonal = corners[2].c[0] - corners[0].c[0], other = corners[3].c[0] - corners[1].c[0];
-    if (!(dot(n, n) > kTinyNormal * (dot(diagonal, diagonal) * dot(other, other)))) n = cross(diagonal, other);
-    return n;
+// Where even the face has a longer normal, that.
+Frame checkedFrame(Corner corners[4], Frame f) {
+    vec3 n = f.normal, diagonal = corners[2].c[0] - corners[0].c[0], other = corners[3].c[0] - corners[1].c[0];
+    if (!(dot(n, n) > kTinyNormal * (dot(diagonal, diagonal) * dot(other, other))))
+        f = withNormal(f, cross(diagonal, other));
+    return f;
+}
+
+// At corner k from its chart, where the blend's derivatives have a limit: along the two edges the powers of z that they have in
+// common are left out. Beside a crease the two have different powers; then the edges themselves say where tangents point.
+Frame cornerFrame(Corner corners[4], uint k) {
+    Corner own = corners[k];
+    vec3 normal = cross(own.c[3], own.c[1]);
+    if (!kTangents) return Frame(vec3(0.0), vec3(0.0), normal);
+    vec3 along = own.directions.x * own.c[3] + own.directions.y * own.c[1];
+    vec3 across = own.directions.z * own.c[3] + own.directions.w * own.c[1];
+    if (isCreased(own)) {
+        along = corners[(k + 1u) & 3u].c[0] - own.c[0];
+        across = corners[(k + 3u) & 3u].c[0] - own.c[0];
+    }
+    // The corner's own coordinates are the patch's, turned by k quarters.
+    Frame f = Frame(along, across, normal);
+    if (k == 1u) f = Frame(-across, along, normal);
+    if (k == 2u) f = Frame(-along, -across, normal);
+    if (k == 3u) f = Frame(across, -along, normal);
+    if (isCreased(own)) f = withNormal(f, normal);
+    return f;
 }
 
 // Half a step inside, for samples on a border.
 uint inside(uint i) { return i == 0u ? push.rate + 1u : i == push.rate ? push.rate + 2u : i; }
 
-void evaluateAtRate(Corner corners[4], uint i, uint j, bool still, out vec3 position, out vec3 normal) {
+void evaluateAtRate(Corner corners[4], uint i, uint j, bool still, out vec3 position, out Frame frame) {
     vec3 du, dv;
     blendOfTables(corners, i, j, position, du, dv);
     if (kSharp && still) {
         vec3 unused;
         blendOfTables(corners, inside(i), inside(j), unused, du, dv);
     }
-    vec3 n = cross(du, dv);
-    // At a corner from its chart, where the blend's derivatives have a limit.
+    frame = frameOf(du, dv);
     bool onEdge[4] = bool[4](j == 0u, i == push.rate, j == push.rate, i == 0u);
     for (uint k = 0u; k < 4u; ++k) {
-        if (!still && onEdge[k] && onEdge[(k + 3u) & 3u]) n = cross(corners[k].c[3], corners[k].c[1]);
+        if (!still && onEdge[k] && onEdge[(k + 3u) & 3u]) frame = cornerFrame(corners, k);
     }
-    normal = normalOf(corners, n);
+    frame = checkedFrame(corners, frame);
 }
 
 // At levels: where the normal of a sample is taken, a step inside where the surface lies still. Beside single faces cut off
@@ -121,9 +142,10 @@ bool moveInside(Corner corners[4], inout vec2 u, inout vec2 v) {
     return moved;
 }
 
-void evaluateLevels(Corner corners[4], vec2 u, vec2 v, out vec3 position, out vec3 normal) {
+void evaluateLevels(Corner corners[4], vec2 u, vec2 v, out vec3 position, out Frame frame) {
     vec3 du, dv;
     blendAt(corners, u, v, position, du, dv);
+    frame = frameOf(du, dv);
     if (kVertexFormat == kVertexPosition) return;
     bool moved = false;
     if (kSharp) {
@@ -134,12 +156,12 @@ void evaluateLevels(Corner corners[4], vec2 u, vec2 v, out vec3 position, out ve
             blendAt(corners, insideU, insideV, unused, du, dv);
         }
     }
-    vec3 n = cross(du, dv);
+    frame = frameOf(du, dv);
     for (uint k = 0u; k < 4u; ++k) {
         bool right = k == 1u || k == 2u, top = k >= 2u;
-        if (!moved && (right ? u.y : u.x) == 0.0 && (top ? v.y : v.x) == 0.0) n = cross(corners[k].c[3], corners[k].c[1]);
+        if (!moved && (right ? u.y : u.x) == 0.0 && (top ? v.y : v.x) == 0.0) frame = cornerFrame(corners, k);
     }
-    normal = normalOf(corners, n);
+    frame = checkedFrame(corners, frame);
 }
 
 #ifndef WIDE
@@ -160,9 +182,10 @@ void evaluatePatch(const PatchPlace at) {
     do {
         uint i = 0u;
         do {
-            vec3 position, normal;
-            evaluateAtRate(corners, i, j, false, position, normal);
-            storeSurfaceVertex(vertex + j * side + i, position, normal);
+            vec3 position;
+            Frame frame;
+            evaluateAtRate(corners, i, j, false, position, frame);
+            storeSurfaceVertex(vertex + j * side + i, at.own + j * side + i, position, frame);
         } while (++i < side);
     } while (++j < side);
     if (!kSharp) return;
@@ -171,9 +194,10 @@ void evaluatePatch(const PatchPlace at) {
         uint edge = n / push.rate, along = n - edge * push.rate;
         uint i = edge == 0u ? along : edge == 1u ? push.rate : edge == 2u ? push.rate - along : 0u;
         uint j = edge == 0u ? 0u : edge == 1u ? along : edge == 2u ? push.rate : push.rate - along;
-        vec3 position, normal;
-        evaluateAtRate(corners, i, j, true, position, normal);
-        if (liesStill(corners, i, j)) storeSurfaceVertex(vertex + j * side + i, position, normal);
+        vec3 position;
+        Frame frame;
+        evaluateAtRate(corners, i, j, true, position, frame);
+        if (liesStill(corners, i, j)) storeSurfaceVertex(vertex + j * side + i, at.own + j * side + i, position, frame);
     }
 }
 
@@ -191,9 +215,11 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
             vec2 u = vec2(i == 0u ? 0.0 : 1.0, i == 0u ? 1.0 : 0.0), v = vec2(j == 0u ? 0.0 : 1.0, j == 0u ? 1.0 : 0.0);
             if (i > 0u && i < last) u = lodPair(j == 0u ? patterns[2] : j == last ? patterns[4] : patterns[0], i, last);
             if (j > 0u && j < last) v = lodPair(i == last ? patterns[3] : i == 0u ? patterns[5] : patterns[1], j, last);
-            vec3 position, normal;
-            evaluateLevels(corners, u, v, position, normal);
-            storeSurfaceVertex(at.vertex + j * side + i, at.empty ? vec3(0.0) : position, normal);
+            vec3 position;
+            Frame frame;
+            evaluateLevels(corners, u, v, position, frame);
+            uint own = at.vertex + j * side + i;
+            storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, frame);
         } while (++i < side);
     } while (++j < side);
 }
@@ -207,7 +233,7 @@ void loadPart(uint to, const PatchPlace at, uint c) {
     localCoefficients[to] = vec4(coefficient(at.base + poolIndex + c % kChartCoefficients, at.isNew), 0.0);
 }
 
-void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out vec3 normal) {
+void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
     Corner corners[4];
     for (uint k = 0u; k < 4u; ++k) {
         uint poolIndex;
@@ -216,10 +242,10 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
     }
 #ifdef LEVELS
     uint j = index / (at.capacity + 1u), i = index - j * (at.capacity + 1u);
-    evaluateLevels(corners, lodU(place, at.capacity, i, j), lodV(place, at.capacity, i, j), position, normal);
+    evaluateLevels(corners, lodU(place, at.capacity, i, j), lodV(place, at.capacity, i, j), position, frame);
 #else
     uint j = index / (push.rate + 1u), i = index - j * (push.rate + 1u);
-    evaluateAtRate(corners, i, j, kSharp && liesStill(corners, i, j), position, normal);
+    evaluateAtRate(corners, i, j, kSharp && liesStill(corners, i, j), position, frame);
 #endif
 }
 #endif

@@ -1,12 +1,13 @@
 // Evaluates surface attributes: UV sets and color, interpolated between a patch's corners. No pose changes them. At a rate
 // they are evaluated once per group, with one invocation per patch sample. At levels they are evaluated in every frame, where
 // samples lie then. Output per sample: u, v, and linear color as RG and BA in 16-bit unorm, because 8 bits would band in the
-// dark. If there are a second UV set and face UVs, these follow.
+// dark. If there are a second UV set and face UVs, these follow; with tangents, the direction word (docs/tangents.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
+#include "shaders/evaluate/sectors.glsl"
 #include "shaders/lod/record.glsl"
 
 layout(constant_id = kKindConstant) const uint kDomain = kQuadDomain;
@@ -15,11 +16,15 @@ const bool kRings = true; // with level of detail: samples lie in rings round a 
 #else
 const bool kRings = false;
 #endif
-layout(constant_id = kOutputsConstant) const uint kOutputs = 0u; // kOutputUvs1, kOutputFaceUvs where they are written
+layout(constant_id = kOutputsConstant) const uint kOutputs = 0u; // kOutputUvs1, .. where they are written
+layout(constant_id = kSectorsConstant) const bool kSectors = false;
+const bool kDirections = (kOutputs & kOutputDirections) != 0u;
+const bool kMoreUvs = (kOutputs & (kOutputUvs1 | kOutputFaceUvs)) != 0u;
 
 layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes { uvec4 attributes[]; };
 layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1[]; };
 layout(set = 0, binding = kFaceUvBinding, std430) writeonly buffer FaceUvs { vec2 faceUvs[]; };
+layout(set = 0, binding = kDirectionOutputBinding, std430) writeonly buffer Directions { uint directions[]; };
 
 const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ? 4u : kDomain == kEdgeDomain ? 2u
                       : kDomain == kVertexDomain ? 1u : 3u;
@@ -84,7 +89,7 @@ void loadCorner(inout Corners c, uint k, uint element) {
     uvec4 corner = tableElement(element);
     c.uv[k] = uintBitsToFloat(corner.xy);
     c.color[k] = vec4(corner.z & 0xFFFFu, corner.z >> 16u, corner.w & 0xFFFFu, corner.w >> 16u);
-    c.more[k] = kOutputs != 0u ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
+    c.more[k] = kMoreUvs ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
 }
 Corners loadCorners(uint patchIndex) {
     Corners c;
@@ -119,6 +124,62 @@ void store(uint vertex, Corners c, float w[5]) {
     store(vertex, s);
 }
 
+// Derivatives of the texture coordinates in the parameters whose derivatives evaluation has (docs/tangents.md): u and v of a
+// patch, or along a sector's edge and towards the centre.
+struct Slopes {
+    vec2 a, b;
+};
+Slopes slopesAt(Corners c, vec2 u, vec2 v) {
+    // On polar patches both derivatives along u lack the factor 1 - v.
+    if (kDomain == kPolarDomain) return Slopes(c.uv[1] - c.uv[0], c.uv[2] - (u.y * c.uv[0] + u.x * c.uv[1]));
+    return Slopes(v.y * (c.uv[1] - c.uv[0]) + v.x * (c.uv[2] - c.uv[3]),
+                  u.y * (c.uv[3] - c.uv[0]) + u.x * (c.uv[2] - c.uv[1]));
+}
+// In a sector, with the weights of its corners and the centre.
+Slopes sectorSlopes(Corners c, uint sector, vec3 l) {
+    uint next = sector + 1u == kCorners ? 0u : sector + 1u;
+    if (kDomain == kQuadDomain) {
+        vec2 own = squareCorner(sector), along = squareCorner(next) - own, inwards = vec2(-along.y, along.x);
+        vec2 p = own + l.y * along + l.z * (vec2(0.5) - own);
+        Slopes uv = slopesAt(c, vec2(p.x, 1.0 - p.x), vec2(p.y, 1.0 - p.y));
+        vec2 a = along.x * uv.a + along.y * uv.b, across = inwards.x * uv.a + inwards.y * uv.b;
+        return Slopes(a, 0.5 * (a + across));
+    }
+    vec2 centre = vec2(0.0);
+    for (uint k = 0u; k < kCorners; ++k) centre += c.uv[k] / float(kCorners);
+    return Slopes(c.uv[next] - c.uv[sector], centre - c.uv[sector]);
+}
+
+// The sign of a face's area in texture coordinates, which all of its samples have, and its size.
+float sideOf(Corners c, out float size) {
+    vec2 centre = vec2(0.0);
+    for (uint k = 0u; k < kCorners; ++k) centre += c.uv[k] / float(kCorners);
+    float area = 0.0;
+    size = 0.0;
+    for (uint k = 0u; k < kCorners; ++k) {
+        vec2 p = c.uv[k] - c.uv[0], q = c.uv[k + 1u == kCorners ? 0u : k + 1u] - c.uv[0];
+        precise float twice = p.x * q.y - p.y * q.x;
+        area += twice;
+        size = max(size, distance(c.uv[k], centre));
+    }
+    return sign(area);
+}
+
+// The tangent is the direction in which the second texture coordinate stands still: a P_a + b P_b with (a, b) = side (t_b, -t_a).
+// The frame's sign is glTF's, which is minus the side.
+void storeDirection(uint vertex, Corners c, Slopes slopes) {
+    const float kFlat = 1e-5; // of the face's size: there is no direction
+    float size, side = sideOf(c, size);
+    vec2 d = side * vec2(slopes.b.y, -slopes.a.y);
+    float longest = max(abs(d.x), abs(d.y));
+    if (!(longest > kFlat * size) || isinf(longest)) {
+        d = vec2(1.0, 0.0);
+        longest = 1.0;
+    }
+    ivec2 q = ivec2(round(d / longest * vec2(32767.0, 16383.0)));
+    directions[vertex] = (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u | (side > 0.0 ? kNegativeFrame : 0u);
+}
+
 // A patch with levels, by one lane: what a row has in common is found once. Loops are tested at the bottom, see
 // evaluate/bicubic.comp.
 void storeRows(uint record, LodRecord r, Corners c) {
@@ -146,11 +207,20 @@ void storeRows(uint record, LodRecord r, Corners c) {
         Sample onRight = blended(vRight.y, atCorner(c, 1u), vRight.x, atCorner(c, 2u));
         uint i = 0u;
         do {
-            vec2 u = lodPair(along, i, last);
+            vec2 u = lodPair(along, i, last), vHere = v;
             Sample s = blended(u.y, begin, u.x, end);
-            if (i == 0u) s = onLeft;
-            if (i == last) s = onRight;
-            store(vertex + j * (last + 1u) + i, s);
+            if (i == 0u) {
+                s = onLeft;
+                vHere = vLeft;
+            }
+            if (i == last) {
+                s = onRight;
+                vHere = vRight;
+            }
+            uint own = vertex + j * (last + 1u) + i;
+            store(own, s);
+            if (kDirections)
+                storeDirection(own, c, slopesAt(c, i == 0u ? kBegin : i == last ? kEnd : u, vHere));
         } while (++i <= last);
     } while (++j <= last);
 }
@@ -167,7 +237,9 @@ void storeRings(uint record, LodRecord r, Corners c) {
             uint vertex = r.firstVertex + ringSideStart(kCorners, ring, sector, last);
             uint k = ring;
             do {
-                store(vertex + k - ring, c, sectorWeights(sector, ringWeights(lodPair(side, k, last), t)));
+                vec3 l = ringWeights(lodPair(side, k, last), t);
+                store(vertex + k - ring, c, sectorWeights(sector, l));
+                if (kDirections) storeDirection(vertex + k - ring, c, sectorSlopes(c, sector, l));
             } while (++k < last - ring);
             side = inside;
         } while (++ring < rings);
@@ -175,6 +247,16 @@ void storeRings(uint record, LodRecord r, Corners c) {
 }
 
 #if defined(WIDE) && defined(LEVELS)
+Slopes lodSlopes(uint place, LodRecord r, Corners c, uint index) {
+    if (!kRings) {
+        uint j = index / (r.capacity + 1u), i = index - j * (r.capacity + 1u);
+        return slopesAt(c, lodU(place, r.capacity, i, j), lodV(place, r.capacity, i, j));
+    }
+    vec2 along;
+    RingSample at = ringSample(kCorners, r.capacity, index);
+    return sectorSlopes(c, at.side, ringWeights(place, r.capacity, at, along));
+}
+
 // A workgroup has several records only where it has a lane for each of their samples.
 void evaluateWideLod(uint form) {
     Share share = lodShareOfGroup(form);
@@ -184,8 +266,22 @@ void evaluateWideLod(uint form) {
     LodRecord r = localRecord(place);
     if (r.patchIndex == kEmptyRecord) return;
     Corners corners = loadCorners(r.patchIndex - push.firstPatch);
-    for (uint k = gl_LocalInvocationID.x - place * share.samples; k < share.samples; k += gl_WorkGroupSize.x)
+    for (uint k = gl_LocalInvocationID.x - place * share.samples; k < share.samples; k += gl_WorkGroupSize.x) {
         store(r.firstVertex + k, corners, lodCornerWeights(place, r, k));
+        if (kDirections) storeDirection(r.firstVertex + k, corners, lodSlopes(place, r, corners, k));
+    }
+}
+#endif
+
+#ifndef LEVELS
+Slopes slopesAtRate(Corners c, uint index) {
+    if (kSectors) {
+        uvec3 s = sectorOf(kDomain, push.rate, index);
+        float x = parameterPair(s.x, push.rate, push.pairs).x, y = parameterPair(s.y, push.rate, push.pairs).x;
+        return sectorSlopes(c, s.z, vec3(1.0 - x - y, x, y));
+    }
+    uvec3 at = gridSample(kDomain, push.rate, index);
+    return slopesAt(c, parameterPair(at.x, push.rate, push.pairs), parameterPair(at.y, push.rate, push.pairs));
 }
 #endif
 
@@ -234,7 +330,9 @@ void main() {
         store(push.firstVertex + id, atCorner(c, 0u));
         return;
     }
-    uint patchIndex = id / push.samples;
-    store(push.firstVertex + id, loadCorners(patchIndex), cornerWeights(id - patchIndex * push.samples));
+    uint patchIndex = id / push.samples, index = id - patchIndex * push.samples;
+    Corners corners = loadCorners(patchIndex);
+    store(push.firstVertex + id, corners, cornerWeights(index));
+    if (kDirections) storeDirection(push.firstVertex + id, corners, slopesAtRate(corners, index));
 #endif
 }

@@ -91,7 +91,7 @@ Row collapse(Patch c, vec2 v) {
 }
 
 // The sample of a row at u. The perturbation is added to the bicubic total last.
-void finish(Row row, vec2 u, out vec3 position, out vec3 normal) {
+void finish(Row row, vec2 u, out vec3 position, out Frame frame) {
     vec4 b = bernstein3(u);
     precise vec3 p = sum4(b, row.g[0], row.g[1], row.g[2], row.g[3]);
     vec3 du = blend3(derivativeWeights3(u), row.gu[0], row.gu[1], row.gu[2]);
@@ -107,14 +107,15 @@ void finish(Row row, vec2 u, out vec3 position, out vec3 normal) {
               blend4(b5.outer, row.outerV[0], row.outerV[1], row.outerV[2], row.outerV[3]);
     }
     position = p;
-    normal = cross(du, dv); // outwards
+    frame = frameOf(du, dv);
 }
 
-vec3 cornerNormal(vec3 normal, uint i, uint j, uint rate, uvec4 slots, uint base) {
+Frame withCornerNormal(Frame frame, uint i, uint j, uint rate, uvec4 slots, uint base) {
     bool left = i == 0u, right = i == rate, bottom = j == 0u, top = j == rate;
-    if (!((left || right) && (bottom || top))) return normal;
+    if (!((left || right) && (bottom || top))) return frame;
     uint slot = bottom ? (left ? slots.x : slots.y) : (left ? slots.w : slots.z);
-    return slot == kNoNormal ? normal : poolVector(base + slot);
+    if (slot == kNoNormal) return frame;
+    return withNormal(frame, poolVector(base + slot));
 }
 
 Patch loadPatch(const PatchPlace at) {
@@ -144,19 +145,21 @@ void evaluatePatch(const PatchPlace at) {
     uvec4 slots = normalSlots(at.record);
 
     uint rate = fixedRate(), first = kInterior ? 1u : 0u, end = rate + 1u - first;
-    uint vertex = at.vertex;
+    uint vertex = at.vertex, own = at.own;
     // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do.
     uint j = first;
     do {
         Row row = collapse(c, parameterPair(j, rate, push.pairs));
         uint i = first;
         [[unroll]] do {
-            vec3 position, normal;
-            finish(row, parameterPair(i, rate, push.pairs), position, normal);
+            vec3 position;
+            Frame frame;
+            finish(row, parameterPair(i, rate, push.pairs), position, frame);
             if (kPolar && j == rate) position = c.g[12]; // the apex itself, from every patch round it
-            if (kCornerNormals && !kInterior) normal = cornerNormal(normal, i, j, rate, slots, at.base);
-            storeSurfaceVertex(vertex, position, normal);
+            if (kCornerNormals && !kInterior) frame = withCornerNormal(frame, i, j, rate, slots, at.base);
+            storeSurfaceVertex(vertex, own, position, frame);
             ++vertex;
+            ++own;
         } while (++i < end);
     } while (++j < end);
 }
@@ -183,11 +186,13 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
         Row row = collapse(c, j == 0u ? kBegin : j == last ? kEnd : lodPair(insideV, j, last));
         uint i = border ? 0u : 1u, end = border ? side : last;
         do {
-            vec3 position, normal;
-            finish(row, i == 0u ? kBegin : i == last ? kEnd : lodPair(along, i, last), position, normal);
+            vec3 position;
+            Frame frame;
+            finish(row, i == 0u ? kBegin : i == last ? kEnd : lodPair(along, i, last), position, frame);
             if (kPolar && j == last) position = c.g[12];
-            if (kCornerNormals) normal = cornerNormal(normal, i, j, last, slots, at.base);
-            storeSurfaceVertex(vertex + j * side + i, at.empty ? vec3(0.0) : position, normal);
+            if (kCornerNormals) frame = withCornerNormal(frame, i, j, last, slots, at.base);
+            uint own = vertex + j * side + i;
+            storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, frame);
         } while (++i < end);
     } while (++j < side);
     if (last == 1u) return; // no inner rows
@@ -197,9 +202,11 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
         LodPattern border = left;
         if (onRight) border = right;
         j = n + (onRight ? 2u - last : 1u);
-        vec3 position, normal;
-        finish(collapse(c, lodPair(border, j, last)), onRight ? kEnd : kBegin, position, normal);
-        storeSurfaceVertex(vertex + j * side + (onRight ? last : 0u), at.empty ? vec3(0.0) : position, normal);
+        vec3 position;
+        Frame frame;
+        finish(collapse(c, lodPair(border, j, last)), onRight ? kEnd : kBegin, position, frame);
+        uint own = vertex + j * side + (onRight ? last : 0u);
+        storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, frame);
     } while (++n < count);
 }
 #endif
@@ -315,15 +322,21 @@ void evaluateWide() {
             [[unroll]] for (uint c = 0u; c < chunk; ++c) {
                 uint i = from + c + kInset, to = lane * chunk + c;
                 if (from + c >= side) break;
-                vec3 position, normal;
-                finish(row, parameterPair(i, rate, push.pairs), position, normal);
+                vec3 position;
+                Frame frame;
+                finish(row, parameterPair(i, rate, push.pairs), position, frame);
                 if (kPolar && j == rate) position = apex;
                 if (kCornerNormals && !kInterior && (i == 0u || i == rate) && (j == 0u || j == rate)) {
                     PatchPlace at = PATCH_IN_PLACE(share, place);
-                    normal = cornerNormal(normal, i, j, rate, normalSlots(at.record), at.base);
+                    frame = withCornerNormal(frame, i, j, rate, normalSlots(at.record), at.base);
+                }
+                if (kTangents) {
+                    PatchPlace at = PATCH_IN_PLACE(share, place);
+                    uint own = (j - kInset) * side + from + c;
+                    storeTangent(at.vertex + own, at.own + own, frame);
                 }
                 localElements[to].xyz = position;
-                uvec3 words = normalWords(normal);
+                uvec3 words = normalWords(frame.normal);
                 for (uint k = 0u; k < kNormalWords; ++k) localNormals[kNormalWords * to + k] = words[k];
             }
         }
@@ -404,14 +417,16 @@ void evaluateWide() {
         for (uint n = gl_LocalInvocationID.x; n < count * side; n += gl_WorkGroupSize.x) {
             uint slot = n / side, row = firstRow + slot, place = row / side, i = n - slot * side, j = row - place * side;
             PatchPlace at = PATCH_IN_PLACE(share, place);
-            vec3 position = vec3(0.0), normal = vec3(0.0);
+            vec3 position = vec3(0.0);
+            Frame frame = Frame(vec3(0.0), vec3(0.0), vec3(0.0));
             if (!at.empty) {
                 finish(localRow(3u * slot + (i == 0u ? 1u : i == at.capacity ? 2u : 0u)), lodU(place, at.capacity, i, j),
-                       position, normal);
+                       position, frame);
                 if (kPolar && j == at.capacity) position = localVector(place * kLocalStride + localSlot(12u));
-                if (kCornerNormals) normal = cornerNormal(normal, i, j, at.capacity, normalSlots(at.record), at.base);
+                if (kCornerNormals) frame = withCornerNormal(frame, i, j, at.capacity, normalSlots(at.record), at.base);
             }
-            storeSurfaceVertex(at.vertex + j * side + i, position, normal);
+            uint own = j * side + i;
+            storeSurfaceVertex(at.vertex + own, at.own + own, position, frame);
         }
     }
 }

@@ -18,6 +18,7 @@ struct PatchPlace {
     uint record;   // its first table element
     uint base;     // where the coefficients of its instance begin in the pool
     uint vertex;   // its first surface vertex
+    uint own;      // the same within its instance; at levels the view has all vertices, and it is the same
     uint capacity; // at levels: segments along a side
     uint capacityIndex;
     bool isNew;    // at levels: its instance has no past
@@ -28,14 +29,14 @@ struct PatchPlace {
 PatchPlace placeOf(const LodRecord r) {
     setPast(r.isNew);
     return PatchPlace(push.table + kRecordElements * (r.patchIndex - push.firstPatch), r.slot * push.poolStride, r.firstVertex,
-                      r.capacity, r.capacityIndex, r.isNew, r.patchIndex == kEmptyRecord);
+                      r.firstVertex, r.capacity, r.capacityIndex, r.isNew, r.patchIndex == kEmptyRecord);
 }
 #else
 PatchPlace placeOf(uint item) {
     uint instance = instanceOf(item), element = elementOf(item);
+    uint own = push.firstVertex + element * push.samples;
     return PatchPlace(push.table + kRecordElements * element, instance * push.poolStride,
-                      instance * push.verticesPerInstance + push.firstVertex + element * push.samples, 0u, 0u, false,
-                      false);
+                      instance * push.verticesPerInstance + own, own, 0u, 0u, false, false);
 }
 #endif
 
@@ -86,7 +87,7 @@ Share shareOfGroup() {
 void evaluateWide();
 #ifndef OWN_WIDE
 void loadPart(uint to, const PatchPlace at, uint part); // a part of a patch into part `to` of the workgroup's memory
-void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out vec3 normal);
+void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame);
 
 void evaluateWide() {
     Share share = shareOfGroup();
@@ -99,9 +100,10 @@ void evaluateWide() {
     for (uint n = gl_LocalInvocationID.x; n < share.count * share.samples; n += gl_WorkGroupSize.x) {
         uint place = n / share.samples, index = n - place * share.samples;
         PatchPlace at = PATCH_IN_PLACE(share, place);
-        vec3 position = vec3(0.0), normal = vec3(0.0);
-        if (!kLod || !at.empty) evaluateSample(place, at, index, position, normal);
-        storeSurfaceVertex(at.vertex + index, position, normal);
+        vec3 position = vec3(0.0);
+        Frame frame = Frame(vec3(0.0), vec3(0.0), vec3(0.0));
+        if (!kLod || !at.empty) evaluateSample(place, at, index, position, frame);
+        storeSurfaceVertex(at.vertex + index, at.own + index, position, frame);
     }
 }
 #endif

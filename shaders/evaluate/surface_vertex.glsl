@@ -1,10 +1,32 @@
-// The surface vertex: 16 bytes (position, octahedral normal in 2 x snorm16), 24 (position, normal) or 12 (position).
+// The surface vertex: 16 bytes (position, octahedral normal in 2 x snorm16), 24 (position, normal) or 12 (position); and its
+// tangent, in a word of its own.
 layout(constant_id = kVertexFormatConstant) const uint kVertexFormat = kVertex16;
 
 layout(set = 0, binding = kSurfaceBinding, std430) writeonly buffer Surface16 { uvec4 surface16[]; };
 layout(set = 0, binding = kSurfaceBinding, scalar) writeonly buffer SurfaceVectors { vec3 surfaceVectors[]; };
 
+layout(constant_id = kTangentsConstant) const bool kTangents = false;
+layout(set = 0, binding = kTangentBinding, std430) writeonly buffer Tangents { uint tangents[]; };
+layout(set = 0, binding = kDirectionBinding, std430) readonly buffer Directions { uint directions[]; };
+
 const float kTiny = 1e-37; // above the denormals, which devices may flush
+
+// What a sample's normal and tangent are made of: the derivatives in the two parameters of its patch. Both may lack one common
+// positive factor. The normal points outwards and has any length.
+struct Frame {
+    vec3 du, dv, normal;
+};
+Frame frameOf(vec3 du, vec3 dv) { return Frame(du, dv, cross(du, dv)); }
+// With a normal that comes from elsewhere. Tangents are orthogonal to it.
+Frame withNormal(Frame f, vec3 normal) {
+    f.normal = normal;
+    if (kTangents) {
+        vec3 scaled = normal / max(dot(normal, normal), kTiny);
+        f.du -= dot(f.du, normal) * scaled;
+        f.dv -= dot(f.dv, normal) * scaled;
+    }
+    return f;
+}
 
 // Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer, "A Survey of Efficient Representations for Independent Unit
 // Vectors" (JCGT 2014): octahedral mapping, of normals of any length. A zero one is +z.
@@ -17,6 +39,33 @@ uint encodeOctahedral(vec3 n) {
     // packSnorm2x16 of what needs no clamping: adding 3/2 2^23 rounds to integers, which stand in the low bits then.
     uvec2 bits = floatBitsToUint(p * 32767.0 + 12582912.0);
     return (bits.x & 0xFFFFu) | bits.y << 16u;
+}
+
+// The tangent's octahedral coordinates, of a vector of any length.
+uint encodeTangent(vec3 t) {
+    vec2 p = t.xy / max(abs(t.x) + abs(t.y) + abs(t.z), kTiny);
+    if (t.z < 0.0) p = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+    ivec2 q = ivec2(round(p * vec2(32767.0, 16383.0)));
+    return (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u;
+}
+
+// Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an Orthonormal Basis, Revisited" (JCGT 2017): a unit
+// vector orthogonal to a normal of any length.
+vec3 anyOrthogonal(vec3 normal) {
+    vec3 n = normal * inversesqrt(max(dot(normal, normal), kTiny));
+    float s = n.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + n.z);
+    return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+}
+
+// The tangent points where the second texture coordinate stands still (docs/tangents.md).
+uint tangentWord(uint direction, Frame f) {
+    vec2 d = SUPPLE_DIRECTION(direction);
+    vec3 t = d.x * f.du + d.y * f.dv;
+    if (!(abs(t.x) + abs(t.y) + abs(t.z) > kTiny)) t = anyOrthogonal(f.normal);
+    return encodeTangent(t) | (direction & kNegativeFrame);
+}
+void storeTangent(uint vertex, uint own, Frame f) {
+    if (kTangents) tangents[vertex] = tangentWord(directions[own], f);
 }
 
 // Previous positions lie in the space of this frame: they are less by what the origin has moved since the frame they come from.
@@ -38,6 +87,12 @@ void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
     } else {
         surface16[vertex] = uvec4(floatBitsToUint(position), encodeOctahedral(normal));
     }
+}
+
+// `own`: the vertex within its instance.
+void storeSurfaceVertex(uint vertex, uint own, vec3 position, Frame f) {
+    storeSurfaceVertex(vertex, position, f.normal);
+    storeTangent(vertex, own, f);
 }
 
 // The same in two steps: the normal's words, and their storing by another lane. Where a vertex takes two stores, neighbouring

@@ -16,9 +16,11 @@
 const uint kRecordElements = SUPPLE_PM_RECORD_ELEMENTS(kSides);
 const uint kForm = kClass == kP3Patch ? kLodTriangleForm : kClass == kP4Patch ? kLodQuadRingsForm : kLodPentagonForm;
 const uint kParts = kSides; // sectors
+const uint kDomain = kClass == kP5Patch ? kPentagonDomain : kClass == kP4Patch ? kQuadDomain : kTriangleDomain;
 #include "shaders/evaluate/harness.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
+#include "shaders/evaluate/sectors.glsl"
 
 // Samples of a sector lie in rows parallel to its edge, kRowStep / rate of the way to the centre apart.
 const uint kRowStep = kClass == kP5Patch ? 1u : kClass == kP4Patch ? 2u : 3u;
@@ -46,22 +48,26 @@ void cubicBlends(Sector s, vec3 w, out vec3 first, out vec3 second, out vec3 inn
 }
 
 // The sample of these weights of a sector's corners and the centre.
-void finishInside(Sector s, vec3 w, out vec3 position, out vec3 normal) {
+void finishInside(Sector s, vec3 w, out vec3 position, out Frame frame) {
     vec3 a, b, c;
     cubicBlends(s, w, a, b, c);
     precise vec3 p = s.centre + ((w.x * a + w.y * b) + w.z * c);
     position = p;
-    normal = cross(b - a, c - a); // outwards
+    frame = frameOf(b - a, c - a);
 }
-void finishCentre(Sector s, out vec3 position, out vec3 normal) {
+void finishCentre(Sector s, out vec3 position, out Frame frame) {
     position = s.centre;
-    normal = cross(s.c[13] - s.c[12], -s.c[12]);
+    frame = frameOf(s.c[13] - s.c[12], -s.c[12]);
 }
 
 vec3 borderPosition(vec4 weights, vec3 border[4]) {
     precise vec3 p = sum4(weights, border[0], border[1], border[2], border[3]);
     return p;
 }
+
+// Where the derivatives at a corner are parallel, those of a step inside stand for them.
+const float kSingularStep = 1e-3 / 3.0;
+const vec3 kSingularWeights = vec3(1.0 - 2.0 * kSingularStep, kSingularStep, kSingularStep);
 
 // Narrow mapping: a sector's border, `singular` where its first corner has parallel tangents.
 struct Border {
@@ -79,19 +85,24 @@ Border makeBorder(Sector s, SectorSide last, SectorSide own, SectorSide next, bo
     b.singular = singular;
     return b;
 }
-void finishBorder(Border b, bool first, vec2 along, out vec3 position, out vec3 normal) {
+// The derivative across has lost the factor 4 of the quartic, which a tangent needs and a normal does not.
+void finishBorder(Sector s, Border b, bool first, vec2 along, out vec3 position, out Frame frame) {
     vec4 w = bernstein3(along);
     position = borderPosition(w, b.points);
-    normal = cross(blend3(derivativeWeights3(along), b.along[0], b.along[1], b.along[2]),
-                   blend4(w, b.across[0], b.across[1], b.across[2], b.across[3]));
-    if (first && b.singular) normal = b.firstNormal;
+    vec3 du = blend3(derivativeWeights3(along), b.along[0], b.along[1], b.along[2]);
+    vec3 dv = blend4(w, b.across[0], b.across[1], b.across[2], b.across[3]);
+    frame = Frame(0.25 * du, dv, cross(du, dv));
+    if (first && b.singular) {
+        vec3 unused;
+        if (kTangents) finishInside(s, kSingularWeights, unused, frame);
+        frame = withNormal(frame, b.firstNormal);
+    }
 }
 
 // Wide mapping: any sample of a sector. A singular corner takes the normal of a step inside.
-void finish(Sector s, vec3 w, bool onBorder, vec2 along, bool singular, out vec3 position, out vec3 normal) {
-    const float kStep = 1e-3 / 3.0;
-    if (singular) w = vec3(1.0 - 2.0 * kStep, kStep, kStep);
-    finishInside(s, w, position, normal);
+void finish(Sector s, vec3 w, bool onBorder, vec2 along, bool singular, out vec3 position, out Frame frame) {
+    if (singular) w = kSingularWeights;
+    finishInside(s, w, position, frame);
     if (onBorder) position = borderPosition(bernstein3(along), s.border);
 }
 
@@ -119,29 +130,9 @@ uint sampleOf(uint sector, uint k, uint l) {
     return rowStart(rate + 1u - 3u * less, w[2] - less) + w[1] - less;
 }
 
-// The other way: sector and (k, l) of a grid sample. Points on a ray belong to the sector after it, the centre to sector 0.
-uvec3 sectorOf(uint index) {
-    uint rate = push.rate;
-    uvec3 at = gridSample(kClass == kP5Patch ? kPentagonDomain : kClass == kP4Patch ? kQuadDomain : kTriangleDomain, rate, index);
-    if (kClass == kP5Patch) return at;
-    if (kClass == kP4Patch) {
-        uint i = at.x, j = at.y;
-        uint d = min(min(i, j), rate - max(i, j));
-        if (j == d && (i < rate - d || 2u * d == rate)) return uvec3(i - d, 2u * d, 0u);
-        if (i == rate - d && j < rate - d) return uvec3(j - d, 2u * d, 1u);
-        if (j == rate - d && i > d) return uvec3(rate - d - i, 2u * d, 2u);
-        return uvec3(rate - d - j, 2u * d, 3u);
-    }
-    uint w[3] = uint[3](rate - at.x - at.y, at.x, at.y);
-    uint d = min(w[0], min(w[1], w[2]));
-    if (3u * d == rate) return uvec3(0u, rate, 0u);
-    uint s = w[2] == d && w[0] > d ? 0u : w[0] == d && w[1] > d ? 1u : 2u;
-    return uvec3((s == 0u ? w[1] : s == 1u ? w[2] : w[0]) - d, 3u * d, s);
-}
-
 #if !defined(WIDE) && !defined(LEVELS)
 void evaluatePatch(const PatchPlace at) {
-    uint record = at.record, base = at.base, vertex = at.vertex;
+    uint record = at.record, base = at.base, vertex = at.vertex, first = at.own;
     uint innerBits = innerWord(record, kSides), singular = SUPPLE_SINGULAR(innerBits), inner = base + SUPPLE_INNER(innerBits);
     vec3 centre = coefficient(inner, false);
     SectorSide own = loadSide(kSides, record, base, inner, kSides - 1u, false);
@@ -149,7 +140,8 @@ void evaluatePatch(const PatchPlace at) {
     // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do. All lanes go
     // round equally often. The centre is sector 0's, which therefore comes last.
     Sector s;
-    vec3 position, normal;
+    vec3 position;
+    Frame frame;
     uint sector = kSides;
     do {
         --sector;
@@ -159,8 +151,9 @@ void evaluatePatch(const PatchPlace at) {
             Border border = makeBorder(s, last, own, next, (singular & (1u << sector)) != 0u);
             uint k = 0u;
             do {
-                finishBorder(border, k == 0u, parameterPair(k, push.rate, push.pairs), position, normal);
-                storeSurfaceVertex(vertex + sampleOf(sector, k, 0u), position, normal);
+                finishBorder(s, border, k == 0u, parameterPair(k, push.rate, push.pairs), position, frame);
+                uint own = sampleOf(sector, k, 0u);
+                storeSurfaceVertex(vertex + own, first + own, position, frame);
             } while (++k < push.rate);
         }
         uint l = kRowStep;
@@ -168,8 +161,9 @@ void evaluatePatch(const PatchPlace at) {
             do {
                 uint k = 0u;
                 do {
-                    finishInside(s, weightsAtRate(k, l), position, normal);
-                    storeSurfaceVertex(vertex + sampleOf(sector, k, l), position, normal);
+                    finishInside(s, weightsAtRate(k, l), position, frame);
+                    uint own = sampleOf(sector, k, l);
+                    storeSurfaceVertex(vertex + own, first + own, position, frame);
                 } while (++k < push.rate - l);
                 l += kRowStep;
             } while (l < push.rate);
@@ -178,8 +172,9 @@ void evaluatePatch(const PatchPlace at) {
         own = last;
     } while (sector > 0u);
     if (push.rate % kRowStep == 0u) {
-        finishCentre(s, position, normal);
-        storeSurfaceVertex(vertex + sampleOf(0u, 0u, push.rate), position, normal);
+        finishCentre(s, position, frame);
+        uint own = sampleOf(0u, 0u, push.rate);
+        storeSurfaceVertex(vertex + own, first + own, position, frame);
     }
 }
 
@@ -199,11 +194,12 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
         Sector s = makeSector(kRay, centre, before, own, next);
         Border border = makeBorder(s, before, own, next, (singular & (1u << sector)) != 0u);
         LodPattern side = recordPattern(lodRecord, 1u + sector, at.capacityIndex);
-        vec3 position, normal;
+        vec3 position;
+        Frame frame;
         uint vertex = at.vertex + sector * last, k = 0u; // of ring 0
         do {
-            finishBorder(border, k == 0u, lodPair(side, k, last), position, normal);
-            storeSurfaceVertex(vertex + k, at.empty ? vec3(0.0) : position, normal);
+            finishBorder(s, border, k == 0u, lodPair(side, k, last), position, frame);
+            storeSurfaceVertex(vertex + k, vertex + k, at.empty ? vec3(0.0) : position, frame);
         } while (++k < last);
         uint ring = 1u;
         if (ring < rings) {
@@ -212,8 +208,8 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
                 vertex = at.vertex + ringSideStart(kSides, ring, sector, last);
                 k = ring;
                 do {
-                    finishInside(s, ringWeights(lodPair(inside, k, last), t), position, normal);
-                    storeSurfaceVertex(vertex + k - ring, at.empty ? vec3(0.0) : position, normal);
+                    finishInside(s, ringWeights(lodPair(inside, k, last), t), position, frame);
+                    storeSurfaceVertex(vertex + k - ring, vertex + k - ring, at.empty ? vec3(0.0) : position, frame);
                 } while (++k < last - ring);
             } while (++ring < rings);
         }
@@ -244,7 +240,7 @@ Sector localSector(uint n) {
     return s;
 }
 
-void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out vec3 normal) {
+void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
 #ifdef LEVELS
     RingSample s = ringSample(kSides, at.capacity, index);
     vec2 along;
@@ -252,13 +248,13 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
     uint sector = s.side;
     bool border = s.ring == 0u, corner = border && s.k == 0u;
 #else
-    uvec3 s = sectorOf(index);
+    uvec3 s = sectorOf(kDomain, push.rate, index);
     vec2 along = parameterPair(s.x, push.rate, push.pairs);
     vec3 w = weightsAtRate(s.x, s.y);
     uint sector = s.z;
     bool border = s.y == 0u, corner = border && s.x == 0u;
 #endif
     bool singular = corner && (SUPPLE_SINGULAR(innerWord(at.record, kSides)) & (1u << sector)) != 0u;
-    finish(localSector(place * kSides + sector), w, border, along, singular, position, normal);
+    finish(localSector(place * kSides + sector), w, border, along, singular, position, frame);
 }
 #endif

@@ -31,6 +31,10 @@ SUPPLE_SHARED_CONST kMorphsConstant = 13u;          // bool: the cage has morph 
 SUPPLE_SHARED_CONST kDualQuaternionsConstant = 14u; // bool: dual quaternion blending, else linear blending
 SUPPLE_SHARED_CONST kWorkgroupRowsConstant = 15u;   // matrix rows that workgroup memory has room for
 
+// Tangents.
+SUPPLE_SHARED_CONST kTangentsConstant = 16u; // bool: evaluation writes tangents
+SUPPLE_SHARED_CONST kSectorsConstant = 17u;  // bool: patches are sectors round a centre (P_m)
+
 SUPPLE_SHARED_END
 
 #endif

@@ -52,6 +52,10 @@ SUPPLE_SHARED_CONST kPairBinding = 11u;
 SUPPLE_SHARED_CONST kScratchBinding = 12u;
 SUPPLE_SHARED_CONST kScratchTexelBinding = 13u;
 SUPPLE_SHARED_CONST kFaceUvBinding = 14u;
+// 15 to 18: shared/instances.h, shared/lod.h
+SUPPLE_SHARED_CONST kTangentBinding = 19u;
+SUPPLE_SHARED_CONST kDirectionBinding = 20u;       // read by evaluation,
+SUPPLE_SHARED_CONST kDirectionOutputBinding = 21u; // and written by attributes
 
 // Classes of patches; values of SupplePatchClass.
 SUPPLE_SHARED_CONST kRegularPatch = 0u;
@@ -81,6 +85,13 @@ SUPPLE_SHARED_CONST kVertexPosition = 2u; // position alone, 12 bytes: where a s
 
 SUPPLE_SHARED_CONST kOutputUvs1 = 1u;
 SUPPLE_SHARED_CONST kOutputFaceUvs = 2u;
+SUPPLE_SHARED_CONST kOutputDirections = 4u;
+
+// Tangents. A direction word says where the tangent of a sample points, in the two derivatives of its patch (docs/tangents.md): a
+// in snorm16, b in snorm15, then 1 where the sign of the frame is negative. No pose changes it. A tangent word is what a host
+// reads: octahedral coordinates in snorm16 and snorm15, then that bit.
+#define SUPPLE_DIRECTION(word) vec2(float(int((word) << 16u) >> 16u) / 32767.0, float(int((word) << 1u) >> 17u) / 16383.0)
+SUPPLE_SHARED_CONST kNegativeFrame = 0x80000000u;
 
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
 

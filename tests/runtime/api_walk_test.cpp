@@ -812,16 +812,17 @@ void views(Rows& r) {
     };
     using Desc = SuppleViewDesc;
     constexpr SuppleResult kBad = SUPPLE_ERROR_ARGUMENT;
-    spoiled("flags", kBad, kRange, [](Desc& d) { d.flags = 128; });
+    spoiled("flags", kBad, kRange, [](Desc& d) { d.flags = 256; });
     spoiled("OCCLUSION without CULL", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_OCCLUSION; });
     spoiled("UVS1 alone", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_UVS1; });
+    spoiled("TANGENTS alone", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_TANGENTS; });
     spoiled("too few vertices", kBad, kRange, [](Desc& d) { d.maxVertices = 1023; });
     spoiled("vertexFormat", kBad, kRange, [](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(2); });
     spoiled("elasticity", kBad, kRange, [](Desc& d) { d.elasticities[1] = 1.5f; });
     spoiled("elasticity NaN", kBad, kRange, [](Desc& d) { d.elasticities[3] = kNan; });
     spoiled("more than the budget counts", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
             [](Desc& d) { d.maxVertices = 0xF0000000u; });
-    spoiled("all flags", SUPPLE_OK, kSilent, [](Desc& d) { d.flags = 127; });
+    spoiled("all flags", SUPPLE_OK, kSilent, [](Desc& d) { d.flags = 255; });
 
     const auto handles = [&](const char* function, auto call) {
         r.nullContext(function, [=](World& w, SuppleContext c) { return call(w, c, w.view); });

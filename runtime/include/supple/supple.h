@@ -684,7 +684,9 @@ typedef enum SuppleGroupFlags {
      * flag suppleCreateGroup fails if the device cannot bind the surface vertices as a whole, and the log names the
      * largest capacity. To learn it in a program, create the group with this flag: if its windowCount is not 1, its
      * windowSize is a capacity that fits. */
-    SUPPLE_GROUP_WINDOWS = 128
+    SUPPLE_GROUP_WINDOWS = 128,
+    /** With ATTRIBUTES: also write a tangent per surface vertex, for normal maps. See SuppleVertexStreams.tangents. */
+    SUPPLE_GROUP_TANGENTS = 256
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
@@ -1026,9 +1028,10 @@ SUPPLE_API SuppleResult suppleGetSurfaceInfo(SuppleContext context, SuppleGroup 
                                              SuppleSurfaceInfo* out);
 
 /** The buffers of surface vertices. A surface vertex is made from a sample, which is a point of a patch's grid.
- * SuppleGridOutput and SuppleLevelDraw say which vertex belongs to which patch. vertices and previousPositions have an
- * entry per vertex of every slot. The others are static: an entry per vertex, which all instances of the group use. In
- * groups with levels all streams belong to the view: every frame writes them anew, one entry per vertex. */
+ * SuppleGridOutput and SuppleLevelDraw say which vertex belongs to which patch. vertices, previousPositions and
+ * tangents have an entry per vertex of every slot. The others are static: an entry per vertex, which all instances of
+ * the group use. In groups with levels all streams belong to the view: every frame writes them anew, one entry per
+ * vertex. */
 typedef struct SuppleVertexStreams {
     uint32_t structSize;
     SuppleVertexFormat vertexFormat;
@@ -1043,6 +1046,14 @@ typedef struct SuppleVertexStreams {
     /** ATTRIBUTES, if faces of the cage have trim tiles: float2 (u + 2 * tile, v), where the vertex lies in the tile of
      * its face; tile -1 for faces without one (docs/trimming.md). */
     SuppleBufferRange faceUvs;
+    /** TANGENTS: one uint32 per vertex, counted as vertices are. It is glTF's TANGENT: a unit vector that is orthogonal
+     * to the normal, in octahedral coordinates (x in snorm16 in the low half, y in the 15 bits above), and the sign w
+     * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
+     * docs/tangents.md says where tangents point. The bitangent is w * cross(normal, tangent), for a normal map whose
+     * green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
+     * (suppleSetTransform) keeps w: negate it. Null if the scheme has no tangents: PREP, PM and BLEND have them, except
+     * with SUPPLE_GROUP_INDEXED_MESH. suppleCreateGroup fails if a scheme that you named has none. */
+    SuppleBufferRange tangents;
 } SuppleVertexStreams;
 
 /** Fills out. Errors: no such surface, or SUPPLE_TESSELLATION_NONE. */

@@ -38,7 +38,9 @@ typedef enum SuppleViewFlags {
     /** Leave out patches of PREP and PM that surely show the camera only their backs, unless their material is
      * double-sided. Use it only if you draw front faces (counter-clockwise) alone, and from this camera alone. Patches
      * of other schemes stay. */
-    SUPPLE_VIEW_BACK_FACES = 64
+    SUPPLE_VIEW_BACK_FACES = 64,
+    /** With ATTRIBUTES: write tangents. Groups with one of several rates have none. */
+    SUPPLE_VIEW_TANGENTS = 128
 } SuppleViewFlags;
 
 /** How much a view may write. */

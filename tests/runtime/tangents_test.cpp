@@ -1,0 +1,437 @@
+// Tangents of surface vertices (docs/tangents.md) against differences of positions and texture coordinates, which know
+// nothing of schemes; their signs; and what has none.
+#include "cage/procedural.h"
+#include "tests/support/crowd.h"
+#include "tests/support/gpu_comparison.h"
+#include "tests/support/meshes.h"
+#include "tests/support/rigged_tube.h"
+#include "tests/support/sample_assets.h"
+#include "tests/support/test_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <optional>
+
+namespace supple::test {
+namespace {
+
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * kDegrees;
+}
+
+/// As suppleDecodeTangent of shaders/supple_surface.glsl.
+glm::dvec4 decodeTangent(uint32_t word) {
+    const double x = static_cast<int16_t>(word & 0xFFFFu) / 32767.0;
+    const double y = (static_cast<int32_t>(word << 1) >> 17) / 16383.0;
+    glm::dvec3 t(x, y, 1.0 - std::abs(x) - std::abs(y));
+    if (t.z < 0.0) {
+        const glm::dvec2 p(t);
+        t.x = (1.0 - std::abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0);
+        t.y = (1.0 - std::abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0);
+    }
+    return {glm::normalize(t), (word & 0x80000000u) != 0 ? -1.0 : 1.0};
+}
+
+/// All that a group's streams hold. Vertices of 24 bytes.
+struct Streams {
+    explicit Streams(const Crowd& crowd) {
+        const SuppleVertexStreams streams = crowd.output().streams;
+        vertices = as<float>(crowd.read(streams.vertices));
+        attributes = as<float>(crowd.read(streams.attributes));
+        tangents = as<uint32_t>(crowd.read(streams.tangents));
+    }
+    [[nodiscard]] glm::dvec3 position(size_t v) const {
+        return {vertices[6 * v], vertices[6 * v + 1], vertices[6 * v + 2]};
+    }
+    [[nodiscard]] glm::dvec3 normal(size_t v) const {
+        return {vertices[6 * v + 3], vertices[6 * v + 4], vertices[6 * v + 5]};
+    }
+    [[nodiscard]] glm::dvec2 uv(size_t v) const { return {attributes[4 * v], attributes[4 * v + 1]}; }
+
+    std::vector<float> vertices, attributes;
+    std::vector<uint32_t> tangents;
+};
+
+/// Where a neighbouring sample lies, in steps along two directions, the second to the left of the first.
+using Neighbour = std::function<std::optional<size_t>(int along, int across)>;
+
+/// Derivatives of the position and the texture coordinates in one direction, by differences of second order.
+struct Slope {
+    glm::dvec3 position{0.0};
+    glm::dvec2 uv{0.0};
+};
+std::optional<Slope> slopeOf(const Streams& streams, const Neighbour& at, int along, int across, bool even) {
+    const auto combine = [&](std::initializer_list<std::pair<int, double>> terms) -> std::optional<Slope> {
+        Slope slope;
+        for (const auto& [steps, weight] : terms) {
+            const std::optional<size_t> v = at(steps * along, steps * across);
+            if (!v) {
+                return std::nullopt;
+            }
+            slope.position += weight * streams.position(*v);
+            slope.uv += weight * streams.uv(*v);
+        }
+        return slope;
+    };
+    std::optional<Slope> slope = combine({{-1, -0.5}, {1, 0.5}});
+    if (even) { // steps of one length
+        slope = slope ? slope : combine({{0, -1.5}, {1, 2.0}, {2, -0.5}});
+        return slope ? slope : combine({{0, 1.5}, {-1, -2.0}, {-2, 0.5}});
+    }
+    slope = slope ? slope : combine({{0, -1.0}, {1, 1.0}});
+    return slope ? slope : combine({{0, 1.0}, {-1, -1.0}});
+}
+
+struct Measured {
+    std::vector<double> degrees; ///< from the differences
+    double fromPlane = 0.0;      ///< the largest angle out of the plane that the normal stands on
+    uint32_t samples = 0, wrongSigns = 0, flat = 0;
+
+    void add(const Streams& streams, size_t vertex, const Neighbour& at, bool even) {
+        ++samples;
+        const glm::dvec4 tangent = decodeTangent(streams.tangents[vertex]);
+        const glm::dvec3 t(tangent);
+        fromPlane = std::max(fromPlane, std::abs(90.0 - angleBetween(t, streams.normal(vertex))));
+        const std::optional<Slope> a = slopeOf(streams, at, 1, 0, even), b = slopeOf(streams, at, 0, 1, even);
+        if (!a || !b) {
+            return;
+        }
+        const double det = a->uv.x * b->uv.y - a->uv.y * b->uv.x;
+        const glm::dvec3 expected = -tangent.w * (b->uv.y * a->position - a->uv.y * b->position);
+        const double scale =
+            glm::length(a->position) * glm::length(b->uv) + glm::length(b->position) * glm::length(a->uv);
+        if (!(glm::length(expected) > 1e-3 * scale) || std::abs(det) < 1e-2 * glm::length(a->uv) * glm::length(b->uv)) {
+            ++flat; // no direction to speak of
+            return;
+        }
+        wrongSigns += (det > 0.0) == (tangent.w > 0.0) ? 1 : 0;
+        degrees.push_back(angleBetween(t, expected));
+    }
+    [[nodiscard]] double mean() const {
+        double sum = 0.0;
+        for (const double d : degrees) {
+            sum += d;
+        }
+        return sum / static_cast<double>(degrees.size());
+    }
+    [[nodiscard]] double share(double most) const {
+        return static_cast<double>(std::ranges::count_if(degrees, [&](double d) { return d <= most; })) /
+               static_cast<double>(degrees.size());
+    }
+    void print(const std::string& what) const {
+        std::printf("%s: %zu samples of %u, mean %.4f degrees, %.4f within 1, %.5f within 5, out of the plane by %.4f, "
+                    "%u wrong signs, %u flat\n",
+                    what.c_str(), degrees.size(), samples, mean(), share(1.0), share(5.0), fromPlane, wrongSigns, flat);
+    }
+};
+
+/// Number of a grid's sample, if it is one (SuppleDomain). Of pentagons: in one sector.
+std::optional<size_t> gridSample(SuppleDomain domain, int rate, int sector, int i, int j) {
+    if (i < 0 || j < 0) {
+        return std::nullopt;
+    }
+    if (domain == SUPPLE_DOMAIN_QUAD || domain == SUPPLE_DOMAIN_POLAR) {
+        return i <= rate && j <= rate ? std::optional<size_t>(j * (rate + 1) + i) : std::nullopt;
+    }
+    if (domain == SUPPLE_DOMAIN_TRIANGLE) {
+        return i + j <= rate ? std::optional<size_t>(j * (rate + 1) - j * (j - 1) / 2 + i) : std::nullopt;
+    }
+    return i + j < rate ? std::optional<size_t>(sector * rate * (rate + 1) / 2 + j * rate - j * (j - 1) / 2 + i)
+                        : std::nullopt;
+}
+
+/// Of the instance in slot 0, whose vertices are counted as attributes are.
+Measured measureGrids(const Crowd& crowd) {
+    const Streams streams(crowd);
+    const SuppleGridOutput grid = crowd.output().grid;
+    const int rate = static_cast<int>(grid.rate);
+    Measured measured;
+    for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = grid.drawRanges[r];
+        const int sectors = range.domain == SUPPLE_DOMAIN_PENTAGON ? 5 : 1;
+        for (uint32_t p = 0; p < range.patchCount; ++p) {
+            const size_t own = range.firstVertex + size_t{p} * range.samplesPerPatch;
+            for (int s = 0; s < sectors; ++s) {
+                for (int j = 0; j <= rate; ++j) {
+                    for (int i = 0; gridSample(range.domain, rate, s, i, j); ++i) {
+                        const Neighbour at = [&](int along, int across) -> std::optional<size_t> {
+                            const auto sample = gridSample(range.domain, rate, s, i + along, j + across);
+                            return sample ? std::optional<size_t>(own + *sample) : std::nullopt;
+                        };
+                        measured.add(streams, *at(0, 0), at, true);
+                    }
+                }
+            }
+        }
+    }
+    return measured;
+}
+
+/// Texture coordinates that differ by face in size, direction and, with `mirrored`, hand.
+cage::Cage withUvs(cage::Cage cage, bool mirrored = false) {
+    cage.cornerUvs.clear();
+    for (uint32_t f = 0; f + 1 < cage.faceStarts.size(); ++f) {
+        const float turn = 0.7f * static_cast<float>(f), size = 1.0f + 0.1f * static_cast<float>(f % 5);
+        const float hand = mirrored && f % 2 == 1 ? -1.0f : 1.0f;
+        const uint32_t count = cage.faceStarts[f + 1] - cage.faceStarts[f];
+        for (uint32_t k = 0; k < count; ++k) {
+            const float angle = hand * 6.2831853f * (static_cast<float>(k) + 0.08f * static_cast<float>(k % 2)) /
+                                static_cast<float>(count);
+            cage.cornerUvs.emplace_back(size * std::cos(angle + turn), 0.8f * size * std::sin(angle + turn));
+        }
+    }
+    return cage;
+}
+
+struct TangentCase {
+    const char* name;
+    SuppleScheme scheme;
+    cage::Cage (*cage)();
+};
+cage::Cage roughBiped() {
+    return perturbed(biped(), 0.08f, 3);
+}
+cage::Cage roughPolygons() {
+    return perturbed(withMergedFaces(withCutQuads(biped(), 0.4, 5), 40, 7), 0.05f, 3);
+}
+const TangentCase kTangentCases[] = {
+    {"prep", SUPPLE_SCHEME_PREP, roughBiped},
+    {"pm", SUPPLE_SCHEME_PM, roughPolygons},
+    {"pmPolar", SUPPLE_SCHEME_PM, [] { return cappedCylinder(7, 4); }},
+    {"pmPentagons", SUPPLE_SCHEME_PM, dodecahedron},
+    {"blend", SUPPLE_SCHEME_BLEND, roughBiped},
+};
+
+class Tangents : public CrowdContexts {};
+class TangentsOf : public Tangents, public testing::WithParamInterface<TangentCase> {};
+INSTANTIATE_TEST_SUITE_P(Schemes, TangentsOf, testing::ValuesIn(kTangentCases),
+                         [](const auto& param) { return std::string(param.param.name); });
+
+SuppleGroupDesc tangentDesc(SuppleAsset asset, SuppleScheme scheme, uint32_t rate) {
+    SuppleGroupDesc desc{};
+    desc.asset = asset;
+    desc.capacity = 1;
+    desc.scheme = scheme;
+    desc.rate = rate;
+    desc.vertexFormat = SUPPLE_VERTEX_24;
+    desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS;
+    return desc;
+}
+
+void pose(Crowd& crowd) {
+    crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0,
+               glm::rotate(glm::scale(glm::mat4(1.0f), {1.0f, 1.3f, 0.8f}), 0.7f, glm::normalize(glm::vec3(1, 2, 3))));
+    crowd.run();
+}
+
+TEST_P(TangentsOf, PointWhereTheSecondCoordinateStandsStill) {
+    const ValidationGuard guard;
+    const TangentCase& c = GetParam();
+    for (const SuppleMapping mapping : kMappings) {
+        SCOPED_TRACE(mappingName(mapping));
+        CrowdContext& own = context(mapping);
+        ASSERT_TRUE(own.valid());
+        Crowd crowd(own, tangentDesc(own.createAsset(withUvs(c.cage())), c.scheme, 16));
+        ASSERT_TRUE(crowd.valid());
+        pose(crowd);
+        const Measured measured = measureGrids(crowd);
+        measured.print(std::string(c.name) + ", " + mappingName(mapping));
+        EXPECT_LT(measured.mean(), 0.4);
+        EXPECT_GT(measured.share(1.0), 0.93);
+        EXPECT_GT(measured.share(5.0), 0.997);
+        EXPECT_LT(measured.fromPlane, 0.02);
+        EXPECT_EQ(measured.wrongSigns, 0u);
+        EXPECT_LT(measured.flat, measured.samples / 20);
+        (void)own.takeLines();
+    }
+}
+
+TEST_P(TangentsOf, CostNothingElse) {
+    const ValidationGuard guard;
+    const TangentCase& c = GetParam();
+    for (const SuppleMapping mapping : kMappings) {
+        SCOPED_TRACE(mappingName(mapping));
+        CrowdContext& own = context(mapping);
+        const SuppleAsset asset = own.createAsset(withUvs(c.cage()));
+        for (const SuppleVertexFormat format : {SUPPLE_VERTEX_16, SUPPLE_VERTEX_24}) {
+            SuppleGroupDesc desc = tangentDesc(asset, c.scheme, 5);
+            desc.vertexFormat = format;
+            desc.flags |= SUPPLE_GROUP_MOTION;
+            Crowd with(own, desc);
+            desc.flags &= ~uint32_t{SUPPLE_GROUP_TANGENTS};
+            Crowd without(own, desc);
+            ASSERT_TRUE(with.valid() && without.valid());
+            pose(with);
+            pose(without);
+            const SuppleVertexStreams a = with.output().streams, b = without.output().streams;
+            EXPECT_EQ(a.tangents.stride, 4u);
+            EXPECT_EQ(a.tangents.size / 4, a.vertices.size / a.vertices.stride);
+            EXPECT_EQ(b.tangents.buffer, VkBuffer{VK_NULL_HANDLE});
+            const size_t count = with.output().grid.vertexCount; // behind them is room between instances
+            const auto bytes = [&](const Crowd& crowd, const SuppleBufferRange& range) {
+                std::vector<std::byte> own = crowd.read(range);
+                own.resize(count * range.stride);
+                return own;
+            };
+            EXPECT_TRUE(bytes(with, a.vertices) == bytes(without, b.vertices));
+            EXPECT_TRUE(bytes(with, a.attributes) == bytes(without, b.attributes));
+            EXPECT_TRUE(bytes(with, a.previousPositions) == bytes(without, b.previousPositions));
+        }
+        (void)own.takeLines();
+    }
+}
+
+/// Number of a level's sample, if it is one (SuppleGrid). Of rings: along side `side`, i to its end and j inwards.
+std::optional<size_t> levelSample(SuppleGrid grid, int capacity, int side, int i, int j) {
+    if (grid == SUPPLE_GRID_QUAD) {
+        return gridSample(SUPPLE_DOMAIN_QUAD, capacity, 0, i, j);
+    }
+    const int sides = grid == SUPPLE_GRID_TRIANGLE_RINGS ? 3 : grid == SUPPLE_GRID_QUAD_RINGS ? 4 : 5;
+    if (j < 0 || 2 * j > capacity - 1 || i < j || i > capacity - j) {
+        return std::nullopt;
+    }
+    const int before = sides * j * (capacity + 1 - j), each = capacity - 2 * j;
+    const int next = i == capacity - j ? (side + 1) % sides * each : side * each + i - j;
+    return before + next;
+}
+
+Measured measureLevels(const Crowd& crowd) {
+    const Streams streams(crowd);
+    const SuppleLevelOutput levels = crowd.output().levels;
+    const auto buckets = as<std::array<uint32_t, 4>>(crowd.read(levels.buckets));
+    const auto records = as<std::array<uint32_t, 16>>(crowd.read(levels.patches));
+    Measured measured;
+    for (uint32_t d = 0; d < levels.drawCount; ++d) {
+        const SuppleLevelDraw& draw = levels.draws[d];
+        const int capacity = static_cast<int>(draw.capacity);
+        const int sides = draw.grid == SUPPLE_GRID_QUAD             ? 1
+                          : draw.grid == SUPPLE_GRID_TRIANGLE_RINGS ? 3
+                          : draw.grid == SUPPLE_GRID_QUAD_RINGS     ? 4
+                                                                    : 5;
+        for (uint32_t p = 0; p < buckets[d][2]; ++p) {
+            const auto& record = records[buckets[d][0] + p];
+            for (int s = 0; record[0] != 0xFFFFFFFFu && s < sides; ++s) {
+                for (int j = 0; j <= capacity; ++j) {
+                    for (int i = 0; i <= capacity; ++i) {
+                        const Neighbour at = [&](int along, int across) -> std::optional<size_t> {
+                            const auto sample = levelSample(draw.grid, capacity, s, i + along, j + across);
+                            return sample ? std::optional<size_t>(record[2] + *sample) : std::nullopt;
+                        };
+                        if (at(0, 0) && (sides == 1 || i < capacity - j)) {
+                            measured.add(streams, *at(0, 0), at, false);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    return measured;
+}
+
+TEST_P(TangentsOf, AreTheSameAtLevels) {
+    const ValidationGuard guard;
+    const TangentCase& c = GetParam();
+    for (const SuppleMapping mapping : kMappings) {
+        SCOPED_TRACE(mappingName(mapping));
+        CrowdContext& own = context(mapping);
+        TestView view(own, 400000, SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_TANGENTS | SUPPLE_VIEW_MOTION);
+        SuppleGroupDesc desc = tangentDesc(own.createAsset(withUvs(c.cage())), c.scheme, 0);
+        desc.flags = 0;
+        desc.view = view.handle();
+        Crowd crowd(own, desc);
+        ASSERT_TRUE(crowd.valid());
+        view.look({0.0f, 0.0f, 4.0f});
+        pose(crowd);
+        const Measured measured = measureLevels(crowd);
+        measured.print(std::string(c.name) + " at levels, " + mappingName(mapping));
+        EXPECT_GT(measured.degrees.size(), 2000u);
+        EXPECT_LT(measured.mean(), 4.0); // of differences of first order
+        EXPECT_GT(measured.share(20.0), 0.97);
+        EXPECT_LT(measured.fromPlane, 0.02);
+        EXPECT_LT(measured.wrongSigns, measured.samples / 200);
+        (void)own.takeLines();
+    }
+}
+
+TEST_F(Tangents, HaveTheSignOfTheirFace) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    Crowd crowd(own, tangentDesc(own.createAsset(withUvs(roughBiped(), true)), SUPPLE_SCHEME_PM, 6));
+    ASSERT_TRUE(crowd.valid());
+    pose(crowd);
+    const Streams streams(crowd);
+    const SuppleGridOutput grid = crowd.output().grid;
+    uint32_t negative = 0, patches = 0;
+    for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = grid.drawRanges[r];
+        for (uint32_t p = 0; p < range.patchCount; ++p, ++patches) {
+            const size_t first = range.firstVertex + size_t{p} * range.samplesPerPatch;
+            const uint32_t sign = streams.tangents[first] >> 31;
+            negative += sign;
+            for (size_t s = 1; s < range.samplesPerPatch; ++s) {
+                EXPECT_EQ(streams.tangents[first + s] >> 31, sign) << "range " << r << ", patch " << p;
+            }
+        }
+    }
+    EXPECT_GT(negative, patches / 4);
+    EXPECT_LT(negative, 3 * patches / 4);
+    (void)own.takeLines();
+}
+
+/// No texture coordinates, all in a point, on a line, and some that are not numbers.
+TEST_F(Tangents, AreSomeDirectionWhereThereIsNone) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        SCOPED_TRACE(mappingName(mapping));
+        CrowdContext& own = context(mapping);
+        ASSERT_TRUE(own.valid());
+        for (int kind = 0; kind < 3; ++kind) {
+            SCOPED_TRACE(kind);
+            cage::Cage cage = withUvs(roughPolygons());
+            for (glm::vec2& uv : cage.cornerUvs) {
+                uv = kind == 1 ? glm::vec2(0.3f) : glm::vec2(uv.x, 0.5f);
+            }
+            if (kind == 0) {
+                cage.cornerUvs.clear();
+            }
+            Crowd crowd(own, tangentDesc(own.createAsset(cage), SUPPLE_SCHEME_PM, 4));
+            ASSERT_TRUE(crowd.valid());
+            pose(crowd);
+            const Streams streams(crowd);
+            const uint32_t count = crowd.output().grid.vertexCount;
+            for (uint32_t v = 0; v < count; ++v) {
+                const glm::dvec4 tangent = decodeTangent(streams.tangents[v]);
+                ASSERT_NEAR(glm::length(glm::dvec3(tangent)), 1.0, 1e-6);
+                ASSERT_NEAR(angleBetween(glm::dvec3(tangent), streams.normal(v)), 90.0, 0.02) << v;
+                ASSERT_EQ(tangent.w, 1.0);
+            }
+        }
+        (void)own.takeLines();
+    }
+}
+
+TEST_F(Tangents, ThatASchemeLacksAreRefusedByName) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    SuppleGroupDesc desc = tangentDesc(own.createAsset(withUvs(roughBiped())), SUPPLE_SCHEME_CATMULL_CLARK, 4);
+    desc.structSize = sizeof desc;
+    SuppleGroup group{};
+    (void)own.takeLines();
+    EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_NE(own.takeLines().at(0).text.find("Catmull-Clark has no tangents"), std::string::npos);
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
+    EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_NE(own.takeLines().at(0).text.find("P_m has no tangents as an indexed mesh"), std::string::npos);
+    desc.flags = SUPPLE_GROUP_TANGENTS;
+    EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_NE(own.takeLines().at(0).text.find("TANGENTS go with ATTRIBUTES"), std::string::npos);
+}
+
+} // namespace
+} // namespace supple::test
