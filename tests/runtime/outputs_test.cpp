@@ -330,7 +330,10 @@ TEST(OutputNames, OfMemoryAreThoseThatTheHeaderLists) {
             {.asset = asset, .scheme = SUPPLE_SCHEME_CAGE},
             {.asset = asset, .scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_CAGE_BUFFER},
             {.asset = asset, .poseSource = SUPPLE_POSES_PLAYBACK},
-            {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_PATCHES, .asset = asset},
+            {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_PATCHES |
+                      SUPPLE_GROUP_BOUNDS,
+             .asset = asset,
+             .scheme = SUPPLE_SCHEME_PM},
             {.flags = SUPPLE_GROUP_INDEXED_MESH, .asset = asset, .scheme = SUPPLE_SCHEME_PM},
             {.asset = pair, .partSchemes = schemes, .partSchemeCount = 2},
             {.asset = pair, .view = view, .partSchemes = schemes, .partSchemeCount = 2},
