@@ -41,28 +41,23 @@ uint encodeOctahedral(vec3 n) {
     return (bits.x & 0xFFFFu) | bits.y << 16u;
 }
 
-// The tangent's octahedral coordinates, of a vector of any length.
-uint encodeTangent(vec3 t) {
-    vec2 p = t.xy / max(abs(t.x) + abs(t.y) + abs(t.z), kTiny);
-    if (t.z < 0.0) p = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-    ivec2 q = ivec2(round(p * vec2(32767.0, 16383.0)));
-    return (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u;
-}
-
-// Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an Orthonormal Basis, Revisited" (JCGT 2017): a unit
-// vector orthogonal to a normal of any length.
-vec3 anyOrthogonal(vec3 normal) {
-    vec3 n = normal * inversesqrt(max(dot(normal, normal), kTiny));
-    float s = n.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + n.z);
-    return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
-}
-
-// The tangent points where the second texture coordinate stands still (docs/tangents.md).
+// The tangent points where the second texture coordinate stands still (docs/tangents.md). Its octahedral coordinates are found
+// as those of normals are, but y has 15 bits. Of the direction only the ratio of its parts counts.
 uint tangentWord(uint direction, Frame f) {
-    vec2 d = SUPPLE_DIRECTION(direction);
-    vec3 t = d.x * f.du + d.y * f.dv;
-    if (!(abs(t.x) + abs(t.y) + abs(t.z) > kTiny)) t = anyOrthogonal(f.normal);
-    return encodeTangent(t) | (direction & kNegativeFrame);
+    const float kRatio = 32767.0 / (2.0 * 16383.0); // of a, which stands in the high half here, to b, which has a bit less
+    vec3 t = float(int(direction << 16u)) * f.du + kRatio * float(int(direction << 1u & 0xFFFE0000u)) * f.dv;
+    float size = abs(t.x) + abs(t.y) + abs(t.z);
+    if (!(size > kTiny)) { // any direction on the surface
+        t = vec3(f.normal.z, 0.0, -f.normal.x);
+        size = abs(t.x) + abs(t.z);
+        if (!(size > kTiny)) t.x = size = 1.0;
+    }
+    float scale = 1.0 / size;
+    vec2 p = t.xy * scale;
+    uint fold = floatBitsToUint(max(-t.z, 0.0) * scale);
+    p += uintBitsToFloat((floatBitsToUint(p) & 0x80000000u) | fold);
+    uvec2 bits = floatBitsToUint(p * vec2(32767.0, 16383.0) + 12582912.0);
+    return (bits.x & 0xFFFFu) | (bits.y & 0x7FFFu) << 16u | (direction & kNegativeFrame);
 }
 void storeTangent(uint vertex, uint own, Frame f) {
     if (kTangents) tangents[vertex] = tangentWord(directions[own], f);

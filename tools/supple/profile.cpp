@@ -353,6 +353,8 @@ void bindProfile(CLI::App& app, int& exitCode) {
         ->type_name("NAME|INDEX");
     bindMorphs(*command, options->morphs);
     command->add_flag("--motion", options->motion, "Previous positions as well, for motion vectors");
+    command->add_flag("--tangent-frames", options->tangents,
+                      "Tangents and texture coordinates as well, for normal maps");
     command->add_flag("--playback", options->playback, "Poses on the device, from the group's time alone");
     CLI::Option* view =
         command->add_flag("--view", options->view,

@@ -66,7 +66,8 @@ Status ProfileStage::destroy() {
 Status ProfileStage::createView(std::span<const host::CharacterFile> files) {
     SuppleViewDesc desc{};
     desc.structSize = sizeof desc;
-    desc.flags = uint32_t{SUPPLE_VIEW_CULL} | (options_.motion ? uint32_t{SUPPLE_VIEW_MOTION} : 0);
+    desc.flags = uint32_t{SUPPLE_VIEW_CULL} | (options_.motion ? uint32_t{SUPPLE_VIEW_MOTION} : 0) |
+                 (options_.tangents ? uint32_t{SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_TANGENTS} : 0);
     desc.maxVertices = options_.budget;
     Status status = check(suppleCreateView(handle(), &desc, &view_), "suppleCreateView");
     if (!status) {
@@ -113,7 +114,8 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
     if (!options_.view) { // nothing is drawn, so that it need not be bound as a whole
-        desc.flags = SUPPLE_GROUP_WINDOWS | (options_.motion ? uint32_t{SUPPLE_GROUP_MOTION} : 0);
+        desc.flags = SUPPLE_GROUP_WINDOWS | (options_.motion ? uint32_t{SUPPLE_GROUP_MOTION} : 0) |
+                     (options_.tangents ? uint32_t{SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS} : 0);
     }
     desc.asset = subject.asset;
     desc.capacity = instances;

@@ -21,6 +21,7 @@ struct ProfileOptions {
     uint32_t instances = 1;
     uint32_t frames = 60;
     bool motion = false;
+    bool tangents = false;
     bool playback = false;
     bool view = false;
     uint32_t budget = 1000000; ///< of the view
