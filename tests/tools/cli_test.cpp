@@ -678,6 +678,23 @@ TEST_F(Cli, ProfileMeasuresMotionWhenAsked) {
     }
 }
 
+TEST_F(Cli, ProfileMeasuresTangentsWhenAsked) {
+    for (const bool tangents : {false, true}) {
+        const Outcome outcome = runOnDevice(std::string("profile cube.gltf --scheme pm --frames 3 --json p.json") +
+                                            (tangents ? " --tangent-frames" : ""));
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const Json json = Json::parse(readText(file("p.json")));
+        bool evaluated = false;
+        for (const Json& pass : json["runs"][0]["passes"]) {
+            if (pass["pass"] == "evaluate") {
+                evaluated = true;
+                EXPECT_EQ(pass["bytes"].get<uint64_t>(), pass["points"].get<uint64_t>() * (tangents ? 20u : 16u));
+            }
+        }
+        EXPECT_TRUE(evaluated);
+    }
+}
+
 TEST_F(Cli, ProfilePlaysOnTheDeviceWhenAsked) {
     for (const bool playback : {false, true}) {
         const Outcome outcome = runOnDevice(std::string("profile cube.gltf --scheme cage --frames 3 --json p.json") +
