@@ -299,8 +299,9 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
         return group.error();
     }
     if (!hidesInDraws() && (*group)->drawsByRanges() && (*group)->slots().hiddenParts().any()) {
-        return Error{ErrorCode::disabled, "suppleCreateGroup: instancesOf: an instance hides a part: the device was "
-                                          "created without the feature drawIndirectFirstInstance"};
+        return Error{ErrorCode::disabled, "suppleCreateGroup: instancesOf: " + asset->character.name +
+                                              ": an instance hides a part, and the device was created without the "
+                                              "feature drawIndirectFirstInstance"};
     }
     tellNotes(**group);
     return groups.insert(std::move(*group));
@@ -308,9 +309,8 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
 
 bool Context::drawsByRanges(const InstanceSet& instances) const {
     bool ranges = false;
-    groups.forEachId([&](uint64_t, const Group& group) {
-        ranges = ranges || (&group.instances() == &instances && group.drawsByRanges());
-    });
+    groups.forEach(
+        [&](const Group& group) { ranges = ranges || (&group.instances() == &instances && group.drawsByRanges()); });
     return ranges;
 }
 

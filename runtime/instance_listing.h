@@ -56,7 +56,7 @@ public:
     VkDeviceSize recordCopies(const gpu::Device& device, VkCommandBuffer commandBuffer) const;
 
 private:
-    /// Of those that the host lists.
+    /// How many parts have lists of the host's.
     [[nodiscard]] uint32_t partCount() const { return parts_ != nullptr ? parts_->count() : 0; }
     /// The visible slots of a draw window that show the part, rising; how many.
     [[nodiscard]] uint32_t listPart(const InstanceSlots& slots, uint32_t part, uint32_t window,

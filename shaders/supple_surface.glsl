@@ -105,23 +105,22 @@ uint suppleSurfaceVertex(SuppleRange range, uint slot, uint sharedVertex) {
 /// Where its previous position begins, in floats.
 uint supplePreviousWord(uint previousWords, uint vertex) { return (previousWords == 0u ? 3u : previousWords) * vertex; }
 
-/// The normal of SUPPLE_VERTEX_16: octahedral, two snorm16.
-vec3 suppleOctahedralNormal(uint word) {
-    vec2 p = unpackSnorm2x16(word);
+/// The unit vector of octahedral coordinates.
+vec3 suppleOctahedral(vec2 p) {
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (n.z < 0.0)
         n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
     return normalize(n);
 }
 
+/// The normal of SUPPLE_VERTEX_16: octahedral, two snorm16.
+vec3 suppleOctahedralNormal(uint word) { return suppleOctahedral(unpackSnorm2x16(word)); }
+
 /// A tangent of SuppleVertexStreams.tangents, as glTF's TANGENT: the direction, and the sign of the frame. In the fragment shader,
 /// B = tangent.w * cross(normal, tangent.xyz) is the bitangent; take it before you normalize, as other programs do.
 vec4 suppleDecodeTangent(uint word) {
     vec2 p = vec2(float(int(word << 16u) >> 16u) / 32767.0, float(int(word << 1u) >> 17u) / 16383.0);
-    vec3 t = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (t.z < 0.0)
-        t.xy = (1.0 - abs(t.yx)) * vec2(t.x >= 0.0 ? 1.0 : -1.0, t.y >= 0.0 ? 1.0 : -1.0);
-    return vec4(normalize(t), (word & 0x80000000u) != 0u ? -1.0 : 1.0);
+    return vec4(suppleOctahedral(p), (word & 0x80000000u) != 0u ? -1.0 : 1.0);
 }
 
 /// The color of SuppleVertexStreams.attributes: linear, four unorm16.

@@ -154,9 +154,9 @@ void evaluateLevels(Corner corners[4], vec2 u, vec2 v, out vec3 position, out Fr
         if (moved) {
             vec3 unused;
             blendAt(corners, insideU, insideV, unused, du, dv);
+            frame = frameOf(du, dv);
         }
     }
-    frame = frameOf(du, dv);
     for (uint k = 0u; k < 4u; ++k) {
         bool right = k == 1u || k == 2u, top = k >= 2u;
         if (!moved && (right ? u.y : u.x) == 0.0 && (top ? v.y : v.x) == 0.0) frame = cornerFrame(corners, k);

@@ -83,6 +83,8 @@ struct Corners {
     vec2 uv[5];
     vec4 color[5];
     vec4 more[5]; // second UV, face UV
+    // With directions: the sign of the face's area in texture coordinates, which all of its samples have, and its size there.
+    float side, size;
 };
 uint cornerElements() { return push.uvSets == 2u || push.faceUvs != 0u ? 2u : 1u; }
 void loadCorner(inout Corners c, uint k, uint element) {
@@ -91,6 +93,23 @@ void loadCorner(inout Corners c, uint k, uint element) {
     c.color[k] = vec4(corner.z & 0xFFFFu, corner.z >> 16u, corner.w & 0xFFFFu, corner.w >> 16u);
     c.more[k] = kMoreUvs ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
 }
+vec2 uvCentre(Corners c) {
+    vec2 sum = vec2(0.0);
+    for (uint k = 0u; k < kCorners; ++k) sum += c.uv[k];
+    return sum / float(kCorners);
+}
+void findSide(inout Corners c) {
+    vec2 centre = uvCentre(c);
+    float area = 0.0;
+    c.size = 0.0;
+    for (uint k = 0u; k < kCorners; ++k) {
+        vec2 p = c.uv[k] - c.uv[0], q = c.uv[k + 1u == kCorners ? 0u : k + 1u] - c.uv[0];
+        precise float twice = p.x * q.y - p.y * q.x;
+        area += twice;
+        c.size = max(c.size, distance(c.uv[k], centre));
+    }
+    c.side = sign(area);
+}
 Corners loadCorners(uint patchIndex) {
     Corners c;
     for (uint k = 0u; k < kCorners; ++k) {
@@ -98,6 +117,7 @@ Corners loadCorners(uint patchIndex) {
         if (push.attributeHalves != 0u) number = number >> 16u * (corner & 1u) & 0xFFFFu;
         loadCorner(c, k, push.attributes + cornerElements() * number);
     }
+    if (kDirections) findSide(c);
     return c;
 }
 
@@ -145,39 +165,21 @@ Slopes sectorSlopes(Corners c, uint sector, vec3 l) {
         vec2 a = along.x * uv.a + along.y * uv.b, across = inwards.x * uv.a + inwards.y * uv.b;
         return Slopes(a, 0.5 * (a + across));
     }
-    vec2 centre = vec2(0.0);
-    for (uint k = 0u; k < kCorners; ++k) centre += c.uv[k] / float(kCorners);
-    return Slopes(c.uv[next] - c.uv[sector], centre - c.uv[sector]);
-}
-
-// The sign of a face's area in texture coordinates, which all of its samples have, and its size.
-float sideOf(Corners c, out float size) {
-    vec2 centre = vec2(0.0);
-    for (uint k = 0u; k < kCorners; ++k) centre += c.uv[k] / float(kCorners);
-    float area = 0.0;
-    size = 0.0;
-    for (uint k = 0u; k < kCorners; ++k) {
-        vec2 p = c.uv[k] - c.uv[0], q = c.uv[k + 1u == kCorners ? 0u : k + 1u] - c.uv[0];
-        precise float twice = p.x * q.y - p.y * q.x;
-        area += twice;
-        size = max(size, distance(c.uv[k], centre));
-    }
-    return sign(area);
+    return Slopes(c.uv[next] - c.uv[sector], uvCentre(c) - c.uv[sector]);
 }
 
 // The tangent is the direction in which the second texture coordinate stands still: a P_a + b P_b with (a, b) = side (t_b, -t_a).
 // The frame's sign is glTF's, which is minus the side.
 void storeDirection(uint vertex, Corners c, Slopes slopes) {
     const float kFlat = 1e-5; // of the face's size: there is no direction
-    float size, side = sideOf(c, size);
-    vec2 d = side * vec2(slopes.b.y, -slopes.a.y);
+    vec2 d = c.side * vec2(slopes.b.y, -slopes.a.y);
     float longest = max(abs(d.x), abs(d.y));
-    if (!(longest > kFlat * size) || isinf(longest)) {
+    if (!(longest > kFlat * c.size) || isinf(longest)) {
         d = vec2(1.0, 0.0);
         longest = 1.0;
     }
     ivec2 q = ivec2(round(d / longest * vec2(32767.0, 16383.0)));
-    directions[vertex] = (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u | (side > 0.0 ? kNegativeFrame : 0u);
+    directions[vertex] = (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u | (c.side > 0.0 ? kNegativeFrame : 0u);
 }
 
 // A patch with levels, by one lane: what a row has in common is found once. Loops are tested at the bottom, see

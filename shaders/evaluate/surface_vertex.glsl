@@ -29,20 +29,24 @@ Frame withNormal(Frame f, vec3 normal) {
 }
 
 // Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer, "A Survey of Efficient Representations for Independent Unit
-// Vectors" (JCGT 2014): octahedral mapping, of normals of any length. A zero one is +z.
-uint encodeOctahedral(vec3 n) {
-    float scale = 1.0 / max(abs(n.x) + abs(n.y) + abs(n.z), kTiny);
+// Vectors" (JCGT 2014): octahedral coordinates. `scale`: 1 / (|x| + |y| + |z|).
+vec2 octahedralOf(vec3 n, float scale) {
     vec2 p = n.xy * scale;
     // Where z < 0, 1 - |y| = |x| + |z| with the sign of x, and so for y.
     uint fold = floatBitsToUint(max(-n.z, 0.0) * scale);
-    p += uintBitsToFloat((floatBitsToUint(p) & 0x80000000u) | fold);
-    // packSnorm2x16 of what needs no clamping: adding 3/2 2^23 rounds to integers, which stand in the low bits then.
-    uvec2 bits = floatBitsToUint(p * 32767.0 + 12582912.0);
+    return p + uintBitsToFloat((floatBitsToUint(p) & 0x80000000u) | fold);
+}
+// packSnorm2x16 of what needs no clamping: adding 3/2 2^23 rounds to integers, which stand in the low bits then.
+uvec2 roundedBits(vec2 p, vec2 most) { return floatBitsToUint(p * most + 12582912.0); }
+
+// Of normals of any length. A zero one is +z.
+uint encodeOctahedral(vec3 n) {
+    uvec2 bits = roundedBits(octahedralOf(n, 1.0 / max(abs(n.x) + abs(n.y) + abs(n.z), kTiny)), vec2(32767.0));
     return (bits.x & 0xFFFFu) | bits.y << 16u;
 }
 
-// The tangent points where the second texture coordinate stands still (docs/tangents.md). Its octahedral coordinates are found
-// as those of normals are, but y has 15 bits. Of the direction only the ratio of its parts counts.
+// The tangent points where the second texture coordinate stands still (docs/tangents.md). Of the direction only the ratio of its
+// parts counts.
 uint tangentWord(uint direction, Frame f) {
     const float kRatio = 32767.0 / (2.0 * 16383.0); // of a, which stands in the high half here, to b, which has a bit less
     vec3 t = float(int(direction << 16u)) * f.du + kRatio * float(int(direction << 1u & 0xFFFE0000u)) * f.dv;
@@ -52,11 +56,7 @@ uint tangentWord(uint direction, Frame f) {
         size = abs(t.x) + abs(t.z);
         if (!(size > kTiny)) t.x = size = 1.0;
     }
-    float scale = 1.0 / size;
-    vec2 p = t.xy * scale;
-    uint fold = floatBitsToUint(max(-t.z, 0.0) * scale);
-    p += uintBitsToFloat((floatBitsToUint(p) & 0x80000000u) | fold);
-    uvec2 bits = floatBitsToUint(p * vec2(32767.0, 16383.0) + 12582912.0);
+    uvec2 bits = roundedBits(octahedralOf(t, 1.0 / size), vec2(32767.0, 16383.0));
     return (bits.x & 0xFFFFu) | (bits.y & 0x7FFFu) << 16u | (direction & kNegativeFrame);
 }
 void storeTangent(uint vertex, uint own, Frame f) {

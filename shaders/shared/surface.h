@@ -90,7 +90,6 @@ SUPPLE_SHARED_CONST kOutputDirections = 4u;
 // Tangents. A direction word says where the tangent of a sample points, in the two derivatives of its patch (docs/tangents.md): a
 // in snorm16, b in snorm15, then 1 where the sign of the frame is negative. No pose changes it. A tangent word is what a host
 // reads: octahedral coordinates in snorm16 and snorm15, then that bit.
-#define SUPPLE_DIRECTION(word) vec2(float(int((word) << 16u) >> 16u) / 32767.0, float(int((word) << 1u) >> 17u) / 16383.0)
 SUPPLE_SHARED_CONST kNegativeFrame = 0x80000000u;
 
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;

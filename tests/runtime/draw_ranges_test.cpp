@@ -7,6 +7,7 @@
 #include "shaders/ranges_vert.h"
 #include "shaders/ranges_vert_DRAW_ID.h"
 #include "tests/support/crowd.h"
+#include "tests/support/shader_range.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
@@ -17,15 +18,6 @@ namespace {
 
 constexpr uint32_t kPictureSide = 256;
 
-/// SuppleRange of shaders/supple_surface.glsl.
-struct ShaderRange {
-    uint32_t patchCount = 0;
-    uint32_t firstVertex = 0;
-    uint32_t samplesPerPatch = 0;
-    uint32_t verticesPerInstance = 0;
-    uint32_t firstSlot = 0;
-    uint32_t previousWords = 0;
-};
 struct RangePush {
     glm::vec4 window{};
     ShaderRange range;
@@ -34,11 +26,7 @@ struct RangePush {
 std::vector<ShaderRange> shaderRanges(const SuppleGridOutput& grid) {
     std::vector<ShaderRange> ranges;
     for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
-        ShaderRange& range = ranges.emplace_back();
-        range.patchCount = grid.drawRanges[r].patchCount;
-        range.firstVertex = grid.drawRanges[r].firstVertex;
-        range.samplesPerPatch = grid.drawRanges[r].samplesPerPatch;
-        range.verticesPerInstance = grid.verticesPerInstance;
+        ranges.push_back(shaderRange(grid, r));
     }
     return ranges;
 }

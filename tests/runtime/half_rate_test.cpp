@@ -5,6 +5,7 @@
 #include "shaders/motion_comp.h"
 #include "shaders/motion_comp_VERTEX_24.h"
 #include "tests/support/crowd.h"
+#include "tests/support/shader_range.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
@@ -13,15 +14,9 @@
 namespace supple::test {
 namespace {
 
-/// SuppleRange of shaders/supple_surface.glsl, and the count of motion.comp.
 struct MotionPush {
-    uint32_t patchCount = 0;
-    uint32_t firstVertex = 0;
-    uint32_t samplesPerPatch = 0;
-    uint32_t verticesPerInstance = 0;
-    uint32_t firstSlot = 0;
-    uint32_t previousWords = 0;
-    uint32_t count = 0;
+    ShaderRange range;
+    uint32_t count = 0; ///< of vertices that are drawn
 };
 
 /// How far the shader finds each vertex of a group of one range to have moved.
@@ -33,11 +28,9 @@ std::vector<float> moved(const Crowd& crowd, uint32_t instances, const SuppleBuf
     const SuppleBufferRange& vertices = output.streams.vertices;
     EXPECT_EQ(grid.drawRangeCount, 1u);
     MotionPush push;
-    push.patchCount = grid.drawRanges[0].patchCount;
-    push.samplesPerPatch = grid.drawRanges[0].samplesPerPatch;
-    push.verticesPerInstance = grid.verticesPerInstance;
-    push.previousWords = previousWords;
-    push.count = instances * push.patchCount * push.samplesPerPatch;
+    push.range = shaderRange(grid, 0);
+    push.range.previousWords = previousWords;
+    push.count = instances * push.range.patchCount * push.range.samplesPerPatch;
 
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;

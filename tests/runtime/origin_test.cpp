@@ -203,6 +203,32 @@ TEST_F(Origin, PreviousPositionsFollowIt) {
     }
 }
 
+TEST_F(Origin, PlacesTheSlotsInUseAnew) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kWalker);
+    desc.scheme = SUPPLE_SCHEME_CAGE;
+    desc.poseSource = SUPPLE_POSES_PLAYBACK;
+    uint64_t uploaded[2] = {};
+    for (const bool large : {false, true}) {
+        desc.capacity = large ? 60 : 2;
+        Crowd crowd(own, desc);
+        ASSERT_TRUE(crowd.valid());
+        (void)crowd.spawn();
+        (void)crowd.spawn();
+        EXPECT_EQ(suppleSetTime(own.handle(), crowd.group(), 0.5), SUPPLE_OK);
+        crowd.run();
+        crowd.run(); // what was new is listed anew
+        EXPECT_EQ(own.uploadedFor(crowd.group()), 0u);
+        setOrigin(own, {large ? 3.0 : 2.0, 0, 0});
+        uploaded[large ? 1 : 0] = own.uploadedFor(crowd.group());
+    }
+    EXPECT_GT(uploaded[0], 0u);
+    EXPECT_EQ(uploaded[1], uploaded[0]) << "and of a large capacity no more";
+}
+
 TEST_F(Origin, IsOneInAllOfAFrame) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);

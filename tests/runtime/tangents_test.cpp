@@ -4,12 +4,11 @@
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
-#include "tests/support/rigged_tube.h"
-#include "tests/support/sample_assets.h"
 #include "tests/support/test_view.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <optional>
@@ -144,7 +143,7 @@ std::optional<size_t> gridSample(SuppleDomain domain, int rate, int sector, int 
                         : std::nullopt;
 }
 
-/// Of the instance in slot 0, whose vertices are counted as attributes are.
+/// Measures the instance in slot 0, whose vertices are counted as attributes are.
 Measured measureGrids(const Crowd& crowd) {
     const Streams streams(crowd);
     const SuppleGridOutput grid = crowd.output().grid;
@@ -332,7 +331,7 @@ Measured measureLevels(const Crowd& crowd) {
     return measured;
 }
 
-TEST_P(TangentsOf, AreTheSameAtLevels) {
+TEST_P(TangentsOf, PointThereAtLevelsToo) {
     const ValidationGuard guard;
     const TangentCase& c = GetParam();
     for (const SuppleMapping mapping : kMappings) {
@@ -383,7 +382,7 @@ TEST_F(Tangents, HaveTheSignOfTheirFace) {
     (void)own.takeLines();
 }
 
-/// No texture coordinates, all in a point, on a line, and some that are not numbers.
+/// No texture coordinates, all in a point, and all on a line.
 TEST_F(Tangents, AreSomeDirectionWhereThereIsNone) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {

@@ -39,23 +39,6 @@ protected:
         const std::vector<Value> all = as<Value>(crowd.read(crowd.output().info.userData));
         return all.at(slot);
     }
-    /// What a frame uploads for the group.
-    uint64_t uploaded(Crowd& crowd) const {
-        const SuppleGroup group = crowd.group();
-        own->evaluate({&group, 1}, SUPPLE_RECORD_TIMINGS);
-        own->beginFrame(); // the one before is complete
-        std::array<SuppleTiming, 16> timings{};
-        auto count = static_cast<uint32_t>(timings.size());
-        EXPECT_EQ(suppleGetTimings(own->handle(), timings.data(), &count), SUPPLE_OK);
-        uint64_t bytes = 0;
-        for (uint32_t t = 0; t < count; ++t) {
-            // If nothing is uploaded, the frame has no entry at all.
-            const bool counts = timings[t].frame + 1 == own->frame && std::strcmp(timings[t].pass, "upload") == 0;
-            bytes += counts ? timings[t].bytes : 0;
-        }
-        return bytes;
-    }
-
     CrowdContext* own = nullptr;
     SuppleAsset asset{};
 };
@@ -100,17 +83,17 @@ TEST_F(UserData, IsUploadedWhenItChanges) {
         all.push_back(crowd.spawn());
     }
     for (int frame = 0; frame < 3; ++frame) {
-        (void)uploaded(crowd);
+        (void)own->uploadedFor(crowd.group());
     }
-    EXPECT_EQ(uploaded(crowd), 0u);
+    EXPECT_EQ(own->uploadedFor(crowd.group()), 0u);
     set(all[2], kRed);
-    EXPECT_EQ(uploaded(crowd), 16u);
-    EXPECT_EQ(uploaded(crowd), 0u);
+    EXPECT_EQ(own->uploadedFor(crowd.group()), 16u);
+    EXPECT_EQ(own->uploadedFor(crowd.group()), 0u);
     set(all[2], kRed);
-    EXPECT_EQ(uploaded(crowd), 0u) << "the same again";
+    EXPECT_EQ(own->uploadedFor(crowd.group()), 0u) << "the same again";
     set(all[6], kGreen);
     set(all[3], kGreen);
-    EXPECT_EQ(uploaded(crowd), 64u) << "slots 3 to 6";
+    EXPECT_EQ(own->uploadedFor(crowd.group()), 64u) << "slots 3 to 6";
     EXPECT_EQ(onDevice(crowd, 2), kRed);
     EXPECT_EQ(onDevice(crowd, 3), kGreen);
     EXPECT_EQ(onDevice(crowd, 5), kZero);

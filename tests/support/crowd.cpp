@@ -152,6 +152,21 @@ void CrowdContext::run(std::span<const SuppleGroup> groups, const std::function<
     ASSERT_TRUE(submitted.ok()) << submitted.error().message;
 }
 
+uint64_t CrowdContext::uploadedFor(SuppleGroup group) {
+    evaluate({&group, 1}, SUPPLE_RECORD_TIMINGS);
+    beginFrame(); // the one before is complete
+    std::array<SuppleTiming, 16> timings{};
+    auto count = static_cast<uint32_t>(timings.size());
+    EXPECT_EQ(suppleGetTimings(handle(), timings.data(), &count), SUPPLE_OK);
+    uint64_t bytes = 0;
+    for (uint32_t t = 0; t < count; ++t) {
+        // If nothing is uploaded, the frame has no entry at all.
+        const bool counts = timings[t].frame + 1 == frame && std::strcmp(timings[t].pass, "upload") == 0;
+        bytes += counts ? timings[t].bytes : 0;
+    }
+    return bytes;
+}
+
 void CrowdContext::cancel(std::span<const SuppleGroup> groups) {
     beginFrame();
     Commands dropped(device());

@@ -71,6 +71,8 @@ public:
     /// A frame from its beginning until it has run. `first` is what the host records ahead of Supple.
     void run(std::span<const SuppleGroup> groups, const std::function<void(VkCommandBuffer)>& first = {});
     void run(SuppleGroup group, const std::function<void(VkCommandBuffer)>& first = {}) { run({&group, 1}, first); }
+    /// What a frame of this group alone uploads, in bytes.
+    [[nodiscard]] uint64_t uploadedFor(SuppleGroup group);
     /// A frame that is recorded and cancelled.
     void cancel(std::span<const SuppleGroup> groups);
     void cancel(SuppleGroup group) { cancel({&group, 1}); }

@@ -228,9 +228,9 @@ typedef struct SuppleMemoryCallbacks {
      * and says whose memory it is:
      * - context: "supple parameter pairs"; on CPU devices "supple timings";
      * - asset: "supple skin tables", "supple vertices of a piece", "supple surface tables", "supple clip tables";
-     * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices", "supple
-     *   bounds, read back"; of its instances "supple poses", "supple user data staging", "supple playback", "supple
-     * playback staging";
+     * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices";
+     * - its boxes, for the host: "supple bounds, read back";
+     * - its instances: "supple poses", "supple user data staging", "supple playback", "supple playback staging";
      * - view: "supple view", "supple view staging", "supple view statistics", "supple view, grid indices".
      *
      * The tables of an asset, parameter pairs and grid indices come twice under one name: the second piece is
@@ -745,10 +745,10 @@ SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup gr
  *
  * All output of these groups (suppleGetGroupInfo, ...) is dead at once: ask for it again, and write your descriptors
  * anew. Command buffers that are recorded may still use the old buffers, which are freed when their frames are
- * complete. Call this before the frame's suppleRecord of the group, which then writes the new buffers. In it all
- * instances are new (suppleTeleport). suppleReadInstanceBounds has no box until that frame is complete. With
- * PALETTE_BUFFER and CAGE_BUFFER the host fills the new buffers. Until the call returns, both groups are there: they
- * need memory for both and, in a view, runs for both (docs/lod.md).
+ * complete. Until then both groups are there, with memory for both and, in a view, runs for both (docs/lod.md). Call
+ * this before the frame's suppleRecord of the group, which then writes the new buffers. In it all instances are new
+ * (suppleTeleport). suppleReadInstanceBounds has no box until that frame is complete. With PALETTE_BUFFER and
+ * CAGE_BUFFER the host fills the new buffers.
  * Errors: an instance has a slot that is not below capacity (SUPPLE_ERROR_LIMIT); the group follows another one; those
  * of suppleCreateGroup. Then nothing has changed. */
 SUPPLE_API SuppleResult suppleSetCapacity(SuppleContext context, SuppleGroup group, uint32_t capacity);
