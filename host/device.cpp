@@ -210,6 +210,7 @@ Device::~Device() {
         vkDeviceWaitIdle(device_);
         for (; !atEnd_.empty(); atEnd_.pop_back())
             atEnd_.back()();
+        vkDestroyFence(device_, fence_, nullptr);
         vkDestroyCommandPool(device_, commandPool_, nullptr);
         vkDestroyDevice(device_, nullptr);
     }
@@ -394,43 +395,42 @@ Status Device::createDevice(const DeviceOptions& options) {
     poolInfo.queueFamilyIndex = queueFamily_;
     if (const VkResult result = vkCreateCommandPool(device_, &poolInfo, nullptr, &commandPool_); result != VK_SUCCESS)
         return vulkanError(result, "vkCreateCommandPool");
-    return success();
+    return createCommands();
 }
 
-Status Device::submitAndWait(const std::function<void(VkCommandBuffer)>& record) {
+Status Device::createCommands() {
     auto allocateInfo = vkStruct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
     allocateInfo.commandPool = commandPool_;
     allocateInfo.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocateInfo.commandBufferCount = 1;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    VkFence fence = VK_NULL_HANDLE;
-    VkResult result = vkAllocateCommandBuffers(device_, &allocateInfo, &commands);
+    const auto fenceInfo = vkStruct<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+    if (const VkResult result = vkAllocateCommandBuffers(device_, &allocateInfo, &commands_); result != VK_SUCCESS)
+        return vulkanError(result, "vkAllocateCommandBuffers");
+    if (const VkResult result = vkCreateFence(device_, &fenceInfo, nullptr, &fence_); result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateFence");
+    return success();
+}
+
+Status Device::submitAndWait(const std::function<void(VkCommandBuffer)>& record) {
+    auto beginInfo = vkStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+    beginInfo.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    VkResult result = vkBeginCommandBuffer(commands_, &beginInfo);
     if (result == VK_SUCCESS) {
-        auto fenceInfo = vkStruct<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-        result = vkCreateFence(device_, &fenceInfo, nullptr, &fence);
+        record(commands_);
+        result = vkEndCommandBuffer(commands_);
     }
-    if (result == VK_SUCCESS) {
-        auto beginInfo = vkStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-        beginInfo.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        result = vkBeginCommandBuffer(commands, &beginInfo);
-    }
-    if (result == VK_SUCCESS) {
-        record(commands);
-        result = vkEndCommandBuffer(commands);
-    }
+    if (result == VK_SUCCESS)
+        result = vkResetFences(device_, 1, &fence_);
     if (result == VK_SUCCESS) {
         auto commandInfo = vkStruct<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
-        commandInfo.commandBuffer = commands;
+        commandInfo.commandBuffer = commands_;
         auto submitInfo = vkStruct<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
         submitInfo.commandBufferInfoCount = 1;
         submitInfo.pCommandBufferInfos = &commandInfo;
-        result = vkQueueSubmit2(queue_, 1, &submitInfo, fence);
+        result = vkQueueSubmit2(queue_, 1, &submitInfo, fence_);
     }
     if (result == VK_SUCCESS)
-        result = vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
-    vkDestroyFence(device_, fence, nullptr);
-    if (commands != VK_NULL_HANDLE)
-        vkFreeCommandBuffers(device_, commandPool_, 1, &commands);
+        result = vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX);
     if (result != VK_SUCCESS)
         return vulkanError(result, "submitting work to the device");
     return success();

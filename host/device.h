@@ -152,6 +152,7 @@ private:
     [[nodiscard]] Status createMessenger();
     [[nodiscard]] Status choosePhysicalDevice(const DeviceOptions& options);
     [[nodiscard]] Status createDevice(const DeviceOptions& options);
+    [[nodiscard]] Status createCommands();
     [[nodiscard]] Result<VkDeviceMemory> allocate(const VkMemoryRequirements& requirements, MemoryKind kind);
 
     std::shared_ptr<ValidationLog> validation_ = std::make_shared<ValidationLog>();
@@ -169,6 +170,10 @@ private:
     VkQueue queue_ = VK_NULL_HANDLE;
     uint32_t queueFamily_ = 0;
     VkCommandPool commandPool_ = VK_NULL_HANDLE;
+    /// Those of submitAndWait(). They are kept: the validation layer 1.3.239 drops what it knows of a freed command
+    /// buffer on a thread of its own, perhaps after the next one has got the same handle, and reads freed memory then.
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
     std::vector<std::function<void()>> atEnd_;
     bool debugUtils_ = false;
     bool anisotropy_ = false;

@@ -28,13 +28,6 @@ Commands::~Commands() {
 }
 
 void Commands::record(const std::function<void(VkCommandBuffer)>& body) {
-    // The pool may not allow resetting one buffer.
-    VkCommandBufferAllocateInfo allocateInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocateInfo.commandPool = device_.commandPool();
-    allocateInfo.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    allocateInfo.commandBufferCount = 1;
-    vkFreeCommandBuffers(device_.handle(), device_.commandPool(), 1, &buffer_);
-    ASSERT_EQ(vkAllocateCommandBuffers(device_.handle(), &allocateInfo, &buffer_), VK_SUCCESS);
     VkCommandBufferBeginInfo beginInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     beginInfo.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     ASSERT_EQ(vkBeginCommandBuffer(buffer_, &beginInfo), VK_SUCCESS);
