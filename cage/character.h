@@ -51,6 +51,8 @@ struct Cage {
     /// One per corner, or empty: unit normals as the file has them (NORMAL, vn). A corner whose normal is zero has
     /// none: it is flat, as its face. Subdivision surfaces have normals of their own and ignore these.
     std::vector<glm::vec3> cornerNormals;
+    /// One per corner, or empty: tangent and sign as a glTF file has them (TANGENT). Zero: the corner has none.
+    std::vector<glm::vec4> cornerTangents;
     /// How the file cuts faces into triangles: three corners per triangle, sides - 2 triangles per face, face after
     /// face. Empty if the file does not say: triangulate() (cage/triangulation.h) then cuts them.
     std::vector<uint32_t> faceTriangles;

@@ -55,6 +55,7 @@ void appendCage(const Cage& from, uint32_t sourceVertices, Cage& cage) {
     appendPadded(cage.cornerUvs, corners, from.cornerUvs, moreCorners, glm::vec2(0.0f));
     appendPadded(cage.cornerUvs1, corners, from.cornerUvs1, moreCorners, glm::vec2(0.0f));
     appendPadded(cage.cornerColors, corners, from.cornerColors, moreCorners, glm::vec4(1.0f));
+    appendPadded(cage.cornerTangents, corners, from.cornerTangents, moreCorners, glm::vec4(0.0f));
     appendPadded(cage.faceMaterials, faces, from.faceMaterials, moreFaces, kNone);
     appendPadded(cage.faceTrimTiles, faces, from.faceTrimTiles, moreFaces, kNone);
     appendTo(cage.positions, from.positions);
@@ -251,6 +252,7 @@ void reverseFaces(Cage& cage) {
     reverse(cage.cornerUvs1);
     reverse(cage.cornerColors);
     reverse(cage.cornerNormals);
+    reverse(cage.cornerTangents);
     size_t triangle = 0;
     for (uint32_t f = 0; f < cage.faceCount() && !cage.faceTriangles.empty(); ++f) {
         const uint32_t start = cage.faceStarts[f];

@@ -23,6 +23,7 @@ void takeFace(const Cage& from, uint32_t face, Cage& cage) {
     takeRun(from.cornerUvs1, first, sides, cage.cornerUvs1);
     takeRun(from.cornerColors, first, sides, cage.cornerColors);
     takeRun(from.cornerNormals, first, sides, cage.cornerNormals);
+    takeRun(from.cornerTangents, first, sides, cage.cornerTangents);
     takeRun(from.faceMaterials, face, 1, cage.faceMaterials);
     takeRun(from.faceParts, face, 1, cage.faceParts);
     takeRun(from.faceTrimTiles, face, 1, cage.faceTrimTiles);

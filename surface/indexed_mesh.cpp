@@ -6,8 +6,11 @@
 #include "surface/table_writer.h"
 
 #include <algorithm>
+#include <bit>
+#include <glm/glm.hpp>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace supple::surface {
@@ -39,9 +42,11 @@ const PatchRange& rangeOf(const Tables& tables, uint32_t patch) {
 
 class Builder {
 public:
-    Builder(Tables& tables, bool attributes) : tables_(tables), attributes_(attributes) {}
+    Builder(Tables& tables, bool attributes, bool tangents)
+        : tables_(tables), attributes_(attributes), tangents_(tangents) {}
 
     void build() {
+        tables_.mesh.tangents = tangents_;
         collect();
         chooseSides();
         writeEdges();
@@ -59,17 +64,34 @@ private:
         return tables_.attributes + cornerElements() * number;
     }
 
+    /// The sign of a patch's area in texture coordinates (shaders/evaluate/attributes.comp).
+    [[nodiscard]] int handOf(const PatchRange& range, uint32_t patch) const {
+        const uint32_t corners = cornerCount(domainOf(range.patchClass));
+        std::array<glm::vec2, kMaxSides> uvs{};
+        for (uint32_t k = 0; k < corners; ++k) {
+            const uint32_t* words = &tables_.words[size_t{4} * attributeElement(range, patch, k)];
+            uvs[k] = {std::bit_cast<float>(words[0]), std::bit_cast<float>(words[1])};
+        }
+        float area = 0.0f;
+        for (uint32_t k = 0; k < corners; ++k) {
+            const glm::vec2 p = uvs[k] - uvs[0], q = uvs[(k + 1) % corners] - uvs[0];
+            area += p.x * q.y - p.y * q.x;
+        }
+        return area > 0.0f ? 1 : area < 0.0f ? -1 : 0;
+    }
+
     /// Numbers corners and edges in the order in which patches come to them.
     void collect() {
-        std::map<std::pair<uint32_t, uint32_t>, uint32_t> corners; // by limit point and attributes
+        std::map<std::tuple<uint32_t, uint32_t, int>, uint32_t> corners; // by limit point, attributes and hand
         std::map<BorderCurve, uint32_t> edges;
         for (const PatchRange& range : tables_.ranges) {
             const uint32_t sides = cornerCount(domainOf(range.patchClass));
             for (uint32_t patch = range.firstPatch; patch < range.firstPatch + range.section.count; ++patch) {
                 const std::vector<BorderCurve> curves = curvesOf(range, patch);
+                const int hand = tangents_ ? handOf(range, patch) : 0;
                 MeshTables::Patch& own = tables_.mesh.patches.emplace_back();
                 for (uint32_t i = 0; i < sides; ++i) {
-                    const std::pair key(curves[i][0], attributes_ ? attributeElement(range, patch, i) : 0);
+                    const std::tuple key(curves[i][0], attributes_ ? attributeElement(range, patch, i) : 0, hand);
                     own.corners[i] = corners.try_emplace(key, static_cast<uint32_t>(corners.size())).first->second;
                 }
                 for (uint32_t i = 0; i < sides; ++i) {
@@ -148,8 +170,13 @@ private:
         for (const uint32_t e : order) {
             const auto [patch, side] = edges_[e].sides[edges_[e].taken];
             const PatchRange& range = rangeOf(tables_, patch);
-            const uint32_t next = (side + 1) % cornerCount(domainOf(range.patchClass));
-            writer.put({attributeElement(range, patch, side), attributeElement(range, patch, next), 0u, 0u});
+            const uint32_t corners = cornerCount(domainOf(range.patchClass)), next = (side + 1) % corners;
+            const uint32_t place = corners * (patch - range.firstPatch), halves = tables_.attributeHalves ? 1 : 0;
+            const uint32_t form = side | corners << kPatchCornersShift |
+                                  (rowOf(range.patchClass).hasSectors() ? kPatchHasSectors : 0) |
+                                  (place & halves) << kPatchHalfShift;
+            writer.put({attributeElement(range, patch, side), attributeElement(range, patch, next),
+                        tangents_ ? range.attributes + (place >> halves) : 0, tangents_ ? form : 0});
         }
     }
 
@@ -227,7 +254,7 @@ private:
         uint32_t taken = 0;
     };
     Tables& tables_;
-    bool attributes_;
+    bool attributes_, tangents_;
     std::vector<Edge> edges_;
 };
 
@@ -305,8 +332,8 @@ uint32_t interiorCount(Domain domain, uint32_t rate) {
     }
 }
 
-void appendIndexedMesh(Tables& tables, bool attributes) {
-    Builder(tables, attributes).build();
+void appendIndexedMesh(Tables& tables, bool attributes, bool tangents) {
+    Builder(tables, attributes, tangents).build();
 }
 
 IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation) {

@@ -19,8 +19,9 @@ namespace supple::surface {
 [[nodiscard]] uint32_t interiorCount(Domain domain, uint32_t rate);
 
 /// Appends the edges to `tables` (Tables::mesh). Its patches must be of classes whose borders are cubics
-/// (surface/borders.h). `attributes`: the tables have corner attributes.
-void appendIndexedMesh(Tables& tables, bool attributes);
+/// (surface/borders.h). `attributes`: the tables have corner attributes. `tangents`: with these, faces whose texture
+/// coordinates turn in different directions share no sample, because their frames have different signs.
+void appendIndexedMesh(Tables& tables, bool attributes, bool tangents);
 
 /// The triangles of one instance, counter-clockwise seen from outside. They are sorted by material, then by part, then
 /// by patch; within a patch they have the order of gridIndices().

@@ -55,7 +55,7 @@ constexpr struct {
     {storage(kAttributeBinding), in({attributes})},
     {storage(kUv1Binding), in({attributes})},
     {storage(kFaceUvBinding), in({attributes})},
-    {storage(kTangentBinding), in({evaluate, evaluateLevels})},
+    {storage(kTangentBinding), in({evaluate, subdivide, evaluateLevels})},
     {storage(kDirectionBinding), in({evaluate, evaluateLevels})},
     {storage(kDirectionOutputBinding), in({attributes})},
     {storage(kPairBinding), in({evaluate, attributes})},

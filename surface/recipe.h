@@ -53,6 +53,7 @@ struct Recipe {
     blend::Options blend;
     uint32_t rate = 0;        ///< segments along an edge of the cage (Scheme::tableRate); 0: tables for all rates
     bool attributes = true;   ///< the tables have corner attributes
+    bool tangents = false;    ///< of a mesh with attributes: vertices have tangents, and differ where these do
     bool lod = false;         ///< the tables have what level of detail needs
     bool indexedMesh = false; ///< patches share the samples on their borders
 

@@ -105,7 +105,8 @@ struct MeshTables {
         Section section;
     };
     std::vector<Edges> edges;
-    Section attributes; ///< one element per edge record, if the tables have corner attributes
+    Section attributes;    ///< one element per edge record, if the tables have corner attributes
+    bool tangents = false; ///< samples are split where faces of two hands meet, and edges know their patch
     uint32_t edgeCount = 0;
     uint32_t cornerCount = 0;
     /// The borders of a patch: side i is an edge, which runs along the side or, if reversed, against it; corner i is
@@ -121,6 +122,7 @@ struct MeshTables {
 /// but nothing is evaluated per patch.
 struct Triangles {
     Section vertices;              ///< one record per surface vertex
+    uint32_t directions = 0;       ///< with tangents: first of the words that say where a vertex's points; else 0
     std::vector<uint32_t> indices; ///< three vertices per patch
 };
 
@@ -155,9 +157,9 @@ struct Tables {
     /// What corners have beside the first UV set and the color: shared::kOutput... bits.
     [[nodiscard]] uint32_t attributeOutputs() const {
         return (uvSets == 2 ? shared::kOutputUvs1 : 0) | (faceUvs ? shared::kOutputFaceUvs : 0) |
-               (hasTangents() ? shared::kOutputDirections : 0);
+               (hasTangents() && triangles.indices.empty() ? shared::kOutputDirections : 0);
     }
-    /// Whether evaluation can write tangents: patches have kernels of their own, and no sample is another patch's.
+    /// Whether evaluation can write tangents. Of a mesh the recipe must ask for them.
     [[nodiscard]] bool hasTangents() const;
     /// Whether samples on borders are stored once for all patches that meet there.
     [[nodiscard]] bool hasIndexedMesh() const { return !mesh.edges.empty(); }

@@ -57,7 +57,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
             return Error{ErrorCode::argument, std::string(scheme.name) + " has no indexed mesh"};
         }
         if (!scheme.isMesh()) {
-            appendIndexedMesh(*tables, recipe.attributes);
+            appendIndexedMesh(*tables, recipe.attributes, recipe.attributes && recipe.tangents);
         }
     }
     return tables;

@@ -33,10 +33,6 @@ uint32_t cornerNormals(const ProgramBuilder& builder) {
     return builder.tables.cornerNormals ? 1 : 0;
 }
 
-uint32_t tangents(const ProgramBuilder& builder, uint32_t format) {
-    return builder.needs.tangents && format != kVertexPosition ? VK_TRUE : VK_FALSE;
-}
-
 /// Patches a workgroup takes in the wide mapping: the count that leaves the fewest lanes idle.
 uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
     uint32_t best = 1;
@@ -73,7 +69,7 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint3
                                {kVertexFormatConstant, format},
                                {kCornerNormalsConstant, cornerNormals(builder)},
                                {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
-                               {kTangentsConstant, tangents(builder, format)},
+                               {kTangentsConstant, tangentsConstant(builder, format)},
                                {kRateConstant, rate}},
                               atRate(name + className(patchClass), rate));
     };
@@ -141,6 +137,7 @@ void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
                                                   {{kKindConstant, edges.kind},
                                                    {kVertexFormatConstant, pass.format},
                                                    {kCornerNormalsConstant, cornerNormals(builder)},
+                                                   {kTangentsConstant, tangentsConstant(builder, pass.format)},
                                                    {kRateConstant, rate}},
                                                   atRate(kNames[edges.kind], rate));
         SurfacePush push = pushFor(builder, edges.section);
@@ -187,6 +184,10 @@ SurfacePush pushFor(const ProgramBuilder& builder, const Section& section) {
     push.uvSets = tables.uvSets;
     push.faceUvs = tables.faceUvs ? 1 : 0;
     return push;
+}
+
+uint32_t tangentsConstant(const ProgramBuilder& builder, uint32_t format) {
+    return builder.needs.tangents && format != kVertexPosition ? VK_TRUE : VK_FALSE;
 }
 
 uint32_t outputsOf(const ProgramBuilder& builder) {
@@ -268,7 +269,7 @@ void addRangesAtLevels(ProgramBuilder& builder) {
             const gpu::Kernel kernel = builder.kernel(SetKind::evaluateLevels, row.atLevels,
                                                       {{kKindConstant, static_cast<uint32_t>(range.patchClass)},
                                                        {kVertexFormatConstant, pass.format},
-                                                       {kTangentsConstant, tangents(builder, pass.format)},
+                                                       {kTangentsConstant, tangentsConstant(builder, pass.format)},
                                                        {kCornerNormalsConstant, cornerNormals(builder)}},
                                                       std::string("supple evaluate at levels, ") + row.name);
             builder.add(*pass.steps, SetKind::evaluateLevels, kernel, builder.lanes(push.count), push, r);

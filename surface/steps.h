@@ -63,6 +63,8 @@ private:
 [[nodiscard]] shared::SurfacePush pushFor(const ProgramBuilder& builder, const Section& section);
 /// Attributes that are asked for and that the tables have, beside the first UV set and the color.
 [[nodiscard]] uint32_t outputsOf(const ProgramBuilder& builder);
+/// Whether kernels that write vertices of a format write tangents too (shared::kTangentsConstant).
+[[nodiscard]] uint32_t tangentsConstant(const ProgramBuilder& builder, uint32_t format);
 
 // Each adds what the tables and needs call for.
 void addConstructions(ProgramBuilder& builder);

@@ -102,7 +102,10 @@ uint32_t noteAttributes(const cage::Cage& cage, Tables& tables) {
 }
 
 bool Tables::hasTangents() const {
-    return !hasIndexedMesh() && !ranges.empty() &&
+    if (!triangles.indices.empty()) {
+        return triangles.directions != 0;
+    }
+    return (!hasIndexedMesh() || mesh.tangents) && !ranges.empty() &&
            std::all_of(ranges.begin(), ranges.end(),
                        [](const PatchRange& range) { return rowOf(range.patchClass).evaluate != Kernel::count; });
 }

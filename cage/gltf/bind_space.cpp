@@ -67,6 +67,11 @@ void BindSpace::place(PartCage& part, Skin& skin) const {
         const glm::dvec3 placed = normals * glm::dvec3(normal);
         normal = normal == glm::vec3(0.0f) ? normal : glm::vec3(glm::normalize(placed)); // zero: as the face
     }
+    for (glm::vec4& tangent : part.cage.cornerTangents) {
+        const glm::dvec3 placed = glm::dmat3(place) * glm::dvec3(tangent);
+        const bool none = glm::vec3(tangent) == glm::vec3(0.0f);
+        tangent = none ? tangent : glm::vec4(glm::normalize(placed), mirrored ? -tangent.w : tangent.w);
+    }
     for (MorphTarget& target : part.morphs.targets) {
         for (glm::vec3& delta : target.deltas) {
             delta = glm::vec3(glm::dmat3(place) * glm::dvec3(delta));

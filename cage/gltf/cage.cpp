@@ -200,23 +200,33 @@ void fillCorners(const Mesh& mesh, const Faces& faces, Cage& cage) {
     }
 }
 
-/// A primitive without normals has none of its own, and is flat as glTF says, unless it lists polygons and no primitive
-/// has normals: then what smooths a cage smooths it.
-void fillNormals(const Mesh& mesh, const Faces& faces, Cage& cage) {
-    const bool polygonsAlone =
-        std::all_of(mesh.primitives.begin(), mesh.primitives.end(), [](const MeshPrimitive& primitive) {
-            return primitive.normals.empty() && primitive.faces.polygons.faceCount() > 0;
-        });
-    if (polygonsAlone) {
-        return;
-    }
-    cage.cornerNormals.assign(faces.polygons.vertices.size(), glm::vec3(0.0f));
+/// What the primitives have per vertex, per corner of the cage; `none` where a primitive does not have it.
+template <class Vec>
+std::vector<Vec> cornerValues(const Mesh& mesh, const Faces& faces, std::vector<Vec> MeshPrimitive::*values,
+                              const Vec& none) {
+    std::vector<Vec> corners(faces.polygons.vertices.size(), none);
     for (size_t f = 0; f < faces.primitives.size(); ++f) {
         const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
-        for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1] && !primitive.normals.empty();
-             ++c) {
-            cage.cornerNormals[c] = primitive.normals[faces.polygons.vertices[c] - primitive.firstVertex];
+        const std::vector<Vec>& own = primitive.*values;
+        for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1] && !own.empty(); ++c) {
+            corners[c] = own[faces.polygons.vertices[c] - primitive.firstVertex];
         }
+    }
+    return corners;
+}
+
+/// A primitive without normals has none of its own, and is flat as glTF says, unless it lists polygons and no primitive
+/// has normals: then what smooths a cage smooths it.
+void fillShading(const Mesh& mesh, const Faces& faces, Cage& cage) {
+    const auto all = [&](auto test) { return std::all_of(mesh.primitives.begin(), mesh.primitives.end(), test); };
+    const bool polygonsAlone = all([](const MeshPrimitive& primitive) {
+        return primitive.normals.empty() && primitive.faces.polygons.faceCount() > 0;
+    });
+    if (!polygonsAlone) {
+        cage.cornerNormals = cornerValues(mesh, faces, &MeshPrimitive::normals, glm::vec3(0.0f));
+    }
+    if (!all([](const MeshPrimitive& primitive) { return primitive.tangents.empty(); })) {
+        cage.cornerTangents = cornerValues(mesh, faces, &MeshPrimitive::tangents, glm::vec4(0.0f));
     }
 }
 
@@ -342,7 +352,7 @@ std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Weldi
     }
     cage.holes = faces.holes;
     fillCorners(mesh, faces, cage);
-    fillNormals(mesh, faces, cage);
+    fillShading(mesh, faces, cage);
     fillTriangles(mesh, faces, welding, cage);
     fillTrimTiles(mesh, faces, cage);
 

@@ -241,6 +241,8 @@ private:
         primitive.uvs1 = read("TEXCOORD_1", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
         primitive.normals = readNormals(document_, from, primitive.vertexCount, element, warnings_);
         countAttributeFloats(3 * primitive.normals.size(), element + " NORMAL");
+        primitive.tangents = readTangents(document_, from, primitive.vertexCount, element, warnings_);
+        countAttributeFloats(4 * primitive.tangents.size(), element + " TANGENT");
         if (from.attributes.count("TEXCOORD_2") != 0) {
             warn(warnings_, element, "only TEXCOORD_0 and TEXCOORD_1 are read");
         }

@@ -31,6 +31,7 @@ struct MeshPrimitive {
     std::vector<float> uvs1;         ///< two per POSITION element, or empty
     std::vector<float> colors;       ///< four per POSITION element, or empty
     std::vector<glm::vec3> normals;  ///< one per POSITION element, or empty; zero: none
+    std::vector<glm::vec4> tangents; ///< one per POSITION element, or empty; zero: none
     std::vector<uint32_t> trimTiles; ///< per POSITION element: kNone for no tile; or empty
 };
 

@@ -30,7 +30,8 @@ std::span<const float> floatsOf(const std::vector<Vec>& values) {
 /// What a corner has besides its cage vertex, and cannot share a glTF vertex without.
 struct CornerValues {
     std::vector<glm::vec3> normals;
-    std::vector<glm::vec2> uvs[2]; ///< TEXCOORD_0 and TEXCOORD_1; empty where not written
+    std::vector<glm::vec4> tangents; ///< zero for none; empty where not written
+    std::vector<glm::vec2> uvs[2];   ///< TEXCOORD_0 and TEXCOORD_1; empty where not written
     std::vector<glm::vec4> colors;
     std::vector<glm::vec1> tiles; ///< _TRIM_TILE: -1 for none; empty where no material's trim has tiles
 };
@@ -54,6 +55,7 @@ CornerValues cornerValues(const Character& character, std::span<const glm::vec3>
     const Cage& cage = character.cage;
     CornerValues values;
     values.normals.assign(normals.begin(), normals.end());
+    values.tangents = cage.cornerTangents;
     values.uvs[0] = cage.cornerUvs;
     values.uvs[1] = cage.cornerUvs1;
     values.colors = cage.cornerColors;
@@ -124,7 +126,7 @@ void splitVertices(const Cage& cage, const CornerValues& values, WrittenPrimitiv
         }
         for (const int order :
              {compare(values.uvs[0], a, b), compare(values.uvs[1], a, b), compare(values.colors, a, b),
-              compare(values.normals, a, b), compare(values.tiles, a, b)}) {
+              compare(values.normals, a, b), compare(values.tangents, a, b), compare(values.tiles, a, b)}) {
             if (order != 0) {
                 return order;
             }
@@ -178,7 +180,7 @@ public:
         json primitives = json::array();
         for (WrittenPrimitive& part : primitivesOf(cage_)) {
             splitVertices(cage_, values_, part);
-            primitives.push_back(writePrimitive(part));
+            primitives.push_back(writePrimitive(part, file));
             file.vertexCount += static_cast<uint32_t>(part.corners.size());
         }
         mesh["primitives"] = std::move(primitives);
@@ -209,7 +211,7 @@ private:
         return values;
     }
 
-    json writePrimitive(const WrittenPrimitive& part) {
+    json writePrimitive(const WrittenPrimitive& part, GlbFile& file) {
         std::vector<glm::vec3> positions;
         for (const uint32_t v : part.cageVertices) {
             positions.push_back(cage_.positions[v]);
@@ -217,6 +219,7 @@ private:
         json attributes;
         attributes["POSITION"] = packer_.addFloats("VEC3", floatsOf(positions), Target::vertices, true);
         attributes["NORMAL"] = packer_.addFloats("VEC3", floatsOf(gathered(values_.normals, part)), Target::vertices);
+        writeTangents(part, attributes, file);
         for (size_t set = 0; set < 2; ++set) {
             if (!values_.uvs[set].empty()) {
                 attributes["TEXCOORD_" + std::to_string(set)] =
@@ -244,6 +247,22 @@ private:
         }
         primitive["extensions"] = {{"FB_ngon_encoding", json::object()}, {"SUPPLE_mesh_cage", writeExtension(part)}};
         return primitive;
+    }
+
+    /// glTF knows no vertex without a tangent among others that have one: then the primitive has none.
+    void writeTangents(const WrittenPrimitive& part, json& attributes, GlbFile& file) {
+        if (values_.tangents.empty()) {
+            return;
+        }
+        const std::vector<glm::vec4> tangents = gathered(values_.tangents, part);
+        const auto none = std::count(tangents.begin(), tangents.end(), glm::vec4(0.0f));
+        if (none == 0) {
+            attributes["TANGENT"] = packer_.addFloats("VEC4", floatsOf(tangents), Target::vertices);
+        } else if (static_cast<size_t>(none) < tangents.size()) {
+            warn(file.warnings, "tangents",
+                 "those of a primitive left out: " + counted(static_cast<size_t>(none), "vertex has", "vertices have") +
+                     " none");
+        }
     }
 
     /// As 16-bit integers where these are what a file had, else as floats.

@@ -5,22 +5,33 @@
 
 namespace supple::cage::gltf {
 
-std::vector<glm::vec3> readNormals(const Document& document, const supple_tinygltf::Primitive& primitive,
-                                   size_t vertexCount, const std::string& element, Warnings& warnings) {
-    std::vector<glm::vec3> normals;
-    const auto found = primitive.attributes.find("NORMAL");
+namespace {
+
+/// The components of an attribute of directions; empty if the primitive does not have it.
+std::vector<float> readDirections(const Document& document, const supple_tinygltf::Primitive& primitive,
+                                  const char* attribute, int type, size_t vertexCount, const std::string& name) {
+    const auto found = primitive.attributes.find(attribute);
     if (found == primitive.attributes.end()) {
-        return normals;
+        return {};
     }
-    const std::string name = element + " NORMAL";
     const uint32_t allowed =
         isUsed(document, "KHR_mesh_quantization") ? kFloat | kNormalizedS8 | kNormalizedS16 : uint32_t{kFloat};
     checkVertexCount(document, found->second, vertexCount, name);
-    const std::vector<float> values = readFloats(document, found->second, TINYGLTF_TYPE_VEC3, allowed, name);
-    normals.reserve(vertexCount);
+    return readFloats(document, found->second, type, allowed, name);
+}
+
+} // namespace
+
+std::vector<glm::vec3> readNormals(const Document& document, const supple_tinygltf::Primitive& primitive,
+                                   size_t vertexCount, const std::string& element, Warnings& warnings) {
+    const std::string name = element + " NORMAL";
+    const std::vector<float> values =
+        readDirections(document, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertexCount, name);
+    std::vector<glm::vec3> normals;
+    normals.reserve(values.size() / 3);
     size_t missing = 0;
-    for (size_t v = 0; v < vertexCount; ++v) {
-        normals.push_back(unitNormal({values[3 * v], values[3 * v + 1], values[3 * v + 2]}));
+    for (size_t i = 0; i < values.size(); i += 3) {
+        normals.push_back(unitNormal({values[i], values[i + 1], values[i + 2]}));
         missing += normals.back() == glm::vec3(0.0f) ? 1 : 0;
     }
     if (missing > 0) {
@@ -28,6 +39,31 @@ std::vector<glm::vec3> readNormals(const Document& document, const supple_tinygl
              counted(missing, "normal is", "normals are") + " zero or not finite; the faces' own instead");
     }
     return normals;
+}
+
+std::vector<glm::vec4> readTangents(const Document& document, const supple_tinygltf::Primitive& primitive,
+                                    size_t vertexCount, const std::string& element, Warnings& warnings) {
+    if (primitive.attributes.count("NORMAL") == 0) {
+        return {}; // glTF 2.0, 3.7.2.1: tangents without normals are to be ignored
+    }
+    const std::string name = element + " TANGENT";
+    const std::vector<float> values =
+        readDirections(document, primitive, "TANGENT", TINYGLTF_TYPE_VEC4, vertexCount, name);
+    std::vector<glm::vec4> tangents;
+    tangents.reserve(values.size() / 4);
+    size_t missing = 0;
+    for (size_t i = 0; i < values.size(); i += 4) {
+        const glm::vec3 direction = unitNormal({values[i], values[i + 1], values[i + 2]});
+        const bool none = direction == glm::vec3(0.0f);
+        tangents.push_back(none ? glm::vec4(0.0f) : glm::vec4(direction, values[i + 3] < 0.0f ? -1.0f : 1.0f));
+        missing += none ? 1 : 0;
+    }
+    if (missing > 0) {
+        warn(warnings, name,
+             counted(missing, "tangent is", "tangents are") +
+                 " zero or not finite; those of the texture coordinates instead");
+    }
+    return tangents;
 }
 
 } // namespace supple::cage::gltf

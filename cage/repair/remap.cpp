@@ -208,6 +208,7 @@ private:
         gather(cage_.cornerUvs1, draft_.corners);
         gather(cage_.cornerColors, draft_.corners);
         gather(cage_.cornerNormals, draft_.corners);
+        gather(cage_.cornerTangents, draft_.corners);
         gather(cage_.cornerFaceUvs, draft_.corners);
         gather(cage_.faceMaterials, draft_.faces);
         gather(cage_.faceParts, draft_.faces);

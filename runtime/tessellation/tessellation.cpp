@@ -18,6 +18,9 @@ surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View*
                                         : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
     recipe.scheme = static_cast<surface::SchemeId>(desc.scheme);
     const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
+    recipe.tangents =
+        (scheme.isMesh() || recipe.indexedMesh) && (view != nullptr ? (view->desc().flags & SUPPLE_VIEW_TANGENTS) != 0
+                                                                    : (desc.flags & SUPPLE_GROUP_TANGENTS) != 0);
     recipe.lod = view != nullptr && scheme.hasLevels;
     recipe.rate = scheme.tableRate(rate, recipe.lod);
     if (desc.blend != nullptr) {
@@ -119,8 +122,7 @@ Status Tessellation::keepTangents() {
     }
     if (view() == nullptr && !desc_.schemeChosen) {
         return Error{ErrorCode::argument, desc_.asset->character.name + ": " +
-                                              surface::schemeOf(scheme_->recipe.scheme).name + " has no tangents" +
-                                              (tables().hasIndexedMesh() ? " as an indexed mesh" : "")};
+                                              surface::schemeOf(scheme_->recipe.scheme).name + " has no tangents"};
     }
     wanted_.remove(Stream::tangents);
     return success();

@@ -93,31 +93,33 @@ void loadCorner(inout Corners c, uint k, uint element) {
     c.color[k] = vec4(corner.z & 0xFFFFu, corner.z >> 16u, corner.w & 0xFFFFu, corner.w >> 16u);
     c.more[k] = kMoreUvs ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
 }
-vec2 uvCentre(Corners c) {
+vec2 uvCentre(Corners c, uint corners) {
     vec2 sum = vec2(0.0);
-    for (uint k = 0u; k < kCorners; ++k) sum += c.uv[k];
-    return sum / float(kCorners);
+    for (uint k = 0u; k < corners; ++k) sum += c.uv[k];
+    return sum / float(corners);
 }
-void findSide(inout Corners c) {
-    vec2 centre = uvCentre(c);
+void findSide(inout Corners c, uint corners) {
+    vec2 centre = uvCentre(c, corners);
     float area = 0.0;
     c.size = 0.0;
-    for (uint k = 0u; k < kCorners; ++k) {
-        vec2 p = c.uv[k] - c.uv[0], q = c.uv[k + 1u == kCorners ? 0u : k + 1u] - c.uv[0];
+    for (uint k = 0u; k < corners; ++k) {
+        vec2 p = c.uv[k] - c.uv[0], q = c.uv[k + 1u == corners ? 0u : k + 1u] - c.uv[0];
         precise float twice = p.x * q.y - p.y * q.x;
         area += twice;
         c.size = max(c.size, distance(c.uv[k], centre));
     }
     c.side = sign(area);
 }
+// `first`: the word with the first number of a list, or the half of a word, of which `place` is one.
+uint cornerElement(uint first, uint place) {
+    uint number = tableWord(first + (place >> push.attributeHalves));
+    if (push.attributeHalves != 0u) number = number >> 16u * (place & 1u) & 0xFFFFu;
+    return push.attributes + cornerElements() * number;
+}
 Corners loadCorners(uint patchIndex) {
     Corners c;
-    for (uint k = 0u; k < kCorners; ++k) {
-        uint corner = kCorners * patchIndex + k, number = tableWord(push.table + (corner >> push.attributeHalves));
-        if (push.attributeHalves != 0u) number = number >> 16u * (corner & 1u) & 0xFFFFu;
-        loadCorner(c, k, push.attributes + cornerElements() * number);
-    }
-    if (kDirections) findSide(c);
+    for (uint k = 0u; k < kCorners; ++k) loadCorner(c, k, cornerElement(push.table, kCorners * patchIndex + k));
+    if (kDirections) findSide(c, kCorners);
     return c;
 }
 
@@ -165,7 +167,7 @@ Slopes sectorSlopes(Corners c, uint sector, vec3 l) {
         vec2 a = along.x * uv.a + along.y * uv.b, across = inwards.x * uv.a + inwards.y * uv.b;
         return Slopes(a, 0.5 * (a + across));
     }
-    return Slopes(c.uv[next] - c.uv[sector], uvCentre(c) - c.uv[sector]);
+    return Slopes(c.uv[next] - c.uv[sector], uvCentre(c, kCorners) - c.uv[sector]);
 }
 
 // The tangent is the direction in which the second texture coordinate stands still: a P_a + b P_b with (a, b) = side (t_b, -t_a).
@@ -295,6 +297,28 @@ void evaluateNarrowLod() {
     else storeRows(record, r, corners);
 }
 
+// The patch that an edge is taken from (shared/surface.h, attributes of edges).
+Corners loadPatchOfEdge(uvec4 ends) {
+    Corners c;
+    uint corners = ends.w >> kPatchCornersShift & kPatchSideMask, odd = ends.w >> kPatchHalfShift;
+    for (uint k = 0u; k < corners; ++k) loadCorner(c, k, cornerElement(ends.z, odd + k));
+    findSide(c, corners);
+    return c;
+}
+// Along its side and inwards, as evaluate/edge.comp has the derivatives of the position.
+Slopes slopesOnEdge(Corners c, uint form, vec2 t) {
+    uint side = form & kPatchSideMask, corners = form >> kPatchCornersShift & kPatchSideMask;
+    bool sectors = (form & kPatchHasSectors) != 0u;
+    vec2 own = c.uv[side], next = c.uv[side + 1u == corners ? 0u : side + 1u], along = next - own;
+    if (sectors && corners != 4u) return Slopes(along, uvCentre(c, corners) - own);
+    if (corners == 3u) { // polar
+        if (side == 0u) return Slopes(along, c.uv[2] - (t.y * own + t.x * next));
+        return Slopes(along, side == 1u ? c.uv[0] - c.uv[1] : c.uv[1] - c.uv[0]);
+    }
+    vec2 across = t.y * (c.uv[(side + 3u) & 3u] - own) + t.x * (c.uv[(side + 2u) & 3u] - next);
+    return Slopes(along, sectors ? 0.5 * (along + across) : across);
+}
+
 // A sample along an edge, or at the corner where it begins: see evaluate/edge.comp.
 void storeOnEdge(uint id) {
     uint edge = id / push.rate, k = id - edge * push.rate;
@@ -305,8 +329,12 @@ void storeOnEdge(uint id) {
     loadCorner(c, 0u, ends.x);
     loadCorner(c, 1u, ends.y);
     vec2 t = parameterPair(k, push.rate, push.pairs);
-    store(k == 0u ? push.firstCorner + own.x : push.firstVertex + own.y * (push.rate - 1u) + k - 1u, c,
-          float[5](t.y, t.x, 0.0, 0.0, 0.0));
+    uint vertex = k == 0u ? push.firstCorner + own.x : push.firstVertex + own.y * (push.rate - 1u) + k - 1u;
+    store(vertex, c, float[5](t.y, t.x, 0.0, 0.0, 0.0));
+    if (kDirections) {
+        Corners whole = loadPatchOfEdge(ends);
+        storeDirection(vertex, whole, slopesOnEdge(whole, ends.w, t));
+    }
 }
 
 void main() {

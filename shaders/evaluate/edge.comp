@@ -28,6 +28,8 @@ struct Edge {
     vec3 across[4];
     vec3 h[4];        // perturbation: h20 h30 on the border, h21 h31 beside it
     vec3 firstNormal; // of the beginning, where a perturbation vanishes
+    bool singular;    // there both derivatives lie on one line
+    float perAlong;   // factor that `along` has lost, of what `across` has
 };
 
 vec3 placed(vec3 corner, vec3 offset) {
@@ -45,6 +47,8 @@ Edge loadEdge(uint record, uvec4 own, uint base) {
     e.along = alongBorder(chord, t0, t1);
     e.across = vec3[4](q0, q1 - t0, q2 - t1, q3);
     vec3 firstNormal = cross(t0, q0); // outwards
+    e.singular = false;
+    e.perAlong = 1.0;
     if (kMixed) {
         vec3 a[4] = e.across;
         // Towards the apex of a polar patch the derivative across has the factor that is the distance to it: without it,
@@ -56,8 +60,10 @@ Edge loadEdge(uint record, uvec4 own, uint base) {
         uint sides = own.z & kEdgeSidesMask;
         float ray = sides == 3u ? SUPPLE_PM_RAY_SIDE(3u) : sides == 4u ? SUPPLE_PM_RAY_SIDE(4u) : SUPPLE_PM_RAY_SIDE(5u);
         if (sides != 0u) e.across = acrossSector(ray, chord, t0, t1, q0, q3, q1, q2);
+        if (sides != 0u) e.perAlong = 0.75; // cubics along, quartics across
         firstNormal = cross(e.along[0], e.across[0]);
-        if ((own.z & kSingularEdge) != 0u)
+        e.singular = (own.z & kSingularEdge) != 0u;
+        if (e.singular)
             firstNormal = singularNormal(ray, chord, t0, t1, e.across[0], q1, poolVector(base + own.w));
     }
     if (kCornerNormals && (own.z & kStoredNormalEdge) != 0u) firstNormal = poolVector(base + own.w);
@@ -69,8 +75,8 @@ Edge loadEdge(uint record, uvec4 own, uint base) {
     return e;
 }
 
-void finish(Edge e, uint k, uint rate, out vec3 position, out vec3 normal) {
-    vec2 t = parameterPair(k, rate, push.pairs);
+// Its derivatives along and across the border.
+Frame finish(Edge e, vec2 t, out vec3 position) {
     vec4 b = bernstein3(t);
     precise vec3 p = sum4(b, e.border[0], e.border[1], e.border[2], e.border[3]);
     vec3 along = t.y * t.y * e.along[0] + 2.0 * t.x * t.y * e.along[1] + t.x * t.x * e.along[2];
@@ -83,7 +89,17 @@ void finish(Edge e, uint k, uint rate, out vec3 position, out vec3 normal) {
         across += (5.0 / 3.0) * blend2(b5.inner, e.h[2] - e.h[0], e.h[3] - e.h[1]);
     }
     position = p;
-    normal = cross(along, across); // outwards
+    return Frame(e.perAlong * along, across, cross(along, across)); // outwards
+}
+
+void storeBeginning(Edge e, uint vertex, uint own) {
+    Frame f = Frame(e.perAlong * e.along[0], e.across[0], e.firstNormal);
+    if (kTangents) {
+        vec3 position;
+        if (e.singular) f = finish(e, vec2(0.001, 0.999), position); // as pm/evaluate.comp does
+        f = withNormal(f, e.firstNormal);
+    }
+    storeSurfaceVertex(vertex, own, e.border[0], f);
 }
 
 void evaluateNarrow() {
@@ -91,14 +107,14 @@ void evaluateNarrow() {
     uvec4 own = tableElement(record + 2u);
     Edge e = loadEdge(record, own, instance * push.poolStride);
     uint first = instance * push.verticesPerInstance;
-    if (own.x != kNoEdgeSample) storeSurfaceVertex(first + push.firstCorner + own.x, e.border[0], e.firstNormal);
+    if (own.x != kNoEdgeSample) storeBeginning(e, first + push.firstCorner + own.x, push.firstCorner + own.x);
     uint rate = fixedRate();
     if (rate == 1u) return;
-    vec3 position, normal;
-    uint vertex = first + push.firstVertex + own.y * (rate - 1u), k = 1u;
+    vec3 position;
+    uint vertex = push.firstVertex + own.y * (rate - 1u), k = 1u;
     [[unroll]] do {
-        finish(e, k, rate, position, normal);
-        storeSurfaceVertex(vertex, position, normal);
+        Frame f = finish(e, parameterPair(k, rate, push.pairs), position);
+        storeSurfaceVertex(first + vertex, vertex, position, f);
         ++vertex;
     } while (++k < rate);
 }
@@ -114,12 +130,13 @@ void evaluateWide() {
     Edge e = loadEdge(record, own, instance * push.poolStride);
     uint first = instance * push.verticesPerInstance;
     if (k == 0u) {
-        storeSurfaceVertex(first + push.firstCorner + own.x, e.border[0], e.firstNormal);
+        storeBeginning(e, first + push.firstCorner + own.x, push.firstCorner + own.x);
         return;
     }
-    vec3 position, normal;
-    finish(e, k, rate, position, normal);
-    storeSurfaceVertex(first + push.firstVertex + own.y * (rate - 1u) + k - 1u, position, normal);
+    vec3 position;
+    Frame f = finish(e, parameterPair(k, rate, push.pairs), position);
+    uint vertex = push.firstVertex + own.y * (rate - 1u) + k - 1u;
+    storeSurfaceVertex(first + vertex, vertex, position, f);
 }
 
 void main() {

@@ -12,6 +12,14 @@
 #include "shaders/polygons/vector.glsl"
 #include "shaders/shared/polygons.h"
 
+// Two axes across a unit normal: Duff et al., "Building an Orthonormal Basis, Revisited" (JCGT 2017). The words of
+// directions are made with the same (surface/polygons/scheme.cpp).
+void axesAcross(vec3 n, out vec3 x, out vec3 y) {
+    float s = n.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + n.z), b = n.x * n.y * a;
+    x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    y = vec3(b, s + n.y * n.y * a, -n.y);
+}
+
 void main() {
     uint item = itemOfLane(), index = elementOf(item), entry = entryOf(item), instance = entry & kInstanceSlotMask;
     uvec4 record = tableElement(push.records + index);
@@ -30,4 +38,10 @@ void main() {
     vec3 z = poolVector(frame + kFrameNormal), x = poolVector(frame + kFrameTangent), y = crossProduct(z, x);
     precise vec3 normal = (coordinates.x * x + coordinates.y * y) + coordinates.z * z;
     storeSurfaceVertex(vertex, poolVector(frame), normal);
+    if (kTangents) {
+        const mat3 axes = mat3(x, y, z);
+        vec3 du, dv;
+        axesAcross(coordinates, du, dv);
+        tangents[vertex] = tangentWord(tableWord(push.directions + index), Frame(axes * du, axes * dv, normal));
+    }
 }

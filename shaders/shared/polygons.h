@@ -11,6 +11,7 @@
 //   frames      (cage vertex, cage vertex towards which the tangent points, first word of the faces, how many). The words are
 //               numbers of faces. A frame without faces is that of the axes: normal z, tangent x
 //   vertices    (first pool element of the frame, coordinates of the normal along tangent, normal x tangent and normal)
+//   directions  with tangents, a word a vertex: where its tangent points among two axes across the normal (docs/tangents.md)
 //   attributes  as in shared/surface.h, for every vertex
 #ifndef SUPPLE_SHARED_POLYGONS_H
 #define SUPPLE_SHARED_POLYGONS_H

@@ -85,6 +85,7 @@ struct SubdivisionPush {
     uint samples;       // of a sector
     uint firstVertex;   // of the patches, within an instance
     uint today; // 1: instances without a past come from the coefficients that are bound in the place of the cage
+    uint directions; // polygons with tangents: first word of their directions
 };
 
 SUPPLE_SHARED_END

@@ -27,7 +27,9 @@
 //                    made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the edge; flags;
 //                    extra). Extra: perturbed edges: h20, the others of the four follow, or by kSwappedEdge stand as h30 h20 h31
 //                    h21; kStoredNormalEdge: the normal of the beginning; kSingularEdge: b121 of the sector before
-//   edge attributes  one element a record: (attribute element of the beginning, of the end, -, -)
+//   edge attributes  one element a record: (attribute element of the beginning, of the end, -, -). With tangents the last two
+//                    say what patch it has: the word with the first of its corners' numbers; its side, kPatchCornersShift: its
+//                    corners, kPatchHasSectors, kPatchHalfShift: 1 if that number is the high half of the word
 #ifndef SUPPLE_SHARED_SURFACE_H
 #define SUPPLE_SHARED_SURFACE_H
 
@@ -147,6 +149,11 @@ SUPPLE_SHARED_CONST kApexFirstEdge = 16u; // from it
 SUPPLE_SHARED_CONST kSwappedEdge = 32u;
 SUPPLE_SHARED_CONST kStoredNormalEdge = 64u;
 SUPPLE_SHARED_CONST kSingularEdge = 128u; // no normal at its beginning but as a limit
+// Words of edge attributes.
+SUPPLE_SHARED_CONST kPatchSideMask = 7u;
+SUPPLE_SHARED_CONST kPatchCornersShift = 3u;
+SUPPLE_SHARED_CONST kPatchHasSectors = 64u;
+SUPPLE_SHARED_CONST kPatchHalfShift = 7u;
 
 SUPPLE_SHARED_CONST kPatchStride = 32u; // elements a patch of any class in the patch-coefficient buffer
 // Wide mapping: what the workgroup memory of the evaluation passes holds, patches of any class, and of bicubic ones at a

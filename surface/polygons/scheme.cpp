@@ -1,3 +1,4 @@
+#include "cage/tangents.h"
 #include "cage/triangulation.h"
 #include "shaders/shared/polygons.h"
 #include "surface/build.h"
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -55,6 +57,7 @@ struct Vertex {
     uint32_t frame = 0;
     std::array<uint32_t, 3> normal{}; ///< its coordinates in the frame, as bits
     CornerWords attributes{};
+    uint32_t direction = 0; ///< with tangents: the word of docs/tangents.md
 
     bool operator==(const Vertex&) const = default;
 };
@@ -84,11 +87,32 @@ private:
     std::vector<uint32_t> before_;        ///< of the same frame
 };
 
+/// Two axes across a unit normal: Duff et al., "Building an Orthonormal Basis, Revisited" (JCGT 2017). The device has
+/// the same (shaders/polygons/vertex.comp).
+std::array<glm::dvec3, 2> axesAcross(const glm::dvec3& n) {
+    const double s = n.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + n.z), b = n.x * n.y * a;
+    return {glm::dvec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), glm::dvec3(b, s + n.y * n.y * a, -n.y)};
+}
+
+/// Where a tangent points, in a frame in which the vertex has a normal.
+uint32_t directionWord(const glm::dmat3& axes, const glm::dvec3& normal, const glm::vec4& tangent) {
+    const glm::dvec3 own = glm::transpose(axes) * glm::dvec3(tangent);
+    const std::array<glm::dvec3, 2> basis = axesAcross(normal);
+    glm::dvec2 d(glm::dot(own, basis[0]), glm::dot(own, basis[1]));
+    const double longest = std::max(std::abs(d.x), std::abs(d.y));
+    d = longest > 0.0 ? d / longest : glm::dvec2(1.0, 0.0);
+    const auto x = static_cast<int32_t>(std::lround(d.x * 32767.0)),
+               y = static_cast<int32_t>(std::lround(d.y * 16383.0));
+    return (static_cast<uint32_t>(x) & 0xFFFFu) | (static_cast<uint32_t>(y) & 0x7FFFu) << 16 |
+           (tangent.w < 0.0f ? shared::kNegativeFrame : 0);
+}
+
 class Builder {
 public:
-    /// `attributes`: corners that differ in them are different vertices.
-    Builder(const cage::Cage& cage, Frames frames, bool attributes)
-        : cage_(cage), frames_(std::move(frames)), attributes_(attributes), writer_(tables_.words) {}
+    /// Corners that differ in attributes or tangents are different vertices, if the recipe has these.
+    Builder(const cage::Cage& cage, Frames frames, const Recipe& recipe)
+        : cage_(cage), frames_(std::move(frames)), attributes_(recipe.attributes),
+          tangents_(recipe.tangents && recipe.attributes), writer_(tables_.words) {}
 
     Tables build() {
         tables_.rate = 1;
@@ -158,28 +182,62 @@ private:
         }
     }
 
-    [[nodiscard]] Vertex vertexOf(uint32_t corner) const {
+    [[nodiscard]] bool hasNormal(uint32_t corner) const {
+        return !cage_.cornerNormals.empty() && cage_.cornerNormals[corner] != glm::vec3(0.0f);
+    }
+
+    [[nodiscard]] Vertex vertexOf(uint32_t corner, const glm::vec4* tangent) const {
         Vertex vertex{frames_.cornerFrames[corner], {}, attributes_ ? cornerWords(cage_, corner) : CornerWords{}};
+        const glm::dmat3& axes = frames_.frames[vertex.frame].axes;
         glm::dvec3 normal(0.0, 0.0, 1.0);
-        if (!cage_.cornerNormals.empty() && cage_.cornerNormals[corner] != glm::vec3(0.0f)) {
-            normal = glm::transpose(frames_.frames[vertex.frame].axes) * glm::dvec3(cage_.cornerNormals[corner]);
+        if (hasNormal(corner)) {
+            normal = glm::transpose(axes) * glm::dvec3(cage_.cornerNormals[corner]);
         }
         for (int k = 0; k < 3; ++k) {
             vertex.normal[static_cast<size_t>(k)] = floatBits(normal[k]);
         }
+        if (tangent != nullptr) {
+            vertex.direction = directionWord(axes, normal, *tangent);
+        }
         return vertex;
+    }
+
+    /// Of the corners of the triangles that are drawn, in their order.
+    [[nodiscard]] std::vector<glm::vec4> tangentsOf(const std::vector<DraftPatch>& patches) const {
+        std::vector<uint32_t> corners;
+        for (const DraftPatch& patch : patches) {
+            corners.insert(corners.end(), patch.cageCorners.begin(), patch.cageCorners.begin() + 3);
+        }
+        std::vector<glm::vec3> normals;
+        for (uint32_t corner = 0; corner < cage_.cornerCount(); ++corner) {
+            normals.push_back(hasNormal(corner) ? cage_.cornerNormals[corner]
+                                                : glm::vec3(frames_.frames[frames_.cornerFrames[corner]].axes[2]));
+        }
+        return cage::triangleTangents(cage_, corners, normals);
+    }
+
+    void writeDirections(const std::vector<Vertex>& vertices) {
+        tables_.triangles.directions = 4 * writer_.element();
+        for (const Vertex& vertex : vertices) {
+            writer_.put({vertex.direction});
+        }
     }
 
     void writeVertices(const std::vector<DraftPatch>& patches) {
         VertexNumbers numbers(frames_.frames.size());
-        for (const DraftPatch& patch : patches) {
+        const std::vector<glm::vec4> tangents = tangents_ ? tangentsOf(patches) : std::vector<glm::vec4>();
+        for (size_t p = 0; p < patches.size(); ++p) {
             for (size_t k = 0; k < 3; ++k) {
-                tables_.triangles.indices.push_back(numbers.of(vertexOf(patch.cageCorners[k])));
+                const glm::vec4* tangent = tangents_ ? &tangents[3 * p + k] : nullptr;
+                tables_.triangles.indices.push_back(numbers.of(vertexOf(patches[p].cageCorners[k], tangent)));
             }
         }
         tables_.triangles.vertices = {writer_.element(), static_cast<uint32_t>(numbers.vertices.size())};
         for (const Vertex& vertex : numbers.vertices) {
             writer_.put({firstElement(vertex.frame), vertex.normal[0], vertex.normal[1], vertex.normal[2]});
+        }
+        if (tangents_) {
+            writeDirections(numbers.vertices);
         }
         tables_.attributes = writer_.element();
         const uint32_t words = noteAttributes(cage_, tables_);
@@ -191,7 +249,7 @@ private:
 
     const cage::Cage& cage_;
     const Frames frames_;
-    const bool attributes_;
+    const bool attributes_, tangents_;
     std::vector<uint32_t> faceNumbers_; ///< per face: its place in the pool
     Tables tables_;
     TableWriter writer_;
@@ -205,7 +263,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
         return Error{ErrorCode::limit, std::to_string(cage.cornerCount()) + " corners: polygons takes " +
                                            std::to_string(std::numeric_limits<uint32_t>::max() / 32)};
     }
-    return Builder(cage, makeFrames(cage), recipe.attributes).build();
+    return Builder(cage, makeFrames(cage), recipe).build();
 }
 
 } // namespace supple::surface::polygons

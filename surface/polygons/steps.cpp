@@ -37,10 +37,12 @@ void addSteps(ProgramBuilder& builder) {
         push.poolStride = builder.tables.poolStride;
         push.verticesPerInstance = evaluation.verticesPerInstance;
         push.firstVertex = firstVertex;
+        push.directions = builder.tables.triangles.directions;
         push.today = builder.needs.view && pass.format == kVertexPosition ? 1 : 0;
-        const gpu::Kernel kernel =
-            builder.kernel(SetKind::subdivide, Kernel::polygonsVertex, {{kVertexFormatConstant, pass.format}},
-                           "supple evaluate vertices of polygons");
+        const gpu::Kernel kernel = builder.kernel(
+            SetKind::subdivide, Kernel::polygonsVertex,
+            {{kVertexFormatConstant, pass.format}, {kTangentsConstant, tangentsConstant(builder, pass.format)}},
+            "supple evaluate vertices of polygons");
         builder.add(*pass.steps, SetKind::subdivide, kernel, builder.lanes(push.count), push);
     }
 }

@@ -2,6 +2,7 @@
 // double, and its contract.
 #include "cage/gltf/writer.h"
 #include "cage/procedural.h"
+#include "cage/tangents.h"
 #include "cage/triangulation.h"
 #include "surface/polygons/frames.h"
 #include "tests/support/crowd.h"
@@ -12,6 +13,7 @@
 #include "tests/support/rigged_tube.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
 
 #include <algorithm>
@@ -633,6 +635,95 @@ TEST(Polygons, MorphsMoveNormals) {
         moved += angleDegrees(normals[0][i], normals[1][i]) > 1.0 ? 1 : 0;
     }
     EXPECT_GT(moved, indices.size() / 10);
+}
+
+// ------------------------------------------------------------------------------------------------- tangents
+
+/// A tube with texture coordinates of both hands, and, if `authored`, tangents that nothing else would give.
+cage::Character wornTube(bool authored) {
+    cage::Character tube = riggedTube({.segments = 6, .sides = 7, .joints = 2, .morphTargets = 1});
+    cage::Cage& cage = tube.cage;
+    Noise noise(3);
+    cage.cornerUvs.clear();
+    for (uint32_t corner = 0; corner < cage.cornerCount(); ++corner) {
+        const glm::vec3 p = cage.positions[cage.faceVertices[corner]];
+        cage.cornerUvs.emplace_back(std::abs(p.x) + 0.2f * p.z, p.y + 0.1f * p.x);
+        if (authored) {
+            cage.cornerTangents.emplace_back(glm::normalize(noise.vector()), corner % 3 == 0 ? -1.0f : 1.0f);
+        }
+    }
+    return tube;
+}
+
+struct TangentErrors {
+    double degrees = 0.0, fromPlane = 0.0;
+    uint32_t signs = 0, negative = 0, samples = 0;
+};
+
+/// `turn`: how the instance is turned. `wanted`: of the corners that are drawn.
+TangentErrors compareTangents(const Crowd& crowd, const std::vector<glm::vec4>& wanted, const glm::dmat3& turn) {
+    const host::GroupOutput output = crowd.output();
+    const std::vector<uint32_t> indices = indicesOf(output), words = as<uint32_t>(crowd.read(output.streams.tangents));
+    const std::vector<float> vertices = as<float>(crowd.read(output.streams.vertices));
+    EXPECT_EQ(indices.size(), wanted.size());
+    TangentErrors errors;
+    for (size_t i = 0; i < std::min(indices.size(), wanted.size()); ++i) {
+        const float* v = &vertices[6 * size_t{indices[i]}];
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(v[3], v[4], v[5])), t = turn * glm::dvec3(wanted[i]);
+        const glm::dvec4 tangent = decodeTangent(words[indices[i]]);
+        const glm::dvec3 across = t - glm::dot(t, normal) * normal;
+        ++errors.samples;
+        raise(errors.fromPlane, std::abs(90.0 - angleDegrees(glm::dvec3(tangent), normal)));
+        errors.signs += tangent.w != wanted[i].w ? 1 : 0;
+        errors.negative += tangent.w < 0.0 ? 1 : 0;
+        if (glm::length(across) > 0.05) { // what is left of it on the surface is a direction
+            raise(errors.degrees, angleDegrees(glm::dvec3(tangent), glm::normalize(across)));
+        }
+    }
+    return errors;
+}
+
+TEST(Polygons, HaveTheFilesTangentsOrThoseOfMikktspace) {
+    ASSERT_NE(testDevice(), nullptr);
+    const ValidationGuard guard;
+    for (const bool authored : {false, true}) {
+        const Result<cage::GlbFile> glb = cage::writeGlb(wornTube(authored));
+        ASSERT_TRUE(glb.ok());
+        EXPECT_TRUE(glb->warnings.empty());
+        const Result<cage::Character> character = cage::readGltf(glb->bytes, "tube.glb", "");
+        ASSERT_TRUE(character.ok());
+        const cage::Cage& cage = character->cage;
+        ASSERT_EQ(cage.cornerTangents.empty(), !authored) << "TANGENT comes back";
+        const std::vector<glm::vec4> wanted = cage::triangleTangents(cage, drawnCorners(cage), cage.cornerNormals);
+        for (const SuppleMapping mapping : {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE}) {
+            SCOPED_TRACE(std::string(mappingName(mapping)) + (authored ? ", of the file" : ", of MikkTSpace"));
+            CrowdContext context(*testDevice(), mapping);
+            ASSERT_TRUE(context.valid());
+            SuppleGroupDesc desc{};
+            desc.asset = context.createAsset(glb->bytes, "tube");
+            desc.capacity = 1;
+            desc.scheme = SUPPLE_SCHEME_POLYGONS;
+            desc.vertexFormat = SUPPLE_VERTEX_24;
+            desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION;
+            Crowd crowd(context, desc);
+            ASSERT_TRUE(crowd.valid());
+            const SuppleInstance instance = crowd.spawn();
+            for (const float angle : {0.0f, 1.1f}) {
+                const glm::mat4 turn = glm::rotate(glm::mat4(1.0f), angle, glm::normalize(glm::vec3(1, 2, 3)));
+                crowd.pose(instance, SUPPLE_BIND_POSE, 0.0, turn);
+                crowd.run();
+                const TangentErrors errors = compareTangents(crowd, wanted, glm::dmat3(glm::mat3(turn)));
+                std::printf("tangents of %s: %u samples, up to %.4f degrees, out of the plane by %.4f, %u negative\n",
+                            authored ? "the file" : "MikkTSpace", errors.samples, errors.degrees, errors.fromPlane,
+                            errors.negative);
+                EXPECT_LE(errors.degrees, 0.02);
+                EXPECT_LE(errors.fromPlane, 0.02);
+                EXPECT_EQ(errors.signs, 0u);
+                EXPECT_GT(errors.negative, errors.samples / 5);
+                EXPECT_LT(errors.negative, errors.samples * 4 / 5);
+            }
+        }
+    }
 }
 
 // ------------------------------------------------------------------------------------------------- any cage

@@ -1,9 +1,11 @@
 // Tangents of surface vertices (docs/tangents.md) against differences of positions and texture coordinates, which know
 // nothing of schemes; their signs; and what has none.
 #include "cage/procedural.h"
+#include "surface/grid.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
+#include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
 
 #include <algorithm>
@@ -20,19 +22,6 @@ constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * kDegrees;
-}
-
-/// As suppleDecodeTangent of shaders/supple_surface.glsl.
-glm::dvec4 decodeTangent(uint32_t word) {
-    const double x = static_cast<int16_t>(word & 0xFFFFu) / 32767.0;
-    const double y = (static_cast<int32_t>(word << 1) >> 17) / 16383.0;
-    glm::dvec3 t(x, y, 1.0 - std::abs(x) - std::abs(y));
-    if (t.z < 0.0) {
-        const glm::dvec2 p(t);
-        t.x = (1.0 - std::abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0);
-        t.y = (1.0 - std::abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0);
-    }
-    return {glm::normalize(t), (word & 0x80000000u) != 0 ? -1.0 : 1.0};
 }
 
 /// All that a group's streams hold. Vertices of 24 bytes.
@@ -356,6 +345,83 @@ TEST_P(TangentsOf, PointThereAtLevelsToo) {
     }
 }
 
+/// For every vertex of a mesh the samples of the grid that it stands for: its triangles come patch by patch. None at
+/// the apex of polar patches, which has a tangent for every direction.
+std::vector<std::vector<size_t>> samplesOfVertices(const Crowd& grid, const Crowd& mesh) {
+    const SuppleGridOutput own = grid.output().grid;
+    std::vector<std::vector<size_t>> samples(mesh.output().grid.vertexCount);
+    const auto indices = as<uint32_t>(mesh.read(mesh.output().grid.indices));
+    size_t next = 0;
+    for (uint32_t r = 0; r < own.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = own.drawRanges[r];
+        const auto triangles = surface::gridIndices(static_cast<surface::Domain>(range.domain), own.rate);
+        for (uint32_t p = 0; p < range.patchCount; ++p) {
+            for (const uint16_t sample : triangles) {
+                const uint32_t vertex = indices.at(next++);
+                if (range.domain != SUPPLE_DOMAIN_POLAR || sample < own.rate * (own.rate + 1)) {
+                    samples.at(vertex).push_back(range.firstVertex + size_t{p} * range.samplesPerPatch + sample);
+                }
+            }
+        }
+    }
+    EXPECT_EQ(next, indices.size());
+    return samples;
+}
+
+/// A vertex of an indexed mesh has the tangent that one of its patches has there, and no patch of the other hand.
+TEST_P(TangentsOf, OfAnIndexedMeshAreThoseOfOneOfItsPatches) {
+    const TangentCase& c = GetParam();
+    if (c.scheme == SUPPLE_SCHEME_BLEND) {
+        return; // it has no indexed mesh
+    }
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        SCOPED_TRACE(mappingName(mapping));
+        CrowdContext& own = context(mapping);
+        ASSERT_TRUE(own.valid());
+        for (const bool mirrored : {false, true}) {
+            cage::Cage cage = withUvs(c.cage(), mirrored);
+            const float across = cage.positions[0].z;
+            for (uint32_t corner = 0; corner < cage.cornerCount(); ++corner) { // charts that share their borders
+                const glm::vec3 p = cage.positions[cage.faceVertices[corner]];
+                cage.cornerUvs[corner] = {(mirrored ? std::abs(p.x) : p.x) + 0.37f * p.z,
+                                          p.y + 0.3f * std::abs(p.z - across)};
+            }
+            SuppleGroupDesc desc = tangentDesc(own.createAsset(cage), c.scheme, 5);
+            Crowd grid(own, desc);
+            desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
+            Crowd mesh(own, desc);
+            ASSERT_TRUE(grid.valid() && mesh.valid());
+            pose(grid);
+            pose(mesh);
+            const Streams a(grid), b(mesh);
+            const std::vector<std::vector<size_t>> samples = samplesOfVertices(grid, mesh);
+            double worst = 0.0, fromPlane = 0.0;
+            size_t shared = 0, hands = 0;
+            for (size_t v = 0; v < samples.size(); ++v) {
+                const glm::dvec4 tangent = decodeTangent(b.tangents[v]);
+                double nearest = 180.0;
+                for (const size_t sample : samples[v]) {
+                    const glm::dvec4 there = decodeTangent(a.tangents[sample]);
+                    nearest = std::min(nearest, angleBetween(glm::dvec3(tangent), glm::dvec3(there)));
+                    hands += there.w != tangent.w ? 1 : 0;
+                    shared += sample != samples[v].front() ? 1 : 0;
+                }
+                worst = std::max(worst, samples[v].empty() ? 0.0 : nearest);
+                fromPlane = std::max(fromPlane, std::abs(90.0 - angleBetween(glm::dvec3(tangent), b.normal(v))));
+            }
+            std::printf(
+                "%s: %zu vertices, %zu more samples, up to %.4f degrees from a patch's, out of the plane by %.4f\n",
+                c.name, samples.size(), shared, worst, fromPlane);
+            EXPECT_LE(worst, 0.1);
+            EXPECT_LE(fromPlane, 0.05);
+            EXPECT_EQ(hands, 0u);
+            EXPECT_GT(shared, 0u);
+        }
+        (void)own.takeLines();
+    }
+}
+
 TEST_F(Tangents, HaveTheSignOfTheirFace) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
@@ -423,10 +489,6 @@ TEST_F(Tangents, ThatASchemeLacksAreRefusedByName) {
     (void)own.takeLines();
     EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
     EXPECT_NE(own.takeLines().at(0).text.find("Catmull-Clark has no tangents"), std::string::npos);
-    desc.scheme = SUPPLE_SCHEME_PM;
-    desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
-    EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
-    EXPECT_NE(own.takeLines().at(0).text.find("P_m has no tangents as an indexed mesh"), std::string::npos);
     desc.flags = SUPPLE_GROUP_TANGENTS;
     EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
     EXPECT_NE(own.takeLines().at(0).text.find("TANGENTS go with ATTRIBUTES"), std::string::npos);

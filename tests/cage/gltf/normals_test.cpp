@@ -1,4 +1,4 @@
-// NORMAL, and the triangles of merged polygons.
+// NORMAL, TANGENT, and the triangles of merged polygons.
 #include "cage/triangulation.h"
 #include "tests/cage/gltf/reading.h"
 
@@ -43,6 +43,45 @@ TEST(GltfNormals, HostileOnesAreRepairedAndNamed) {
     ASSERT_EQ(c.warnings.size(), 1u);
     EXPECT_EQ(c.warnings[0], "mesh 0 primitive 0 NORMAL: 3 normals are zero or not finite; the faces' own instead");
     EXPECT_EQ(messageOf(square({0, 0, 1})), "t.glb: mesh 0 primitive 0 NORMAL: 1 element for 4 vertices");
+}
+
+/// The square with normals (unless `alone`), tangents and a node that places it.
+GltfBuilder worn(const std::vector<float>& tangents, const std::string& place = "", bool alone = false) {
+    GltfBuilder b;
+    b.addFloats("VEC3", kSquareFloats);
+    b.addIntegers("SCALAR", 5123, {0, 1, 2, 0, 2, 3});
+    b.addFloats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+    b.addFloats("VEC4", tangents);
+    b.meshes = std::string(R"([{"primitives":[{"attributes":{"POSITION":0,"TANGENT":3)") +
+               (alone ? "" : R"(,"NORMAL":2)") + R"(},"indices":1}]}])";
+    b.nodes = R"([{"mesh":0)" + place + "}]";
+    return b;
+}
+
+TEST(GltfTangents, AreReadPerCorner) {
+    const Character c = readWell(worn({1, 0, 0, 1, 0, 2, 0, -1, 0.6f, 0.8f, 0, 1, 0, 0, 0, 1}));
+    const std::vector<glm::vec4>& tangents = c.cage.cornerTangents;
+    ASSERT_EQ(tangents.size(), 6u);
+    EXPECT_EQ(tangents[0], glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(tangents[1], glm::vec4(0, 1, 0, -1));
+    EXPECT_LT(glm::length(tangents[2] - glm::vec4(0.6f, 0.8f, 0, 1)), 1e-6f);
+    EXPECT_EQ(tangents[5], glm::vec4(0.0f));
+    ASSERT_EQ(c.warnings.size(), 1u);
+    EXPECT_EQ(c.warnings[0], "mesh 0 primitive 0 TANGENT: 1 tangent is zero or not finite; those of the texture "
+                             "coordinates instead");
+    EXPECT_TRUE(readWell(worn({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "", true)).cage.cornerTangents.empty())
+        << "without normals they mean nothing";
+    EXPECT_EQ(messageOf(worn({1, 0, 0, 1})), "t.glb: mesh 0 primitive 0 TANGENT: 1 element for 4 vertices");
+}
+
+/// A mirror turns faces round, and the hand of the frame.
+TEST(GltfTangents, AreMirroredWithTheirNode) {
+    const std::vector<float> tangents = {0.6f, 0.8f, 0, 1, 0.6f, 0.8f, 0, 1, 0.6f, 0.8f, 0, 1, 0.6f, 0.8f, 0, 1};
+    const Character c = readWell(worn(tangents, R"(,"scale":[-1,1,1])"));
+    ASSERT_EQ(c.cage.cornerTangents.size(), 6u);
+    for (const glm::vec4& tangent : c.cage.cornerTangents) {
+        EXPECT_LT(glm::length(tangent - glm::vec4(-0.6f, 0.8f, 0, -1)), 1e-6f);
+    }
 }
 
 TEST(GltfNormals, WithoutThemTrianglesAreFlat) {
