@@ -3,6 +3,7 @@
 #pragma once
 
 #include "surface/subdivision/mesh.h"
+#include "tools/reference/fragment.h"
 
 #include <functional>
 #include <glm/glm.hpp>
@@ -10,13 +11,6 @@
 #include <vector>
 
 namespace supple::surface::subdivision {
-
-template <class T>
-struct Sample {
-    glm::vec<3, T> refined;  ///< the point on the last level, before the limit
-    glm::vec<3, T> position; ///< the limit point
-    glm::vec<3, T> normal;   ///< outwards, of unit length, or zero if there is none. At a crease: of the sector's side
-};
 
 /// The samples of one face of the isolated level, in the grid order of its domain at rate 2^steps. The domain is a quad
 /// (Catmull-Clark) or a triangle (Loop). Its corner 0 is the one that Mesh::sectorFaces describes.
