@@ -3,9 +3,11 @@
 #include "shaders/shared/pm.h"
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
+#include "surface/smooth_uvs.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -144,12 +146,59 @@ private:
         if (!attributes_) {
             return;
         }
+        std::vector<uint32_t> curves; // elements
+        for (size_t i = 0; i < order.size() && tables_.uvMode != cage::UvMode::all; ++i) {
+            curves.push_back(writer.element());
+            writeUvCurves(edges_[order[i]].sides[edges_[order[i]].taken], writer);
+        }
         mesh.attributes = {writer.element(), static_cast<uint32_t>(order.size())};
-        for (const uint32_t e : order) {
-            const auto [patch, side] = edges_[e].sides[edges_[e].taken];
+        for (size_t i = 0; i < order.size(); ++i) {
+            const auto [patch, side] = edges_[order[i]].sides[edges_[order[i]].taken];
             const PatchRange& range = rangeOf(tables_, patch);
             const uint32_t next = (side + 1) % cornerCount(domainOf(range.patchClass));
-            writer.put({attributeElement(range, patch, side), attributeElement(range, patch, next), 0u, 0u});
+            writer.put({attributeElement(range, patch, side), attributeElement(range, patch, next),
+                        curves.empty() ? 0u : curves[i], 0u});
+        }
+    }
+
+    /// Of every UV set the cubic along a side, and the perturbation's two coefficients: three elements.
+    void writeUvCurves(const Side& at, TableWriter& writer) const {
+        const PatchRange& range = rangeOf(tables_, at.patch);
+        for (uint32_t set = 0; set < tables_.uvSets; ++set) {
+            const uint32_t element = range.smoothUvs + uvElements(range.patchClass) *
+                                                           (tables_.uvSets * (at.patch - range.firstPatch) + set);
+            const auto word = [&](uint32_t k) { return std::array{tables_.words[4 * element + 2 * k],
+                                                                  tables_.words[4 * element + 2 * k + 1]}; };
+            const auto moved = [&](uint32_t corner, uint32_t offset) {
+                std::array<uint32_t, 2> sum = word(corner);
+                for (size_t i = 0; i < 2; ++i) {
+                    sum[i] = std::bit_cast<uint32_t>(std::bit_cast<float>(sum[i]) +
+                                                     std::bit_cast<float>(word(offset)[i]));
+                }
+                return sum;
+            };
+            std::array<std::array<uint32_t, 2>, 6> c{};
+            if (rowOf(range.patchClass).hasSectors()) {
+                const uint32_t sides = cornerCount(domainOf(range.patchClass));
+                const uint32_t own = 1 + 6 * at.side, next = 1 + 6 * ((at.side + 1) % sides);
+                c = {word(own), moved(own, own + 1), moved(next, own + 2), word(next)};
+            } else {
+                constexpr uint32_t kNet[4][4] = {{0, 1, 2, 3}, {3, 7, 11, 15}, {15, 14, 13, 12}, {12, 8, 4, 0}};
+                const bool polar = range.patchClass == PatchClass::polar; // its row 3 is the apex
+                for (uint32_t k = 0; k < 4; ++k) {
+                    const uint32_t net = kNet[polar && at.side == 2 ? 3 : at.side][k];
+                    c[k] = word(polar ? std::min(net, 12u) : net);
+                }
+            }
+            for (uint32_t k = 0; k < 16 && range.patchClass == PatchClass::perturbed; ++k) {
+                const uint32_t place = SUPPLE_PREP_FACE_EDGE(k);
+                if (place / 4 == at.side && place % 4 < 2) {
+                    c[4 + place % 4] = word(16 + k);
+                }
+            }
+            for (const std::array<uint32_t, 2>& words : c) {
+                writer.put({words[0], words[1]});
+            }
         }
     }
 

@@ -22,12 +22,15 @@
 //                    set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
 //   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every class of
 //                    patches begins an element
+//   smooth UVs       where texture coordinates are smooth, in the order of patches, per UV set what SmoothPatch of
+//                    evaluate/smooth_uvs.glsl has: two coefficients an element. Catmull-Clark and Loop: the samples of a rate
 //   mesh edges       indexed mesh: three elements an edge, as one of its patches has it on its left: pool indices of the border
 //                    cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative across is
 //                    made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the edge; flags;
 //                    extra). Extra: perturbed edges: h20, the others of the four follow, or by kSwappedEdge stand as h30 h20 h31
 //                    h21; kStoredNormalEdge: the normal of the beginning; kSingularEdge: b121 of the sector before
-//   edge attributes  one element a record: (attribute element of the beginning, of the end, -, -)
+//   edge attributes  one element a record: (attribute element of the beginning, of the end, element of the smooth UV curves or 0,
+//                    -); the curves: three elements a UV set, the four coefficients of a cubic, then h20, h30
 #ifndef SUPPLE_SHARED_SURFACE_H
 #define SUPPLE_SHARED_SURFACE_H
 
@@ -184,6 +187,7 @@ struct SurfacePush {
     uint attributes;      // first element of the corner attributes,
     uint attributeHalves; // and 1 where a word holds the numbers of two
     uint inner;           // p-rep: first coefficient of the edges in the pool
+    uint smoothUvs;       // attributes: first element of the range's smooth texture coordinates
 };
 
 SUPPLE_SHARED_END

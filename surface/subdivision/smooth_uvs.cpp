@@ -1,7 +1,7 @@
 #include "surface/subdivision/smooth_uvs.h"
 
-#include "cage/uv_channel.h"
 #include "surface/subdivision/masks.h"
+#include "surface/uv_levels.h"
 #include "surface/valence.h"
 
 #include <array>
@@ -14,84 +14,6 @@ namespace supple::surface::subdivision {
 namespace {
 
 using cage::kNone;
-using cage::UvChannel;
-
-/// The channel after some steps.
-struct ChannelLevel {
-    RefinedMesh mesh;
-    std::vector<glm::dvec2> values;
-    /// Per vertex: the one whose semi-sharp edges count at a crease, or kNone (UvChannel::companions). Vertices of the
-    /// channel itself come first at every level.
-    std::vector<uint32_t> companions;
-};
-
-ChannelLevel firstLevel(const RefinedMesh& cage, UvChannel channel) {
-    ChannelLevel level;
-    level.values = std::move(channel.values);
-    level.companions = std::move(channel.companions);
-    RefinedMesh& mesh = level.mesh;
-    mesh.cage = std::move(channel.cage);
-    mesh.topology = std::move(channel.topology);
-    mesh.sourceFaces.assign(mesh.cage.faceCount(), 0);
-    for (const auto& [corner, twin] : mesh.topology.edges) {
-        mesh.edgeSharpness.push_back(twin == kNone ? kInfiniteSharpness
-                                                   : cage.edgeSharpness[cage.topology.cornerEdges[corner]]);
-    }
-    for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
-        const bool corner = channel.rules[v] == UvChannel::Rule::corner;
-        mesh.vertexSharpness.push_back(corner ? kInfiniteSharpness : cage.vertexSharpness[channel.vertices[v]]);
-    }
-    return level;
-}
-
-/// The sharpness of a vertex's spokes.
-std::vector<float> spokeSharpness(const RefinedMesh& mesh, uint32_t v) {
-    std::vector<float> sharpness;
-    for (uint32_t s = mesh.topology.spokeStarts[v]; s < mesh.topology.spokeStarts[v + 1]; ++s) {
-        sharpness.push_back(mesh.edgeSharpness[cage::spokeEdge(mesh.cage, mesh.topology, s)]);
-    }
-    return sharpness;
-}
-
-/// At a crease that follows another run: how much of a corner it still is in a step.
-double cornerShare(const RefinedMesh& mesh, uint32_t companion) {
-    return centreStep(spokeSharpness(mesh, companion), mesh.vertexSharpness[companion]).corner;
-}
-
-Status step(ChannelLevel& level, const UvDemand& demand) {
-    RefinedMesh child = refine(level.mesh, demand.subdivision);
-    std::vector<glm::dvec2> values;
-    values.reserve(child.stencils.rows());
-    for (uint32_t row = 0; row < child.stencils.rows(); ++row) {
-        glm::dvec2 sum(0.0);
-        for (uint32_t i = child.stencils.starts[row]; i < child.stencils.starts[row + 1]; ++i) {
-            sum += child.stencils.weights[i] * level.values[child.stencils.vertices[i]];
-        }
-        values.push_back(sum);
-    }
-    for (uint32_t v = 0; v < level.companions.size(); ++v) {
-        if (level.companions[v] != kNone) {
-            const double share = cornerShare(level.mesh, level.companions[v]);
-            values[v] += share * (level.values[v] - values[v]);
-        }
-    }
-    const Status equipped = equip(child, level.mesh);
-    if (!equipped) {
-        return equipped;
-    }
-    if (demand.mode == cage::UvMode::boundaries) {
-        const uint32_t first = level.mesh.cage.vertexCount();
-        for (uint32_t e = 0; e < level.mesh.topology.edges.size(); ++e) {
-            if (level.mesh.topology.edges[e].twin == kNone) {
-                child.vertexSharpness[first + e] = kInfiniteSharpness;
-            }
-        }
-    }
-    child.stencils = {};
-    level.mesh = std::move(child);
-    level.values = std::move(values);
-    return success();
-}
 
 /// Where corners of faces lie in the face of the isolated mesh that they came from.
 using Places = std::array<glm::ivec2, 4>;
@@ -233,17 +155,17 @@ void turnSlopes(UvSample& sample, const glm::ivec2& corner, const glm::ivec2& ne
 
 Result<std::vector<UvSample>> limitUvs(const RefinedMesh& cage, const std::vector<glm::vec2>& uvs,
                                        const UvDemand& demand) {
-    Result<UvChannel> channel = cage::buildUvChannel(cage.cage, cage.topology, {cage.edgeSharpness, cage.vertexSharpness},
+    Result<cage::UvChannel> channel = cage::buildUvChannel(cage.cage, cage.topology, {cage.edgeSharpness, cage.vertexSharpness},
                                                      uvs, demand.mode, demand.folds);
     if (!channel) {
         return channel.error();
     }
-    ChannelLevel level = firstLevel(cage, std::move(*channel));
+    ChannelLevel level = firstChannelLevel(cage, std::move(*channel));
     const bool quads = demand.subdivision == Subdivision::catmullClark;
     const int side = 1 << demand.steps;
     std::vector<Places> places;
     for (uint32_t i = 0; i < demand.isolationSteps + demand.steps; ++i) {
-        if (const Status done = step(level, demand); !done) {
+        if (const Status done = refineChannel(level, demand.subdivision, demand.mode); !done) {
             return done.error();
         }
         if (i + 1 == demand.isolationSteps) {
