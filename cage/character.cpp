@@ -41,8 +41,7 @@ const char* weldSourceName(WeldSource source) {
 }
 
 const char* uvModeName(UvMode mode) {
-    constexpr const char* kNames[] = {"none",         "cornersOnly", "cornersPlus1",
-                                      "cornersPlus2", "boundaries",  "all"};
+    constexpr const char* kNames[] = {"none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
     return kNames[static_cast<size_t>(mode)];
 }
 

@@ -80,8 +80,8 @@ private:
             }
             const uint32_t f = topology_.cornerFaces[corner], g = topology_.cornerFaces[twin];
             const uint32_t next = nextCorner(cage_, f, corner), twinNext = nextCorner(cage_, g, twin);
-            const bool seam = valueOf(uvs_[corner]) != valueOf(uvs_[twinNext]) ||
-                              valueOf(uvs_[next]) != valueOf(uvs_[twin]);
+            const bool seam =
+                valueOf(uvs_[corner]) != valueOf(uvs_[twinNext]) || valueOf(uvs_[next]) != valueOf(uvs_[twin]);
             foldEdges_[e] = !seam && folds_ && sides[f] * sides[g] < 0 ? 1 : 0;
             if (seam || foldEdges_[e] != 0) {
                 channel_.cutEdges[e] = 1;
@@ -113,12 +113,8 @@ private:
         return topology_.boundary[v] == 0 && std::adjacent_find(values.begin(), values.end()) == values.end();
     }
 
-    [[nodiscard]] uint32_t edgeAt(uint32_t spoke) const {
-        return spokeEdge(cage_, topology_, base_ + spoke % spokes_);
-    }
-    [[nodiscard]] uint32_t cornerAt(uint32_t sector) const {
-        return topology_.sectorCorners[base_ + sector % faces_];
-    }
+    [[nodiscard]] uint32_t edgeAt(uint32_t spoke) const { return spokeEdge(cage_, topology_, base_ + spoke % spokes_); }
+    [[nodiscard]] uint32_t cornerAt(uint32_t sector) const { return topology_.sectorCorners[base_ + sector % faces_]; }
     [[nodiscard]] bool linearBorders() const { return mode_ == UvMode::boundaries; }
 
     void findRuns() {
@@ -191,8 +187,7 @@ private:
     [[nodiscard]] bool pointsToPole() const {
         bool found = false;
         for (uint32_t k = 0; k < spokes_ && folds_; ++k) {
-            found = found ||
-                    (channel_.cutEdges[edgeAt(k)] != 0 && poles_[topology_.spokeVertices[base_ + k]] != 0);
+            found = found || (channel_.cutEdges[edgeAt(k)] != 0 && poles_[topology_.spokeVertices[base_ + k]] != 0);
         }
         return found && facts_.size() == 1 && closed_ && mode_ != UvMode::none;
     }
@@ -248,9 +243,8 @@ private:
 
 Result<UvChannel> buildUvChannel(const Cage& cage, const Topology& topology, const UvSharpness& sharpness,
                                  std::span<const glm::vec2> uvs, UvMode mode, bool folds) {
-    return withinMemory("the channel of texture coordinates", [&] {
-        return ChannelBuilder(cage, topology, sharpness, uvs, mode, folds).build();
-    });
+    return withinMemory("the channel of texture coordinates",
+                        [&] { return ChannelBuilder(cage, topology, sharpness, uvs, mode, folds).build(); });
 }
 
 } // namespace supple::cage

@@ -1,5 +1,5 @@
-// Texture coordinates as a mesh of their own: the channel of a UV set, over which schemes make smooth texture coordinates
-// (docs/smooth_uvs.md). Depends on the texture coordinates and on connectivity; built once per asset.
+// Texture coordinates as a mesh of their own: the channel of a UV set, over which schemes make smooth texture
+// coordinates (docs/smooth_uvs.md). Depends on the texture coordinates and on connectivity; built once per asset.
 #pragma once
 
 #include "base/result.h"
@@ -24,8 +24,8 @@ struct UvChannel {
         corner  ///< it keeps its value
     };
 
-    Cage cage;         ///< the given faces over the channel's vertices; positions are not used
-    Topology topology; ///< of `cage`. Its corners are the given cage's
+    Cage cage;                        ///< the given faces over the channel's vertices; positions are not used
+    Topology topology;                ///< of `cage`. Its corners are the given cage's
     std::vector<glm::dvec2> values;   ///< per vertex of the channel
     std::vector<uint32_t> vertices;   ///< per vertex of the channel: the cage's
     std::vector<Rule> rules;          ///< per vertex of the channel

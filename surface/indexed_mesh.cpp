@@ -165,15 +165,16 @@ private:
     void writeUvCurves(const Side& at, TableWriter& writer) const {
         const PatchRange& range = rangeOf(tables_, at.patch);
         for (uint32_t set = 0; set < tables_.uvSets; ++set) {
-            const uint32_t element = range.smoothUvs + uvElements(range.patchClass) *
-                                                           (tables_.uvSets * (at.patch - range.firstPatch) + set);
-            const auto word = [&](uint32_t k) { return std::array{tables_.words[4 * element + 2 * k],
-                                                                  tables_.words[4 * element + 2 * k + 1]}; };
+            const uint32_t element =
+                range.smoothUvs + uvElements(range.patchClass) * (tables_.uvSets * (at.patch - range.firstPatch) + set);
+            const auto word = [&](uint32_t k) {
+                return std::array{tables_.words[4 * element + 2 * k], tables_.words[4 * element + 2 * k + 1]};
+            };
             const auto moved = [&](uint32_t corner, uint32_t offset) {
                 std::array<uint32_t, 2> sum = word(corner);
                 for (size_t i = 0; i < 2; ++i) {
-                    sum[i] = std::bit_cast<uint32_t>(std::bit_cast<float>(sum[i]) +
-                                                     std::bit_cast<float>(word(offset)[i]));
+                    sum[i] =
+                        std::bit_cast<uint32_t>(std::bit_cast<float>(sum[i]) + std::bit_cast<float>(word(offset)[i]));
                 }
                 return sum;
             };

@@ -53,8 +53,8 @@ struct Recipe {
     SchemeId scheme = SchemeId::pm;
     prep::Options prep;
     blend::Options blend;
-    uint32_t rate = 0;        ///< segments along an edge of the cage (Scheme::tableRate); 0: tables for all rates
-    bool attributes = true;   ///< the tables have corner attributes
+    uint32_t rate = 0;      ///< segments along an edge of the cage (Scheme::tableRate); 0: tables for all rates
+    bool attributes = true; ///< the tables have corner attributes
     /// How texture coordinates are interpolated; all: linearly. Without attributes it does not matter.
     cage::UvMode uvMode = cage::UvMode::all;
     bool lod = false;         ///< the tables have what level of detail needs

@@ -20,8 +20,8 @@ constexpr Scheme kSchemes[] = {
      [](const cage::Cage&) { return 0.04f; }}, // 0.0276, at valence 59
     {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, kAllUvModes, true, &pm::boundsMargin},
     // Points of the limit are means of the cage's.
-    {SchemeId::catmullClark, "Catmull-Clark", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
-     [](const cage::Cage&) { return 0.001f; }},
+    {SchemeId::catmullClark, "Catmull-Clark", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes,
+     false, [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::loop, "Loop", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,

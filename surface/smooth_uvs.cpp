@@ -31,7 +31,7 @@ struct Rounded {
 
 /// The corner that a bicubic coefficient is an offset from.
 uint32_t cornerOfNet(uint32_t k, bool polar) {
-    return polar && k >= 12 ? 12 : (k & 12u) / 8 * 12 + (k & 3u) / 2 * 3;
+    return polar && k >= 8 ? 12 : (k & 12u) / 8 * 12 + (k & 3u) / 2 * 3;
 }
 
 void putNet(const UvPatch& patch, bool polar, UvWriter& to) {

@@ -112,7 +112,8 @@ struct AttributeKernel {
 AttributeKernel attributeKernel(const Tables& tables, PatchClass patchClass, bool levels) {
     const PatchClassRow& row = rowOf(patchClass);
     if (tables.uvMode == cage::UvMode::all) {
-        const Kernel atLevels = row.hasSectors() ? Kernel::evaluateAttributesLevelsRings : Kernel::evaluateAttributesLevels;
+        const Kernel atLevels =
+            row.hasSectors() ? Kernel::evaluateAttributesLevelsRings : Kernel::evaluateAttributesLevels;
         return {levels ? atLevels : Kernel::evaluateAttributes, static_cast<uint32_t>(row.domain)};
     }
     AttributeKernel smooth{Kernel::evaluateAttributesSamples, static_cast<uint32_t>(patchClass)};
@@ -299,10 +300,9 @@ void addRangesAtLevels(ProgramBuilder& builder) {
         }
         if (builder.needs.attributes) {
             const AttributeKernel own = attributeKernel(builder.tables, range.patchClass, true);
-            const gpu::Kernel kernel =
-                builder.kernel(SetKind::attributes, own.kernel,
-                               {{kKindConstant, own.kind}, {kOutputsConstant, outputsOf(builder)}},
-                               std::string("supple attributes at levels, ") + row.name);
+            const gpu::Kernel kernel = builder.kernel(
+                SetKind::attributes, own.kernel, {{kKindConstant, own.kind}, {kOutputsConstant, outputsOf(builder)}},
+                std::string("supple attributes at levels, ") + row.name);
             push.table = range.attributes;
             push.smoothUvs = range.smoothUvs;
             builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push, r);

@@ -1,5 +1,5 @@
-// The channel of a UV set, refined step by step (docs/smooth_uvs.md): its vertices follow the rules of the cage's, and their own
-// along seams.
+// The channel of a UV set, refined step by step (docs/smooth_uvs.md): its vertices follow the rules of the cage's, and
+// their own along seams.
 #pragma once
 
 #include "cage/uv_channel.h"

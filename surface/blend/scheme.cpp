@@ -205,7 +205,8 @@ private:
     [[nodiscard]] std::array<uint32_t, 4> recordWords(uint32_t coefficients, const ChartClass& chartClass,
                                                       uint32_t sector, uint32_t corner, uint32_t flags) const {
         const TurnTables& tables = turns_.at(chartClass.turns());
-        flags |= (chartClass.creased() ? shared::kCreasedChart : 0u) | (stillCorner(corner) ? shared::kStillCorner : 0u) |
+        flags |= (chartClass.creased() ? shared::kCreasedChart : 0u) |
+                 (stillCorner(corner) ? shared::kStillCorner : 0u) |
                  (flatAcross(mesh_, corner) ? shared::kStillEdge : 0u);
         return {coefficients | flags, tables.directions + sector,
                 rate_ > 0 ? tables.samples : floatBits(4.0 / chartClass.turns()), tables.creaseSamples};

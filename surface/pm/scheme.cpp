@@ -127,9 +127,8 @@ private:
             if (!channel) {
                 return channel.error();
             }
-            return UvPatches([made = UvConstruction(mesh_, *channel)](const DraftPatch& patch) {
-                return made.patch(patch.facet);
-            });
+            return UvPatches(
+                [made = UvConstruction(mesh_, *channel)](const DraftPatch& patch) { return made.patch(patch.facet); });
         };
         return writeSmoothUvs(recipe_, cage_, patches_, makeSet, writer_, tables_);
     }

@@ -107,9 +107,7 @@ private:
         store();
     }
 
-    [[nodiscard]] double alpha(uint32_t j) const {
-        return isEnd(j) ? kSmoothAlpha : mesh_.slotAlphas[surfaceSlot(j)];
-    }
+    [[nodiscard]] double alpha(uint32_t j) const { return isEnd(j) ? kSmoothAlpha : mesh_.slotAlphas[surfaceSlot(j)]; }
 
     /// (14) and the rim, e_j of the edges inside. All relative to the vertex.
     void makeFaces() {
@@ -131,7 +129,9 @@ private:
     /// Q_j.
     [[nodiscard]] glm::dvec2 farMean(uint32_t corner) const {
         const uint32_t a = next(corner), far = next(a), sides = mesh_.cage.sides(mesh_.topology.cornerFaces[corner]);
-        return (sides == 3 ? (value(a) + value(far)) / 2.0 : sides == 4 ? value(far) : (value(far) + value(next(far))) / 2.0) -
+        return (sides == 3   ? (value(a) + value(far)) / 2.0
+                : sides == 4 ? value(far)
+                             : (value(far) + value(next(far))) / 2.0) -
                p_;
     }
 
@@ -305,7 +305,7 @@ void UvConstruction::polar(uint32_t facet, const CornerUvs* q, UvPatch& patch) c
     const glm::dvec2 smooth22 = (h02 + 2.0 * h32 + (c - 1.0) * apex.v) / (2.0 + c);
     const glm::dvec2 h12 = h02 + 1.5 * mesh_.slotAlphas[at.slot] * (smooth12 - h02); // (19)
     const glm::dvec2 h22 = h32 + 1.5 * mesh_.slotAlphas[at.slotBack] * (smooth22 - h32);
-    const std::array<glm::dvec2, 13> net{q[0].v, q[0].t0, q[1].t1, q[1].v, q[0].t1, q[0].f, q[1].f,
+    const std::array<glm::dvec2, 13> net{q[0].v,  q[0].t0, q[1].t1, q[1].v, q[0].t1, q[0].f, q[1].f,
                                          q[1].t0, h02,     h12,     h22,    h32,     apex.v};
     std::copy(net.begin(), net.end(), patch.c.begin());
 }
@@ -326,7 +326,8 @@ void UvConstruction::sectors(uint32_t facet, const CornerUvs* q, UvPatch& patch)
         const glm::dvec2 along = b.t1 - a.t0;
         b310[i] = a.v + 0.75 * (a.t0 - a.v);
         b130[i] = b.v + 0.75 * (b.t1 - b.v);
-        b211[i] = b310[i] + factors.along[0] * along + factors.own[0] * (a.t0 - a.v) + factors.across[0] * a.jump0; // (20)
+        b211[i] =
+            b310[i] + factors.along[0] * along + factors.own[0] * (a.t0 - a.v) + factors.across[0] * a.jump0; // (20)
         b121[i] = b130[i] - factors.along[1] * along + factors.own[1] * (b.t1 - b.v) + factors.across[1] * b.jump1;
         centre += w * a.v + 3.0 * (a.e0 + a.e1) + 9.0 * a.f;
     }
@@ -340,10 +341,11 @@ void UvConstruction::sectors(uint32_t facet, const CornerUvs* q, UvPatch& patch)
         const uint32_t n1 = (i + 1) % m, n2 = (i + 2) % m, n3 = (i + 3) % m, n4 = (i + 4) % m;
         const double d = turn(2, 5).first;
         const glm::dvec2 b112 =
-            m == 3   ? 1.5 * b004 - 0.5 * b202[n2]
-            : m == 4 ? b004 + 3.0 / 16.0 * ((b211[i] + b121[i]) - (b121[n1] + b211[n3])) +
-                           1.0 / 16.0 * ((b211[n1] + b121[n3]) - (b211[n2] + b121[n2]))
-                     : mu * (b004 + 0.2 * (b202[n3] - 4.0 * d * (b202[i] + b202[n1]) - 4.0 * d * d * (b202[n2] + b202[n4])));
+            m == 3 ? 1.5 * b004 - 0.5 * b202[n2]
+            : m == 4
+                ? b004 + 3.0 / 16.0 * ((b211[i] + b121[i]) - (b121[n1] + b211[n3])) +
+                      1.0 / 16.0 * ((b211[n1] + b121[n3]) - (b211[n2] + b121[n2]))
+                : mu * (b004 + 0.2 * (b202[n3] - 4.0 * d * (b202[i] + b202[n1]) - 4.0 * d * d * (b202[n2] + b202[n4])));
         const std::array<glm::dvec2, 6> own{q[i].v, q[i].t0, q[n1].t1, b211[i], b121[i], b112};
         std::copy(own.begin(), own.end(), patch.c.begin() + 1 + 6 * i);
         const Fan& fan = mesh_.fans[mesh_.corners[mesh_.corner(facet, i)].fan];

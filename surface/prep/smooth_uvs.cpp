@@ -128,8 +128,8 @@ Result<UvChannel> buildUvChannel(const cage::Cage& cage, const cage::Topology& t
         edges.push_back(edge.twin == kNone ? cage::kHardSharpness : 0.0f);
     }
     for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
-        const bool sharp = options.cornerRule == CornerRule::sharp && topology.boundary[v] != 0 &&
-                           topology.sectorCount(v) == 1;
+        const bool sharp =
+            options.cornerRule == CornerRule::sharp && topology.boundary[v] != 0 && topology.sectorCount(v) == 1;
         vertices.push_back(sharp ? cage::kHardSharpness : 0.0f);
     }
     return cage::buildUvChannel(cage, topology, {edges, vertices}, uvs, mode);
@@ -162,7 +162,9 @@ void UvConstruction::perturb(const UvChannel& channel) {
         if (isNew) {
             weights->second = makeEdgeWeights(c(f), c(o));
         }
-        const auto next = [&](uint32_t corner) { return cage::nextCorner(cage_, topology_.cornerFaces[corner], corner); };
+        const auto next = [&](uint32_t corner) {
+            return cage::nextCorner(cage_, topology_.cornerFaces[corner], corner);
+        };
         const CornerUvs &a = corners_[f], &b = corners_[o];
         const std::array<glm::dvec2, 6> vectors{
             a.v, a.t0, b.t0, b.v, a.f + corners_[next(o)].f, corners_[next(f)].f + b.f};

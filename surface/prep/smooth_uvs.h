@@ -29,7 +29,7 @@ private:
 
     const cage::Cage& cage_;
     const cage::Topology& topology_;
-    std::vector<CornerUvs> corners_;                  ///< per corner of the cage
+    std::vector<CornerUvs> corners_;                   ///< per corner of the cage
     std::vector<std::array<glm::dvec2, 4>> perturbed_; ///< per edge: h20, h30, h21, h31 in its own direction
 };
 

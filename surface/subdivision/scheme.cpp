@@ -554,7 +554,8 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!mesh) {
         return mesh.error();
     }
-    return Builder(*mesh, cage, recipe, recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0).build();
+    return Builder(*mesh, cage, recipe, recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0)
+        .build();
 }
 
 } // namespace supple::surface::subdivision

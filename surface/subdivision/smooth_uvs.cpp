@@ -155,8 +155,8 @@ void turnSlopes(UvSample& sample, const glm::ivec2& corner, const glm::ivec2& ne
 
 Result<std::vector<UvSample>> limitUvs(const RefinedMesh& cage, const std::vector<glm::vec2>& uvs,
                                        const UvDemand& demand) {
-    Result<cage::UvChannel> channel = cage::buildUvChannel(cage.cage, cage.topology, {cage.edgeSharpness, cage.vertexSharpness},
-                                                     uvs, demand.mode, demand.folds);
+    Result<cage::UvChannel> channel = cage::buildUvChannel(
+        cage.cage, cage.topology, {cage.edgeSharpness, cage.vertexSharpness}, uvs, demand.mode, demand.folds);
     if (!channel) {
         return channel.error();
     }

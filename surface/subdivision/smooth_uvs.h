@@ -1,4 +1,5 @@
-// Smooth texture coordinates of Catmull-Clark and Loop: limits over the channel of a UV set (docs/smooth_uvs.md), in double.
+// Smooth texture coordinates of Catmull-Clark and Loop: limits over the channel of a UV set (docs/smooth_uvs.md), in
+// double.
 #pragma once
 
 #include "base/result.h"

@@ -673,8 +673,8 @@ typedef enum SuppleUvInterpolation {
     /** What the file says of the parts (SUPPLE_mesh_cage: faceVaryingLinearInterpolation). If it says nothing,
      * LINEAR_ALL, but with tangents LINEAR_CORNERS_PLUS1. If the scheme cannot do it, LINEAR_ALL, and the log warns. */
     SUPPLE_UV_FROM_FILE = 0,
-    SUPPLE_UV_LINEAR_NONE = 1,         /**< none: seams are smooth curves, ends of seams too */
-    SUPPLE_UV_LINEAR_CORNERS_ONLY = 2, /**< a corner where a chart has one face, or is sharp */
+    SUPPLE_UV_LINEAR_NONE = 1,          /**< none: seams are smooth curves, ends of seams too */
+    SUPPLE_UV_LINEAR_CORNERS_ONLY = 2,  /**< a corner where a chart has one face, or is sharp */
     SUPPLE_UV_LINEAR_CORNERS_PLUS1 = 3, /**< and where three charts and more meet */
     SUPPLE_UV_LINEAR_CORNERS_PLUS2 = 4, /**< and where seams end */
     SUPPLE_UV_LINEAR_BOUNDARIES = 5,    /**< all vertices on seams and borders */

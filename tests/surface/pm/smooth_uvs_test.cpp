@@ -59,7 +59,8 @@ TEST(PmSmoothUvs, HaveTheCoefficientsOfTheVectors) {
         const UvPatch patch = made.uvs.patch(facet);
         const json& coefficients = stored.at("coefficients");
         for (size_t i = 0; i < coefficients.size(); ++i) {
-            worst = std::max(worst, glm::distance(patch.c[i], glm::dvec2(coefficients.at(i).at(0), coefficients.at(i).at(1))));
+            worst = std::max(worst,
+                             glm::distance(patch.c[i], glm::dvec2(coefficients.at(i).at(0), coefficients.at(i).at(1))));
             ++compared;
         }
     }

@@ -70,9 +70,11 @@ TEST_P(SmoothUvModes, HaveTheLimitsOfTheVectors) {
             if (local[c].x > static_cast<int>(half) || local[c].y > static_cast<int>(half)) {
                 continue;
             }
-            const UvSample& sample = (*samples)[size_t{perFace} * (4 * face + c) + static_cast<uint32_t>(local[c].y) * (half + 1) +
-                                                static_cast<uint32_t>(local[c].x)];
-            worst = std::max(worst, glm::distance(sample.value, glm::dvec2(expected.at(i).at(0), expected.at(i).at(1))));
+            const UvSample& sample =
+                (*samples)[size_t{perFace} * (4 * face + c) + static_cast<uint32_t>(local[c].y) * (half + 1) +
+                           static_cast<uint32_t>(local[c].x)];
+            worst =
+                std::max(worst, glm::distance(sample.value, glm::dvec2(expected.at(i).at(0), expected.at(i).at(1))));
             ++found;
         }
     }
