@@ -61,6 +61,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     desc.rate = options.rate;
     desc.vertexFormat = options.vertexFormat;
     desc.skinning = options.skinning;
+    desc.uvInterpolation = options.uvInterpolation;
     desc.partSchemes = options.partSchemes.data();
     desc.partSchemeCount = static_cast<uint32_t>(options.partSchemes.size());
     SuppleBlendOptions blend{};

@@ -342,6 +342,9 @@ private:
         extension["faceVertexCounts"] = addList(counts);
         extension["faceVertexIndices"] = addList(part.polygons.vertices);
         extension["cageVertices"] = addList(part.cageVertices);
+        if (const auto& mode = character_.parts[0].uvMode) {
+            extension["faceVaryingLinearInterpolation"] = uvModeName(*mode);
+        }
 
         const auto has = [&](uint32_t vertex) {
             return std::binary_search(part.cageVertices.begin(), part.cageVertices.end(), vertex);
