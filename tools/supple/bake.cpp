@@ -29,7 +29,7 @@ struct BakeOptions {
     std::string file;
     std::string output;
     std::string patches;
-    bool noTangents = false;
+    bool noTangentFrames = false;
     SurfaceFlags surface;
     std::string clip; ///< name or index; empty: the bind pose
     double time = 0.0;
@@ -132,7 +132,7 @@ Result<Evaluation> evaluateForBake(Session& session, SuppleAsset asset, const ca
     if (!options.patches.empty()) {
         flags |= SUPPLE_GROUP_PATCHES;
     }
-    if (surface && uvs && format == BakeFormat::glb && !options.noTangents) {
+    if (surface && uvs && format == BakeFormat::glb && !options.noTangentFrames) {
         Result<Evaluation> baked =
             evaluate(session, asset, character, options.surface, pose, flags | SUPPLE_GROUP_TANGENTS);
         if (baked) {
@@ -241,7 +241,7 @@ void bindBake(CLI::App& app, int& exitCode) {
         ->required()
         ->check(CLI::Validator(bakeName, ""))
         ->type_name("OUT.glb|OUT.ply|OUT.obj");
-    command->add_flag("--no-tangents", options->noTangents,
+    command->add_flag("--no-tangent-frames", options->noTangentFrames,
                       "GLB: leave tangents out. Where these jump, neighbouring faces then have vertices in common");
     command->add_option("--patches", options->patches, "JSON of the patches and their coefficients")
         ->type_name("OUT.json");
