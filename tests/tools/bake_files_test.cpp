@@ -150,7 +150,8 @@ void expectPlyIsObj(const Ply& ply, const Obj& obj) {
 TEST_F(BakeFiles, PlyIsTheObj) {
     for (const std::string scheme : {"auto", "catmull-clark", "loop", "polygons"}) {
         SCOPED_TRACE(scheme);
-        const std::string surface = kSamplePip + " --rate 3 --clip walk --time 0.4 --scheme " + scheme;
+        std::string surface = kSamplePip + " --rate 3 --clip walk --time 0.4";
+        surface += " --scheme " + scheme;
         ASSERT_NO_FATAL_FAILURE(bake(surface + " -o pip.obj"));
         ASSERT_NO_FATAL_FAILURE(bake(surface + " -o pip.PLY"));
         EXPECT_EQ(said_.find("supple: warning"), std::string::npos) << said_;
@@ -393,7 +394,8 @@ TEST_F(BakeFiles, PartsKeepTheirNamesAndSchemes) {
 TEST_F(BakeFiles, TheCageToo) {
     for (const std::string& pose : {std::string(), std::string(" --clip walk --time 0.4")}) {
         SCOPED_TRACE(pose);
-        const std::string cage = kSamplePip + " --scheme cage" + pose;
+        std::string cage = kSamplePip + " --scheme cage";
+        cage += pose;
         ASSERT_NO_FATAL_FAILURE(bake(cage + " -o cage.obj"));
         ASSERT_NO_FATAL_FAILURE(bake(cage + " -o cage.ply"));
         ASSERT_NO_FATAL_FAILURE(bake(cage + " -o cage.glb"));
