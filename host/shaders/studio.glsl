@@ -8,7 +8,7 @@ layout(set = 0, binding = kEnvironmentBinding) uniform sampler2D environmentMap;
 
 const float kPi = 3.14159265;
 
-// Radiance of what is mirrored besides key and rim.
+// Radiance of what is mirrored besides key and rim. Walls and floor are lightest where they meet.
 const vec3 kOverhead = vec3(0.92, 0.95, 1.0);
 const vec3 kWalls = vec3(0.42, 0.45, 0.50);
 const vec3 kFloor = vec3(0.26, 0.25, 0.24);
@@ -104,7 +104,8 @@ vec3 studioShade(Material material, Incident light, vec3 n, vec3 surface, vec3 v
     vec2 risen = smoothstep(-0.45, 0.05, vec2(dot(n, frame.keyDirection.xyz), dot(n, frame.rimDirection.xyz)));
     seen.xy *= risen * frame.environment.zw;
     vec3 mirrored = keyLight * seen.x + rimLight * seen.y +
-                    (kOverhead * seen.z + mix(kFloor, kWalls, seen.w)) * open;
+                    (kOverhead * seen.z + mix(kFloor * (1.2 + 0.5 * min(r.y, 0.0)), kWalls * (1.15 - 0.35 * max(r.y, 0.0)), seen.w)) *
+                        open;
 
     vec3 share = mirroredShare(mirrorColor(material), material.roughness, clamp(dot(n, v), 1e-3, 1.0));
     return material.albedo * (1.0 - material.metallic) * (1.0 - share) * diffuse + share * mirrored;
