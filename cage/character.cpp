@@ -40,6 +40,11 @@ const char* weldSourceName(WeldSource source) {
     return "unknown";
 }
 
+const char* uvModeName(UvMode mode) {
+    constexpr const char* kNames[] = {"none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
+    return kNames[static_cast<size_t>(mode)];
+}
+
 uint32_t endFace(const Character& character, size_t part) {
     return part + 1 < character.parts.size() ? character.parts[part + 1].firstFace : character.cage.faceCount();
 }

@@ -259,6 +259,11 @@ enum class WeldSource {
 };
 [[nodiscard]] const char* weldSourceName(WeldSource source);
 
+/// How texture coordinates are interpolated over a cage: which vertices on seams and borders keep their values. The
+/// names are OpenSubdiv's and USD's (docs/smooth_uvs.md).
+enum class UvMode : uint8_t { none, cornersOnly, cornersPlus1, cornersPlus2, boundaries, all };
+[[nodiscard]] const char* uvModeName(UvMode mode);
+
 /// A mesh node of the scene. Its faces are those of the cage from firstFace to the next part's.
 struct Part {
     std::string name;             ///< the node's, else the mesh's, else empty
@@ -270,6 +275,7 @@ struct Part {
     uint32_t targetCount = 0;
     PolygonSource polygonSource = PolygonSource::arrays;
     WeldSource weldSource = WeldSource::given;
+    std::optional<UvMode> uvMode; ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
 };
 
 /// One kind of damage of a cage that its reader has repaired.

@@ -28,14 +28,14 @@ glm::vec3 unitNormal(const glm::dvec3& given) {
     return unitOr(given, glm::dvec3(0.0));
 }
 
-std::vector<glm::vec3> cornerNormals(const Cage& cage) {
+std::vector<glm::vec3> deformedCornerNormals(const Cage& cage, std::span<const glm::vec3> positions) {
     const std::vector<uint32_t> groups = smoothGroups(cage);
     std::vector<glm::dvec3> sums(cage.cornerCount(), glm::dvec3(0.0));
     std::vector<glm::dvec3> faceNormals;
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         const uint32_t first = cage.faceStarts[face];
         const uint32_t last = cage.faceStarts[face + 1];
-        const auto position = [&](uint32_t corner) { return glm::dvec3(cage.positions[cage.faceVertices[corner]]); };
+        const auto position = [&](uint32_t corner) { return glm::dvec3(positions[cage.faceVertices[corner]]); };
         glm::dvec3 area(0.0);
         for (uint32_t corner = first + 1; corner + 1 < last; ++corner) {
             area += glm::cross(position(corner) - position(first), position(corner + 1) - position(first));
@@ -55,8 +55,17 @@ std::vector<glm::vec3> cornerNormals(const Cage& cage) {
         // Faces without area still need a direction.
         const glm::dvec3 own = unitOr(faceNormals[face], {0.0, 1.0, 0.0});
         for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
-            const bool authored = !cage.cornerNormals.empty() && cage.cornerNormals[corner] != glm::vec3(0.0f);
-            normals.push_back(authored ? cage.cornerNormals[corner] : glm::vec3(unitOr(sums[groups[corner]], own)));
+            normals.emplace_back(unitOr(sums[groups[corner]], own));
+        }
+    }
+    return normals;
+}
+
+std::vector<glm::vec3> cornerNormals(const Cage& cage) {
+    std::vector<glm::vec3> normals = deformedCornerNormals(cage, cage.positions);
+    for (size_t corner = 0; corner < cage.cornerNormals.size(); ++corner) {
+        if (cage.cornerNormals[corner] != glm::vec3(0.0f)) {
+            normals[corner] = cage.cornerNormals[corner];
         }
     }
     return normals;

@@ -4,6 +4,7 @@
 #include "cage/character.h"
 #include "cage/topology.h"
 
+#include <span>
 #include <vector>
 
 namespace supple::cage {
@@ -12,6 +13,10 @@ namespace supple::cage {
 /// corner's vertex, weighted by the corners' angles, over the faces of its smooth group (cage/smooth_groups.h). Takes
 /// any cage, manifold or not.
 [[nodiscard]] std::vector<glm::vec3> cornerNormals(const Cage& cage);
+
+/// The same of the cage with its vertices elsewhere: the means of the face normals there, for its own normals are those
+/// of the rest pose. Smooth groups are those of the cage. `positions`: one per vertex.
+[[nodiscard]] std::vector<glm::vec3> deformedCornerNormals(const Cage& cage, std::span<const glm::vec3> positions);
 
 /// A file's normal as Cage::cornerNormals keeps it: of unit length, to the bit as it is if it is of that length
 /// already; zero if it is no direction.

@@ -3,6 +3,7 @@
 
 #include "cage/character.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -13,6 +14,16 @@ namespace supple::cage {
 [[nodiscard]] inline std::array<const Texture*, 5> texturesOf(const Material& material) {
     return {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
             &material.occlusionTexture, &material.emissiveTexture};
+}
+
+/// How many UV sets its textures and its trim need.
+[[nodiscard]] inline uint32_t uvSetsOf(const Material& material) {
+    uint32_t sets = 0;
+    for (const Texture* texture : texturesOf(material)) {
+        sets = std::max(sets, texture->exists() ? texture->uvSet + 1 : 0);
+    }
+    const bool trimmed = material.trim && material.trim->domain == TrimDomain::uv;
+    return std::max(sets, trimmed ? material.trim->texture.uvSet + 1 : 0);
 }
 
 /// A material of which only the name is known. glTF's own defaults are a rough metal, which few characters are made of.

@@ -10,6 +10,7 @@
 #include <shaders/cage_edge_vert.h>
 #include <shaders/cage_face_frag.h>
 #include <shaders/cage_face_vert.h>
+#include <shaders/cage_shadow_trim_vert.h>
 #include <shaders/cage_shadow_vert.h>
 #include <shaders/ground_frag.h>
 #include <shaders/ground_vert.h>
@@ -38,9 +39,11 @@ Result<std::unique_ptr<DrawPipelines>> DrawPipelines::create(Device& device, con
     std::unique_ptr<DrawPipelines> pipelines(new DrawPipelines(device));
     if (const Status status = pipelines->createLayouts(); !status)
         return status.error();
-    if (const Status status = pipelines->createSampler(formats.shadow); !status)
+    if (const Status status = pipelines->createSamplers(formats.shadow); !status)
         return status.error();
     if (const Status status = pipelines->createShadowPipelines(formats); !status)
+        return status.error();
+    if (const Status status = pipelines->createFacePipelines(formats); !status)
         return status.error();
     if (const Status status = pipelines->createPicturePipelines(formats); !status)
         return status.error();
@@ -53,6 +56,7 @@ Status DrawPipelines::createLayouts() {
     const std::initializer_list<Binding> frame = {
         {shared::kFrameBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | kFragment},
         {shared::kShadowBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kVertex | kFragment},
+        {shared::kEnvironmentBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
     };
     const std::initializer_list<Binding> figure = {
         {shared::kSurfaceVertexBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
@@ -64,12 +68,19 @@ Status DrawPipelines::createLayouts() {
         {shared::kDeformedCageBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kCageCornerBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kCageEdgeBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+        {shared::kSurfaceTangentBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+    };
+    const auto texture = [](uint32_t which) {
+        return Binding{shared::kFirstTextureBinding + which, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment};
     };
     const std::initializer_list<Binding> material = {
         {shared::kMaterialBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | kFragment},
-        {shared::kBaseColorBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
-        {shared::kMetallicRoughnessBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
-        {shared::kTrimBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+        texture(shared::kBaseColor),
+        texture(shared::kMetallicRoughness),
+        texture(shared::kNormal),
+        texture(shared::kOcclusion),
+        texture(shared::kEmissive),
+        texture(shared::kTrim),
     };
     for (const Status& status :
          {keep(createSetLayout(device_, frame), frameSet), keep(createSetLayout(device_, figure), figureSet),
@@ -82,7 +93,7 @@ Status DrawPipelines::createLayouts() {
                 layout);
 }
 
-Status DrawPipelines::createSampler(VkFormat shadowFormat) {
+Status DrawPipelines::createSamplers(VkFormat shadowFormat) {
     VkFormatProperties properties{};
     vkGetPhysicalDeviceFormatProperties(device_.physicalDevice(), shadowFormat, &properties);
     const bool linear = (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;
@@ -99,6 +110,16 @@ Status DrawPipelines::createSampler(VkFormat shadowFormat) {
     if (const VkResult result = vkCreateSampler(device_.handle(), &info, nullptr, &shadowSampler); result != VK_SUCCESS)
         return vulkanError(result, "vkCreateSampler");
     device_.atEnd([device = device_.handle(), sampler = shadowSampler] { vkDestroySampler(device, sampler, nullptr); });
+    // One level of the map at a time: the shader mixes them.
+    auto environment = vkStruct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+    environment.magFilter = environment.minFilter = VK_FILTER_LINEAR;
+    environment.addressModeU = environment.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    environment.maxLod = VK_LOD_CLAMP_NONE;
+    if (const VkResult result = vkCreateSampler(device_.handle(), &environment, nullptr, &environmentSampler);
+        result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateSampler");
+    device_.atEnd(
+        [device = device_.handle(), sampler = environmentSampler] { vkDestroySampler(device, sampler, nullptr); });
     return success();
 }
 
@@ -118,7 +139,40 @@ Status DrawPipelines::createShadowPipelines(const DrawFormats& formats) {
     desc.name = "surface shadow, trimmed";
     desc.vertexShader = surface_shadow_trim_vert;
     desc.fragmentShader = surface_shadow_trim_frag;
-    return keep(createGraphicsPipeline(device_, desc), surfaceShadowTrim);
+    if (const Status status = keep(createGraphicsPipeline(device_, desc), surfaceShadowTrim); !status)
+        return status.error();
+    desc.name = "cage shadow, trimmed";
+    desc.vertexShader = cage_shadow_trim_vert;
+    return keep(createGraphicsPipeline(device_, desc), cageShadowTrim);
+}
+
+Status DrawPipelines::createFacePipelines(const DrawFormats& formats) {
+    GraphicsDesc desc{.layout = layout, .colors = {formats.color}, .depth = formats.depth, .samples = formats.samples};
+    for (const bool vertexLit : {false, true}) {
+        for (const bool maps : {false, true}) {
+            for (const bool blend : {false, true}) {
+                const size_t index = Faces{vertexLit, maps, blend}.index();
+                desc.constants = {vertexLit ? 1u : 0u, maps ? 1u : 0u};
+                desc.blend = blend;
+                desc.depthWrite = !blend;
+                // Of the edges of holes; what blends needs its alpha itself.
+                desc.alphaToCoverage = !blend && formats.samples != VK_SAMPLE_COUNT_1_BIT;
+                desc.name = "surface";
+                desc.vertexShader = surface_vert;
+                desc.fragmentShader = surface_frag;
+                if (const Status status = keep(createGraphicsPipeline(device_, desc), surfaces_[index]); !status)
+                    return status.error();
+                if (vertexLit)
+                    continue;
+                desc.name = "cage face";
+                desc.vertexShader = cage_face_vert;
+                desc.fragmentShader = cage_face_frag;
+                if (const Status status = keep(createGraphicsPipeline(device_, desc), cageFaces_[index]); !status)
+                    return status.error();
+            }
+        }
+    }
+    return success();
 }
 
 Status DrawPipelines::createPicturePipelines(const DrawFormats& formats) {
@@ -131,10 +185,6 @@ Status DrawPipelines::createPicturePipelines(const DrawFormats& formats) {
         desc.fragmentShader = fragment;
         return keep(createGraphicsPipeline(device_, desc), out);
     };
-    GraphicsDesc covering = opaque; // the edges of holes
-    covering.alphaToCoverage = formats.samples != VK_SAMPLE_COUNT_1_BIT;
-    GraphicsDesc lit = covering;
-    lit.constant0 = true;
     GraphicsDesc edges = opaque;
     edges.blend = true;
     edges.depthWrite = false;
@@ -142,10 +192,7 @@ Status DrawPipelines::createPicturePipelines(const DrawFormats& formats) {
     strip.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
     GraphicsDesc behind = opaque;
     behind.depthWrite = false;
-    for (const Status& status : {make("surface, lit by vertex", surface_vert, surface_frag, lit, surfaceVertexLit),
-                                 make("surface", surface_vert, surface_frag, covering, surface),
-                                 make("cage face", cage_face_vert, cage_face_frag, covering, cageFace),
-                                 make("cage edge", cage_edge_vert, cage_edge_frag, edges, cageEdge),
+    for (const Status& status : {make("cage edge", cage_edge_vert, cage_edge_frag, edges, cageEdge),
                                  make("ground", ground_vert, ground_frag, strip, ground),
                                  make("backdrop", backdrop_vert, backdrop_frag, behind, backdrop)}) {
         if (!status)

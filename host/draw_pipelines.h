@@ -27,13 +27,23 @@ public:
     VkDescriptorSetLayout materialSet = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkSampler shadowSampler = VK_NULL_HANDLE;
+    VkSampler environmentSampler = VK_NULL_HANDLE;
+
+    /// What faces are drawn with.
+    struct Faces {
+        bool vertexLit = false; ///< the light is looked up once a vertex; only of the surface
+        bool maps = false;      ///< the material has normal, occlusion or emissive maps
+        bool blend = false;     ///< over what is there, by alpha
+
+        [[nodiscard]] size_t index() const { return (vertexLit ? 4u : 0u) + (maps ? 2u : 0u) + (blend ? 1u : 0u); }
+    };
+    [[nodiscard]] VkPipeline surface(const Faces& faces) const { return surfaces_[faces.index()]; }
+    [[nodiscard]] VkPipeline cageFace(const Faces& faces) const { return cageFaces_[faces.index()]; }
 
     VkPipeline surfaceShadow = VK_NULL_HANDLE;
     VkPipeline surfaceShadowTrim = VK_NULL_HANDLE; ///< with holes
     VkPipeline cageShadow = VK_NULL_HANDLE;
-    VkPipeline surface = VK_NULL_HANDLE;
-    VkPipeline surfaceVertexLit = VK_NULL_HANDLE; ///< the light looked up once a vertex
-    VkPipeline cageFace = VK_NULL_HANDLE;
+    VkPipeline cageShadowTrim = VK_NULL_HANDLE;
     VkPipeline cageEdge = VK_NULL_HANDLE;
     VkPipeline ground = VK_NULL_HANDLE;
     VkPipeline backdrop = VK_NULL_HANDLE;
@@ -41,11 +51,14 @@ public:
 private:
     explicit DrawPipelines(Device& device) : device_(device) {}
     [[nodiscard]] Status createLayouts();
-    [[nodiscard]] Status createSampler(VkFormat shadowFormat);
+    [[nodiscard]] Status createSamplers(VkFormat shadowFormat);
     [[nodiscard]] Status createShadowPipelines(const DrawFormats& formats);
+    [[nodiscard]] Status createFacePipelines(const DrawFormats& formats);
     [[nodiscard]] Status createPicturePipelines(const DrawFormats& formats);
 
     Device& device_;
+    VkPipeline surfaces_[8]{};
+    VkPipeline cageFaces_[4]{};
 };
 
 } // namespace supple::host

@@ -144,28 +144,36 @@ std::vector<uint32_t> Figure::cageCornerWords() {
     for (const uint32_t face : faces) {
         const auto [material, part] = keyOf(face);
         if (cageRanges_.empty() || std::pair(cageRanges_.back().material, cageRanges_.back().part) != keyOf(face))
-            cageRanges_.push_back({static_cast<uint32_t>(corners.size()), 0, material, part});
+            cageRanges_.push_back({static_cast<uint32_t>(corners.size()), 0, material, part, glm::vec3(0.0f)});
         const uint32_t start = cage.faceStarts[face];
-        const auto uvOf = [&](const SuppleTextureInfo& texture, uint32_t corner) {
-            const std::vector<glm::vec2>& uvs = cage.uvSets[texture.uvSet];
-            return uvs.empty() ? glm::vec2(0.0f) : uvs[corner];
+        const auto uvOf = [&](size_t set, uint32_t corner) {
+            return cage.uvSets[set].empty() ? glm::vec2(0.0f) : cage.uvSets[set][corner];
         };
-        const SuppleMaterialInfo& worn = materials_.of(material);
         for (uint32_t i = 1; i + 1 < cage.sides(face); ++i) {
             for (const uint32_t corner : {start, start + i, start + i + 1}) {
                 const glm::vec4 color = cage.colors.empty() ? glm::vec4(1.0f) : cage.colors[corner];
-                const glm::vec2 uv = uvOf(worn.baseColor, corner);
-                const glm::vec2 metallicRoughness = uvOf(worn.metallicRoughness, corner);
+                cageRanges_.back().center += cage.positions[cage.corners[corner]];
+                const glm::vec2 uv0 = uvOf(0, corner);
+                const glm::vec2 uv1 = uvOf(1, corner);
                 corners.push_back({cage.corners[corner], lists + start, cage.sides(face), glm::packUnorm4x8(color),
-                                   uv.x, uv.y, metallicRoughness.x, metallicRoughness.y});
+                                   uv0.x, uv0.y, uv1.x, uv1.y});
             }
         }
         cageRanges_.back().cornerCount = static_cast<uint32_t>(corners.size()) - cageRanges_.back().firstCorner;
     }
+    for (CageRange& range : cageRanges_)
+        range.center /= static_cast<float>(range.cornerCount);
     std::vector<uint32_t> words(lists + cage.corners.size());
     std::memcpy(words.data(), corners.data(), corners.size() * sizeof(shared::CageCorner));
     std::copy(cage.corners.begin(), cage.corners.end(), words.begin() + lists);
     return words;
+}
+
+glm::vec3 Figure::centerOf(uint32_t part, uint32_t material) const {
+    const auto own = std::find_if(cageRanges_.begin(), cageRanges_.end(), [&](const CageRange& range) {
+        return range.part == part && range.material == material;
+    });
+    return own != cageRanges_.end() ? own->center : glm::vec3(0.0f);
 }
 
 std::vector<std::array<uint32_t, 2>> Figure::cageEdgeVertices() {

@@ -24,6 +24,7 @@ public:
         uint32_t cornerCount = 0;
         uint32_t material = SUPPLE_NO_MATERIAL;
         uint32_t part = 0;
+        glm::vec3 center{0.0f}; ///< mean of its corners in the bind pose
     };
     /// A run of cage edges of one part. What two parts have in common belongs to the first of them.
     struct EdgeRange {
@@ -64,6 +65,8 @@ public:
     /// Luminance of the base color over the cage's faces: linear, 0..1.
     [[nodiscard]] float averageAlbedo() const { return averageAlbedo_; }
     [[nodiscard]] const std::vector<CageRange>& cageRanges() const { return cageRanges_; }
+    /// CageRange::center of the faces of a part and material.
+    [[nodiscard]] glm::vec3 centerOf(uint32_t part, uint32_t material) const;
     [[nodiscard]] const Buffer& cageCorners() const { return cageCorners_; }
     [[nodiscard]] const Buffer& cageEdges() const { return cageEdges_; }
     [[nodiscard]] const std::vector<EdgeRange>& cageEdgeRanges() const { return cageEdgeRanges_; }
@@ -104,6 +107,7 @@ struct GroupOptions {
     SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR;
     SuppleCreaseMode creaseMode = SUPPLE_CREASES_CUT;
     float sharpThreshold = 1.0f;
+    SuppleUvInterpolation uvInterpolation = SUPPLE_UV_FROM_FILE;
     bool sharedSamples = false;            ///< SUPPLE_GROUP_INDEXED_MESH
     std::vector<SuppleScheme> partSchemes; ///< of the first parts, instead of `scheme`
 };

@@ -44,6 +44,18 @@ std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t
     return positions;
 }
 
+/// With tangents for normal maps, if the group can have them.
+Status createWithTangents(Context& context, SuppleGroupDesc desc, bool tangents, SuppleGroup& group) {
+    if (tangents) {
+        desc.flags |= SUPPLE_GROUP_TANGENTS;
+        const Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
+        if (status || status.error().code != ErrorCode::argument)
+            return status;
+        desc.flags &= ~uint32_t{SUPPLE_GROUP_TANGENTS}; // a scheme that was named may have none
+    }
+    return context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
+}
+
 } // namespace
 
 Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const GroupOptions& options) {
@@ -61,6 +73,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     desc.rate = options.rate;
     desc.vertexFormat = options.vertexFormat;
     desc.skinning = options.skinning;
+    desc.uvInterpolation = options.uvInterpolation;
     desc.partSchemes = options.partSchemes.data();
     desc.partSchemeCount = static_cast<uint32_t>(options.partSchemes.size());
     SuppleBlendOptions blend{};
@@ -68,8 +81,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     blend.creaseMode = options.creaseMode;
     blend.sharpThreshold = options.sharpThreshold;
     desc.blend = &blend;
-    if (const Status status =
-            context.check(suppleCreateGroup(context.handle(), &desc, &group->group_), "suppleCreateGroup");
+    if (const Status status = createWithTangents(context, desc, figure.materials().hasNormalMaps(), group->group_);
         !status)
         return status.error();
     if (const Status status = context.createInstances(group->group_, options.instances, group->instances_); !status)

@@ -34,7 +34,9 @@ SuppleMaterialInfo whiteClay() {
     info.name = "";
     std::fill(std::begin(info.baseColorFactor), std::end(info.baseColorFactor), 1.0f);
     info.roughnessFactor = 0.42f;
-    for (SuppleTextureInfo* texture : {&info.baseColor, &info.metallicRoughness, &info.trim}) {
+    info.normalScale = info.occlusionStrength = info.emissiveStrength = 1.0f;
+    for (SuppleTextureInfo* texture :
+         {&info.baseColor, &info.metallicRoughness, &info.normal, &info.occlusion, &info.emissive, &info.trim}) {
         texture->image = SUPPLE_NO_IMAGE;
         texture->scale[0] = texture->scale[1] = 1.0f;
     }
@@ -60,6 +62,7 @@ Status FigureMaterials::load(Context& context, SuppleAsset asset, const std::str
         infos_.push_back(info);
     }
     infos_.push_back(whiteClay());
+    knowsNoSides_ = path.ends_with(".obj") || path.ends_with(".OBJ");
     return loadTextures(context, asset, path);
 }
 
@@ -68,28 +71,45 @@ Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const 
     std::fill(white.rgba.begin(), white.rgba.end(), uint8_t{255});
     if (const Result<size_t> first = upload(context.device(), white, TextureKind::color); !first)
         return first.error();
-    for (const SuppleMaterialInfo& info : infos_) {
-        std::array<size_t, kSlotCount>& slots = slots_.emplace_back();
-        const TextureKind trimKind = info.trimAlpha != 0                   ? TextureKind::color
+    for (SuppleMaterialInfo& info : infos_) {
+        std::array<size_t, shared::kTextureCount>& slots = slots_.emplace_back();
+        const bool blend = info.alphaMode == SUPPLE_ALPHA_BLEND && info.trimDomain == SUPPLE_TRIM_NONE;
+        if (blend)
+            info.trim = info.baseColor; // what is nearly clear casts no shadow
+        const TextureKind trimKind = info.trimAlpha != 0 || blend          ? TextureKind::color
                                      : info.trimDomain == SUPPLE_TRIM_FACE ? TextureKind::tiles
                                                                            : TextureKind::data;
         const bool ownTrim = info.trimDomain != SUPPLE_TRIM_NONE && info.trimAlpha == 0;
         const struct {
-            Slot slot;
-            uint32_t image;
+            uint32_t slot;
+            SuppleTextureInfo& texture;
             TextureKind kind;
-            bool required;
-        } wanted[] = {{kBaseColor, info.baseColor.image, TextureKind::color, false},
-                      {kMetallicRoughness, info.metallicRoughness.image, TextureKind::data, false},
-                      {kTrim, info.trim.image, trimKind, ownTrim}};
-        for (const auto& [slot, image, kind, required] : wanted) {
-            const Result<size_t> texture = load(context, asset, path, image, kind, required);
-            if (!texture)
-                return texture.error();
-            slots[slot] = *texture;
+        } wanted[] = {{shared::kBaseColor, info.baseColor, TextureKind::color},
+                      {shared::kMetallicRoughness, info.metallicRoughness, TextureKind::data},
+                      {shared::kNormal, info.normal, TextureKind::data},
+                      {shared::kOcclusion, info.occlusion, TextureKind::data},
+                      {shared::kEmissive, info.emissive, TextureKind::color},
+                      {shared::kTrim, info.trim, trimKind}};
+        for (const auto& [slot, texture, kind] : wanted) {
+            const bool required = slot == shared::kTrim && ownTrim;
+            const Result<size_t> loaded = load(context, asset, path, texture.image, kind, required);
+            if (!loaded)
+                return loaded.error();
+            slots[slot] = *loaded;
+            if (*loaded == 0)
+                texture.image = SUPPLE_NO_IMAGE; // also one that cannot be read
         }
     }
     return success();
+}
+
+bool FigureMaterials::hasMaps(uint32_t material) const {
+    const std::array<size_t, shared::kTextureCount>& slots = slots_[indexOf(material)];
+    return slots[shared::kNormal] != 0 || slots[shared::kOcclusion] != 0 || slots[shared::kEmissive] != 0;
+}
+
+bool FigureMaterials::hasNormalMaps() const {
+    return std::any_of(slots_.begin(), slots_.end(), [](const auto& slots) { return slots[shared::kNormal] != 0; });
 }
 
 Result<size_t> FigureMaterials::load(Context& context, SuppleAsset asset, const std::string& path, uint32_t image,
@@ -110,7 +130,7 @@ Result<size_t> FigureMaterials::load(Context& context, SuppleAsset asset, const 
     if (!picture && required)
         return picture.error();
     if (!picture) {
-        // A picture that cannot be read takes nothing from the shape: draw without it, but say so.
+        // It takes nothing from the shape: draw without it, but say so.
         std::fprintf(stderr, "warning: %s\n", picture.error().message.c_str());
         return known->second;
     }
@@ -130,7 +150,7 @@ Result<size_t> FigureMaterials::upload(Device& device, const Picture& picture, T
 
 glm::vec3 FigureMaterials::averageColor(size_t index) const {
     const float* factor = infos_[index].baseColorFactor;
-    return glm::vec3(factor[0], factor[1], factor[2]) * textures_[slots_[index][kBaseColor]].average;
+    return glm::vec3(factor[0], factor[1], factor[2]) * textures_[slots_[index][shared::kBaseColor]].average;
 }
 
 } // namespace supple::host

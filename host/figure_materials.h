@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/context.h"
+#include "host/shaders/draw.h"
 #include "host/texture.h"
 
 #include <algorithm>
@@ -18,10 +19,7 @@ namespace supple::host {
 
 class FigureMaterials {
 public:
-    /// The textures that are drawn with.
-    enum Slot : uint32_t { kBaseColor, kMetallicRoughness, kTrim, kSlotCount };
-
-    /// `path` begins the messages. An image that cannot be read counts as white, with a warning on stderr; only a
+    /// `path` begins the messages. A texture whose image cannot be read is left out, with a warning on stderr; only a
     /// trim's is an error, because it is part of the shape.
     [[nodiscard]] Status load(Context& context, SuppleAsset asset, const std::string& path);
 
@@ -30,8 +28,18 @@ public:
     /// Of infos(); `material` may be SUPPLE_NO_MATERIAL.
     [[nodiscard]] size_t indexOf(uint32_t material) const { return std::min<size_t>(material, infos_.size() - 1); }
     [[nodiscard]] const SuppleMaterialInfo& of(uint32_t material) const { return infos_[indexOf(material)]; }
-    /// White where the material of infos() has no such texture.
-    [[nodiscard]] const Image& texture(size_t index, Slot slot) const { return textures_[slots_[index][slot]].image; }
+    /// `slot`: shared::kBaseColor and the others. White where the material of infos() has no such texture.
+    [[nodiscard]] const Image& texture(size_t index, uint32_t slot) const {
+        return textures_[slots_[index][slot]].image;
+    }
+    /// It has more textures than base color, metallic and roughness, and the trim.
+    [[nodiscard]] bool hasMaps(uint32_t material) const;
+    /// Any of them has a normal map.
+    [[nodiscard]] bool hasNormalMaps() const;
+    /// The back of its faces is not drawn, because the file says so. What knows nothing of sides shows both.
+    [[nodiscard]] bool isOneSided(uint32_t material) const {
+        return !knowsNoSides_ && indexOf(material) + 1 < infos_.size() && of(material).doubleSided == 0;
+    }
     /// The base color's mean: factor times texture, linear.
     [[nodiscard]] glm::vec3 averageColor(size_t index) const;
 
@@ -48,8 +56,9 @@ private:
     [[nodiscard]] Result<size_t> upload(Device& device, const Picture& picture, TextureKind kind);
 
     std::vector<SuppleMaterialInfo> infos_;
-    std::vector<std::array<size_t, kSlotCount>> slots_; ///< one of infos_: which of textures_
-    std::vector<Texture> textures_;                     ///< the first one is white
+    std::vector<std::array<size_t, shared::kTextureCount>> slots_; ///< one of infos_: which of textures_
+    std::vector<Texture> textures_;                                ///< the first one is white
+    bool knowsNoSides_ = false;                                    ///< OBJ
     std::map<std::pair<uint32_t, TextureKind>, size_t> known_;
 };
 

@@ -7,11 +7,17 @@ namespace supple::host {
 
 namespace {
 
-shared::TexturePlace placeOf(const SuppleTextureInfo& texture) {
+shared::TexturePlace placeOf(const SuppleTextureInfo& texture, bool uv1) {
     const float c = std::cos(texture.rotation);
     const float s = std::sin(texture.rotation);
-    return {{c * texture.scale[0], s * texture.scale[1], texture.offset[0], 0.0f},
-            {-s * texture.scale[0], c * texture.scale[1], texture.offset[1], 0.0f}};
+    return {{c * texture.scale[0], s * texture.scale[1], texture.offset[0], uv1 && texture.uvSet == 1 ? 1.0f : 0.0f},
+            {-s * texture.scale[0], c * texture.scale[1], texture.offset[1],
+             texture.image != SUPPLE_NO_IMAGE ? 1.0f : 0.0f}};
+}
+
+/// The group's tangents belong to the first texture coordinates as they are.
+bool liesAsTangents(const SuppleTextureInfo& texture) {
+    return texture.uvSet == 0 && texture.rotation == 0.0f && texture.scale[0] > 0.0f && texture.scale[1] > 0.0f;
 }
 
 } // namespace
@@ -20,11 +26,18 @@ shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, bo
     shared::MaterialUniforms uniforms{};
     const float* color = material.baseColorFactor;
     uniforms.baseColor = glm::vec4(color[0], color[1], color[2], color[3]);
+    const float* emissive = material.emissiveFactor;
+    uniforms.emissive = glm::vec4(emissive[0], emissive[1], emissive[2], 0.0f) * material.emissiveStrength;
     uniforms.metallic = material.metallicFactor;
     uniforms.roughness = material.roughnessFactor;
-    uniforms.baseColorPlace = placeOf(material.baseColor);
-    uniforms.metallicRoughnessPlace = placeOf(material.metallicRoughness);
-    uniforms.trimPlace = placeOf(material.trim);
+    uniforms.normalScale = material.normalScale;
+    uniforms.occlusionStrength = material.occlusionStrength;
+    uniforms.places[shared::kBaseColor] = placeOf(material.baseColor, uv1);
+    uniforms.places[shared::kMetallicRoughness] = placeOf(material.metallicRoughness, uv1);
+    uniforms.places[shared::kNormal] = placeOf(material.normal, uv1);
+    uniforms.places[shared::kOcclusion] = placeOf(material.occlusion, uv1);
+    uniforms.places[shared::kEmissive] = placeOf(material.emissive, uv1);
+    uniforms.places[shared::kTrim] = placeOf(material.trim, uv1);
     const bool ownTrim = material.trimDomain != SUPPLE_TRIM_NONE && material.trimAlpha == 0;
     // A mask without a texture is a trim too: of the alphas that multiply a white one.
     const bool mask = material.alphaMode == SUPPLE_ALPHA_MASK && !ownTrim;
@@ -32,12 +45,11 @@ shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, bo
     set(material.doubleSided != 0, shared::kMaterialDoubleSided);
     set(mask, shared::kMaterialMask | shared::kMaterialTrim | shared::kMaterialTrimAlpha);
     set(material.alphaMode == SUPPLE_ALPHA_BLEND, shared::kMaterialTranslucent);
-    set(uv1 && material.baseColor.uvSet == 1, shared::kMaterialUv1);
-    set(material.metallicRoughness.image != SUPPLE_NO_IMAGE, shared::kMaterialMetallicRoughness);
-    set(uv1 && material.metallicRoughness.uvSet == 1, shared::kMaterialMetallicRoughnessUv1);
+    set(material.alphaMode == SUPPLE_ALPHA_BLEND && !ownTrim, shared::kMaterialTrimAlpha);
+    set(material.unlit != 0, shared::kMaterialUnlit);
     set(ownTrim, shared::kMaterialTrim);
-    set(uv1 && material.trim.uvSet == 1, shared::kMaterialTrimUv1);
     set(material.trimDomain == SUPPLE_TRIM_FACE, shared::kMaterialTrimFace);
+    set(liesAsTangents(material.normal), shared::kMaterialTangents);
     uniforms.cutoff = ownTrim ? material.trimCutoff : material.alphaCutoff;
     uniforms.trimChannel = ownTrim ? material.trimChannel : 3;
     uniforms.trimTiles = static_cast<float>(std::max(material.trimTiles, 1u));

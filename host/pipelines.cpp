@@ -168,9 +168,11 @@ Result<VkPipeline> createGraphicsPipeline(Device& device, const GraphicsDesc& de
         if (result != VK_SUCCESS)
             return vulkanError(result, "vkCreateShaderModule");
     }
-    const VkBool32 constant0 = desc.constant0 ? VK_TRUE : VK_FALSE;
-    const VkSpecializationMapEntry entry{0, 0, sizeof constant0};
-    const VkSpecializationInfo specialization{1, &entry, sizeof constant0, &constant0};
+    std::vector<VkSpecializationMapEntry> entries;
+    for (uint32_t i = 0; i < desc.constants.size(); ++i)
+        entries.push_back({i, i * static_cast<uint32_t>(sizeof(uint32_t)), sizeof(uint32_t)});
+    const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
+                                              entries.size() * sizeof(uint32_t), desc.constants.data()};
     Ends ends{.stages = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex)},
               .attachments = std::vector(desc.colors.size(), attachmentState(desc.blend))};
     if (fragment.handle != VK_NULL_HANDLE)

@@ -32,7 +32,7 @@ struct GraphicsDesc {
     VkPipelineLayout layout = VK_NULL_HANDLE;
     std::span<const uint32_t> vertexShader;
     std::span<const uint32_t> fragmentShader; ///< empty: depth only
-    bool constant0 = false;                   ///< of the specialization constant 0, where the shaders have one
+    std::vector<uint32_t> constants;          ///< of the specialization constants from 0 on, where the shaders have them
     std::vector<VkFormat> colors;
     VkFormat depth = VK_FORMAT_UNDEFINED;
     bool depthWrite = true;

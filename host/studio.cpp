@@ -15,7 +15,8 @@ const glm::vec3 kRimColor = glm::vec3(0.70f, 0.85f, 1.0f) * 1.5f;
 const glm::vec3 kSkyZenith(0.44f, 0.50f, 0.60f);
 const glm::vec3 kSkyHorizon(0.38f, 0.37f, 0.36f);
 
-constexpr float kBaseExposure = 0.66f;
+/// A surface that faces the key is shown about in its base color.
+constexpr float kBaseExposure = 0.84f;
 /// Luminance of the albedo that is shown as it is.
 constexpr float kMiddleAlbedo = 0.28f;
 
@@ -102,7 +103,7 @@ glm::vec2 studioJitter(const StudioQuality& quality, uint32_t pass) {
 }
 
 float studioExposure(float averageAlbedo) {
-    return kBaseExposure * std::clamp(std::pow(kMiddleAlbedo / std::max(averageAlbedo, 1e-3f), 0.5f), 0.8f, 2.2f);
+    return kBaseExposure * std::clamp(std::pow(kMiddleAlbedo / std::max(averageAlbedo, 1e-3f), 0.3f), 0.88f, 1.5f);
 }
 
 } // namespace supple::host

@@ -49,7 +49,7 @@ struct StudioMiddle {
 [[nodiscard]] StudioMiddle studioMiddle(float yaw);
 /// Where in the pixel a pass samples: an offset in pixels, within half a pixel.
 [[nodiscard]] glm::vec2 studioJitter(const StudioQuality& quality, uint32_t pass);
-/// Brings figures as dark as coal and as light as chalk to a middle brightness, half way.
+/// Brings figures as dark as coal and as light as chalk a little nearer to a middle brightness.
 [[nodiscard]] float studioExposure(float averageAlbedo);
 
 } // namespace supple::host

@@ -1,9 +1,11 @@
 #include "host/surface_renderer.h"
 
+#include "host/environment.h"
 #include "host/material_uniforms.h"
 #include "host/vk_struct.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -11,7 +13,7 @@ namespace supple::host {
 
 namespace {
 
-constexpr uint32_t kFigureBuffers = 9; ///< of set 1
+constexpr uint32_t kFigureBuffers = 10; ///< of set 1
 constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
 
 /// The cage's lines over shaded faces, and over the smooth surface.
@@ -20,6 +22,9 @@ constexpr glm::vec4 kOverlayEdgeColor(0.95f, 0.42f, 0.06f, 0.9f);
 
 /// From here on a CPU device looks the light up once a vertex: it shades blocks of pixels, however small the triangle.
 constexpr uint32_t kVertexLitRate = 4;
+
+/// From here on a translucent material is solid: see shaders/material_textures.glsl.
+constexpr float kSolidAlpha = 0.99f;
 
 /// Below so many directions the steps of single shadow maps show.
 constexpr uint32_t kFewLights = 12;
@@ -38,14 +43,9 @@ void bindGridIndices(VkCommandBuffer commands, const GroupOutput& output) {
                          indices.stride == 4 ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_UINT16);
 }
 
-/// How a material stands in the light's way.
-enum class Shadow { none, solid, trimmed };
-
-Shadow shadowOf(const SuppleMaterialInfo& material) {
-    if (material.alphaMode == SUPPLE_ALPHA_BLEND)
-        return Shadow::none;
-    return material.trimDomain != SUPPLE_TRIM_NONE || material.alphaMode == SUPPLE_ALPHA_MASK ? Shadow::trimmed
-                                                                                              : Shadow::solid;
+/// Light falls through some of it.
+bool isTrimmed(const SuppleMaterialInfo& material) {
+    return material.trimDomain != SUPPLE_TRIM_NONE || material.alphaMode != SUPPLE_ALPHA_OPAQUE;
 }
 
 /// The scheme polygons has no grids to draw the lines of; the edges of the cage are its lines.
@@ -53,7 +53,17 @@ bool isWireOfMesh(const Scene& scene, uint32_t part) {
     return scene.view == shared::kViewWire && scene.group->isMeshPart(part);
 }
 
-/// Nothing is culled: open cages show their insides, and the shader tells the sides apart.
+/// Only where a material is looked at as it is: other views show all sides, and what lies behind.
+bool isBlended(const Scene& scene, const SuppleMaterialInfo& material) {
+    return scene.view == shared::kViewShaded && material.alphaMode == SUPPLE_ALPHA_BLEND;
+}
+VkCullModeFlags culled(const Scene& scene, uint32_t material) {
+    return scene.view == shared::kViewShaded && scene.group->figure().materials().isOneSided(material)
+               ? VK_CULL_MODE_BACK_BIT
+               : VK_CULL_MODE_NONE;
+}
+
+/// Nothing is culled at first: the shader tells the sides apart.
 void beginDrawing(VkCommandBuffer commands, VkExtent2D extent, bool flipped) {
     const auto width = static_cast<float>(extent.width);
     const auto height = static_cast<float>(extent.height);
@@ -149,6 +159,8 @@ Result<std::unique_ptr<SurfaceRenderer>> SurfaceRenderer::create(Device& device,
     renderer->pipelines_ = std::move(*pipelines);
     if (const Status status = renderer->createShadowMaps(); !status)
         return status.error();
+    if (const Status status = renderer->createEnvironment(); !status)
+        return status.error();
     if (const Status status = renderer->createSlots(options.framesInFlight); !status)
         return status.error();
     return renderer;
@@ -187,9 +199,20 @@ Status SurfaceRenderer::createShadowMaps() {
     return success();
 }
 
+Status SurfaceRenderer::createEnvironment() {
+    const StudioEnvironment environment = studioEnvironment();
+    keyRadiance_ = environment.keyRadiance;
+    rimRadiance_ = environment.rimRadiance;
+    Result<Image> image = uploadEnvironment(device_, environment);
+    if (!image)
+        return image.error();
+    environment_ = std::move(*image);
+    return success();
+}
+
 Status SurfaceRenderer::createSlots(uint32_t count) {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count}};
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * count}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     poolInfo.maxSets = count;
     poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
@@ -211,21 +234,19 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
         if (const VkResult result = vkAllocateDescriptorSets(device_.handle(), &info, &slot.set); result != VK_SUCCESS)
             return vulkanError(result, "vkAllocateDescriptorSets");
         const VkDescriptorBufferInfo buffer{slot.uniforms.handle(), 0, VK_WHOLE_SIZE};
-        const VkDescriptorImageInfo image{pipelines_->shadowSampler, shadowMaps_.view(),
-                                          VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
-        VkWriteDescriptorSet writes[2];
-        writes[0] = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-        writes[0].dstSet = slot.set;
-        writes[0].dstBinding = shared::kFrameBinding;
-        writes[0].descriptorCount = 1;
-        writes[0].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        const VkDescriptorImageInfo shadows{pipelines_->shadowSampler, shadowMaps_.view(),
+                                            VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
+        const VkDescriptorImageInfo environment{pipelines_->environmentSampler, environment_.view(),
+                                                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        constexpr VkDescriptorType kImage = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        VkWriteDescriptorSet writes[] = {
+            descriptorWrite(slot.set, shared::kFrameBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+            descriptorWrite(slot.set, shared::kShadowBinding, kImage),
+            descriptorWrite(slot.set, shared::kEnvironmentBinding, kImage)};
         writes[0].pBufferInfo = &buffer;
-        writes[1] = writes[0];
-        writes[1].dstBinding = shared::kShadowBinding;
-        writes[1].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        writes[1].pBufferInfo = nullptr;
-        writes[1].pImageInfo = &image;
-        vkUpdateDescriptorSets(device_.handle(), 2, writes, 0, nullptr);
+        writes[1].pImageInfo = &shadows;
+        writes[2].pImageInfo = &environment;
+        vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(std::size(writes)), writes, 0, nullptr);
         slots_.push_back(std::move(slot));
     }
     return success();
@@ -249,7 +270,7 @@ Status SurfaceRenderer::allocateSets(FigureBinding& binding, const FigureGroup& 
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers * surfaceCount},
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, materialCount},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FigureMaterials::kSlotCount * materialCount}};
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, shared::kTextureCount * materialCount}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     poolInfo.maxSets = surfaceCount + materialCount;
     poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
@@ -295,6 +316,7 @@ void SurfaceRenderer::writeFigureSet(VkDescriptorSet set, const FigureGroup& gro
         {shared::kDeformedCageBinding, viewInfo(output.info.deformedCage)},
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
+        {shared::kSurfaceTangentBinding, orCage(output.streams.tangents)},
     };
     for (const auto& [slot, info] : buffers) {
         VkWriteDescriptorSet write = descriptorWrite(set, slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
@@ -309,18 +331,17 @@ Status SurfaceRenderer::writeMaterialSets(FigureBinding& binding, const Figure& 
     const FigureMaterials& materials = figure.materials();
     for (size_t i = 0; i < binding.materials_.size(); ++i) {
         const SuppleMaterialInfo& info = materials.infos()[i];
-        const struct {
-            uint32_t slot;
-            const Image& image;
-            const SuppleTextureInfo& texture;
-        } textures[] = {
-            {shared::kBaseColorBinding, materials.texture(i, FigureMaterials::kBaseColor), info.baseColor},
-            {shared::kMetallicRoughnessBinding, materials.texture(i, FigureMaterials::kMetallicRoughness),
-             info.metallicRoughness},
-            {shared::kTrimBinding, materials.texture(i, FigureMaterials::kTrim), info.trim},
-        };
-        for (const auto& [slot, image, texture] : textures) {
-            if (const Status status = writeTexture(binding, i, slot, image, texture); !status)
+        const SuppleTextureInfo* textures[shared::kTextureCount]{};
+        textures[shared::kBaseColor] = &info.baseColor;
+        textures[shared::kMetallicRoughness] = &info.metallicRoughness;
+        textures[shared::kNormal] = &info.normal;
+        textures[shared::kOcclusion] = &info.occlusion;
+        textures[shared::kEmissive] = &info.emissive;
+        textures[shared::kTrim] = &info.trim;
+        for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot) {
+            if (const Status status = writeTexture(binding, i, shared::kFirstTextureBinding + slot,
+                                                   materials.texture(i, slot), *textures[slot]);
+                !status)
                 return status.error();
         }
     }
@@ -406,6 +427,7 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
     frame.keyColor = glm::vec4(middle.keyColor, 0.0f);
     frame.rimDirection = glm::vec4(middle.rimDirection, 0.0f);
     frame.rimColor = glm::vec4(middle.rimColor, 0.0f);
+    frame.environment = glm::vec4(std::sin(scene.lightYaw), std::cos(scene.lightYaw), keyRadiance_, rimRadiance_);
     const std::vector<shared::Light> lights = studioLights(quality_, scene.pass, scene.lightYaw, center, radius);
     std::copy(lights.begin(), lights.end(), frame.lights);
     std::memcpy(slot.uniforms.mapped(), &frame, sizeof frame);
@@ -432,7 +454,7 @@ void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene
         beginDrawing(commands, extent, false);
         bindSurface(commands, scene, 0);
         if (scene.cageFaces)
-            drawCageFaces(commands, scene, light);
+            drawCageShadow(commands, scene, light);
         for (size_t i = 0; !scene.cageFaces && i < scene.group->surfaces().size(); ++i) {
             bindSurface(commands, scene, i);
             drawSurfaceShadow(commands, scene, scene.group->surfaces()[i], light);
@@ -478,19 +500,16 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
     beginDrawing(commands, target.extent(), true);
-    bindSurface(commands, scene, 0);
-    if (scene.cageFaces)
-        drawCageFaces(commands, scene, std::nullopt);
-    for (size_t i = 0; !scene.cageFaces && i < scene.group->surfaces().size(); ++i) {
-        bindSurface(commands, scene, i);
-        drawSurface(commands, scene, scene.group->surfaces()[i]);
-    }
+    std::vector<Run> runs = runsOf(scene);
+    drawFaces(commands, scene, runs, false);
     if (scene.ground.has_value() && scene.camera.eye().y > *scene.ground) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->ground);
         vkCmdDraw(commands, 4, 1, 0, 0);
     }
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->backdrop);
     vkCmdDraw(commands, 3, 1, 0, 0);
+    keepBlended(runs, scene);
+    drawFaces(commands, scene, runs, true);
     drawCageEdges(commands, scene);
     vkCmdEndRendering(commands);
     imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
@@ -509,6 +528,8 @@ shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, const FigureSurfa
         push.flags |= shared::kDrawVertex24;
     if (output.streams.attributes.buffer != VK_NULL_HANDLE)
         push.flags |= shared::kDrawAttributes;
+    if (output.streams.tangents.buffer != VK_NULL_HANDLE)
+        push.flags |= shared::kDrawTangents;
     if (samples() != VK_SAMPLE_COUNT_1_BIT)
         push.flags |= shared::kDrawCoverage;
     return push;
@@ -538,14 +559,14 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
     VkPipeline bound = VK_NULL_HANDLE;
     for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.grid.drawRanges[i];
-        const Shadow shadow = shadowOf(materials.of(range.material));
-        if (shadow == Shadow::none || !scene.group->isPartVisible(range.part))
+        if (!scene.group->isPartVisible(range.part))
             continue;
-        const VkPipeline wanted = shadow == Shadow::solid ? pipelines_->surfaceShadow : pipelines_->surfaceShadowTrim;
+        const bool trimmed = isTrimmed(materials.of(range.material));
+        const VkPipeline wanted = trimmed ? pipelines_->surfaceShadowTrim : pipelines_->surfaceShadow;
         if (bound != wanted)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
         bound = wanted;
-        if (shadow == Shadow::trimmed)
+        if (trimmed)
             bindMaterial(commands, scene, range.material);
         applyRange(range, push);
         pushConstants(commands, push);
@@ -560,37 +581,102 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
     }
 }
 
-void SurfaceRenderer::drawSurface(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface) const {
-    const GroupOutput& output = surface.output;
-    shared::DrawPush push = basePush(scene, surface, 0);
-    const bool vertexLit = device_.isCpu() && surface.edgeRate >= kVertexLitRate;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                      vertexLit ? pipelines_->surfaceVertexLit : pipelines_->surface);
-    bindGridIndices(commands, output);
-    for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
-        const SuppleDrawRange& range = output.grid.drawRanges[i];
-        applyRange(range, push);
-        pushConstants(commands, push);
-        bindMaterial(commands, scene, range.material);
-        vkCmdDrawIndexedIndirect(commands, output.indirect().buffer,
-                                 output.indirect().offset + VkDeviceSize{i} * output.indirect().stride, 1,
-                                 output.indirect().stride);
+std::vector<SurfaceRenderer::Run> SurfaceRenderer::runsOf(const Scene& scene) const {
+    std::vector<Run> runs;
+    const std::vector<FigureSurface>& surfaces = scene.group->surfaces();
+    for (size_t s = 0; !scene.cageFaces && s < surfaces.size(); ++s) {
+        const SuppleGridOutput& grid = surfaces[s].output.grid;
+        for (uint32_t i = 0; i < grid.drawRangeCount; ++i)
+            runs.push_back({s, i, grid.drawRanges[i].part, grid.drawRanges[i].material});
     }
+    const std::vector<Figure::CageRange>& ranges = scene.group->figure().cageRanges();
+    for (size_t i = 0; scene.cageFaces && i < ranges.size(); ++i)
+        runs.push_back({0, i, ranges[i].part, ranges[i].material});
+    return runs;
 }
 
-void SurfaceRenderer::drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const {
+void SurfaceRenderer::keepBlended(std::vector<Run>& runs, const Scene& scene) const {
+    const Figure& figure = scene.group->figure();
+    std::erase_if(runs, [&](const Run& run) { return !isBlended(scene, figure.materials().of(run.material)); });
+    const glm::vec3 eye = scene.camera.eye();
+    const glm::vec3 ahead = scene.camera.target - eye;
+    const auto distance = [&](const Run& run) {
+        return glm::dot(figure.centerOf(run.part, run.material) - eye, ahead);
+    };
+    std::stable_sort(runs.begin(), runs.end(), [&](const Run& a, const Run& b) { return distance(a) > distance(b); });
+}
+
+void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, const std::vector<Run>& runs,
+                                bool blend) const {
     const FigureMaterials& materials = scene.group->figure().materials();
-    shared::DrawPush push = basePush(scene, scene.group->surfaces().front(), light.value_or(0));
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, light ? pipelines_->cageShadow : pipelines_->cageFace);
-    for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
-        // The cage casts its shadow without holes, or none.
-        const bool castsNone = light && materials.of(range.material).alphaMode != SUPPLE_ALPHA_OPAQUE;
-        if (castsNone || !scene.group->isPartVisible(range.part))
+    VkPipeline bound = VK_NULL_HANDLE;
+    const FigureSurface* surface = nullptr;
+    for (const Run& run : runs) {
+        const bool blended = isBlended(scene, materials.of(run.material));
+        if (blend ? !blended : blended && materials.of(run.material).baseColorFactor[3] < kSolidAlpha)
             continue;
+        const FigureSurface& own = scene.group->surfaces()[run.surface];
+        const bool maps = scene.view == shared::kViewShaded && materials.hasMaps(run.material);
+        const bool vertexLit = !scene.cageFaces && device_.isCpu() && own.edgeRate >= kVertexLitRate;
+        const DrawPipelines::Faces faces{vertexLit, maps, blend};
+        const VkPipeline wanted = scene.cageFaces ? pipelines_->cageFace(faces) : pipelines_->surface(faces);
+        if (bound != wanted)
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
+        bound = wanted;
+        if (surface != &own) {
+            bindSurface(commands, scene, run.surface);
+            if (!scene.cageFaces)
+                bindGridIndices(commands, own.output);
+        }
+        surface = &own;
+        bindMaterial(commands, scene, run.material);
+        // What blends shows its far side through its near side.
+        const VkCullModeFlags cull = culled(scene, run.material);
+        if (blend && cull == VK_CULL_MODE_NONE)
+            drawRun(commands, scene, run, VK_CULL_MODE_FRONT_BIT, 0);
+        drawRun(commands, scene, run, blend ? VkCullModeFlags{VK_CULL_MODE_BACK_BIT} : cull,
+                blended && !blend ? shared::kDrawSolid : 0);
+    }
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+}
+
+void SurfaceRenderer::drawRun(VkCommandBuffer commands, const Scene& scene, const Run& run, VkCullModeFlags cull,
+                              uint32_t flags) const {
+    const FigureSurface& surface = scene.group->surfaces()[run.surface];
+    shared::DrawPush push = basePush(scene, surface, 0);
+    push.flags |= flags;
+    vkCmdSetCullMode(commands, cull);
+    if (scene.cageFaces) {
+        const Figure::CageRange& range = scene.group->figure().cageRanges()[run.range];
+        if (!scene.group->isPartVisible(range.part))
+            return;
         push.primitive = range.firstCorner;
         pushConstants(commands, push);
-        if (!light)
+        vkCmdDraw(commands, range.cornerCount, scene.group->visibleCount(), 0, 0);
+        return;
+    }
+    applyRange(surface.output.grid.drawRanges[run.range], push);
+    pushConstants(commands, push);
+    const SuppleBufferRange& indirect = surface.output.indirect();
+    vkCmdDrawIndexedIndirect(commands, indirect.buffer, indirect.offset + VkDeviceSize{run.range} * indirect.stride, 1,
+                             indirect.stride);
+}
+
+void SurfaceRenderer::drawCageShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
+    const FigureMaterials& materials = scene.group->figure().materials();
+    shared::DrawPush push = basePush(scene, scene.group->surfaces().front(), light);
+    for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
+        if (!scene.group->isPartVisible(range.part))
+            continue;
+        // The cage has the holes of masks, not those of a trim of its own.
+        const uint32_t flags = materialUniforms(materials.of(range.material), false).flags;
+        const bool mask = (flags & shared::kMaterialTrimAlpha) != 0;
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                          mask ? pipelines_->cageShadowTrim : pipelines_->cageShadow);
+        if (mask)
             bindMaterial(commands, scene, range.material);
+        push.primitive = range.firstCorner;
+        pushConstants(commands, push);
         vkCmdDraw(commands, range.cornerCount, scene.group->visibleCount(), 0, 0);
     }
 }

@@ -83,6 +83,7 @@ private:
 
     explicit SurfaceRenderer(Device& device) : device_(device) {}
     [[nodiscard]] Status createShadowMaps();
+    [[nodiscard]] Status createEnvironment();
     [[nodiscard]] Status createSlots(uint32_t count);
     [[nodiscard]] Status allocateSets(FigureBinding& binding, const FigureGroup& group) const;
     void writeFigureSet(VkDescriptorSet set, const FigureGroup& group, const FigureSurface& surface) const;
@@ -99,8 +100,23 @@ private:
     void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
     void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
                            uint32_t light) const;
-    void drawSurface(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface) const;
-    void drawCageFaces(VkCommandBuffer commands, const Scene& scene, std::optional<uint32_t> light) const;
+    /// Faces of one part and material: a draw range of a surface, or a range of the cage.
+    struct Run {
+        size_t surface = 0;
+        size_t range = 0;
+        uint32_t part = 0;
+        uint32_t material = SUPPLE_NO_MATERIAL;
+    };
+    [[nodiscard]] std::vector<Run> runsOf(const Scene& scene) const;
+    /// Leaves the runs that blend, the farthest first.
+    void keepBlended(std::vector<Run>& runs, const Scene& scene) const;
+    /// blend: what blends, over what is there; else what hides all behind it, also where a material that blends is
+    /// solid.
+    void drawFaces(VkCommandBuffer commands, const Scene& scene, const std::vector<Run>& runs, bool blend) const;
+    /// flags: shared::kDraw..., besides those of the surface.
+    void drawRun(VkCommandBuffer commands, const Scene& scene, const Run& run, VkCullModeFlags cull,
+                 uint32_t flags) const;
+    void drawCageShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
     void drawCageEdges(VkCommandBuffer commands, const Scene& scene) const;
 
     Device& device_;
@@ -108,6 +124,9 @@ private:
     std::unique_ptr<DrawPipelines> pipelines_;
     Image shadowMaps_;
     std::vector<VkImageView> shadowLayers_;
+    Image environment_;
+    float keyRadiance_ = 1.0f; ///< see StudioEnvironment
+    float rimRadiance_ = 1.0f;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     std::vector<Slot> slots_;
 };

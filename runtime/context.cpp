@@ -343,6 +343,10 @@ void Context::tellNotes(const Group& group) const {
         if (!surface->rateNote().empty()) {
             tell(SUPPLE_MESSAGE_RATE_CHANGED, surface->rateNote());
         }
+        if (!surface->uvNote().empty()) {
+            log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_SCHEME_NOTE,
+                group.asset().character.name + ": " + surface->uvNote());
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 // What a scheme's tables depend on besides the cage.
 #pragma once
 
+#include "cage/character.h"
+
 #include <cstdint>
 
 namespace supple::surface {
@@ -54,6 +56,8 @@ struct Recipe {
     uint32_t rate = 0;        ///< segments along an edge of the cage (Scheme::tableRate); 0: tables for all rates
     bool attributes = true;   ///< the tables have corner attributes
     bool tangents = false;    ///< of a mesh with attributes: vertices have tangents, and differ where these do
+    /// How texture coordinates are interpolated; all: linearly. Without attributes it does not matter.
+    cage::UvMode uvMode = cage::UvMode::all;
     bool lod = false;         ///< the tables have what level of detail needs
     bool indexedMesh = false; ///< patches share the samples on their borders
 

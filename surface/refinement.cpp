@@ -276,9 +276,13 @@ Status equip(RefinedMesh& child, const RefinedMesh& parent) {
 }
 
 EdgeHalves edgeHalves(const RefinedMesh& child, const RefinedMesh& parent, uint32_t corner) {
-    // The quad of the corner begins with the first half of its edge; the quad of the next corner ends with the second.
-    const uint32_t next = cage::nextCorner(parent.cage, parent.topology.cornerFaces[corner], corner);
-    return {child.topology.cornerEdges[4 * corner], child.topology.cornerEdges[4 * next + 3]};
+    // The face of the corner begins with the first half of its edge; the face of the next corner ends with the second.
+    const uint32_t face = parent.topology.cornerFaces[corner];
+    const uint32_t next = cage::nextCorner(parent.cage, face, corner);
+    const uint32_t sides = child.cage.sides(0);
+    const uint32_t middles = sides == 3 ? face : 0; // of Loop, the middle faces before
+    return {child.topology.cornerEdges[sides * (corner + middles)],
+            child.topology.cornerEdges[sides * (next + middles) + sides - 1]};
 }
 
 } // namespace supple::surface

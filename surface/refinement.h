@@ -68,10 +68,10 @@ protected:
 /// middle one.
 [[nodiscard]] RefinedMesh refine(const RefinedMesh& parent, Subdivision subdivision);
 
-/// Gives a Catmull-Clark child what another step needs.
+/// Gives a child what another step needs.
 [[nodiscard]] Status equip(RefinedMesh& child, const RefinedMesh& parent);
 
-/// The two edges of a Catmull-Clark child that the parent's edge from a corner to the next was split into.
+/// The two edges of a child that the parent's edge from a corner to the next was split into.
 struct EdgeHalves {
     uint32_t first = 0, second = 0;
 };

@@ -58,6 +58,7 @@ struct PatchRange {
     Section section;
     uint32_t firstPatch = 0;
     uint32_t attributes = 0; ///< word at which the attribute numbers of its corners begin
+    uint32_t smoothUvs = 0;  ///< element at which its smooth texture coordinates begin (Tables::uvMode)
 };
 
 /// Consecutive patches of one domain, material and part.
@@ -137,6 +138,8 @@ struct Tables {
     uint32_t inner = 0;          ///< p-rep: first coefficient of the perturbed edges in the pool
     uint32_t edgeClasses = 0;    ///< p-rep, P_m: first element of the edge classes
     uint32_t uvSets = 1;
+    cage::UvMode uvMode =
+        cage::UvMode::all;   ///< all: texture coordinates are linear, and the tables have no smooth ones
     bool faceUvs = false;    ///< corners have coordinates in the trim tile of their face (cage::Cage::cornerFaceUvs)
     uint32_t attributes = 0; ///< first element of the corner attributes, which come last
     bool attributeHalves = false; ///< a word holds two attribute numbers

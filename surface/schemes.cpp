@@ -16,17 +16,18 @@ namespace {
 
 // Margins are a little above what was found (tests/surface/bounds_test.cpp), for rounding and for rarer valences.
 constexpr Scheme kSchemes[] = {
-    {SchemeId::prep, "p-rep", &prep::build, RateRule::any, "", true, true,
+    {SchemeId::prep, "p-rep", &prep::build, RateRule::any, "", true, kAllUvModes, true,
      [](const cage::Cage&) { return 0.04f; }}, // 0.0276, at valence 59
-    {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, true, &pm::boundsMargin},
+    {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, kAllUvModes, true, &pm::boundsMargin},
     // Points of the limit are means of the cage's.
-    {SchemeId::catmullClark, "Catmull-Clark", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, false,
+    {SchemeId::catmullClark, "Catmull-Clark", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes,
+     false, [](const cage::Cage&) { return 0.001f; }},
+    {SchemeId::loop, "Loop", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
-    {SchemeId::loop, "Loop", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, false,
-     [](const cage::Cage&) { return 0.001f; }},
-    {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true, false, &blend::boundsMargin},
+    {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
+     kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
     // Its vertices are the cage's.
-    {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, true,
+    {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
      [](const cage::Cage&) { return 0.0f; }},
 };
 

@@ -19,6 +19,12 @@ enum class RateRule : uint32_t {
     none      ///< there is nothing to tessellate: the rate is 1, whatever a group asks for
 };
 
+constexpr uint32_t uvModeBit(cage::UvMode mode) {
+    return 1u << static_cast<uint32_t>(mode);
+}
+inline constexpr uint32_t kLinearUvs = uvModeBit(cage::UvMode::all);
+inline constexpr uint32_t kAllUvModes = 2 * kLinearUvs - 1;
+
 struct Scheme {
     SchemeId id = SchemeId::pm;
     const char* name = "";
@@ -29,6 +35,7 @@ struct Scheme {
     const char* ratesInWords = ""; ///< for messages: how many segments an edge of the cage can have
     bool hasLevels = false;        ///< a view can draw its patches at real-valued levels. Otherwise each instance in a
                                    ///< view has one of several rates
+    uint32_t uvModes = kLinearUvs; ///< how it interpolates texture coordinates: a bit per cage::UvMode
     bool hasIndexedMesh = false;   ///< patches can share the samples on their borders, or the scheme is a mesh
     /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
     /// sum of the negative weights of a sample.
@@ -37,6 +44,7 @@ struct Scheme {
     /// Its tables list the triangles of a mesh (Tables::triangles): it is an indexed mesh in any case.
     [[nodiscard]] bool isMesh() const { return rates == RateRule::none; }
     /// Recipe::rate for a group that asks for `rate` segments along an edge of the cage.
+    [[nodiscard]] bool interpolates(cage::UvMode mode) const { return (uvModes & uvModeBit(mode)) != 0; }
     [[nodiscard]] uint32_t tableRate(uint32_t rate, bool lod) const;
 };
 

@@ -100,12 +100,36 @@ void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass
     builder.add(*pass.steps, SetKind::evaluate, evaluateKernel(builder, from.patchClass, pass.format), size, push);
 }
 
+/// The kernel of a class's attributes, and its kind: linear ones are told by domains alone.
+struct AttributeKernel {
+    Kernel kernel = Kernel::evaluateAttributes;
+    uint32_t kind = 0;
+};
+AttributeKernel attributeKernel(const Tables& tables, PatchClass patchClass, bool levels) {
+    const PatchClassRow& row = rowOf(patchClass);
+    if (tables.uvMode == cage::UvMode::all) {
+        const Kernel atLevels =
+            row.hasSectors() ? Kernel::evaluateAttributesLevelsRings : Kernel::evaluateAttributesLevels;
+        return {levels ? atLevels : Kernel::evaluateAttributes, static_cast<uint32_t>(row.domain)};
+    }
+    AttributeKernel smooth{Kernel::evaluateAttributesSamples, static_cast<uint32_t>(patchClass)};
+    if (row.isBicubic()) {
+        smooth.kernel = levels ? Kernel::evaluateAttributesLevelsBicubic : Kernel::evaluateAttributesBicubic;
+    } else if (row.hasSectors()) {
+        smooth.kernel = levels ? Kernel::evaluateAttributesLevelsRingsSectors : Kernel::evaluateAttributesSectors;
+    } else if (row.charts) {
+        smooth.kernel = levels ? Kernel::evaluateAttributesLevelsBlend : Kernel::evaluateAttributesBlend;
+    }
+    return smooth;
+}
+
 void addAttributes(ProgramBuilder& builder, size_t range) {
     const PatchRange& from = builder.tables.ranges[range];
     const bool indexed = builder.tables.hasIndexedMesh();
+    const AttributeKernel own = attributeKernel(builder.tables, from.patchClass, false);
     const gpu::Kernel kernel =
-        builder.kernel(SetKind::attributes, Kernel::evaluateAttributes,
-                       {{kKindConstant, static_cast<uint32_t>(domainOf(from.patchClass))},
+        builder.kernel(SetKind::attributes, own.kernel,
+                       {{kKindConstant, own.kind},
                         {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
                         {kSectorsConstant, rowOf(from.patchClass).hasSectors() ? VK_TRUE : VK_FALSE},
                         {kOutputsConstant, outputsOf(builder)}},
@@ -113,6 +137,7 @@ void addAttributes(ProgramBuilder& builder, size_t range) {
     const uint32_t samples = samplesOf(builder, from.patchClass);
     SurfacePush push = pushFor(builder, {from.attributes, from.section.count * samples});
     push.samples = samples;
+    push.smoothUvs = from.smoothUvs;
     push.firstVertex = builder.evaluation.firstVertices[range];
     builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push);
 }
@@ -275,12 +300,12 @@ void addRangesAtLevels(ProgramBuilder& builder) {
             builder.add(*pass.steps, SetKind::evaluateLevels, kernel, builder.lanes(push.count), push, r);
         }
         if (builder.needs.attributes) {
+            const AttributeKernel own = attributeKernel(builder.tables, range.patchClass, true);
             const gpu::Kernel kernel = builder.kernel(
-                SetKind::attributes,
-                row.form == lod::Form::quad ? Kernel::evaluateAttributesLevels : Kernel::evaluateAttributesLevelsRings,
-                {{kKindConstant, static_cast<uint32_t>(row.domain)}, {kOutputsConstant, outputsOf(builder)}},
+                SetKind::attributes, own.kernel, {{kKindConstant, own.kind}, {kOutputsConstant, outputsOf(builder)}},
                 std::string("supple attributes at levels, ") + row.name);
             push.table = range.attributes;
+            push.smoothUvs = range.smoothUvs;
             builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push, r);
         }
     }

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 jobs=$(nproc)
 install_missing "${supple_packages[@]}" "${supple_test_packages[@]}"
-# Khronos' validator judges what supple convert writes. Without npm or its registry that test says that it was left out.
+# Khronos' validator judges what supple convert and bake write. Without npm or its registry that test says that it was left out.
 validator=$PWD/build/gltf-validator
 if command -v npm >/dev/null && [ ! -d "$validator/node_modules/gltf-validator" ]; then
     mkdir -p "$validator"

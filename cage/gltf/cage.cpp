@@ -400,6 +400,11 @@ void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& op
 
     out.part.polygonSource = faces.source;
     out.part.weldSource = welded.source;
+    for (const MeshPrimitive& primitive : mesh.primitives) { // the first that says anything
+        if (!out.part.uvMode && primitive.extension) {
+            out.part.uvMode = primitive.extension->uvMode;
+        }
+    }
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
     readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, warnings);
 }

@@ -89,6 +89,12 @@ std::optional<CageExtension> findCageExtension(const Document& document, const j
     checkRule(*object, "faceVaryingLinearInterpolation",
               {"none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"}, {}, extension.element,
               warnings);
+    const std::string uvs = stringMember(*object, "faceVaryingLinearInterpolation", extension.element);
+    for (uint32_t mode = 0; mode <= static_cast<uint32_t>(UvMode::all); ++mode) {
+        if (uvs == uvModeName(static_cast<UvMode>(mode))) {
+            extension.uvMode = static_cast<UvMode>(mode);
+        }
+    }
     checkRule(*object, "triangleSubdivisionRule", {"catmullClark"}, {"smooth"}, extension.element, warnings);
     return extension;
 }

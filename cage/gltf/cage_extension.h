@@ -2,6 +2,7 @@
 // of these throw Refusal.
 #pragma once
 
+#include "cage/character.h"
 #include "cage/gltf/document.h"
 #include "cage/message.h"
 
@@ -25,6 +26,7 @@ struct CageExtension {
     int cornerIndices = -1;
     int cornerSharpnesses = -1;
     int holeIndices = -1;
+    std::optional<UvMode> uvMode; ///< faceVaryingLinearInterpolation, if the file says it
 };
 
 /// Warns of rules that surfaces here do not follow.

@@ -45,12 +45,12 @@ int filterValue(Filter filter) {
 
 class MaterialWriter {
 public:
-    MaterialWriter(const Character& character, Packer& packer, Warnings& warnings)
-        : character_(character), packer_(packer), warnings_(warnings) {}
+    MaterialWriter(std::span<const Image> images, Packer& packer, Warnings& warnings)
+        : sources_(images), packer_(packer), warnings_(warnings) {}
 
-    void write(json& root) {
+    void write(std::span<const Material> from, json& root) {
         json materials = json::array();
-        for (const Material& material : character_.materials) {
+        for (const Material& material : from) {
             materials.push_back(writeMaterial(material));
         }
         for (auto [key, list] : {std::pair("materials", &materials),
@@ -167,7 +167,7 @@ private:
         if (!isNew) {
             return known->second;
         }
-        const Image& from = character_.images[index];
+        const Image& from = sources_[index];
         const char* type = imageType(from.bytes);
         if (type == nullptr) {
             warn(warnings_, at("image", index), "is neither PNG, JPEG, WebP nor KTX2; left out");
@@ -228,7 +228,7 @@ private:
         return known->second;
     }
 
-    const Character& character_;
+    const std::span<const Image> sources_;
     Packer& packer_;
     Warnings& warnings_;
     json textures_ = json::array();
@@ -243,8 +243,9 @@ private:
 
 } // namespace
 
-void writeMaterials(const Character& character, Packer& packer, json& root, Warnings& warnings) {
-    MaterialWriter(character, packer, warnings).write(root);
+void writeMaterials(std::span<const Material> materials, std::span<const Image> images, Packer& packer, json& root,
+                    Warnings& warnings) {
+    MaterialWriter(images, packer, warnings).write(materials, root);
 }
 
 } // namespace supple::cage::gltf

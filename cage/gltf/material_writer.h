@@ -6,10 +6,13 @@
 #include "cage/gltf/packer.h"
 #include "cage/message.h"
 
+#include <span>
+
 namespace supple::cage::gltf {
 
 /// Adds materials, textures, samplers and the images that these use, and names the extensions among those used. Images
 /// in no format that glTF knows are left out, with a warning.
-void writeMaterials(const Character& character, Packer& packer, json& root, Warnings& warnings);
+void writeMaterials(std::span<const Material> materials, std::span<const Image> images, Packer& packer, json& root,
+                    Warnings& warnings);
 
 } // namespace supple::cage::gltf

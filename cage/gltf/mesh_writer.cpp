@@ -21,12 +21,6 @@ namespace {
 using Target = Packer::Target;
 using Component = Packer::Component;
 
-template <class Vec>
-std::span<const float> floatsOf(const std::vector<Vec>& values) {
-    return values.empty() ? std::span<const float>()
-                          : std::span(&values.front()[0], values.size() * static_cast<size_t>(Vec::length()));
-}
-
 /// What a corner has besides its cage vertex, and cannot share a glTF vertex without.
 struct CornerValues {
     std::vector<glm::vec3> normals;
@@ -38,16 +32,6 @@ struct CornerValues {
 
 bool hasFaceTrim(const Material& material) {
     return material.trim && material.trim->domain == TrimDomain::face;
-}
-
-/// How many its textures and its trim need.
-size_t uvSetsOf(const Material& material) {
-    size_t sets = 0;
-    for (const Texture* texture : texturesOf(material)) {
-        sets = std::max(sets, texture->exists() ? size_t{texture->uvSet} + 1 : 0);
-    }
-    const bool trimmed = material.trim && material.trim->domain == TrimDomain::uv;
-    return std::max(sets, trimmed ? size_t{material.trim->texture.uvSet} + 1 : 0);
 }
 
 /// glTF counts texture coordinates from 0 without gaps, and a texture needs those it names: zeros where there are none.
@@ -62,7 +46,7 @@ CornerValues cornerValues(const Character& character, std::span<const glm::vec3>
     size_t sets = !cage.cornerUvs1.empty() ? 2 : !cage.cornerUvs.empty() ? 1 : 0;
     for (const uint32_t material : cage.faceMaterials) {
         if (material != kNone) {
-            sets = std::max(sets, uvSetsOf(character.materials[material]));
+            sets = std::max<size_t>(sets, uvSetsOf(character.materials[material]));
         }
     }
     for (size_t set = 0; set < sets; ++set) {
@@ -342,6 +326,9 @@ private:
         extension["faceVertexCounts"] = addList(counts);
         extension["faceVertexIndices"] = addList(part.polygons.vertices);
         extension["cageVertices"] = addList(part.cageVertices);
+        if (const auto& mode = character_.parts[0].uvMode) {
+            extension["faceVaryingLinearInterpolation"] = uvModeName(*mode);
+        }
 
         const auto has = [&](uint32_t vertex) {
             return std::binary_search(part.cageVertices.begin(), part.cageVertices.end(), vertex);

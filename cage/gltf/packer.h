@@ -11,6 +11,13 @@
 
 namespace supple::cage::gltf {
 
+/// The components of a list of vectors, one after the other.
+template <class Vec>
+[[nodiscard]] std::span<const float> floatsOf(const std::vector<Vec>& values) {
+    return values.empty() ? std::span<const float>()
+                          : std::span(&values.front()[0], values.size() * static_cast<size_t>(Vec::length()));
+}
+
 class Packer {
 public:
     /// What a bufferView is bound as; the values are glTF's.

@@ -4,6 +4,7 @@
 #include "cage/gltf/material_writer.h"
 #include "cage/gltf/mesh_writer.h"
 #include "cage/gltf/packer.h"
+#include "cage/gltf/still_mesh_writer.h"
 #include "cage/message.h"
 #include "cage/parts.h"
 #include "cage/refusal.h"
@@ -305,23 +306,28 @@ json writeMeshes(const Character& character, const Skins& skins, Packer& packer,
     return meshes;
 }
 
-GlbFile toGlb(const Character& character) {
-    GlbFile file;
-    Packer packer;
-    const Skins skins(character);
-
+json newRoot(const Character& character) {
     json root;
     root["asset"] = {{"version", "2.0"}, {"generator", "Supple"}};
     if (!character.copyright.empty()) {
         root["asset"]["copyright"] = character.copyright;
     }
+    return root;
+}
+
+GlbFile toGlb(const Character& character) {
+    GlbFile file;
+    Packer packer;
+    const Skins skins(character);
+
+    json root = newRoot(character);
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
     writeNodes(character, skins, root, file.warnings);
     root["meshes"] = writeMeshes(character, skins, packer, file);
     for (const std::vector<uint32_t>& joints : skins.joints) {
         root["skins"].push_back(writeSkin(character.skin, joints, packer));
     }
-    writeMaterials(character, packer, root, file.warnings);
+    writeMaterials(character.materials, character.images, packer, root, file.warnings);
     json animations = ClipWriter(character.parts, packer, file.warnings).write(character.clips);
     if (!animations.empty()) {
         root["animations"] = std::move(animations);
@@ -330,15 +336,49 @@ GlbFile toGlb(const Character& character) {
     return file;
 }
 
-} // namespace
-} // namespace gltf
+/// Faces of a baked mesh are not those of the cage, which such a trim lies on.
+std::vector<Material> withoutFaceTrims(std::vector<Material> materials, Warnings& warnings) {
+    for (size_t m = 0; m < materials.size(); ++m) {
+        if (materials[m].trim && materials[m].trim->domain == TrimDomain::face) {
+            warn(warnings, at("material", m), "its trim lies on faces of the cage; left out");
+            materials[m].trim.reset();
+        }
+    }
+    return materials;
+}
 
-Result<GlbFile> writeGlb(const Character& character) {
+GlbFile toGlb(const Character& character, std::span<const StillMesh> meshes) {
+    GlbFile file;
+    Packer packer;
+    json root = newRoot(character);
+    json scene = json::array();
+    for (const StillMesh& mesh : meshes) {
+        json node = {{"mesh", scene.size()}};
+        if (!mesh.name.empty()) {
+            node["name"] = mesh.name;
+        }
+        scene.push_back(scene.size());
+        root["nodes"].push_back(std::move(node));
+        root["meshes"].push_back(writeStillMesh(mesh, character, packer, file));
+    }
+    if (scene.empty()) {
+        refuse("GLB", "there are no faces to write");
+    }
+    root["scenes"] = json::array({json::object({{"nodes", std::move(scene)}})});
+    root["scene"] = 0;
+    writeMaterials(withoutFaceTrims(character.materials, file.warnings), character.images, packer, root, file.warnings);
+    file.bytes = std::move(packer).finish(std::move(root));
+    return file;
+}
+
+/// What `write` has written, or why it has not.
+template <class Write>
+Result<GlbFile> guarded(const Character& character, Write&& write) {
     const auto failure = [&](ErrorCode code, const std::string& message) {
         return Error{code, oneLine(character.name + ": " + message)};
     };
     try {
-        GlbFile file = gltf::toGlb(character);
+        GlbFile file = write();
         for (std::string& warning : file.warnings) {
             warning = oneLine(std::move(warning));
         }
@@ -350,6 +390,17 @@ Result<GlbFile> writeGlb(const Character& character) {
     } catch (const std::exception& error) {
         return failure(ErrorCode::asset, std::string("GLB: ") + error.what());
     }
+}
+
+} // namespace
+} // namespace gltf
+
+Result<GlbFile> writeGlb(const Character& character) {
+    return gltf::guarded(character, [&] { return gltf::toGlb(character); });
+}
+
+Result<GlbFile> writeGlb(const Character& character, std::span<const StillMesh> meshes) {
+    return gltf::guarded(character, [&] { return gltf::toGlb(character, meshes); });
 }
 
 } // namespace supple::cage

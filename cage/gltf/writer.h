@@ -3,9 +3,11 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "cage/still_mesh.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,13 +22,19 @@ struct GlbFile {
 /// Everything a Character holds but P_m's crease scalars, as one GLB; the same bytes for the same character.
 ///
 /// Polygons, creases, sharp vertices and holes go into SUPPLE_mesh_cage (docs/SUPPLE_mesh_cage.md), and the triangles
-/// that other viewers show follow FB_ngon_encoding. Materials are those of glTF 2.0's core, with emissive strength, unlit
-/// and texture transforms; extensions that Supple does not read are not written. Images that no material uses are left
-/// out. So are images in a format that glTF does not know, and clips without channels, which glTF forbids; a warning
-/// names them.
+/// that other viewers show follow FB_ngon_encoding. Materials are those of glTF 2.0's core, with emissive strength,
+/// unlit and texture transforms; extensions that Supple does not read are not written. Images that no material uses are
+/// left out. So are images in a format that glTF does not know, and clips without channels, which glTF forbids; a
+/// warning names them.
 ///
 /// The character is one that a reader made: indices in range, weights normalised, numbers finite. Never throws. Errors
 /// are one line that begins with the character's name.
 [[nodiscard]] Result<GlbFile> writeGlb(const Character& character);
+
+/// Meshes as they are shown, one node each, with all materials of the character, whose images keep their bytes. There
+/// is no skeleton, and nothing of SUPPLE_mesh_cage. A trim that needs faces of the cage (TrimDomain::face) is left out;
+/// a warning names it. Meshes have at least one triangle in every entry, and name materials of the character. Never
+/// throws; errors as above.
+[[nodiscard]] Result<GlbFile> writeGlb(const Character& character, std::span<const StillMesh> meshes);
 
 } // namespace supple::cage

@@ -7,29 +7,36 @@
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) flat in vec3 inNormal;
-layout(location = 2) in vec4 inUv;
+layout(location = 2) in vec4 inUvs;
 layout(location = 3) in vec4 inColor;
 
 layout(location = 0) out vec4 outColor;
 
 void main() {
     vec3 v = normalize(frame.eye.xyz - inPosition);
-    vec3 n = inNormal * inversesqrt(max(dot(inNormal, inNormal), 1e-30));
-    if (!gl_FrontFacing)
-        n = -n;
-    vec4 base = baseColorAt(inUv.xy, inColor);
-    vec2 metallicRoughness = metallicRoughnessAt(inUv.zw);
-    if (materialHas(kMaterialMask) && base.a < materialData.cutoff)
+    vec3 front = inNormal * inversesqrt(max(dot(inNormal, inNormal), 1e-30));
+    vec3 n = gl_FrontFacing ? front : -front;
+    vec4 base = baseColorAt(inUvs, inColor);
+    bool shaded = push.view == kViewShaded;
+    Material material = shaded ? materialAt(base.rgb, inUvs) : plainMaterial(vec3(0.50, 0.47, 0.44), 0.6);
+    vec3 mapped = front;
+    if (kMaps && shaded && hasTexture(kNormal)) {
+        vec2 uv = placed(kNormal, inUvs);
+        mapped = mappedNormalHere(front, inPosition, uv, normalTexelAt(uv));
+    }
+    if ((materialHas(kMaterialMask) && base.a < materialData.cutoff) || isLeftOut(base.a))
         discard;
     if (push.view == kViewNormals) {
-        outColor = vec4(fromSrgb((gl_FrontFacing ? n : -n) * 0.5 + 0.5), 1.0);
+        outColor = vec4(fromSrgb(front * 0.5 + 0.5), 1.0);
         return;
     }
-    Material material = Material(base.rgb, metallicRoughness.y, metallicRoughness.x);
-    if (push.view != kViewShaded)
-        material = Material(vec3(0.50, 0.47, 0.44), 0.6, 0.0);
+    float alpha = shaded && materialHas(kMaterialTranslucent) ? base.a : 1.0;
+    if (shaded && materialHas(kMaterialUnlit)) {
+        outColor = vec4(base.rgb, alpha);
+        return;
+    }
     if (!gl_FrontFacing && !materialHas(kMaterialDoubleSided))
         material.albedo *= 0.35;
-    float alpha = materialHas(kMaterialTranslucent) ? base.a : 1.0;
-    outColor = vec4(toneMap(studioShade(material, gatherLight(inPosition, n), n, v)), alpha);
+    vec3 lit = studioShade(material, gatherLight(inPosition, n), gl_FrontFacing ? mapped : -mapped, n, v);
+    outColor = vec4(studioTone(material, lit), alpha);
 }

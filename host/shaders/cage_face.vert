@@ -1,11 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "cage_face.glsl"
-#include "material.glsl"
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) flat out vec3 outNormal;
-layout(location = 2) out vec4 outUv; // of the base color; of metallic and roughness
+layout(location = 2) out vec4 outUvs; // the first and the second
 layout(location = 3) out vec4 outColor;
 
 /// Newell's normal: one for the whole polygon, flat or not.
@@ -25,8 +24,7 @@ void main() {
     CageCorner corner = cageCorner();
     outPosition = cagePosition(corner.vertex);
     outNormal = faceNormal(corner);
-    outUv = vec4(placed(materialData.baseColorPlace, vec2(corner.baseColorU, corner.baseColorV)),
-                 placed(materialData.metallicRoughnessPlace, vec2(corner.metallicRoughnessU, corner.metallicRoughnessV)));
+    outUvs = vec4(corner.u0, corner.v0, corner.u1, corner.v1);
     outColor = unpackUnorm4x8(corner.color);
     gl_Position = frame.viewProjection * vec4(outPosition, 1.0);
 }

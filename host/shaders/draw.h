@@ -17,6 +17,7 @@ using mat4 = glm::mat4;
 // Set 0, the frame.
 SUPPLE_HOST_CONST kFrameBinding = 0u;
 SUPPLE_HOST_CONST kShadowBinding = 1u;
+SUPPLE_HOST_CONST kEnvironmentBinding = 2u;
 // Set 1, the figure: what Supple hands out, and two tables the host makes of the cage.
 SUPPLE_HOST_CONST kSurfaceVertexBinding = 0u;
 SUPPLE_HOST_CONST kSurfaceAttributeBinding = 1u;
@@ -27,11 +28,23 @@ SUPPLE_HOST_CONST kCageEdgeBinding = 5u;
 SUPPLE_HOST_CONST kSurfaceUv1Binding = 6u;
 SUPPLE_HOST_CONST kSurfaceFaceUvBinding = 7u;
 SUPPLE_HOST_CONST kInstancesBinding = 8u;
-// Set 2, the material.
+SUPPLE_HOST_CONST kSurfaceTangentBinding = 9u;
+// Set 2, the material: its numbers, and behind them a texture for each of MaterialUniforms::places.
 SUPPLE_HOST_CONST kMaterialBinding = 0u;
-SUPPLE_HOST_CONST kBaseColorBinding = 1u;
-SUPPLE_HOST_CONST kMetallicRoughnessBinding = 2u;
-SUPPLE_HOST_CONST kTrimBinding = 3u;
+SUPPLE_HOST_CONST kFirstTextureBinding = 1u;
+
+// The textures of a material.
+SUPPLE_HOST_CONST kBaseColor = 0u;
+SUPPLE_HOST_CONST kMetallicRoughness = 1u;
+SUPPLE_HOST_CONST kNormal = 2u;
+SUPPLE_HOST_CONST kOcclusion = 3u;
+SUPPLE_HOST_CONST kEmissive = 4u;
+SUPPLE_HOST_CONST kTrim = 5u;
+SUPPLE_HOST_CONST kTextureCount = 6u;
+
+// The map of the studio (host/environment.h).
+SUPPLE_HOST_CONST kEnvironmentSize = 256u;
+SUPPLE_HOST_CONST kEnvironmentLevels = 5u;
 
 SUPPLE_HOST_CONST kMaxLights = 40u;
 
@@ -53,18 +66,18 @@ SUPPLE_HOST_CONST kDrawMesh = 4u;
 SUPPLE_HOST_CONST kDrawVertex24 = 1u;   // surface vertices of 24 bytes
 SUPPLE_HOST_CONST kDrawAttributes = 2u; // the group has UV and color
 SUPPLE_HOST_CONST kDrawCoverage = 4u;   // alpha becomes coverage of the pixel's samples
+SUPPLE_HOST_CONST kDrawTangents = 8u;   // the surface has tangents
+SUPPLE_HOST_CONST kDrawSolid = 16u;     // of a translucent material: only where it is solid
 
 // MaterialUniforms::flags
-SUPPLE_HOST_CONST kMaterialDoubleSided = 1u;           // back faces are meant to be seen
-SUPPLE_HOST_CONST kMaterialMask = 2u;                  // cage: alpha below the cutoff is a hole
-SUPPLE_HOST_CONST kMaterialTranslucent = 4u;           // alpha is coverage
-SUPPLE_HOST_CONST kMaterialUv1 = 8u;                   // the base color lies on the second UV set
-SUPPLE_HOST_CONST kMaterialMetallicRoughness = 16u;    // there is such a texture
-SUPPLE_HOST_CONST kMaterialMetallicRoughnessUv1 = 32u; // it lies on the second UV set
-SUPPLE_HOST_CONST kMaterialTrim = 64u;       // surface: where the trim's texture is below the cutoff is a hole
-SUPPLE_HOST_CONST kMaterialTrimUv1 = 128u;   // it lies on the second UV set
-SUPPLE_HOST_CONST kMaterialTrimFace = 256u;  // it is a strip of tiles, one a face
-SUPPLE_HOST_CONST kMaterialTrimAlpha = 512u; // base color and vertex alpha multiply it
+SUPPLE_HOST_CONST kMaterialDoubleSided = 1u; // back faces are meant to be seen
+SUPPLE_HOST_CONST kMaterialMask = 2u;        // cage: alpha below the cutoff is a hole
+SUPPLE_HOST_CONST kMaterialTranslucent = 4u; // alpha is coverage
+SUPPLE_HOST_CONST kMaterialUnlit = 8u;       // the base color is shown as it is
+SUPPLE_HOST_CONST kMaterialTrim = 16u;       // surface: where the trim's texture is below the cutoff is a hole
+SUPPLE_HOST_CONST kMaterialTrimFace = 32u;   // it is a strip of tiles, one a face
+SUPPLE_HOST_CONST kMaterialTrimAlpha = 64u;  // base color and vertex alpha multiply it
+SUPPLE_HOST_CONST kMaterialTangents = 128u;  // the normal map lies as the group's tangents do
 
 // Which part of the rig a light belongs to; in Light::color.w.
 SUPPLE_HOST_CONST kLightKey = 0u;
@@ -89,6 +102,7 @@ struct FrameUniforms {
     vec4 keyColor;
     vec4 rimDirection;
     vec4 rimColor;
+    vec4 environment; // sine and cosine of the yaw that it is turned by; radiance over irradiance of key and rim
     uint lightCount;
     float exposure;
     float shadowTexel; // its width in the world
@@ -118,23 +132,22 @@ struct DrawPush {
 
 // Of a texture on texture coordinates (x, y): it is looked up at (dot(u.xyz, (x, y, 1)), dot(v.xyz, (x, y, 1))).
 struct TexturePlace {
-    vec4 u;
-    vec4 v;
+    vec4 u; // w: 1 if these are the second texture coordinates
+    vec4 v; // w: 1 if there is a texture
 };
 
 struct MaterialUniforms {
     vec4 baseColor;
-    TexturePlace baseColorPlace;
-    TexturePlace metallicRoughnessPlace;
-    TexturePlace trimPlace;
+    vec4 emissive; // with its strength
+    TexturePlace places[kTextureCount];
     float metallic;
     float roughness;
+    float normalScale;
+    float occlusionStrength;
     float cutoff; // the trim's, or the mask's
     float trimTiles;
     uint flags;
     uint trimChannel;
-    uint unused0;
-    uint unused1;
 };
 
 // One corner of a triangle of a cage face; three in a row make the triangle.
@@ -142,11 +155,11 @@ struct CageCorner {
     uint vertex;    // cage vertex
     uint faceStart; // the face's vertices in the list behind the corners' buffer: see cage_face.vert
     uint faceSides;
-    uint color;       // RGBA8
-    float baseColorU; // texture coordinates, before the material's transforms
-    float baseColorV;
-    float metallicRoughnessU;
-    float metallicRoughnessV;
+    uint color; // RGBA8
+    float u0;   // the first texture coordinates, and the second
+    float v0;
+    float u1;
+    float v1;
 };
 
 #ifdef __cplusplus

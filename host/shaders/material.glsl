@@ -3,4 +3,11 @@ layout(set = 2, binding = kMaterialBinding, std140) uniform MaterialBlock { Mate
 
 bool materialHas(uint flag) { return (materialData.flags & flag) != 0u; }
 
-vec2 placed(TexturePlace place, vec2 uv) { return vec2(dot(place.u.xyz, vec3(uv, 1.0)), dot(place.v.xyz, vec3(uv, 1.0))); }
+/// Where a texture is looked up; uvs: both sets of texture coordinates.
+vec2 placed(uint which, vec4 uvs) {
+    TexturePlace place = materialData.places[which];
+    vec3 uv = vec3(place.u.w != 0.0 ? uvs.zw : uvs.xy, 1.0);
+    return vec2(dot(place.u.xyz, uv), dot(place.v.xyz, uv));
+}
+
+bool hasTexture(uint which) { return materialData.places[which].v.w != 0.0; }

@@ -1,8 +1,17 @@
 // The studio: a warm key, a cool rim from behind, a soft sky, light from the floor. Each light is one direction of a
-// sampled environment and has its own small shadow map, so that shadows soften with distance and corners darken.
+// sampled environment and has its own small shadow map, so that shadows soften with distance and corners darken. What is
+// mirrored are the soft boxes of these lights, walls and floor (host/environment.h).
+#include "pbr.glsl"
+
 layout(set = 0, binding = kShadowBinding) uniform sampler2DArrayShadow shadowMaps;
+layout(set = 0, binding = kEnvironmentBinding) uniform sampler2D environmentMap;
 
 const float kPi = 3.14159265;
+
+// Radiance of what is mirrored besides key and rim. Walls and floor are lightest where they meet.
+const vec3 kOverhead = vec3(0.92, 0.95, 1.0);
+const vec3 kWalls = vec3(0.42, 0.45, 0.50);
+const vec3 kFloor = vec3(0.26, 0.25, 0.24);
 
 /// 0 where the light is hidden from the position, 1 where it is seen.
 float lightVisibility(uint light, vec3 position) {
@@ -21,26 +30,6 @@ float lightVisibility(uint light, vec3 position) {
     return sum * 0.25;
 }
 
-/// GGX with Schlick's Fresnel and the Hammon approximation of the joint Smith term (PBR Diffuse Lighting for GGX+Smith
-/// Microsurfaces, GDC 2017); times n.l.
-vec3 glossy(vec3 n, vec3 v, vec3 l, float roughness, vec3 f0) {
-    vec3 h = normalize(v + l);
-    float nh = clamp(dot(n, h), 0.0, 1.0), nl = clamp(dot(n, l), 0.0, 1.0);
-    float nv = clamp(abs(dot(n, v)), 1e-3, 1.0), vh = clamp(dot(v, h), 0.0, 1.0);
-    float a = roughness * roughness, a2 = a * a;
-    float d = nh * nh * (a2 - 1.0) + 1.0;
-    float distribution = a2 / (kPi * d * d);
-    vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - vh, 5.0);
-    float visibility = 0.5 / mix(2.0 * nl * nv, nl + nv, a);
-    return fresnel * (distribution * visibility * nl);
-}
-
-/// What a mirror would show: a broad soft box overhead, the horizon, the floor. Only for sheen.
-vec3 studioReflection(vec3 r) {
-    vec3 ceiling = mix(vec3(0.30, 0.33, 0.38), vec3(1.1, 1.1, 1.12), smoothstep(0.15, 0.8, r.y));
-    return mix(vec3(0.16, 0.15, 0.14), ceiling, smoothstep(-0.35, 0.25, r.y));
-}
-
 /// What the rig sends to a place: a few numbers that vary slowly, so that dense vertices may carry them.
 struct Incident {
     vec3 sky;   // irradiance
@@ -51,7 +40,8 @@ struct Incident {
 
 Incident gatherLight(vec3 position, vec3 n) {
     vec3 sky = vec3(0.0);
-    float seen[3] = float[3](0.0, 0.0, 0.0), all[3] = float[3](1e-4, 1e-4, 1e-4);
+    // What faces away from a light is not called hidden from it: it may mirror its edge.
+    float seen[3] = float[3](0.02, 0.02, 0.02), all[3] = float[3](0.02, 0.02, 0.02);
     // Receivers step off the surface: along the normal by a good texel, so that a map's own steps cast no shadow.
     vec3 receiver = position + n * (frame.shadowTexel * 1.6);
     for (uint i = 0u; i < frame.lightCount; ++i) {
@@ -76,35 +66,53 @@ float softLambert(float nl) {
     return nl < soft ? (max(nl + soft, 0.0) * max(nl + soft, 0.0)) / (4.0 * soft) : nl;
 }
 
-struct Material {
-    vec3 albedo;
-    float roughness;
-    float metallic;
-};
+/// The masks of the studio in one level of their map: of about one roughness.
+vec4 environmentLevel(vec3 r, float level) {
+    vec2 at = r.xz / (abs(r.x) + abs(r.y) + abs(r.z));
+    if (r.y < 0.0)
+        at = (1.0 - abs(at.yx)) * vec2(at.x >= 0.0 ? 1.0 : -1.0, at.y >= 0.0 ? 1.0 : -1.0);
+    // The outermost texels lie on the border.
+    float size = exp2(-level) * float(kEnvironmentSize);
+    return textureLod(environmentMap, 0.5 + at * ((size - 1.0) / size * 0.5), level);
+}
 
-/// Radiance towards the eye, before the tone curve. n faces the viewer's side of the surface.
-vec3 studioShade(Material material, Incident light, vec3 n, vec3 v) {
-    vec3 key = frame.keyDirection.xyz, rim = frame.rimDirection.xyz;
+/// The masks in a direction, blurred by a roughness.
+vec4 environmentAt(vec3 r, float roughness) {
+    vec2 turn = frame.environment.xy;
+    r = vec3(r.x * turn.y - r.z * turn.x, r.y, r.z * turn.y + r.x * turn.x);
+    float level = pow(roughness, 2.0 / 3.0) * float(kEnvironmentLevels - 1u);
+    float sharper = min(floor(level), float(kEnvironmentLevels - 2u));
+    return mix(environmentLevel(r, sharper), environmentLevel(r, sharper + 1.0), level - sharper);
+}
+
+/// Radiance towards the eye, before the exposure and without emission. n: the normal that is shaded; surface: that of
+/// the surface itself, for which the light was gathered. Both face the viewer's side.
+vec3 studioShade(Material material, Incident light, vec3 n, vec3 surface, vec3 v) {
     vec3 keyLight = frame.keyColor.rgb * light.key, rimLight = frame.rimColor.rgb * light.rim;
-    float down = 0.5 - 0.5 * n.y;
-    vec3 diffuse = keyLight * softLambert(dot(n, key)) + rimLight * softLambert(dot(n, rim)) + light.sky +
-                   frame.bounce.rgb * down * mix(0.35, 1.0, light.open);
-    // A metal reflects in its color, and nothing leaves it diffusely.
-    vec3 f0 = mix(vec3(0.04), material.albedo, material.metallic);
-    float roughness = max(material.roughness, 0.1); // lamps are no points
-    vec3 specular =
-        kPi * (keyLight * glossy(n, v, key, roughness, f0) + rimLight * glossy(n, v, rim, roughness, f0));
-    float nv = clamp(dot(n, v), 0.0, 1.0);
-    vec3 fresnel = f0 + (1.0 - f0) * (pow(1.0 - nv, 5.0) * (1.0 - 0.6 * roughness));
-    vec3 sheen = studioReflection(reflect(-v, n)) * fresnel * mix(0.15, 1.0, light.open) * 0.9;
-    return material.albedo * (1.0 - material.metallic) * diffuse + specular + sheen;
+    // The sky above a normal map's bumps: an even half sphere, turned.
+    vec3 sky = light.sky * ((1.2 + n.y) / (1.2 + surface.y));
+    vec3 ambient = sky + frame.bounce.rgb * ((0.5 - 0.5 * n.y) * mix(0.35, 1.0, light.open));
+    vec3 diffuse = keyLight * softLambert(dot(n, frame.keyDirection.xyz)) +
+                   rimLight * softLambert(dot(n, frame.rimDirection.xyz)) + ambient * material.occlusion;
+
+    vec3 r = reflect(-v, n);
+    vec4 seen = environmentAt(r, material.roughness);
+    // What looks into the surface, or out of a corner that sees little of the sky, mirrors the figure itself.
+    float outwards = clamp(1.0 + dot(r, surface), 0.0, 1.0);
+    float open = mix(0.15, 1.0, light.open) * material.occlusion * outwards * outwards;
+    // Blurred boxes reach round the surface's own horizon.
+    vec2 risen = smoothstep(-0.45, 0.05, vec2(dot(n, frame.keyDirection.xyz), dot(n, frame.rimDirection.xyz)));
+    seen.xy *= risen * frame.environment.zw;
+    vec3 mirrored = keyLight * seen.x + rimLight * seen.y +
+                    (kOverhead * seen.z + mix(kFloor * (1.2 + 0.5 * min(r.y, 0.0)), kWalls * (1.15 - 0.35 * max(r.y, 0.0)), seen.w)) *
+                        open;
+
+    vec3 share = mirroredShare(mirrorColor(material), material.roughness, clamp(dot(n, v), 1e-3, 1.0));
+    return material.albedo * (1.0 - material.metallic) * (1.0 - share) * diffuse + share * mirrored;
 }
 
-/// A filmic curve: Narkowicz's fit of the ACES reference, which keeps blacks firm and rolls highlights off.
-vec3 toneMap(vec3 x) {
-    x *= frame.exposure;
-    return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-}
+/// What is shown. Emission is not exposed: 1 is white.
+vec3 studioTone(Material material, vec3 lit) { return neutralTone(lit * frame.exposure + material.emission); }
 
 vec3 fromSrgb(vec3 x) { return mix(pow((x + 0.055) / 1.055, vec3(2.4)), x / 12.92, lessThan(x, vec3(0.04045))); }
 

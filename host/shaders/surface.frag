@@ -11,7 +11,7 @@ layout(set = 1, binding = kPatchClassBinding, std430) readonly buffer PatchClass
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
-layout(location = 2) in vec4 inUv;
+layout(location = 2) in vec4 inUvs;
 layout(location = 3) in vec4 inColor;
 layout(location = 4) in vec3 inGrid; // see surface.vert
 layout(location = 5) flat in uint inPatch;
@@ -19,6 +19,7 @@ layout(location = 5) flat in uint inPatch;
 layout(location = 6) in vec3 inSky;
 layout(location = 7) in vec3 inKeyRimOpen;
 layout(location = 8) in vec3 inTrim;
+layout(location = 9) in vec4 inTangent;
 
 layout(location = 0) out vec4 outColor;
 
@@ -69,18 +70,43 @@ vec3 zebra(vec3 n, vec3 v) {
     return mix(vec3(0.012, 0.014, 0.02), vec3(0.82, 0.83, 0.84), stripe) * form;
 }
 
+/// front: the surface's own unit normal.
+vec3 normalFromMap(vec3 front) {
+    if (!kMaps || !hasTexture(kNormal))
+        return front;
+    vec2 uv = placed(kNormal, inUvs);
+    vec3 texel = normalTexelAt(uv);
+    if (materialHas(kMaterialTangents) && (push.flags & kDrawTangents) != 0u)
+        return mappedNormal(front, inNormal, inTangent, texel);
+    return mappedNormalHere(front, inPosition, uv, texel);
+}
+
+/// The material, or what the view paints in its place.
+Material paintedMaterial(vec3 albedo) {
+    if (push.view == kViewPatches && push.domain != kDrawMesh) {
+        vec3 color = fromSrgb(kClassColors[patchClasses[inPatch]] / 255.0);
+        return plainMaterial(color * (1.0 + 0.34 * (patchHash(inPatch) - 0.5)), 0.5);
+    }
+    return push.view == kViewShaded ? materialAt(albedo, inUvs) : plainMaterial(kClay, 0.55);
+}
+
 void main() {
     vec3 v = normalize(frame.eye.xyz - inPosition);
     // A vanishing normal (a collapsed pole) takes the triangle's own.
-    vec3 n = dot(inNormal, inNormal) > 1e-6 ? normalize(inNormal) : normalize(cross(dFdx(inPosition), dFdy(inPosition)));
+    vec3 front =
+        dot(inNormal, inNormal) > 1e-6 ? normalize(inNormal) : normalize(cross(dFdx(inPosition), dFdy(inPosition)));
     bool back = !gl_FrontFacing;
+    vec3 n = back ? -front : front;
+    vec4 base = baseColorAt(inUvs, inColor);
+    Material material = paintedMaterial(base.rgb);
+    vec3 mapped = push.view == kViewShaded ? normalFromMap(front) : front;
     if (back)
-        n = -n;
-
-    vec4 base = baseColorAt(inUv.xy, inColor);
-    vec2 metallicRoughness = metallicRoughnessAt(inUv.zw);
-    float alpha = materialHas(kMaterialTranslucent) ? base.a : 1.0;
+        mapped = -mapped; // seen from behind, a bump is a dent
     vec3 segments = fwidth(inGrid);
+    // All that asks for neighbouring pixels is done: some may end here.
+    if (isLeftOut(base.a))
+        discard;
+    float alpha = push.view == kViewShaded && materialHas(kMaterialTranslucent) ? base.a : 1.0;
     if (materialHas(kMaterialTrim)) {
         float value = trimValue(inTrim);
         if ((push.flags & kDrawCoverage) != 0u)
@@ -91,19 +117,12 @@ void main() {
 
     vec3 color;
     if (push.view == kViewNormals) {
-        color = fromSrgb((back ? -n : n) * 0.5 + 0.5);
+        color = fromSrgb(front * 0.5 + 0.5);
     } else if (push.view == kViewZebra) {
         color = zebra(n, v);
+    } else if (push.view == kViewShaded && materialHas(kMaterialUnlit)) {
+        color = base.rgb;
     } else {
-        Material material = Material(base.rgb, metallicRoughness.y, metallicRoughness.x);
-        if (push.view == kViewWire || (push.view == kViewPatches && push.domain == kDrawMesh)) {
-            material = Material(kClay, 0.55, 0.0);
-        } else if (push.view == kViewPatches) {
-            float vary = patchHash(inPatch) - 0.5;
-            material.albedo = fromSrgb(kClassColors[patchClasses[inPatch]] / 255.0) * (1.0 + 0.34 * vary);
-            material.roughness = 0.5;
-            material.metallic = 0.0;
-        }
         // The inside of a skin that is not meant to be seen: still there, but plainly inside.
         if (back && !materialHas(kMaterialDoubleSided))
             material.albedo *= 0.35;
@@ -112,7 +131,7 @@ void main() {
             light = Incident(inSky, inKeyRimOpen.x, inKeyRimOpen.y, inKeyRimOpen.z);
         else
             light = gatherLight(inPosition, n);
-        color = toneMap(studioShade(material, light, n, v));
+        color = studioTone(material, studioShade(material, light, mapped, n, v));
     }
 
     bool lines = push.domain != kDrawMesh;

@@ -8,17 +8,19 @@
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
-layout(location = 2) out vec4 outUv; // of the base color; of metallic and roughness
+layout(location = 2) out vec4 outUvs; // the first and the second
 layout(location = 3) out vec4 outColor;
 layout(location = 4) out vec3 outGrid; // in segments: see gridPosition
 layout(location = 5) flat out uint outPatch;
 layout(location = 6) out vec3 outSky;
 layout(location = 7) out vec3 outKeyRimOpen;
-layout(location = 8) out vec3 outTrim; // see surfaceTrim
+layout(location = 8) out vec3 outTrim;    // see surfaceTrim
+layout(location = 9) out vec4 outTangent; // glTF's TANGENT
 
 // Where triangles are hardly larger than pixels the light is looked up once a vertex instead of once a pixel: a device
 // that shades in blocks would do it many times over.
 layout(constant_id = 0) const bool kLightPerVertex = false;
+layout(constant_id = 1) const bool kMaps = false; // see material_textures.glsl
 
 // Where a sample lies, in segments. Cells' sides are whole numbers of one coordinate; the patch's border is where a
 // coordinate is 0, on quads also where it is the rate. Quads and polar patches have two coordinates, triangles three.
@@ -44,14 +46,14 @@ void main() {
     outNormal = surfaceNormal(word);
     outPatch = drawnPatch();
     outGrid = gridPosition(gl_VertexIndex);
-    outUv = vec4(0.0);
+    outUvs = vec4(0.0);
     outColor = vec4(1.0);
+    outTangent = vec4(0.0);
     if ((push.flags & kDrawAttributes) != 0u) {
-        outUv.xy = placed(materialData.baseColorPlace, surfaceUv(materialHas(kMaterialUv1)));
-        if (materialHas(kMaterialMetallicRoughness))
-            outUv.zw = placed(materialData.metallicRoughnessPlace, surfaceUv(materialHas(kMaterialMetallicRoughnessUv1)));
+        outUvs = surfaceUvs();
         outColor = surfaceColor();
     }
+    if (kMaps && (push.flags & kDrawTangents) != 0u) outTangent = surfaceTangent();
     outTrim = surfaceTrim();
     outSky = vec3(0.0);
     outKeyRimOpen = vec3(0.0);

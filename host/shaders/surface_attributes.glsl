@@ -3,8 +3,12 @@ layout(set = 1, binding = kSurfaceAttributeBinding, std430) readonly buffer Attr
 layout(set = 1, binding = kSurfaceUv1Binding, std430) readonly buffer Uvs1 { vec2 uvs1[]; };
 layout(set = 1, binding = kSurfaceFaceUvBinding, std430) readonly buffer FaceUvs { vec2 faceUvs[]; };
 
-vec2 surfaceUv(bool second) {
-    return second ? uvs1[surfaceVertex()] : uintBitsToFloat(attributes[surfaceVertex()].xy);
+/// Both texture coordinates. The second ones are looked up only if a texture asks for them: there may be none.
+vec4 surfaceUvs() {
+    bool second = false;
+    for (uint i = 0u; i < kTextureCount; ++i) second = second || materialData.places[i].u.w != 0.0;
+    vec2 uv = uintBitsToFloat(attributes[surfaceVertex()].xy);
+    return vec4(uv, second ? uvs1[surfaceVertex()] : uv);
 }
 
 vec4 surfaceColor() {
@@ -13,9 +17,7 @@ vec4 surfaceColor() {
 
 /// Where the trim is looked up (UV or face UV), and what multiplies it.
 vec3 surfaceTrim() {
-    if (!materialHas(kMaterialTrim)) return vec3(0.0);
-    vec2 at = materialHas(kMaterialTrimFace)
-                  ? faceUvs[surfaceVertex()]
-                  : placed(materialData.trimPlace, surfaceUv(materialHas(kMaterialTrimUv1)));
+    if (!materialHas(kMaterialTrim | kMaterialTranslucent)) return vec3(0.0);
+    vec2 at = materialHas(kMaterialTrimFace) ? faceUvs[surfaceVertex()] : placed(kTrim, surfaceUvs());
     return vec3(at, materialHas(kMaterialTrimAlpha) ? materialData.baseColor.a * surfaceColor().a : 1.0);
 }

@@ -4,6 +4,7 @@
 #include "instances.glsl"
 
 layout(set = 1, binding = kSurfaceVertexBinding, std430) readonly buffer SurfaceVertices { uint surfaceWords[]; };
+layout(set = 1, binding = kSurfaceTangentBinding, std430) readonly buffer SurfaceTangents { uint surfaceTangents[]; };
 
 SuppleRange drawnRange() {
     return SuppleRange(push.patchCount, push.firstVertex, push.samplesPerPatch, push.verticesPerInstance, 0u, 0u);
@@ -14,11 +15,12 @@ uint drawnPatch() { return suppleDrawnPatch(drawnRange(), push.firstPatch, gl_In
 // Counted within an instance.
 uint surfaceVertex() { return suppleSharedVertex(drawnRange(), gl_InstanceIndex, gl_VertexIndex); }
 
-uint surfaceWord() {
+uint posedVertex() {
     uint slot = instanceSlots[suppleDrawnInstance(drawnRange(), gl_InstanceIndex)];
-    uint vertex = suppleSurfaceVertex(drawnRange(), slot, surfaceVertex());
-    return vertex * ((push.flags & kDrawVertex24) != 0u ? 6u : 4u);
+    return suppleSurfaceVertex(drawnRange(), slot, surfaceVertex());
 }
+
+uint surfaceWord() { return posedVertex() * ((push.flags & kDrawVertex24) != 0u ? 6u : 4u); }
 
 vec3 surfacePosition(uint word) {
     return uintBitsToFloat(uvec3(surfaceWords[word], surfaceWords[word + 1u], surfaceWords[word + 2u]));
@@ -29,3 +31,5 @@ vec3 surfaceNormal(uint word) {
         return uintBitsToFloat(uvec3(surfaceWords[word + 3u], surfaceWords[word + 4u], surfaceWords[word + 5u]));
     return suppleOctahedralNormal(surfaceWords[word + 3u]);
 }
+
+vec4 surfaceTangent() { return suppleDecodeTangent(surfaceTangents[posedVertex()]); }

@@ -1,4 +1,4 @@
-// Light falls through what is trimmed away.
+// Light falls through what is trimmed away, and through what is translucent.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"

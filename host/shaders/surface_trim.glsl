@@ -1,7 +1,7 @@
 // The trim's value at a fragment; `trim` is surfaceTrim(), interpolated. See material.glsl.
 #include "trim.glsl"
 
-layout(set = 2, binding = kTrimBinding) uniform sampler2D trimTexture;
+layout(set = 2, binding = kFirstTextureBinding + kTrim) uniform sampler2D trimTexture;
 
 float trimValue(vec3 trim) {
     bool face = materialHas(kMaterialTrimFace);

@@ -119,6 +119,9 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
             !within(desc.poseSource, SUPPLE_POSES_PLAYBACK)) {
             return refuse(context, ErrorCode::range, kHere, "no such vertexFormat, skinning or poseSource");
         }
+        if (!within(desc.uvInterpolation, SUPPLE_UV_LINEAR_ALL)) {
+            return refuse(context, ErrorCode::range, kHere, "no such uvInterpolation");
+        }
         if (const auto fault = checkFlags(context, desc)) {
             return *fault;
         }

@@ -38,6 +38,17 @@ surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View*
     return recipe;
 }
 
+/// What the file says of the parts of a surface: the first part that says anything counts.
+std::optional<cage::UvMode> uvModeOfFile(const TessellationDesc& desc) {
+    for (const uint32_t part : desc.parts) {
+        const std::optional<cage::UvMode> mode = desc.asset->character.parts[part].uvMode;
+        if (mode) {
+            return mode;
+        }
+    }
+    return std::nullopt;
+}
+
 /// The kinds of sets that a program binds.
 std::vector<SetKind> setKindsOf(const surface::Program& program) {
     std::vector<SetKind> kinds;
@@ -77,9 +88,36 @@ Tessellation::Tessellation(TessellationDesc desc)
     evaluation_.cageStride = InstanceSet::cageStrideOf(cage().vertexCount());
 }
 
+Status Tessellation::chooseUvs(surface::Recipe& recipe) {
+    using cage::UvMode;
+    const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
+    const bool asked = desc_.group.uvInterpolation != SUPPLE_UV_FROM_FILE;
+    const std::optional<UvMode> ofFile = uvModeOfFile(desc_);
+    UvMode mode = ofFile.value_or(wanted_.has(Stream::tangents) ? UvMode::cornersPlus1 : UvMode::all);
+    if (asked) {
+        mode = static_cast<UvMode>(static_cast<uint32_t>(desc_.group.uvInterpolation) - 1);
+    }
+    recipe.uvMode = mode;
+    if (!recipe.attributes || cage().cornerUvs.empty()) {
+        recipe.uvMode = UvMode::all; // nobody sees the difference
+    } else if (!scheme.interpolates(mode)) {
+        const std::string reason = std::string(scheme.name) + " does not interpolate texture coordinates by \"" +
+                                   cage::uvModeName(mode) + "\"";
+        if (asked && !desc_.schemeChosen) {
+            return Error{ErrorCode::argument, desc_.asset->character.name + ": " + reason};
+        }
+        recipe.uvMode = UvMode::all;
+        uvNote_ = asked || ofFile ? reason + ": they are linear" : "";
+    }
+    return success();
+}
+
 Status Tessellation::buildTables() {
-    Result<std::shared_ptr<SchemeTables>> built =
-        desc_.asset->tablesFor(*desc_.device, recipeOf(desc_.group, askedRate_, view()), desc_.piece);
+    surface::Recipe recipe = recipeOf(desc_.group, askedRate_, view());
+    if (const Status chosen = chooseUvs(recipe); !chosen) {
+        return chosen;
+    }
+    Result<std::shared_ptr<SchemeTables>> built = desc_.asset->tablesFor(*desc_.device, recipe, desc_.piece);
     if (!built) {
         return built.error();
     }

@@ -73,6 +73,8 @@ public:
     }
     /// Why the rate is not the one asked for, or empty.
     [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
+    /// Why texture coordinates are linear though the file says otherwise, or empty.
+    [[nodiscard]] const std::string& uvNote() const { return uvNote_; }
 
     // Creation, in this order, after create().
     /// Rates that instances of a group may have. `first`: segments along an edge of the cage; each further one has
@@ -194,6 +196,8 @@ protected:
     }
 
     void recordWarmUp(VkCommandBuffer commandBuffer, const surface::Program& program, const SurfaceSets& sets) const;
+    /// Sets Recipe::uvMode, or refuses what the group asks for.
+    [[nodiscard]] Status chooseUvs(surface::Recipe& recipe);
     [[nodiscard]] Status makeSets(SurfaceSets& target, const SchemeTables& scheme,
                                   const surface::Program& program) const;
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.
@@ -203,7 +207,7 @@ protected:
 
     TessellationDesc desc_;
     uint32_t askedRate_ = 8;
-    std::string rateNote_;
+    std::string rateNote_, uvNote_;
     std::shared_ptr<SchemeTables> scheme_;
     std::optional<GatheredCage> gathered_; ///< if it has a piece
     surface::Evaluation evaluation_;

@@ -66,6 +66,8 @@ Materials::Materials(const Gpu& gpu, const supple::Asset& asset, uint32_t count)
 Material Materials::read(const supple::Asset& asset, const SuppleMaterialInfo& info) {
     Material material;
     std::copy(info.baseColorFactor, info.baseColorFactor + 4, material.factor.begin());
+    material.metallic = info.metallicFactor;
+    material.roughness = info.roughnessFactor;
     material.doubleSided = info.doubleSided != 0;
     const SuppleTextureInfo& texture = info.baseColor;
     QImage picture;

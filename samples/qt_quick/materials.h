@@ -1,5 +1,5 @@
 // The materials of a character: base color, that is a factor, a texture that Qt decodes, and the color of the vertices,
-// which the shader has. Whatever else glTF knows is left out.
+// which the shader has; metallic and roughness as factors. Whatever else glTF knows is left out.
 #pragma once
 
 #include "memory.h"
@@ -15,6 +15,8 @@ namespace qt_quick {
 struct Material {
     std::array<float, 4> factor{1.0f, 1.0f, 1.0f, 1.0f};
     std::array<float, 8> uvRows{1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f}; ///< two rows of u, v, 1 and a rest
+    float metallic = 0.0f;
+    float roughness = 0.42f;
     bool doubleSided = true;
     Image texture;
     VkSampler sampler = VK_NULL_HANDLE;

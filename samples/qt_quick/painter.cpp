@@ -171,7 +171,11 @@ void Painter::drawSurface(VkCommandBuffer commands, const Surface& surface, uint
         const SuppleDrawRange& range = grid.drawRanges[i];
         const size_t index = std::min<size_t>(range.material, bound_.textures.size() - 1); // none: the last one
         const Material& material = bound_.materials->of(static_cast<uint32_t>(index));
-        DrawPush push{{range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance}, {}, {}};
+        DrawPush push{{range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance},
+                      material.metallic,
+                      material.roughness,
+                      {},
+                      {}};
         std::copy(material.factor.begin(), material.factor.end(), push.factor);
         std::copy(material.uvRows.begin(), material.uvRows.end(), push.uvRows);
         vkCmdPushConstants(commands, pipelines_.layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,

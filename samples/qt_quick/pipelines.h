@@ -11,7 +11,9 @@ constexpr VkSampleCountFlagBits kSamples = VK_SAMPLE_COUNT_4_BIT;
 
 /// One draw: shaders/range.glsl.
 struct DrawPush {
-    uint32_t range[8]; ///< SuppleRange of supple_surface.glsl, and padding
+    uint32_t range[6]; ///< SuppleRange of supple_surface.glsl
+    float metallic;
+    float roughness;
     float factor[4];
     float uvRows[8];
 };

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -36,11 +37,16 @@ CharacterGroup createGroup(const supple::Context& context, const supple::Asset& 
     must(created.group.vertexStreams(created.streams), "suppleGetVertexStreams");
     must(created.group.gridOutput(created.grid), "suppleGetGridOutput");
     for (uint32_t i = 0; i < created.grid.drawRangeCount; ++i) {
-        SuppleMaterialInfo material{};
+        Look& look = created.looks.emplace_back();
         const uint32_t index = created.grid.drawRanges[i].material;
-        if (index != SUPPLE_NO_MATERIAL)
-            must(asset.materialInfo(index, material), "suppleGetMaterialInfo");
-        created.doubleSided.push_back(index == SUPPLE_NO_MATERIAL || material.doubleSided != 0);
+        if (index == SUPPLE_NO_MATERIAL)
+            continue;
+        SuppleMaterialInfo material{};
+        must(asset.materialInfo(index, material), "suppleGetMaterialInfo");
+        std::copy_n(material.baseColorFactor, 4, &look.baseColor[0]);
+        look.metallic = material.metallicFactor;
+        look.roughness = material.roughnessFactor;
+        look.doubleSided = material.doubleSided != 0;
     }
     return created;
 }

@@ -15,13 +15,21 @@ namespace engine {
 
 using namespace supple::host;
 
+/// What is drawn of a material: its factors. Colors of vertices multiply the base color.
+struct Look {
+    glm::vec4 baseColor{1.0f};
+    float metallic = 0.0f;
+    float roughness = 0.5f;
+    bool doubleSided = true;
+};
+
 /// One of the two groups as the passes draw it.
 struct CharacterGroup {
     supple::Group group;
     SuppleGroupInfo info{};
     SuppleVertexStreams streams{};
     SuppleGridOutput grid{};
-    std::vector<bool> doubleSided; ///< a draw range
+    std::vector<Look> looks; ///< a draw range
 };
 
 /// Where somebody stands, and how much of the sky he takes from the floor.

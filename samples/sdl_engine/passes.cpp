@@ -23,7 +23,7 @@ constexpr VkFormat kMotionFormat = VK_FORMAT_R16G16_SFLOAT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr float kSunRadius = 0.045f; // a veiled sun: shadows of a hand's width soften over two metres
 
-/// SuppleRange of shaders/supple_surface.glsl.
+/// SuppleRange of shaders/supple_surface.glsl, and the material.
 struct RangePush {
     uint32_t patchCount;
     uint32_t firstVertex;
@@ -31,6 +31,9 @@ struct RangePush {
     uint32_t verticesPerInstance;
     uint32_t firstSlot;
     uint32_t previousWords;
+    float metallic;
+    float roughness;
+    glm::vec4 baseColor;
 };
 
 constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
@@ -50,8 +53,7 @@ Passes::Passes(Device& device, Graph& graph, const Characters& characters)
                                       {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
                                       {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
                                       {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}}));
-    layout_ =
-        must(createPipelineLayout(device, {frameLayout, groupLayout}, sizeof(RangePush), VK_SHADER_STAGE_VERTEX_BIT));
+    layout_ = must(createPipelineLayout(device, {frameLayout, groupLayout}, sizeof(RangePush), kBoth));
 
     sunMap_ =
         must(device.createImage({.format = kDepthFormat,
@@ -163,10 +165,13 @@ void Passes::drawCharacters(VkCommandBuffer commands, VkPipeline pipeline, uint3
         vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset, VK_INDEX_TYPE_UINT16);
         for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
             const SuppleDrawRange& range = grid.drawRanges[r];
+            const Look& look = group.looks[r];
             const RangePush push{
-                range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance, 0, 0};
-            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
-            vkCmdSetCullMode(commands, cull && !group.doubleSided[r] ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
+                range.patchCount, range.firstVertex, range.samplesPerPatch, grid.verticesPerInstance, 0, 0,
+                look.metallic,    look.roughness,    look.baseColor};
+            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                               sizeof push, &push);
+            vkCmdSetCullMode(commands, cull && !look.doubleSided ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
             vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,
                                      grid.indirect.offset + VkDeviceSize{r} * grid.indirect.stride, 1,
                                      grid.indirect.stride);

@@ -29,6 +29,8 @@ vec2 product(vec2 a, vec2 b) {
 }
 
 bool isCreased(Corner corner) { return kSharp && (corner.flags & kCreasedChart) != 0u; }
+// Tangents at the corner are told from the edges there.
+bool hasChords(Corner corner) { return kSharp && (corner.flags & (kCreasedChart | kChordCorner)) != 0u; }
 
 // Of z = x + iy. Beyond the diagonal it is told from the next spoke backwards, so that both faces at a spoke multiply the
 // same two numbers, which take no division. surface/blend/chart_point.h has the same operations.

@@ -2,6 +2,7 @@
 // they are evaluated once per group, with one invocation per patch sample. At levels they are evaluated in every frame, where
 // samples lie then. Output per sample: u, v, and linear color as RG and BA in 16-bit unorm, because 8 bits would band in the
 // dark. If there are a second UV set and face UVs, these follow; with tangents, the direction word (docs/tangents.md).
+// With a macro of smooth_uvs.glsl texture coordinates are smooth; colors and face UVs stay linear.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
@@ -10,7 +11,12 @@
 #include "shaders/evaluate/sectors.glsl"
 #include "shaders/lod/record.glsl"
 
+#if defined(BICUBIC) || defined(SECTORS) || defined(BLEND) || defined(SAMPLES)
+#define SMOOTH
+#include "shaders/evaluate/smooth_uvs.glsl"
+#else
 layout(constant_id = kKindConstant) const uint kDomain = kQuadDomain;
+#endif
 #ifdef RINGS
 const bool kRings = true; // with level of detail: samples lie in rings round a centre
 #else
@@ -85,6 +91,9 @@ struct Corners {
     vec4 more[5]; // second UV, face UV
     // With directions: the sign of the face's area in texture coordinates, which all of its samples have, and its size there.
     float side, size;
+#ifdef SMOOTH
+    SmoothPatch smooth0, smooth1; // of the first and the second UV set
+#endif
 };
 uint cornerElements() { return push.uvSets == 2u || push.faceUvs != 0u ? 2u : 1u; }
 void loadCorner(inout Corners c, uint k, uint element) {
@@ -120,6 +129,11 @@ Corners loadCorners(uint patchIndex) {
     Corners c;
     for (uint k = 0u; k < kCorners; ++k) loadCorner(c, k, cornerElement(push.table, kCorners * patchIndex + k));
     if (kDirections) findSide(c, kCorners);
+#ifdef SMOOTH
+    uint first = push.smoothUvs + push.uvSets * kSmoothElements * patchIndex;
+    c.smooth0 = loadSmooth(first);
+    if ((kOutputs & kOutputUvs1) != 0u) c.smooth1 = loadSmooth(first + kSmoothElements);
+#endif
     return c;
 }
 
@@ -140,11 +154,12 @@ void store(uint vertex, Sample s) {
     if ((kOutputs & kOutputUvs1) != 0u) uvs1[vertex] = s.more.xy;
     if ((kOutputs & kOutputFaceUvs) != 0u) faceUvs[vertex] = s.more.zw;
 }
-void store(uint vertex, Corners c, float w[5]) {
+Sample weighted(Corners c, float w[5]) {
     Sample s = Sample(vec2(0.0), vec4(0.0), vec4(0.0));
     for (uint k = 0u; k < kCorners; ++k) s = blended(1.0, s, w[k], atCorner(c, k));
-    store(vertex, s);
+    return s;
 }
+void store(uint vertex, Corners c, float w[5]) { store(vertex, weighted(c, w)); }
 
 // Derivatives of the texture coordinates in the parameters whose derivatives evaluation has (docs/tangents.md): u and v of a
 // patch, or along a sector's edge and towards the centre.
@@ -184,6 +199,39 @@ void storeDirection(uint vertex, Corners c, Slopes slopes) {
     directions[vertex] = (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u | (c.side > 0.0 ? kNegativeFrame : 0u);
 }
 
+#ifdef SMOOTH
+void storeSmooth(uint vertex, Corners c, float w[5], SmoothPlace at) {
+    Sample s = weighted(c, w);
+    SmoothUv uv = smoothAt(c.smooth0, at);
+    s.uv = uv.uv;
+    if ((kOutputs & kOutputUvs1) != 0u) s.more.xy = smoothAt(c.smooth1, at).uv;
+    store(vertex, s);
+    if (kDirections) storeDirection(vertex, c, Slopes(uv.a, uv.b));
+}
+#endif
+
+#if defined(SMOOTH) && defined(LEVELS) && !defined(RINGS)
+// A patch with levels, by one lane.
+void storeRows(uint record, LodRecord r, Corners c) {
+    uint last = r.capacity, side = last + 1u;
+    LodPattern patterns[6];
+    for (uint k = 0u; k < 6u; ++k) patterns[k] = recordPattern(record, k, r.capacityIndex);
+    uint j = 0u;
+    do {
+        uint i = 0u;
+        do {
+            vec2 u = vec2(i == 0u ? 0.0 : 1.0, i == 0u ? 1.0 : 0.0), v = vec2(j == 0u ? 0.0 : 1.0, j == 0u ? 1.0 : 0.0);
+            if (i > 0u && i < last) u = lodPair(j == 0u ? patterns[2] : j == last ? patterns[4] : patterns[0], i, last);
+            if (j > 0u && j < last) v = lodPair(i == last ? patterns[3] : i == 0u ? patterns[5] : patterns[1], j, last);
+            float w[5] = bilinear(u, v);
+            if (kDomain == kPolarDomain) w = polar(u, v);
+            storeSmooth(r.firstVertex + j * side + i, c, w, quadPlace(u, v));
+        } while (++i < side);
+    } while (++j < side);
+}
+#endif
+
+#ifndef SMOOTH
 // A patch with levels, by one lane: what a row has in common is found once. Loops are tested at the bottom, see
 // evaluate/bicubic.comp.
 void storeRows(uint record, LodRecord r, Corners c) {
@@ -229,7 +277,10 @@ void storeRows(uint record, LodRecord r, Corners c) {
     } while (++j <= last);
 }
 
+#endif
+
 // The same in rings.
+#if !defined(SMOOTH) || defined(RINGS)
 void storeRings(uint record, LodRecord r, Corners c) {
     uint last = r.capacity, rings = (last + 1u) / 2u;
     LodPattern inside = recordPattern(record, 0u, r.capacityIndex);
@@ -242,13 +293,33 @@ void storeRings(uint record, LodRecord r, Corners c) {
             uint k = ring;
             do {
                 vec3 l = ringWeights(lodPair(side, k, last), t);
+#ifdef SMOOTH
+                storeSmooth(vertex + k - ring, c, sectorWeights(sector, l),
+                            ringPlace(sector, l, lodPair(side, k, last), ring == 0u, ring == 0u && k == 0u));
+#else
                 store(vertex + k - ring, c, sectorWeights(sector, l));
                 if (kDirections) storeDirection(vertex + k - ring, c, sectorSlopes(c, sector, l));
+#endif
             } while (++k < last - ring);
             side = inside;
         } while (++ring < rings);
     }
 }
+#endif
+
+#if defined(SMOOTH) && defined(WIDE) && defined(LEVELS)
+SmoothPlace lodPlace(uint place, LodRecord r, uint index) {
+#ifdef RINGS
+    vec2 along;
+    RingSample at = ringSample(kCorners, r.capacity, index);
+    vec3 weights = ringWeights(place, r.capacity, at, along);
+    return ringPlace(at.side, weights, along, at.ring == 0u, at.ring == 0u && at.k == 0u);
+#else
+    uint j = index / (r.capacity + 1u), i = index - j * (r.capacity + 1u);
+    return quadPlace(lodU(place, r.capacity, i, j), lodV(place, r.capacity, i, j));
+#endif
+}
+#endif
 
 #if defined(WIDE) && defined(LEVELS)
 Slopes lodSlopes(uint place, LodRecord r, Corners c, uint index) {
@@ -271,8 +342,12 @@ void evaluateWideLod(uint form) {
     if (r.patchIndex == kEmptyRecord) return;
     Corners corners = loadCorners(r.patchIndex - push.firstPatch);
     for (uint k = gl_LocalInvocationID.x - place * share.samples; k < share.samples; k += gl_WorkGroupSize.x) {
+#ifdef SMOOTH
+        storeSmooth(r.firstVertex + k, corners, lodCornerWeights(place, r, k), lodPlace(place, r, k));
+#else
         store(r.firstVertex + k, corners, lodCornerWeights(place, r, k));
         if (kDirections) storeDirection(r.firstVertex + k, corners, lodSlopes(place, r, corners, k));
+#endif
     }
 }
 #endif
@@ -293,22 +368,40 @@ void evaluateNarrowLod() {
     uint record = lodRecordElement(lodRecordOfLane());
     LodRecord r = lodRecordOf(lodElement(record));
     Corners corners = loadCorners(r.patchIndex == kEmptyRecord ? 0u : r.patchIndex - push.firstPatch);
+#if !defined(SMOOTH) || defined(RINGS)
     if (kRings) storeRings(record, r, corners);
-    else storeRows(record, r, corners);
+#endif
+#if !defined(SMOOTH) || (defined(LEVELS) && !defined(RINGS))
+    if (!kRings) storeRows(record, r, corners);
+#endif
 }
 
-// The patch that an edge is taken from (shared/surface.h, attributes of edges).
-Corners loadPatchOfEdge(uvec4 ends) {
-    Corners c;
-    uint corners = ends.w >> kPatchCornersShift & kPatchSideMask, odd = ends.w >> kPatchHalfShift;
-    for (uint k = 0u; k < corners; ++k) loadCorner(c, k, cornerElement(ends.z, odd + k));
-    findSide(c, corners);
-    return c;
+// Of a smooth UV set along an edge, by the sums of bicubic patches (rows.glsl).
+vec2 curvePoint(uint first, vec2 t) {
+    uvec4 a = tableElement(first), b = tableElement(first + 1u), h = tableElement(first + 2u);
+    precise vec3 p = sum4(bernstein3(t), vec3(uintBitsToFloat(a.xy), 0.0), vec3(uintBitsToFloat(a.zw), 0.0),
+                          vec3(uintBitsToFloat(b.xy), 0.0), vec3(uintBitsToFloat(b.zw), 0.0));
+    precise vec3 moved = p + sum2(bernstein5(t).inner, vec3(uintBitsToFloat(h.xy), 0.0), vec3(uintBitsToFloat(h.zw), 0.0));
+    return moved.xy;
 }
+
+// Its derivatives along and across, without the factors that evaluation leaves out of those of the position.
+Slopes curveSlopes(uint first, vec2 t, bool sectors) {
+    uvec4 a = tableElement(first), b = tableElement(first + 1u), h = tableElement(first + 2u);
+    vec2 p[4] = vec2[4](uintBitsToFloat(a.xy), uintBitsToFloat(a.zw), uintBitsToFloat(b.xy), uintBitsToFloat(b.zw));
+    uvec4 q = tableElement(first + 3u), r = tableElement(first + 4u), d = tableElement(first + 5u);
+    vec4 w = bernstein3(t);
+    vec2 inner = bernstein5(t).inner, slope = bernsteinDerivative5(t).inner;
+    vec2 along = t.y * t.y * (p[1] - p[0]) + 2.0 * t.x * t.y * (p[2] - p[1]) + t.x * t.x * (p[3] - p[2]);
+    vec2 across = w.x * uintBitsToFloat(q.xy) + w.y * uintBitsToFloat(q.zw) + w.z * uintBitsToFloat(r.xy) +
+                  w.w * uintBitsToFloat(r.zw);
+    along += (1.0 / 3.0) * (slope.x * uintBitsToFloat(h.xy) + slope.y * uintBitsToFloat(h.zw));
+    across += (5.0 / 3.0) * (inner.x * uintBitsToFloat(d.xy) + inner.y * uintBitsToFloat(d.zw));
+    return Slopes(sectors ? 0.75 * along : along, across);
+}
+
 // Along its side and inwards, as evaluate/edge.comp has the derivatives of the position.
-Slopes slopesOnEdge(Corners c, uint form, vec2 t) {
-    uint side = form & kPatchSideMask, corners = form >> kPatchCornersShift & kPatchSideMask;
-    bool sectors = (form & kPatchHasSectors) != 0u;
+Slopes slopesOnEdge(Corners c, uint side, uint corners, bool sectors, vec2 t) {
     vec2 own = c.uv[side], next = c.uv[side + 1u == corners ? 0u : side + 1u], along = next - own;
     if (sectors && corners != 4u) return Slopes(along, uvCentre(c, corners) - own);
     if (corners == 3u) { // polar
@@ -324,16 +417,28 @@ void storeOnEdge(uint id) {
     uint edge = id / push.rate, k = id - edge * push.rate;
     uvec4 own = tableElement(push.ring + kEdgeElements * edge + 2u);
     if (k == 0u && own.x == kNoEdgeSample) return;
-    uvec4 ends = tableElement(push.table + edge);
+    uvec4 patchOfEdge = tableElement(push.table + edge); // that it is taken from
+    uint side = patchOfEdge.y & kPatchSideMask, corners = patchOfEdge.y >> kPatchCornersShift & kPatchSideMask;
+    uint odd = patchOfEdge.y >> kPatchHalfShift, next = side + 1u == corners ? 0u : side + 1u;
+    bool sectors = (patchOfEdge.y & kPatchHasSectors) != 0u;
     Corners c;
-    loadCorner(c, 0u, ends.x);
-    loadCorner(c, 1u, ends.y);
+    for (uint i = 0u; i < corners; ++i)
+        if (kDirections || i == side || i == next) loadCorner(c, i, cornerElement(patchOfEdge.x, odd + i));
     vec2 t = parameterPair(k, push.rate, push.pairs);
+    Sample s = Sample(vec2(0.0), vec4(0.0), vec4(0.0));
+    s = blended(1.0, s, t.y, atCorner(c, side));
+    s = blended(1.0, s, t.x, atCorner(c, next));
+    if (patchOfEdge.z != 0u) {
+        s.uv = curvePoint(patchOfEdge.z, t);
+        if (push.uvSets == 2u) s.more.xy = curvePoint(patchOfEdge.z + kUvCurveElements, t);
+    }
     uint vertex = k == 0u ? push.firstCorner + own.x : push.firstVertex + own.y * (push.rate - 1u) + k - 1u;
-    store(vertex, c, float[5](t.y, t.x, 0.0, 0.0, 0.0));
+    store(vertex, s);
     if (kDirections) {
-        Corners whole = loadPatchOfEdge(ends);
-        storeDirection(vertex, whole, slopesOnEdge(whole, ends.w, t));
+        findSide(c, corners);
+        if (k == 0u && (own.z & kSingularEdge) != 0u) t = vec2(0.001, 0.999); // as edge.comp
+        storeDirection(vertex, c, patchOfEdge.z != 0u ? curveSlopes(patchOfEdge.z, t, sectors)
+                                                      : slopesOnEdge(c, side, corners, sectors, t));
     }
 }
 
@@ -362,7 +467,11 @@ void main() {
     }
     uint patchIndex = id / push.samples, index = id - patchIndex * push.samples;
     Corners corners = loadCorners(patchIndex);
+#ifdef SMOOTH
+    storeSmooth(push.firstVertex + id, corners, cornerWeights(index), placeAtRate(index));
+#else
     store(push.firstVertex + id, corners, cornerWeights(index));
     if (kDirections) storeDirection(push.firstVertex + id, corners, slopesAtRate(corners, index));
+#endif
 #endif
 }

@@ -9,24 +9,7 @@ layout(constant_id = kTangentsConstant) const bool kTangents = false;
 layout(set = 0, binding = kTangentBinding, std430) writeonly buffer Tangents { uint tangents[]; };
 layout(set = 0, binding = kDirectionBinding, std430) readonly buffer Directions { uint directions[]; };
 
-const float kTiny = 1e-37; // above the denormals, which devices may flush
-
-// What a sample's normal and tangent are made of: the derivatives in the two parameters of its patch. Both may lack one common
-// positive factor. The normal points outwards and has any length.
-struct Frame {
-    vec3 du, dv, normal;
-};
-Frame frameOf(vec3 du, vec3 dv) { return Frame(du, dv, cross(du, dv)); }
-// With a normal that comes from elsewhere. Tangents are orthogonal to it.
-Frame withNormal(Frame f, vec3 normal) {
-    f.normal = normal;
-    if (kTangents) {
-        vec3 scaled = normal / max(dot(normal, normal), kTiny);
-        f.du -= dot(f.du, normal) * scaled;
-        f.dv -= dot(f.dv, normal) * scaled;
-    }
-    return f;
-}
+#include "shaders/evaluate/frame.glsl"
 
 // Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer, "A Survey of Efficient Representations for Independent Unit
 // Vectors" (JCGT 2014): octahedral coordinates. `scale`: 1 / (|x| + |y| + |z|).

@@ -30,7 +30,7 @@ const bool kSharp = true;
 #include "shaders/blend/blend.glsl"
 
 vec3 coefficient(uint i, bool today) { return poolVector(i); }
-#include "shaders/pm/sector.glsl"
+#include "shaders/pm/load.glsl"
 
 // The net of a bicubic patch, row by row.
 vec3[16] bicubicNet(uint record, uint base, bool polar) {

@@ -1,6 +1,4 @@
-// A sector of a P_3, P_4 or P_5 patch, expanded from the patch's coefficients (docs/pm.md). Needs tables.glsl, `tangents` in the push
-// constants and a function coefficient(index, today) that loads from the pool.
-#include "shaders/pm/record.glsl"
+// A sector of a P_3, P_4 or P_5 patch, expanded from the patch's coefficients (docs/pm.md).
 
 // One sector. c is relative to the centre and stands in the order 400 310 220 130 040 | 301 211 121 031 | 202 112 022 |
 // 103 013 | 004; indices count corner i, corner i + 1, centre.
@@ -25,13 +23,6 @@ struct SectorSide {
     vec3 v, t0, t1;
     vec3 o211, o121, p112;
 };
-SectorSide loadSide(uint m, uint record, uint base, uint inner, uint i, bool today) {
-    uint at = inner + 1u + 3u * i, tangents = base + push.tangents;
-    uint t0 = SUPPLE_SPOKE(spokeWord(record, i)), t1 = SUPPLE_NEXT_SPOKE(spokeWord(record, i + 1u == m ? 0u : i + 1u));
-    return SectorSide(coefficient(base + pointIndex(record, i), today), coefficient(tangents + t0, today),
-                      coefficient(tangents + t1, today), coefficient(at, today), coefficient(at + 1u, today),
-                      coefficient(at + 2u, today));
-}
 
 // The sector of a side between its neighbours; ray: the weights of (3), of the ray's own point and of either side's.
 Sector makeSector(vec2 ray, vec3 centre, SectorSide last, SectorSide own, SectorSide next) {
@@ -49,11 +40,4 @@ Sector makeSector(vec2 ray, vec3 centre, SectorSide last, SectorSide own, Sector
     s.c = vec3[15](a, p310, p220, p130, d, left[0], p211, p121, right[0], left[1], own.p112, right[1], left[2], right[2],
                    vec3(0.0));
     return s;
-}
-
-// Of a patch of m sides, from its record.
-Sector loadSector(uint m, vec2 ray, uint record, uint base, uint i, bool today) {
-    uint inner = base + centreIndex(record, m), l = i == 0u ? m - 1u : i - 1u, n = i + 1u == m ? 0u : i + 1u;
-    return makeSector(ray, coefficient(inner, today), loadSide(m, record, base, inner, l, today),
-                      loadSide(m, record, base, inner, i, today), loadSide(m, record, base, inner, n, today));
 }

@@ -15,6 +15,8 @@
 //   chart samples    one element a pair of coordinates, x fastest: (zeta, d zeta / dz) of sector 0; where x = 0 and y > 0 zeta is
 //                    told from the next direction, so that both faces at a spoke multiply the same numbers; one run a k
 //   crease samples   two elements likewise: the parameter of the crease, its slopes by x and by y; one run a k
+//   smooth UVs       of a patch one element a corner, as in its record, but with the element of a chart of texture coordinates:
+//                    five elements a chart, two coefficients an element
 //   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples), or, at levels,
 //                    (.., .., 4 / k, 0)
 #ifndef SUPPLE_SHARED_BLEND_H
@@ -28,7 +30,8 @@ SUPPLE_SHARED_CONST kChartCoefficients = 9u;
 SUPPLE_SHARED_CONST kCreasedChart = 0x80000000u; // its T is the parameter of the crease
 SUPPLE_SHARED_CONST kStillCorner = 0x40000000u;  // the surface has no derivative at the corner
 SUPPLE_SHARED_CONST kStillEdge = 0x20000000u;    // nor across the edge to the next corner
-SUPPLE_SHARED_CONST kPoolIndexMask = 0x1FFFFFFFu;
+SUPPLE_SHARED_CONST kChordCorner = 0x10000000u;  // smooth texture coordinates: the surface's chart at the corner is creased
+SUPPLE_SHARED_CONST kPoolIndexMask = 0x0FFFFFFFu;
 
 // With level of detail a normal is taken 1 / kStillSteps of the patch inside where it lies still: half the shortest
 // segment that there is, whatever the level, so that a place has one normal.

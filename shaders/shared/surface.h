@@ -22,14 +22,17 @@
 //                    set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
 //   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every class of
 //                    patches begins an element
+//   smooth UVs       where texture coordinates are smooth, in the order of patches, per UV set what SmoothPatch of
+//                    evaluate/smooth_uvs.glsl has: two coefficients an element. Catmull-Clark and Loop: the samples of a rate
 //   mesh edges       indexed mesh: three elements an edge, as one of its patches has it on its left: pool indices of the border
 //                    cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative across is
 //                    made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the edge; flags;
 //                    extra). Extra: perturbed edges: h20, the others of the four follow, or by kSwappedEdge stand as h30 h20 h31
 //                    h21; kStoredNormalEdge: the normal of the beginning; kSingularEdge: b121 of the sector before
-//   edge attributes  one element a record: (attribute element of the beginning, of the end, -, -). With tangents the last two
-//                    say what patch it has: the word with the first of its corners' numbers; its side, kPatchCornersShift: its
-//                    corners, kPatchHasSectors, kPatchHalfShift: 1 if that number is the high half of the word
+//   edge attributes  one element a record: (the word with the first of its patch's corner numbers; the edge's side of the patch,
+//                    kPatchCornersShift: the patch's corners, kPatchHasSectors, kPatchHalfShift: 1 if that number is the high half
+//                    of the word; element of the smooth UV curves or 0, -). The curves: six elements a UV set, the four
+//                    coefficients of a cubic, h20, h30, the four coefficients of the derivative across, h21 - h20, h31 - h30
 #ifndef SUPPLE_SHARED_SURFACE_H
 #define SUPPLE_SHARED_SURFACE_H
 
@@ -154,6 +157,7 @@ SUPPLE_SHARED_CONST kPatchSideMask = 7u;
 SUPPLE_SHARED_CONST kPatchCornersShift = 3u;
 SUPPLE_SHARED_CONST kPatchHasSectors = 64u;
 SUPPLE_SHARED_CONST kPatchHalfShift = 7u;
+SUPPLE_SHARED_CONST kUvCurveElements = 6u;
 
 SUPPLE_SHARED_CONST kPatchStride = 32u; // elements a patch of any class in the patch-coefficient buffer
 // Wide mapping: what the workgroup memory of the evaluation passes holds, patches of any class, and of bicubic ones at a
@@ -191,6 +195,7 @@ struct SurfacePush {
     uint attributes;      // first element of the corner attributes,
     uint attributeHalves; // and 1 where a word holds the numbers of two
     uint inner;           // p-rep: first coefficient of the edges in the pool
+    uint smoothUvs;       // attributes: first element of the range's smooth texture coordinates
 };
 
 SUPPLE_SHARED_END

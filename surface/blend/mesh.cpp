@@ -209,6 +209,15 @@ bool flatAcross(const Mesh& mesh, uint32_t corner) {
     return flat(begin, begin.sector) && flat(end, end.sector + 1);
 }
 
+Result<RefinedMesh> beginCharts(const Cage& cage, const Options& options) {
+    std::vector<std::string> notes; // buildMesh() has them too
+    Result<RefinedMesh> mesh = beginRefinement(cage, nullptr, notes);
+    if (mesh) {
+        makeSharp(*mesh, marksOf(cage, mesh->topology, options.sharpThreshold));
+    }
+    return mesh;
+}
+
 Result<Mesh> buildMesh(const Cage& cage, const Options& options) {
     return withinMemory("the charts of the blending surface", [&] { return build(cage, options); });
 }

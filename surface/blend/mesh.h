@@ -99,6 +99,9 @@ struct Mesh {
 /// points or curves. Such an edge is sharp even if the host did not make it so.
 [[nodiscard]] bool flatAcross(const Mesh& mesh, uint32_t corner);
 
+/// The cage before a step, with its sharpness as the surface has it: all or nothing.
+[[nodiscard]] Result<RefinedMesh> beginCharts(const cage::Cage& cage, const Options& options);
+
 /// Refuses what cage::buildTopology refuses, with the same message. O(corners).
 [[nodiscard]] Result<Mesh> buildMesh(const cage::Cage& cage, const Options& options = {});
 

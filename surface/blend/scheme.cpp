@@ -1,7 +1,9 @@
 // The blending surface as a scheme: the tables of shaders/shared/{surface,blend}.h.
 #include "shaders/shared/blend.h"
+#include "surface/blend/smooth_uvs.h"
 #include "surface/blend/weights.h"
 #include "surface/build.h"
+#include "surface/smooth_uvs.h"
 #include "surface/stencil_table.h"
 
 #include <algorithm>
@@ -23,9 +25,10 @@ struct TurnTables {
 class Builder {
 public:
     /// `rate`: segments along a patch edge; 0: tables for samples at any parameters.
-    Builder(const Mesh& mesh, uint32_t rate) : mesh_(mesh), rate_(rate), writer_(tables_.words) {}
+    Builder(const Mesh& mesh, const cage::Cage& cage, const Recipe& recipe, uint32_t rate)
+        : mesh_(mesh), host_(cage), recipe_(recipe), rate_(rate), writer_(tables_.words) {}
 
-    Tables build() {
+    Result<Tables> build() {
         tables_.rate = rate_;
         tables_.isolationSteps = mesh_.refined ? 1 : 0;
         tables_.notes = mesh_.notes;
@@ -45,6 +48,10 @@ public:
         }
         writePatches();
         finishTables(mesh_.cage, patches_, writer_, tables_);
+        const Status smooth = writeUvs();
+        if (!smooth) {
+            return smooth.error();
+        }
         return std::move(tables_);
     }
 
@@ -143,24 +150,82 @@ private:
         }
     }
 
+    /// Charts of texture coordinates, and for every patch and UV set what its record has.
+    Status writeUvs() {
+        if (recipe_.uvMode == cage::UvMode::all || !recipe_.attributes || host_.cornerUvs.empty()) {
+            return success();
+        }
+        const Result<RefinedMesh> begin = beginCharts(host_, recipe_.blend);
+        if (!begin) {
+            return begin.error();
+        }
+        std::vector<UvCharts> sets;
+        std::vector<uint32_t> firstCharts; // elements
+        for (const std::vector<glm::vec2>* uvs : uvSetsOf(begin->cage)) {
+            Result<UvCharts> set = makeUvCharts(mesh_, *begin, *uvs, recipe_.uvMode);
+            if (!set) {
+                return set.error();
+            }
+            for (const ChartClass& chartClass : set->classes) {
+                writeTurns(chartClass);
+            }
+            firstCharts.push_back(writer_.element());
+            for (const auto& coefficients : set->coefficients) {
+                for (const glm::dvec2& c : coefficients) {
+                    writer_.putFloats({c.x + 0.0, c.y + 0.0});
+                }
+                (void)writer_.element();
+            }
+            sets.push_back(std::move(*set));
+        }
+        tables_.uvMode = recipe_.uvMode;
+        for (PatchRange& range : tables_.ranges) {
+            range.smoothUvs = writer_.element();
+            for (uint32_t p = range.firstPatch; p < range.firstPatch + range.section.count; ++p) {
+                for (size_t set = 0; set < sets.size(); ++set) {
+                    writeUvCorners(patches_[p], sets[set], firstCharts[set]);
+                }
+            }
+        }
+        return success();
+    }
+
+    void writeUvCorners(const DraftPatch& patch, const UvCharts& charts, uint32_t firstChart) {
+        constexpr uint32_t kChartElements = (kCoefficients + 1) / 2;
+        for (uint32_t i = 0; i < 4; ++i) {
+            const uint32_t c = patch.cageCorners[i];
+            const auto [chart, sector] = charts.corners[c];
+            const bool chords = mesh_.classOf(mesh_.corners[c].chart).creased();
+            writer_.put(recordWords(firstChart + kChartElements * chart, charts.classes[chart], sector, c,
+                                    chords ? shared::kChordCorner : 0u));
+        }
+    }
+
+    /// A corner of a record. `coefficients`: where its chart's stand.
+    [[nodiscard]] std::array<uint32_t, 4> recordWords(uint32_t coefficients, const ChartClass& chartClass,
+                                                      uint32_t sector, uint32_t corner, uint32_t flags) const {
+        const TurnTables& tables = turns_.at(chartClass.turns());
+        flags |= (chartClass.creased() ? shared::kCreasedChart : 0u) |
+                 (stillCorner(corner) ? shared::kStillCorner : 0u) |
+                 (flatAcross(mesh_, corner) ? shared::kStillEdge : 0u);
+        return {coefficients | flags, tables.directions + sector,
+                rate_ > 0 ? tables.samples : floatBits(4.0 / chartClass.turns()), tables.creaseSamples};
+    }
+
     void writePatches() {
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             countPatch(patches_[p].info.patchClass, p, writer_, tables_);
             for (uint32_t i = 0; i < 4; ++i) {
                 const uint32_t c = patches_[p].cageCorners[i];
                 const Corner& corner = mesh_.corners[c];
-                const ChartClass& chartClass = mesh_.classOf(corner.chart);
-                const TurnTables& tables = turns_.at(chartClass.turns());
-                writer_.put({poolIndex(corner.chart) | (chartClass.creased() ? shared::kCreasedChart : 0u) |
-                                 (stillCorner(c) ? shared::kStillCorner : 0u) |
-                                 (flatAcross(mesh_, c) ? shared::kStillEdge : 0u),
-                             tables.directions + corner.sector,
-                             rate_ > 0 ? tables.samples : floatBits(4.0 / chartClass.turns()), tables.creaseSamples});
+                writer_.put(recordWords(poolIndex(corner.chart), mesh_.classOf(corner.chart), corner.sector, c, 0u));
             }
         }
     }
 
     const Mesh& mesh_;
+    const cage::Cage& host_;
+    const Recipe& recipe_;
     uint32_t rate_;
     Tables tables_;
     TableWriter writer_;
@@ -177,7 +242,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
         return mesh.error();
     }
     const uint32_t rate = std::max(recipe.rate, 1u);
-    return Builder(*mesh, recipe.lod ? 0 : mesh->refined ? (rate + 1) / 2 : rate).build();
+    return Builder(*mesh, cage, recipe, recipe.lod ? 0 : mesh->refined ? (rate + 1) / 2 : rate).build();
 }
 
 float boundsMargin(const cage::Cage& cage) {

@@ -2,6 +2,7 @@
 #include "shaders/shared/pm.h"
 #include "surface/borders.h"
 #include "surface/build.h"
+#include "surface/pm/smooth_uvs.h"
 #include "surface/pm/weights.h"
 #include "surface/valence.h"
 
@@ -52,7 +53,8 @@ uint32_t innerCount(PatchClass patchClass) {
 
 class Builder {
 public:
-    explicit Builder(const Mesh& mesh) : mesh_(mesh), cage_(mesh.cage), writer_(tables_.words) {}
+    Builder(const Mesh& mesh, const Recipe& recipe)
+        : mesh_(mesh), cage_(mesh.cage), recipe_(recipe), writer_(tables_.words) {}
 
     Result<Tables> build() {
         tables_.notes = mesh_.notes;
@@ -69,6 +71,10 @@ public:
         addFacets();
         writeRing();
         finishTables(cage_, patches_, writer_, tables_);
+        const Status smooth = writeUvs();
+        if (!smooth) {
+            return smooth.error();
+        }
         return std::move(tables_);
     }
 
@@ -111,6 +117,20 @@ private:
             next += innerCount(patch.info.patchClass);
         }
         tables_.poolStride = poolStrideFor(next);
+    }
+
+    Status writeUvs() {
+        const auto makeSet = [&](const std::vector<glm::vec2>& uvs) -> Result<UvPatches> {
+            const cage::UvSharpness sharpness{mesh_.features.edgeSharpness, mesh_.features.vertexSharpness};
+            const Result<cage::UvChannel> channel =
+                cage::buildUvChannel(cage_, mesh_.topology, sharpness, uvs, recipe_.uvMode);
+            if (!channel) {
+                return channel.error();
+            }
+            return UvPatches(
+                [made = UvConstruction(mesh_, *channel)](const DraftPatch& patch) { return made.patch(patch.facet); });
+        };
+        return writeSmoothUvs(recipe_, cage_, patches_, makeSet, writer_, tables_);
     }
 
     void writeRing() {
@@ -292,6 +312,7 @@ private:
 
     const Mesh& mesh_;
     const cage::Cage& cage_;
+    const Recipe& recipe_;
     Tables tables_;
     TableWriter writer_;
     std::vector<DraftPatch> patches_;
@@ -305,7 +326,7 @@ private:
 
 } // namespace
 
-Result<Tables> build(const Recipe&, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Result<Mesh> mesh = buildMesh(cage);
     if (!mesh) {
         return mesh.error();
@@ -318,7 +339,7 @@ Result<Tables> build(const Recipe&, const cage::Cage& cage) {
     if (!fits) {
         return fits.error();
     }
-    return Builder(*mesh).build();
+    return Builder(*mesh, recipe).build();
 }
 
 float boundsMargin(const cage::Cage& cage) {

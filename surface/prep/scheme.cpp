@@ -4,6 +4,7 @@
 #include "surface/borders.h"
 #include "surface/build.h"
 #include "surface/fans.h"
+#include "surface/prep/smooth_uvs.h"
 #include "surface/prep/weights.h"
 
 #include <algorithm>
@@ -28,10 +29,10 @@ constexpr KindOfKernel kEdgeKernel = {Kernel::prepEdge, 0, "supple p-rep edge"};
 
 class Builder {
 public:
-    Builder(const cage::Cage& cage, const cage::Topology& topology, const Options& options)
-        : cage_(cage), topology_(topology), options_(options), writer_(tables_.words) {}
+    Builder(const cage::Cage& cage, const cage::Topology& topology, const Recipe& recipe)
+        : cage_(cage), topology_(topology), recipe_(recipe), options_(recipe.prep), writer_(tables_.words) {}
 
-    Tables build() {
+    Result<Tables> build() {
         sortVertices();
         layOutPool();
         writeClasses();
@@ -47,6 +48,10 @@ public:
         }
         tables_.ring = ring.write();
         finishTables(cage_, patches_, writer_, tables_);
+        const Status smooth = writeUvs();
+        if (!smooth) {
+            return smooth.error();
+        }
         return std::move(tables_);
     }
 
@@ -205,6 +210,20 @@ private:
         }
     }
 
+    Status writeUvs() {
+        const auto makeSet = [&](const std::vector<glm::vec2>& uvs) -> Result<UvPatches> {
+            const Result<cage::UvChannel> channel =
+                prep::buildUvChannel(cage_, topology_, options_, uvs, recipe_.uvMode);
+            if (!channel) {
+                return channel.error();
+            }
+            return UvPatches([made = UvConstruction(cage_, topology_, options_, *channel)](const DraftPatch& patch) {
+                return made.patch(patch.facet);
+            });
+        };
+        return writeSmoothUvs(recipe_, cage_, patches_, makeSet, writer_, tables_);
+    }
+
     struct ClassEntry {
         uint32_t element = 0;
         double c = 0.0; ///< ValenceClass::c
@@ -212,7 +231,8 @@ private:
 
     const cage::Cage& cage_;
     const cage::Topology& topology_;
-    Options options_;
+    const Recipe& recipe_;
+    const Options& options_;
     Tables tables_;
     TableWriter writer_;
     std::map<std::pair<uint32_t, bool>, ClassEntry> classes_;
@@ -252,7 +272,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!fits) {
         return fits.error();
     }
-    return Builder(cage, *topology, recipe.prep).build();
+    return Builder(cage, *topology, recipe).build();
 }
 
 } // namespace supple::surface::prep

@@ -153,7 +153,7 @@ Result<Mesh> build(const Cage& cage, Subdivision subdivision) {
     const bool loop = subdivision == Subdivision::loop;
     Mesh mesh;
     mesh.subdivision = subdivision;
-    Result<RefinedMesh> parent = beginRefinement(cage, loop ? &kTriangles : nullptr, mesh.notes);
+    Result<RefinedMesh> parent = beginSteps(cage, subdivision, mesh.notes);
     if (!parent) {
         return parent.error();
     }
@@ -176,6 +176,10 @@ Result<Mesh> build(const Cage& cage, Subdivision subdivision) {
 }
 
 } // namespace
+
+Result<RefinedMesh> beginSteps(const Cage& cage, Subdivision subdivision, std::vector<std::string>& notes) {
+    return beginRefinement(cage, subdivision == Subdivision::loop ? &kTriangles : nullptr, notes);
+}
 
 Result<Mesh> buildMesh(const Cage& cage, Subdivision subdivision) {
     return withinMemory("the isolated level of subdivision", [&] { return build(cage, subdivision); });

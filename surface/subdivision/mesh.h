@@ -56,6 +56,10 @@ struct Mesh {
     std::vector<std::string> notes;    ///< what was changed, one line each
 };
 
+/// The cage as the first step takes it: Loop's with triangles alone. Refuses what buildMesh() refuses.
+[[nodiscard]] Result<RefinedMesh> beginSteps(const cage::Cage& cage, Subdivision subdivision,
+                                             std::vector<std::string>& notes);
+
 /// Refuses what cage::buildTopology refuses, with the same message. Loop splits faces of four and more sides into fans
 /// of triangles, with a note. The fan begins at the first corner none of whose diagonals is an edge already; a face
 /// without such a corner is refused. O(corners).

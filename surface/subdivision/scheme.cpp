@@ -1,9 +1,11 @@
 // The subdivision as a scheme: the tables of shaders/shared/{surface,subdivision}.h.
 #include "shaders/shared/subdivision.h"
 #include "surface/build.h"
+#include "surface/smooth_uvs.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/masks.h"
 #include "surface/subdivision/pattern.h"
+#include "surface/subdivision/smooth_uvs.h"
 
 #include <algorithm>
 #include <map>
@@ -66,8 +68,8 @@ struct ClassTables {
 class Builder {
 public:
     /// `depth`: steps from the cage, at least the isolation steps.
-    Builder(const Mesh& mesh, uint32_t depth)
-        : mesh_(mesh), loop_(mesh.subdivision == Subdivision::loop),
+    Builder(const Mesh& mesh, const cage::Cage& cage, const Recipe& recipe, uint32_t depth)
+        : mesh_(mesh), host_(cage), recipe_(recipe), loop_(mesh.subdivision == Subdivision::loop),
           steps_(depth > mesh.isolationSteps ? depth - mesh.isolationSteps : 0), writer_(tables_.words) {}
 
     Result<Tables> build() {
@@ -100,6 +102,10 @@ public:
                                       0});
         }
         finishTables(mesh_.cage, patches_, writer_, tables_);
+        const Status smooth = writeUvs();
+        if (!smooth) {
+            return smooth.error();
+        }
         return std::move(tables_);
     }
 
@@ -469,6 +475,40 @@ private:
         }
     }
 
+    /// The limits themselves: of every patch and UV set its samples, each with what a direction asks of its slopes.
+    Status writeUvs() {
+        if (recipe_.uvMode == cage::UvMode::all || !recipe_.attributes || host_.cornerUvs.empty() || patches_.empty()) {
+            return success();
+        }
+        std::vector<std::string> notes; // known
+        const Result<RefinedMesh> begin = beginSteps(host_, mesh_.subdivision, notes);
+        if (!begin) {
+            return begin.error();
+        }
+        std::vector<std::vector<UvSample>> sets;
+        for (const std::vector<glm::vec2>* uvs : uvSetsOf(begin->cage)) {
+            Result<std::vector<UvSample>> set =
+                limitUvs(*begin, *uvs, {mesh_.subdivision, mesh_.isolationSteps, steps_, recipe_.uvMode, true});
+            if (!set) {
+                return set.error();
+            }
+            sets.push_back(std::move(*set));
+        }
+        tables_.uvMode = recipe_.uvMode;
+        tables_.ranges.front().smoothUvs = writer_.element();
+        const size_t samples = sets.front().size() / mesh_.cage.faceCount();
+        writer_.reserve(4 * samples * sets.size() * patches_.size());
+        for (const DraftPatch& patch : patches_) {
+            for (const std::vector<UvSample>& set : sets) {
+                for (size_t i = samples * patch.facet; i < samples * (patch.facet + 1); ++i) {
+                    const UvSample& s = set[i];
+                    writer_.putFloats({s.value.x + 0.0, s.value.y + 0.0, s.u.y, s.v.y});
+                }
+            }
+        }
+        return success();
+    }
+
     /// Kind 0: cells, or strips in the limit, which is the last step; kind 1: rows one by one.
     void writeBlocks(size_t classIndex, uint32_t step, uint32_t kind) {
         const ClassTables& c = classes_[classIndex];
@@ -491,6 +531,8 @@ private:
     }
 
     const Mesh& mesh_;
+    const cage::Cage& host_;
+    const Recipe& recipe_;
     bool loop_;
     uint32_t steps_;
     Tables tables_;
@@ -512,7 +554,8 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!mesh) {
         return mesh.error();
     }
-    return Builder(*mesh, recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0).build();
+    return Builder(*mesh, cage, recipe, recipe.rate > 1 ? static_cast<uint32_t>(std::bit_width(recipe.rate - 1)) : 0)
+        .build();
 }
 
 } // namespace supple::surface::subdivision

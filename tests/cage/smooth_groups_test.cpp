@@ -4,6 +4,7 @@
 #include "cage/corner_normals.h"
 #include "tests/support/meshes.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -56,6 +57,26 @@ TEST(SmoothGroups, NormalsThatDisagreeCut) {
     const std::vector<glm::vec3> flat = cornerNormals(cage);
     for (uint32_t c = 0; c < cage.cornerCount(); ++c) {
         EXPECT_FLOAT_EQ(std::abs(flat[c].x) + std::abs(flat[c].y) + std::abs(flat[c].z), 1.0f);
+    }
+}
+
+/// A cube with its own normals, flat on some faces, turned by a quarter: the normals turn with it.
+TEST(SmoothGroups, NormalsOfADeformedCageKeepItsGroups) {
+    Cage cage = test::cube();
+    cage.cornerNormals = cornerNormals(cage);
+    std::fill(cage.cornerNormals.begin(), cage.cornerNormals.begin() + 8, glm::vec3(0.0f));
+    const auto turned = [](const glm::vec3& v) { return glm::vec3(-v.y, v.x, v.z); };
+    std::vector<glm::vec3> positions;
+    for (const glm::vec3& position : cage.positions) {
+        positions.push_back(turned(position));
+    }
+    const std::vector<glm::vec3> still = deformedCornerNormals(cage, cage.positions);
+    const std::vector<glm::vec3> moved = deformedCornerNormals(cage, positions);
+    ASSERT_EQ(moved.size(), cage.cornerCount());
+    for (uint32_t corner = 0; corner < cage.cornerCount(); ++corner) {
+        EXPECT_LT(glm::distance(moved[corner], turned(still[corner])), 1e-6f);
+        const bool flat = std::abs(std::abs(moved[corner].x + moved[corner].y + moved[corner].z) - 1.0f) < 1e-6f;
+        EXPECT_EQ(flat, corner < 8) << "corner " << corner;
     }
 }
 

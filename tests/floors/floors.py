@@ -61,7 +61,11 @@ FOREIGN = {
 EXCEPTIONS = {
     ("shaders/lod/edge.comp", "shaders/blend/blend.glsl"): "levels of charts are measured on their own polynomials",
     ("shaders/lod/patch.comp", "shaders/blend/blend.glsl"): "levels of charts are measured on their own polynomials",
-    ("shaders/lod/patch.comp", "shaders/pm/sector.glsl"): "levels of sectors are measured on their own polynomials",
+    ("shaders/lod/patch.comp", "shaders/pm/load.glsl"): "levels of sectors are measured on their own polynomials",
+    ("shaders/evaluate/smooth_uvs.glsl", "shaders/pm/pm.glsl"): "smooth UVs are patches of the surface's own classes",
+    ("shaders/evaluate/smooth_uvs.glsl", "shaders/pm/sector.glsl"): "smooth UVs are patches of the surface's own classes",
+    ("shaders/evaluate/smooth_uvs.glsl", "shaders/pm/point.glsl"): "smooth UVs are patches of the surface's own classes",
+    ("shaders/evaluate/smooth_uvs.glsl", "shaders/blend/sample.glsl"): "smooth UVs are charts of the surface's own kind",
     ("shaders/evaluate/edge.comp", "shaders/pm/border.glsl"): "an edge of shared samples may border a sector",
 }
 

@@ -1040,6 +1040,10 @@ void groups(Rows& r) {
         blend("creaseMode" + n, SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE,
               {kBlendSize, static_cast<SuppleCreaseMode>(value), 0.0f});
     }
+    for (const int value : {7, -1}) {
+        range("uvInterpolation " + std::to_string(value),
+              [=](Desc& d) { d.uvInterpolation = static_cast<SuppleUvInterpolation>(value); });
+    }
     for (const int value : {4, -1}) {
         range("poseSource " + std::to_string(value),
               [=](Desc& d) { d.poseSource = static_cast<SupplePoseSource>(value); });

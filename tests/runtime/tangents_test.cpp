@@ -248,6 +248,7 @@ TEST_P(TangentsOf, CostNothingElse) {
         for (const SuppleVertexFormat format : {SUPPLE_VERTEX_16, SUPPLE_VERTEX_24}) {
             SuppleGroupDesc desc = tangentDesc(asset, c.scheme, 5);
             desc.vertexFormat = format;
+            desc.uvInterpolation = SUPPLE_UV_LINEAR_CORNERS_PLUS1; // which tangents would choose
             desc.flags |= SUPPLE_GROUP_MOTION;
             Crowd with(own, desc);
             desc.flags &= ~uint32_t{SUPPLE_GROUP_TANGENTS};

@@ -1,5 +1,6 @@
 // Runs the built supple command as a user would: exit codes, the one line on stderr, and what it writes.
 #include "tests/tools/command_runner.h"
+#include "tests/tools/obj_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,9 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
+using supple::test::Obj;
 using supple::test::Outcome;
+using supple::test::readObj;
 using supple::test::readText;
 using supple::test::writeText;
 
@@ -75,51 +78,6 @@ std::string cubeBinary() {
     append<float>(bytes, {0, 0, 0, 0, 3, 0});
     append(bytes, kCubeUvs);
     return bytes;
-}
-
-struct Obj {
-    std::vector<glm::vec3> v, vn;
-    std::vector<glm::vec2> vt;
-    std::vector<std::vector<uint32_t>> faces; ///< vertices, from 0
-    std::vector<std::string> groups;
-    std::vector<size_t> groupVertices, groupFaces; ///< how many came before each group
-    std::vector<std::string> vLines;
-};
-
-Obj readObj(const fs::path& path) {
-    Obj obj;
-    std::ifstream stream(path);
-    for (std::string line; std::getline(stream, line);) {
-        std::istringstream words(line);
-        std::string keyword;
-        words >> keyword;
-        glm::vec3 value{};
-        if (keyword == "v") {
-            words >> value.x >> value.y >> value.z;
-            obj.v.push_back(value);
-            obj.vLines.push_back(line);
-        } else if (keyword == "vn") {
-            words >> value.x >> value.y >> value.z;
-            obj.vn.push_back(value);
-        } else if (keyword == "vt") {
-            words >> value.x >> value.y;
-            obj.vt.emplace_back(value.x, value.y);
-        } else if (keyword == "g") {
-            obj.groups.emplace_back();
-            words >> obj.groups.back();
-            obj.groupVertices.push_back(obj.v.size());
-            obj.groupFaces.push_back(obj.faces.size());
-        } else if (keyword == "f") {
-            obj.faces.emplace_back();
-            for (std::string corner; words >> corner;) {
-                obj.faces.back().push_back(static_cast<uint32_t>(std::stoul(corner)) - 1);
-            }
-        } else {
-            EXPECT_EQ(keyword, "#") << line;
-        }
-        EXPECT_FALSE(words.bad()) << line;
-    }
-    return obj;
 }
 
 class Cli : public supple::test::CommandTest {

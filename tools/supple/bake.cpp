@@ -1,18 +1,24 @@
-// supple bake: the evaluated surface exactly as the device wrote it, as an OBJ; the patches behind it as JSON.
+// supple bake: the evaluated surface for other programs, as OBJ, PLY or GLB; the patches behind it as JSON.
+#include "cage/gltf/writer.h"
 #include "surface/choice.h"
 #include "surface/scheme.h"
 #include "tools/common/character_file.h"
+#include "tools/supple/baked_mesh.h"
+#include "tools/supple/baked_obj.h"
+#include "tools/supple/baked_ply.h"
 #include "tools/supple/command.h"
 #include "tools/supple/evaluation.h"
 #include "tools/supple/text_file.h"
+#include "tools/supple/whole_file.h"
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <cstring>
+#include <cctype>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
-#include <span>
+#include <system_error>
 
 namespace supple::tools {
 namespace {
@@ -23,6 +29,7 @@ struct BakeOptions {
     std::string file;
     std::string output;
     std::string patches;
+    bool noTangentFrames = false;
     SurfaceFlags surface;
     std::string clip; ///< name or index; empty: the bind pose
     double time = 0.0;
@@ -30,192 +37,22 @@ struct BakeOptions {
     DeviceFlags device;
 };
 
-template <class Vec>
-void writeVector(TextFile& file, std::string_view keyword, const Vec& value) {
-    file.text(keyword);
-    for (int i = 0; i < Vec::length(); ++i) {
-        file.text(" ").number(value[i]);
+enum class BakeFormat { obj, ply, glb };
+
+/// By the ending of the file's name, whatever its case.
+std::optional<BakeFormat> bakeFormatOf(const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    for (char& letter : ending) {
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
     }
-    file.text("\n");
+    return ending == ".obj"   ? std::optional(BakeFormat::obj)
+           : ending == ".ply" ? std::optional(BakeFormat::ply)
+           : ending == ".glb" ? std::optional(BakeFormat::glb)
+                              : std::nullopt;
 }
 
-/// The faces of a patch's grid as samples: quads on quads, triangles elsewhere.
-std::vector<std::vector<uint32_t>> gridFaces(const SuppleDrawRange& range, uint32_t rate,
-                                             const std::vector<std::byte>& indices) {
-    std::vector<std::vector<uint32_t>> faces;
-    if (range.domain == SUPPLE_DOMAIN_QUAD) {
-        const uint32_t row = rate + 1;
-        for (uint32_t v = 0; v < rate; ++v) {
-            for (uint32_t u = 0; u < rate; ++u) {
-                const uint32_t first = v * row + u;
-                faces.push_back({first, first + 1, first + row + 1, first + row});
-            }
-        }
-        return faces;
-    }
-    for (uint32_t i = 0; i < range.indexCount; i += 3) {
-        uint16_t corners[3];
-        std::memcpy(corners, indices.data() + (size_t{range.firstIndex} + i) * sizeof(uint16_t), sizeof corners);
-        faces.push_back({corners[0], corners[1], corners[2]});
-    }
-    return faces;
-}
-
-/// Writes surfaces part by part into one file, which counts vertices through.
-class SurfaceWriter {
-public:
-    SurfaceWriter(TextFile& file, const EvaluatedSurface& surface, uint64_t firstPatch)
-        : file_(file), surface_(surface), firstPatch_(firstPatch) {}
-
-    /// What the surface has of a part: a group per patch, of a mesh one per material. `written`: vertices in the file.
-    void write(uint32_t part, uint64_t& written);
-
-private:
-    [[nodiscard]] bool isMesh() const {
-        return surface_.output.surface.tessellation == SUPPLE_TESSELLATION_INDEXED_MESH;
-    }
-    void writeVertices(uint64_t first, uint64_t count, uint64_t& written);
-    void writeFace(std::span<const uint64_t> vertices);
-    void writeTriangles(const SuppleDrawRange& range);
-    void writePatches(const SuppleDrawRange& range, uint64_t& written);
-
-    TextFile& file_;
-    const EvaluatedSurface& surface_;
-    uint64_t firstPatch_;                ///< number of its first patch in the file
-    std::optional<uint64_t> meshVertex_; ///< of a mesh whose vertices are written: the first
-};
-
-void SurfaceWriter::write(uint32_t part, uint64_t& written) {
-    const SuppleGridOutput& grid = surface_.output.grid;
-    for (const SuppleDrawRange& range : std::span(grid.drawRanges, grid.drawRangeCount)) {
-        if (range.part != part) {
-            continue;
-        }
-        if (!isMesh()) {
-            writePatches(range, written);
-            continue;
-        }
-        if (!meshVertex_) {
-            meshVertex_ = written;
-            writeVertices(0, grid.vertexCount, written);
-        }
-        writeTriangles(range);
-    }
-}
-
-/// The elements first .. first + count - 1 of the surface's streams.
-void SurfaceWriter::writeVertices(uint64_t first, uint64_t count, uint64_t& written) {
-    const SuppleVertexStreams& streams = surface_.output.streams;
-    for (uint64_t i = first; i < first + count; ++i) {
-        writeVector(file_, "v", element<glm::vec3>(surface_.vertices, streams.vertices, i));
-    }
-    for (uint64_t i = first; i < first + count; ++i) {
-        writeVector(file_, "vn", element<glm::vec3>(surface_.vertices, streams.vertices, i, sizeof(glm::vec3)));
-    }
-    for (uint64_t i = first; !surface_.attributes.empty() && i < first + count; ++i) {
-        writeVector(file_, "vt", element<glm::vec2>(surface_.attributes, streams.attributes, i));
-    }
-    written += count;
-}
-
-/// `vertices`, counted from 0 through the whole file.
-void SurfaceWriter::writeFace(std::span<const uint64_t> vertices) {
-    file_.text("f");
-    for (const uint64_t vertex : vertices) {
-        file_.text(" ").number(vertex + 1).text("/"); // OBJ counts from 1
-        if (!surface_.attributes.empty()) {
-            file_.number(vertex + 1);
-        }
-        file_.text("/").number(vertex + 1);
-    }
-    file_.text("\n");
-}
-
-void SurfaceWriter::writeTriangles(const SuppleDrawRange& range) {
-    file_.text("g material_");
-    if (range.material == SUPPLE_NO_MATERIAL) {
-        file_.text("none\n");
-    } else {
-        file_.number(uint64_t{range.material}).text("\n");
-    }
-    for (size_t i = range.firstIndex; i < size_t{range.firstIndex} + range.indexCount; i += 3) {
-        uint32_t corners[3];
-        std::memcpy(corners, surface_.gridIndices.data() + i * sizeof(uint32_t), sizeof corners);
-        writeFace(
-            std::array<uint64_t, 3>{*meshVertex_ + corners[0], *meshVertex_ + corners[1], *meshVertex_ + corners[2]});
-    }
-}
-
-/// Each with its vertices.
-void SurfaceWriter::writePatches(const SuppleDrawRange& range, uint64_t& written) {
-    const std::vector<std::vector<uint32_t>> faces = gridFaces(range, surface_.output.grid.rate, surface_.gridIndices);
-    for (uint64_t patch = range.firstPatch; patch < range.firstPatch + range.patchCount; ++patch) {
-        const uint64_t samples = range.samplesPerPatch, first = written;
-        file_.text("g patch_").number(firstPatch_ + patch).text("\n");
-        writeVertices(range.firstVertex + (patch - range.firstPatch) * samples, samples, written);
-        for (const std::vector<uint32_t>& face : faces) {
-            std::vector<uint64_t> vertices;
-            for (const uint32_t sample : face) {
-                vertices.push_back(first + sample);
-            }
-            writeFace(vertices);
-        }
-    }
-}
-
-/// "scheme pm, rate 4, 8 patches"
-void writeSummary(TextFile& file, const host::GroupOutput& output, uint32_t askedRate) {
-    file.text("# supple bake: scheme ").text(schemeName(output.surface.scheme));
-    if (output.surface.tessellation == SUPPLE_TESSELLATION_INDEXED_MESH) {
-        file.text(", ").number(uint64_t{output.surface.patchCount}).text(" triangles\n");
-        return;
-    }
-    file.text(", rate ").number(uint64_t{output.grid.rate});
-    if (output.grid.rate != askedRate) {
-        file.text(" (").number(uint64_t{askedRate}).text(" asked for along an edge of the cage)");
-    }
-    file.text(", ").number(uint64_t{output.surface.patchCount}).text(" patches\n");
-}
-
-/// Parts follow each other as the character has them. Patches are numbered surface by surface.
-Status writeSurfaces(const std::string& path, const Evaluation& baked, size_t partCount, uint32_t askedRate) {
-    TextFile file(path);
-    std::vector<SurfaceWriter> writers;
-    uint64_t patches = 0, written = 0;
-    for (const EvaluatedSurface& surface : baked.surfaces) {
-        writeSummary(file, surface.output, askedRate);
-        writers.emplace_back(file, surface, patches);
-        patches += surface.output.surface.patchCount;
-    }
-    for (uint32_t part = 0; part < partCount; ++part) {
-        for (SurfaceWriter& writer : writers) {
-            writer.write(part, written);
-        }
-    }
-    return file.close();
-}
-
-Status writeCage(const std::string& path, const Evaluation& baked, const cage::Cage& cage) {
-    TextFile file(path);
-    file.text("# supple bake: deformed cage\n");
-    const SuppleBufferRange& view = baked.surfaces.front().output.info.deformedCage;
-    for (uint32_t vertex = 0; vertex < cage.vertexCount(); ++vertex) {
-        writeVector(file, "v", element<glm::vec3>(baked.deformedCage, view, vertex));
-    }
-    for (const glm::vec2& uv : cage.cornerUvs) {
-        writeVector(file, "vt", uv);
-    }
-    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
-        file.text("f");
-        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
-            file.text(" ").number(uint64_t{cage.faceVertices[corner]} + 1);
-            if (!cage.cornerUvs.empty()) {
-                file.text("/").number(uint64_t{corner} + 1);
-            }
-        }
-        file.text("\n");
-    }
-    return file.close();
+std::string bakeName(const std::string& text) {
+    return bakeFormatOf(text) ? "" : text + " does not end in .obj, .ply or .glb";
 }
 
 void writePatch(TextFile& file, const EvaluatedSurface& surface, uint64_t patch) {
@@ -280,6 +117,75 @@ std::string whyNoPatches(const cage::Character& character, const SurfaceFlags& f
     return {};
 }
 
+/// With all that the file has a place for. Only the library knows which schemes have tangents: where it refuses them,
+/// the file goes without.
+Result<Evaluation> evaluateForBake(Session& session, SuppleAsset asset, const cage::Character& character,
+                                   const BakeOptions& options, const Pose& pose) {
+    const BakeFormat format = *bakeFormatOf(options.output);
+    const bool surface = options.surface.scheme != kCageScheme;
+    const bool uvs = !character.cage.cornerUvs.empty();
+    const bool colors = format != BakeFormat::obj && !character.cage.cornerColors.empty();
+    uint32_t flags = 0;
+    if (surface && (uvs || colors)) {
+        flags |= SUPPLE_GROUP_ATTRIBUTES;
+    }
+    if (!options.patches.empty()) {
+        flags |= SUPPLE_GROUP_PATCHES;
+    }
+    if (surface && uvs && format == BakeFormat::glb && !options.noTangentFrames) {
+        Result<Evaluation> baked =
+            evaluate(session, asset, character, options.surface, pose, flags | SUPPLE_GROUP_TANGENTS);
+        if (baked) {
+            for (const EvaluatedSurface& part : baked->surfaces) {
+                if (part.tangents.empty()) {
+                    warn(character.name + ": " + schemeName(part.output.surface.scheme) +
+                         " has no tangents; its parts go without");
+                }
+            }
+            return baked;
+        }
+        Result<Evaluation> without = evaluate(session, asset, character, options.surface, pose, flags);
+        if (without) {
+            warn(baked.error().message + "; all parts go without");
+        }
+        return without;
+    }
+    return evaluate(session, asset, character, options.surface, pose, flags);
+}
+
+/// PLY and GLB.
+Status writeBakedMeshes(const BakeOptions& options, const Evaluation& baked, const cage::Character& character) {
+    const bool glb = *bakeFormatOf(options.output) == BakeFormat::glb;
+    const BakedContent content{.polygons = !glb, .uvs1 = glb};
+    Result<std::vector<BakedMesh>> meshes = options.surface.scheme == kCageScheme
+                                                ? bakedCage(baked, character, content)
+                                                : bakedSurfaces(baked, character, content);
+    if (!meshes) {
+        return meshes.error();
+    }
+    if (!glb) {
+        const Result<std::vector<std::byte>> ply = plyOf(*meshes, character);
+        return ply ? writeWhole(options.output, *ply) : Status(ply.error());
+    }
+    const Result<cage::GlbFile> file = cage::writeGlb(character, stillMeshes(std::move(*meshes), character));
+    if (!file) {
+        return file.error();
+    }
+    for (const std::string& warning : file->warnings) {
+        warn(character.name + ": " + warning);
+    }
+    return writeWhole(options.output, file->bytes);
+}
+
+Status writeBaked(const BakeOptions& options, const Evaluation& baked, const cage::Character& character) {
+    if (*bakeFormatOf(options.output) != BakeFormat::obj) {
+        return writeBakedMeshes(options, baked, character);
+    }
+    return options.surface.scheme == kCageScheme
+               ? writeCageObj(options.output, baked, character.cage)
+               : writeObj(options.output, baked, character.parts.size(), options.surface.rate);
+}
+
 int runBake(const BakeOptions& options) {
     const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
     if (!file) {
@@ -304,30 +210,16 @@ int runBake(const BakeOptions& options) {
         return fail(kExitUsage, noPatches);
     }
     const Pose pose{*clip, options.time, std::move(*weights)};
-    const cage::Cage& cage = file->character.cage;
-    const bool cageOnly = options.surface.scheme == kCageScheme;
-    const bool uvs = !cageOnly && !cage.cornerUvs.empty();
-    uint32_t groupFlags = 0;
-    if (uvs) {
-        groupFlags |= SUPPLE_GROUP_ATTRIBUTES;
-    }
-    if (!options.patches.empty()) {
-        groupFlags |= SUPPLE_GROUP_PATCHES;
-    }
-
     return withSession(options.device, [&](Session& session) -> Status {
         const Result<SuppleAsset> asset = host::createAsset(*session.context, *file);
         if (!asset) {
             return asset.error();
         }
-        const Result<Evaluation> baked = evaluate(session, *asset, file->character, options.surface, pose, groupFlags);
+        const Result<Evaluation> baked = evaluateForBake(session, *asset, file->character, options, pose);
         if (!baked) {
             return baked.error();
         }
-        if (cageOnly) {
-            return writeCage(options.output, *baked, cage);
-        }
-        Status status = writeSurfaces(options.output, *baked, file->character.parts.size(), options.surface.rate);
+        Status status = writeBaked(options, *baked, file->character);
         if (status && !options.patches.empty()) {
             status = writePatches(options.patches, *baked);
         }
@@ -339,16 +231,31 @@ int runBake(const BakeOptions& options) {
 
 void bindBake(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<BakeOptions>();
-    CLI::App* command = app.add_subcommand("bake", "The evaluated surface exactly as the device wrote it, as an OBJ");
+    CLI::App* command = app.add_subcommand("bake", "The evaluated surface, for other programs: OBJ, PLY or GLB");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
-    command->add_option("-o,--output", options->output, "OBJ to write")->required()->type_name("OUT.obj");
+    command
+        ->add_option(
+            "-o,--output", options->output,
+            "File to write. GLB: with materials, for any viewer; PLY: vertices and faces; OBJ: patch by patch, "
+            "exactly as the device wrote it")
+        ->required()
+        ->check(CLI::Validator(bakeName, ""))
+        ->type_name("OUT.glb|OUT.ply|OUT.obj");
+    command->add_flag("--no-tangent-frames", options->noTangentFrames,
+                      "GLB: leave tangents out. Where these jump, neighbouring faces then have vertices in common");
     command->add_option("--patches", options->patches, "JSON of the patches and their coefficients")
         ->type_name("OUT.json");
     bindSurface(*command, options->surface, {kCageScheme});
     bindPose(*command, options->clip, options->time);
     bindMorphs(*command, options->morphs);
     bindDevice(*command, options->device);
-    command->callback([options, &exitCode] { exitCode = runBake(*options); });
+    command->callback([options, &exitCode] {
+        std::error_code ignored;
+        if (std::filesystem::equivalent(options->file, options->output, ignored)) {
+            throw CLI::ValidationError("--output", options->output + " is the input itself");
+        }
+        exitCode = runBake(*options);
+    });
 }
 
 } // namespace supple::tools

@@ -3,18 +3,17 @@
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/options.h"
+#include "tools/supple/whole_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <set>
 #include <system_error>
-#include <unistd.h>
 
 namespace supple::tools {
 namespace {
@@ -84,24 +83,6 @@ void report(const ConvertOptions& options, const cage::Character& character, con
             warn(options.file + ": " + warning);
         }
     }
-}
-
-/// All or nothing: a file beside the target takes its place when it is complete.
-Status writeWhole(const std::string& path, const std::vector<std::byte>& bytes) {
-    const std::string temporary = path + "." + std::to_string(getpid()) + ".tmp";
-    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-    stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    stream.close();
-    std::error_code error;
-    if (stream) {
-        fs::rename(temporary, path, error);
-        if (!error) {
-            return success();
-        }
-    }
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    return Error{ErrorCode::io, path + ": cannot be written" + (error ? ": " + error.message() : "")};
 }
 
 int runConvert(const ConvertOptions& options) {

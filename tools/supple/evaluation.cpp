@@ -32,6 +32,8 @@ Result<EvaluatedSurface> readSurface(Session& session, SuppleGroup group, uint32
     const std::pair<const SuppleBufferRange*, std::vector<std::byte>*> buffers[] = {
         {&surface.output.streams.vertices, &surface.vertices},
         {&surface.output.streams.attributes, &surface.attributes},
+        {&surface.output.streams.uvs1, &surface.uvs1},
+        {&surface.output.streams.tangents, &surface.tangents},
         {&surface.output.indices(), &surface.gridIndices},
         {&surface.output.surface.patchCoefficients, &surface.coefficients},
     };

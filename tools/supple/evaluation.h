@@ -16,7 +16,9 @@ struct EvaluatedSurface {
     host::GroupOutput output{};
     std::vector<SupplePatchInfo> patches;
     std::vector<std::byte> vertices;   ///< SUPPLE_VERTEX_24
-    std::vector<std::byte> attributes; ///< these three are empty where the group was made without
+    std::vector<std::byte> attributes; ///< these are empty where the group was made without
+    std::vector<std::byte> uvs1;
+    std::vector<std::byte> tangents;
     std::vector<std::byte> gridIndices;
     std::vector<std::byte> coefficients;
 };

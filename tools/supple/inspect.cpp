@@ -168,7 +168,7 @@ struct MemoryFindings {
     SuppleMemoryUse asset{}, group{};
 };
 
-Result<MemoryFindings> measureMemory(Session& session, const host::CharacterFile& file, uint32_t rate) {
+Result<MemoryFindings> measureMemory(Session& session, const host::CharacterFile& file, const SurfaceFlags& surface) {
     host::Context& context = *session.context;
     const Result<SuppleAsset> asset = host::createAsset(context, file);
     if (!asset) {
@@ -178,7 +178,8 @@ Result<MemoryFindings> measureMemory(Session& session, const host::CharacterFile
     desc.structSize = sizeof desc;
     desc.asset = *asset;
     desc.capacity = 1;
-    desc.rate = rate;
+    desc.rate = surface.rate;
+    desc.uvInterpolation = uvInterpolationOf(surface.uvMode);
     desc.flags = SUPPLE_GROUP_ATTRIBUTES;
     SuppleGroup group{};
     MemoryFindings found;
@@ -215,6 +216,8 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     json["file"] = options.file;
     json["polygonSource"] = cage::polygonSourceName(character.parts[0].polygonSource);
     json["weldSource"] = cage::weldSourceName(character.parts[0].weldSource);
+    const std::optional<cage::UvMode> uvMode = character.parts[0].uvMode;
+    json["uvMode"] = uvMode ? Json(cage::uvModeName(*uvMode)) : Json();
     json["parts"] = partsToJson(character);
     json["vertices"] = cage.vertexCount();
     json["faces"] = cage.faceCount();
@@ -357,6 +360,9 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     }
     printLine("polygons from", cage::polygonSourceName(character.parts[0].polygonSource));
     printLine("welded by", cage::weldSourceName(character.parts[0].weldSource));
+    if (const std::optional<cage::UvMode> uvMode = character.parts[0].uvMode) {
+        printLine("UV interpolation", cage::uvModeName(*uvMode));
+    }
     printLine("vertices", std::to_string(cage.vertexCount()) + " (" + std::to_string(character.sourceVertexCount) +
                               " in the file, " + std::to_string(character.seamVertexCount) + " merged at seams)");
     printLine("faces", std::to_string(cage.faceCount()));
@@ -444,7 +450,7 @@ int runInspect(const InspectOptions& options) {
     return withSession(options.device, [&](Session& session) -> Status {
         Measured measured;
         if (options.memory) {
-            const Result<MemoryFindings> memory = measureMemory(session, *file, options.surface.rate);
+            const Result<MemoryFindings> memory = measureMemory(session, *file, options.surface);
             if (!memory) {
                 return memory.error();
             }
@@ -477,6 +483,8 @@ void bindInspect(CLI::App& app, int& exitCode) {
                       "Also make a group of one instance, with the scheme that suits each part, and say what asset and "
                       "group take of the device's memory, by purpose");
     bindRate(*command, options->surface.rate);
+    bindUvMode(*command, options->surface.uvMode);
+    command->get_option("--uv-mode")->needs("--memory");
     bindPose(*command, options->clip, options->time);
     bindDevice(*command, options->device);
     for (const char* flag : {"--clip", "--time"}) {

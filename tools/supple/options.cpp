@@ -60,6 +60,9 @@ void bindRate(CLI::App& command, uint32_t& rate) {
 
 namespace {
 
+/// By SuppleUvInterpolation.
+constexpr const char* kUvModes[] = {"file", "none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
+
 /// An option that may be given again: each text is parsed into one more setting.
 template <class T>
 void bindSettings(CLI::App& command, const char* name, std::vector<T>& settings, Result<T> (*parse)(const std::string&),
@@ -112,6 +115,21 @@ void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::
         ->check(CLI::IsMember({"sharp", "smooth"}))
         ->capture_default_str();
     bindSharpEdges(command, flags.creases, flags.sharpThreshold);
+    bindUvMode(command, flags.uvMode);
+}
+
+void bindUvMode(CLI::App& command, std::string& uvMode) {
+    command
+        .add_option("--uv-mode", uvMode,
+                    "How texture coordinates are interpolated, by OpenSubdiv's names: which vertices on seams and "
+                    "borders keep their values. file: as the file says")
+        ->check(CLI::IsMember(std::vector<std::string>(std::begin(kUvModes), std::end(kUvModes))))
+        ->capture_default_str();
+}
+
+SuppleUvInterpolation uvInterpolationOf(const std::string& name) {
+    return static_cast<SuppleUvInterpolation>(std::find(std::begin(kUvModes), std::end(kUvModes), name) -
+                                              std::begin(kUvModes));
 }
 
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold) {
@@ -140,6 +158,7 @@ Status describeSurface(const SurfaceFlags& flags, const cage::Character& charact
     desc.prep = &options.prep;
     desc.blend = &options.blend;
     desc.skinning = skinningOf(flags.skinning);
+    desc.uvInterpolation = uvInterpolationOf(flags.uvMode);
     return success();
 }
 

@@ -41,6 +41,7 @@ struct SurfaceFlags {
     std::string corners = "sharp";
     std::string creases = "cut";
     float sharpThreshold = 1.0f;
+    std::string uvMode = "file";
     std::string skinning = "linear";
     host::ReadOptions reading;
 };
@@ -50,6 +51,8 @@ void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartSc
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
 /// --creases and --sharp.
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold);
+/// --uv-mode.
+void bindUvMode(CLI::App& command, std::string& uvMode);
 /// What a description of a group points to.
 struct SchemeOptions {
     SupplePrepOptions prep{};
@@ -62,6 +65,8 @@ struct SchemeOptions {
 
 /// --creases: "cut" or "curve".
 [[nodiscard]] SuppleCreaseMode creaseModeOf(const std::string& name);
+/// --uv-mode: "file", or a name of OpenSubdiv's.
+[[nodiscard]] SuppleUvInterpolation uvInterpolationOf(const std::string& name);
 /// --skinning: "linear" or "dual-quaternion".
 [[nodiscard]] SuppleSkinning skinningOf(const std::string& name);
 

@@ -34,6 +34,7 @@ CLI::Validator sizeValidator() {
 void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::string>& extraSchemes = {"cage"}) {
     bindScheme(command, draw.scheme, draw.partSchemes, draw.rate, draw.skinning, draw.reading, extraSchemes);
     bindSharpEdges(command, draw.creases, draw.sharpThreshold);
+    bindUvMode(command, draw.uvMode);
     bindMorphs(command, draw.morphs);
     command.add_option("--part", draw.parts, "Draw these parts alone; once per part (supple inspect lists them)")
         ->type_name("NAME|INDEX")

@@ -18,6 +18,7 @@ struct DrawOptions {
     std::string skinning = "linear"; ///< linear | dual-quaternion
     std::string creases = "cut";     ///< cut | curve
     float sharpThreshold = 1.0f;     ///< see SuppleGroupDesc
+    std::string uvMode = "file";     ///< file | one of OpenSubdiv's modes
     uint32_t rate = 8;               ///< 1..64: see SuppleGroupDesc
     std::vector<std::string> parts;  ///< names or indices: draw these alone; none: all
     bool sharedSamples = false;      ///< SUPPLE_GROUP_INDEXED_MESH; patches then show no borders and classes

@@ -87,6 +87,7 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
                                                     .skinning = skinningOf(options.skinning),
                                                     .creaseMode = creaseModeOf(options.creases),
                                                     .sharpThreshold = options.sharpThreshold,
+                                                    .uvInterpolation = uvInterpolationOf(options.uvMode),
                                                     .sharedSamples = options.sharedSamples,
                                                     .partSchemes = std::move(*partSchemes)});
     if (!group)

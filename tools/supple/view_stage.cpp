@@ -35,6 +35,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->skinning_ = skinningOf(options.skinning);
     stage->creaseMode_ = creaseModeOf(options.creases);
     stage->sharpThreshold_ = options.sharpThreshold;
+    stage->uvInterpolation_ = uvInterpolationOf(options.uvMode);
     stage->reading_ = options.reading;
     stage->morphSettings_ = options.morphs;
     stage->parts_ = options.parts;
@@ -111,6 +112,7 @@ Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& 
                                               .skinning = skinning_,
                                               .creaseMode = creaseMode_,
                                               .sharpThreshold = sharpThreshold_,
+                                              .uvInterpolation = uvInterpolation_,
                                               .sharedSamples = sharedSamples_,
                                               .partSchemes = std::move(*partSchemes)});
 }

@@ -91,6 +91,7 @@ private:
     SuppleSkinning skinning_ = SUPPLE_SKINNING_LINEAR;
     SuppleCreaseMode creaseMode_ = SUPPLE_CREASES_CUT;
     float sharpThreshold_ = 1.0f;
+    SuppleUvInterpolation uvInterpolation_ = SUPPLE_UV_FROM_FILE;
     host::ReadOptions reading_;
     std::vector<host::MorphSetting> morphSettings_;
     std::vector<std::string> parts_; ///< shown at first; none: all

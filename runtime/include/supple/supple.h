@@ -665,6 +665,22 @@ typedef enum SupplePoseSource {
     SUPPLE_POSES_PLAYBACK = 3        /**< suppleSetPlayback: clips that the device plays by the group's time */
 } SupplePoseSource;
 
+/** How texture coordinates are interpolated over the surface. LINEAR_ALL: linearly in every face. Otherwise they are
+ * smooth, as the surface is: they belong to it like two more coordinates of the cage, with borders of their own along
+ * seams. The names are those of OpenSubdiv and USD, and say which vertices on seams and borders keep their values
+ * (docs/smooth_uvs.md). */
+typedef enum SuppleUvInterpolation {
+    /** What the file says of the parts (SUPPLE_mesh_cage: faceVaryingLinearInterpolation). If it says nothing,
+     * LINEAR_ALL, but with tangents LINEAR_CORNERS_PLUS1. If the scheme cannot do it, LINEAR_ALL, and the log warns. */
+    SUPPLE_UV_FROM_FILE = 0,
+    SUPPLE_UV_LINEAR_NONE = 1,          /**< none: seams are smooth curves, ends of seams too */
+    SUPPLE_UV_LINEAR_CORNERS_ONLY = 2,  /**< a corner where a chart has one face, or is sharp */
+    SUPPLE_UV_LINEAR_CORNERS_PLUS1 = 3, /**< and where three charts and more meet */
+    SUPPLE_UV_LINEAR_CORNERS_PLUS2 = 4, /**< and where seams end */
+    SUPPLE_UV_LINEAR_BOUNDARIES = 5,    /**< all vertices on seams and borders */
+    SUPPLE_UV_LINEAR_ALL = 6
+} SuppleUvInterpolation;
+
 /** What a group writes besides surface vertices, and how. */
 typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients, for inspection */
@@ -729,6 +745,9 @@ typedef struct SuppleGroupDesc {
      * count), the boxes of suppleReadInstanceBounds, the memory of poses and cages, and the acquire barriers of poses,
      * cages and user data. */
     SuppleGroup instancesOf;
+    /** Of both UV sets. POLYGONS has LINEAR_ALL alone, BLEND all but LINEAR_BOUNDARIES: another one is refused if
+     * `scheme` names one of these. */
+    SuppleUvInterpolation uvInterpolation;
 } SuppleGroupDesc;
 
 /** Creates a group without instances. Compiles the pipelines that no earlier group of the context has needed, which may

@@ -3,6 +3,10 @@
 #include "frame.glsl"
 #include "lighting.glsl"
 
+layout(push_constant) uniform Push {
+    layout(offset = 24) float metallic; // see range.glsl
+    float roughness;
+};
 layout(set = 2, binding = 0) uniform sampler2D baseColor;
 
 layout(location = 0) in vec3 inPosition;
@@ -20,8 +24,13 @@ void main() {
     float nl = max(dot(n, l), 0.0);
     float lamp = nl > 0.0 ? lampVisibility(inPosition, n) : 0.0;
     float room = mix(roomVisibility(inPosition), 1.0, 0.5 + 0.5 * n.y);
-    vec3 color = albedo * (kLamp * (lamp * nl * 0.42) + roomLight(n) * (room * 0.72));
-    float rim = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 4.0);
-    color += kLamp * (lamp * glossy(n, v, l, 0.42)) + roomLight(reflect(-v, n)) * ((0.03 + 0.28 * rim) * room * 0.6);
+    Material material = plainMaterial(albedo, roughness);
+    material.metallic = metallic;
+    vec3 lampLight = kLamp * (lamp * 0.42); // radiance of a white surface that faces it
+    vec3 diffuse = lampLight * nl + roomLight(n) * (room * 0.72);
+    vec3 f0 = mirrorColor(material);
+    vec3 share = mirroredShare(f0, roughness, clamp(dot(n, v), 1e-3, 1.0));
+    vec3 color = albedo * (1.0 - metallic) * (1.0 - share) * diffuse;
+    color += lampLight * mirroredLight(n, v, l, roughness, f0) + share * roomLight(reflect(-v, n)) * room;
     outColor = onScreen(color);
 }

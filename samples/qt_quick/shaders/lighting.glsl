@@ -1,4 +1,6 @@
 // A warm lamp high up in front, a cool room around, and what the screen makes of it.
+#include "../../../host/shaders/pbr.glsl"
+
 layout(set = 0, binding = 1) uniform sampler2DShadow sunMap;
 
 const vec3 kLamp = vec3(3.1, 2.75, 2.25);
@@ -36,17 +38,6 @@ float roomVisibility(vec3 position) {
 }
 
 vec3 roomLight(vec3 n) { return mix(kRoomBelow, kRoomAbove, 0.5 + 0.5 * n.y); }
-
-/// GGX with the Hammon approximation of the Smith term; times n.l.
-float glossy(vec3 n, vec3 v, vec3 l, float roughness) {
-    vec3 h = normalize(v + l);
-    float nh = clamp(dot(n, h), 0.0, 1.0), nl = clamp(dot(n, l), 0.0, 1.0);
-    float nv = clamp(abs(dot(n, v)), 1e-3, 1.0), vh = clamp(dot(v, h), 0.0, 1.0);
-    float a2 = roughness * roughness * roughness * roughness;
-    float d = nh * nh * (a2 - 1.0) + 1.0;
-    float fresnel = 0.04 + 0.96 * pow(1.0 - vh, 5.0);
-    return a2 / (3.14159265 * d * d) * fresnel * 0.5 / mix(2.0 * nl * nv, nl + nv, roughness * roughness) * nl;
-}
 
 /// Qt Quick mixes sRGB values as they are, so the picture holds these: a filmic curve (Narkowicz' fit of ACES), then sRGB.
 vec4 onScreen(vec3 x) {

@@ -4,6 +4,8 @@
 
 layout(push_constant) uniform Push {
     SuppleRange range;
+    float metallic;
+    float roughness;
     vec4 baseColorFactor;
     vec4 uvRows[2]; // SuppleTextureInfo's transform
 };

@@ -4,7 +4,12 @@
 #include "supple_surface.glsl"
 #include "frame.glsl"
 
-layout(push_constant) uniform Push { SuppleRange range; };
+layout(push_constant) uniform Push {
+    SuppleRange range;
+    float metallic;
+    float roughness;
+    vec4 baseColor;
+};
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
@@ -16,7 +21,7 @@ void main() {
     SuppleVertex at = suppleVertex(range, gl_InstanceIndex, gl_VertexIndex);
     outPosition = supplePosition(at);
     outNormal = suppleNormal(at);
-    outColor = suppleColor(at).rgb;
+    outColor = suppleColor(at).rgb * baseColor.rgb;
     outNow = frame.viewProjection * vec4(outPosition, 1.0);
     outBefore = frame.previousViewProjection * vec4(supplePreviousPosition(at), 1.0);
     gl_Position = frame.jitteredViewProjection * vec4(outPosition, 1.0);

@@ -28,7 +28,7 @@ void main() {
     float away = length(inPosition.xz);
     float sun = away < 4.0 ? sunVisibility(inPosition, n, gl_FragCoord.xy) : 1.0;
     vec3 light = kSun * (sun * frame.sunDirection.y / kPi * 1.6) + kSkyAbove * 0.75 * skyVisibility(inPosition);
-    vec3 color = albedo * light + kSun * sun * glossy(n, v, frame.sunDirection.xyz, 0.55) * 0.5;
+    vec3 color = albedo * light + kSun * (sun * 0.5 / kPi) * mirroredLight(n, v, frame.sunDirection.xyz, 0.55, vec3(0.04));
     outColor = vec4(mix(color, background(gl_FragCoord.xy), smoothstep(2.6, 8.5, away)), 1.0);
     outMotion = motion(inNow, inBefore);
 }

@@ -1,4 +1,6 @@
 // A low sun, whose shadows soften with distance, and a sky.
+#include "../../../host/shaders/pbr.glsl"
+
 layout(set = 0, binding = 1) uniform sampler2DShadow sunMap;
 layout(set = 0, binding = 2) uniform sampler2D sunDepths;
 
@@ -73,17 +75,6 @@ float skyVisibility(vec3 position) {
 }
 
 vec3 skyLight(vec3 n) { return mix(kSkyBelow, kSkyAbove, 0.5 + 0.5 * n.y); }
-
-/// GGX with the Hammon approximation of the Smith term; times n.l.
-float glossy(vec3 n, vec3 v, vec3 l, float roughness) {
-    vec3 h = normalize(v + l);
-    float nh = clamp(dot(n, h), 0.0, 1.0), nl = clamp(dot(n, l), 0.0, 1.0);
-    float nv = clamp(abs(dot(n, v)), 1e-3, 1.0), vh = clamp(dot(v, h), 0.0, 1.0);
-    float a2 = roughness * roughness * roughness * roughness;
-    float d = nh * nh * (a2 - 1.0) + 1.0;
-    float fresnel = 0.04 + 0.96 * pow(1.0 - vh, 5.0);
-    return a2 / (kPi * d * d) * fresnel * 0.5 / mix(2.0 * nl * nv, nl + nv, roughness * roughness) * nl;
-}
 
 /// Motion in texture coordinates: where it is, less where it was.
 vec2 motion(vec4 now, vec4 before) { return 0.5 * (now.xy / now.w - before.xy / before.w); }

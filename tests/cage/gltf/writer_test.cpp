@@ -352,6 +352,37 @@ TEST(GltfWriter, SaysWhatItLeavesOut) {
     EXPECT_EQ(glb.root["animations"].size(), 2u);
 }
 
+TEST(GltfWriter, StillMeshesHaveTheCharactersMaterials) {
+    const Character character = richCharacter();
+    StillFaces faces;
+    faces.material = 0;
+    faces.positions = {{0, 0, 0}, {2, 0, 0}, {0, 3, -1}};
+    faces.normals.assign(3, glm::vec3(0, 0, 1));
+    faces.triangles = {0, 1, 2};
+    const std::vector<StillMesh> meshes{{"one", {faces}}, {"", {faces}}};
+    const Result<GlbFile> file = writeGlb(character, meshes);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ(file->vertexCount, 6u);
+    EXPECT_EQ(file->warnings, Strings{"material 1: its trim lies on faces of the cage; left out"});
+    const Glb still(file->bytes);
+    EXPECT_EQ(still.root["nodes"], json::parse(R"([{"name": "one", "mesh": 0}, {"mesh": 1}])"));
+    EXPECT_EQ(still.root["asset"]["copyright"], "nobody");
+    const json& attributes = still.primitive(0)["attributes"];
+    EXPECT_EQ(attributes.size(), 4u);
+    EXPECT_EQ(still.floats(attributes["TEXCOORD_1"]), std::vector<float>(6, 0.0f)) << "a texture names it";
+    EXPECT_EQ(still.root["accessors"][attributes["POSITION"].get<size_t>()]["max"], json({2.0, 3.0, 0.0}));
+
+    const std::vector<std::byte> whole = writeWell(character);
+    json materials = Glb(whole).root["materials"];
+    materials[1].erase("extras");
+    EXPECT_EQ(still.root["materials"], materials);
+    for (const char* list : {"textures", "samplers", "images"}) {
+        EXPECT_EQ(still.root[list].size(), Glb(whole).root[list].size()) << list;
+    }
+    EXPECT_EQ(readWell(file->bytes).images[1].bytes, character.images[2].bytes);
+    EXPECT_EQ(writeGlb(character, {}).error().message, "rich.glb: GLB: there are no faces to write");
+}
+
 TEST(GltfWriter, JointsGetACommonRoot) {
     Character character = richCharacter();
     character.skeleton.nodes[2].parent = kNone;

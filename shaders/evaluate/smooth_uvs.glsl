@@ -1,0 +1,185 @@
+// Smooth texture coordinates: patches of two coordinates with the classes, coefficients and sums of the surface's own
+// (docs/smooth_uvs.md). Their third coordinate is 0. Needs tables.glsl, basis.glsl and domain.glsl. One of these macros is defined:
+//   BICUBIC   regular, perturbed and polar patches
+//   SECTORS   P_3, P_4 and P_5
+//   BLEND     the blending surface
+//   SAMPLES   Catmull-Clark and Loop: the samples of a rate themselves
+// For each there are SmoothPatch, which a lane loads once, SmoothPlace, where a sample lies in it, and smoothAt().
+
+const bool kTangents = true;
+#include "shaders/evaluate/frame.glsl"
+
+struct SmoothUv {
+    vec2 uv, a, b; // and its derivatives, as evaluation has those of positions
+};
+SmoothUv smoothUv(vec3 position, Frame f) { return SmoothUv(position.xy, f.du.xy, f.dv.xy); }
+
+// Coefficient i of those that begin at an element.
+vec3 uvCoefficient(uint first, uint i) {
+    uvec4 two = tableElement(first + i / 2u);
+    return vec3(uintBitsToFloat((i & 1u) == 0u ? two.xy : two.zw), 0.0);
+}
+
+#ifdef BICUBIC
+layout(constant_id = kKindConstant) const uint kClass = kRegularPatch;
+const uint kDomain = kClass == kPolarPatch ? kPolarDomain : kQuadDomain;
+#include "shaders/evaluate/rows.glsl"
+
+const uint kSmoothElements = kPerturbed ? 16u : kPolar ? 7u : 8u;
+#define SmoothPatch Patch
+struct SmoothPlace {
+    vec2 u, v;
+};
+SmoothPatch loadSmooth(uint first) {
+    Patch c;
+    for (uint k = 0u; k < 16u; ++k) c.g[k] = uvCoefficient(first, kPolar ? min(k, 12u) : k);
+    for (uint k = 0u; k < 16u; ++k) {
+        c.relative[k] = c.g[k] - c.g[0];
+        c.h[k] = kPerturbed ? uvCoefficient(first, 16u + k) : vec3(0.0);
+    }
+    return c;
+}
+SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
+    vec3 position;
+    Frame frame;
+    finish(collapse(c, at.v), at.u, position, frame);
+    if (kPolar && at.v.y == 0.0) position = c.g[12];
+    return smoothUv(position, frame);
+}
+SmoothPlace quadPlace(vec2 u, vec2 v) { return SmoothPlace(u, v); }
+SmoothPlace placeAtRate(uint index) {
+    uvec3 at = gridSample(kDomain, push.rate, index);
+    return SmoothPlace(parameterPair(at.x, push.rate, push.pairs), parameterPair(at.y, push.rate, push.pairs));
+}
+#endif
+
+#ifdef SECTORS
+#include "shaders/pm/pm.glsl"
+#include "shaders/pm/sector.glsl"
+#include "shaders/pm/point.glsl"
+const uint kDomain = kClass == kP5Patch ? kPentagonDomain : kClass == kP4Patch ? kQuadDomain : kTriangleDomain;
+
+const uint kSmoothElements = (6u * kSides + 2u) / 2u;
+struct SmoothPatch {
+    vec3 centre;
+    SectorSide sides[5];
+    uint singular; // a bit a corner, as in the patch's record
+};
+struct SmoothPlace {
+    uint sector;
+    vec3 weights;
+    vec2 along; // on the border, the pair along it
+    bool border, corner;
+};
+SmoothPatch loadSmooth(uint first) {
+    SmoothPatch c;
+    c.centre = uvCoefficient(first, 0u);
+    for (uint i = 0u; i < kSides; ++i) {
+        uint k = 1u + 6u * i;
+        c.sides[i] = SectorSide(uvCoefficient(first, k), uvCoefficient(first, k + 1u), uvCoefficient(first, k + 2u),
+                                uvCoefficient(first, k + 3u), uvCoefficient(first, k + 4u), uvCoefficient(first, k + 5u));
+    }
+    c.singular = tableElement(first + 3u * kSides).z;
+    return c;
+}
+SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
+    SectorSide last = c.sides[0], own = c.sides[0], next = c.sides[0];
+    for (uint i = 0u; i < kSides; ++i) { // lanes ask for different ones: GPUs keep arrays that they index in memory
+        if (i == at.sector) own = c.sides[i];
+        if ((i + 1u) % kSides == at.sector) last = c.sides[i];
+        if (i == (at.sector + 1u) % kSides) next = c.sides[i];
+    }
+    Sector s = makeSector(vec2(kRayMiddle, kRaySide), c.centre, last, own, next);
+    bool singular = at.corner && (c.singular >> at.sector & 1u) != 0u;
+    vec3 position;
+    Frame frame;
+    finishInside(s, singular ? kSingularWeights : at.weights, position, frame);
+    if (at.weights.z == 1.0) position = c.centre;
+    if (at.border) position = borderPosition(bernstein3(at.along), s.border);
+    return smoothUv(position, frame);
+}
+SmoothPlace ringPlace(uint sector, vec3 weights, vec2 along, bool border, bool corner) {
+    return SmoothPlace(sector, weights, along, border, corner);
+}
+SmoothPlace placeAtRate(uint index) {
+    uvec3 s = sectorOf(kDomain, push.rate, index);
+    vec3 weights = vec3(parameterPair(push.rate - s.x - s.y, push.rate, push.pairs).x,
+                        parameterPair(s.x, push.rate, push.pairs).x, parameterPair(s.y, push.rate, push.pairs).x);
+    bool border = s.y == 0u;
+    return SmoothPlace(s.z, weights, parameterPair(s.x, push.rate, push.pairs), border, border && s.x == 0u);
+}
+#endif
+
+#ifdef BLEND
+layout(constant_id = kKindConstant) const uint kClass = kBlendPatch;
+const uint kDomain = kQuadDomain;
+const bool kSharp = kClass == kBlendSharpPatch;
+const uint kVertexFormat = kVertex24;
+#include "shaders/shared/lod.h"
+#include "shaders/blend/sample.glsl"
+
+const uint kSmoothElements = 4u;
+struct SmoothPatch {
+    Corner corners[4];
+};
+#ifdef LEVELS
+struct SmoothPlace {
+    vec2 u, v;
+};
+#else
+struct SmoothPlace {
+    uint i, j;
+};
+#endif
+SmoothPatch loadSmooth(uint first) {
+    SmoothPatch c;
+    for (uint k = 0u; k < 4u; ++k) {
+        uint chart;
+        c.corners[k] = cornerOf(first + k, chart);
+        for (uint i = 0u; i < 9u; ++i) c.corners[k].c[i] = uvCoefficient(chart, i);
+    }
+    return c;
+}
+SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
+    vec3 position;
+    Frame frame;
+#ifdef LEVELS
+    evaluateLevels(c.corners, at.u, at.v, position, frame);
+#else
+    evaluateAtRate(c.corners, at.i, at.j, false, position, frame);
+    if (kSharp && liesStill(c.corners, at.i, at.j)) {
+        vec3 unused;
+        evaluateAtRate(c.corners, at.i, at.j, true, unused, frame);
+    }
+#endif
+    return smoothUv(position, frame);
+}
+#ifdef LEVELS
+SmoothPlace quadPlace(vec2 u, vec2 v) { return SmoothPlace(u, v); }
+#else
+SmoothPlace placeAtRate(uint index) {
+    uvec3 at = gridSample(kDomain, push.rate, index);
+    return SmoothPlace(at.x, at.y);
+}
+#endif
+#endif
+
+#ifdef SAMPLES
+layout(constant_id = kKindConstant) const uint kClass = kCatmullClarkPatch;
+const uint kDomain = kClass == kLoopPatch ? kTriangleDomain : kQuadDomain;
+
+#define kSmoothElements push.samples
+struct SmoothPatch {
+    uint first;
+};
+struct SmoothPlace {
+    uint index;
+};
+SmoothPatch loadSmooth(uint first) { return SmoothPatch(first); }
+// Of the slopes the second coordinate's are known: a direction asks for no more.
+SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
+    vec4 s = uintBitsToFloat(tableElement(c.first + at.index));
+    return SmoothUv(s.xy, vec2(0.0, s.z), vec2(0.0, s.w));
+}
+SmoothPlace placeAtRate(uint index) { return SmoothPlace(index); }
+#endif

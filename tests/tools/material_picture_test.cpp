@@ -1,0 +1,452 @@
+// Materials in pictures: what a file says of its surfaces is what is drawn. Drawn under the validation layer; beauty is
+// for people to judge (supple_material_scenes).
+#include "host/environment.h"
+#include "host/surface_renderer.h"
+#include "tests/tools/material_scenes.h"
+#include "tests/tools/validated_device.h"
+#include "tools/common/figure_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace supple::host {
+namespace {
+
+using test::SceneFile;
+using test::SceneMesh;
+
+constexpr VkExtent2D kMaterialSize{240, 200};
+constexpr float kSquareHalf = 0.75f;
+
+std::string flatColor(const std::string& color, const std::string& more = {}) {
+    return R"({"pbrMetallicRoughness":{"baseColorFactor":)" + color + R"(,"metallicFactor":0,"roughnessFactor":0.6})" +
+           more + "}";
+}
+std::string unlitColor(const std::string& color, const std::string& more = {}) {
+    return flatColor(color, R"(,"extensions":{"KHR_materials_unlit":{}})" + more);
+}
+
+int byteOf(float linear) {
+    const float x = linear < 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+    return static_cast<int>(std::lround(x * 255.0f));
+}
+
+/// A picture of 8 by 8 texels.
+Picture texels(const std::function<glm::u8vec4(uint32_t, uint32_t)>& color) {
+    Picture picture = Picture::blank(8, 8);
+    for (uint32_t y = 0; y < 8; ++y) {
+        for (uint32_t x = 0; x < 8; ++x) {
+            const glm::u8vec4 texel = color(x, y);
+            std::copy(&texel[0], &texel[0] + 4, picture.pixel(x, y));
+        }
+    }
+    return picture;
+}
+
+glm::ivec3 colorAt(const Picture& picture, uint32_t x, uint32_t y) {
+    const uint8_t* pixel = picture.pixel(x, y);
+    return {pixel[0], pixel[1], pixel[2]};
+}
+glm::ivec3 middleOf(const Picture& picture) {
+    return colorAt(picture, kMaterialSize.width / 2, kMaterialSize.height / 2);
+}
+int furthest(glm::ivec3 a, glm::ivec3 b) {
+    const glm::ivec3 away = glm::abs(a - b);
+    return std::max({away.x, away.y, away.z});
+}
+int furthest(const Picture& a, const Picture& b) {
+    int most = 0;
+    for (size_t i = 0; i < a.rgba.size(); ++i)
+        most = std::max(most, std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
+    return most;
+}
+
+class MaterialPictureTest : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        Result<std::unique_ptr<Device>> device = createValidatedDevice();
+        ASSERT_TRUE(device.ok()) << device.error().message;
+        device_ = std::move(*device);
+        Result<std::unique_ptr<Context>> context = Context::create(*device_);
+        ASSERT_TRUE(context.ok()) << context.error().message;
+        context_ = std::move(*context);
+        Result<std::unique_ptr<SurfaceRenderer>> renderer =
+            SurfaceRenderer::create(*device_, {.quality = StudioQuality::interactive(true)});
+        ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+        renderer_ = std::move(*renderer);
+        Result<DrawTarget> target = DrawTarget::create(*device_, kMaterialSize, renderer_->samples());
+        ASSERT_TRUE(target.ok()) << target.error().message;
+        target_ = std::move(*target);
+    }
+
+    static void TearDownTestSuite() {
+        target_ = {};
+        renderer_.reset();
+        context_.reset();
+        if (device_ == nullptr)
+            return;
+        const std::shared_ptr<const ValidationLog> validation = device_->validation();
+        device_.reset();
+        EXPECT_EQ(validation->messageCount(), 0u);
+    }
+
+    void SetUp() override { ASSERT_NE(renderer_, nullptr); }
+    void TearDown() override { EXPECT_EQ(device_->validationMessageCount(), 0u); }
+
+    static std::unique_ptr<Figure> open(const SceneFile& file) {
+        const std::string path =
+            (std::filesystem::path(testing::TempDir()) / ("supple_material_" + std::to_string(getpid()) + ".gltf"))
+                .string();
+        EXPECT_TRUE(test::writeScene(file, path));
+        Result<std::unique_ptr<Figure>> figure = openFigure(*context_, path);
+        std::filesystem::remove(path);
+        EXPECT_TRUE(figure.ok()) << (figure.ok() ? "" : figure.error().message);
+        return std::move(*figure);
+    }
+
+    /// From +Z; the picture is `height` high at z 0, about `center`.
+    static Scene facing(glm::vec2 center = glm::vec2(0.0f), float height = 2.0f, float yaw = 0.0f) {
+        Scene scene;
+        scene.camera.target = glm::vec3(center, 0.0f);
+        scene.camera.yaw = yaw;
+        scene.camera.pitch = 0.0f;
+        scene.camera.distance = 40.0f;
+        scene.camera.fieldOfView = 2.0f * std::atan(0.5f * height / scene.camera.distance);
+        scene.lightYaw = yaw;
+        scene.bounds.add(glm::vec3(center - height, -height));
+        scene.bounds.add(glm::vec3(center + height, height));
+        return scene;
+    }
+
+    struct Drawn {
+        Picture picture;
+        bool tangents; ///< the surface had them
+    };
+    static Drawn drawWith(const SceneFile& file, const GroupOptions& options, Scene scene) {
+        const std::unique_ptr<Figure> figure = open(file);
+        Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(*figure, options);
+        EXPECT_TRUE(group.ok()) << (group.ok() ? "" : group.error().message);
+        const SuppleGroup groups[] = {(*group)->handle()};
+        EXPECT_TRUE(context_->evaluate(groups).ok());
+        Result<FigureBinding> binding = renderer_->bind(**group);
+        EXPECT_TRUE(binding.ok());
+        scene.group = group->get();
+        scene.binding = &*binding;
+        const Status status =
+            device_->submitAndWait([&](VkCommandBuffer commands) { renderer_->record(commands, 0, target_, scene); });
+        EXPECT_TRUE(status.ok());
+        Result<Picture> picture = readPicture(*device_, target_.color().handle(), kMaterialSize, kPictureFormat);
+        EXPECT_TRUE(picture.ok());
+        return {*picture, (*group)->surfaces()[0].output.streams.tangents.buffer != VK_NULL_HANDLE};
+    }
+    static Picture draw(const SceneFile& file, const Scene& scene, bool cage = false) {
+        Scene shown = scene;
+        shown.cageFaces = cage;
+        return drawWith(file, {.rate = 4}, shown).picture;
+    }
+
+    /// One square that faces the viewer, larger than the picture is high.
+    static SceneFile square(const std::string& material, std::vector<Picture> images = {}) {
+        SceneFile file;
+        file.meshes = {test::squareMesh(glm::vec3(0.0f), kSquareHalf, 3, 0)};
+        file.materials = {material};
+        file.images = std::move(images);
+        return file;
+    }
+
+    static inline std::unique_ptr<Device> device_;
+    static inline std::unique_ptr<Context> context_;
+    static inline std::unique_ptr<SurfaceRenderer> renderer_;
+    static inline DrawTarget target_;
+};
+
+/// Green of a place on a tile of the bumps, in the middle of a few pixels; `at`: from the tile's middle.
+float bumpLight(const Picture& picture, uint32_t column, uint32_t row, glm::vec2 at) {
+    const float perUnit = float{kMaterialSize.height} / 4.2f;
+    const glm::vec2 place = glm::vec2(column, -static_cast<float>(row)) + at - glm::vec2(1.0f, -1.5f);
+    const auto x = static_cast<uint32_t>(float{kMaterialSize.width} * 0.5f + place.x * perUnit);
+    const auto y = static_cast<uint32_t>(float{kMaterialSize.height} * 0.5f - place.y * perUnit);
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < 9; ++i)
+        sum += static_cast<float>(picture.pixel(x + i % 3 - 1, y + i / 3 - 1)[1]) / 9.0f;
+    return sum;
+}
+
+void expectBumpsAlike(const Picture& picture) {
+    const glm::vec2 flanks[] = {{-0.16f, 0.16f}, {0.16f, 0.16f}, {-0.16f, -0.16f}, {0.16f, -0.16f}};
+    for (uint32_t row = 0; row < test::kBumpRows; ++row) {
+        SCOPED_TRACE("row " + std::to_string(row));
+        // The key is up and to the left: the sides differ by far more than the columns may, of which the first has
+        // shadows.
+        const auto shapedLight = [&](size_t flank) {
+            return bumpLight(picture, test::kShapedBump, row, flanks[flank]);
+        };
+        EXPECT_GT(shapedLight(0), shapedLight(1) + 30.0f);
+        EXPECT_GT(shapedLight(0), shapedLight(2) + 40.0f);
+        EXPECT_GT(shapedLight(1), shapedLight(3) + 20.0f);
+        for (size_t flank = 0; flank < std::size(flanks); ++flank) {
+            const float mapped = bumpLight(picture, test::kMappedBump, row, flanks[flank]);
+            EXPECT_NEAR(mapped, shapedLight(flank), 15.0f) << flank;
+            EXPECT_NEAR(bumpLight(picture, test::kMirroredBump, row, flanks[flank]), mapped, 4.0f) << flank;
+        }
+    }
+}
+
+TEST_F(MaterialPictureTest, NormalMapsTurnLightAsBumpsDoMirroredOrNot) {
+    const SceneFile bumps = test::bumpScene(false);
+    const Scene scene = facing({1.0f, -1.5f}, 4.2f);
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_BLEND,
+                                      SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_POLYGONS}) {
+        SCOPED_TRACE("scheme " + std::to_string(scheme));
+        const Drawn drawn = drawWith(bumps, {.scheme = scheme, .rate = 4}, scene);
+        EXPECT_TRUE(drawn.tangents || scheme != SUPPLE_SCHEME_PM);
+        expectBumpsAlike(drawn.picture);
+    }
+    SCOPED_TRACE("cage");
+    Scene cage = scene;
+    cage.cageFaces = true;
+    const Picture faces = drawWith(bumps, {.rate = 4}, cage).picture;
+    // Its shaped bumps have facets: the mapped ones are compared with each other.
+    for (uint32_t row = 0; row < test::kBumpRows; ++row) {
+        for (const glm::vec2 at : {glm::vec2(-0.2f, 0.0f), glm::vec2(0.0f, -0.2f)})
+            EXPECT_NEAR(bumpLight(faces, test::kMappedBump, row, at), bumpLight(faces, test::kMirroredBump, row, at),
+                        8.0f);
+    }
+}
+
+TEST_F(MaterialPictureTest, TangentsOfTheFileChangeNothing) {
+    const Scene scene = facing({1.0f, -1.5f}, 4.2f);
+    const Picture without = drawWith(test::bumpScene(false), {.rate = 4}, scene).picture;
+    EXPECT_EQ(without.rgba, drawWith(test::bumpScene(true), {.rate = 4}, scene).picture.rgba);
+}
+
+TEST_F(MaterialPictureTest, NormalMapsMayBeTransformed) {
+    // Texture coordinates that are turned and mirrored by the material: the bump is where and as it was.
+    SceneFile plain = square(flatColor("[0.5,0.5,0.5,1]", R"(,"normalTexture":{"index":0})"));
+    plain.images = test::bumpScene(false).images;
+    SceneFile turned = plain;
+    turned.materials = {flatColor("[0.5,0.5,0.5,1]",
+                                  R"(,"normalTexture":{"index":0,"extensions":{"KHR_texture_transform":)"
+                                  R"({"rotation":1.5707963,"offset":[1,1],"scale":[-1,1]}}})")};
+    const Picture asIs = draw(plain, facing()), transformed = draw(turned, facing());
+    EXPECT_LE(furthest(asIs, transformed), 6);
+    EXPECT_GT(furthest(asIs, draw(square(flatColor("[0.5,0.5,0.5,1]")), facing())), 30);
+}
+
+TEST_F(MaterialPictureTest, MetalMirrorsInItsOwnColorAndPlasticInWhite) {
+    SceneFile ball;
+    ball.meshes = {test::ballMesh(glm::vec3(0.0f), 0.8f, 6, 0)};
+    const auto brightest = [&](const std::string& material) {
+        ball.materials = {material};
+        const Picture picture = draw(ball, facing());
+        glm::ivec3 most(0);
+        for (uint32_t y = 60; y < 140; ++y) {
+            for (uint32_t x = 80; x < 160; ++x)
+                most = glm::max(most, colorAt(picture, x, y));
+        }
+        return most;
+    };
+    const glm::ivec3 metal =
+        brightest(R"({"pbrMetallicRoughness":{"baseColorFactor":[0.8,0,0,1],"roughnessFactor":0.4}})");
+    EXPECT_GT(metal.x, 200);
+    EXPECT_LT(metal.y, 160) << "only what the tone curve leads to white";
+    EXPECT_LT(metal.z, 160);
+    const glm::ivec3 plastic = brightest(
+        R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1],"metallicFactor":0,"roughnessFactor":0.25}})");
+    EXPECT_GT(plastic.x, 60) << "the soft box";
+    EXPECT_LT(furthest(plastic, glm::ivec3(plastic.x)), 40);
+}
+
+TEST_F(MaterialPictureTest, MasksCutAndLetLightThrough) {
+    const Picture left = texels([](uint32_t x, uint32_t) { return glm::u8vec4(255, 255, 255, x < 4 ? 255 : 0); });
+    const std::string mask = R"({"alphaMode":"MASK","extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":)"
+                             R"({"baseColorTexture":{"index":0},"baseColorFactor":[0.8,0.1,0.1,1]}})";
+    SceneFile empty = square(R"({"alphaMode":"MASK","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.1]}})");
+    for (const bool cage : {false, true}) {
+        SCOPED_TRACE(cage ? "cage" : "surface");
+        Scene scene = facing();
+        scene.ground = -1.0f;
+        scene.camera.pitch = 0.1f;
+        const Picture cut = draw(square(mask, {left}), scene, cage);
+        const Picture nothing = draw(empty, scene, cage);
+        EXPECT_EQ(colorAt(cut, 90, 100), glm::ivec3(byteOf(0.8f), byteOf(0.1f), byteOf(0.1f)));
+        EXPECT_EQ(colorAt(cut, 150, 100), colorAt(nothing, 150, 100));
+        // All holes and no shadow: the floor is as it is beside a square that blends, which casts none.
+        const Picture clear = draw(square(flatColor("[1,1,1,0]", R"(,"alphaMode":"BLEND")")), scene, cage);
+        EXPECT_LE(furthest(nothing, clear), 1);
+    }
+}
+
+TEST_F(MaterialPictureTest, BlendedPartsShowWhatIsBehindTheFarthestFirst) {
+    SceneFile file;
+    // The nearest comes first in the file.
+    file.meshes = {test::squareMesh({0.0f, 0.0f, 0.6f}, kSquareHalf, 1, 0),
+                   test::squareMesh({0.0f, 0.0f, 0.3f}, kSquareHalf, 1, 1),
+                   test::squareMesh({0.0f, 0.0f, 0.0f}, kSquareHalf, 1, 2)};
+    const std::string blend = R"(,"alphaMode":"BLEND","doubleSided":true)";
+    file.materials = {unlitColor("[1,0,0,0.5]", blend), unlitColor("[0,1,0,0.5]", blend),
+                      unlitColor("[0,0,1,1]", R"(,"doubleSided":true)")};
+    for (const bool cage : {false, true}) {
+        SCOPED_TRACE(cage ? "cage" : "surface");
+        const glm::ivec3 front(byteOf(0.5f), byteOf(0.25f), byteOf(0.25f));
+        EXPECT_LE(furthest(middleOf(draw(file, facing(), cage)), front), 1);
+        // From behind the opaque one hides the others; without it the green one is in front.
+        const Scene behind = facing({}, 2.0f, 3.14159265f);
+        EXPECT_LE(furthest(middleOf(draw(file, behind, cage)), {0, 0, 255}), 1);
+    }
+    std::swap(file.meshes[0].material, file.meshes[2].material); // opaque blue in front, seen from behind
+    const glm::ivec3 back(byteOf(0.5f), byteOf(0.25f), byteOf(0.25f));
+    EXPECT_LE(furthest(middleOf(draw(file, facing({}, 2.0f, 3.14159265f))), back), 1);
+}
+
+/// Exporters often call a whole body BLEND: where it is solid it hides itself, whatever the order of its faces, and
+/// casts its shadow.
+TEST_F(MaterialPictureTest, BlendedMaterialsThatAreSolidLookAsOpaqueOnes) {
+    for (const bool cage : {false, true}) {
+        SceneFile file;
+        file.meshes = {test::squareMesh({0.0f, 0.0f, 0.5f}, 0.4f, 2, 0)};
+        const SceneMesh wall = test::squareMesh({0.0f, 0.0f, 0.0f}, kSquareHalf, 2, 0);
+        const auto first = static_cast<uint32_t>(file.meshes[0].positions.size());
+        file.meshes[0].positions.insert(file.meshes[0].positions.end(), wall.positions.begin(), wall.positions.end());
+        file.meshes[0].normals.insert(file.meshes[0].normals.end(), wall.normals.begin(), wall.normals.end());
+        file.meshes[0].uvs.assign(file.meshes[0].positions.size(), glm::vec2(0.0f));
+        for (const glm::vec3& position : file.meshes[0].positions)
+            file.meshes[0].colors.emplace_back(position.z > 0.2f ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 0, 1, 1));
+        for (std::array<uint32_t, 4> quad : wall.quads) {
+            for (uint32_t& corner : quad)
+                corner += first;
+            file.meshes[0].quads.push_back(quad);
+        }
+        Scene scene = facing();
+        scene.ground = -1.0f;
+        scene.camera.pitch = 0.1f;
+        file.materials = {flatColor("[1,1,1,1]", R"(,"doubleSided":true)")};
+        const Picture opaque = draw(file, scene, cage);
+        file.materials = {flatColor("[1,1,1,1]", R"(,"doubleSided":true,"alphaMode":"BLEND")")};
+        EXPECT_LE(furthest(opaque, draw(file, scene, cage)), 1) << (cage ? "cage" : "surface");
+        EXPECT_GT(middleOf(opaque).x, middleOf(opaque).z + 60) << "the near one is red";
+    }
+}
+
+TEST_F(MaterialPictureTest, EmissionIsAddedWithItsStrengthAndItsTexture) {
+    const Picture left = texels(
+        [](uint32_t x, uint32_t) { return x < 4 ? glm::u8vec4(255, 255, 255, 255) : glm::u8vec4(0, 0, 0, 255); });
+    const auto glowing = [](const std::string& strength) {
+        return flatColor("[0,0,0,1]", R"(,"emissiveFactor":[0,0.25,0],"emissiveTexture":{"index":0},"extensions":)"
+                                      R"({"KHR_materials_emissive_strength":{"emissiveStrength":)" +
+                                          strength + "}}");
+    };
+    const Picture dark = draw(square(flatColor("[0,0,0,1]")), facing());
+    const Picture once = draw(square(glowing("1"), {left}), facing());
+    const Picture twice = draw(square(glowing("2"), {left}), facing());
+    EXPECT_EQ(colorAt(once, 150, 100), colorAt(dark, 150, 100)) << "the texture is black there";
+    EXPECT_NEAR(colorAt(once, 90, 100).y, byteOf(0.25f), 12);
+    EXPECT_NEAR(colorAt(twice, 90, 100).y, byteOf(0.5f), 12);
+    EXPECT_LT(colorAt(twice, 90, 100).x, 40);
+}
+
+TEST_F(MaterialPictureTest, UnlitIsTheBaseColorAndNothingElse) {
+    const std::string color = R"([0.2,0.5,0.8,1])";
+    const glm::ivec3 expected(byteOf(0.2f), byteOf(0.5f), byteOf(0.8f));
+    for (const bool cage : {false, true}) {
+        const Picture picture = draw(square(unlitColor(color)), facing(), cage);
+        for (uint32_t x = 60; x < 180; x += 10)
+            EXPECT_LE(furthest(colorAt(picture, x, 100), expected), 1) << x;
+    }
+    // Colors of vertices multiply it.
+    SceneFile painted = square(unlitColor(color));
+    painted.meshes[0].colors.assign(painted.meshes[0].positions.size(), glm::vec4(0.5f, 1.0f, 0.5f, 1.0f));
+    const glm::ivec3 half(byteOf(0.1f), byteOf(0.5f), byteOf(0.4f));
+    EXPECT_LE(furthest(middleOf(draw(painted, facing())), half), 1);
+}
+
+TEST_F(MaterialPictureTest, EachTextureHasItsOwnTransform) {
+    const Picture left = texels(
+        [](uint32_t x, uint32_t) { return x < 4 ? glm::u8vec4(255, 255, 255, 255) : glm::u8vec4(0, 0, 0, 255); });
+    // The base color is as it lies; the emission is moved by half its width.
+    const std::string material =
+        R"({"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"baseColorTexture":{"index":0},"metallicFactor":0},)"
+        R"("emissiveFactor":[0,0,1],"emissiveTexture":{"index":0,"extensions":{"KHR_texture_transform":)"
+        R"({"offset":[0.5,0]}}}})";
+    for (const bool cage : {false, true}) {
+        const Picture picture = draw(square(material, {left}), facing(), cage);
+        EXPECT_GT(colorAt(picture, 90, 100).x, 100);
+        EXPECT_LT(colorAt(picture, 90, 100).z, 60);
+        EXPECT_LT(colorAt(picture, 150, 100).x, 60);
+        EXPECT_GT(colorAt(picture, 150, 100).z, 200);
+    }
+}
+
+TEST_F(MaterialPictureTest, OcclusionDimsLightFromAllRound) {
+    const Picture left = texels([](uint32_t x, uint32_t) { return glm::u8vec4(x < 4 ? 255 : 0, 0, 0, 255); });
+    const auto at = [&](const std::string& strength, uint32_t x) {
+        const std::string material =
+            flatColor("[0.6,0.6,0.6,1]", R"(,"occlusionTexture":{"index":0,"strength":)" + strength + "}");
+        return colorAt(draw(square(material, {left}), facing()), x, 100).y;
+    };
+    const int open = colorAt(draw(square(flatColor("[0.6,0.6,0.6,1]")), facing()), 150, 100).y;
+    EXPECT_NEAR(at("1", 90), colorAt(draw(square(flatColor("[0.6,0.6,0.6,1]")), facing()), 90, 100).y, 1);
+    EXPECT_LT(at("1", 150), open - 15);
+    EXPECT_GT(at("1", 150), 40) << "the key still shines";
+    EXPECT_NEAR(at("0", 150), open, 1);
+}
+
+TEST_F(MaterialPictureTest, BackFacesAreDrawnIfTheFileSaysSo) {
+    const Scene behind = facing({}, 2.0f, 3.14159265f);
+    SceneFile clear = square(R"({"alphaMode":"MASK","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.1]}})");
+    const glm::ivec3 backdrop = middleOf(draw(clear, behind));
+    for (const bool cage : {false, true}) {
+        EXPECT_EQ(middleOf(draw(square(unlitColor("[0,1,0,1]")), behind, cage)), backdrop);
+        const SceneFile both = square(unlitColor("[0,1,0,1]", R"(,"doubleSided":true)"));
+        EXPECT_EQ(middleOf(draw(both, behind, cage)), glm::ivec3(0, 255, 0));
+        Scene normals = behind; // other views show what there is
+        normals.view = shared::kViewNormals;
+        EXPECT_NE(middleOf(draw(square(unlitColor("[0,1,0,1]")), normals, cage)), backdrop);
+    }
+}
+
+TEST(EnvironmentTest, DirectionsAndPlacesAreInverse) {
+    for (uint32_t i = 0; i < 500; ++i) {
+        const float height = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / 500.0f;
+        const float out = std::sqrt(1.0f - height * height), angle = 2.39996323f * static_cast<float>(i);
+        const glm::vec3 direction(out * std::cos(angle), height, out * std::sin(angle));
+        EXPECT_LT(glm::distance(octahedralDirection(octahedralPlace(direction)), direction), 1e-5f);
+    }
+}
+
+TEST(EnvironmentTest, LevelsBlurAndHaveNoSeam) {
+    const StudioEnvironment environment = studioEnvironment();
+    ASSERT_EQ(environment.levels.size(), size_t{shared::kEnvironmentLevels});
+    float sharpest[4] = {2.0f, 2.0f, 2.0f, 2.0f};
+    for (uint32_t level = 0; level < environment.levels.size(); ++level) {
+        const uint32_t size = shared::kEnvironmentSize >> level;
+        const std::vector<glm::vec4>& texels = environment.levels[level];
+        ASSERT_EQ(texels.size(), size_t{size} * size);
+        glm::vec4 most(0.0f);
+        for (const glm::vec4& texel : texels) {
+            most = glm::max(most, texel);
+            for (int k = 0; k < 4; ++k)
+                EXPECT_GE(texel[k], 0.0f);
+        }
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_LT(most[k], sharpest[k] + 1e-3f) << "level " << level;
+            EXPECT_GT(most[k], 0.0f);
+            sharpest[k] = most[k];
+        }
+        // Texels of the border are two of one direction each.
+        for (uint32_t i = 0; i < size; ++i) {
+            EXPECT_LT(glm::distance(texels[i], texels[size - 1 - i]), 1e-4f);
+            EXPECT_LT(glm::distance(texels[size_t{i} * size], texels[size_t{size - 1 - i} * size]), 1e-4f);
+        }
+    }
+    // A white mirror that faces the key, as rough as can be, gives about the light that a white wall does.
+    EXPECT_GT(environment.keyRadiance, 2.0f);
+    EXPECT_LT(environment.keyRadiance, 12.0f);
+}
+
+} // namespace
+} // namespace supple::host
