@@ -41,54 +41,70 @@ class LimitFinder {
 public:
     LimitFinder(const ChannelLevel& level, const UvDemand& demand) : level_(level), demand_(demand) {}
 
-    /// The limit at a corner of a face, with the slopes along the two edges there, towards the next and the last
-    /// corner.
-    [[nodiscard]] UvSample at(uint32_t corner) {
-        const cage::Topology& topology = level_.mesh.topology;
-        const uint32_t v = level_.mesh.cage.faceVertices[corner];
-        if (v != vertex_) {
-            load(v);
+    /// Takes a vertex.
+    void load(uint32_t v) {
+        const RefinedMesh& mesh = level_.mesh;
+        const cage::Topology& topology = mesh.topology;
+        base_ = topology.spokeStarts[v];
+        fan_ = {demand_.subdivision, topology.sectorCount(v), topology.boundary[v] != 0};
+        ring_.assign(1, level_.values[v]);
+        spokes_.clear();
+        bool sharp = mesh.vertexSharpness[v] > 0.0f;
+        for (uint32_t k = 0; k < topology.spokeCount(v); ++k) {
+            ring_.push_back(level_.values[topology.spokeVertices[base_ + k]]);
+            if (demand_.subdivision == Subdivision::catmullClark && k < fan_.sectors) {
+                const uint32_t corner = topology.sectorCorners[base_ + k];
+                ring_.push_back(level_.values[mesh.cage.faceVertices[corner / 4 * 4 + (corner + 2) % 4]]);
+            }
+            const float sharpness = mesh.edgeSharpness[cage::spokeEdge(mesh.cage, topology, base_ + k)];
+            spokes_.push_back(sharpness > 0.0f ? 1.0f : 0.0f); // limits ask no more
+            sharp = sharp || sharpness > 0.0f;
         }
+        limit_ = sharp ? sharpLimit(v) : smoothLimit();
+        value_ = applied(limit_->position);
+        runs_.clear();
+        for (const CentreRun& run : limit_->runs) {
+            runs_.push_back({applied(run.first), applied(run.second)});
+        }
+    }
+
+    [[nodiscard]] uint32_t sectors() const { return fan_.sectors; }
+    [[nodiscard]] uint32_t corner(uint32_t sector) const { return level_.mesh.topology.sectorCorners[base_ + sector]; }
+    /// The limit, with the slopes along the two edges of a sector, towards its corner's next and last.
+    [[nodiscard]] UvSample at(uint32_t sector) const {
         UvSample sample;
-        sample.value = applied(limit_->position);
-        const uint32_t spoke = topology.cornerSpokes[corner] - topology.spokeStarts[v];
-        slopes(spoke, sample);
+        sample.value = value_;
+        slopes(sector, sample);
         return sample;
     }
 
 private:
     using Key = std::tuple<uint32_t, bool, std::vector<float>, float>;
+    struct Slopes {
+        glm::dvec2 first, second;
+    };
 
-    void load(uint32_t v) {
-        const RefinedMesh& mesh = level_.mesh;
-        const cage::Topology& topology = mesh.topology;
-        vertex_ = v;
-        fan_ = {demand_.subdivision, topology.sectorCount(v), topology.boundary[v] != 0};
-        const uint32_t base = topology.spokeStarts[v];
-        ring_.assign(1, level_.values[v]);
-        for (uint32_t k = 0; k < topology.spokeCount(v); ++k) {
-            ring_.push_back(level_.values[topology.spokeVertices[base + k]]);
-            if (demand_.subdivision == Subdivision::catmullClark && k < fan_.sectors) {
-                const uint32_t corner = topology.sectorCorners[base + k];
-                ring_.push_back(level_.values[mesh.cage.faceVertices[corner / 4 * 4 + (corner + 2) % 4]]);
-            }
+    const CentreLimit* smoothLimit() {
+        const auto [known, isNew] = smooth_.try_emplace(fan_.sectors);
+        if (isNew) {
+            known->second = centreLimit(fan_, spokes_, 0.0f);
         }
-        float sharp = mesh.vertexSharpness[v];
+        return &known->second;
+    }
+
+    const CentreLimit* sharpLimit(uint32_t v) {
+        float sharp = level_.mesh.vertexSharpness[v];
         if (v < level_.companions.size() && level_.companions[v] != kNone) {
             const uint32_t other = level_.companions[v];
-            const std::vector<float> spokes = spokeSharpness(mesh, other);
-            const bool corner = vertexRule(spokes, mesh.vertexSharpness[other]).rule == CentreRule::corner;
+            const std::vector<float> spokes = spokeSharpness(level_.mesh, other);
+            const bool corner = vertexRule(spokes, level_.mesh.vertexSharpness[other]).rule == CentreRule::corner;
             sharp = corner ? kInfiniteSharpness : sharp;
         }
-        std::vector<float> spokes = spokeSharpness(mesh, v);
-        for (float& spoke : spokes) {
-            spoke = spoke > 0.0f ? 1.0f : 0.0f; // limits ask no more
-        }
-        const auto [known, isNew] = limits_.try_emplace({fan_.sectors, fan_.open, spokes, sharp});
+        const auto [known, isNew] = sharp_.try_emplace({fan_.sectors, fan_.open, spokes_, sharp});
         if (isNew) {
-            known->second = centreLimit(fan_, spokes, sharp);
+            known->second = centreLimit(fan_, spokes_, sharp);
         }
-        limit_ = &known->second;
+        return &known->second;
     }
 
     [[nodiscard]] glm::dvec2 applied(const CentreMask& mask) const {
@@ -100,20 +116,23 @@ private:
     }
 
     /// The run of sectors with one tangent plane that a sector lies in.
-    [[nodiscard]] const CentreRun& runOf(uint32_t sector) const {
+    [[nodiscard]] size_t runOf(uint32_t sector) const {
+        size_t index = 0;
         for (const CentreRun& run : limit_->runs) {
             if ((sector + fan_.sectors - run.firstSector) % fan_.sectors < run.sectors) {
-                return run;
+                return index;
             }
+            ++index;
         }
-        return limit_->runs.front();
+        return 0;
     }
 
     void slopes(uint32_t sector, UvSample& sample) const {
-        const CentreRun& run = runOf(sector);
-        const uint32_t spokes = fan_.sectors + (fan_.open ? 1 : 0);
+        const size_t index = runOf(sector);
+        const CentreRun& run = limit_->runs[index];
+        const bool loop = demand_.subdivision == Subdivision::loop;
         if (run.corner) {
-            const uint32_t stride = demand_.subdivision == Subdivision::catmullClark ? 2 : 1;
+            const uint32_t stride = loop ? 1 : 2, spokes = fan_.sectors + (fan_.open ? 1 : 0);
             sample.u = ring_[1 + stride * sector] - ring_[0];
             sample.v = ring_[1 + stride * ((sector + 1) % spokes)] - ring_[0];
             return;
@@ -121,12 +140,11 @@ private:
         const bool smooth = limit_->runs.size() == 1 && !fan_.open;
         const uint32_t j = (sector + fan_.sectors - run.firstSector) % fan_.sectors;
         // Per step of the grid: at regular vertices that is what they are, elsewhere a common factor of both.
-        const bool loop = demand_.subdivision == Subdivision::loop;
         const double scale = loop ? 1.0 / 3.0 : 1.0 / 12.0, across = loop ? 0.5 / std::sqrt(3.0) : 1.0 / 6.0;
-        const glm::dvec2 first = applied(run.first) * (smooth ? scale : 0.5);
-        const glm::dvec2 second = applied(run.second) * (smooth ? scale : across);
+        const glm::dvec2 first = runs_[index].first * (smooth ? scale : 0.5);
+        const glm::dvec2 second = runs_[index].second * (smooth ? scale : across);
         const auto along = [&](uint32_t k) {
-            const auto [cosine, sine] = smooth ? turn(k, fan_.sectors) : turn(k, 2 * run.sectors);
+            const auto [cosine, sine] = turn(k, smooth ? fan_.sectors : 2 * run.sectors);
             return cosine * first + sine * second;
         };
         sample.u = along(j);
@@ -135,11 +153,16 @@ private:
 
     const ChannelLevel& level_;
     const UvDemand& demand_;
-    std::map<Key, CentreLimit> limits_;
-    uint32_t vertex_ = kNone; ///< at work
+    std::map<uint32_t, CentreLimit> smooth_; ///< closed fans, by sectors
+    std::map<Key, CentreLimit> sharp_;
+    // The vertex at work:
+    uint32_t base_ = 0;
     Fan fan_;
+    std::vector<float> spokes_;
     std::vector<glm::dvec2> ring_; ///< the vertex, then ring 1 in spiral order
     const CentreLimit* limit_ = nullptr;
+    glm::dvec2 value_{0.0};
+    std::vector<Slopes> runs_;
 };
 
 /// Slopes along the grid, from those along the edges of a face that runs from `corner` to `next` and to `last`.
@@ -181,10 +204,12 @@ Result<std::vector<UvSample>> limitUvs(const RefinedMesh& cage, const std::vecto
     const auto perFace = static_cast<uint32_t>(1) << (2 * demand.steps); // of the isolated mesh
     std::vector<UvSample> result(size_t{samples} * (places.size() / perFace));
     LimitFinder finder(level, demand);
-    for (uint32_t f = 0; f < places.size(); ++f) {
-        for (uint32_t c = 0; c < sides; ++c) {
+    for (uint32_t v = 0; v < level.mesh.cage.vertexCount(); ++v) {
+        finder.load(v);
+        for (uint32_t sector = 0; sector < finder.sectors(); ++sector) {
+            const uint32_t corner = finder.corner(sector), f = corner / sides, c = corner % sides;
             const glm::ivec2 at = places[f][c];
-            UvSample sample = finder.at(sides * f + c);
+            UvSample sample = finder.at(sector);
             turnSlopes(sample, at, places[f][(c + 1) % sides], places[f][(c + sides - 1) % sides]);
             const int before = quads ? at.y * (side + 1) : at.y * (side + 1) - at.y * (at.y - 1) / 2;
             result[size_t{samples} * (f / perFace) + static_cast<uint32_t>(before + at.x)] = sample;
