@@ -137,7 +137,7 @@ void expectPlyIsObj(const Ply& ply, const Obj& obj) {
             ASSERT_EQ(ply.positions[in], obj.v[of]) << "face " << f << " corner " << k;
             apart = std::max(apart, largestDifference(ply.normals[in], obj.vn[of]));
             if (!obj.vt.empty()) {
-                ASSERT_EQ(ply.uvs[in], glm::vec2(obj.vt[of].x, 1.0f - obj.vt[of].y)) << "face " << f;
+                ASSERT_EQ(ply.uvs[in], obj.vt[of]) << "face " << f;
             }
         }
     }

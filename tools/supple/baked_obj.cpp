@@ -13,6 +13,11 @@
 namespace supple::tools {
 namespace {
 
+/// glTF's t runs down the picture, OBJ's up.
+glm::vec2 turned(const glm::vec2& uv) {
+    return {uv.x, 1.0f - uv.y};
+}
+
 template <class Vec>
 void writeVector(TextFile& file, std::string_view keyword, const Vec& value) {
     file.text(keyword);
@@ -74,7 +79,7 @@ void SurfaceWriter::writeVertices(uint64_t first, uint64_t count, uint64_t& writ
         writeVector(file_, "vn", element<glm::vec3>(surface_.vertices, streams.vertices, i, sizeof(glm::vec3)));
     }
     for (uint64_t i = first; !surface_.attributes.empty() && i < first + count; ++i) {
-        writeVector(file_, "vt", element<glm::vec2>(surface_.attributes, streams.attributes, i));
+        writeVector(file_, "vt", turned(element<glm::vec2>(surface_.attributes, streams.attributes, i)));
     }
     written += count;
 }
@@ -157,7 +162,7 @@ Status writeCageObj(const std::string& path, const Evaluation& baked, const cage
         writeVector(file, "v", element<glm::vec3>(baked.deformedCage, view, vertex));
     }
     for (const glm::vec2& uv : cage.cornerUvs) {
-        writeVector(file, "vt", uv);
+        writeVector(file, "vt", turned(uv));
     }
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         file.text("f");
