@@ -79,7 +79,7 @@ public:
         const auto read = [&](int dx, int dy) {
             const int x = std::clamp(static_cast<int>(whole.x) + dx, 0, size - 1);
             const int y = std::clamp(static_cast<int>(whole.y) + dy, 0, size - 1);
-            return levels_[which][static_cast<size_t>(y * size + x)];
+            return levels_[which][static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x)];
         };
         return glm::mix(glm::mix(read(0, 0), read(1, 0), part.x), glm::mix(read(0, 1), read(1, 1), part.x), part.y);
     }
