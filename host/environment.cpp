@@ -79,7 +79,7 @@ public:
         const auto read = [&](int dx, int dy) {
             const int x = std::clamp(static_cast<int>(whole.x) + dx, 0, size - 1);
             const int y = std::clamp(static_cast<int>(whole.y) + dy, 0, size - 1);
-            return levels_[which][static_cast<size_t>(y * size + x)];
+            return levels_[which][static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x)];
         };
         return glm::mix(glm::mix(read(0, 0), read(1, 0), part.x), glm::mix(read(0, 1), read(1, 1), part.x), part.y);
     }
@@ -181,7 +181,7 @@ StudioEnvironment studioEnvironment() {
     StudioEnvironment environment;
     for (uint32_t level = 0; level < kLevels; ++level) {
         const uint32_t size = shared::kEnvironmentSize >> level;
-        const std::vector<Look> looks = looksFor(environmentRoughness(level), 24 * (level + 1));
+        const std::vector<Look> looks = looksFor(environmentRoughness(level), 24 * (2 * std::max(level, 1u) - 1));
         std::vector<glm::vec4>& texels = environment.levels.emplace_back(size_t{size} * size);
         for (uint32_t i = 0; i < size * size; ++i) {
             const glm::vec2 at = glm::vec2(i % size, i / size) * (2.0f / static_cast<float>(size - 1)) - 1.0f;

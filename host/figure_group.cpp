@@ -48,7 +48,7 @@ std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t
 Status createWithTangents(Context& context, SuppleGroupDesc desc, bool tangents, SuppleGroup& group) {
     if (tangents) {
         desc.flags |= SUPPLE_GROUP_TANGENTS;
-        const Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
+        Status status = context.check(suppleCreateGroup(context.handle(), &desc, &group), "suppleCreateGroup");
         if (status || status.error().code != ErrorCode::argument)
             return status;
         desc.flags &= ~uint32_t{SUPPLE_GROUP_TANGENTS}; // a scheme that was named may have none

@@ -81,16 +81,16 @@ Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const 
                                                                            : TextureKind::data;
         const bool ownTrim = info.trimDomain != SUPPLE_TRIM_NONE && info.trimAlpha == 0;
         const struct {
-            uint32_t slot;
             SuppleTextureInfo& texture;
+            uint32_t slot;
             TextureKind kind;
-        } wanted[] = {{shared::kBaseColor, info.baseColor, TextureKind::color},
-                      {shared::kMetallicRoughness, info.metallicRoughness, TextureKind::data},
-                      {shared::kNormal, info.normal, TextureKind::data},
-                      {shared::kOcclusion, info.occlusion, TextureKind::data},
-                      {shared::kEmissive, info.emissive, TextureKind::color},
-                      {shared::kTrim, info.trim, trimKind}};
-        for (const auto& [slot, texture, kind] : wanted) {
+        } wanted[] = {{info.baseColor, shared::kBaseColor, TextureKind::color},
+                      {info.metallicRoughness, shared::kMetallicRoughness, TextureKind::data},
+                      {info.normal, shared::kNormal, TextureKind::data},
+                      {info.occlusion, shared::kOcclusion, TextureKind::data},
+                      {info.emissive, shared::kEmissive, TextureKind::color},
+                      {info.trim, shared::kTrim, trimKind}};
+        for (const auto& [texture, slot, kind] : wanted) {
             const bool required = slot == shared::kTrim && ownTrim;
             const Result<size_t> loaded = load(context, asset, path, texture.image, kind, required);
             if (!loaded)
@@ -125,13 +125,15 @@ Result<size_t> FigureMaterials::load(Context& context, SuppleAsset asset, const 
             context.check(suppleGetImageInfo(context.handle(), asset, image, &info), "suppleGetImageInfo");
         !status)
         return status.error();
+    const std::string name = info.name[0] != '\0' ? info.name : std::to_string(image);
     const Result<Picture> picture = decodePicture(std::span(static_cast<const std::byte*>(info.bytes), info.byteCount),
-                                                  path + (required ? ": trim image " : ": image ") + info.name);
+                                                  path + (required ? ": trim image " : ": image ") + name);
     if (!picture && required)
         return picture.error();
     if (!picture) {
         // It takes nothing from the shape: draw without it, but say so.
-        std::fprintf(stderr, "warning: %s\n", picture.error().message.c_str());
+        if (unread_.insert(image).second)
+            std::fprintf(stderr, "warning: %s: left out\n", picture.error().message.c_str());
         return known->second;
     }
     Result<size_t> uploaded = upload(context.device(), *picture, kind);

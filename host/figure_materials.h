@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,6 +61,7 @@ private:
     std::vector<Texture> textures_;                                ///< the first one is white
     bool knowsNoSides_ = false;                                    ///< OBJ
     std::map<std::pair<uint32_t, TextureKind>, size_t> known_;
+    std::set<uint32_t> unread_; ///< images of which it was said
 };
 
 } // namespace supple::host

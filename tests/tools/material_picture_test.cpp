@@ -74,18 +74,23 @@ protected:
         Result<std::unique_ptr<Context>> context = Context::create(*device_);
         ASSERT_TRUE(context.ok()) << context.error().message;
         context_ = std::move(*context);
-        Result<std::unique_ptr<SurfaceRenderer>> renderer =
-            SurfaceRenderer::create(*device_, {.quality = StudioQuality::interactive(true)});
-        ASSERT_TRUE(renderer.ok()) << renderer.error().message;
-        renderer_ = std::move(*renderer);
-        Result<DrawTarget> target = DrawTarget::create(*device_, kMaterialSize, renderer_->samples());
-        ASSERT_TRUE(target.ok()) << target.error().message;
-        target_ = std::move(*target);
+        for (const bool multisample : {false, true}) {
+            StudioQuality quality = StudioQuality::interactive(true);
+            quality.multisample = multisample;
+            Result<std::unique_ptr<SurfaceRenderer>> renderer = SurfaceRenderer::create(*device_, {.quality = quality});
+            ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+            renderers_[multisample] = std::move(*renderer);
+            Result<DrawTarget> target = DrawTarget::create(*device_, kMaterialSize, renderers_[multisample]->samples());
+            ASSERT_TRUE(target.ok()) << target.error().message;
+            targets_[multisample] = std::move(*target);
+        }
     }
 
     static void TearDownTestSuite() {
-        target_ = {};
-        renderer_.reset();
+        for (const size_t i : {0u, 1u}) {
+            targets_[i] = {};
+            renderers_[i].reset();
+        }
         context_.reset();
         if (device_ == nullptr)
             return;
@@ -94,7 +99,7 @@ protected:
         EXPECT_EQ(validation->messageCount(), 0u);
     }
 
-    void SetUp() override { ASSERT_NE(renderer_, nullptr); }
+    void SetUp() override { ASSERT_NE(renderers_[1], nullptr); }
     void TearDown() override { EXPECT_EQ(device_->validationMessageCount(), 0u); }
 
     static std::unique_ptr<Figure> open(const SceneFile& file) {
@@ -126,27 +131,29 @@ protected:
         Picture picture;
         bool tangents; ///< the surface had them
     };
-    static Drawn drawWith(const SceneFile& file, const GroupOptions& options, Scene scene) {
+    static Drawn drawWith(const SceneFile& file, const GroupOptions& options, Scene scene, bool multisample = false) {
+        SurfaceRenderer& renderer = *renderers_[multisample];
+        const DrawTarget& target = targets_[multisample];
         const std::unique_ptr<Figure> figure = open(file);
         Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(*figure, options);
         EXPECT_TRUE(group.ok()) << (group.ok() ? "" : group.error().message);
         const SuppleGroup groups[] = {(*group)->handle()};
         EXPECT_TRUE(context_->evaluate(groups).ok());
-        Result<FigureBinding> binding = renderer_->bind(**group);
+        Result<FigureBinding> binding = renderer.bind(**group);
         EXPECT_TRUE(binding.ok());
         scene.group = group->get();
         scene.binding = &*binding;
         const Status status =
-            device_->submitAndWait([&](VkCommandBuffer commands) { renderer_->record(commands, 0, target_, scene); });
+            device_->submitAndWait([&](VkCommandBuffer commands) { renderer.record(commands, 0, target, scene); });
         EXPECT_TRUE(status.ok());
-        Result<Picture> picture = readPicture(*device_, target_.color().handle(), kMaterialSize, kPictureFormat);
+        Result<Picture> picture = readPicture(*device_, target.color().handle(), kMaterialSize, kPictureFormat);
         EXPECT_TRUE(picture.ok());
         return {*picture, (*group)->surfaces()[0].output.streams.tangents.buffer != VK_NULL_HANDLE};
     }
-    static Picture draw(const SceneFile& file, const Scene& scene, bool cage = false) {
+    static Picture draw(const SceneFile& file, const Scene& scene, bool cage = false, bool multisample = false) {
         Scene shown = scene;
         shown.cageFaces = cage;
-        return drawWith(file, {.rate = 4}, shown).picture;
+        return drawWith(file, {.rate = 4}, shown, multisample).picture;
     }
 
     /// One square that faces the viewer, larger than the picture is high.
@@ -160,20 +167,22 @@ protected:
 
     static inline std::unique_ptr<Device> device_;
     static inline std::unique_ptr<Context> context_;
-    static inline std::unique_ptr<SurfaceRenderer> renderer_;
-    static inline DrawTarget target_;
+    static inline std::unique_ptr<SurfaceRenderer> renderers_[2]; ///< by multisampling
+    static inline DrawTarget targets_[2];
 };
 
 /// Green of a place on a tile of the bumps, in the middle of a few pixels; `at`: from the tile's middle.
-float bumpLight(const Picture& picture, uint32_t column, uint32_t row, glm::vec2 at) {
+float bumpLight(const Picture& picture, uint32_t tileColumn, uint32_t tileRow, glm::vec2 at) {
     const float perUnit = float{kMaterialSize.height} / 4.2f;
-    const glm::vec2 place = glm::vec2(column, -static_cast<float>(row)) + at - glm::vec2(1.0f, -1.5f);
+    const glm::vec2 place = glm::vec2(tileColumn, -static_cast<float>(tileRow)) + at - glm::vec2(1.0f, -1.5f);
     const auto x = static_cast<uint32_t>(float{kMaterialSize.width} * 0.5f + place.x * perUnit);
     const auto y = static_cast<uint32_t>(float{kMaterialSize.height} * 0.5f - place.y * perUnit);
-    float sum = 0.0f;
-    for (uint32_t i = 0; i < 9; ++i)
-        sum += static_cast<float>(picture.pixel(x + i % 3 - 1, y + i / 3 - 1)[1]) / 9.0f;
-    return sum;
+    uint32_t sum = 0;
+    for (uint32_t row = y - 1; row <= y + 1; ++row) {
+        for (uint32_t column = x - 1; column <= x + 1; ++column)
+            sum += picture.pixel(column, row)[1];
+    }
+    return static_cast<float>(sum) / 9.0f;
 }
 
 void expectBumpsAlike(const Picture& picture) {
@@ -293,7 +302,8 @@ TEST_F(MaterialPictureTest, BlendedPartsShowWhatIsBehindTheFarthestFirst) {
     for (const bool cage : {false, true}) {
         SCOPED_TRACE(cage ? "cage" : "surface");
         const glm::ivec3 front(byteOf(0.5f), byteOf(0.25f), byteOf(0.25f));
-        EXPECT_LE(furthest(middleOf(draw(file, facing(), cage)), front), 1);
+        for (const bool multisample : {false, true})
+            EXPECT_LE(furthest(middleOf(draw(file, facing(), cage, multisample)), front), 1);
         // From behind the opaque one hides the others; without it the green one is in front.
         const Scene behind = facing({}, 2.0f, 3.14159265f);
         EXPECT_LE(furthest(middleOf(draw(file, behind, cage)), {0, 0, 255}), 1);
@@ -325,9 +335,14 @@ TEST_F(MaterialPictureTest, BlendedMaterialsThatAreSolidLookAsOpaqueOnes) {
         scene.ground = -1.0f;
         scene.camera.pitch = 0.1f;
         file.materials = {flatColor("[1,1,1,1]", R"(,"doubleSided":true)")};
+        const SceneFile blended = [&] {
+            SceneFile made = file;
+            made.materials = {flatColor("[1,1,1,1]", R"(,"doubleSided":true,"alphaMode":"BLEND")")};
+            return made;
+        }();
         const Picture opaque = draw(file, scene, cage);
-        file.materials = {flatColor("[1,1,1,1]", R"(,"doubleSided":true,"alphaMode":"BLEND")")};
-        EXPECT_LE(furthest(opaque, draw(file, scene, cage)), 1) << (cage ? "cage" : "surface");
+        EXPECT_LE(furthest(opaque, draw(blended, scene, cage)), 1) << (cage ? "cage" : "surface");
+        EXPECT_LE(furthest(draw(file, scene, cage, true), draw(blended, scene, cage, true)), 1) << "multisampled";
         EXPECT_GT(middleOf(opaque).x, middleOf(opaque).z + 60) << "the near one is red";
     }
 }
@@ -379,6 +394,29 @@ TEST_F(MaterialPictureTest, EachTextureHasItsOwnTransform) {
         EXPECT_LT(colorAt(picture, 150, 100).x, 60);
         EXPECT_GT(colorAt(picture, 150, 100).z, 200);
     }
+}
+
+TEST_F(MaterialPictureTest, TexturesLieOnTheSecondCoordinatesIfTheFileSaysSo) {
+    const Picture left = texels(
+        [](uint32_t x, uint32_t) { return x < 4 ? glm::u8vec4(255, 255, 255, 255) : glm::u8vec4(0, 0, 0, 255); });
+    SceneFile file = square(
+        flatColor("[0,0,0,1]", R"(,"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0,"texCoord":1})"), {left});
+    for (const glm::vec2 uv : file.meshes[0].uvs)
+        file.meshes[0].uvs1.emplace_back(1.0f - uv.x, uv.y);
+    for (const bool cage : {false, true}) {
+        const Picture picture = draw(file, facing(), cage);
+        EXPECT_LT(colorAt(picture, 90, 100).y, 60);
+        EXPECT_GT(colorAt(picture, 150, 100).y, 200);
+    }
+}
+
+TEST_F(MaterialPictureTest, TexturesThatCannotBeReadAreLeftOut) {
+    const std::string maps =
+        R"(,"normalTexture":{"index":0},"occlusionTexture":{"index":0},"emissiveTexture":{"index":0},)"
+        R"("emissiveFactor":[0.1,0.1,0])";
+    const std::string none = R"(,"emissiveFactor":[0.1,0.1,0])";
+    const Picture broken = draw(square(flatColor("[0.5,0.5,0.5,1]", maps), {Picture{}}), facing());
+    EXPECT_EQ(broken.rgba, draw(square(flatColor("[0.5,0.5,0.5,1]", none)), facing()).rgba);
 }
 
 TEST_F(MaterialPictureTest, OcclusionDimsLightFromAllRound) {

@@ -35,6 +35,8 @@ std::string encoded(const void* bytes, size_t size) {
 }
 
 std::string pngBytes(const Picture& picture, const std::string& beside) {
+    if (picture.rgba.empty())
+        return "no picture";
     const std::string path = beside + ".png";
     if (!host::writePng(picture, path).ok())
         return {};
@@ -54,7 +56,8 @@ public:
         buffer_.append(reinterpret_cast<const char*>(values.data()), bytes);
         buffer_.resize((buffer_.size() + 3) / 4 * 4);
         const size_t count = type == std::string("SCALAR") ? values.size() * (sizeof(T) / 4) : values.size();
-        Json accessor = {{"bufferView", views_.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}};
+        Json accessor = {
+            {"bufferView", views_.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}};
         if constexpr (std::is_same_v<T, glm::vec3>) {
             if (bounds) {
                 glm::vec3 low = values[0], high = values[0];
@@ -72,8 +75,9 @@ public:
     void writeTo(Json& root) const {
         root["accessors"] = list_;
         root["bufferViews"] = views_;
-        root["buffers"] = {{{"byteLength", buffer_.size()},
-                            {"uri", "data:application/octet-stream;base64," + encoded(buffer_.data(), buffer_.size())}}};
+        root["buffers"] = {
+            {{"byteLength", buffer_.size()},
+             {"uri", "data:application/octet-stream;base64," + encoded(buffer_.data(), buffer_.size())}}};
     }
 
 private:
@@ -176,6 +180,8 @@ Json jsonOf(const SceneMesh& mesh, Accessors& accessors) {
         attributes["NORMAL"] = accessors.add(mesh.normals, "VEC3", 5126);
     if (!mesh.uvs.empty())
         attributes["TEXCOORD_0"] = accessors.add(mesh.uvs, "VEC2", 5126);
+    if (!mesh.uvs1.empty())
+        attributes["TEXCOORD_1"] = accessors.add(mesh.uvs1, "VEC2", 5126);
     if (!mesh.tangents.empty())
         attributes["TANGENT"] = accessors.add(mesh.tangents, "VEC4", 5126);
     if (!mesh.colors.empty())
@@ -238,7 +244,7 @@ SceneFile bumpScene(bool tangents) {
             // A map that is turned with its texture coordinates shows a round bump all the same.
             const glm::vec2 right = turnedUv({1.0f, 0.5f}, row, mirrored) - turnedUv({0.0f, 0.5f}, row, mirrored);
             const glm::vec2 down = turnedUv({0.5f, 1.0f}, row, mirrored) - turnedUv({0.5f, 0.0f}, row, mirrored);
-            const glm::vec3 tangent(right.x, -down.x, 0.0f); // where s grows
+            const glm::vec3 tangent(right.x, -down.x, 0.0f);        // where s grows
             const float side = right.x * down.y - right.y * down.x; // of a chart that is not mirrored: 1
             addGrid(mesh, shaped ? 20 : 2, [&](glm::vec2 at) {
                 const glm::vec2 place = glm::vec2(at.x - 0.5f, 0.5f - at.y);
@@ -285,10 +291,11 @@ SceneFile ballScene() {
 
 bool writeScene(const SceneFile& scene, const std::string& path) {
     Accessors accessors;
-    Json root = {{"asset", {{"version", "2.0"}}},
-                 {"extensionsUsed",
-                  {"FB_ngon_encoding", "KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform"}},
-                 {"scene", 0}};
+    Json root = {
+        {"asset", {{"version", "2.0"}}},
+        {"extensionsUsed",
+         {"FB_ngon_encoding", "KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform"}},
+        {"scene", 0}};
     Json nodes = Json::array(), roots = Json::array(), meshes = Json::array();
     for (const SceneMesh& mesh : scene.meshes) {
         meshes.push_back(jsonOf(mesh, accessors));

@@ -17,13 +17,14 @@ struct SceneMesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
+    std::vector<glm::vec2> uvs1;
     std::vector<glm::vec4> tangents;
     std::vector<glm::vec4> colors;
     std::vector<std::array<uint32_t, 4>> quads;
     size_t material = 0;
 };
 
-/// Texture i is image i, with sampler i if there is one.
+/// Texture i is image i, with sampler i if there is one. An empty picture becomes bytes that are none.
 struct SceneFile {
     std::vector<SceneMesh> meshes;
     std::vector<std::string> materials; ///< JSON
@@ -41,12 +42,13 @@ enum BumpColumn : uint32_t { kShapedBump, kMappedBump, kMirroredBump, kBumpColum
 constexpr uint32_t kBumpRows = 4; ///< texture coordinates turned by a right angle more in each
 constexpr float kBumpRadius = 0.40f;
 
-/// Bumps on tiles of side 1 about (column, -row, 0), in the manner of Khronos' NormalTangentMirrorTest: one that is there,
-/// one that a normal map makes, and one that it makes on mirrored texture coordinates. All look alike if the map is read
-/// right. `tangents`: with TANGENT in the file.
+/// Bumps on tiles of side 1 about (column, -row, 0), in the manner of Khronos' NormalTangentMirrorTest: one that is
+/// there, one that a normal map makes, and one that it makes on mirrored texture coordinates. All look alike if the map
+/// is read right. `tangents`: with TANGENT in the file.
 [[nodiscard]] SceneFile bumpScene(bool tangents);
 
-/// Balls from smooth to rough, of plastic and metals; below them one each that glows, is unlit, masked, blended, mapped.
+/// Balls from smooth to rough, of plastic and metals; below them one each that glows, is unlit, masked, blended,
+/// mapped.
 [[nodiscard]] SceneFile ballScene();
 
 /// Writes a .gltf that holds everything. False if it cannot.
