@@ -215,6 +215,10 @@ TEST_F(MaterialPictureTest, NormalMapsTurnLightAsBumpsDoMirroredOrNot) {
         EXPECT_TRUE(drawn.tangents || scheme != SUPPLE_SCHEME_PM);
         expectBumpsAlike(drawn.picture);
     }
+    {
+        SCOPED_TRACE("polygons, with TANGENT in the file");
+        expectBumpsAlike(drawWith(test::bumpScene(true), {.scheme = SUPPLE_SCHEME_POLYGONS}, scene).picture);
+    }
     SCOPED_TRACE("cage");
     Scene cage = scene;
     cage.cageFaces = true;
