@@ -8,9 +8,9 @@
 
 namespace supple::host {
 
-/// Four scalar masks over the sphere of directions, for a viewer at yaw 0. They are blurred apart, so that each light has
-/// its own color and its own shadow when it is mirrored. x: the key's soft box. y: the rim's. z: what hangs overhead, and
-/// a card beside the viewer. w: 1 above the horizon, 0 on the floor.
+/// Four scalar masks over the sphere of directions, for a viewer at yaw 0. They are blurred apart, so that each light
+/// has its own color and its own shadow when it is mirrored. x: the key's soft box. y: the rim's. z: what hangs
+/// overhead, and a card beside the viewer. w: 1 above the horizon, 0 on the floor.
 struct StudioEnvironment {
     /// Octahedral maps, the sharpest first: shared::kEnvironmentSize texels a side, then half of the level before. The
     /// outermost texels lie on the border of the octahedron, where directions meet, so that no seam shows.

@@ -53,9 +53,9 @@ struct Recipe {
     SchemeId scheme = SchemeId::pm;
     prep::Options prep;
     blend::Options blend;
-    uint32_t rate = 0;        ///< segments along an edge of the cage (Scheme::tableRate); 0: tables for all rates
-    bool attributes = true;   ///< the tables have corner attributes
-    bool tangents = false;    ///< of a mesh with attributes: vertices have tangents, and differ where these do
+    uint32_t rate = 0;      ///< segments along an edge of the cage (Scheme::tableRate); 0: tables for all rates
+    bool attributes = true; ///< the tables have corner attributes
+    bool tangents = false;  ///< of a mesh with attributes: vertices have tangents, and differ where these do
     /// How texture coordinates are interpolated; all: linearly. Without attributes it does not matter.
     cage::UvMode uvMode = cage::UvMode::all;
     bool lod = false;         ///< the tables have what level of detail needs
