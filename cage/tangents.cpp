@@ -54,11 +54,10 @@ public:
 
 private:
     struct Triangle {
-        glm::dvec3 along{0.0};  ///< the direction in which the first texture coordinate grows
-        bool collapsed = false; ///< two of its points are one
-        bool anyHand =
-            true; ///< it has no area in texture coordinates: it takes the hand of the first group that it joins
-        bool rightHanded = false;                                ///< the area in texture coordinates is positive
+        glm::dvec3 along{0.0};    ///< the direction in which the first texture coordinate grows
+        bool collapsed = false;   ///< two of its points are one
+        bool rightHanded = false; ///< the area in texture coordinates is positive
+        bool anyHand = true;      ///< there is no such area: it takes the hand of the first group that it joins
         std::array<uint32_t, 3> neighbours{kNone, kNone, kNone}; ///< across the edge from corner k
     };
 
@@ -123,7 +122,7 @@ private:
             while (last < edges.size() && ends(edges[last]) == ends(edges[first])) {
                 ++last;
             }
-            // Of an edge of many triangles the first that run to and fro.
+            // If an edge has more than two triangles, the first two that run against each other are neighbours.
             std::array<std::vector<uint32_t>, 2> places;
             for (size_t i = first; i < last; ++i) {
                 places[edges[i].rising ? 1 : 0].push_back(edges[i].place);

@@ -211,7 +211,7 @@ private:
             channel_.rules.push_back(matches  ? UvChannel::Rule::match
                                      : corner ? UvChannel::Rule::corner
                                               : UvChannel::Rule::crease);
-            // Of two values just one has semi-sharp edges: both go over from corner to crease as these do.
+            // If one of two values has semi-sharp edges, both go over from corner to crease as these do.
             const bool follows = facts_.size() == 2 && runs_.size() == 2 && facts.semiSharp == 0 &&
                                  facts_[1 - run.value].semiSharp > 0 &&
                                  (mode_ == UvMode::cornersPlus1 || mode_ == UvMode::cornersPlus2);

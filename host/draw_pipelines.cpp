@@ -155,7 +155,7 @@ Status DrawPipelines::createFacePipelines(const DrawFormats& formats) {
                 desc.constants = {vertexLit ? 1u : 0u, maps ? 1u : 0u};
                 desc.blend = blend;
                 desc.depthWrite = !blend;
-                // Of the edges of holes; what blends needs its alpha itself.
+                // Coverage smooths the edges of holes. What blends needs its alpha itself.
                 desc.alphaToCoverage = !blend && formats.samples != VK_SAMPLE_COUNT_1_BIT;
                 desc.name = "surface";
                 desc.vertexShader = surface_vert;

@@ -20,7 +20,7 @@ struct StudioEnvironment {
     float rimRadiance = 1.0f;
 };
 
-/// Of one texel of a level: its direction, and the other way round, as shaders/studio.glsl has it.
+/// The direction of a texel of a level, and the place of a direction, as shaders/studio.glsl has them.
 [[nodiscard]] glm::vec3 octahedralDirection(glm::vec2 at); ///< at: -1..1
 [[nodiscard]] glm::vec2 octahedralPlace(glm::vec3 direction);
 

@@ -20,7 +20,33 @@ bool liesAsTangents(const SuppleTextureInfo& texture) {
     return texture.uvSet == 0 && texture.rotation == 0.0f && texture.scale[0] > 0.0f && texture.scale[1] > 0.0f;
 }
 
+/// Holes that the base color's alpha does not make.
+bool hasOwnTrim(const SuppleMaterialInfo& material) {
+    return material.trimDomain != SUPPLE_TRIM_NONE && material.trimAlpha == 0;
+}
+
 } // namespace
+
+uint32_t materialFlags(const SuppleMaterialInfo& material, bool uv1) {
+    uint32_t flags = 0;
+    const bool ownTrim = hasOwnTrim(material);
+    // A mask without a texture is a trim too: of the alphas that multiply a white one.
+    const bool mask = material.alphaMode == SUPPLE_ALPHA_MASK && !ownTrim;
+    const auto set = [&](bool yes, uint32_t flag) { flags |= yes ? flag : 0; };
+    set(material.doubleSided != 0, shared::kMaterialDoubleSided);
+    set(mask, shared::kMaterialMask | shared::kMaterialTrim | shared::kMaterialTrimAlpha);
+    set(material.alphaMode == SUPPLE_ALPHA_BLEND, shared::kMaterialTranslucent);
+    set(material.alphaMode == SUPPLE_ALPHA_BLEND && !ownTrim, shared::kMaterialTrimAlpha);
+    set(material.unlit != 0, shared::kMaterialUnlit);
+    set(ownTrim, shared::kMaterialTrim);
+    set(material.trimDomain == SUPPLE_TRIM_FACE, shared::kMaterialTrimFace);
+    set(liesAsTangents(material.normal), shared::kMaterialTangents);
+    for (const SuppleTextureInfo* texture : {&material.baseColor, &material.metallicRoughness, &material.normal,
+                                             &material.occlusion, &material.emissive, &material.trim}) {
+        set(uv1 && texture->uvSet == 1, shared::kMaterialUvs1);
+    }
+    return flags;
+}
 
 shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, bool uv1) {
     shared::MaterialUniforms uniforms{};
@@ -38,18 +64,8 @@ shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, bo
     uniforms.places[shared::kOcclusion] = placeOf(material.occlusion, uv1);
     uniforms.places[shared::kEmissive] = placeOf(material.emissive, uv1);
     uniforms.places[shared::kTrim] = placeOf(material.trim, uv1);
-    const bool ownTrim = material.trimDomain != SUPPLE_TRIM_NONE && material.trimAlpha == 0;
-    // A mask without a texture is a trim too: of the alphas that multiply a white one.
-    const bool mask = material.alphaMode == SUPPLE_ALPHA_MASK && !ownTrim;
-    const auto set = [&](bool yes, uint32_t flag) { uniforms.flags |= yes ? flag : 0; };
-    set(material.doubleSided != 0, shared::kMaterialDoubleSided);
-    set(mask, shared::kMaterialMask | shared::kMaterialTrim | shared::kMaterialTrimAlpha);
-    set(material.alphaMode == SUPPLE_ALPHA_BLEND, shared::kMaterialTranslucent);
-    set(material.alphaMode == SUPPLE_ALPHA_BLEND && !ownTrim, shared::kMaterialTrimAlpha);
-    set(material.unlit != 0, shared::kMaterialUnlit);
-    set(ownTrim, shared::kMaterialTrim);
-    set(material.trimDomain == SUPPLE_TRIM_FACE, shared::kMaterialTrimFace);
-    set(liesAsTangents(material.normal), shared::kMaterialTangents);
+    uniforms.flags = materialFlags(material, uv1);
+    const bool ownTrim = hasOwnTrim(material);
     uniforms.cutoff = ownTrim ? material.trimCutoff : material.alphaCutoff;
     uniforms.trimChannel = ownTrim ? material.trimChannel : 3;
     uniforms.trimTiles = static_cast<float>(std::max(material.trimTiles, 1u));

@@ -23,9 +23,6 @@ constexpr glm::vec4 kOverlayEdgeColor(0.95f, 0.42f, 0.06f, 0.9f);
 /// From here on a CPU device looks the light up once a vertex: it shades blocks of pixels, however small the triangle.
 constexpr uint32_t kVertexLitRate = 4;
 
-/// From here on a translucent material is solid: see shaders/material_textures.glsl.
-constexpr float kSolidAlpha = 0.99f;
-
 /// Below so many directions the steps of single shadow maps show.
 constexpr uint32_t kFewLights = 12;
 
@@ -613,7 +610,7 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
     const FigureSurface* surface = nullptr;
     for (const Run& run : runs) {
         const bool blended = isBlended(scene, materials.of(run.material));
-        if (blend ? !blended : blended && materials.of(run.material).baseColorFactor[3] < kSolidAlpha)
+        if (blend ? !blended : blended && materials.of(run.material).baseColorFactor[3] < shared::kSolidAlpha)
             continue;
         const FigureSurface& own = scene.group->surfaces()[run.surface];
         const bool maps = scene.view == shared::kViewShaded && materials.hasMaps(run.material);
@@ -669,7 +666,7 @@ void SurfaceRenderer::drawCageShadow(VkCommandBuffer commands, const Scene& scen
         if (!scene.group->isPartVisible(range.part))
             continue;
         // The cage has the holes of masks, not those of a trim of its own.
-        const uint32_t flags = materialUniforms(materials.of(range.material), false).flags;
+        const uint32_t flags = materialFlags(materials.of(range.material), false);
         const bool mask = (flags & shared::kMaterialTrimAlpha) != 0;
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                           mask ? pipelines_->cageShadowTrim : pipelines_->cageShadow);

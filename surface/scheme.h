@@ -107,7 +107,7 @@ struct MeshTables {
     };
     std::vector<Edges> edges;
     Section attributes;    ///< one element per edge record, if the tables have corner attributes
-    bool tangents = false; ///< samples are split where faces of two hands meet, and edges know their patch
+    bool tangents = false; ///< faces whose texture coordinates turn in different directions share no sample
     uint32_t edgeCount = 0;
     uint32_t cornerCount = 0;
     /// The borders of a patch: side i is an edge, which runs along the side or, if reversed, against it; corner i is

@@ -10,16 +10,10 @@ uint32_t uvBits(float value) {
     return std::bit_cast<uint32_t>(value + 0.0f);
 }
 
-/// Appends coefficients, two an element.
-class UvWriter {
-public:
-    explicit UvWriter(TableWriter& writer) : writer_(writer) {}
-
-    void put(const glm::vec2& value) { writer_.put({uvBits(value.x), uvBits(value.y)}); }
-
-private:
-    TableWriter& writer_;
-};
+/// Two of them fill an element.
+void putUv(const glm::vec2& value, TableWriter& writer) {
+    writer.put({uvBits(value.x), uvBits(value.y)});
+}
 
 /// A corner's value, and another coefficient as offset from it. Both are rounded once, and every patch that has them
 /// rounds the same numbers; so has every patch that meets them the same words, or the same sum of them.
@@ -34,45 +28,44 @@ uint32_t cornerOfNet(uint32_t k, bool polar) {
     return polar && k >= 8 ? 12 : (k & 12u) / 8 * 12 + (k & 3u) / 2 * 3;
 }
 
-void putNet(const UvPatch& patch, bool polar, UvWriter& to) {
+void putNet(const UvPatch& patch, bool polar, TableWriter& writer) {
     for (uint32_t k = 0; k < (polar ? 13u : 16u); ++k) {
         const uint32_t corner = cornerOfNet(k, polar);
-        to.put(k == corner ? glm::vec2(patch.c[k]) : Rounded(patch.c[corner], patch.c[k]).sum());
+        putUv(k == corner ? glm::vec2(patch.c[k]) : Rounded(patch.c[corner], patch.c[k]).sum(), writer);
     }
 }
 
 /// In the order of evaluation.
-void putPerturbation(const UvPatch& patch, UvWriter& to) {
+void putPerturbation(const UvPatch& patch, TableWriter& writer) {
     for (uint32_t k = 0; k < 16; ++k) {
-        to.put(glm::vec2(patch.c[16 + SUPPLE_PREP_FACE_EDGE(k)]));
+        putUv(glm::vec2(patch.c[16 + SUPPLE_PREP_FACE_EDGE(k)]), writer);
     }
 }
 
 /// The centre, then of every side what SectorSide of shaders/pm/sector.glsl has.
-void putSectors(const UvPatch& patch, uint32_t sides, UvWriter& to) {
-    to.put(glm::vec2(patch.c[0]));
+void putSectors(const UvPatch& patch, uint32_t sides, TableWriter& writer) {
+    putUv(glm::vec2(patch.c[0]), writer);
     for (uint32_t i = 0; i < sides; ++i) {
         const glm::dvec2* own = &patch.c[1 + 6 * i];
         const glm::dvec2& v = own[0];
         const glm::dvec2& next = patch.c[1 + 6 * ((i + 1) % sides)];
-        to.put(glm::vec2(v));
-        to.put(Rounded(v, own[1]).offset);
-        to.put(Rounded(next, own[2]).offset);
-        to.put(Rounded(v, own[3]).offset);
-        to.put(Rounded(next, own[4]).offset);
-        to.put(Rounded(patch.c[0], own[5]).offset);
+        putUv(glm::vec2(v), writer);
+        putUv(Rounded(v, own[1]).offset, writer);
+        putUv(Rounded(next, own[2]).offset, writer);
+        putUv(Rounded(v, own[3]).offset, writer);
+        putUv(Rounded(next, own[4]).offset, writer);
+        putUv(Rounded(patch.c[0], own[5]).offset, writer);
     }
 }
 
 void putPatch(PatchClass patchClass, const UvPatch& patch, TableWriter& writer) {
-    UvWriter to(writer);
     if (rowOf(patchClass).hasSectors()) {
-        putSectors(patch, cornerCount(domainOf(patchClass)), to);
+        putSectors(patch, cornerCount(domainOf(patchClass)), writer);
         writer.put({patch.singularCorners});
     } else {
-        putNet(patch, patchClass == PatchClass::polar, to);
+        putNet(patch, patchClass == PatchClass::polar, writer);
         if (patchClass == PatchClass::perturbed) {
-            putPerturbation(patch, to);
+            putPerturbation(patch, writer);
         }
     }
     (void)writer.element();

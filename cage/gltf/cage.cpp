@@ -202,8 +202,8 @@ void fillCorners(const Mesh& mesh, const Faces& faces, Cage& cage) {
 
 /// What the primitives have per vertex, per corner of the cage; `none` where a primitive does not have it.
 template <class Vec>
-std::vector<Vec> cornerValues(const Mesh& mesh, const Faces& faces, std::vector<Vec> MeshPrimitive::*values,
-                              const Vec& none) {
+std::vector<Vec> perCorner(const Mesh& mesh, const Faces& faces, std::vector<Vec> MeshPrimitive::*values,
+                           const Vec& none) {
     std::vector<Vec> corners(faces.polygons.vertices.size(), none);
     for (size_t f = 0; f < faces.primitives.size(); ++f) {
         const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
@@ -223,10 +223,10 @@ void fillShading(const Mesh& mesh, const Faces& faces, Cage& cage) {
         return primitive.normals.empty() && primitive.faces.polygons.faceCount() > 0;
     });
     if (!polygonsAlone) {
-        cage.cornerNormals = cornerValues(mesh, faces, &MeshPrimitive::normals, glm::vec3(0.0f));
+        cage.cornerNormals = perCorner(mesh, faces, &MeshPrimitive::normals, glm::vec3(0.0f));
     }
     if (!all([](const MeshPrimitive& primitive) { return primitive.tangents.empty(); })) {
-        cage.cornerTangents = cornerValues(mesh, faces, &MeshPrimitive::tangents, glm::vec4(0.0f));
+        cage.cornerTangents = perCorner(mesh, faces, &MeshPrimitive::tangents, glm::vec4(0.0f));
     }
 }
 

@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #define SUPPLE_HOST_CONST inline constexpr uint
+#define SUPPLE_HOST_FLOAT inline constexpr float
 namespace supple::host::shared {
 using uint = uint32_t;
 using vec4 = glm::vec4;
 using mat4 = glm::mat4;
 #else
 #define SUPPLE_HOST_CONST const uint
+#define SUPPLE_HOST_FLOAT const float
 #endif
 
 // Set 0, the frame.
@@ -78,6 +80,10 @@ SUPPLE_HOST_CONST kMaterialTrim = 16u;       // surface: where the trim's textur
 SUPPLE_HOST_CONST kMaterialTrimFace = 32u;   // it is a strip of tiles, one a face
 SUPPLE_HOST_CONST kMaterialTrimAlpha = 64u;  // base color and vertex alpha multiply it
 SUPPLE_HOST_CONST kMaterialTangents = 128u;  // the normal map lies as the group's tangents do
+SUPPLE_HOST_CONST kMaterialUvs1 = 256u;      // a texture lies on the second texture coordinates
+
+// From here on a translucent material is solid.
+SUPPLE_HOST_FLOAT kSolidAlpha = 0.99f;
 
 // Which part of the rig a light belongs to; in Light::color.w.
 SUPPLE_HOST_CONST kLightKey = 0u;

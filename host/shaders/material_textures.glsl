@@ -16,8 +16,8 @@ vec4 baseColorAt(vec4 uvs, vec4 vertexColor) {
     return materialData.baseColor * vertexColor * texture(baseColorTexture, placed(kBaseColor, uvs));
 }
 
-/// Of a translucent material, which is drawn twice: where it is solid, it hides what is behind it as anything else does.
-bool isLeftOut(float alpha) { return (push.flags & kDrawSolid) != 0u && alpha < 0.99; }
+/// A translucent material is drawn twice. Where it is solid, it hides what is behind it, as anything else does.
+bool isLeftOut(float alpha) { return (push.flags & kDrawSolid) != 0u && alpha < kSolidAlpha; }
 
 Material materialAt(vec3 albedo, vec4 uvs) {
     vec2 metallicRoughness = texture(metallicRoughnessTexture, placed(kMetallicRoughness, uvs)).bg;

@@ -5,10 +5,8 @@ layout(set = 1, binding = kSurfaceFaceUvBinding, std430) readonly buffer FaceUvs
 
 /// Both texture coordinates. The second ones are looked up only if a texture asks for them: there may be none.
 vec4 surfaceUvs() {
-    bool second = false;
-    for (uint i = 0u; i < kTextureCount; ++i) second = second || materialData.places[i].u.w != 0.0;
     vec2 uv = uintBitsToFloat(attributes[surfaceVertex()].xy);
-    return vec4(uv, second ? uvs1[surfaceVertex()] : uv);
+    return vec4(uv, materialHas(kMaterialUvs1) ? uvs1[surfaceVertex()] : uv);
 }
 
 vec4 surfaceColor() {

@@ -5,7 +5,7 @@
 uint coordinateCount() { return push.rate + 3u; }
 uint mirrored(uint i) { return i <= push.rate ? push.rate - i : 2u * push.rate + 3u - i; }
 
-// Of a fixed rate's tables, at coordinates x and y.
+// The entry of a fixed rate's tables at coordinates x and y.
 ChartPoint tablePoint(Corner corner, uint x, uint y) {
     uint at = y * coordinateCount() + x;
     vec4 entry = uintBitsToFloat(tableElement(corner.where.x + at));

@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
+#include "shaders/shared/pm.h"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
 #include "shaders/evaluate/sectors.glsl"
@@ -376,7 +377,7 @@ void evaluateNarrowLod() {
 #endif
 }
 
-// Of a smooth UV set along an edge, by the sums of bicubic patches (rows.glsl).
+// A smooth UV set along an edge, by the sums of bicubic patches (rows.glsl).
 vec2 curvePoint(uint first, vec2 t) {
     uvec4 a = tableElement(first), b = tableElement(first + 1u), h = tableElement(first + 2u);
     precise vec3 p = sum4(bernstein3(t), vec3(uintBitsToFloat(a.xy), 0.0), vec3(uintBitsToFloat(a.zw), 0.0),
@@ -436,7 +437,7 @@ void storeOnEdge(uint id) {
     store(vertex, s);
     if (kDirections) {
         findSide(c, corners);
-        if (k == 0u && (own.z & kSingularEdge) != 0u) t = vec2(0.001, 0.999); // as edge.comp
+        if (k == 0u && (own.z & kSingularEdge) != 0u) t = vec2(SUPPLE_PM_SINGULAR_STEP, 1.0 - SUPPLE_PM_SINGULAR_STEP);
         storeDirection(vertex, c, patchOfEdge.z != 0u ? curveSlopes(patchOfEdge.z, t, sectors)
                                                       : slopesOnEdge(c, side, corners, sectors, t));
     }

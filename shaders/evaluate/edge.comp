@@ -96,7 +96,7 @@ void storeBeginning(Edge e, uint vertex, uint own) {
     Frame f = Frame(e.perAlong * e.along[0], e.across[0], e.firstNormal);
     if (kTangents) {
         vec3 position;
-        if (e.singular) f = finish(e, vec2(0.001, 0.999), position); // as pm/evaluate.comp does
+        if (e.singular) f = finish(e, vec2(SUPPLE_PM_SINGULAR_STEP, 1.0 - SUPPLE_PM_SINGULAR_STEP), position);
         f = withNormal(f, e.firstNormal);
     }
     storeSurfaceVertex(vertex, own, e.border[0], f);

@@ -37,5 +37,5 @@ vec3 borderPosition(vec4 weights, vec3 border[4]) {
 }
 
 // Where the derivatives at a corner are parallel, those of a step inside stand for them.
-const float kSingularStep = 1e-3 / 3.0;
+const float kSingularStep = SUPPLE_PM_SINGULAR_STEP / 3.0;
 const vec3 kSingularWeights = vec3(1.0 - 2.0 * kSingularStep, kSingularStep, kSingularStep);

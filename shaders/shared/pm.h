@@ -59,6 +59,9 @@ SUPPLE_SHARED_END
 #define SUPPLE_PM_CLASS_WORD(m, i) (((m) == 5u ? 11u : (m) == 4u ? 9u : 7u) + (i) / 3u)
 #define SUPPLE_PM_RECORD_ELEMENTS(m) ((m)-1u)
 
+// Where the derivatives at a corner are parallel, those of so far along the border stand for them.
+#define SUPPLE_PM_SINGULAR_STEP 1e-3
+
 // k0 and k1 of (3) for facets of m sides.
 #define SUPPLE_PM_RAY_SIDE(m) ((m) == 5u ? 0.7236067977499790 : (m) == 4u ? 0.5 : 1.0 / 3.0)
 #define SUPPLE_PM_RAY_MIDDLE(m) ((m) == 5u ? -0.4472135954999579 : (m) == 4u ? 0.0 : 1.0 / 3.0)

@@ -10,6 +10,7 @@
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/json_vectors.h"
 #include "tests/support/meshes.h"
+#include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
 
 #include <algorithm>
@@ -27,19 +28,6 @@ using cage::UvMode;
 
 double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / 3.14159265358979323846;
-}
-
-/// As suppleTangent of shaders/supple_surface.glsl.
-glm::dvec3 tangentOf(uint32_t word) {
-    const double x = static_cast<int16_t>(word & 0xFFFFu) / 32767.0;
-    const double y = (static_cast<int32_t>(word << 1) >> 17) / 16383.0;
-    glm::dvec3 t(x, y, 1.0 - std::abs(x) - std::abs(y));
-    if (t.z < 0.0) {
-        const glm::dvec2 p(t);
-        t.x = (1.0 - std::abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0);
-        t.y = (1.0 - std::abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0);
-    }
-    return glm::normalize(t);
 }
 
 /// A smooth map of space, so that all corners of a vertex have one value.
@@ -305,7 +293,8 @@ TEST_P(SmoothUvsOf, GiveTangentsThatGoOnAcrossEdges) {
                     if ((written.tangents[a] ^ written.tangents[b]) >> 31 != 0) {
                         continue; // the texture coordinates fold there
                     }
-                    const double angle = degreesBetween(tangentOf(written.tangents[a]), tangentOf(written.tangents[b]));
+                    const double angle = degreesBetween(glm::dvec3(decodeTangent(written.tangents[a])),
+                                                        glm::dvec3(decodeTangent(written.tangents[b])));
                     sum += angle;
                     worst = std::max(worst, angle);
                     ++compared;
@@ -419,8 +408,8 @@ TEST_F(SmoothUvs, OfPmAreThoseOfTheVectors) {
             const size_t v = grids.firstVertices[p] + index;
             const json& uv = sample.at("uv");
             worst = std::max(worst, glm::distance(written.uv(v), glm::dvec2(uv.at(0), uv.at(1))));
-            worstAngle =
-                std::max(worstAngle, degreesBetween(tangentOf(written.tangents[v]), jsonVector(sample.at("tangent"))));
+            worstAngle = std::max(worstAngle, degreesBetween(glm::dvec3(decodeTangent(written.tangents[v])),
+                                                             jsonVector(sample.at("tangent"))));
             ++compared;
         }
     }

@@ -369,8 +369,45 @@ std::vector<std::vector<size_t>> samplesOfVertices(const Crowd& grid, const Crow
     return samples;
 }
 
+/// Charts that share their borders. `mirrored`: they meet in folds.
+cage::Cage withSharedUvs(cage::Cage cage, bool mirrored) {
+    const float across = cage.positions[0].z;
+    cage.cornerUvs.clear();
+    for (const uint32_t vertex : cage.faceVertices) {
+        const glm::vec3 p = cage.positions[vertex];
+        cage.cornerUvs.emplace_back((mirrored ? std::abs(p.x) : p.x) + 0.37f * p.z,
+                                    p.y + 0.3f * std::abs(p.z - across));
+    }
+    return cage;
+}
+
 /// A vertex of an indexed mesh has the tangent that one of its patches has there, and no patch of the other hand.
-TEST_P(TangentsOf, OfAnIndexedMeshAreThoseOfOneOfItsPatches) {
+void compareWithPatches(const Crowd& grid, const Crowd& mesh, const std::string& what) {
+    const Streams a(grid), b(mesh);
+    const std::vector<std::vector<size_t>> samples = samplesOfVertices(grid, mesh);
+    double worst = 0.0, fromPlane = 0.0;
+    size_t shared = 0, hands = 0;
+    for (size_t v = 0; v < samples.size(); ++v) {
+        const glm::dvec4 tangent = decodeTangent(b.tangents[v]);
+        double nearest = 180.0;
+        for (const size_t sample : samples[v]) {
+            const glm::dvec4 there = decodeTangent(a.tangents[sample]);
+            nearest = std::min(nearest, angleBetween(glm::dvec3(tangent), glm::dvec3(there)));
+            hands += there.w != tangent.w ? 1 : 0;
+            shared += sample != samples[v].front() ? 1 : 0;
+        }
+        worst = std::max(worst, samples[v].empty() ? 0.0 : nearest);
+        fromPlane = std::max(fromPlane, std::abs(90.0 - angleBetween(glm::dvec3(tangent), b.normal(v))));
+    }
+    std::printf("%s: %zu vertices, %zu more samples, up to %.4f degrees from a patch's, out of the plane by %.4f\n",
+                what.c_str(), samples.size(), shared, worst, fromPlane);
+    EXPECT_LE(worst, 0.1);
+    EXPECT_LE(fromPlane, 0.05);
+    EXPECT_EQ(hands, 0u);
+    EXPECT_GT(shared, 0u);
+}
+
+TEST_P(TangentsOf, AnIndexedMeshAreThoseOfOneOfItsPatches) {
     const TangentCase& c = GetParam();
     if (c.scheme == SUPPLE_SCHEME_BLEND) {
         return; // it has no indexed mesh
@@ -381,43 +418,18 @@ TEST_P(TangentsOf, OfAnIndexedMeshAreThoseOfOneOfItsPatches) {
         CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
         for (const bool mirrored : {false, true}) {
-            cage::Cage cage = withUvs(c.cage(), mirrored);
-            const float across = cage.positions[0].z;
-            for (uint32_t corner = 0; corner < cage.cornerCount(); ++corner) { // charts that share their borders
-                const glm::vec3 p = cage.positions[cage.faceVertices[corner]];
-                cage.cornerUvs[corner] = {(mirrored ? std::abs(p.x) : p.x) + 0.37f * p.z,
-                                          p.y + 0.3f * std::abs(p.z - across)};
+            const SuppleAsset asset = own.createAsset(withSharedUvs(c.cage(), mirrored));
+            for (const bool smooth : {false, true}) {
+                SuppleGroupDesc desc = tangentDesc(asset, c.scheme, 5);
+                desc.uvInterpolation = smooth ? SUPPLE_UV_LINEAR_CORNERS_PLUS1 : SUPPLE_UV_LINEAR_ALL;
+                Crowd grid(own, desc);
+                desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
+                Crowd mesh(own, desc);
+                ASSERT_TRUE(grid.valid() && mesh.valid());
+                pose(grid);
+                pose(mesh);
+                compareWithPatches(grid, mesh, std::string(c.name) + (smooth ? ", smooth" : ", linear"));
             }
-            SuppleGroupDesc desc = tangentDesc(own.createAsset(cage), c.scheme, 5);
-            Crowd grid(own, desc);
-            desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
-            Crowd mesh(own, desc);
-            ASSERT_TRUE(grid.valid() && mesh.valid());
-            pose(grid);
-            pose(mesh);
-            const Streams a(grid), b(mesh);
-            const std::vector<std::vector<size_t>> samples = samplesOfVertices(grid, mesh);
-            double worst = 0.0, fromPlane = 0.0;
-            size_t shared = 0, hands = 0;
-            for (size_t v = 0; v < samples.size(); ++v) {
-                const glm::dvec4 tangent = decodeTangent(b.tangents[v]);
-                double nearest = 180.0;
-                for (const size_t sample : samples[v]) {
-                    const glm::dvec4 there = decodeTangent(a.tangents[sample]);
-                    nearest = std::min(nearest, angleBetween(glm::dvec3(tangent), glm::dvec3(there)));
-                    hands += there.w != tangent.w ? 1 : 0;
-                    shared += sample != samples[v].front() ? 1 : 0;
-                }
-                worst = std::max(worst, samples[v].empty() ? 0.0 : nearest);
-                fromPlane = std::max(fromPlane, std::abs(90.0 - angleBetween(glm::dvec3(tangent), b.normal(v))));
-            }
-            std::printf(
-                "%s: %zu vertices, %zu more samples, up to %.4f degrees from a patch's, out of the plane by %.4f\n",
-                c.name, samples.size(), shared, worst, fromPlane);
-            EXPECT_LE(worst, 0.1);
-            EXPECT_LE(fromPlane, 0.05);
-            EXPECT_EQ(hands, 0u);
-            EXPECT_GT(shared, 0u);
         }
         (void)own.takeLines();
     }

@@ -3,7 +3,7 @@
 #include "host/environment.h"
 #include "host/surface_renderer.h"
 #include "tests/tools/material_scenes.h"
-#include "tests/tools/validated_device.h"
+#include "tests/tools/two_renderers.h"
 #include "tools/common/figure_file.h"
 
 #include <algorithm>
@@ -19,7 +19,6 @@ namespace {
 using test::SceneFile;
 using test::SceneMesh;
 
-constexpr VkExtent2D kMaterialSize{240, 200};
 constexpr float kSquareHalf = 0.75f;
 
 std::string flatColor(const std::string& color, const std::string& more = {}) {
@@ -52,7 +51,7 @@ glm::ivec3 colorAt(const Picture& picture, uint32_t x, uint32_t y) {
     return {pixel[0], pixel[1], pixel[2]};
 }
 glm::ivec3 middleOf(const Picture& picture) {
-    return colorAt(picture, kMaterialSize.width / 2, kMaterialSize.height / 2);
+    return colorAt(picture, kStageSize.width / 2, kStageSize.height / 2);
 }
 int furthest(glm::ivec3 a, glm::ivec3 b) {
     const glm::ivec3 away = glm::abs(a - b);
@@ -65,43 +64,8 @@ int furthest(const Picture& a, const Picture& b) {
     return most;
 }
 
-class MaterialPictureTest : public testing::Test {
+class MaterialPictureTest : public TwoRenderers {
 protected:
-    static void SetUpTestSuite() {
-        Result<std::unique_ptr<Device>> device = createValidatedDevice();
-        ASSERT_TRUE(device.ok()) << device.error().message;
-        device_ = std::move(*device);
-        Result<std::unique_ptr<Context>> context = Context::create(*device_);
-        ASSERT_TRUE(context.ok()) << context.error().message;
-        context_ = std::move(*context);
-        for (const bool multisample : {false, true}) {
-            StudioQuality quality = StudioQuality::interactive(true);
-            quality.multisample = multisample;
-            Result<std::unique_ptr<SurfaceRenderer>> renderer = SurfaceRenderer::create(*device_, {.quality = quality});
-            ASSERT_TRUE(renderer.ok()) << renderer.error().message;
-            renderers_[multisample] = std::move(*renderer);
-            Result<DrawTarget> target = DrawTarget::create(*device_, kMaterialSize, renderers_[multisample]->samples());
-            ASSERT_TRUE(target.ok()) << target.error().message;
-            targets_[multisample] = std::move(*target);
-        }
-    }
-
-    static void TearDownTestSuite() {
-        for (const size_t i : {0u, 1u}) {
-            targets_[i] = {};
-            renderers_[i].reset();
-        }
-        context_.reset();
-        if (device_ == nullptr)
-            return;
-        const std::shared_ptr<const ValidationLog> validation = device_->validation();
-        device_.reset();
-        EXPECT_EQ(validation->messageCount(), 0u);
-    }
-
-    void SetUp() override { ASSERT_NE(renderers_[1], nullptr); }
-    void TearDown() override { EXPECT_EQ(device_->validationMessageCount(), 0u); }
-
     static std::unique_ptr<Figure> open(const SceneFile& file) {
         const std::string path =
             (std::filesystem::path(testing::TempDir()) / ("supple_material_" + std::to_string(getpid()) + ".gltf"))
@@ -146,7 +110,7 @@ protected:
         const Status status =
             device_->submitAndWait([&](VkCommandBuffer commands) { renderer.record(commands, 0, target, scene); });
         EXPECT_TRUE(status.ok());
-        Result<Picture> picture = readPicture(*device_, target.color().handle(), kMaterialSize, kPictureFormat);
+        Result<Picture> picture = readPicture(*device_, target.color().handle(), kStageSize, kPictureFormat);
         EXPECT_TRUE(picture.ok());
         return {*picture, (*group)->surfaces()[0].output.streams.tangents.buffer != VK_NULL_HANDLE};
     }
@@ -164,19 +128,14 @@ protected:
         file.images = std::move(images);
         return file;
     }
-
-    static inline std::unique_ptr<Device> device_;
-    static inline std::unique_ptr<Context> context_;
-    static inline std::unique_ptr<SurfaceRenderer> renderers_[2]; ///< by multisampling
-    static inline DrawTarget targets_[2];
 };
 
 /// Green of a place on a tile of the bumps, in the middle of a few pixels; `at`: from the tile's middle.
 float bumpLight(const Picture& picture, uint32_t tileColumn, uint32_t tileRow, glm::vec2 at) {
-    const float perUnit = float{kMaterialSize.height} / 4.2f;
+    const float perUnit = float{kStageSize.height} / 4.2f;
     const glm::vec2 place = glm::vec2(tileColumn, -static_cast<float>(tileRow)) + at - glm::vec2(1.0f, -1.5f);
-    const auto x = static_cast<uint32_t>(float{kMaterialSize.width} * 0.5f + place.x * perUnit);
-    const auto y = static_cast<uint32_t>(float{kMaterialSize.height} * 0.5f - place.y * perUnit);
+    const auto x = static_cast<uint32_t>(float{kStageSize.width} * 0.5f + place.x * perUnit);
+    const auto y = static_cast<uint32_t>(float{kStageSize.height} * 0.5f - place.y * perUnit);
     uint32_t sum = 0;
     for (uint32_t row = y - 1; row <= y + 1; ++row) {
         for (uint32_t column = x - 1; column <= x + 1; ++column)

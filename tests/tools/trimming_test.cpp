@@ -4,7 +4,7 @@
 #include "cage/materials.h"
 #include "cage/single_joint.h"
 #include "host/surface_renderer.h"
-#include "tests/tools/validated_device.h"
+#include "tests/tools/two_renderers.h"
 #include "tools/common/cage_arrays.h"
 #include "tools/common/character_file.h"
 #include "tools/common/figure_file.h"
@@ -26,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr VkExtent2D kSheetSize{240, 200};
 constexpr uint32_t kCells = 6; ///< of the sheet, a side
 constexpr float kHalf = 1.5f;  ///< of its width
 
@@ -112,43 +111,8 @@ cage::Character trimmedSheet(const std::function<glm::vec3(glm::vec2)>& place, c
     return character;
 }
 
-class TrimmingTest : public testing::Test {
+class TrimmingTest : public TwoRenderers {
 protected:
-    static void SetUpTestSuite() {
-        Result<std::unique_ptr<Device>> device = createValidatedDevice();
-        ASSERT_TRUE(device.ok()) << device.error().message;
-        device_ = std::move(*device);
-        Result<std::unique_ptr<Context>> context = Context::create(*device_);
-        ASSERT_TRUE(context.ok()) << context.error().message;
-        context_ = std::move(*context);
-        for (const bool multisample : {false, true}) {
-            StudioQuality quality = StudioQuality::interactive(true);
-            quality.multisample = multisample;
-            Result<std::unique_ptr<SurfaceRenderer>> renderer = SurfaceRenderer::create(*device_, {.quality = quality});
-            ASSERT_TRUE(renderer.ok()) << renderer.error().message;
-            renderers_[multisample] = std::move(*renderer);
-            Result<DrawTarget> target = DrawTarget::create(*device_, kSheetSize, renderers_[multisample]->samples());
-            ASSERT_TRUE(target.ok()) << target.error().message;
-            targets_[multisample] = std::move(*target);
-        }
-    }
-
-    static void TearDownTestSuite() {
-        for (const size_t i : {0u, 1u}) {
-            targets_[i] = {};
-            renderers_[i].reset();
-        }
-        context_.reset();
-        if (device_ == nullptr) {
-            return;
-        }
-        const std::shared_ptr<const ValidationLog> validation = device_->validation();
-        device_.reset();
-        EXPECT_EQ(validation->messageCount(), 0u);
-    }
-
-    void TearDown() override { EXPECT_EQ(device_->validationMessageCount(), 0u); }
-
     static std::unique_ptr<Figure> open(const cage::Character& character) {
         const Result<cage::GlbFile> glb = cage::writeGlb(character);
         EXPECT_TRUE(glb.ok()) << (glb.ok() ? "" : glb.error().message);
@@ -188,15 +152,10 @@ protected:
                         })
                         .ok());
         Result<Picture> picture =
-            readPicture(*device_, targets_[multisample].color().handle(), kSheetSize, kPictureFormat);
+            readPicture(*device_, targets_[multisample].color().handle(), kStageSize, kPictureFormat);
         EXPECT_TRUE(picture.ok());
         return *picture;
     }
-
-    static inline std::unique_ptr<Device> device_;
-    static inline std::unique_ptr<Context> context_;
-    static inline std::unique_ptr<SurfaceRenderer> renderers_[2]; ///< by multisampling
-    static inline DrawTarget targets_[2];
 };
 
 /// In the normals view the sheet is vivid and the backdrop is grey.
@@ -206,16 +165,16 @@ bool isSheet(const Picture& normals, uint32_t x, uint32_t y) {
 }
 
 /// Where a pixel of the front view meets the flat sheet, in its unit square; and how wide a pixel is there.
-constexpr float kPixel = 0.9f / float{kSheetSize.height};
+constexpr float kPixel = 0.9f / float{kStageSize.height};
 glm::vec2 onSheet(uint32_t x, uint32_t y) {
-    return 0.5f + (glm::vec2(x, y) + 0.5f - glm::vec2(kSheetSize.width, kSheetSize.height) * 0.5f) * kPixel;
+    return 0.5f + (glm::vec2(x, y) + 0.5f - glm::vec2(kStageSize.width, kStageSize.height) * 0.5f) * kPixel;
 }
 
 /// Pixels that are on the wrong side of the contour though they are more than `margin` pixels away from it.
 uint32_t wrongPixels(const Picture& picture, const Distance& contour, float margin) {
     uint32_t count = 0;
-    for (uint32_t y = 0; y < kSheetSize.height; ++y) {
-        for (uint32_t x = 0; x < kSheetSize.width; ++x) {
+    for (uint32_t y = 0; y < kStageSize.height; ++y) {
+        for (uint32_t x = 0; x < kStageSize.width; ++x) {
             const glm::vec2 at = onSheet(x, y);
             const glm::vec2 fromRim = glm::min(at, 1.0f - at);
             if (std::min(fromRim.x, fromRim.y) < 2.0f * kPixel ||
@@ -231,8 +190,8 @@ uint32_t wrongPixels(const Picture& picture, const Distance& contour, float marg
 
 uint32_t differentPixels(const Picture& a, const Picture& b) {
     uint32_t count = 0;
-    for (uint32_t y = 0; y < kSheetSize.height; ++y) {
-        for (uint32_t x = 0; x < kSheetSize.width; ++x) {
+    for (uint32_t y = 0; y < kStageSize.height; ++y) {
+        for (uint32_t x = 0; x < kStageSize.width; ++x) {
             count += isSheet(a, x, y) != isSheet(b, x, y) ? 1 : 0;
         }
     }
@@ -338,8 +297,8 @@ TEST_F(TrimmingTest, MultisampledContoursCoverTheirShare) {
     const Picture hole = draw(trimmedSheet(flat, kCircle), {}, front(), true);
     double area = 0.0;
     uint32_t partial = 0;
-    for (uint32_t y = 0; y < kSheetSize.height; ++y) {
-        for (uint32_t x = 0; x < kSheetSize.width; ++x) {
+    for (uint32_t y = 0; y < kStageSize.height; ++y) {
+        for (uint32_t x = 0; x < kStageSize.width; ++x) {
             const float full = linear(whole.pixel(x, y)[2]), empty = linear(none.pixel(x, y)[2]);
             if (full - empty < 0.1f) {
                 continue;
@@ -378,8 +337,8 @@ TEST_F(TrimmingTest, LightFallsThroughHoles) {
     const Picture whole = draw(pair(false), {}, scene);
     const Picture hole = draw(pair(true), {}, scene);
     uint32_t brighter = 0, darker = 0;
-    for (uint32_t y = kSheetSize.height / 2; y < kSheetSize.height; ++y) { // the lower sheet is below the middle
-        for (uint32_t x = 0; x < kSheetSize.width; ++x) {
+    for (uint32_t y = kStageSize.height / 2; y < kStageSize.height; ++y) { // the lower sheet is below the middle
+        for (uint32_t x = 0; x < kStageSize.width; ++x) {
             const int change = int{hole.pixel(x, y)[1]} - int{whole.pixel(x, y)[1]};
             brighter += change > 20 ? 1 : 0;
             darker += change < -4 ? 1 : 0;

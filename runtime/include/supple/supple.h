@@ -745,8 +745,8 @@ typedef struct SuppleGroupDesc {
      * count), the boxes of suppleReadInstanceBounds, the memory of poses and cages, and the acquire barriers of poses,
      * cages and user data. */
     SuppleGroup instancesOf;
-    /** Of both UV sets. POLYGONS has LINEAR_ALL alone, BLEND all but LINEAR_BOUNDARIES: another one is refused if
-     * `scheme` names one of these. */
+    /** It holds for both UV sets. POLYGONS has LINEAR_ALL alone, BLEND all but LINEAR_BOUNDARIES: another one is
+     * refused if `scheme` names one of these. */
     SuppleUvInterpolation uvInterpolation;
 } SuppleGroupDesc;
 
