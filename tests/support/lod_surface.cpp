@@ -73,6 +73,49 @@ std::vector<LodSurface::Patch> readPatches(host::Device& device, const host::Gro
     return patches;
 }
 
+std::vector<std::array<uint32_t, 3>> trianglesOf(const host::GroupOutput& output, const std::vector<uint16_t>& indices,
+                                                 const std::vector<VkDrawIndexedIndirectCommand>& commands) {
+    EXPECT_EQ(commands.size(), output.levels.drawCount);
+    std::vector<std::array<uint32_t, 3>> triangles;
+    for (size_t d = 0; d < commands.size(); ++d) {
+        const VkDrawIndexedIndirectCommand& command = commands[d];
+        const SuppleLevelDraw& draw = output.levels.draws[d];
+        for (uint32_t i = 0; i < command.instanceCount; ++i) {
+            const uint32_t base = static_cast<uint32_t>(command.vertexOffset) + i * draw.verticesPerInstance;
+            for (uint32_t k = 0; k < command.indexCount; k += 3) {
+                const uint16_t* index = &indices[command.firstIndex + k];
+                triangles.push_back({base + index[0], base + index[1], base + index[2]});
+            }
+        }
+    }
+    return triangles;
+}
+
+/// A number for each vertex that a triangle uses. Vertices whose positions have the same bits get the same number.
+std::vector<uint32_t> namePositions(const LodSurface& surface) {
+    std::vector<bool> used(surface.positions.size());
+    for (const auto& triangle : surface.triangles) {
+        for (const uint32_t v : triangle) {
+            used[v] = true;
+        }
+    }
+    std::vector<std::pair<std::array<uint32_t, 3>, uint32_t>> order;
+    order.reserve(used.size());
+    for (uint32_t v = 0; v < used.size(); ++v) {
+        if (used[v]) {
+            order.emplace_back(surface.positions[v], v);
+        }
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<uint32_t> names(used.size());
+    uint32_t name = 0;
+    for (size_t i = 0; i < order.size(); ++i) {
+        name += i > 0 && order[i].first != order[i - 1].first ? 1 : 0;
+        names[order[i].second] = name;
+    }
+    return names;
+}
+
 } // namespace
 
 std::vector<LodSurface::Patch> readLodPatches(const Crowd& crowd) {
@@ -86,7 +129,24 @@ LodSurface readLodSurface(const Crowd& crowd) {
 LodSurface readLodSurface(host::Device& device, const host::GroupOutput& output) {
     const auto read = [&](const SuppleBufferRange& view) { return readView(device, view); };
     LodSurface surface;
-    const std::vector<std::byte> vertices = read(output.streams.vertices);
+    surface.patches = readPatches(device, output);
+    surface.triangles = trianglesOf(output, as<uint16_t>(read(output.indices())),
+                                    as<VkDrawIndexedIndirectCommand>(read(output.indirect())));
+    // A view's vertices can be many times as many as those that are used.
+    uint32_t end = 0;
+    for (const LodSurface::Patch& patch : surface.patches) {
+        const auto form = static_cast<surface::lod::Form>(patch.grid);
+        end = std::max(end, patch.firstVertex + surface::lod::sampleCount(form, patch.capacity));
+    }
+    for (const auto& triangle : surface.triangles) {
+        end = std::max(end, *std::max_element(triangle.begin(), triangle.end()) + 1);
+    }
+    const auto readVertices = [&](SuppleBufferRange view) {
+        EXPECT_TRUE(view.buffer == VK_NULL_HANDLE || VkDeviceSize{end} * view.stride <= view.size);
+        view.size = std::min(view.size, VkDeviceSize{end} * view.stride);
+        return view.size > 0 ? read(view) : std::vector<std::byte>();
+    };
+    const std::vector<std::byte> vertices = readVertices(output.streams.vertices);
     surface.positions = positionsOf(vertices, output.streams.vertices.stride);
     if (output.streams.vertices.stride == 24) {
         surface.normals.resize(surface.positions.size());
@@ -94,63 +154,38 @@ LodSurface readLodSurface(host::Device& device, const host::GroupOutput& output)
             std::memcpy(&surface.normals[v], vertices.data() + 24 * v + 12, sizeof(glm::vec3));
         }
     }
-    surface.previous = positionsOf(read(output.streams.previousPositions), output.streams.previousPositions.stride);
-    const auto indices = as<uint16_t>(read(output.indices()));
-    const auto commands = as<VkDrawIndexedIndirectCommand>(read(output.indirect()));
-    EXPECT_EQ(commands.size(), output.levels.drawCount);
-    for (size_t d = 0; d < commands.size(); ++d) {
-        const VkDrawIndexedIndirectCommand& command = commands[d];
-        const SuppleLevelDraw& draw = output.levels.draws[d];
-        for (uint32_t i = 0; i < command.instanceCount; ++i) {
-            const uint32_t base = static_cast<uint32_t>(command.vertexOffset) + i * draw.verticesPerInstance;
-            for (uint32_t k = 0; k < command.indexCount; k += 3) {
-                const uint16_t* index = &indices[command.firstIndex + k];
-                surface.triangles.push_back({base + index[0], base + index[1], base + index[2]});
-            }
-        }
-    }
-    surface.patches = readPatches(device, output);
+    surface.previous =
+        positionsOf(readVertices(output.streams.previousPositions), output.streams.previousPositions.stride);
     return surface;
 }
 
 Sides matchSides(const LodSurface& surface) {
-    // Vertices of the same bits are one.
-    std::vector<uint32_t> order;
-    for (const auto& triangle : surface.triangles) {
-        order.insert(order.end(), triangle.begin(), triangle.end());
-    }
-    std::sort(order.begin(), order.end());
-    order.erase(std::unique(order.begin(), order.end()), order.end());
-    std::sort(order.begin(), order.end(),
-              [&](uint32_t a, uint32_t b) { return surface.positions[a] < surface.positions[b]; });
-    std::vector<uint32_t> idOf(surface.positions.size());
-    uint32_t ids = 0;
-    for (size_t i = 0; i < order.size(); ++i) {
-        ids += i > 0 && surface.positions[order[i]] != surface.positions[order[i - 1]] ? 1 : 0;
-        idOf[order[i]] = ids;
-    }
-    ++ids;
+    const std::vector<uint32_t> idOf = namePositions(surface);
     Sides sides;
-    std::vector<std::pair<uint64_t, int>> directed; // a side as (less, greater), and its direction
+    std::vector<uint64_t> directed; // a side as less, greater, and its direction in the last bit
+    directed.reserve(3 * surface.triangles.size());
+    uint32_t ids = 0;
     for (const auto& triangle : surface.triangles) {
         const uint32_t v[3] = {idOf[triangle[0]], idOf[triangle[1]], idOf[triangle[2]]};
+        ids = std::max({ids, v[0] + 1, v[1] + 1, v[2] + 1});
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
             continue;
         }
         ++sides.triangles;
         for (int i = 0; i < 3; ++i) {
-            const uint32_t from = v[i], to = v[(i + 1) % 3];
-            directed.emplace_back(uint64_t{std::min(from, to)} << 32 | std::max(from, to), from < to ? 1 : -1);
+            const uint64_t from = v[i], to = v[(i + 1) % 3];
+            directed.push_back(std::min(from, to) << 32 | std::max(from, to) << 1 | (from < to ? 1 : 0));
         }
     }
+    EXPECT_LT(ids, 1u << 31); // else a side does not fit its word
     std::sort(directed.begin(), directed.end());
     std::vector<std::pair<std::pair<uint32_t, uint32_t>, int64_t>> counts; // of a side less that of its opposite
-    for (const auto& [side, direction] : directed) {
-        const std::pair<uint32_t, uint32_t> ends{static_cast<uint32_t>(side >> 32), static_cast<uint32_t>(side)};
+    for (const uint64_t side : directed) {
+        const std::pair<uint32_t, uint32_t> ends{static_cast<uint32_t>(side >> 32), static_cast<uint32_t>(side) >> 1};
         if (counts.empty() || counts.back().first != ends) {
             counts.push_back({ends, 0});
         }
-        counts.back().second += direction;
+        counts.back().second += (side & 1) != 0 ? 1 : -1;
     }
     std::vector<uint32_t> parent(ids);
     std::iota(parent.begin(), parent.end(), 0u);
