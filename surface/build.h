@@ -26,6 +26,12 @@ namespace subdivision {
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 } // namespace subdivision
 
+namespace exact {
+/// Catmull-Clark by patches of one quad each. Refuses a vertex with more faces than 16 bits number the points of its
+/// chain: "vertex 7 has 6000 faces: ..". O(corners + classes of vertices).
+[[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+} // namespace exact
+
 namespace blend {
 /// O(corners + classes rate^2).
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);

@@ -1,6 +1,7 @@
 // The classes of patches: a table with one row per class.
 #pragma once
 
+#include "shaders/shared/exact.h"
 #include "shaders/shared/lod.h"
 #include "shaders/shared/pm.h"
 #include "shaders/shared/surface.h"
@@ -39,7 +40,8 @@ enum class PatchClass : uint32_t {
     loop = shared::kLoopPatch,
     blend = shared::kBlendPatch,           ///< blending surface: smooth all over
     blendSharp = shared::kBlendSharpPatch, ///< with creases, or without derivatives somewhere on its border
-    triangle = shared::kTrianglePatch      ///< polygons: a triangle of a face
+    triangle = shared::kTrianglePatch,     ///< polygons: a triangle of a face
+    irregular = shared::kIrregularPatch    ///< exact Catmull-Clark: a quad of leaves
 };
 
 struct PatchClassRow {
@@ -82,6 +84,7 @@ inline constexpr PatchClassRow kPatchClasses[] = {
     {"blend-sharp", Domain::quad, 0, 4, Kernel::blendEvaluate, Kernel::blendEvaluateLevels, Kernel::count,
      lod::Form::quad, true},
     {"triangle", Domain::triangle},
+    {"irregular", Domain::quad, 0, shared::kExactRecordElements, Kernel::exactEvaluate},
 };
 
 [[nodiscard]] constexpr const PatchClassRow& rowOf(PatchClass patchClass) {

@@ -50,6 +50,7 @@ struct Construction {
     KindOfKernel kernel;
     Section section;
     uint32_t coefficients = 0; ///< how many it writes per instance, for the cost report
+    bool readsPool = false;    ///< those before it in its stage write what it reads
 };
 
 /// Consecutive patches of one class in device order.

@@ -32,7 +32,7 @@ void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWri
     }
     constexpr KindOfKernel kKernels[] = {
         {Kernel::subdivisionIsolate, 0, "supple subdivision, isolate"},
-        {Kernel::subdivisionIsolate, 1, "supple subdivision, isolate once more"},
+        {Kernel::subdivisionIsolateMeshInPool, 0, "supple subdivision, isolate once more"},
     };
     tables.constructions.push_back({place.stage, kKernels[place.fromPool ? 1 : 0], {writer.element(), rows}, rows});
     for (const uint32_t row : order) {

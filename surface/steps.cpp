@@ -248,7 +248,8 @@ void addConstructions(ProgramBuilder& builder) {
             builder.kernel(SetKind::construct, c.kernel.kernel, {{kKindConstant, c.kernel.kind}}, c.kernel.name);
         Steps& steps = c.stage == Stage::vertex ? builder.program.vertex : builder.program.assemble;
         // No facet kernel of P_m reads what another writes.
-        const Order order = c.stage == Stage::assemble && !steps.empty() ? Order::disjoint : Order::free;
+        const Order beside = c.stage == Stage::assemble && !steps.empty() ? Order::disjoint : Order::free;
+        const Order order = c.readsPool ? Order::after : beside;
         builder.add(steps, SetKind::construct, kernel, builder.lanes(c.section.count), pushFor(builder, c.section), i,
                     order);
     }

@@ -115,8 +115,7 @@ bool Tables::has(Stage stage) const {
                        [&](const Construction& c) { return c.stage == stage && c.section.count > 0; });
 }
 
-std::vector<DraftPatch> draftPatches(const DraftFaces& faces,
-                                     const std::function<PatchClass(const DraftPatch&)>& classOf) {
+std::vector<DraftPatch> draftPatches(const DraftFaces& faces, const std::function<PatchClass(DraftPatch&)>& classOf) {
     const cage::Cage& cage = faces.cage;
     std::vector<DraftPatch> patches;
     patches.reserve(cage.faceCount());
@@ -142,8 +141,8 @@ std::vector<DraftPatch> draftPatches(const DraftFaces& faces,
         patch.info.patchClass = classOf(patch);
     }
     const auto before = [](const DraftPatch& a, const DraftPatch& b) {
-        return std::tuple(a.info.patchClass, a.info.material, a.info.part, a.facet) <
-               std::tuple(b.info.patchClass, b.info.material, b.info.part, b.facet);
+        return std::tuple(a.info.patchClass, a.info.material, a.info.part, a.kind, a.facet) <
+               std::tuple(b.info.patchClass, b.info.material, b.info.part, b.kind, b.facet);
     };
     if (!std::is_sorted(patches.begin(), patches.end(), before)) { // which they mostly are
         std::sort(patches.begin(), patches.end(), before);

@@ -56,6 +56,7 @@ struct DraftPatch {
     PatchInfo info;
     uint32_t facet = 0;                            ///< face of the cage that the scheme works on
     std::array<uint32_t, kMaxSides> cageCorners{}; ///< corners of that cage
+    uint32_t kind = 0;                             ///< patches of a class that evaluate alike lie side by side
 };
 
 /// What patches are made of: the faces of a cage that are no holes.
@@ -65,9 +66,9 @@ struct DraftFaces {
     std::span<const uint32_t> sourceFaces{}; ///< per face: the host's; empty: all are the host's
     std::span<const uint8_t> firstCorners{}; ///< per face: the corner that is corner 0 of its patch; empty: 0
 };
-/// The patches in device order: by class, then material, part and facet.
+/// The patches in device order: by class, then material, part, kind and facet. `classOf` may set the kind.
 [[nodiscard]] std::vector<DraftPatch> draftPatches(const DraftFaces& faces,
-                                                   const std::function<PatchClass(const DraftPatch&)>& classOf);
+                                                   const std::function<PatchClass(DraftPatch&)>& classOf);
 
 /// Counts a patch, whose record comes next, among those of its class. `patch`: its index in device order.
 void countPatch(PatchClass patchClass, uint32_t patch, TableWriter& writer, Tables& tables);

@@ -30,7 +30,7 @@ const vec3 kClay = vec3(0.50, 0.47, 0.44);
 // A color a class of patches, as sRGB bytes. Chosen so that classes of one scheme keep apart for eyes of every kind, those
 // of different schemes as well as so many colors can: under simulated protanopia, deuteranopia and tritanopia the former are
 // 0.12 and more apart in OKLab, the latter 0.08, with differences of lightness, which shading changes, counted half.
-const vec3 kClassColors[11] = vec3[11](vec3(0x8E, 0x9B, 0xA8),  // regular: slate
+const vec3 kClassColors[12] = vec3[12](vec3(0x8E, 0x9B, 0xA8),  // regular: slate
                                        vec3(0x50, 0x20, 0x80),  // perturbed: violet
                                        vec3(0x80, 0x20, 0x50),  // polar: wine
                                        vec3(0xF0, 0xE4, 0x42),  // P_3: yellow
@@ -40,7 +40,8 @@ const vec3 kClassColors[11] = vec3[11](vec3(0x8E, 0x9B, 0xA8),  // regular: slat
                                        vec3(0x80, 0xE0, 0xE0),  // Loop: cyan
                                        vec3(0xB0, 0xE0, 0x98),  // blend: light green
                                        vec3(0x50, 0x80, 0xE0),  // blend, sharp: sky blue
-                                       vec3(0xC8, 0xB8, 0x98)); // triangles of polygons: sand
+                                       vec3(0xC8, 0xB8, 0x98),  // triangles of polygons: sand
+                                       vec3(0xE0, 0x80, 0xA0)); // irregular: pink
 
 /// Distances from the patch's border, in segments.
 vec3 insideBorder() {

@@ -4,11 +4,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define POOL_WRITE_ONLY
 #include "shaders/surface/tables.glsl"
-#include "shaders/surface/pool.glsl"
+#include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
-#include "shaders/surface/cage.glsl"
 #include "shaders/shared/pm.h"
 
 layout(constant_id = kKindConstant) const uint kFan = kManyFan;

@@ -4,11 +4,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define POOL_WRITE_ONLY
 #include "shaders/surface/tables.glsl"
-#include "shaders/surface/pool.glsl"
+#include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
-#include "shaders/surface/cage.glsl"
 #include "shaders/shared/prep.h"
 
 layout(constant_id = kKindConstant) const uint kFan = kManyFan;
@@ -34,7 +32,7 @@ void main() {
     uint header = tableElement(weights).x;
     bool boundary = (header & kBoundaryClass) != 0u;
     uint sectors = header & ~kBoundaryClass;
-    vec3 normal = weightedFan(base + vertex, tangent, face, words, cageBase, cageVertex(cageBase + vertex), weights + 1u,
+    vec3 normal = weightedFan(base + vertex, tangent, face, words, cageBase, meshPoint(cageBase + vertex), weights + 1u,
                               sectors, boundary, kFan == kFewFan);
     if (boundary) pool[face + sectors] = vec4(normal, 0.0); // a normal, no position: shared/prep.h
 }

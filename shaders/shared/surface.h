@@ -74,6 +74,7 @@ SUPPLE_SHARED_CONST kLoopPatch = 7u;
 SUPPLE_SHARED_CONST kBlendPatch = 8u;
 SUPPLE_SHARED_CONST kBlendSharpPatch = 9u;
 SUPPLE_SHARED_CONST kTrianglePatch = 10u;
+SUPPLE_SHARED_CONST kIrregularPatch = 11u;
 
 // Domains; values of SuppleDomain.
 SUPPLE_SHARED_CONST kQuadDomain = 0u;

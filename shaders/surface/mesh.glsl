@@ -1,10 +1,16 @@
-// The vertices of a mesh: of the cage, or of what steps of subdivision made of it, in the pool. Needs tables.glsl.
+// The vertices of the mesh that a scheme works on: of the cage or, with MESH_IN_POOL, of what steps of subdivision made of it. A
+// kernel that reads the cage does not read the pool: two of them need no barrier. Needs tables.glsl.
+#ifndef MESH_IN_POOL
+#define POOL_WRITE_ONLY
+#endif
 #include "shaders/surface/pool.glsl"
 #include "shaders/surface/cage.glsl"
 
-layout(constant_id = kKindConstant) const uint kFromPool = 0u;
-
-vec3 vertexAt(uint instance, uint i) {
-    if (kFromPool != 0u) return poolVector(instance * push.poolStride + i);
-    return cageVertex(instance * push.cageStride + i);
-}
+#ifdef MESH_IN_POOL
+vec3 meshPoint(uint i) { return poolVector(i); }
+uint meshStride() { return push.poolStride; }
+#else
+vec3 meshPoint(uint i) { return cageVertex(i); }
+uint meshStride() { return push.cageStride; }
+#endif
+vec3 vertexAt(uint instance, uint i) { return meshPoint(instance * meshStride() + i); }

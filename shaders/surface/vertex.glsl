@@ -27,7 +27,7 @@ void regularFan(uint index, uint base, uint cageBase) {
     uvec4 words = tableElement(push.ring / 4u + index);
     uint vertex = ringCorner(words.x, kRingVertex), slot = 4u * index;
     uint limit = base + vertex, tangent = base + push.tangents + slot, face = base + push.faces + slot;
-    vec3 p0 = cageVertex(cageBase + vertex);
+    vec3 p0 = meshPoint(cageBase + vertex);
     precise vec3 e[4], d[4];
     for (uint k = 0u; k < 4u; ++k) {
         e[k] = ringSpoke(words[k], cageBase) - p0;

@@ -93,8 +93,9 @@ private:
             return mesh_.classOf(a).ringPoints() < mesh_.classOf(b).ringPoints();
         });
         const auto count = static_cast<uint32_t>(order.size());
-        constexpr KindOfKernel kKernels[] = {{Kernel::blendChart, 0, "supple blend, chart"},
-                                             {Kernel::blendChart, 1, "supple blend, chart of a subdivided cage"}};
+        constexpr KindOfKernel kKernels[] = {
+            {Kernel::blendChart, 0, "supple blend, chart"},
+            {Kernel::blendChartMeshInPool, 0, "supple blend, chart of a subdivided cage"}};
         tables_.constructions.push_back({mesh_.refined ? Stage::assemble : Stage::vertex,
                                          kKernels[mesh_.refined ? 1 : 0],
                                          {writer_.element(), count},

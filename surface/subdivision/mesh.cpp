@@ -149,9 +149,10 @@ bool allQuads(const Cage& cage) {
     return true;
 }
 
-Result<Mesh> build(const Cage& cage, Subdivision subdivision) {
+Result<Isolation> build(const Cage& cage, Subdivision subdivision) {
     const bool loop = subdivision == Subdivision::loop;
-    Mesh mesh;
+    Isolation isolation;
+    Mesh& mesh = isolation.mesh;
     mesh.subdivision = subdivision;
     Result<RefinedMesh> parent = beginSteps(cage, subdivision, mesh.notes);
     if (!parent) {
@@ -172,7 +173,8 @@ Result<Mesh> build(const Cage& cage, Subdivision subdivision) {
     mesh.cage = std::move(isolated.cage);
     mesh.sourceFaces = std::move(isolated.sourceFaces);
     mesh.stencils.push_back(std::move(isolated.stencils));
-    return mesh;
+    isolation.parent = std::move(*parent);
+    return isolation;
 }
 
 } // namespace
@@ -181,8 +183,16 @@ Result<RefinedMesh> beginSteps(const Cage& cage, Subdivision subdivision, std::v
     return beginRefinement(cage, subdivision == Subdivision::loop ? &kTriangles : nullptr, notes);
 }
 
-Result<Mesh> buildMesh(const Cage& cage, Subdivision subdivision) {
+Result<Isolation> isolateCage(const Cage& cage, Subdivision subdivision) {
     return withinMemory("the isolated level of subdivision", [&] { return build(cage, subdivision); });
+}
+
+Result<Mesh> buildMesh(const Cage& cage, Subdivision subdivision) {
+    Result<Isolation> isolation = isolateCage(cage, subdivision);
+    if (!isolation) {
+        return isolation.error();
+    }
+    return std::move(isolation->mesh);
 }
 
 } // namespace supple::surface::subdivision

@@ -65,4 +65,13 @@ struct Mesh {
 /// without such a corner is refused. O(corners).
 [[nodiscard]] Result<Mesh> buildMesh(const cage::Cage& cage, Subdivision subdivision);
 
+/// The isolated mesh, and the level before, whose vertices and faces the fragments are made of: fragment v is that of
+/// vertex v.
+struct Isolation {
+    RefinedMesh parent;
+    Mesh mesh;
+};
+/// As buildMesh().
+[[nodiscard]] Result<Isolation> isolateCage(const cage::Cage& cage, Subdivision subdivision);
+
 } // namespace supple::surface::subdivision

@@ -20,11 +20,13 @@ FLOORS = [line.split() for line in """
     shaders/lod/
     shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/
     shaders/prep/ shaders/pm/ shaders/subdivision/ shaders/blend/ shaders/polygons/
+    shaders/exact/
     gpu/ cage/
     cage/gltf/ cage/obj/
     cage/formats/
     skinning/ surface/
     surface/lod/ surface/prep/ surface/pm/ surface/subdivision/ surface/blend/ surface/polygons/
+    surface/exact/
     surface/passes.
     surface/schemes.
     runtime/include/

@@ -1028,7 +1028,7 @@ void groups(Rows& r) {
           {kBlendSize, SUPPLE_CREASES_CUT, kNan});
     blend("blend, structSize 0", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_STRUCT_SIZE, {});
     prep("prep, structSize 0", {});
-    for (const int value : {7, 99, 101, -1}) {
+    for (const int value : {8, 99, 101, -1}) {
         range("scheme " + std::to_string(value), [=](Desc& d) { d.scheme = static_cast<SuppleScheme>(value); });
     }
     for (const int value : {3, -1}) {
@@ -1056,8 +1056,8 @@ void groups(Rows& r) {
         d.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
         d.flags = SUPPLE_GROUP_PATCHES;
     });
-    for (const SuppleScheme scheme :
-         {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CAGE}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND,
+                                      SUPPLE_SCHEME_EXACT, SUPPLE_SCHEME_CAGE}) {
         spoiled("shared samples of scheme " + std::to_string(scheme), SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
                 [=](Desc& d) {
                     d.scheme = scheme;
@@ -1065,7 +1065,7 @@ void groups(Rows& r) {
                 });
     }
     static const SuppleScheme kPartSchemes[] = {SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CAGE,
-                                                static_cast<SuppleScheme>(7)};
+                                                static_cast<SuppleScheme>(8)};
     const auto partSchemes = [&](const std::string& what, SuppleResult result, int message, uint32_t first,
                                  uint32_t count, SuppleScheme scheme = SUPPLE_SCHEME_PM) {
         spoiled("schemes of parts: " + what, result, message, [=](Desc& d) {

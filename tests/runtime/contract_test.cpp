@@ -349,7 +349,7 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     groupDesc.flags = SUPPLE_GROUP_PATCHES;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << "it has no coefficients";
     groupDesc.flags = 0;
-    for (const int scheme : {7, 99, 101, -1}) {
+    for (const int scheme : {8, 99, 101, -1}) {
         groupDesc.scheme = static_cast<SuppleScheme>(scheme);
         EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << scheme;
     }

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -93,8 +94,9 @@ inline void compareMappings(host::Device& device, const cage::Cage& cage, const 
 
 /// Which patch is which face of a refined cage.
 struct PatchFaces {
-    std::vector<uint32_t> faces;   ///< per patch
-    std::vector<uint32_t> patches; ///< per face, cage::kNone for holes
+    std::vector<uint32_t> faces;       ///< per patch
+    std::vector<uint32_t> patches;     ///< per face, cage::kNone for holes
+    std::vector<uint8_t> firstCorners; ///< per face: the one that is corner 0 of its patch; empty: the face's first
 
     /// Whether an edge has a patch on both sides.
     [[nodiscard]] bool shared(const cage::Topology& topology, const cage::Topology::Edge& edge) const {
@@ -103,9 +105,9 @@ struct PatchFaces {
     }
 };
 
-/// By class, then material, then face. Fails the test where the group's patches come of other faces.
-template <class Mesh, class ClassOf>
-PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf) {
+/// By class, then material, part, kind and face. Fails the test where the group's patches come of other faces.
+template <class Mesh, class ClassOf, class KindOf>
+PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf, KindOf&& kindOf) {
     PatchFaces found;
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
         if (!std::binary_search(mesh.cage.holes.begin(), mesh.cage.holes.end(), f)) {
@@ -113,7 +115,8 @@ PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf
         }
     }
     const auto key = [&](uint32_t f) {
-        return std::pair(classOf(f), mesh.cage.faceMaterials.empty() ? cage::kNone : mesh.cage.faceMaterials[f]);
+        return std::tuple(classOf(f), mesh.cage.faceMaterials.empty() ? cage::kNone : mesh.cage.faceMaterials[f],
+                          mesh.cage.faceParts.empty() ? 0 : mesh.cage.faceParts[f], kindOf(f));
     };
     std::stable_sort(found.faces.begin(), found.faces.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
     found.patches.assign(mesh.cage.faceCount(), cage::kNone);
@@ -127,7 +130,12 @@ PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf
     return found;
 }
 
-/// What the patches on both sides of every edge have in common. Corner 0 of a face is corner 0 of its patch.
+template <class Mesh, class ClassOf>
+PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf) {
+    return patchFaces(mesh, gpu, classOf, [](uint32_t /*face*/) { return 0u; });
+}
+
+/// What the patches on both sides of every edge have in common.
 inline ComparedBits borderBits(const cage::Cage& cage, const cage::Topology& topology, const PatchFaces& found,
                                const GpuSurface& gpu) {
     ComparedBits bits;
@@ -135,7 +143,9 @@ inline ComparedBits borderBits(const cage::Cage& cage, const cage::Topology& top
     const auto onEdge = [&](uint32_t corner, uint32_t k) {
         const uint32_t f = topology.cornerFaces[corner], p = found.patches[f];
         const auto domain = static_cast<surface::Domain>(gpu.rangeOf(p).domain);
-        return gpu.vertex(0, p, surface::edgeSample(domain, rate, corner - cage.faceStarts[f], k)).position;
+        const uint32_t first = found.firstCorners.empty() ? 0 : found.firstCorners[f], sides = cage.sides(f);
+        const uint32_t side = (corner - cage.faceStarts[f] + sides - first) % sides;
+        return gpu.vertex(0, p, surface::edgeSample(domain, rate, side, k)).position;
     };
     for (const cage::Topology::Edge& edge : topology.edges) {
         for (uint32_t k = 0; found.shared(topology, edge) && k <= rate; ++k) {

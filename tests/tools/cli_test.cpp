@@ -447,8 +447,8 @@ TEST_F(Cli, BakeOfSubdivisionHasAGroupAPatch) {
 
 TEST_F(Cli, BakeWritesPatchesOfSchemesThatHaveCoefficients) {
     const std::vector<std::pair<std::string, bool>> schemes{
-        {"auto", true},           {"pm", true},        {"prep", true}, {"loop", false}, {"blend", false},
-        {"catmull-clark", false}, {"polygons", false}, {"cage", false}};
+        {"auto", true},           {"pm", true},     {"prep", true},      {"loop", false}, {"blend", false},
+        {"catmull-clark", false}, {"exact", false}, {"polygons", false}, {"cage", false}};
     const std::string help = run("bake --help").out;
     const size_t list = help.find('{', help.find("--scheme"));
     ASSERT_NE(list, std::string::npos) << help;
@@ -492,7 +492,7 @@ TEST_F(Cli, ProfileOfAllSchemes) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("rate 6 (4 a patch)"), std::string::npos) << outcome.out;
     const Json runs = Json::parse(readText(file("p.json")))["runs"];
-    ASSERT_EQ(runs.size(), 6u);
+    ASSERT_EQ(runs.size(), 7u);
     for (const Json& run : runs) {
         if (run["scheme"] == "polygons") { // has no rate
             continue;

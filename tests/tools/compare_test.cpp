@@ -55,7 +55,7 @@ TEST_F(Compare, FiguresOfACube) {
     EXPECT_TRUE(json["clip"].is_null());
     EXPECT_NEAR(json["extent"].get<double>(), 3.4641016, 1e-6);
     EXPECT_LT(json["measuringError"], 1e-5);
-    ASSERT_EQ(json["schemes"].size(), 5u);
+    ASSERT_EQ(json["schemes"].size(), 6u);
     // P_m as OpenSubdiv's limit surface gave it.
     const Json& pm = json["schemes"]["pm"];
     EXPECT_EQ(pm["samples"], 6 * 81);
@@ -110,6 +110,7 @@ TEST_F(Compare, RefusedSchemesSayWhy) {
     EXPECT_EQ(json["schemes"]["prep"]["accepted"], false);
     EXPECT_NE(json["schemes"]["prep"]["reason"].get<std::string>().find("3 sides"), std::string::npos);
     EXPECT_LT(json["schemes"]["catmull-clark"]["distance"]["max"], 3e-7);
+    EXPECT_LT(json["schemes"]["exact"]["distance"]["max"], 3e-7);
     const Outcome text = runOnDevice("inspect --compare prism.obj");
     EXPECT_NE(text.out.find("refused: prism.obj: p-rep takes quads only: "), std::string::npos) << text.out;
 }

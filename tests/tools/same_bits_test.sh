@@ -46,9 +46,9 @@ program same "takes quads only" surface
 program reworded "takes no triangles" surface
 program other "takes quads only" another
 
-# 8 schemes, 2 rates, 2 mappings; and 7 schemes in views.
+# 9 schemes, 2 rates, 2 mappings; and 8 schemes in views.
 expect 0 ./old ./same files
-grep -q '^2 files, 92 cases: 80 with the same bytes, 12 refused alike, 0 different$' log || fail "counts"
+grep -q '^2 files, 104 cases: 92 with the same bytes, 12 refused alike, 0 different$' log || fail "counts"
 expect 1 ./old ./reworded files/b.obj
 [ "$(grep -c '^DIFFERENT .*/b.obj prep .*takes quads only.*takes no triangles' log)" -eq 6 ] || fail "other refusals"
 expect 1 ./old ./other files
@@ -56,13 +56,13 @@ expect 1 ./old ./other files
 [ "$(grep -c '^DIFFERENT .*/b.obj loop in a view .*: view.txt differs' log)" -eq 2 ] || fail "other views"
 grep -q ' 6 different$' log || fail "counts of differences"
 expect 0 ./old ./same files --no-views
-grep -q ' 64 cases' log || fail "without views"
+grep -q ' 72 cases' log || fail "without views"
 
 # What ends by a signal agrees with nothing.
 printf '#!/bin/sh\nkill -SEGV $$\n' >crash
 chmod +x crash
 expect 1 ./crash ./crash files/b.obj
-grep -q '46 different$' log || fail "crashes"
+grep -q '52 different$' log || fail "crashes"
 
 # OLD's results are kept; of another program they are not taken.
 expect 0 ./old ./same files/b.obj --keep kept.json

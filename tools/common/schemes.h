@@ -18,6 +18,7 @@ inline constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM, true, true},
                                       {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK, false, true},
                                       {"loop", SUPPLE_SCHEME_LOOP, false, true},
                                       {"blend", SUPPLE_SCHEME_BLEND, false, true},
+                                      {"exact", SUPPLE_SCHEME_EXACT, false, true},
                                       {"polygons", SUPPLE_SCHEME_POLYGONS, false, false}};
 
 [[nodiscard]] constexpr const char* schemeName(SuppleScheme scheme) {

@@ -1,6 +1,7 @@
 // Equation numbers are those of docs/exact.md.
 #include "tools/reference/exact.h"
 
+#include "surface/exact/arrangement.h"
 #include "tools/reference/fragment.h"
 #include "tools/reference/subdivision.h"
 
@@ -17,9 +18,6 @@ using subdivision::FragmentNet;
 using subdivision::kNoPoint;
 
 constexpr int kMostLevels = 40;
-// Beyond the level at which nothing semi-sharp is left. At the tip of a dart the masks are not the limit's: the error
-// of the position halves with every step, and so do the differences that the normal is made of.
-constexpr uint32_t kStepsAtDarts = 20, kStepsToTips = 40;
 
 /// The four weights of a leaf in one direction, and their derivatives.
 struct Weights {
@@ -156,28 +154,28 @@ Point LimitSurface::atCorner(const Sector& sector) const {
     FragmentNet<double> net(mesh_, isolated_);
     net.load(fragment);
     const Fan fan = net.fanOf(fragment);
-    float longest = fragment.centreSharpness < kInfiniteSharpness ? fragment.centreSharpness : 0.0f;
-    uint32_t endless = 0;
-    for (uint32_t k = 0; k < fragment.spokes(); ++k) {
-        const float sharpness = net.sharpnessOf(k);
-        if (sharpness >= kInfiniteSharpness) {
-            ++endless;
-        } else {
-            longest = std::max(longest, sharpness);
+    const auto spokes = mesh_.spokeSharpness.begin() + fragment.firstSpoke;
+    const Limit limit = limitOf({fan, {spokes, spokes + fragment.spokes()}, fragment.centreSharpness});
+    const glm::dvec3 centre = net.points()[0];
+    const auto weighted = [&](const subdivision::CentreMask& mask) {
+        glm::dvec3 sum(0.0);
+        for (size_t i = 1; i < mask.size(); ++i) {
+            sum += mask[i] * (net.points()[i] - centre);
         }
-    }
-    const auto refine = [&](uint32_t steps) {
-        for (uint32_t j = 0; j < steps; ++j) {
-            net.refine(fan, patterns_.at(fan), pointCount(fan, 3));
-        }
-        return net.centre(fan)[sector.number];
+        return sum;
     };
-    const bool dart = endless == 1;
-    const subdivision::Sample<double> centre =
-        refine(static_cast<uint32_t>(std::ceil(longest)) + (dart ? kStepsAtDarts : 0));
     Point point;
-    point.normal = centre.normal;
-    point.position = dart ? refine(kStepsToTips).position : centre.position;
+    point.position = centre + weighted(limit.position);
+    for (const LimitRun& run : limit.runs) {
+        if ((sector.number + fan.sectors - run.firstSector) % fan.sectors >= run.sectors) {
+            continue;
+        }
+        glm::dvec3 normal(0.0);
+        for (size_t k = 1; k < run.tangents.size(); ++k) {
+            normal += glm::cross(weighted(run.tangents[k - 1]), weighted(run.tangents[k]));
+        }
+        point.normal = subdivision::unitOrZero(normal);
+    }
     return point;
 }
 

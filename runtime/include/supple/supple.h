@@ -414,6 +414,10 @@ typedef enum SuppleScheme {
     /** No smooth surface: the file's own triangles, deformed, with the file's normals. Takes any cage, manifold or not.
      * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
     SUPPLE_SCHEME_POLYGONS = 6,
+    /** The limit of Catmull-Clark subdivision by one patch per quad (docs/exact.md), at any rate: any polygons,
+     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. It has no levels of detail, indexed
+     * meshes and smooth texture coordinates yet. */
+    SUPPLE_SCHEME_EXACT = 7,
     SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
 } SuppleScheme;
 
@@ -715,7 +719,8 @@ typedef struct SuppleGroupDesc {
     /** Segments along a patch edge, 1..SUPPLE_MAX_RATE; 0 = 8.
      * CATMULL_CLARK and LOOP: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
      * of them (SuppleGridOutput.rate). With CATMULL_CLARK, if the cage has faces that are no quads, it has a quarter.
-     * BLEND, if the cage has faces that are no quads: segments along an edge of the cage, rounded up to an even number.
+     * BLEND, EXACT, if the cage has faces that are no quads: segments along an edge of the cage, rounded up to an even
+     * number.
      * A patch edge has half of them. POLYGONS ignores it: the rate is 1. */
     uint32_t rate;
     SuppleVertexFormat vertexFormat;
@@ -772,7 +777,7 @@ SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup gr
  * of suppleCreateGroup. Then nothing has changed. */
 SUPPLE_API SuppleResult suppleSetCapacity(SuppleContext context, SuppleGroup group, uint32_t capacity);
 /** Changes the rate of all surfaces from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must
- * be 1 to the rate that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND or POLYGONS, or with
+ * be 1 to the rate that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND, EXACT or POLYGONS, or with
  * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. Groups with levels
  * take none. If one surface of the group cannot change it, none does; only POLYGONS beside other schemes has no say. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
@@ -1164,7 +1169,8 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_LOOP = 7,          /**< none */
     SUPPLE_PATCH_BLEND = 8,         /**< none: a face of the cage, or of the subdivided cage */
     SUPPLE_PATCH_BLEND_SHARP = 9,   /**< none: with sharp edges */
-    SUPPLE_PATCH_TRIANGLE = 10      /**< none, POLYGONS: a triangle, as it is */
+    SUPPLE_PATCH_TRIANGLE = 10,     /**< none, POLYGONS: a triangle, as it is */
+    SUPPLE_PATCH_IRREGULAR = 11     /**< none, EXACT: a quad of leaves */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5

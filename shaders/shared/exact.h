@@ -1,0 +1,62 @@
+// The tables and the pool of exact Catmull-Clark patches (what all schemes share: shared/surface.h; docs/exact.md).
+//
+// The mesh has quads alone: it is the cage, or what one step of subdivision makes of it. A vertex is plain if the B-spline's own
+// formulas hold round it; a quad with four plain corners is a bicubic patch. All other quads are irregular: their quarters are
+// leaves, B-spline patches of finer levels.
+//
+// Coefficient pool: limit points (one a vertex; a plain vertex on creases has one more for each further run of faces between
+// them), tangents and face coefficients (one a slot), points of level 1 that irregular quads need, normals of vertices that are
+// not plain (one a run), chains, the vertices of the mesh if it is not the cage. A chain: the
+// vertex's point of level 1, then for every level from 2 on all points up to radius 3 round the vertex, as offsets from that.
+//
+// Tables
+//   ring              see shared/surface.h; closed fans come first and have nothing else
+//   plain runs        of all others three words, one behind the other: first slot, weights (surface::writeFanWeights), limit point
+//   vertices          not plain: two elements: (first word of the net; fan; arrangement; pool index of the limit point), (pool
+//                     index of the chain's level 2 or 0, levels of the chain, pool index of the first normal, 0)
+//   blocks            of kBlockLanes lanes of limits or of one level of chains: (fan, or 0 for limits; first vertex; vertices, and
+//                     from kChainLevelShift on the level; first item); of chains' items the vertex rises first, then the point
+//   net               one word a point up to radius 2, in spiral order: its pool index
+//   fans              by sectors and openness: (sectors, points of a level of a chain, pattern rows, neighbours), (weight of a spoke
+//                     point, of a face point in the centre's step; 0, 0); rows and neighbours as in shared/subdivision.h; windows:
+//                     kLeafCells of two elements a sector, 16 points of a chain's level, 16 bits each, row by row
+//   arrangements      by fan and sharpness: (runs; first word of the sharpness of spokes on level 1, or kNoSharpness; centre steps;
+//                     points of ring 1); a run: (blocks, 0, 0, 0), then blocks of an element a point of ring 1: weights in four
+//                     vectors, the first of the run being the position, the others tangents along which the sum of the cross
+//                     products of neighbours is the normal. Centre steps: an element a level of the chain (smooth, crease,
+//                     first spoke, second spoke)
+//   irregular quads   kExactRecordElements: limit points of the corners; their spokes, as bicubic patches have them, or the pool
+//                     index of their chain; windows of their sector, 0 where there is no chain; points of a level of the chain,
+//                     and from kChainLevelShift on its last level; sharpness of the sides on level 1; normals of the corners, or
+//                     kNoNormal; flags and, from word 1 on, the pool indices of 5 x 5 points of level 1, row by row in v
+#ifndef SUPPLE_SHARED_EXACT_H
+#define SUPPLE_SHARED_EXACT_H
+
+#include "shaders/shared/portable.h"
+#include "shaders/shared/surface.h"
+
+SUPPLE_SHARED_BEGIN
+
+SUPPLE_SHARED_CONST kExactRecordElements = 13u;
+SUPPLE_SHARED_CONST kExactChainElement = 2u;
+SUPPLE_SHARED_CONST kExactSizeElement = 3u;
+SUPPLE_SHARED_CONST kExactSharpnessElement = 4u;
+SUPPLE_SHARED_CONST kExactNormalElement = 5u;
+SUPPLE_SHARED_CONST kExactNetElement = 6u;
+SUPPLE_SHARED_CONST kNetSide = 5u;
+
+SUPPLE_SHARED_CONST kChainLevelShift = 24u;
+// Kinds of the chain kernel: what blocks read.
+SUPPLE_SHARED_CONST kReadsNet = 0u;   // level 1; blocks of limits as well
+SUPPLE_SHARED_CONST kReadsLevel = 1u; // the level before
+
+SUPPLE_SHARED_CONST kLeafCells = 3u; // (1, 0), (1, 1), (0, 1)
+SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;
+
+// Flags of a record, a bit a side from each on.
+SUPPLE_SHARED_CONST kCubicSide = 0u;      // the border is one cubic, for both ends are plain
+SUPPLE_SHARED_CONST kMiddleOfSecond = 4u; // its middle belongs to the end where it ends
+
+SUPPLE_SHARED_END
+
+#endif

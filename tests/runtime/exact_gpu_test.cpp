@@ -1,0 +1,206 @@
+// Exact Catmull-Clark patches on the device: against the limit in double, both mappings, and the bits its patches
+// share.
+#include "surface/exact/corners.h"
+#include "surface/subdivision/mesh.h"
+#include "tests/support/gpu_comparison.h"
+#include "tests/support/prep_surface.h"
+#include "tests/support/shared_assets.h"
+#include "tests/support/subdivision_surface.h"
+#include "tests/support/subdivision_zoo.h"
+#include "tools/reference/exact.h"
+
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace supple::test {
+namespace {
+
+using surface::exact::Corners;
+using surface::exact::LimitSurface;
+using surface::exact::VertexKind;
+using surface::subdivision::Isolation;
+using surface::subdivision::Subdivision;
+
+GpuOptions exactOptions(SuppleMapping mapping, uint32_t rate) {
+    GpuOptions options;
+    options.scheme = SUPPLE_SCHEME_EXACT;
+    options.mapping = mapping;
+    options.flags = 0;
+    options.rate = rate;
+    return options;
+}
+
+Isolation isolationOf(const cage::Cage& cage) {
+    Result<Isolation> isolation = surface::subdivision::isolateCage(cage, Subdivision::catmullClark);
+    EXPECT_TRUE(isolation.ok());
+    return std::move(*isolation);
+}
+
+class ExactOnGpu : public testing::TestWithParam<SuppleMapping> {
+protected:
+    /// The quads that patches are, and what is known of their corners.
+    struct Quads {
+        explicit Quads(const cage::Cage& cage) : isolation(isolationOf(cage)), corners(isolation.parent) {}
+        [[nodiscard]] bool irregular(uint32_t face) const {
+            const cage::Cage& quads = isolation.parent.cage;
+            for (uint32_t i = 0; i < 4; ++i) {
+                if (corners.kind(quads.faceVertices[quads.faceStarts[face] + i]) != VertexKind::plain) {
+                    return true;
+                }
+            }
+            return false;
+        }
+        [[nodiscard]] PatchFaces patches(const GpuSurface& gpu) const {
+            PatchFaces found = patchFaces(
+                isolation.parent, gpu, [&](uint32_t face) { return irregular(face) ? 1 : 0; },
+                [&](uint32_t face) { return corners.chainsOf(face); });
+            for (uint32_t f = 0; f < isolation.parent.cage.faceCount(); ++f) {
+                found.firstCorners.push_back(corners.firstCorner(f));
+            }
+            return found;
+        }
+        /// Parameters of a patch as those of its face.
+        [[nodiscard]] static glm::dvec2 inFace(double u, double v, uint32_t firstCorner) {
+            const glm::dvec2 turned[] = {{u, v}, {1.0 - v, u}, {1.0 - u, 1.0 - v}, {v, 1.0 - u}};
+            return turned[firstCorner];
+        }
+        /// A rate along a cage edge for this rate along a quad's.
+        [[nodiscard]] uint32_t rateFor(uint32_t rate) const { return rate << (isolation.mesh.isolationSteps - 1); }
+
+        Isolation isolation;
+        Corners corners;
+    };
+
+    struct Worst {
+        double position = 0.0, normal = 0.0;
+        uint64_t samples = 0, steep = 0;
+    };
+    /// Every `stride`-th sample.
+    static void compare(host::Device& device, const cage::Cage& cage, uint32_t rate, uint32_t stride, Worst& worst) {
+        const Quads quads(cage);
+        GpuSurface gpu(device, cage, exactOptions(GetParam(), quads.rateFor(rate)));
+        ASSERT_TRUE(gpu.valid());
+        gpu.evaluate();
+        ASSERT_EQ(gpu.output().grid.rate, rate);
+        const std::vector<glm::dvec3> positions = doublePositions(cage);
+        const LimitSurface limit(quads.isolation.mesh, positions);
+        const PatchFaces found = quads.patches(gpu);
+        ASSERT_EQ(found.faces.size(), gpu.patches().size());
+        const double size = extent(positions);
+        uint32_t next = 0;
+        for (uint32_t p = 0; p < found.faces.size(); ++p) {
+            for (uint32_t s = 0; s < gpu.sampleCount(p); ++s) {
+                if (next++ % stride != 0) {
+                    continue;
+                }
+                const uint32_t i = s % (rate + 1), j = s / (rate + 1);
+                const uint32_t face = found.faces[p];
+                const glm::dvec2 at = Quads::inFace(static_cast<double>(i) / rate, static_cast<double>(j) / rate,
+                                                    found.firstCorners[face]);
+                const auto expected = limit.at(face, at.x, at.y);
+                const GpuSurface::Vertex& vertex = gpu.vertex(0, p, s);
+                const double apart = glm::length(glm::dvec3(vertex.position) - expected.position) / size;
+                raise(worst.position, apart);
+                ++worst.samples;
+                const double angle = angleDegrees(vertex.normal, expected.normal);
+                worst.steep += angle > 0.05 ? 1 : 0;
+                raise(worst.normal, angle);
+            }
+        }
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Mappings, ExactOnGpu, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
+                         [](const auto& param) { return mappingName(param.param); });
+
+TEST_P(ExactOnGpu, SurfaceIsTheLimit) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
+    for (const uint32_t rate : {1u, 2u, 3u, 5u, 8u, 17u}) {
+        Worst worst;
+        for (size_t i = 0; i < zoo.size(); i += rate < 8 ? 1 : 3) {
+            SCOPED_TRACE(zoo[i].name);
+            Worst own;
+            ASSERT_NO_FATAL_FAILURE(compare(*device, zoo[i].cage, rate, rate < 8 ? 1 : 7, own));
+            EXPECT_LE(own.position, 1e-6);
+            if (own.steep > 0) {
+                std::printf("%s, rate %u: %llu of %llu normals above 0.05 degrees, at most %.2f\n", zoo[i].name.c_str(),
+                            rate, static_cast<unsigned long long>(own.steep),
+                            static_cast<unsigned long long>(own.samples), own.normal);
+            }
+            raise(worst.position, own.position);
+            raise(worst.normal, own.normal);
+            worst.samples += own.samples;
+            worst.steep += own.steep;
+        }
+        std::printf("rate %u: %llu samples, positions within %.1e of the extent; %llu normals above 0.05 degrees, at "
+                    "most %.2f\n",
+                    rate, static_cast<unsigned long long>(worst.samples), worst.position,
+                    static_cast<unsigned long long>(worst.steep), worst.normal);
+        EXPECT_LE(static_cast<double>(worst.steep), 1e-3 * static_cast<double>(worst.samples));
+    }
+}
+
+TEST_P(ExactOnGpu, CharactersAreTheLimit) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    size_t characters = 0;
+    forEachCharacter(allCharacters(), [&](const std::string& name, const cage::Character& character) {
+        SCOPED_TRACE(name);
+        Worst worst;
+        cage::Cage cage = character.cage;
+        cage.faceMaterials.clear(); // the group is made of arrays without them
+        cage.faceParts.clear();
+        ASSERT_NO_FATAL_FAILURE(compare(*device, cage, 4, 1 + cage.faceCount() / 40, worst));
+        EXPECT_LE(worst.position, 1e-6);
+        EXPECT_LE(static_cast<double>(worst.steep), 1e-3 * static_cast<double>(worst.samples) + 1.0);
+        ++characters;
+    });
+    EXPECT_GE(characters, 3u);
+}
+
+TEST_P(ExactOnGpu, BordersAgreeBitForBit) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    std::map<uint32_t, ComparedBits> byRate;
+    const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
+    for (size_t i = 0; i < zoo.size(); ++i) {
+        SCOPED_TRACE(zoo[i].name);
+        const Quads quads(zoo[i].cage);
+        for (const uint32_t rate : {1u, 2u, 3u, 5u, 7u, 8u, 17u, 32u}) {
+            if (rate > 8 && i % 5 != 0) {
+                continue;
+            }
+            GpuSurface gpu(*device, zoo[i].cage, exactOptions(GetParam(), quads.rateFor(rate)));
+            ASSERT_TRUE(gpu.valid());
+            gpu.evaluate();
+            const ComparedBits bits =
+                borderBits(quads.isolation.parent.cage, quads.isolation.parent.topology, quads.patches(gpu), gpu);
+            EXPECT_EQ(bits.different, 0u) << "rate " << rate;
+            byRate[rate].add(bits);
+        }
+    }
+    for (const auto& [rate, bits] : byRate) {
+        bits.print(("border samples at rate " + std::to_string(rate)).c_str());
+        EXPECT_GT(bits.samples, 0u);
+    }
+}
+
+TEST(ExactMappings, GiveTheSamePositionBits) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    ComparedBits bits;
+    for (const SubdivisionCage& zoo : subdivisionZoo()) {
+        ASSERT_NO_FATAL_FAILURE(compareMappings(*device, zoo.cage, exactOptions(SUPPLE_MAPPING_NARROW, 6), bits));
+    }
+    bits.print("positions in both mappings");
+    EXPECT_EQ(bits.different, 0u);
+}
+
+} // namespace
+} // namespace supple::test
