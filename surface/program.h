@@ -101,7 +101,7 @@ struct Program {
     /// The sizes of the steps of vertex, assemble, edgeLevels, patchLevels and places, indexed by Step::argument. They
     /// are constructions in the order of the tables, then edges, then patches.
     [[nodiscard]] std::vector<DispatchSize> constructionSizes() const;
-    /// The sizes of the steps of evaluate, which are those of motion, too. For groups that evaluate fragments.
+    /// The same of evaluate; motion has the same sizes. For groups whose instances have rates of their own.
     [[nodiscard]] std::vector<DispatchSize> evaluationSizes() const;
 };
 

@@ -43,6 +43,8 @@ struct Scheme {
 
     /// Its tables list the triangles of a mesh (Tables::triangles): it is an indexed mesh in any case.
     [[nodiscard]] bool isMesh() const { return rates == RateRule::none; }
+    /// A view can draw each instance at one of several rates.
+    [[nodiscard]] bool hasRates() const { return rates == RateRule::doubling || isMesh(); }
     [[nodiscard]] bool interpolates(cage::UvMode mode) const { return (uvModes & uvModeBit(mode)) != 0; }
     /// Recipe::rate for a group that asks for `rate` segments along an edge of the cage.
     [[nodiscard]] uint32_t tableRate(uint32_t rate, bool lod) const;

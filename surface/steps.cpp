@@ -97,7 +97,8 @@ void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass
                                                : patchesPerGroup(push.samples, mapping.localSize);
         size.perGroup = push.patchesPerGroup;
     }
-    builder.add(*pass.steps, SetKind::evaluate, evaluateKernel(builder, from.patchClass, pass.format), size, push);
+    builder.add(*pass.steps, SetKind::evaluate, evaluateKernel(builder, from.patchClass, pass.format), size, push,
+                static_cast<uint32_t>(range));
 }
 
 /// The kernel of a class's attributes, and its kind: linear ones are told by domains alone.

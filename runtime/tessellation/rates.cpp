@@ -144,13 +144,9 @@ void Rates::setLadder(Ladder ladder) {
 
 Status Rates::buildRates() {
     surface::Recipe recipe = scheme_->recipe;
-    // Other tables serve all rates below theirs.
-    const bool ownTables = surface::schemeOf(recipe.scheme).rates == surface::RateRule::doubling;
     uint64_t vertices = 0;
     for (uint32_t segments = 1; segments <= tables().rate; segments *= 2) {
-        if (ownTables) {
-            recipe.rate = segments << tables().isolationSteps;
-        }
+        recipe.rate = segments << tables().isolationSteps;
         Result<std::shared_ptr<SchemeTables>> scheme = desc_.asset->tablesFor(*desc_.device, recipe, desc_.piece);
         if (!scheme) {
             return scheme.error();

@@ -71,6 +71,10 @@ Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDes
         return makeNoTessellation(desc);
     }
     const surface::Scheme& row = surface::schemeOf(static_cast<surface::SchemeId>(desc.group.scheme));
+    if (desc.view != nullptr && !row.hasLevels && !row.hasRates()) {
+        return Error{ErrorCode::argument,
+                     desc.asset->character.name + ": " + row.name + " cannot be drawn in a view yet"};
+    }
     if (desc.view != nullptr) {
         return row.hasLevels ? makeLevels(desc) : makeRates(desc);
     }

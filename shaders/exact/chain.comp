@@ -1,5 +1,5 @@
-// Limit points, normals and chains of vertices that are not plain (docs/exact.md). One invocation a vertex or a point of a
-// chain's level, and instance.
+// Limit points, normals and chains of vertices that are not plain (docs/exact.md). One invocation a vertex, or a spoke or the
+// centre of a chain's level, and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
@@ -52,23 +52,44 @@ void storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
     }
 }
 
-float sharpnessOf(uint words, uint spoke, uint level) {
-    if (spoke == 0u || words == kNoSharpness) return 0.0;
-    return softened(uintBitsToFloat(tableWord(words + spoke - 1u)), level);
+// Fans: sectors, points of a level, whether it is open.
+uvec4 fan;
+
+// Spiral index of a point a steps along spoke h and b along the next one (surface/subdivision/pattern.h).
+uint pointIndex(uint h, uint a, uint b) {
+    uint r = max(a, b);
+    if (r == 0u) return 0u;
+    uint place = 2u * r * h + (a >= b ? b : 2u * b - a);
+    if (fan.z == 0u && place == 2u * r * fan.x) place = 0u; // the last spoke is the first
+    return 1u + fan.x * r * (r - 1u) + fan.z * (r - 1u) + place;
 }
 
-vec3 chainPoint(uint i, uvec4 fan, uint words, uvec4 centreStep, vec2 weights, uint level) {
-    uvec4 packed = tableElement(fan.z + i);
-    uint rule = packed.w >> 16 & 3u;
-    float sharpness = sharpnessOf(words, packed.w >> 18, level);
-    Sources s = unpackSources(packed);
-    if (rule == kCentreRule)
-        return centrePoint(fan.x, weights, uintBitsToFloat(centreStep.x), uintBitsToFloat(centreStep.y), centreStep.z,
-                           centreStep.w);
-    if (rule == kFaceRule) return facePoint(point(s.s[0]), point(s.s[1]), point(s.s[2]), point(s.s[3]));
-    if (rule == kEdgeRule)
-        return edgePoint(point(s.s[0]), point(s.s[1]), point(s.s[2]), point(s.s[3]), point(s.s[4]), point(s.s[5]), sharpness);
-    return vertexPoint(point(s.s[0]), pointsOf(unpackSources(tableElement(fan.w + s.s[0]))), sharpness);
+// The nine points of a sector and the three on its first spoke: of the 3 x 4 points round them, with the masks (1, 1) / 2 and
+// (1, 6, 1) / 8 along either direction. On a sharp spoke the second mask is left out.
+void storeSector(uint target, uint h, float sharpness) {
+    bool beyond = h == fan.x; // the last spoke of an open fan has no sector
+    uint before = h == 0u ? fan.x - 1u : h - 1u;
+    vec3 rows[4][3]; // by j of -1..2
+    for (uint j = 0u; j < 4u; ++j) {
+        vec3 p[3];
+        for (uint i = 0u; i < 3u; ++i) {
+            // What lies outside of an open fan counts nothing: its borders are sharp.
+            bool outside = j == 0u ? fan.z != 0u && h == 0u : beyond && j > 1u;
+            p[i] = point(outside ? 0u : j == 0u ? pointIndex(before, 1u, i) : pointIndex(h, i, j - 1u));
+        }
+        precise vec3 first = (p[0] + p[1]) * 0.5, second = (p[0] + p[2] + 6.0 * p[1]) * 0.125, third = (p[1] + p[2]) * 0.5;
+        rows[j] = vec3[3](first, second, third);
+    }
+    for (uint i = 0u; i < 3u; ++i) {
+        precise vec3 onSpoke = (rows[0][i] + rows[2][i] + 6.0 * rows[1][i]) * 0.125;
+        pool[target + pointIndex(h, i + 1u, 0u)] = vec4(blended(sharpness, onSpoke, rows[1][i]), 0.0);
+        if (beyond) continue;
+        precise vec3 first = (rows[1][i] + rows[2][i]) * 0.5, second = (rows[1][i] + rows[3][i] + 6.0 * rows[2][i]) * 0.125;
+        precise vec3 third = (rows[2][i] + rows[3][i]) * 0.5;
+        pool[target + pointIndex(h, i + 1u, 1u)] = vec4(first, 0.0);
+        pool[target + pointIndex(h, i + 1u, 2u)] = vec4(second, 0.0);
+        pool[target + pointIndex(h, i + 1u, 3u)] = vec4(third, 0.0);
+    }
 }
 
 void main() {
@@ -86,14 +107,22 @@ void main() {
         if (b.x != 0u) pool[base + b.x - 1u] = vec4(centre, 0.0);
         return;
     }
-    uvec4 fan = tableElement(block.x);
-    n = min(n, vertices * fan.y - 1u);
-    uint i = n / vertices, record = block.y + 2u * (n - i * vertices);
+    fan = tableElement(block.x);
+    uint spokes = fan.x + fan.z;
+    n = min(n, vertices * (spokes + 1u) - 1u);
+    uint h = n / vertices, record = block.y + 2u * (n - h * vertices);
     uvec4 a = tableElement(record), arrangement = tableElement(a.z);
     uint target = base + tableElement(record + 1u).x + (level - 2u) * fan.y;
     source = kReads == kReadsNet ? a.x : target - fan.y;
     if (kReads == kReadsNet) centre = netPoint(0u);
-    vec2 weights = uintBitsToFloat(tableElement(block.x + 1u).xy);
-    pool[target + i] =
-        vec4(chainPoint(i, fan, arrangement.y, tableElement(arrangement.z + level - 2u), weights, level - 2u), 0.0);
+    if (h == spokes) {
+        vec2 weights = uintBitsToFloat(tableElement(block.x + 1u).xy);
+        uvec4 step = tableElement(arrangement.z + level - 2u);
+        pool[target] =
+            vec4(centrePoint(fan.x, weights, uintBitsToFloat(step.x), uintBitsToFloat(step.y), step.z, step.w), 0.0);
+        return;
+    }
+    float sharpness = 0.0;
+    if (arrangement.y != kNoSharpness) sharpness = softened(uintBitsToFloat(tableWord(arrangement.y + h)), level - 2u);
+    storeSector(target, h, sharpness);
 }

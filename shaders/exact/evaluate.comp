@@ -63,14 +63,20 @@ void evaluateLeaf(const PatchPlace at, IrregularQuad quad, uint corner, LeafSamp
         halfB = halfLine(l, false, besideLine(lineB));
         if (cubicB) sideB = sideCubic(at, quad.points, quad.spokes, before);
     }
+    // The middle of a border is evaluated from the end that it belongs to.
+    int rate = int(push.rate), middle = (rate & 1) == 0 ? rate / 2 : -1;
+    bool ownA = (quad.flags >> (kMiddleOfSecond + corner) & 1u) == 0u, ownB = (quad.flags >> (kMiddleOfSecond + before) & 1u) != 0u;
+    bool outer = s.level <= 2u && middle > 0;
+    int endA = outer ? (ownA ? middle : middle - 1) : s.a1, endB = outer && s.a0 == 0 && ownB ? max(s.b1, middle) : s.b1;
+    vec3 limit = poolPoint(at, componentOf(quad.points, corner));
     int b = s.b0;
     do {
         vec2 pairB = parameterPair(uint(b), push.rate, push.pairs);
         precise float y0 = pairB.x * scale, y1 = farB ? y0 - 1.0 : y0;
         LeafWeights y = leafWeights(y1, acrossA);
         LeafRow row = collapseLeaf(l, y);
-        int a = s.a0;
-        do {
+        int a = outer && s.a0 == 0 && b == middle && !ownB ? 1 : s.a0, last = b > s.b1 ? 0 : b == 0 ? endA : s.a1;
+        while (a <= last) {
             vec2 pairA = parameterPair(uint(a), push.rate, push.pairs);
             precise float x0 = pairA.x * scale, x1 = farA ? x0 - 1.0 : x0;
             LeafWeights x = leafWeights(x1, acrossB);
@@ -78,37 +84,37 @@ void evaluateLeaf(const PatchPlace at, IrregularQuad quad, uint corner, LeafSamp
             Frame frame;
             finishLeaf(row, x, corner, origin, l.p[5], position, frame);
             if (b == 0) position = cubicA ? onCubic(sideA, pairA) : onHalf(origin, halfA, x.w);
-            if (a == 0) position = cubicB ? onCubic(sideB, pairB.yx) : onHalf(origin, halfB, y.w);
+            if (a == 0) position = b == 0 ? limit : cubicB ? onCubic(sideB, pairB.yx) : onHalf(origin, halfB, y.w);
             storeSample(at, corner, uint(a), uint(b), position, frame);
-        } while (++a <= s.a1);
-    } while (++b <= s.b1);
+            ++a;
+        }
+    } while (++b <= endB);
+    // The corner of a chain: directions are those of the last leaf on its first edge.
+    if (chain && s.cell == 0u && s.level == chainLevels(componentOf(quad.sizes, corner))) {
+        vec3 position;
+        Frame frame;
+        finishLeaf(collapseLeaf(l, leafWeights(0.0, lineA)), leafWeights(0.0, 0.0), corner, origin, l.p[5], position, frame);
+        uint normal = componentOf(tableElement(at.record + kExactNormalElement), corner);
+        storeSample(at, corner, 0u, 0u, limit, withNormal(frame, poolPoint(at, normal)));
+    }
 }
 
-// Leaf by leaf. The corners, and middles of borders that belong to the other end than the loops give them to, are stored once more.
+// Leaf by leaf.
 void evaluatePatch(const PatchPlace at) {
     IrregularQuad quad = quadOf(at.record);
     for (uint corner = 0u; corner < 4u; ++corner) {
         bool chain = componentOf(quad.windows, corner) != 0u;
-        // The middle is the lower corner's.
+        // Inside, the middle is the lower corner's.
         int below = int(push.rate) / 2, above = (int(push.rate) - 1) / 2;
         bool right = corner == 1u || corner == 2u, up = corner >= 2u, turned = (corner & 1u) != 0u;
         int mostU = right ? above : below, mostV = up ? above : below;
-        uint leaves = chain ? 3u * (chainLevels(componentOf(quad.sizes, corner)) - 1u) : 1u;
+        uint levels = chainLevels(componentOf(quad.sizes, corner)), leaves = chain ? 3u * (levels - 1u) : 1u;
         for (uint n = 0u; n < leaves; ++n) {
             LeafSamples s = leafSamples(n, chain, turned ? mostV : mostU, turned ? mostU : mostV);
-            if (s.a0 <= s.a1 && s.b0 <= s.b1) evaluateLeaf(at, quad, corner, s);
+            bool last = chain && n == leaves - 3u; // it has the corner, too
+            if (last || (s.a0 <= max(s.a1, s.b0 == 0 ? int(push.rate) / 2 : 0) && s.b0 <= max(s.b1, s.a0 == 0 ? int(push.rate) / 2 : 0)))
+                evaluateLeaf(at, quad, corner, s);
         }
-    }
-    uint last = push.rate;
-    for (uint n = 0u; n < ((last & 1u) == 0u ? 8u : 4u); ++n) { // corners, then middles of the sides
-        uint k = n & 3u, along = n < 4u ? 0u : last / 2u;
-        uint i = k == 0u ? along : k == 1u ? last : k == 2u ? last - along : 0u;
-        uint j = k == 0u ? 0u : k == 1u ? along : k == 2u ? last : last - along;
-        vec3 position;
-        Frame frame;
-        irregularSample(at, quad, parameterPair(i, last, push.pairs), parameterPair(j, last, push.pairs), position, frame);
-        uint own = j * (last + 1u) + i;
-        storeSurfaceVertex(at.vertex + own, at.own + own, position, frame);
     }
 }
 #else

@@ -15,11 +15,12 @@
 //   vertices          not plain: two elements: (first word of the net; fan; arrangement; pool index of the limit point), (pool
 //                     index of the chain's level 2 or 0, levels of the chain, pool index of the first normal, 0)
 //   blocks            of kBlockLanes lanes of limits or of one level of chains: (fan, or 0 for limits; first vertex; vertices, and
-//                     from kChainLevelShift on the level; first item); of chains' items the vertex rises first, then the point
+//                     from kChainLevelShift on the level; first item); of chains' items the vertex rises first, then the spoke; the
+//                     centre comes last
 //   net               one word a point up to radius 2, in spiral order: its pool index
-//   fans              by sectors and openness: (sectors, points of a level of a chain, pattern rows, neighbours), (weight of a spoke
-//                     point, of a face point in the centre's step; 0, 0); rows and neighbours as in shared/subdivision.h; windows:
-//                     kLeafCells of two elements a sector, 16 points of a chain's level, 16 bits each, row by row
+//   fans              by sectors and openness: (sectors, points of a level of a chain, 1 if it is open, 0), (weight of a spoke point,
+//                     of a face point in the centre's step; 0, 0); windows: kLeafCells of two elements a sector, 16 points of a
+//                     chain's level, 16 bits each, row by row
 //   arrangements      by fan and sharpness: (runs; first word of the sharpness of spokes on level 1, or kNoSharpness; centre steps;
 //                     points of ring 1); a run: (blocks, 0, 0, 0), then blocks of an element a point of ring 1: weights in four
 //                     vectors, the first of the run being the position, the others tangents along which the sum of the cross

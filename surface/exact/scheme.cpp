@@ -21,8 +21,6 @@ namespace {
 
 using subdivision::Fan;
 using subdivision::Isolation;
-using subdivision::Neighbours;
-using subdivision::Row;
 
 constexpr uint32_t kRegular = shared::kRegularFan, kOpen = shared::kFewFan;
 constexpr KindOfKernel kVertexKernels[] = {
@@ -280,24 +278,9 @@ private:
         }
     }
     FanTable writeFan(const Fan& fan) {
-        const subdivision::Pattern pattern = subdivision::fanPattern(fan, 1);
-        const uint32_t points = pointCount(fan, 3);
-        const uint32_t rows = writer_.element();
-        for (uint32_t i = 0; i < points; ++i) {
-            const Row& row = pattern.rows[i];
-            std::array<uint32_t, 8> halves{};
-            std::copy(row.sources.begin(), row.sources.end(), halves.begin());
-            halves[7] =
-                static_cast<uint32_t>(row.rule) | (row.spoke == subdivision::kNoSpoke ? 0u : (row.spoke + 1) << 2);
-            putHalves(halves);
-        }
-        const uint32_t neighbours = writer_.element();
-        for (const Neighbours& n : pattern.neighbours) {
-            putHalves(n);
-        }
         const FanTable table{writer_.element(), writer_.element() + 2};
         const CentreWeights weights = refineWeights(Subdivision::catmullClark, fan.sectors);
-        writer_.put({fan.sectors, points, rows, neighbours});
+        writer_.put({fan.sectors, pointCount(fan, 3), fan.open ? 1u : 0u, 0u});
         writer_.putFloats({weights.spoke, weights.face, 0.0, 0.0});
         constexpr int32_t kFirst[shared::kLeafCells][2] = {{0, -1}, {0, 0}, {-1, 0}};
         for (uint32_t h = 0; h < fan.sectors; ++h) {
@@ -416,7 +399,7 @@ private:
             if (chainLevels(vertices[i]) > 0) {
                 const auto count = static_cast<uint32_t>(end - i);
                 add(fanTable(fanOf(vertices[i])).element, firstRecord + 2 * static_cast<uint32_t>(i), count,
-                    count * chainPoints(vertices[i]));
+                    count * (mesh_.fragments[vertices[i]].spokes() + 1));
                 work.coefficients += count * chainPoints(vertices[i]);
             }
             i = end;

@@ -1,12 +1,15 @@
 // Exact Catmull-Clark patches on the device: against the limit in double, both mappings, and the bits its patches
 // share.
+#include "cage/procedural.h"
 #include "surface/exact/corners.h"
 #include "surface/subdivision/mesh.h"
+#include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/test_view.h"
 #include "tools/reference/exact.h"
 
 #include <cstdio>
@@ -200,6 +203,24 @@ TEST(ExactMappings, GiveTheSamePositionBits) {
     }
     bits.print("positions in both mappings");
     EXPECT_EQ(bits.different, 0u);
+}
+
+class ExactInViews : public CrowdContexts {};
+
+TEST_F(ExactInViews, AreRefused) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    const TestView view(own, 1u << 10);
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.asset = own.createAsset(cage::makeCubeSphere(2));
+    desc.capacity = 1;
+    desc.scheme = SUPPLE_SCHEME_EXACT;
+    SuppleGroup group{};
+    EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_OK);
+    EXPECT_EQ(suppleDestroyGroup(own.handle(), group), SUPPLE_OK);
+    desc.view = view.handle();
+    EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
 }
 
 } // namespace

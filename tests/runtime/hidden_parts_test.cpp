@@ -79,7 +79,6 @@ constexpr HiddenCase kHiddenCases[] = {
     {"loop", SUPPLE_SCHEME_LOOP, false, false, 0, 0},
     {"loopRates", SUPPLE_SCHEME_LOOP, false, true, 0, 0},
     {"exact", SUPPLE_SCHEME_EXACT, false, false, kMotion, 0},
-    {"exactRates", SUPPLE_SCHEME_EXACT, false, true, 0, kViewMotion},
     {"polygons", SUPPLE_SCHEME_POLYGONS, false, false, kMotion, 0},
     {"polygonsRates", SUPPLE_SCHEME_POLYGONS, false, true, 0, kViewMotion},
 };

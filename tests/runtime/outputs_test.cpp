@@ -37,7 +37,6 @@ constexpr OutputCase kOutputCases[] = {
     {SUPPLE_SCHEME_BLEND},
     {SUPPLE_SCHEME_BLEND, true},
     {SUPPLE_SCHEME_EXACT},
-    {SUPPLE_SCHEME_EXACT, true},
     {SUPPLE_SCHEME_POLYGONS},
     {SUPPLE_SCHEME_POLYGONS, true},
 };

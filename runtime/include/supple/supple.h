@@ -415,8 +415,8 @@ typedef enum SuppleScheme {
      * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
     SUPPLE_SCHEME_POLYGONS = 6,
     /** The limit of Catmull-Clark subdivision by one patch per quad (docs/exact.md), at any rate: any polygons,
-     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. It has no levels of detail, indexed
-     * meshes and smooth texture coordinates yet. */
+     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. It cannot be drawn in a view, and
+     * has no indexed meshes and no smooth texture coordinates yet. */
     SUPPLE_SCHEME_EXACT = 7,
     SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
 } SuppleScheme;
