@@ -33,8 +33,7 @@ struct Scheme {
     Result<Tables> (*build)(const Recipe& recipe, const cage::Cage& cage) = nullptr;
     RateRule rates = RateRule::any;
     const char* ratesInWords = ""; ///< for messages: how many segments an edge of the cage can have
-    bool hasLevels = false;        ///< a view can draw its patches at real-valued levels. Otherwise each instance in a
-                                   ///< view has one of several rates
+    bool hasLevels = false;        ///< a view can draw its patches at real-valued levels. If not, see hasRates()
     uint32_t uvModes = kLinearUvs; ///< how it interpolates texture coordinates: a bit per cage::UvMode
     bool hasIndexedMesh = false;   ///< patches can share the samples on their borders, or the scheme is a mesh
     /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
@@ -43,7 +42,7 @@ struct Scheme {
 
     /// Its tables list the triangles of a mesh (Tables::triangles): it is an indexed mesh in any case.
     [[nodiscard]] bool isMesh() const { return rates == RateRule::none; }
-    /// A view can draw each instance at one of several rates.
+    /// A view can draw each instance at one of several rates. Without this and without levels it draws none.
     [[nodiscard]] bool hasRates() const { return rates == RateRule::doubling || isMesh(); }
     [[nodiscard]] bool interpolates(cage::UvMode mode) const { return (uvModes & uvModeBit(mode)) != 0; }
     /// Recipe::rate for a group that asks for `rate` segments along an edge of the cage.

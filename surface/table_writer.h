@@ -36,6 +36,12 @@ public:
     }
     void put(std::initializer_list<uint32_t> values) { words_.insert(words_.end(), values); }
     void put(std::span<const uint32_t> values) { words_.insert(words_.end(), values.begin(), values.end()); }
+    /// Numbers of 16 bits, two a word, the first in the low half. An even number of them.
+    void putHalves(std::span<const uint32_t> values) {
+        for (size_t i = 0; i < values.size(); i += 2) {
+            words_.push_back(values[i] | values[i + 1] << 16);
+        }
+    }
     void putFloats(std::initializer_list<double> values) {
         for (const double value : values) {
             words_.push_back(floatBits(value));

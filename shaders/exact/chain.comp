@@ -52,8 +52,7 @@ void storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
     }
 }
 
-// Fans: sectors, points of a level, whether it is open.
-uvec4 fan;
+uvec4 fan; // sectors, points of a level, whether it is open
 
 // Spiral index of a point a steps along spoke h and b along the next one (surface/subdivision/pattern.h).
 uint pointIndex(uint h, uint a, uint b) {
@@ -103,7 +102,7 @@ void main() {
         uvec4 a = tableElement(record), b = tableElement(record + 1u);
         source = a.x;
         centre = netPoint(0u);
-        storeLimits(a.z, base + a.w, base + b.z);
+        storeLimits(a.z, base + a.w, base + b.y);
         if (b.x != 0u) pool[base + b.x - 1u] = vec4(centre, 0.0);
         return;
     }

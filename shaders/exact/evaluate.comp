@@ -37,6 +37,12 @@ LeafSamples leafSamples(uint n, bool chain, int a1, int b1) {
                        min(cell == 0u ? near - 1 : end, b1));
 }
 
+// On the quad's border the middle may come to them.
+bool hasSamples(LeafSamples s) {
+    int middle = int(push.rate) / 2;
+    return s.a0 <= (s.b0 == 0 ? max(s.a1, middle) : s.a1) && s.b0 <= (s.a0 == 0 ? max(s.b1, middle) : s.b1);
+}
+
 void storeSample(const PatchPlace at, uint corner, uint a, uint b, vec3 position, Frame frame) {
     uint last = push.rate, i = corner == 0u ? a : corner == 1u ? last - b : corner == 2u ? last - a : b;
     uint j = corner == 0u ? b : corner == 1u ? a : corner == 2u ? last - b : last - a;
@@ -111,9 +117,8 @@ void evaluatePatch(const PatchPlace at) {
         uint levels = chainLevels(componentOf(quad.sizes, corner)), leaves = chain ? 3u * (levels - 1u) : 1u;
         for (uint n = 0u; n < leaves; ++n) {
             LeafSamples s = leafSamples(n, chain, turned ? mostV : mostU, turned ? mostU : mostV);
-            bool last = chain && n == leaves - 3u; // it has the corner, too
-            if (last || (s.a0 <= max(s.a1, s.b0 == 0 ? int(push.rate) / 2 : 0) && s.b0 <= max(s.b1, s.a0 == 0 ? int(push.rate) / 2 : 0)))
-                evaluateLeaf(at, quad, corner, s);
+            bool hasCorner = chain && n == leaves - 3u;
+            if (hasCorner || hasSamples(s)) evaluateLeaf(at, quad, corner, s);
         }
     }
 }
@@ -129,6 +134,7 @@ void loadPart(uint to, const PatchPlace at, uint k) { localPoints[to] = vec4(poo
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
     localPlace = place;
     uint j = index / (push.rate + 1u), i = index - j * (push.rate + 1u);
-    irregularSample(at, quadOf(at.record), parameterPair(i, push.rate, push.pairs), parameterPair(j, push.rate, push.pairs), position, frame);
+    vec2 u = parameterPair(i, push.rate, push.pairs), v = parameterPair(j, push.rate, push.pairs);
+    irregularSample(at, quadOf(at.record), u, v, position, frame);
 }
 #endif

@@ -1,16 +1,16 @@
 // A leaf of an irregular quad: uniform bicubic B-splines, where creases are other weights (docs/exact.md, (1) and (2)).
+#include "shaders/subdivision/sharpness.glsl"
+
 struct LeafWeights {
     vec4 w, d; // of the four points in one direction, and their derivatives
 };
-
-bool isEndless(float sharpness) { return sharpness >= 1e9; }
 
 // 2^n of a small integer.
 float powerOfTwo(float n) { return uintBitsToFloat(uint(127 + int(n)) << 23u); }
 
 // (1): the weight that a point across a crease of this sharpness keeps, and its derivative.
 vec2 sharpWeight(float sharpness, float x) {
-    if (isEndless(sharpness)) return vec2(0.0);
+    if (sharpness >= kEndlessSharpness) return vec2(0.0);
     precise float n = floor(sharpness), f = sharpness - n, scale = powerOfTwo(n);
     precise float a = max(0.0, 1.0 - x * scale), b = max(0.0, 1.0 - x * (2.0 * scale));
     precise float value = ((1.0 - f) * (a * a * a) + 0.5 * f * (b * b * b)) / (6.0 * scale);

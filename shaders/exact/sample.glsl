@@ -3,8 +3,6 @@
 //   vec3 netPoint(const PatchPlace at, uint k)        point k of the quad's 5 x 5 on level 1
 #include "shaders/exact/leaf.glsl"
 
-float softenedBy(float sharpness, uint steps) { return isEndless(sharpness) ? sharpness : max(sharpness - float(steps), 0.0); }
-
 // Where a sample lies: the quarter's corner, and how far from it along the corner's two edges, as stored halves of the pairs.
 struct QuarterPlace {
     uint corner;
@@ -18,7 +16,7 @@ QuarterPlace quarterOf(vec2 u, vec2 v, uint flags) {
     bool turned = (q.corner & 1u) != 0u;
     q.a = turned ? fromV : fromU;
     q.b = turned ? fromU : fromV;
-    // The middle of a side belongs to the end that both quads know.
+    // The middle of a side belongs to the end with the smaller number, which both quads know.
     uint before = (q.corner + 3u) & 3u;
     if (q.b == 0.0 && q.a == 0.5 && (flags >> (kMiddleOfSecond + q.corner) & 1u) != 0u)
         return QuarterPlace((q.corner + 1u) & 3u, 0.0, 0.5);
@@ -45,27 +43,19 @@ LeafPlace leafOf(QuarterPlace q, uint windows, uint lastLevel) {
     return LeafPlace(level, farA ? (farB ? 1u : 0u) : 2u, inX, inY, farA, farB);
 }
 
-// Of the 5 x 5 points: number `i` along a corner's a, `j` along its b, both from 0, which is one before the corner.
-uint netPlace(uint corner, uint i, uint j) {
-    if (corner == 0u) return kNetSide * j + i;
-    if (corner == 1u) return kNetSide * i + 4u - j;
-    if (corner == 2u) return kNetSide * (4u - j) + 4u - i;
-    return kNetSide * (4u - i) + j;
-}
-
 struct LeafPoints {
     vec3 p[16]; // row by row in b
 };
-LeafPoints leafPoints(const PatchPlace at, uint corner, uint windows, uint cell, uint levelPoints) {
+LeafPoints leafPoints(const PatchPlace at, uint corner, uint windows, uint cell, uint first) {
     LeafPoints points;
     if (windows == 0u) {
-        for (uint k = 0u; k < 16u; ++k) points.p[k] = netPoint(at, netPlace(corner, k & 3u, k >> 2u));
+        for (uint k = 0u; k < 16u; ++k) points.p[k] = netPoint(at, SUPPLE_EXACT_NET_PLACE(corner, k & 3u, k >> 2u));
         return points;
     }
     uvec4 low = tableElement(windows + 2u * cell), high = tableElement(windows + 2u * cell + 1u);
     for (uint k = 0u; k < 16u; ++k) {
         uint word = (k < 8u ? low : high)[k / 2u & 3u];
-        points.p[k] = poolPoint(at, levelPoints + ((k & 1u) == 0u ? word & 0xFFFFu : word >> 16u));
+        points.p[k] = poolPoint(at, first + ((k & 1u) == 0u ? word & 0xFFFFu : word >> 16u));
     }
     return points;
 }
@@ -142,13 +132,13 @@ struct IrregularQuad {
     uint flags;
 };
 IrregularQuad quadOf(uint record) {
-    return IrregularQuad(tableElement(record), tableElement(record + 1u), tableElement(record + kExactChainElement),
+    return IrregularQuad(tableElement(record), tableElement(record + 1u), tableElement(record + kExactWindowElement),
                          tableElement(record + kExactSizeElement),
                          uintBitsToFloat(tableElement(record + kExactSharpnessElement)), tableElement(record + kExactNetElement).x);
 }
 float sharpnessOf(IrregularQuad quad, uint side, uint level) {
     vec4 s = quad.sharpness;
-    return softenedBy(side < 2u ? (side == 0u ? s.x : s.y) : side == 2u ? s.z : s.w, level - 1u);
+    return softened(side < 2u ? (side == 0u ? s.x : s.y) : side == 2u ? s.z : s.w, level - 1u);
 }
 bool isCubic(IrregularQuad quad, uint side) { return (quad.flags >> (kCubicSide + side) & 1u) != 0u; }
 uint chainLevels(uint size) { return size >> kChainLevelShift; }

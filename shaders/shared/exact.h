@@ -6,14 +6,14 @@
 //
 // Coefficient pool: limit points (one a vertex; a plain vertex on creases has one more for each further run of faces between
 // them), tangents and face coefficients (one a slot), points of level 1 that irregular quads need, normals of vertices that are
-// not plain (one a run), chains, the vertices of the mesh if it is not the cage. A chain: the
-// vertex's point of level 1, then for every level from 2 on all points up to radius 3 round the vertex, as offsets from that.
+// not plain (one a run), chains, the vertices of the mesh if it is not the cage. A chain is the vertex's point of level 1, then for
+// every level from 2 on all points up to radius 3 round the vertex, as offsets from that.
 //
 // Tables
 //   ring              see shared/surface.h; closed fans come first and have nothing else
 //   plain runs        of all others three words, one behind the other: first slot, weights (surface::writeFanWeights), limit point
 //   vertices          not plain: two elements: (first word of the net; fan; arrangement; pool index of the limit point), (pool
-//                     index of the chain's level 2 or 0, levels of the chain, pool index of the first normal, 0)
+//                     index of the chain's level 2 or 0, pool index of the first normal, 0, 0)
 //   blocks            of kBlockLanes lanes of limits or of one level of chains: (fan, or 0 for limits; first vertex; vertices, and
 //                     from kChainLevelShift on the level; first item); of chains' items the vertex rises first, then the spoke; the
 //                     centre comes last
@@ -39,7 +39,7 @@
 SUPPLE_SHARED_BEGIN
 
 SUPPLE_SHARED_CONST kExactRecordElements = 13u;
-SUPPLE_SHARED_CONST kExactChainElement = 2u;
+SUPPLE_SHARED_CONST kExactWindowElement = 2u;
 SUPPLE_SHARED_CONST kExactSizeElement = 3u;
 SUPPLE_SHARED_CONST kExactSharpnessElement = 4u;
 SUPPLE_SHARED_CONST kExactNormalElement = 5u;
@@ -47,6 +47,7 @@ SUPPLE_SHARED_CONST kExactNetElement = 6u;
 SUPPLE_SHARED_CONST kNetSide = 5u;
 
 SUPPLE_SHARED_CONST kChainLevelShift = 24u;
+
 // Kinds of the chain kernel: what blocks read.
 SUPPLE_SHARED_CONST kReadsNet = 0u;   // level 1; blocks of limits as well
 SUPPLE_SHARED_CONST kReadsLevel = 1u; // the level before
@@ -59,5 +60,13 @@ SUPPLE_SHARED_CONST kCubicSide = 0u;      // the border is one cubic, for both e
 SUPPLE_SHARED_CONST kMiddleOfSecond = 4u; // its middle belongs to the end where it ends
 
 SUPPLE_SHARED_END
+
+// Where a point of a corner's window stands in the 5 x 5 points of a quad: number i along the corner's first edge, j along its
+// second. Both begin at 0, one step before the corner.
+#define SUPPLE_EXACT_NET_PLACE(corner, i, j)                                                                                     \
+    ((corner) == 0u   ? kNetSide * (j) + (i)                                                                                     \
+     : (corner) == 1u ? kNetSide * (i) + 4u - (j)                                                                                \
+     : (corner) == 2u ? kNetSide * (4u - (j)) + 4u - (i)                                                                         \
+                      : kNetSide * (4u - (i)) + (j))
 
 #endif

@@ -15,11 +15,7 @@ Sources unpackSources(uvec4 row) {
                            row.w & 0xFFFFu, row.w >> 16));
 }
 
-// Sharpness of a spoke after `steps` steps; infinite sharpness stays.
-float softened(float sharpness, uint steps) {
-    precise float left = sharpness - float(steps);
-    return sharpness >= 1e9 ? sharpness : left > 0.0 ? left : 0.0;
-}
+#include "shaders/subdivision/sharpness.glsl"
 
 vec3 blended(float sharpness, vec3 smoothPoint, vec3 creasePoint) {
     precise vec3 mixed = smoothPoint + sharpness * (creasePoint - smoothPoint);

@@ -102,9 +102,9 @@ double product(const CentreMask& a, const CentreMask& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// Of tangents only the direction of their cross products counts. Two tangents may come ever nearer to the one that
-/// shrinks least: only what the second has beside the first counts. The weights of a tangent sum to zero: a rounding
-/// error in the sum would not shrink with every step, as they do.
+/// Only the direction of the cross products of tangents counts. Two tangents may come ever nearer to the one that
+/// shrinks least. So the second loses what it has of the first. The weights of a tangent sum to zero: a rounding error
+/// in the sum would not shrink with every step, as they do.
 void normalize(std::vector<CentreMask>& tangents) {
     const auto scale = [](CentreMask& mask, double length) {
         for (double& weight : mask) {

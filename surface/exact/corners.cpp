@@ -12,19 +12,9 @@ bool semiSharp(float sharpness) {
     return sharpness > 0.0f && !endless(sharpness);
 }
 
-/// Where point (i, j) of the window of a corner stands in the net; both from 0, which is one before the corner.
 uint32_t netPlace(uint32_t corner, uint32_t i, uint32_t j) {
-    constexpr uint32_t kSide = shared::kNetSide;
-    switch (corner) {
-    case 0:
-        return kSide * j + i;
-    case 1:
-        return kSide * i + 4 - j;
-    case 2:
-        return kSide * (4 - j) + 4 - i;
-    default:
-        return kSide * (4 - i) + j;
-    }
+    using shared::kNetSide;
+    return SUPPLE_EXACT_NET_PLACE(corner, i, j);
 }
 
 } // namespace
@@ -116,8 +106,8 @@ uint32_t Corners::chainsOf(uint32_t face) const {
 
 QuadNet Corners::netOf(uint32_t face, const StepPoints& points) const {
     const cage::Topology& topology = mesh_.topology;
-    std::array<bool, 25> read{};
-    std::array<uint32_t, 25> net{};
+    std::array<bool, std::tuple_size_v<QuadNet>> read{};
+    QuadNet net{};
     net.fill(points.facePoint(face));
     const uint32_t first = firstCorner(face);
     for (uint32_t c = 0; c < 4; ++c) {

@@ -34,7 +34,7 @@ constexpr KindOfKernel kLaterLevelKernel = {Kernel::exactChain, shared::kReadsLe
 constexpr uint32_t kMaxChainPoints = 0xFFFF; ///< 16-bit numbers
 constexpr uint32_t kFirstChainLevel = 2;
 
-/// Of a run of one or two faces between sharp edges: uniform B-splines whose border is the crease.
+/// The weights of a run of one or two faces between sharp edges: uniform B-splines whose border is the crease.
 FanWeights openWeights(uint32_t facets) {
     FanWeights w;
     w.limitFace = w.e1Face = w.e2Face = std::vector<double>(facets, 0.0);
@@ -75,7 +75,8 @@ public:
         layOutPool();
         writeFans();
         writeVertices();
-        RingWriter ring(cage_, topology_, limitPoints(), firstCorners_, writer_);
+        const std::vector<uint32_t> points = ringPoints();
+        RingWriter ring(cage_, topology_, points, firstCorners_, writer_);
         writePatches(ring);
         for (const uint32_t r : order_) {
             const Run& run = corners_.runs()[r];
@@ -186,10 +187,14 @@ private:
         tables_.faces = tables_.tangents + slot;
         firstLevelOne_ = tables_.faces + slot;
         uint32_t next = firstLevelOne_ + static_cast<uint32_t>(needed_.size());
+        normals_.assign(cage_.vertexCount(), cage::kNone);
+        chains_.assign(cage_.vertexCount(), 0);
+        vertexArrangements_.assign(cage_.vertexCount(), nullptr);
         for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
             if (corners_.kind(v) != VertexKind::plain) {
+                vertexArrangements_[v] = &arrangementOf(v);
                 normals_[v] = next;
-                next += arrangementOf(v).runs;
+                next += vertexArrangements_[v]->runs;
             }
         }
         for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
@@ -272,11 +277,6 @@ private:
         }
         return known->second;
     }
-    void putHalves(const std::array<uint32_t, 8>& values) {
-        for (size_t i = 0; i < 8; i += 2) {
-            writer_.put({values[i] | values[i + 1] << 16});
-        }
-    }
     FanTable writeFan(const Fan& fan) {
         const FanTable table{writer_.element(), writer_.element() + 2};
         const CentreWeights weights = refineWeights(Subdivision::catmullClark, fan.sectors);
@@ -290,9 +290,7 @@ private:
                     const uint32_t index = pointIndex(fan, h, a + k % 4, b + k / 4);
                     window[static_cast<size_t>(k)] = index == subdivision::kNoPoint ? 0 : index; // its weight is 0
                 }
-                putHalves({window[0], window[1], window[2], window[3], window[4], window[5], window[6], window[7]});
-                putHalves(
-                    {window[8], window[9], window[10], window[11], window[12], window[13], window[14], window[15]});
+                writer_.putHalves(window);
             }
         }
         return table;
@@ -364,10 +362,9 @@ private:
         const uint32_t first = writer_.element();
         for (size_t i = 0; i < vertices.size(); ++i) {
             const uint32_t v = vertices[i];
-            const ArrangementTable& arrangement = arrangementOf(v);
+            const ArrangementTable& arrangement = *vertexArrangements_[v];
             const uint32_t levels = chainLevels(v);
-            writer_.put({nets[i], fanTable(fanOf(v)).element, arrangement.element, v, levels > 0 ? chains_.at(v) : 0u,
-                         levels, normals_.at(v), 0u});
+            writer_.put({nets[i], fanTable(fanOf(v)).element, arrangement.element, v, chains_[v], normals_[v], 0u, 0u});
             limits += 1 + arrangement.runs + (levels > 0 ? 1 : 0);
         }
         for (uint32_t level = kFirstChainLevel; level <= lastLevel_ && !vertices.empty(); ++level) {
@@ -409,20 +406,17 @@ private:
         }
     }
 
-    /// By corner of the mesh, where limit points have the numbers of their vertices: RingWriter.
-    [[nodiscard]] std::vector<uint32_t>& limitPoints() {
-        limitPoints_ = cage_.faceVertices;
-        for (uint32_t c = 0; c < cage_.cornerCount(); ++c) {
-            const uint32_t run = corners_.runOf(topology_.cornerSpokes[c]);
-            if (run != cage::kNone && runPoints_[run] != cage_.faceVertices[c]) {
-                limitPoints_[c] = cage::kNone;
-            }
-        }
-        return limitPoints_;
-    }
     [[nodiscard]] uint32_t limitPoint(uint32_t c) const {
         const uint32_t run = corners_.runOf(topology_.cornerSpokes[c]);
         return run == cage::kNone ? cage_.faceVertices[c] : runPoints_[run];
+    }
+    /// By corner of the mesh; cage::kNone where the limit point's number is not that of the vertex (RingWriter).
+    [[nodiscard]] std::vector<uint32_t> ringPoints() const {
+        std::vector<uint32_t> points;
+        for (uint32_t c = 0; c < cage_.cornerCount(); ++c) {
+            points.push_back(limitPoint(c) == cage_.faceVertices[c] ? limitPoint(c) : cage::kNone);
+        }
+        return points;
     }
 
     void writePatches(RingWriter& ring) {
@@ -436,10 +430,7 @@ private:
                 const uint32_t c = patch.cageCorners[i], spoke = topology_.cornerSpokes[c];
                 points[i] = limitPoint(c);
                 const auto [slot, next] = slots_[spoke];
-                spokes[i] = slot == cage::kNone ? 0 : spokeWord(slot, next);
-                if (slot == cage::kNone && chainLevels(cage_.faceVertices[c]) > 0) {
-                    spokes[i] = chains_.at(cage_.faceVertices[c]);
-                }
+                spokes[i] = slot == cage::kNone ? chains_[cage_.faceVertices[c]] : spokeWord(slot, next);
             }
             writer_.put(points);
             writer_.put(spokes);
@@ -460,7 +451,7 @@ private:
             sharpness[i] = std::bit_cast<uint32_t>(softened(parent_.edgeSharpness[edge], 1));
             normals[i] = shared::kNoNormal;
             if (corners_.kind(v) != VertexKind::plain) {
-                normals[i] = normals_.at(v) + arrangementOf(v).runOfSector[sector];
+                normals[i] = normals_[v] + vertexArrangements_[v]->runOfSector[sector];
             }
             if (chainLevels(v) > 0) {
                 windows[i] = fanTable(fanOf(v)).windows + 2 * shared::kLeafCells * sector;
@@ -496,12 +487,12 @@ private:
     uint32_t firstLevelOne_ = 0;
     std::vector<uint32_t> order_;                ///< runs as slots have them
     std::vector<uint32_t> runPoints_, runSlots_; ///< by run
-    std::vector<std::array<uint32_t, 2>>
-        slots_; ///< by spoke of the topology: of the sector behind it, at both its edges
-    std::map<uint32_t, uint32_t> normals_, chains_; ///< by vertex: pool indices
+    /// By spoke of the topology: the slots of the two edges of the sector behind it.
+    std::vector<std::array<uint32_t, 2>> slots_;
+    std::vector<uint32_t> normals_, chains_; ///< by vertex: pool indices; kNone and 0 where there are none
     std::map<Arrangement, ArrangementTable> arrangements_;
+    std::vector<const ArrangementTable*> vertexArrangements_; ///< by vertex; null where it is plain
     std::map<Fan, FanTable> fans_;
-    std::vector<uint32_t> limitPoints_;
     std::vector<uint8_t> firstCorners_; ///< by face
 };
 

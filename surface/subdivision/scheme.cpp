@@ -164,12 +164,6 @@ private:
         tables_.poolStride = poolStrideFor(tables_.poolStride);
     }
 
-    void putHalves(const std::array<uint32_t, 8>& values) {
-        for (size_t i = 0; i < 8; i += 2) {
-            writer_.put({values[i] | values[i + 1] << 16});
-        }
-    }
-
     PatternTables writePattern(Pattern pattern) {
         PatternTables tables;
         tables.rows = writer_.element();
@@ -177,11 +171,11 @@ private:
             std::array<uint32_t, 8> halves{};
             std::copy(row.sources.begin(), row.sources.end(), halves.begin());
             halves[7] = static_cast<uint32_t>(row.rule) | (row.spoke == kNoSpoke ? 0u : (row.spoke + 1) << 2);
-            putHalves(halves);
+            writer_.putHalves(halves);
         }
         tables.neighbours = writer_.element();
         for (const Neighbours& neighbours : pattern.neighbours) {
-            putHalves(neighbours);
+            writer_.putHalves(neighbours);
         }
         tables.pattern = std::move(pattern);
         return tables;
@@ -275,7 +269,7 @@ private:
             const std::vector<Cell> cells = makeCells(c.key, neighbours, own.pattern->pattern.rows, rows);
             own.cells = {writer_.element(), static_cast<uint32_t>(cells.size())};
             for (const Cell& cell : cells) {
-                putHalves(cell);
+                writer_.putHalves(cell);
             }
             own.oneByOne = {4 * writer_.element(), static_cast<uint32_t>(rows.size())};
             writer_.put(rows);
@@ -355,7 +349,7 @@ private:
         c.limitOneByOne = static_cast<uint32_t>(oneByOne.size());
         for (const std::vector<LimitRow>* rows : {&oneByOne, &inStrips}) {
             for (const LimitRow& row : *rows) {
-                putHalves(pattern.neighbours[row.point]);
+                writer_.putHalves(pattern.neighbours[row.point]);
                 const uint32_t spoke = pattern.spokes[row.point];
                 writer_.put({row.point, spoke == kNoSpoke ? 0u : spoke + 1, row.place, row.sample});
             }
