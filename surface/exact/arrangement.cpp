@@ -89,10 +89,12 @@ uint32_t semiSharpSteps(const Arrangement& at) {
 /// Whether the masks are the limit's on the level after so many steps, when nothing is semi-sharp.
 bool hasMasks(const Arrangement& at, uint32_t steps) {
     const std::vector<float> spokes = softened(at.spokes, steps);
-    if (std::count_if(spokes.begin(), spokes.end(), [](float s) { return s > 0.0f; }) == 1) {
+    const float vertex = softened(at.vertex, steps);
+    const auto sharp = std::count_if(spokes.begin(), spokes.end(), [](float s) { return s > 0.0f; });
+    if (sharp == 1 && vertex == 0.0f) { // the tip of a dart
         return false;
     }
-    const CentreLimit limit = subdivision::centreLimit(at.fan, spokes, softened(at.vertex, steps));
+    const CentreLimit limit = subdivision::centreLimit(at.fan, spokes, vertex);
     return std::all_of(limit.runs.begin(), limit.runs.end(), [&](const CentreRun& run) {
         return run.corner || run.sectors < 3 || (run.sectors == at.fan.sectors && !at.fan.open);
     });
